@@ -97,10 +97,10 @@ class Entries:
         if len(rows) < rank:
             return False
         chosen = tuple(tuple(rates[i][j] for j in columns) for i in rows)
-        if not _invertible(chosen, [[off[i][j] for j in columns] for i in rows]):
+        if not invertible(chosen, [[off[i][j] for j in columns] for i in rows]):
             return False
         return all(
-            q.determinant(a) > 0 and _invertible(a, [[radius] * len(a) for _ in a])
+            q.determinant(a) > 0 and invertible(a, [[radius] * len(a) for _ in a])
             for a in self._positive(at)
         )
 
@@ -159,7 +159,7 @@ def _at_one(f: Terms) -> Fraction:
     return sum(inside, Fraction(0))
 
 
-def _invertible(a: q.Matrix, change: Sequence[Sequence[Fraction]]) -> bool:
+def invertible(a: q.Matrix, change: Sequence[Sequence[Fraction]]) -> bool:
     """Is a matrix invertible whatever changes of its entries, of at most these sizes?"""
     inverse = q.inverse(a)
     if inverse is None:

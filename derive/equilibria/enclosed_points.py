@@ -5,7 +5,7 @@
 Newton's method in floats gives decimals (x̂, λ̂); from there all is exact.  With g the slope of 𝓛 at
 (x̂, λ̂), J its second derivatives there and B(ρ) a bound of how much these change within ρ, let
 
-    a = |J⁻¹g|,  ρ = 2a,  κ = ‖|J⁻¹| B(ρ)‖ < ½      (the largest entry, and row sum)
+    a = |J⁻¹g|,  ρ ≥ 2a,  κ = ‖|J⁻¹| B(ρ)‖ < ½      (the largest entry, and row sum)
 
 Then Newton's step with J contracts that cube into itself (Krawczyk): one critical point is in it,
 and the second derivatives are singular nowhere in it, so that they have the signs of J: those of
@@ -19,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import ceil
 from typing import Any
 
 from ..integrals.all_integrals import Found
@@ -215,7 +216,7 @@ def certified(function: Terms, size: int, casimirs: int) -> tuple[Fraction, tupl
     if inverse is None:
         raise NoEquilibriumError(NOT_ISOLATED)
     reached = max(abs(x) for x in q.flatten(q.times(inverse, slope)))
-    radius = 2 * reached or Fraction(1, DIGITS)
+    radius = one_digit_above(2 * reached) or Fraction(1, DIGITS)
     change = [[Fraction(0)] * size for _ in places]
     for m, c in function.items():
         if sum(m) > 2:
@@ -227,6 +228,16 @@ def certified(function: Terms, size: int, casimirs: int) -> tuple[Fraction, tupl
         raise NoEquilibriumError(NOT_ISOLATED)
     positive, negative = signs(diagonalised([[*row] for row in second]))
     return radius, (positive - casimirs, negative - casimirs)
+
+
+def one_digit_above(x: Fraction) -> Fraction:
+    """The least number with one digit that is not below a number from 0 to 1."""
+    if not x:
+        return x
+    k = 0
+    while x * 10**k < 1:
+        k += 1
+    return Fraction(ceil(x * 10**k), 10**k)
 
 
 def contraction(inverse: q.Matrix, change: Sequence[Sequence[Fraction]]) -> Fraction:

@@ -66,6 +66,18 @@ class Equilibrium:
         return "unstable" if self.squares.negative < self.squares.distinct else "open"
 
     @property
+    def sentence(self) -> str:
+        """The name of the sentence that says what is proved, and how."""
+        if not self.attained:
+            return "undecided"
+        if self.verdict == "stable":
+            beyond = self.form is not None and self.form.whole
+            return "stable_beyond" if beyond else "stable_compact" if self.compact else "stable"
+        if self.verdict == "stable on the leaf":
+            return "on_the_leaf"
+        return self.verdict if self.leaf.free else "point"
+
+    @property
     def growth(self) -> float:
         """About the largest real part of an eigenvalue."""
         return max((x.real for x in self.eigenvalues), default=0.0)

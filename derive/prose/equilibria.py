@@ -17,6 +17,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "nulles. Les dérivées, en puissances de la distance à ce point, n’ont pas de terme "
             "constant.",
         ),
+        "origin": (
+            "A relative equilibrium, where all variables vanish. The rates, in powers of these, "
+            "have no constant terms.",
+            "Un équilibre relatif, où toutes les variables sont nulles. Les dérivées, en "
+            "puissances de celles-ci, n’ont pas de terme constant.",
+        ),
         "none": (
             "No multiples of what is known to be kept make the derivative of the energy vanish "
             "there.",

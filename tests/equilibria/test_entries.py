@@ -9,6 +9,7 @@ import pytest
 
 from derive import ProblemError
 from derive.algebra.families import group
+from derive.check.entries_of_an_element import decided as checked
 from derive.equilibria.entries_of_elements import conditions
 from derive.equilibria.equilibrium_points import About, attained, off_the_group
 from derive.integrals.reduced import without_energy
@@ -19,8 +20,8 @@ from tests.support.lagrangians import LINE, LINES, LORENTZ, lagrangian, squares
 
 
 def decider(problem):
-    """Has an element such entries, "yes", "no" or "open": a function of entries by their places
-    from 1; others are as at 1."""
+    """Has an element such entries, "yes", "no" or "open", as the search and as the checker say: a
+    function of entries by their places from 1; others are as at 1."""
     system = without_energy(problem)
     on = conditions(system, problem.group, left=problem.lagrangian.trivialisation == "left")
 
@@ -30,7 +31,11 @@ def decider(problem):
             for x in system.variables
         ]
         about = About(system, (*at,))
-        return "no" if off_the_group(about, (), on) else "yes" if attained(about, on) else "open"
+        found = "no" if off_the_group(about, (), on) else "yes" if attained(about, on) else "open"
+        pairs = zip(system.variables, at, strict=True)
+        places = {(x[2] - 1, x[3] - 1): y for x, y in pairs if x[1] == "A"}
+        assert checked(problem.group, places) == found
+        return found
 
     return decided
 

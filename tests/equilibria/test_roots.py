@@ -19,13 +19,12 @@ from derive.language.expression import parse
 from derive.language.quadratic import RootError, root, value_of
 from derive.language.tree import add, replaced
 from derive.pipeline import walk
-from derive.problem.toml import problem_of
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.sentence import english
 from tests.support.coadjoint_orbits import hat, match, orbit_signature
 from tests.support.emitted import import_python
-from tests.support.lagrangians import heavy, lagrangian, squares
+from tests.support.lagrangians import disc, heavy, lagrangian, squares
 from tests.support.walks import SEED
 
 MOMENTS = (1, 3, 2)
@@ -231,10 +230,9 @@ def test_a_root_0_is_no_other(name):
     assert grows == any(x.real > 1e-6 for x in np.roots([*map(float, map(Fraction, coefficients))]))
 
 
-DISC = {"operator": [[int(i == j) * k for j in range(6)] for i, k in enumerate((1, 1, 2, 1, 1, 3))]}
 BALL = squares("1/2", "1/2", "1/2", "1/2", 1, "3/2")
 UNSTABLE = {
-    "disc": ({"name": "x", "group": "SE(3)", "inertia": DISC}, {"Pi_4": 1}),
+    "disc": (disc(), {"Pi_4": 1}),
     "ball": (lagrangian(BALL, "SO(3) x SO(3)"), {"Pi_1": 1, "Pi_5": 1}),
 }
 
@@ -242,7 +240,7 @@ UNSTABLE = {
 @pytest.mark.parametrize("name", UNSTABLE)
 def test_unstable_beside_a_zero(name):
     problem, at = UNSTABLE[name]
-    found = derive(problem_of(problem) if isinstance(problem, dict) else problem).equilibria(at)
+    found = derive(problem).equilibria(at)
     assert (found[0].verdict, found[0].found.squares.at_zero) == ("unstable", 1)
     assert found[0].growth > 0.2
     assert "all eigenvalues are imaginary" not in english(found.record.steps[-1].prose)
