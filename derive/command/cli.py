@@ -161,17 +161,18 @@ def command_plot(args: argparse.Namespace) -> int:
     from .writing import write
 
     ending(args.out)
-    out, paths, word = Path(args.out), [Path(x) for x in args.run_file], language(args.lang).word
+    out, paths, words = Path(args.out), [Path(x) for x in args.run_file], language(args.lang)
+    word, mark = words.word, words.mark
     if args.kind == PRECISION:
-        picture = plot_precision(paths, out.name, word)
+        picture = plot_precision(paths, out.name, word, mark)
     elif len(paths) > 1 and args.kind == "energy":
         if args.column:
             raise UsageError("columns are chosen of an ensemble: leave out --column")
-        picture = plot_energies([(str(x), read_either(x)) for x in paths], out.name, word)
+        picture = plot_energies([(str(x), read_either(x)) for x in paths], out.name, word, mark)
     elif len(paths) > 1:
         raise UsageError(f"several runs are for --kind {PRECISION} and --kind energy: give one")
     else:
-        picture = plot(read_either(paths[0]), out.name, args.kind, word, args.column)
+        picture = plot(read_either(paths[0]), out.name, args.kind, word, args.column, mark)
     for path in write({out.name: picture}, out.parent, links=True):
         print(path)
     return 0

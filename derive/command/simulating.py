@@ -65,7 +65,8 @@ def picture_of(problem: Problem, record: Derivation, t: float, name: str, lang: 
     """A picture of the motion from 0 to t, in the format of a name; ``Refused``."""
     method = Method()
     code = motion_of(problem, record, method.step)
-    return plot(run(code, problem, method, t, 500, given={}), name, word=language(lang).word)
+    found, words = run(code, problem, method, t, 500, given={}), language(lang)
+    return plot(found, name, word=words.word, mark=words.mark)
 
 
 def method_of(args: argparse.Namespace) -> Method:

@@ -10,13 +10,13 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         "expression": (
             "The Lagrangian of this problem, an expression in the time, the entries of g and the "
             "coordinates of Z.",
-            "Le lagrangien de ce problème, une expression du temps, des entrées de g et des "
+            "Le lagrangien de ce problème, une expression du temps, des coefficients de g et des "
             "coordonnées de Z.",
         ),
         "carried": (
             "The Lagrangian of this problem, an expression in the time, the entries of Γ and the "
             "coordinates of Z.",
-            "Le lagrangien de ce problème, une expression du temps, des entrées de Γ et des "
+            "Le lagrangien de ce problème, une expression du temps, des coefficients de Γ et des "
             "coordonnées de Z.",
         ),
         "alone": (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache, partial
 from html import escape
 from typing import Any
@@ -227,7 +227,8 @@ class _PartFields:
         if drawn is None:
             return {"figure": "", "caption": ""}
         caption = words(self.language.of(drawn.caption), self.notation)
-        return {"figure": svg(drawn), "caption": caption}
+        titled = replace(drawn, title=title(self.part.source, self.language))
+        return {"figure": svg(titled), "caption": caption}
 
     def step(self, step: Step, shown: Equations) -> Fields:
         """The fields of a step, with the equations it rests on, or that write it in coordinates."""

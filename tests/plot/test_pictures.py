@@ -2,6 +2,7 @@
 
 import importlib
 import json
+import re
 from dataclasses import replace
 from functools import cache
 
@@ -17,7 +18,7 @@ from derive.plot import kinds_told
 from derive.plot.body_pictures import hull
 from derive.plot.kinds_told import OVERVIEW, PRECISION
 from derive.plot.pictures import ENSEMBLE_KINDS, KINDS, plot, plot_energies
-from derive.plot.plot_sheet import FORMATS, PlotError, label, settled, sheet
+from derive.plot.plot_sheet import FORMATS, PlotError, label, settled, sheet, with_mark
 from derive.plot.polhode_picture import levels, unstable
 from derive.plot.precision import of_runs, table
 from derive.plot.spheroid_pictures import followed, maps, section
@@ -93,6 +94,21 @@ def words_of(run, kind, word=str):
     figure = sheet(7.5, 3.4)
     KINDS[kind].draw(figure, run, word)
     return "\n".join(x.get_text() for x in figure.findobj(lambda x: hasattr(x, "get_text")))
+
+
+@pytest.mark.parametrize("kind", ["state", "polhode", "body", "potential"])
+def test_the_numbers_speak_french(kind):
+    """At the ticks, in titles and at marks; a file keeps its name."""
+    figure = sheet(8, 4)
+    KINDS[kind].draw(figure, fitting(kind), str)
+    figure.get_axes()[0].plot([], [], label="run_1.5.npz")
+    named = figure.text(0, 0, "a/1.5.npz 0.25 $x = 1.5e-3$")
+    with_mark(figure, ",")
+    settled(figure)
+    shown = [x.get_text() for x in figure.findobj(type(named))]
+    assert named.get_text() == "a/1.5.npz 0,25 $x = 1{,}5e-3$"
+    assert [x for x in shown if re.search(r"[0-9]\.[0-9]", x) and ".npz" not in x] == []
+    assert any(re.search(r"[0-9](?:,|\{,\})[0-9]", x) for x in shown if x is not named)
 
 
 def test_the_quantities_speak_french():
