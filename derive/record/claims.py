@@ -21,9 +21,10 @@ KINDS = {
     "casimirs": "kept all all_large",
     "first_integrals": (
         "all all_large all_generic all_generic_large it it_and_casimirs these these_and_casimirs "
-        "dependent complete complete_by_one complete_by_energy undecided still unknown_rank"
+        "dependent complete complete_by_one complete_by_energy undecided still unknown_rank further"
     ),
     "level": "multiple complete",
+    "condition": "one several complete",
 }
 CLAIMS = frozenset(f"{label}.{name}" for label, names in KINDS.items() for name in names.split())
 """The keys of the sentences that are claims."""
@@ -51,9 +52,18 @@ class Claim:
 
 
 def text(x: Tree) -> str:
-    """A value as it stands in a sentence: several with commas."""
-    several = x[1:] if isinstance(x, tuple) and x[0] == "row" else (x,)
-    return ", ".join(map(show, several))
+    """A value as it stands in a sentence: several with commas; pairs as equations, several of these
+    with commas, and lists of them with numbers."""
+    if not (isinstance(x, tuple) and x[0] == "row"):
+        return show(x)
+    depth, inside = 0, x
+    while isinstance(inside, tuple) and inside[0] == "row" and len(inside) > 1:
+        depth, inside = depth + 1, inside[1]
+    if depth == 3:
+        return "; ".join(f"({k}) {text(y)}" for k, y in enumerate(x[1:], 1))
+    if depth == 2:
+        return ", ".join(" = ".join(map(show, y[1:])) for y in x[1:])
+    return ", ".join(map(show, x[1:]))
 
 
 def rendered(claim: Claim, **phrases: Sentence) -> Sentence:
