@@ -92,7 +92,7 @@ def _integrals(whole: Found, reduced: Step, c: Chapter) -> Step:
     draft.depends_on(reduced)
     trees = [algebra.field_tree(algebra.hamiltonian), *map(algebra.tree, whole.integrals)]
     prose = _said(whole, draft)
-    prose += all_conditions(whole, whole.conditions) if whole.conditions else ()
+    prose += all_conditions(whole, whole.conditions, draft) if whole.conditions else ()
     return draft.step(_kept(trees), prose)
 
 

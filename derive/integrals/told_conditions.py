@@ -6,14 +6,14 @@ vanishes in the case p = s.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 from ..language.show import in_sentence
 from ..language.tree import Tree, add, mul, neg
+from ..record.claims import text
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
-from ..walk.chapter import Chapter
+from ..walk.chapter import Chapter, Draft
 from ..walk.wording import say
 from .all_integrals import Condition, Conditions, Found
 from .lie_poisson import Algebra
@@ -37,12 +37,11 @@ def _under(
         Equation(("call", "d/dt", x.system.algebra.tree(f)), _rate(whole, found, x, f))
         for f in x.integrals
     ]
-    words = case_text(whole.system.algebra, x.case)
     several = "condition.several" if len(x.integrals) > 1 else "condition.one"
-    prose = say(several, condition=words)
+    prose = draft.claim(several, condition=case_tree(whole.system.algebra, x.case))
     if x.proved.complete:
-        sizes = {"rank": str(x.proved.rank), "half": str(x.proved.rank // 2)}
-        prose += say("condition.complete", **sizes)
+        rank = x.proved.rank
+        prose += draft.claim("condition.complete", rank=rank, half=rank // 2)
     return draft.step(equations, prose)
 
 
@@ -72,32 +71,27 @@ def solved_letter(algebra: Algebra, j: int, value: Any) -> tuple[Tree, Tree]:
     return name if name == "π" else ("par", name), algebra.number_tree(value)
 
 
-def case_text(algebra: Algebra, case: Case) -> str:
-    """The equations of a case as text."""
-    pairs = (solved_letter(algebra, j, value) for j, value in case.solved)
-    return ", ".join(f"{in_sentence(x)} = {in_sentence(y)}" for x, y in pairs)
+def case_tree(algebra: Algebra, case: Case) -> Tree:
+    """The equations of a case: letters, each with its value."""
+    return ("row", *(("row", *solved_letter(algebra, j, value)) for j, value in case.solved))
 
 
-def all_conditions(whole: Found, found: Conditions) -> Prose:
-    """What is proved of all conditions together."""
-    algebra, degree = whole.system.algebra, str(whole.degree)
-    texts = [case_text(algebra, x.case) for x in found.conditions]
-    numbered = _listed(f"({k}) {x}" for k, x in enumerate(texts, 1))
-    if texts:
-        prose = say("first_integrals.further", degree=degree, conditions=numbered)
+def all_conditions(whole: Found, found: Conditions, draft: Draft) -> Prose:
+    """What is said of all conditions together."""
+    algebra, degree = whole.system.algebra, whole.degree
+    cases = [case_tree(algebra, x.case) for x in found.conditions]
+    if cases:
+        prose = draft.claim("first_integrals.further", degree=degree, conditions=("row", *cases))
     else:
-        prose = say("first_integrals.no_further", degree=degree)
+        prose = say("first_integrals.no_further", degree=str(degree))
     if not found.unsolved:
         return prose
-    places = _listed(
-        ", ".join(x for x in (case_text(algebra, case), f"{_polynomial(algebra, f)} = 0") if x)
+    places = "; ".join(
+        (f"{where}, " if (where := text(case_tree(algebra, case))) else "")
+        + f"{_polynomial(algebra, f)} = 0"
         for case, f in found.unsolved
     )
     return prose + say("first_integrals.unsolved", conditions=places)
-
-
-def _listed(texts: Iterable[str]) -> str:
-    return "; ".join(texts)
 
 
 def _polynomial(algebra: Algebra, f: Any) -> str:

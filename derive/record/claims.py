@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..language.show import show
+from ..language.show import in_sentence
 from ..language.tree import Tree
 from ..prose import english
 from . import sentence
@@ -22,9 +22,10 @@ KINDS = {
     "casimirs": "kept all all_large",
     "first_integrals": (
         "all all_large all_generic all_generic_large it it_and_casimirs these these_and_casimirs "
-        "dependent complete complete_by_one complete_by_energy undecided still unknown_rank"
+        "dependent complete complete_by_one complete_by_energy undecided still unknown_rank further"
     ),
     "level": "multiple complete",
+    "condition": "one several complete",
     "equilibrium": (
         "at origin none orbit form stable stable_beyond stable_compact on_the_leaf indefinite "
         "point unstable open undecided eigenvalues squares near"
@@ -57,11 +58,18 @@ class Claim:
 
 
 def text(x: Tree) -> str:
-    """A value as it stands in a sentence: several with commas, rows of a matrix as equations."""
-    if isinstance(x, tuple) and x[0] == "matrix":
-        return ", ".join(" = ".join(map(show, row[1:])) for row in x[1:])
-    several = x[1:] if isinstance(x, tuple) and x[0] == "row" else (x,)
-    return ", ".join(map(show, several))
+    """A value as it stands in a sentence: several with commas; pairs, and rows of a matrix, as
+    equations, several of these with commas, and lists of them with numbers."""
+    if not (isinstance(x, tuple) and x[0] in ("row", "matrix")):
+        return in_sentence(x)
+    depth, inside = 0, x
+    while isinstance(inside, tuple) and inside[0] in ("row", "matrix") and len(inside) > 1:
+        depth, inside = depth + 1, inside[1]
+    if depth == 3:
+        return "; ".join(f"({k}) {text(y)}" for k, y in enumerate(x[1:], 1))
+    if depth == 2:
+        return ", ".join(" = ".join(map(in_sentence, y[1:])) for y in x[1:])
+    return ", ".join(map(in_sentence, x[1:]))
 
 
 def _decimal(x: Tree) -> str:
@@ -72,7 +80,7 @@ def _decimal(x: Tree) -> str:
 def _coordinates(x: Tree) -> str:
     """Rows of a matrix, each a name and a number, as decimals."""
     assert isinstance(x, tuple)
-    return ", ".join(f"{show(name)} ≈ {_decimal(y)}" for _, name, y in x[1:])
+    return ", ".join(f"{in_sentence(name)} ≈ {_decimal(y)}" for _, name, y in x[1:])
 
 
 def _eigenvalues(x: Tree) -> str:

@@ -31,6 +31,8 @@ RECORDS = {
     "lines": lambda: first_integrals(lagrangian(squares(1, 2, 3, 5), LINES), 2).record,
     "still": lambda: first_integrals(lagrangian(squares(1, 2), APART), 2).record,
     "a level": lambda: first_integrals(heavy("441", "m*A_31", "m"), 4).record,
+    "conditions": lambda: first_integrals("euler_top", 2, conditions=True).record,
+    "a condition": lambda: first_integrals("top", 1, conditions=True).record,
     "large": lambda: large("euler_top"),
     "large at defaults": lambda: large("euler_top", at_defaults=True),
 }

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 
-from ...language.tree import Tree
+from ...language.show import show
+from ...language.tree import Tree, nodes
 from ...record.claims import Claim
 from ...record.record import RecordError, Step
 from .no_more import (
@@ -210,6 +211,61 @@ def _complete_on_level(system: ReducedSystem, step: Step, claim: Claim) -> str:
     return _complete_there(system.place(level=_level_of(system, step)), step, claim)
 
 
+def _solved(t: Tree) -> list[tuple[Tree, Tree]]:
+    """The letters of a condition, each with its value in the others."""
+    pairs = [listed(x) for x in listed(t)]
+    letters = {x[0] for x in pairs if len(x) == 2}
+    if len(letters) < len(pairs) or letters & {x for _, y in pairs for x in nodes(y)}:
+        raise RecordError("a condition gives letters their values in others")
+    return [(letter, t) for letter, t in pairs]
+
+
+def _condition_of(step: Step) -> list[tuple[Tree, Tree]]:
+    (claim,) = (x for x in step.claims if x.kind in ("condition.one", "condition.several"))
+    return _solved(claim["condition"])
+
+
+def _under(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """The polynomials of a step are integrals where its condition holds."""
+    f = rates_of(step)
+    if (len(f) > 1) is (claim.kind == "condition.one") or not f:
+        return f"{len(f)} polynomials"
+    there = system.place(values=_solved(claim["condition"]))
+    kept = not any(there.bracket(x, system.energy) for x in f)
+    return "" if kept else "a polynomial is no integral under it"
+
+
+def _complete_under(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    return _complete_there(system.place(values=_condition_of(step)), step, claim)
+
+
+def _further(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """Each condition has a step, with polynomials that are none in the generic ones."""
+    own, most = weights(system), number(claim["degree"])
+    degrees = dict(zip(system.variables, own, strict=True))
+    cases = listed(claim["conditions"])
+    if len(cases) != len(system.conditions):
+        return f"{len(system.conditions)} steps tell such polynomials"
+    for case, there in zip(cases, system.conditions, strict=True):
+        if _solved(case) != _condition_of(there) or _complement(system, there, degrees, most):
+            return f"the step {there.label} has another condition, or nothing new up to the degree"
+    return ""
+
+
+def _complement(
+    system: ReducedSystem, step: Step, degrees: Mapping[Tree, Fraction], most: Fraction
+) -> str:
+    """Is a polynomial of a step of too high a degree, or one in the generic integrals under its
+    condition?  "" if none is."""
+    known = (*system.casimirs, *system.integrals)
+    for f in rates_of(step):
+        of_degree = degree(f, degrees)
+        whole = Completeness(system, [*degrees.values()], of_degree, known, _condition_of(step))
+        if of_degree > most or whole.contains(f):
+            return show(f)
+    return ""
+
+
 JUDGES: dict[str, Judge] = {
     "poisson.group": _dimension,
     "poisson.advected": _dimension,
@@ -233,8 +289,12 @@ JUDGES: dict[str, Judge] = {
     "first_integrals.undecided": _undecided,
     "first_integrals.still": _still,
     "first_integrals.unknown_rank": _unknown_rank,
+    "first_integrals.further": _further,
     "level.multiple": _multiple,
     "level.complete": _complete_on_level,
+    "condition.one": _under,
+    "condition.several": _under,
+    "condition.complete": _complete_under,
 }
 """How claims are judged of equations that are Hamiltonian, with the Casimirs and the integrals that
 are recorded."""

@@ -34,6 +34,11 @@ class ReducedSystem:
         self.variables: tuple[Tree, ...] = tuple(_variable(e.lhs) for e in rates)
         self.rates = tuple(e.rhs for e in rates)
         self.casimirs, self.integrals = (_kept(d, x) for x in ("casimirs", "first_integrals"))
+        self.conditions = [
+            step
+            for step in d.steps
+            if any(x.kind in ("condition.one", "condition.several") for x in step.claims)
+        ]
         self.claims = [x for step in d.steps for x in step.claims]
         if self.momenta != group.dimension:
             raise RecordError(f"{self.momenta} momenta of {group.dimension}")
