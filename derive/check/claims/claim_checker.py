@@ -10,6 +10,7 @@ from random import Random
 from ...record.claims import Claim, fault
 from ...record.record import Derivation, RecordError, Step
 from ..problem_group import group_of
+from ..verdict import no_sense
 from .reduced_system import ReducedSystem, dimension_fault
 
 
@@ -36,7 +37,7 @@ class ClaimChecker:
             try:
                 reason = JUDGES[claim.kind](self, step, claim)
             except (ArithmeticError, LookupError, TypeError, ValueError) as error:
-                reason = f"makes no sense: {type(error).__name__}: {error}"
+                reason = no_sense(error)
             if reason:
                 return f"the claim {claim.kind}: {reason}"
         return ""
