@@ -10,7 +10,7 @@ from random import Random
 from ...record.claims import Claim, fault
 from ...record.record import Derivation, RecordError, Step
 from ..problem_group import group_of
-from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count
+from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
 from . import enclosure_claims, equilibrium_claims, integral_claims
 from .reduced_system import ReducedSystem
 
@@ -45,7 +45,7 @@ class ClaimChecker:
         try:
             reason = JUDGES[claim.kind](self, step, claim)
         except IMPOSSIBLE as error:
-            reason = f"makes no sense: {type(error).__name__}: {error}"
+            reason = no_sense(error)
         return reason and f"the claim {claim.kind}: {reason}"
 
 
