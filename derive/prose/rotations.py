@@ -14,7 +14,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "point.",
             "Les rotations conservent les produits vectoriels. De deux points qui ne sont pas "
             "alignés avec le point fixe, et de leur produit vectoriel, qui engendrent l’espace, on "
-            "connaît les images : A est alors unique, si les points ne sont pas tous sur une même "
+            "connaît les images : la rotation A est alors unique, si les points ne sont pas tous sur une même "
             "droite passant par le point fixe.",
         ),
         "displaced": (

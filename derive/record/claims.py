@@ -32,7 +32,7 @@ KINDS = {
     ),
     "enclosure": "within signs stable unstable open",
 }
-CLAIMS = frozenset(f"{label}.{name}" for label, names in KINDS.items() for name in names.split())
+CLAIMS = frozenset(label + "." + name for label, names in KINDS.items() for name in names.split())
 """The keys of the sentences that are claims."""
 
 MONOMIALS = 10_000

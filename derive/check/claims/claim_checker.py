@@ -4,30 +4,16 @@ the record and the matrices of its group, by none of the searches that found it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
-from random import Random
 
 from ...record.claims import Claim, fault
-from ...record.record import Derivation, RecordError, Step
-from ..problem_group import group_of
+from ...record.record import Step
 from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
 from . import enclosure_claims, equilibrium_claims, integral_claims
-from .reduced_system import ReducedSystem
+from .claimed_record import ClaimedRecord
 
 
-class ClaimChecker:
-    """The claims of one record; what they speak of is read once."""
-
-    def __init__(self, d: Derivation, seed: int | str):
-        self.record, self.random = d, Random(f"{seed} claims")
-
-    @cached_property
-    def reduced(self) -> ReducedSystem:
-        """The Lie–Poisson equations of the record; ``RecordError`` where it has none."""
-        group = group_of(self.record.problem)
-        if group is None:
-            raise RecordError("reduced equations are of a group")
-        return ReducedSystem(self.record, group, self.random)
+class ClaimChecker(ClaimedRecord):
+    """The claims of one record."""
 
     def fault(self, step: Step) -> str:
         """What is wrong with the claims of a step, or with a sentence that is a claim and has none;
@@ -49,7 +35,7 @@ class ClaimChecker:
         return reason and f"the claim {claim.kind}: {reason}"
 
 
-Judge = Callable[[ClaimChecker, Step, Claim], str]
+Judge = Callable[[ClaimedRecord, Step, Claim], str]
 """What is wrong with a claim of a step, in words; "" if nothing is."""
 
 
