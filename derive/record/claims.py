@@ -32,7 +32,9 @@ KINDS = {
     ),
     "enclosure": "within signs stable unstable open",
 }
-CLAIMS = frozenset(label + "." + name for label, names in KINDS.items() for name in names.split())
+CLAIMS = frozenset(
+    f"{subject}.{name}" for subject, names in KINDS.items() for name in names.split()
+)
 """The keys of the sentences that are claims."""
 
 MONOMIALS = 10_000
