@@ -322,7 +322,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The configurations of the same volume are one orbit of this group, of dimension 11: "
             "four points have 12 coordinates, and this is one condition.",
             "Les configurations de même volume forment une orbite de ce groupe, de dimension 11 : "
-            "quatre points ont 12 coordonnées, et il y a une condition.",
+            "quatre points ont 12 coordonnées, et ceci est une condition.",
         ),
         "linear": (
             "In space the configurations of the same volume are one orbit of the affine maps that "
