@@ -18,7 +18,7 @@ test: $(STAMP)   ## lint, types, and the tests that take minutes
 	  { echo "make test: no C compiler on the path: install gcc or clang" >&2; exit 2; }
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2 $(if $(SEED),--seed=$(SEED))
 
 # branches that only those cases take which a quick run leaves out, and which are not measured, count as not taken
 coverage: $(STAMP) ## more tests, and the lines and branches of derive/ that none runs; fails below 95 % of lines
@@ -28,7 +28,7 @@ coverage: $(STAMP) ## more tests, and the lines and branches of derive/ that non
 thorough: $(STAMP) ## all tests, an hour
 	$(BIN)/python -m pytest --thorough -n 2
 
-mutants: $(STAMP) ## hours: every record, emitted program and rule of the engine made wrong
+mutants: $(STAMP) ## hours: every record, emitted program, rule of the engine made wrong; faults by hand
 	$(BIN)/python -m tests.support.mutants
 
 lint: $(STAMP)   ## ruff and mypy alone
@@ -45,7 +45,7 @@ dist: $(STAMP)   ## minutes more of tests: wheels, old and new versions, every b
 docs: $(STAMP)   ## the site of docs/ and of the docstrings, in build/docs; a dead link is an error
 	$(INSTALL) --editable ".[docs]"
 	rm -rf build/docs
-	$(BIN)/sphinx-build -q -E -W --keep-going -c docs . build/docs
+	$(BIN)/sphinx-build -q -E -W --keep-going $(if $(filter site,$(MAKECMDGOALS)),-t play) -c docs . build/docs
 
 NODE_MODULES := playground/node_modules/.package-lock.json
 

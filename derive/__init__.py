@@ -35,16 +35,27 @@ PLACES = dict.fromkeys(WORDS, "derive.python.api") | {
     **dict.fromkeys(("FirstIntegrals", "first_integrals"), "derive.python.integrals_found"),
     **dict.fromkeys(("Compiled", "CompileError", "compile"), "derive.python.compiled"),
     "StepError": "derive.native.motion_in_c",
+    "MotionError": "derive.motion.start",
+    "EmitError": "derive.code.emit",
     "ProblemError": "derive.problem.problem",
+    "Refused": "derive.language.refused",
 }
 """Where each name is to be had."""
-
-__all__ = [*PLACES]
 
 
 def __getattr__(name: str) -> Any:
     if name in PLACES:
         return getattr(import_module(PLACES[name]), name)
-    if name[:1].isupper() and name in import_module("derive.schema.python_words").words():
+    if name == "__all__":
+        return sorted({*PLACES, *_words()})
+    if name[:1].isupper() and name in _words():
         return getattr(import_module("derive.python.api"), name)
     raise AttributeError(f"module 'derive' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *PLACES, *_words()})
+
+
+def _words() -> Any:
+    return import_module("derive.schema.python_words").words()

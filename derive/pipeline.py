@@ -43,7 +43,7 @@ from .walk.lie import (
     advected, any_lagrangian, basis, expressed, kept_by_any, momentum_side, vorticity,
 )
 from .walk.head import problem_data, symbols
-from .walk.inputs import acts
+from .walk.inputs import acts, by_name
 from .walk.lineage import traced
 from .walk.regularity import supposing_all
 from .walk.specialisation import turns_whole
@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from .code.options import Options
     from .code.program import Program
     from .equilibria.enclosed_points import Enclosed
+    from .equilibria.entries_of_elements import Conditions
     from .equilibria.stability import Equilibrium
     from .integrals.all_integrals import Found
     from .language.quadratic import Number
@@ -76,6 +77,7 @@ ANY_GROUP = (
     Stage("motions", "cartan kernel a c", "Step", motions.motions),
     Stage("trivial", "cartan a c", "Cartan", cartan.trivialise),
     Stage("distances", "lagrangian a c", "Distances", orbit.distances),
+    Stage("volumes", "a c", "Step", orbit.volumes),
     Stage("derivative", "exterior trivial a c", "Exterior", exterior.exterior_trivialised),
     Stage("balance", "derivative kernel trivial a c", "Steps", kernel.kernel_trivialised),
     Stage("momenta", "trivial a c", "MomentumForm", momentum.momentum_form),
@@ -91,6 +93,7 @@ MATRICES = (
     Stage("bodies", "problem", "Bodies", left_invariant.invariant),
     Stage("relation", "group bodies? c", "Steps", specialisation.relation),
     Stage("plain", "group", "Alphabet", alphabet.of_matrices),
+    Stage("tetrahedron", "problem group c", "Steps", orbit.tetrahedron),
     Stage("potentials", "problem plain c", "Potentials", potential.potentials),
     Stage("special", "general group potentials c bodies?", "Special", specialisation.specialise),
     Stage("external", "problem special.letters special.C c_u",
@@ -120,6 +123,7 @@ VECTORS = (
     Stage("body", "problem lagrangian a c", "Steps", body.body_step),
     Stage("isometry", "trivial momenta a group.n c", "Isometry", isometry.isometry),
     Stage("rigid", "distances isometry.C isometry.letters c", "Step", orbit.rigid),
+    Stage("unaligned", "lagrangian isometry.C isometry.letters c", "Step", orbit.unaligned),
     Stage("held", "kernel isometry.C group.n c", "Step", motions.held, "linear"),
     Stage("axial", "isometry.letters isometry.C c", "Axial", isomorphism.axial),
     Stage("vectors", "momenta isometry axial.hat_map c", "VectorForm", vector.vector_form),
@@ -234,7 +238,7 @@ def walk(problem: Problem) -> Derivation:
         kinds = {"affine" if group.affine else "linear", *group.relations}
         kinds |= {"element" if problem.advected is None else "reduced"}
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
-        steps += follow(road, values | own, kinds)["steps"]
+        steps += by_name(problem, follow(road, values | own, kinds)["steps"])
     if problem.torus:
         own = {"problem": problem, "c": Chapter(problem.name, problem.torus.name)}
         steps += follow(ON_THE_TORUS, values | own, ())["steps"]
@@ -256,8 +260,8 @@ def discrete(problem: Problem) -> Derivation:
         here = Chapter(problem.name, group.name)
         acting = here.with_input() if acts(problem) else here
         start |= own | {"here": here, "driven": acting}
-    values = follow(DISCRETE, start, {"affine" if affine else "linear"})
-    steps = supposing_all(traced(values["steps"]))
+    steps = follow(DISCRETE, start, {"affine" if affine else "linear"})["steps"]
+    steps = supposing_all(traced(by_name(problem, steps) if group else steps))
     data = problem_data(problem) | {"discrete": True}
     return Derivation(data, symbols(steps, problem, discrete=True), steps)
 
@@ -328,13 +332,22 @@ def equilibrium_near(problem: Problem, values: Mapping[str, Number]) -> tuple[En
     whole, record = integrals(problem, at_defaults=True)
     try:
         require_numbers(whole)
-        found = enclosed(whole, values)
+        found = enclosed(whole, values, _elements(problem, whole))
     except Refused as error:
         raise ProblemError(f"{problem.name}: {error}") from None
     assert problem.group is not None
     c = Chapter(problem.name, problem.group.name)
     steps = (*record.steps, *told_enclosed(whole, found, record.steps, c))
     return found, replace(record, steps=supposing_all(traced(steps)))
+
+
+def _elements(problem: Problem, whole: Found) -> tuple[Conditions, ...]:
+    """What the entries of g satisfy that are among the variables of the reduced equations."""
+    from .equilibria.entries_of_elements import conditions
+
+    assert problem.group is not None
+    left = problem.lagrangian is None or problem.lagrangian.trivialisation == "left"
+    return conditions(whole.system, problem.group, left=left)
 
 
 def equilibria(
@@ -348,7 +361,7 @@ def equilibria(
 
     whole, record = integrals(problem, at_defaults=True)
     try:
-        found = equilibria_of(whole, values)
+        found = equilibria_of(whole, values, _elements(problem, whole))
     except Refused as error:
         raise ProblemError(f"{problem.name}: {error}") from None
     assert problem.group is not None
@@ -383,9 +396,11 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
     """Name → what the motion keeps: by each symmetry, else by Casimirs and integrals up to degree
     4 of the reduced equations; of these what no symmetry gives stands beside symmetries, too."""
     from .integrals.integral_names import first_integrals
-    from .symmetries.found import symmetries_of
+    from .symmetries.found import kept_with_damping, symmetries_of
     from .symmetries.quantity_names import named
 
+    if problem.damping:
+        return named(kept_with_damping(problem, record))
     if problem.advected is not None:
         return first_integrals(problem)
     found = symmetries_of(problem, record, of_integrand=True)

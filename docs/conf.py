@@ -20,7 +20,7 @@ CONTENTS = {
     "Use": "tutorial playground commands problem-file potentials/* lagrangian dirichlet fluid "
     "zeitlin symmetries integrals reduction equilibria motion ensembles plot notes code options "
     "steps discrete build python sympy record",
-    "Trust": "trust performance strangers ../SECURITY paper",
+    "Trust": "trust performance not-here strangers ../SECURITY paper",
     "Inside": "architecture extending reference ../CONTRIBUTING ../CHANGELOG",
 }
 
@@ -46,6 +46,15 @@ def contents(app, docname, source):
             source[0] += "\n\n" + "\n".join(fence) + "\n"
 
 
+def playground(app, pagename, templatename, context, doctree):
+    """The way to the playground at the head of every page, where it stands beside them."""
+    if app.tags.has("play"):
+        there = context["pathto"]("play/index.html", True)
+        context["theme_announcement"] = (
+            f'<a href="{there}">The playground: derive in this browser</a>'
+        )
+
+
 def index(app, exception):
     """README by the name that browsers look for."""
     if exception is None:
@@ -55,4 +64,5 @@ def index(app, exception):
 def setup(app):
     """Where Sphinx calls these."""
     app.connect("source-read", contents)
+    app.connect("html-page-context", playground)
     app.connect("build-finished", index)

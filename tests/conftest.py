@@ -13,17 +13,25 @@ ALL = "DERIVE_ALL_TESTS"
 
 
 def pytest_addoption(parser):
-    """``--half``, ``--thorough``: half or all of what a quick run leaves out, as well."""
+    """``--half``, ``--thorough``: half or all of what a quick run leaves out, as well.
+
+    ``--quick``: of what is named on the command line, too, no more than in a quick run.
+    ``--seed``: of the choice of cases.
+    """
     told = "of the tests that a quick run leaves out"
     parser.addoption("--half", action="store_true", help=f"half {told}, too, as make coverage")
     parser.addoption("--thorough", action="store_true", help=f"all {told}, too, as make thorough")
+    parser.addoption("--quick", action="store_true", help="of what is named, too, as make test")
+    parser.addoption("--seed", default=thorough.SEED, help="of the choice of cases (%(default)s)")
 
 
 def pytest_configure(config):
     """Tests that are named on the command line are run whole."""
     if hasattr(config, "workerinput"):
         return
-    if config.args_source is not config.ArgsSource.TESTPATHS:
+    if config.getoption("--quick"):
+        os.environ.pop(ALL, None)
+    elif config.args_source is not config.ArgsSource.TESTPATHS:
         os.environ[ALL] = "named"
     elif config.getoption("--thorough"):
         os.environ[ALL] = "thorough"
@@ -37,7 +45,7 @@ def pytest_collection_modifyitems(config, items):
     wanted = os.environ.get(ALL)
     if wanted == "named":
         return
-    run, left = thorough.split(items)
+    run, left = thorough.split(items, config.getoption("--seed"))
     more, left = {"thorough": (left, []), "half": thorough.half(left)}.get(wanted, ([], left))
     for item in more:
         item.add_marker("no_cover")
@@ -69,7 +77,11 @@ def pytest_runtest_call(item):
 
 @pytest.hookimpl(trylast=True)
 def pytest_terminal_summary(terminalreporter):
-    """What was left out and what brings it, in the line before the last."""
+    """The seed of the choice of cases, where one was made; what was left out and what brings it, in
+    the line before the last."""
+    if os.environ.get(ALL) in (None, "half"):
+        seed = terminalreporter.config.getoption("--seed")
+        terminalreporter.write_line(f"of long tests some cases, chosen by --seed={seed}")
     skipped = terminalreporter.stats.get("skipped", [])
     if line := left_out([report.longrepr[2] for report in skipped]):
         terminalreporter.write_line(line)

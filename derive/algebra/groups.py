@@ -42,6 +42,9 @@ class Group:
     larger: bool = False
     stated_basis: tuple[Matrix, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<group {self.name}: dimension {self.dimension}>"
+
     @cached_property
     def stated(self) -> Group:
         """The same group in the basis that the user states, whose coordinates are those of the
@@ -121,6 +124,11 @@ class Group:
         hats = tuple(q.minus(q.unit(3, i, j), q.unit(3, j, i)) for i, j in turns)
         whole = self.free_translations if self.affine else self.dimension == 3
         return whole and self.linear_basis == hats
+
+    @property
+    def rotates(self) -> bool:
+        """Does it turn R³ by all rotations, as maps of r or as matrices on (r, 1)?"""
+        return self.turns_space or (len(self.factors) == 1 and self.factors[0].turns_space)
 
     @cached_property
     def places(self) -> tuple[tuple[int, Group], ...]:

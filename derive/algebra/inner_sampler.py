@@ -16,6 +16,7 @@ from math import lcm
 
 from ..language import rational as q
 from ..language.rational import Matrix
+from ..language.univariate import derivative, division, square_free, value
 from .samplers import Sampler, Source, exponentials, integer
 
 Polynomial = tuple[Fraction, ...]
@@ -64,45 +65,37 @@ def inner_sampler(basis: Sequence[Matrix]) -> Sampler | None:
 
 def one_parameter(e: Matrix) -> OneParameter | None:
     """The parts of exp(sE), for rational eigenvalues and one pair ±√−q; ``None`` for others."""
-    f = _square_free(_minimal(e))
+    f = square_free(minimal_polynomial(e))
     S = _semisimple(e, f)
     roots = _rational_roots(f)
-    rest = reduce(lambda g, x: _divided(g, (-x, Fraction(1))), roots, f)
+    rest = reduce(lambda g, x: division(g, (-x, Fraction(1)))[0], roots, f)
     if len(rest) > 3 or (len(rest) == 3 and rest[1]) or len(rest) == 2:
         return None
     one = q.identity(len(e))
     over = lcm(*(x.denominator for x in roots)) if roots else 1
     plane, powers = one, []
     for x in roots:
-        other = _divided(f, (-x, Fraction(1)))
-        projection = q.scaled(1 / _value(other, x), _at(other, S))
+        other = division(f, (-x, Fraction(1)))[0]
+        projection = q.scaled(1 / value(other, x), _at(other, S))
         plane = q.minus(plane, projection)
         powers.append((int(x * over), projection))
     square = rest[0] / rest[2] if len(rest) == 3 else Fraction(0)
     return OneParameter(tuple(powers), q.times(S, plane), plane, square, q.minus(e, S))
 
 
-def _minimal(e: Matrix) -> Polynomial:
+def minimal_polynomial(e: Matrix) -> Polynomial:
     """The minimal polynomial of a matrix."""
     power, rows = q.identity(len(e)), []
     while True:
         rows.append(q.flatten(power))
         for x in q.nullspace(q.transposed(tuple(rows))):
-            return tuple(Fraction(y) / x[-1] for y in x)
+            return tuple(y / x[-1] for y in x)
         power = q.times(power, e)
-
-
-def _square_free(f: Polynomial) -> Polynomial:
-    """f without its multiple roots: f divided by its common divisor with its derivative."""
-    a, b = f, _derivative(f)
-    while any(b):
-        a, b = b, _remainder(a, b)
-    return _divided(f, a)
 
 
 def _semisimple(e: Matrix, f: Polynomial) -> Matrix:
     """The semisimple part of a matrix, the root of f near it, by Newton's iteration."""
-    S, slope = e, _derivative(f)
+    S, slope = e, derivative(f)
     while any(map(any, _at(f, S))):
         back = q.inverse(_at(slope, S))
         assert back is not None
@@ -121,42 +114,9 @@ def _rational_roots(f: Polynomial) -> list[Fraction]:
             k for k in range(1, min(abs(whole[-1]), LARGEST_ROOT) + 1) if whole[-1] % k == 0
         ):
             for x in (Fraction(above, below), Fraction(-above, below)):
-                if x not in found and _value(f, x) == 0:
+                if x not in found and value(f, x) == 0:
                     found.append(x)
     return found
-
-
-def _trimmed(f: Sequence[Fraction]) -> Polynomial:
-    last = max((k for k, x in enumerate(f) if x), default=0)
-    return tuple(f[: last + 1])
-
-
-def _derivative(f: Polynomial) -> Polynomial:
-    return _trimmed([k * x for k, x in enumerate(f)][1:] or [Fraction(0)])
-
-
-def _division(f: Polynomial, g: Polynomial) -> tuple[Polynomial, Polynomial]:
-    rest, found = list(f), [Fraction(0)] * max(len(f) - len(g) + 1, 1)
-    for k in range(len(f) - len(g), -1, -1):
-        c = found[k] = rest[k + len(g) - 1] / g[-1]
-        for j, x in enumerate(g):
-            rest[k + j] -= c * x
-    return _trimmed(found), _trimmed(rest)
-
-
-def _divided(f: Polynomial, g: Polynomial) -> Polynomial:
-    return _division(f, g)[0]
-
-
-def _remainder(f: Polynomial, g: Polynomial) -> Polynomial:
-    return _division(f, g)[1]
-
-
-def _value(f: Polynomial, x: Fraction) -> Fraction:
-    total = Fraction(0)
-    for c in reversed(f):
-        total = total * x + c
-    return total
 
 
 def _at(f: Polynomial, m: Matrix) -> Matrix:

@@ -40,6 +40,24 @@ def told_entries(group: Group) -> tuple[tuple[Combination, ...], ...]:
     )
 
 
+@cache
+def constant_entries(group: Group) -> dict[tuple[int, int], Fraction]:
+    """Place, from 0, → the number that an entry of g is in all of the group; of a group of which no
+    exact elements are known, the places between blocks and in the last rows of affine ones."""
+    span = range(group.size)
+    if group.has_inner_samples:
+        told = told_entries(group)
+        return {(i, j): told[i][j][0] for i in span for j in span if not told[i][j][1]}
+    block = {k: offset for offset, f in group.places for k in range(offset, offset + f.size)}
+    last = {offset + f.n for offset, f in group.places if f.affine}
+    return {
+        (i, j): Fraction(int(i == j))
+        for i in span
+        for j in span
+        if i in last or block[i] != block[j]
+    }
+
+
 def _products(group: Group) -> list[Matrix]:
     """Products of elements of the basis, as many as are independent."""
     kept: list[Matrix] = []

@@ -19,16 +19,35 @@ class EvaluationError(ValueError):
     """A tree that has no value: an unknown name, or shapes that do not fit."""
 
 
+Shape = tuple[int, ...]
+
+
+class Many:
+    """A matrix for each of many points at once, with a product, a sum and multiples of its own."""
+
+    @property
+    def shape(self) -> Shape:
+        """That of each."""
+        raise NotImplementedError
+
+    def transposed(self) -> Value:
+        """The transpose of each."""
+        raise NotImplementedError
+
+    def traced(self) -> Value:
+        """The trace of each."""
+        raise NotImplementedError
+
+
 def is_matrix(x: Value) -> bool:
     """Is the value a matrix?"""
-    return isinstance(x, tuple)
-
-
-Shape = tuple[int, ...]
+    return isinstance(x, (tuple, Many))
 
 
 def shape(x: Value) -> Shape:
     """(rows, columns) of a matrix; () of a number."""
+    if isinstance(x, Many):
+        return x.shape
     return (len(x), len(x[0]) if x else 0) if is_matrix(x) else ()
 
 
@@ -56,7 +75,7 @@ def plus(a: Value, b: Value) -> Value:
     """a + b, of one shape."""
     if shape(a) != shape(b):
         raise EvaluationError(f"{describe_shapes(shape(a), shape(b))} do not add")
-    return q.plus(a, b) if is_matrix(a) else a + b
+    return q.plus(a, b) if type(a) is type(b) is tuple else a + b
 
 
 def times(a: Value, b: Value) -> Value:
@@ -65,11 +84,13 @@ def times(a: Value, b: Value) -> Value:
         (rows, inside), (lines, columns) = shape(a), shape(b)
         if inside != lines:
             raise EvaluationError(f"{describe_shapes(shape(a), shape(b))} have no product")
+        if isinstance(a, Many) or isinstance(b, Many):
+            return a @ b
         product = q.times(a, b)
         return product[0][0] if rows == columns == 1 < inside else product
-    if is_matrix(a):
+    if isinstance(a, tuple):
         return q.scaled(b, a)
-    return q.scaled(a, b) if is_matrix(b) else a * b
+    return q.scaled(a, b) if isinstance(b, tuple) else a * b
 
 
 def scalar(x: Value) -> Value:
@@ -81,12 +102,13 @@ def transpose(x: Value) -> Value:
     """The transpose of a matrix."""
     if not is_matrix(x):
         raise EvaluationError("transpose of a number")
-    return q.transposed(x)
+    return x.transposed() if isinstance(x, Many) else q.transposed(x)
 
 
 def trace(x: Value) -> Value:
     """Tr x."""
-    return q.trace(_require_square(x, "trace"))
+    square = _require_square(x, "trace")
+    return square.traced() if isinstance(square, Many) else q.trace(square)
 
 
 def inner(a: Value, b: Value, metric: Value | None = None) -> Value:
@@ -98,7 +120,7 @@ def inner(a: Value, b: Value, metric: Value | None = None) -> Value:
         raise EvaluationError("inner product of a scalar and a matrix")
     if shape(a) != shape(b):
         raise EvaluationError(f"{describe_shapes(shape(a), shape(b))} have no inner product")
-    if len(a[0]) == 1:
+    if shape(a)[1] == 1:
         return scalar(times(transpose(a), b if metric is None else times(metric, b)))
     return trace(times(a if metric is None else times(a, metric), transpose(b)))
 

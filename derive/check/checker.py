@@ -156,7 +156,8 @@ class Checker(TrialPoints):
             for g in self.groups_for(step, e):
                 if reason := difference(e, self.environment(g, step, SIZE, e)):
                     return f"motions do not keep the left side of a level: {reason}"
-        return enclosure_fault(step)
+        (group,) = self.groups(step.scope, driven=step.driven)
+        return enclosure_fault(step, group, side_of(self.problem))
 
     def refuse_hypotheses(
         self, step: Step, groups: Iterable[Group], find_fault: Callable[[Group, Step], str]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -10,6 +10,7 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.samplers import Source
 from ..language.rational import Matrix
+from ..language.suffixed import suffixed
 from .elementary_values import ElementaryValues
 from .evaluate import Environment
 from .grades import DegreeSource, Graded, indeterminate
@@ -72,6 +73,20 @@ class Draws:
         return Environment(
             self.n, {"π": self.pi}, parameters=self.parameters, elementary=self.elementary
         )
+
+    def name_inputs(
+        self, covector: Sequence[Any], forces: Sequence[Sequence[Any]]
+    ) -> dict[str, Any]:
+        """The numbers of the inputs by their names in the problem, ``thrust_3``: entries of the
+        ``forces``, and the values of the ``covector`` on the basis that the problem states."""
+        found: dict[str, Any] = {}
+        for data, force in zip(self.inputs_of("force"), forces, strict=True):
+            found |= {suffixed(data["name"], k): x for k, x in enumerate(force, 1)}
+        for data in self.inputs_of("covector"):
+            for a, e in enumerate(self.group.stated.basis, 1):
+                parts = zip(self.group.nearest(e), covector, strict=True)
+                found[suffixed(data["name"], a)] = sum((x * u for x, u in parts), Fraction(0))
+        return found
 
     def inputs_of(self, kind: str) -> list[Mapping[str, Any]]:
         """The inputs of a kind, "force" or "covector"; none where the potential is left open."""

@@ -18,14 +18,16 @@ from .grades import ZERO_GRADE, Degree, Grade, common_degree, degrees
 MOST_INDICES = 2
 
 
-def index_bindings(t: Tree, env: Environment) -> Iterator[Environment]:
-    """The environment with the free indices of a tree bound, once for each of their values."""
+def index_bindings(t: Tree, env: Environment, *, at_once: bool = False) -> Iterator[Environment]:
+    """The environment with the free indices of a tree bound, once for each of their values;
+    ``at_once``: the last of those of a lattice to all of its points, where that has a value."""
     free = sorted(free_indices(t))
     if len(free) > MOST_INDICES:
         raise EvaluationError("more than two free indices")
-    every = itertools.product(*(index_values(t, index, env) for index in free))
-    of_lattice = env.chosen and free and {*free} <= {*LATTICE}
-    for numbers in (x[: len(free)] for x in env.chosen) if of_lattice else every:
+    every = [index_values(t, index, env) for index in free]
+    if at_once and env.at_once is not None and {*free} <= {*LATTICE}:
+        every[-1:] = [[0]] * len(free[-1:])
+    for numbers in itertools.product(*every):
         bound = env
         for index, number in zip(free, numbers, strict=True):
             bound = bound.with_index(index, number)
@@ -47,7 +49,7 @@ def _sides(equation: Equation, env: Environment) -> Iterator[tuple[Any, Any]]:
     """The values of both sides for each value of the free indices, of one shape, or one side the
     number 0; ``EvaluationError`` for other shapes."""
     trees = (equation.lhs, equation.rhs)
-    for there in index_bindings(("add", *trees), env):
+    for there in index_bindings(("add", *trees), env, at_once=True):
         left, right = values = [evaluate(x, there) for x in trees]
         if shape(left) != shape(right) and 0 not in trees:
             raise EvaluationError(f"the sides differ: {describe_shapes(*map(shape, values))}")
@@ -55,7 +57,8 @@ def _sides(equation: Equation, env: Environment) -> Iterator[tuple[Any, Any]]:
 
 
 def _entries(x: Any) -> tuple[Any, ...]:
-    return flatten(x) if is_matrix(x) else (x,)
+    """Those of a matrix; a number, or what is one for each of many points, is its own."""
+    return flatten(x) if isinstance(x, tuple) else (x,)
 
 
 def _difference(a: Any, b: Any) -> str:
@@ -64,8 +67,8 @@ def _difference(a: Any, b: Any) -> str:
     alike, both = shape(a) == shape(b), (_entries(a), _entries(b))
     for k, (x, y) in enumerate(zip(*both, strict=True) if alike else itertools.product(*both)):
         if x != y:
-            row, column = divmod(k, len(whole[0])) if is_matrix(whole) else (0, 0)
-            where = f" in entry ({row + 1}, {column + 1})" if is_matrix(whole) else ""
+            row, column = divmod(k, len(whole[0])) if isinstance(whole, tuple) else (0, 0)
+            where = f" in entry ({row + 1}, {column + 1})" if isinstance(whole, tuple) else ""
             numbers = isinstance(x, (int, Fraction)) and isinstance(y, (int, Fraction))
             return f"the sides differ{where}" + (
                 f": {as_text(x)} and {as_text(y)}" if numbers else ""

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import reduce
+from functools import lru_cache, reduce
 from typing import Any
 
 from ..language import rational as q
@@ -43,8 +43,8 @@ class Environment:
     ``functions[name](arguments, environment)`` receives the argument trees.  ``listed``: of the
     points, those that may be named by their numbers.  ``copies``: how often each point is there.
     ``unit``: the 1 of the identity, and of sums over all axes.  ``lattice``: the points that an
-    index of the lattice counts; ``chosen``: the values of free ones, where not all are tried;
-    ``at_once``: all the points as one value, the index 0, where sums over them are taken so.
+    index of the lattice counts; ``at_once``: all the points as one value, the index 0, where sums
+    over them and what is said of any are taken so; ``known``: what then has no other index.
     """
 
     size: int
@@ -58,8 +58,8 @@ class Environment:
     copies: Sequence[Any] = ()
     unit: Any = Fraction(1)
     lattice: Sequence[tuple[int, int]] = ()
-    chosen: Sequence[tuple[int, ...]] = ()
     at_once: Value = None
+    known: dict[Tree, Value] = field(default_factory=dict)
 
     def with_index(self, name: str, value: int) -> Environment:
         """A copy of the environment with one index bound to a number."""
@@ -78,6 +78,17 @@ def evaluate(t: Tree, env: Environment) -> Value:
             raise EvaluationError(f"no value for {t!r}") from None
     if isinstance(t, (int, Fraction)):
         return Fraction(t)
+    if env.at_once is None or 0 not in env.indices.values():
+        return _of_head(t, env)
+    if any(env.indices.get(x, 0) for x in indices_in(t)):
+        return _of_head(t, env)
+    if t not in env.known:
+        env.known[t] = _of_head(t, env)
+    return env.known[t]
+
+
+def _of_head(t: tuple[Any, ...], env: Environment) -> Value:
+    """The value of a tree by its head."""
     op = t[0]
     try:
         if op in STRUCTURAL:
@@ -187,6 +198,14 @@ def _spans(t: Tree, index: str, env: Environment) -> Iterator[tuple[str, set[int
     else:
         for part in t[1:]:
             yield from _spans(part, index, env)
+
+
+@lru_cache(2**12)
+def indices_in(t: Tree) -> frozenset[str]:
+    """The indices of the lattice in a tree."""
+    if isinstance(t, tuple):
+        return frozenset().union(*map(indices_in, t))
+    return frozenset({t} if isinstance(t, str) and t in LATTICE else ())
 
 
 def free_indices(t: Tree) -> set[str]:

@@ -58,10 +58,12 @@ ON_TORUS: tuple[Tree, ...] = (
     *(("tr", ("mul", *["W"] * k)) for k in (2, 3, 4)),
 )
 FORM = Kind(
-    "ϖ(δy), less a function or not, or of a polynomial in Π_a and entries of A or Γ",
+    "ϖ(δy), less a function or not, r_i(t), v_i, or a polynomial in Π_a and entries of A or Γ",
     (("call", "ϖ", "δy"), *ON_TORUS),
+    "r",
     polynomial=True,
     less=True,
+    members="v",
 )
 MOVED_PLACE: Tree = ("call", "g", "r")
 PER_DENSITY: tuple[Tree, ...] = (("div", "σ_r", "ρ_r"), ("div", "p_r", "ρ_r"))

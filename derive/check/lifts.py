@@ -11,6 +11,7 @@ from typing import Any
 from ..language import rational as q
 from ..language.tree import Tree
 from .arithmetic import EvaluationError
+from .evaluate import Environment, point_index
 from .model import Model
 from .nilpotent import EPS, EPS_PRIME, Nilpotent, derivative_in, derivative_of, part
 
@@ -29,12 +30,18 @@ def action_varied(model: Model) -> Any:
     return part(model.lagrangian(t, g, q.scaled(1 / passing, velocity)) * passing, EPS)
 
 
-def form_rate(model: Model, what: Tree) -> Any:
-    """d/dt [ϖ(δy)] along the motion; ``EvaluationError`` for any other form."""
-    if what != ON_VARIATION:
-        raise EvaluationError("d/dt is of ϖ(δy) alone, where points give the Lagrangian")
+def rate(model: Model, what: Tree, env: Environment) -> Any:
+    """d/dt along the motion of ϖ(δy), or of the place r_i(t) or the velocity v_i of a point;
+    ``EvaluationError`` for any other."""
     t, g, Z = model.family(model.first, model.motion)
     nu = q.times(g, Z)
+    match what:
+        case ("call", ("at", "r", i), "t"):
+            return part(q.column(model.moved(g)[point_index(i, env) - 1]), EPS_PRIME)
+        case ("at", "v", i):
+            return part(q.column(model.moved(nu)[point_index(i, env) - 1]), EPS_PRIME)
+    if what != ON_VARIATION:
+        raise EvaluationError("d/dt is of ϖ(δy), r_i(t) and v_i, where points give the Lagrangian")
     momentum = model.momentum(nu, derivative_of(g, EPS))
     return part(momentum - model.energy(t, g, nu) * derivative_in(t, EPS), EPS_PRIME)
 

@@ -18,7 +18,7 @@ from .force_balance import centred_values, solution_values
 from .function_signatures import MOVED_PLACE, SHARED
 from .generalised_forces import force_families, force_values
 from .integrals import integral, moved, place_values
-from .lifts import ON_TANGENT, action_varied, form_rate
+from .lifts import ON_TANGENT, action_varied, rate
 from .model import Direction, Model
 from .momenta import basis_families, momentum_values, poisson_values, space_values
 from .name_values import NameValues, Values
@@ -188,7 +188,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         "r": point,
         "∫": lambda _, a, env: integral(model, a[0], env),
         "g": lambda _, a, env: moved(model, model.g, evaluate(a[0], env)),
-        "d/dt": lambda _, a, env: form_rate(model, a[0]),
+        "d/dt": lambda _, a, env: rate(model, a[0], env),
         "δA": lambda _, a, env: model.group.linear_part(q.times(model.g, direction(a[0]).xi)),
         "δT": lambda _, a, env: model.group.translation_part(q.times(model.g, direction(a[0]).xi)),
         "ξ": lambda _, a, env: model.group.linear_part(direction(a[0]).xi),

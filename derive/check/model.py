@@ -86,6 +86,11 @@ class Model(Body):
             tuple(self.draw() if at.driven else Fraction(0) for _ in range(self.n))
             for _ in self.inputs_of("force")
         ]
+        forces = (
+            force[group.of_block(self.blocks[data["on"] - 1])]
+            for force, data in zip(self.input_forces, self.inputs_of("force"), strict=True)
+        )
+        self.parameters |= self.name_inputs(self.covector, [*forces])
         once = len(self.points) if few else listed_count(self)
         self.copies = [
             Fraction(1) if i < once else self.draw(positive=True) for i in range(len(self.points))

@@ -124,7 +124,7 @@ class Residue:
 
     def __eq__(self, other: object) -> bool:
         y = self._other(other)
-        return y is not None and self.n == y % self.p
+        return NotImplemented if y is None else self.n == y % self.p
 
     def __hash__(self) -> int:
         return hash(self.n)

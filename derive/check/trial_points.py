@@ -25,6 +25,7 @@ from .model import Model
 from .problem_group import group_of
 from .residue import ResidueSource, random_prime
 from .torus import torus_model
+from .torus.elements import WEIGHTS
 from .torus.torus_group import torus_of
 from .trial_groups import TRIED, groups_with_relations
 
@@ -166,7 +167,10 @@ class TrialPoints:
 
     @property
     def coincidence(self) -> int:
-        """The degree of two different arguments of elementary functions being equal by chance."""
+        """The degree of two different arguments of elementary functions being equal by chance; of
+        what is compared at all points of a lattice."""
+        if "torus" in self.problem:
+            return WEIGHTS
         largest = max((m.elementary.largest for m, _ in self._graded_points.values()), default=0)
         distinct = max((len(m.elementary.values) for m, _ in self._places.values()), default=0)
         return distinct**2 * largest

@@ -6,7 +6,7 @@ the tables of :mod:`derive.check.function_signatures`, before anything is evalua
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Set
+from collections.abc import Collection, Iterator, Set
 from typing import Any
 
 from ..language.show import show
@@ -44,6 +44,12 @@ def first_fault(t: Tree, *, affine: bool, inside: str = "") -> str:
     return _operator_fault(t, inside, affine) or next(filter(None, parts), "")
 
 
+def along_any(equation: Equation, used: Collection[str]) -> bool:
+    """Does an equation speak of X, or of rates along it?"""
+    inside = [*nodes(equation.lhs), *nodes(equation.rhs)]
+    return "X" in used or any(isinstance(x, tuple) and x[:2] == ("call", "d/dt") for x in inside)
+
+
 def quantifier_fault(equation: Equation, at: Locus) -> str:
     """What is wrong with the first quantified name of an equation, in words; "" if none.
 
@@ -63,7 +69,7 @@ def quantifier_fault(equation: Equation, at: Locus) -> str:
             return f"it says nothing of {name}, for all values of which it is to hold"
         if name in fixed:
             return f"{name} is fixed by a hypothesis of the step: nothing holds for all of it"
-        if name in rates and "X" not in used:
+        if name in rates and not along_any(equation, used):
             return f"nothing holds for all {name}: it is the acceleration of the motion"
         if name in rates and not used & rates <= {*equation.for_all}:
             return f"it is to hold for all {name}, and not for all of the acceleration"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from ..algebra.groups import Group
@@ -15,6 +16,7 @@ from ..language.show import show
 from ..record.tree_data import decode
 from .heading import signed_entries
 from .options import Options
+from .slots import still_slots
 
 
 def conventions(
@@ -30,6 +32,7 @@ def conventions(
         lines = _attitude(group)
     else:
         lines = _factors(group, order) if group.factors else [_place("A", "T", group, order)]
+        lines += _still(group) if options.state == "moving" else []
     if options.velocity == "tangent":
         lines.append(
             "The names that end in _dot are the entries of the velocity dg/dt; the basis below is"
@@ -60,6 +63,14 @@ def conventions(
         *framed,
         *textwrap.wrap(_drift(group, options), 92),
     )
+
+
+def _still(group: Group) -> list[str]:
+    """The sentence about entries that are no numbers of the state: those of 1 that never vary."""
+    found = still_slots(group)
+    told = [f"{', '.join(x.name for x in found if found[x] == y)} = {y}" for y in {*found.values()}]
+    text = f"Not in the state, as they never vary: {'; '.join(sorted(told))}."
+    return textwrap.wrap(text, 92) if told else []
 
 
 def _held(coordinates: Sequence[int]) -> list[str]:
@@ -116,8 +127,12 @@ def _drift(group: Group, options: Options) -> str:
     laws, left = ["|q| = 1"] if quaternion else [], 0
     for k, (_, factor) in enumerate(() if quaternion else group.places, 1):
         kept = relations(factor)
+        if options.state == "moving" and all(sum(map(bool, row)) < 2 for row in kept.hull):
+            kept = replace(kept, hull=())
         laws += _relations(kept, str(k) if several else "")
         left += kept.dimension
+    if not laws and options.state == "moving":
+        return "No relation ties the entries in the state: there is nothing to project it to."
     if not laws:
         return "Every invertible matrix is in the group: there is nothing to project a state to."
     text = (
@@ -174,7 +189,7 @@ def _frame(group: Group, frame: Mapping[str, Any], driven: bool) -> list[str]:
 
 
 def _attitude(group: Group) -> list[str]:
-    shift = " + T" if group.affine else ""
+    shift = " + T" if group.affine or group.factors else ""
     return [
         f"q is a unit quaternion, scalar first: a point r of the body stands at q r q*{shift}",
         "in space; dq/dt = q zeta / 2 keeps its norm. to_matrix takes a state x to that with the",

@@ -91,7 +91,7 @@ def matrices(x: StateSpace) -> tuple[Block, ...]:
     return tuple(
         Block(factor.name, _places(at, offset, factor), factor.conformal)
         for offset, factor in x.group.places
-        if not relations(factor).none
+        if not relations(factor).none and not x.still
     )
 
 
@@ -101,13 +101,13 @@ def _places(at: Mapping[tuple[str, int, int], int], offset: int, factor: Group) 
 
 
 def _entries(x: StateSpace, offset: int, factor: Group) -> list[Node]:
-    """The leaves of A of a factor, row by row, then those of its T."""
-    found = {(s.letter, s.row, s.column): x.graph.leaf(s.name, "state") for s in x.slots}
+    """The leaves of A of a factor, row by row, then those of its T; numbers where they never
+    vary."""
     span, last = range(offset, offset + factor.n), offset + factor.n
-    A = [found["A", i, j] for i in span for j in span]
+    A = [x.values["A"][i][j] for i in span for j in span]
     if not factor.affine:
         return A
-    return A + [found["A", i, last] if x.group.factors else found["T", i, 0] for i in span]
+    return A + [x.values["A"][i][last] if x.group.factors else x.values["T"][i][0] for i in span]
 
 
 @dataclass
@@ -138,6 +138,9 @@ class _Block:
         g, n, found = self.graph, self.factor.n, []
         one = (*q.flatten(q.identity(n)), *[Fraction(0)] * (len(leaves) - n * n))
         for y, start, row in zip(leaves, one, self.kept.hull, strict=True):
+            if y.op == "num":
+                found.append(y)
+                continue
             shift = start - sum(c * s for c, s in zip(row, one, strict=True))
             terms = ((c, z) for c, z in zip(row, leaves, strict=True) if c)
             inside = g.linear([*terms, (Fraction(1), g.num(shift))])

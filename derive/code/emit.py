@@ -20,7 +20,7 @@ from .duplication import NEWTON_STEPS as NEWTON_EACH
 from .ellipsoid import BUNDLES, SLOPES, is_integral
 from .heading import heading
 from .languages import LANGUAGES, TargetLanguage
-from .naming import PREFIXES
+from .naming import taken_prefix
 from .options import Options
 from .printers import SourcePrinter
 from .program import TOLERANCE, Program
@@ -68,11 +68,12 @@ def planned(languages: Sequence[str], prefix: str, chosen: Options) -> dict[str,
     """File name → its language and template; ``EmitError`` for a prefix that is no name, a form, a
     frame or a step that a language does not have."""
     form = chosen.form
-    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,63}", prefix) or prefix in PREFIXES:
+    needed = [x for x in (LANGUAGES[name].needs for name in languages) if x]
+    well_formed = re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,63}", prefix)
+    if what := taken_prefix(prefix, [*languages, *needed]) if well_formed else "no name":
         raise EmitError(
-            f"the prefix {prefix[:40]!r} cannot be used: give --prefix NAME, letters, digits and "
-            "_, starting with a letter, at most 64, no word of a language or of the emitted code, "
-            "and no header of C or module of Python"
+            f"the prefix {prefix[:40]!r} cannot be used, it is {what}: give --prefix NAME, "
+            "letters, digits and _, starting with a letter, at most 64"
         )
     forms = {name: x for name, x in LANGUAGES.items() if x.files["header"] != x.files["source"]}
     if form == "header" and not any(name in forms or LANGUAGES[name].needs for name in languages):
@@ -99,9 +100,8 @@ def planned(languages: Sequence[str], prefix: str, chosen: Options) -> dict[str,
             others = ", ".join(without)
             remedy = f"; emit {others} apart, without it" if {*without} < {*languages} else ""
             raise EmitError(f"--step {step} is written for {known}, not for {others}{remedy}")
-    needed = (LANGUAGES[name].needs for name in languages)
     places = {}
-    for name in dict.fromkeys([*filter(None, needed), *languages]):
+    for name in dict.fromkeys([*needed, *languages]):
         apart = LANGUAGES[name].step_files if chosen.moves else ()
         for file in (*LANGUAGES[name].files[form], *apart):
             source, _, suffix = file.rpartition(":")

@@ -46,9 +46,8 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
         refuse(d, group, chosen)
     if "discrete" in chosen.step:
         discrete_step.refuse(d, group, chosen)
-    if chosen.attitude == "quaternion" and not group.turns_space:
-        why = ", whose Lagrangian moves no points" if d.problem.get("lagrangian") else ""
-        raise LoweringError(f"{d.name}: a quaternion needs SO(3) or SE(3), not {group.name}{why}")
+    if chosen.attitude == "quaternion" and not group.rotates:
+        raise LoweringError(f"{d.name}: a quaternion needs SO(3) or SE(3), not {group.name}")
     if chosen.attitude == "quaternion" and chosen.velocity == "tangent":
         raise LoweringError(
             f"{d.name}: a quaternion goes with the velocity of the body, not tangent"
@@ -72,6 +71,7 @@ def _refused_without_element(d: Derivation, chosen: Options) -> None:
         (chosen.velocity == "tangent", "--velocity tangent"),
         (chosen.attitude == "quaternion", "--attitude quaternion"),
         (chosen.layout == "col", "--layout col"),
+        (chosen.state == "moving", "--state moving"),
         (chosen.varied, f"--jacobian {' '.join(chosen.varied)}"),
     ):
         if on:

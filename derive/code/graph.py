@@ -124,14 +124,15 @@ class Graph:
             self.titles[value] = (name, label, recorded)
         return value
 
-    def recip(self, x: Node) -> Node:
-        """1 / x."""
+    def recip(self, x: Node, *, late: bool = False) -> Node:
+        """1 / x; ``late``: never in the constants, which are finite where x is 0."""
         if x.is_zero:
             raise ZeroDivisionError("1/0 in the equations of this problem")
         if x.op == "num":
             return self.num(1 / x.data)
         coefficient, core = x.split
-        return self.linear([(1 / coefficient, self._intern("recip", None, (core,), core.stage))])
+        stage = STATE if late else core.stage
+        return self.linear([(1 / coefficient, self._intern("recip", None, (core,), stage))])
 
     def function(self, name: str, *x: Node) -> Node:
         """An elementary function (``name``) of x, or an integral of several."""

@@ -121,7 +121,10 @@ class Kept:
             case ("pow", _, int(n)):
                 x = parts[0] if n > 0 else self.graph.recip(parts[0])
                 return self.graph.product([x] * abs(n))
-            case ("div", _, _):
+            case ("div", _, below):  # a length may be 0, with which the constants are finite still
+                if isinstance(below, tuple) and below[:2] == ("fun", "sqrt"):
+                    length = self.graph.value(parts[1], "length", "")
+                    return self.graph.product((parts[0], self.graph.recip(length, late=True)))
                 return self.graph.product((parts[0], self.graph.recip(parts[1])))
             case ("inner", head, _) if head == IN_SPACE:
                 Y = parts[1][: len(self.push)]

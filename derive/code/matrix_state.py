@@ -8,7 +8,7 @@ from ..language import rational as q
 from ..language.suffixed import suffixed
 from .graph import Node
 from .naming import ClaimedNames
-from .quaternion import of_rotation
+from .quaternion import ROTATED, of_rotation
 from .state import StateSpace
 
 LABELS = {"rotation": "4 q q̄, from A"}
@@ -46,7 +46,7 @@ def matrix_state(x: StateSpace) -> MatrixState | None:
     return MatrixState(
         (*(suffixed("A", i, j) for i in span for j in span), *x.names[len(x.q) :]),
         {
-            TO_MATRIX: [*q.flatten(x.values["A"]), *others],
+            TO_MATRIX: [*(y for row in x.values["A"][:ROTATED] for y in row[:ROTATED]), *others],
             FROM_MATRIX: [*of_rotation(g, R), *others],
         },
         (*q.flatten(R), *others),

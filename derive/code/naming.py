@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import keyword
 import sys
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 from ..language.greek import SPELT
@@ -24,15 +25,24 @@ _EMITTED = """
     ZERO_INPUTS ZEROS Singular NotFinite Refused N_STATE N_ALGEBRA N_PARAMETERS N_CONSTANTS N_INPUTS
     core Base Core Main constants energy driven project defect iszero
     """
-_OTHER_LANGUAGES = """
-    abstract become box crate dyn final fn gen impl let loop macro match mod move mut override priv
-    pub ref self Self super trait type unsafe unsized use where Some Ok Err
-    baremodule begin elseif end function isa local module outer primitive quote
-    nothing undef eltype promote_type Vector Float64 Float32 DomainError
-    arguments debugger eval extends implements instanceof interface null package var
-    Math Float64Array Float32Array Number RangeError char8_t char16_t char32_t
+_RUST = """
+    abstract as async await become box break const continue crate do dyn else enum extern false
+    final fn for gen if impl in let loop macro match mod move mut override priv pub ref return self
+    Self static struct super trait true try type typeof unsafe unsized use virtual where while yield
+    Some Ok Err
     """
-_WORDS = set(WORDS) | set(_OTHER_LANGUAGES.split())
+_JULIA = """
+    abstract baremodule begin break catch const continue do else elseif end export false finally for
+    function global if import isa let local macro module outer primitive quote return struct true
+    try type using while
+    nothing undef eltype promote_type Vector Float64 Float32 DomainError
+    """
+_JAVASCRIPT = """
+    arguments debugger eval extends function implements instanceof interface let null package super
+    var Math Float64Array Float32Array Number RangeError
+    """
+_CHARACTERS = "char8_t char16_t char32_t"
+_WORDS = {*WORDS, *f"{_RUST} {_JULIA} {_JAVASCRIPT} {_CHARACTERS}".split()}
 RESERVED = _WORDS | set(_LOCAL.split())
 """Names that no value of a program has: words of some language, arrays and loops of all.
 
@@ -43,11 +53,30 @@ _HEADERS = """
     sched setjmp signal stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn
     string strings tgmath threads time uchar unistd wchar wctype
     """
-FILES = set(_HEADERS.split()) | set(sys.stdlib_module_names)
-"""Names that no file has, as it would stand before a header of C or a module of Python."""
+_PYTHON = "a keyword of Python"
+PREFIXES = {
+    "c": dict.fromkeys(_HEADERS.split(), "a header of C")
+    | dict.fromkeys(_CHARACTERS.split(), "a keyword of C++")
+    | {x: what for x, what in WORDS.items() if what != _PYTHON},
+    "python": dict.fromkeys(sys.stdlib_module_names, "a module of Python")
+    | dict.fromkeys(keyword.kwlist, _PYTHON),
+    "rust": dict.fromkeys(_RUST.split(), "a word of Rust"),
+    "julia": dict.fromkeys(_JULIA.split(), "a word of Julia"),
+}
+"""Language → names that no prefix is there, and what they are: words, and headers of C or modules
+of Python, before which the emitted file would stand."""
 
-PREFIXES = FILES | _WORDS | set(_EMITTED.split())
-"""Names that no prefix is: of headers and modules, of words, of the emitted code itself."""
+
+def taken_prefix(prefix: str, languages: Iterable[str] = tuple(PREFIXES)) -> str:
+    """What a prefix is in some language, so that it cannot be used there; "" for a free one."""
+    if prefix in _EMITTED.split():
+        return "a name of the emitted code itself"
+    return next((what[prefix] for x in languages if prefix in (what := PREFIXES.get(x, {}))), "")
+
+
+def own_prefix(name: str) -> str:
+    """The prefix of code that is emitted to be run at once, whatever the problem is called."""
+    return f"{name}_" if taken_prefix(name) else name
 
 
 def ascii_name(name: str) -> str:

@@ -11,6 +11,7 @@ CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
     "attitude": (("matrix", "quaternion"), "A as a matrix, or a unit quaternion (SO(3), SE(3))"),
     "frame": (("given", "principal"), "the body as given, or in its principal frame"),
     "velocity": (("body", "tangent"), "the state ends in Z = g^-1 dg/dt, or in dg/dt"),
+    "state": (("whole", "moving"), "all entries of g, or without those that never vary"),
 }
 """Option → its values, the first one the default, and what they choose."""
 
@@ -52,6 +53,7 @@ class Options:
     attitude: str = "matrix"
     frame: str = "given"
     velocity: str = "body"
+    state: str = "whole"
     jacobian: tuple[str, ...] = ()
     step: tuple[str, ...] = ()
     order: str = ""

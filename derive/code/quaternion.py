@@ -10,6 +10,8 @@ from ..language.suffixed import suffixed
 from .graph import Graph, Node
 
 Quaternion = tuple[Any, ...]
+ROTATED = 3
+"""A quaternion is of the first 3 × 3 entries of a matrix."""
 
 
 def multiplied(a: Quaternion, b: Quaternion) -> Quaternion:
@@ -92,6 +94,11 @@ def _sign(g: Graph, x: Node) -> Node:
     """1 where x ≥ 0, else −1."""
     none = g.none(x)
     return (x + none) * g.recip(g.absolute(x) + none)
+
+
+def axis(Z: Matrix) -> Matrix:
+    """The column ζ of a matrix that begins with j(ζ)."""
+    return ((Z[2][1],), (Z[0][2],), (Z[1][0],))
 
 
 def halves(column: Matrix) -> list[Node]:

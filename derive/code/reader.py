@@ -103,6 +103,7 @@ class RecordReader:
         """A column of new inputs of the program, ``name_1`` …, counted from ``after`` + 1."""
         found = self.column(name, size, "input", after)
         self.inputs += [row[0].data[1] for row in found]
+        self.memo |= {("par", row[0].data[1]): row[0] for row in found}
         return found
 
     def _block(self, i: int) -> Group:

@@ -18,7 +18,7 @@ class ReducedSpace(StateSpace):
     def __init__(self, graph: Graph, group: Group, problem: Mapping[str, Any]):
         self.graph, self.group, self.standard, self.n = graph, group, group, group.n
         self.right, self.held = problem["lagrangian"]["trivialisation"] == "right", ()
-        self.slots, self.quaternion, self.tangent = [], False, False
+        self.slots, self.still, self.quaternion, self.tangent = [], {}, False, False
         self.names, self.values = [], {}
         self.coordinates = [self._leaf(suffixed("zeta", a)) for a in self._span(group.dimension)]
         carried = [

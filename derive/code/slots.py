@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 from ..algebra.groups import Group
+from ..algebra.told_entries import constant_entries
 from ..language.suffixed import suffixed
 
 
@@ -52,3 +54,10 @@ def fixed_entries(group: Group) -> dict[tuple[int, int], int]:
     return {
         (offset + f.n, offset + f.n): 1 for offset, f in group.places if group.factors and f.affine
     }
+
+
+def still_slots(group: Group) -> dict[Slot, Fraction]:
+    """Slot → the number that it is in all of the group, of those that never vary."""
+    known = constant_entries(group)
+    places = {x: (x.row, group.n if x.letter == "T" else x.column) for x in layout(group)}
+    return {x: known[at] for x, at in places.items() if at in known}

@@ -20,8 +20,8 @@ from ..language.suffixed import suffixed
 from . import dense
 from .graph import Graph, Node
 from .options import Options
-from .quaternion import halves, matrix_of, multiplied
-from .slots import Slot, fixed_entries, layout
+from .quaternion import ROTATED, axis, halves, matrix_of, multiplied
+from .slots import Slot, fixed_entries, layout, still_slots
 
 Seeds = dict[Node, Node]
 """A variation of the state: leaf → its derivative."""
@@ -49,7 +49,8 @@ class StateSpace:
         self.right, self.held = right, held
         self.graph, self.group, self.n = graph, group.stated, group.n
         self.standard = group
-        self.slots = layout(group, options.layout == "col")
+        self.still = still_slots(group) if options.state == "moving" else {}
+        self.slots = [x for x in layout(group, options.layout == "col") if x not in self.still]
         self.quaternion = options.attitude == "quaternion"
         self.tangent = options.velocity == "tangent"
         self.names: list[str] = []
@@ -66,27 +67,32 @@ class StateSpace:
 
     def _element(self) -> None:
         """Add the numbers of the group element; set A and T."""
-        slots = self.slots
         if self.quaternion:
             self.q = tuple(self._leaf(suffixed("q", i)) for i in range(4))
-            self.values["A"] = matrix_of(self.graph, self.q)
-            slots = [x for x in slots if x.letter == "T"]
-        placed = self._placed("", slots)
-        if not self.quaternion:
-            self.values["A"] = placed["A"]
+        placed = self._placed("", self.entry_slots)
+        self.values["A"] = A = placed["A"]
+        if self.quaternion:
+            turn, n = matrix_of(self.graph, self.q), ROTATED
+            self.values["A"] = (*(x + y[n:] for x, y in zip(turn, A, strict=False)), *A[n:])
         if self.group.affine:
             self.values["T"] = placed["T"]
+
+    @property
+    def entry_slots(self) -> list[Slot]:
+        """Those of the entries of A and T that the state holds, beside a quaternion those of T."""
+        turned = self.slots[: ROTATED**2] if self.quaternion else ()
+        return [x for x in self.slots if x not in turned]
 
     def _placed(self, mark: str, slots: list[Slot]) -> dict[str, Matrix]:
         """New leaves in their places of A and T; ``mark`` for the entries of ġ."""
         span, num = range(self.n), self.graph.num
         leaves = {(x.letter, x.row, x.column): self._leaf(x.name + mark) for x in slots}
-        ones = {} if mark else fixed_entries(self.group)
+        fixed = {("A", *place): num(x) for place, x in fixed_entries(self.group).items()}
+        fixed |= {(x.letter, x.row, x.column): num(y) for x, y in self.still.items()}
+        known = leaves if mark else leaves | fixed
         return {
-            "A": tuple(
-                tuple(leaves.get(("A", i, j), num(ones.get((i, j), 0))) for j in span) for i in span
-            ),
-            "T": tuple((leaves.get(("T", i, 0), num(0)),) for i in span),
+            "A": tuple(tuple(known.get(("A", i, j), num(0)) for j in span) for i in span),
+            "T": tuple((known.get(("T", i, 0), num(0)),) for i in span),
         }
 
     def along(self, a: int) -> Seeds:
@@ -115,9 +121,10 @@ class StateSpace:
             return {leaf: x for leaf, x in pairs if leaf.op == "leaf"}
         if not self.quaternion:
             return self._changed(e, "A", "T")
-        half = halves(((e[2][1],), (e[0][2],), (e[1][0],)))
-        rates = multiplied(self.q, (self.graph.num(0), *half))
-        return dict(zip(self.q, rates, strict=True)) | self._changed(e, "", "T")
+        rates = multiplied(self.q, (self.graph.num(0), *halves(axis(e))))
+        return dict(zip(self.q, rates, strict=True)) | self._changed(
+            e, "A" * bool(self.group.factors), "T"
+        )
 
     def _changed(self, e: Matrix, linear: str, shift: str) -> Seeds:
         """The leaves of these letters, where they have a value, for a change g e of g or of ġ."""
@@ -240,19 +247,21 @@ class StateSpace:
             if not in_space:
                 return speeds + self._second(velocity)
             return speeds + self._entries(name("α̇"), name("τ̇") if affine else ())
+        speeds = self._entries(name("Ȧ"), name("Ṫ") if affine else ())
         if not self.quaternion:
-            return self._entries(name("Ȧ"), name("Ṫ") if affine else ()) + velocity
-        found = multiplied(self.q, (self.graph.num(0), *halves(self.values["ζ"])))
-        return [*found, *(x for (x,) in (name("Ṫ") if affine else ())), *velocity]
+            return speeds + velocity
+        turning = self.values["ζ"]
+        if self.group.factors:
+            turning = axis(self.hat([x for (x,) in turning]))
+        return [*multiplied(self.q, (self.graph.num(0), *halves(turning))), *speeds, *velocity]
 
     def _entries(self, A: Matrix, T: Matrix) -> list[Node]:
         """The entries of A and T that are numbers of the state, in its order."""
-        return [{"A": A, "T": T}[x.letter][x.row][x.column] for x in self.slots]
+        return [{"A": A, "T": T}[x.letter][x.row][x.column] for x in self.entry_slots]
 
     def entries(self, g: Matrix) -> list[Node]:
         """The state's numbers in A or [[A, T], [0, 1]]; those of T alone beside a quaternion."""
-        slots = (x for x in self.slots if x.letter == "T" or not self.quaternion)
-        return [g[x.row][self.n if x.letter == "T" else x.column] for x in slots]
+        return [g[x.row][self.n if x.letter == "T" else x.column] for x in self.entry_slots]
 
     @property
     def element(self) -> Matrix:

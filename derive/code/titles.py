@@ -20,7 +20,7 @@ def titles(reader: RecordReader) -> dict[int, str]:
 
 def _beginnings(space: StateSpace) -> dict[int, tuple[str, ...]]:
     """Index in dx/dt → the names by which the record may have what begins there."""
-    slots = [x for x in space.slots if x.letter == "T" or not space.quaternion]
+    slots = space.entry_slots
     if not space.slots:
         carried = {space.group.dimension: ("Γ̇",)} if space.values["Γ"] else {}
         return {0: ("ζ̇", "Ż"), **carried}

@@ -87,6 +87,14 @@ class Parser(argparse.ArgumentParser):
             self.error(one_line(what + did_you_mean(near, "; ")))
         return found, left
 
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """A choice that there is not, with the nearest that there is."""
+        try:
+            super()._check_value(action, value)
+        except argparse.ArgumentError as error:
+            near = did_you_mean(near_name(str(value), map(str, action.choices or ())), "; ")
+            raise argparse.ArgumentError(action, f"{error.message}{near}") from None
+
     def error(self, message: str) -> NoReturn:
         """What is wrong in one line, and exit 2; --help has the usage."""
         self.exit(2, f"{self.prog}: error: {one_line(message)}\n")
@@ -171,6 +179,8 @@ def add_motion_options(simulated: argparse.ArgumentParser) -> None:
     from ..code.options import DEPENDENT
     from ..views.language import LANGUAGES
 
+    simulated.epilog = """An [[event]] of the file happens where its expression changes its sign;
+    what only touches 0 is none, or is one by rounding."""
     simulated.add_argument("problem", help="a ready-made name or a .toml file")
     simulated.add_argument("--t", type=real, required=True, metavar="T", help="the time, from 0 on")
     about = "the error of a short run, relative to the size of the state (default: 1e-9)"

@@ -9,16 +9,17 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
+from contextvars import copy_context
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..language.refused import Refused
-from ..views.rendering import render
+from ..language.telling import LISTENER
 from .encoding import replacing_unencodable
 from .guard import StoppedError, one_line, time_limit
-from .loading import UsageError, allowed, derive, discrete_walk, load_problem, ready_made
+from .loading import UsageError, allowed, derive, discrete_walk, doubted, load_problem, ready_made
 from .progress import with_progress
-from .showing import notation, save, save_record, steps_of, told_steps, warn_of_letters
+from .showing import columns, save, save_record, save_steps, steps_of, told_steps
 
 if TYPE_CHECKING:
     from ..check.verdict import Verdict
@@ -48,11 +49,7 @@ def command_walk(args: argparse.Namespace) -> int:
         if args.format == "json":
             raise UsageError("--trivialisation both is to be read: choose another --format")
         record = both_trivialisations(record)
-    chosen = {"fragment": args.fragment, "steps": steps_of(record, args.labels), **notation(args)}
-    shown = render(record, args.format, args.lang, **chosen)
-    if args.format == "latex":
-        warn_of_letters([record])
-    save(shown, args.out, args.format)
+    save_steps(record, steps_of(record, args.labels), args)
     return 0
 
 
@@ -60,13 +57,12 @@ def command_integrals(args: argparse.Namespace) -> int:
     """Find the polynomial first integrals of the reduced equations of a problem."""
     from ..pipeline import integrals
 
-    problem = load_problem(args.problem)
+    problem = doubted(args.problem)
     chosen = {"at_defaults": args.at_defaults, "conditions": args.conditions}
     record = integrals(problem, args.degree, **chosen)[1]
     # the JSON is a whole record, which can be checked
     new = () if args.format == "json" else told_steps(record)
-    shown = {"fragment": args.fragment, "steps": new, **notation(args)}
-    save(render(record, args.format, args.lang, **shown), args.out, args.format)
+    save_steps(record, new, args)
     return 0
 
 
@@ -82,17 +78,16 @@ def command_equilibria(args: argparse.Namespace) -> int:
             raise UsageError(f"{option} {twice[0]}: given more than once; leave out all but one")
     found: object
     if args.near:
-        found, record = equilibrium_near(load_problem(args.problem), dict(args.near))
+        found, record = equilibrium_near(doubted(args.problem), dict(args.near))
     else:
-        found, record = equilibria(load_problem(args.problem), dict(args.at or ()))
+        found, record = equilibria(doubted(args.problem), dict(args.at or ()))
     if not found:
         raise UsageError(
             f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "
             "most one other coordinate, 1 or -1: give one by --at NAME=NUMBER"
         )
     new = () if args.format == "json" else told_steps(record, "equilibrium_1")
-    chosen = {"fragment": args.fragment, "steps": new, **notation(args)}
-    save(render(record, args.format, args.lang, **chosen), args.out, args.format)
+    save_steps(record, new, args)
     return 0
 
 
@@ -166,17 +161,18 @@ def command_plot(args: argparse.Namespace) -> int:
     from .writing import write
 
     ending(args.out)
-    out, paths, word = Path(args.out), [Path(x) for x in args.run_file], language(args.lang).word
+    out, paths, words = Path(args.out), [Path(x) for x in args.run_file], language(args.lang)
+    word, mark = words.word, words.mark
     if args.kind == PRECISION:
-        picture = plot_precision(paths, out.name, word)
+        picture = plot_precision(paths, out.name, word, mark)
     elif len(paths) > 1 and args.kind == "energy":
         if args.column:
             raise UsageError("columns are chosen of an ensemble: leave out --column")
-        picture = plot_energies([(str(x), read_either(x)) for x in paths], out.name, word)
+        picture = plot_energies([(str(x), read_either(x)) for x in paths], out.name, word, mark)
     elif len(paths) > 1:
         raise UsageError(f"several runs are for --kind {PRECISION} and --kind energy: give one")
     else:
-        picture = plot(read_either(paths[0]), out.name, args.kind, word, args.column)
+        picture = plot(read_either(paths[0]), out.name, args.kind, word, args.column, mark)
     for path in write({out.name: picture}, out.parent, links=True):
         print(path)
     return 0
@@ -236,7 +232,10 @@ def command_paper(args: argparse.Namespace) -> int:
 
     records = [derive(name)[1] for name in paper.PROBLEMS]
     findings = list(with_progress(paper.findings(records), len(PAPER), "equations"))
-    shown = as_json(findings) if args.format == "json" else as_text(findings, language(args.lang))
+    if args.format == "json":
+        shown = as_json(findings)
+    else:
+        shown = as_text(findings, language(args.lang), columns(args.out))
     save(shown, args.out, args.format)
     return 0
 
@@ -245,6 +244,7 @@ def command_build(args: argparse.Namespace) -> int:
     """Make all of generated/ again."""
     from ..code.emit import emit
     from ..pipeline import program
+    from ..views.rendering import render
     from .writing import write
 
     def made(name: str) -> tuple[str, dict[str, str]]:
@@ -300,7 +300,13 @@ def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
         sys.stdout.flush()  # the help: main tells what cannot be written
         raise
     with time_limit(getattr(args, "seconds", None)):
-        return int(args.run(args))
+        return copy_context().run(heard, args)
+
+
+def heard(args: argparse.Namespace) -> int:
+    """The exit code of the command of some arguments; what it tells goes to stderr as it works."""
+    LISTENER.set(lambda text: print(f"derive: note: {one_line(text)}", file=sys.stderr, flush=True))
+    return int(args.run(args))
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -10,7 +10,7 @@ import argparse
 import shlex
 import sys
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 from ..code.emit import emit, included, planned
@@ -147,7 +147,7 @@ def validated(
     from ..validate import emission
     from ..validate.chart import Chart
 
-    chart = Chart(e.options.layout, e.options.attitude, e.options.velocity)
+    chart = Chart(*(getattr(e.options, x.name) for x in fields(Chart)))
     as_given = e.options.frame == "given"
     reports = emission.EmittedFiles(
         files, e.prefix, chart, program.numbers(), as_given, fresh

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from ..language.near_names import did_you_mean, near_name
 from ..language.refused import Refused
@@ -46,28 +48,38 @@ def load_problem(name: str, **allowances: bool) -> Problem:
     )
 
 
-def derive(name: str, *, followed: bool = False, **allowances: bool) -> tuple[Problem, Derivation]:
-    """A problem and its record, with warnings of doubts; ``UsageError`` where it has no walk.
+def doubted(
+    name: str, *, followed: bool = False, given: Mapping[str, float] | None = None, **allows: bool
+) -> Problem:
+    """A problem, with warnings of what may be meant otherwise in it.
 
-    ``followed``: a motion is to be, which refuses names that the state has not.
+    ``followed``: a motion is to be, which refuses names that the state has not; ``given``: numbers
+    of parameters in place of their defaults.
     """
-    from ..pipeline import walk
     from ..problem.doubts import doubts
 
-    problem = load_problem(name, **allowances)
-    for doubt in doubts(problem, followed=followed):
+    problem = load_problem(name, **allows)
+    for doubt in doubts(problem, given or {}, followed=followed):
         print(f"derive: warning: {one_line(name)}: {one_line(doubt)}", file=sys.stderr)
+    return problem
+
+
+def derive(name: str, **chosen: Any) -> tuple[Problem, Derivation]:
+    """A problem, :func:`doubted`, and its record; ``UsageError`` where it has no walk."""
+    from ..pipeline import walk
+
+    problem = doubted(name, **chosen)
     try:
         return problem, walk(problem)
     except ProblemError as error:
         raise UsageError(f"{name}: {error}") from None
 
 
-def discrete_walk(name: str, **allowances: bool) -> tuple[Problem, Derivation]:
-    """A problem and the record of its discrete motion."""
+def discrete_walk(name: str, **allowances: Any) -> tuple[Problem, Derivation]:
+    """A problem, :func:`doubted`, and the record of its discrete motion."""
     from ..pipeline import discrete
 
-    problem = load_problem(name, **allowances)
+    problem = doubted(name, **allowances)
     return problem, discrete(problem)
 
 

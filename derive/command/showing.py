@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import argparse
+import os
+import shutil
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from ..printing.line_breaking import WIDTH
 from ..record.record import Derivation, Step
 from ..schema.table import nearest
 from ..views.rendering import render, unprinted
 from .encoding import as_in_a_file
 from .guard import one_line
 from .loading import UsageError
+
+LEAST = 40
+"""The fewest columns of a text."""
 
 
 def save(text: str, out: str | None, form: str) -> None:
@@ -28,6 +34,23 @@ def save(text: str, out: str | None, form: str) -> None:
         write({path.name: text}, path.parent, links=True)
 
 
+def columns(out: str | None) -> int:
+    """How many columns a line of text has: on standard output those of the terminal, or COLUMNS; as
+    many as ever in the file ``out``, and where another program reads."""
+    if out is not None or not (sys.stdout.isatty() or os.environ.get("COLUMNS")):
+        return WIDTH
+    return max(shutil.get_terminal_size((WIDTH, 24)).columns, LEAST)
+
+
+def save_steps(record: Derivation, steps: Sequence[Step], args: argparse.Namespace) -> None:
+    """Write some steps of a record, or all of it, as the options of a command ask."""
+    chosen = {"fragment": args.fragment, "steps": steps, **notation(args)}
+    shown = render(record, args.format, args.lang, width=columns(args.out), **chosen)
+    if args.format == "latex":
+        warn_of_letters([record])
+    save(shown, args.out, args.format)
+
+
 def save_record(
     record: Derivation, own: Callable[[Derivation], list[Step]], args: argparse.Namespace
 ) -> None:
@@ -35,11 +58,7 @@ def save_record(
     steps = steps_of(record, args.labels)
     if not steps and args.format != "json":
         steps = own(record)
-    chosen = {"fragment": args.fragment, "steps": steps, **notation(args)}
-    shown = render(record, args.format, args.lang, **chosen)
-    if args.format == "latex":
-        warn_of_letters([record])
-    save(shown, args.out, args.format)
+    save_steps(record, steps, args)
 
 
 def told_steps(record: Derivation, first: str = "poisson") -> list[Step]:

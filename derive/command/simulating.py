@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..motion.driven import INPUTS
+from ..motion.driven import DAMPING, INPUTS
 from ..motion.ensemble import require_an_ensemble
 from ..motion.kept_words import parts
 from ..motion.method import STEPS, Method, instants
@@ -65,7 +65,8 @@ def picture_of(problem: Problem, record: Derivation, t: float, name: str, lang: 
     """A picture of the motion from 0 to t, in the format of a name; ``Refused``."""
     method = Method()
     code = motion_of(problem, record, method.step)
-    return plot(run(code, problem, method, t, 500, given={}), name, word=language(lang).word)
+    found, words = run(code, problem, method, t, 500, given={}), language(lang)
+    return plot(found, name, word=words.word, mark=words.mark)
 
 
 def method_of(args: argparse.Namespace) -> Method:
@@ -114,23 +115,23 @@ def command_simulate(args: argparse.Namespace) -> int:
         format_of(args.out)  # refused before the work
     for file in filter(None, (args.out, args.html)):
         require_place(Path(file))
-    problem, record = derive(args.problem, followed=True, **allowed(args))
+    chosen = {"followed": True, "given": dict(args.set or ())}
+    problem, record = derive(args.problem, **chosen, **allowed(args))
     start = start_of(args, problem, record)
     if args.ensemble is not None:
         return command_ensemble(args, problem, record, start)
+    pages, files = [], []  # all are written before a word is said: who reads it may go away
     if args.html:
         out, page = Path(args.html), page_of(args, problem, record, start)
-        for path in write({out.name: page}, out.parent, links=True):
-            print(path)
-        if not args.out:
-            return 0
+        pages = write({out.name: page}, out.parent, links=True)
+    if args.html and not args.out:
+        print(*pages, sep="\n")
+        return 0
     found = run_of(args, problem, record, start)
-    for line in summary(found):
-        print(one_line(line))
     if args.out:
         out = Path(args.out)
-        for path in write({out.name: written(found, out.name)}, out.parent, links=True):
-            print(path)
+        files = write({out.name: written(found, out.name)}, out.parent, links=True)
+    print(*pages, *map(one_line, summary(found)), *files, sep="\n")
     return _told(found)
 
 
@@ -205,7 +206,9 @@ def _told(run: Run) -> int:
     """The exit code, and on stderr what is amiss."""
     name = run.facts["problem"]
     if why := run.facts.get("unsought"):
-        text = f"of what it keeps the energy alone is told: {why.removeprefix(f'{name}: ')}"
+        damped = DAMPING in run.facts.get("drives", ())  # and the energy is not kept
+        lead = "" if damped else "of what it keeps the energy alone is told: "
+        text = lead + why.removeprefix(f"{name}: ")
         print(f"derive: note: {one_line(f'{name}: {text}')}", file=sys.stderr)
     for label, column in run.of_kind("multiplier").items():
         if run.facts.get("filled") and (where := negative(run.t, column)):

@@ -5,7 +5,7 @@
 Newton's method in floats gives decimals (x̂, λ̂); from there all is exact.  With g the slope of 𝓛 at
 (x̂, λ̂), J its second derivatives there and B(ρ) a bound of how much these change within ρ, let
 
-    a = |J⁻¹g|,  ρ = 2a,  κ = ‖|J⁻¹| B(ρ)‖ < ½      (the largest entry, and row sum)
+    a = |J⁻¹g|,  ρ ≥ 2a,  κ = ‖|J⁻¹| B(ρ)‖ < ½      (the largest entry, and row sum)
 
 Then Newton's step with J contracts that cube into itself (Krawczyk): one critical point is in it,
 and the second derivatives are singular nowhere in it, so that they have the signs of J: those of
@@ -19,15 +19,18 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import ceil
 from typing import Any
 
 from ..integrals.all_integrals import Found
-from ..integrals.lie_poisson import LiePoisson, Polynomial
+from ..integrals.lie_poisson import LiePoisson, Polynomial, plain
 from ..language import rational as q
 from ..language.quadratic import Number, Quadratic
 from .energy_casimir import diagonalised, signs
+from .entries_of_elements import Line, numbers
 from .equilibrium_points import (
     About,
+    Elements,
     Expansion,
     NoEquilibriumError,
     coordinates,
@@ -65,9 +68,10 @@ class Enclosed:
         return "stable" if 0 in self.signature else "unstable" if self.grows else "open"
 
 
-def enclosed(whole: Found, values: Mapping[str, Number]) -> Enclosed:
+def enclosed(whole: Found, values: Mapping[str, Number], on: Elements) -> Enclosed:
     """The equilibrium near a point, on its level of the Casimirs, where those of the entries of g
-    have the values of the group; ``NoEquilibriumError`` where none is found or enclosed."""
+    have the values of the group; ``NoEquilibriumError`` where none is found or enclosed, or it is
+    not proved that an element of the group has its entries, which satisfy ``on``."""
     system, algebra = whole.system, whole.system.algebra
     kept = [algebra.over_the_field(f) for f in whole.casimirs]
     start = About(system, start_of(system, values))
@@ -77,6 +81,8 @@ def enclosed(whole: Found, values: Mapping[str, Number]) -> Enclosed:
     found = [_rounded(y) for y in multipliers]
     function = lagrange_function(about, kept, level, found)
     radius, signature = certified(function, len(x) + len(found), len(found))
+    if not near_the_group(about, kept, level, radius, on):
+        raise NoEquilibriumError(NOT_ON_THE_GROUP)
     values_near = eigenvalues([e.slope for e in about.rates])
     unstable = 0 not in signature and grows(about, kept, radius)
     return Enclosed(about, (*level,), (*found,), radius, signature, values_near, unstable)
@@ -210,7 +216,7 @@ def certified(function: Terms, size: int, casimirs: int) -> tuple[Fraction, tupl
     if inverse is None:
         raise NoEquilibriumError(NOT_ISOLATED)
     reached = max(abs(x) for x in q.flatten(q.times(inverse, slope)))
-    radius = 2 * reached or Fraction(1, DIGITS)
+    radius = one_digit_above(2 * reached) or Fraction(1, DIGITS)
     change = [[Fraction(0)] * size for _ in places]
     for m, c in function.items():
         if sum(m) > 2:
@@ -224,10 +230,74 @@ def certified(function: Terms, size: int, casimirs: int) -> tuple[Fraction, tupl
     return radius, (positive - casimirs, negative - casimirs)
 
 
+def one_digit_above(x: Fraction) -> Fraction:
+    """The least number with one digit that is not below a number from 0 to 1."""
+    if not x:
+        return x
+    k = 0
+    while x * 10**k < 1:
+        k += 1
+    return Fraction(ceil(x * 10**k), 10**k)
+
+
 def contraction(inverse: q.Matrix, change: Sequence[Sequence[Fraction]]) -> Fraction:
     """The largest row sum of |J⁻¹| B."""
     moved = q.times(tuple(tuple(map(abs, row)) for row in inverse), q.matrix(change))
     return Fraction(max(map(sum, moved)))
+
+
+# -- elements of the group -----------------------------------------------------------------------
+
+
+def near_the_group(
+    about: About,
+    kept: Sequence[Polynomial],
+    level: Sequence[Fraction],
+    radius: Fraction,
+    on: Elements,
+) -> bool:
+    """Has an element of the group the entries of each point of the level within the radius?  True
+    is proved: what is constant on the group is a combination of the Casimirs."""
+    one = (0,) * len(about.at)
+    levels = [{**f, one: f.get(one, 0) - c} for f, c in zip(kept, level, strict=True)]
+    at = [Ball(rational(x), radius) for x in about.at]
+    return all(
+        (x.sufficient or (x.open and x.attained(about.at) and invertible(_balls(x.entries, at))))
+        and all(_spanned(f, group_value(about.system, f, Fraction(0)), levels) for f in x.constant)
+        and all(independent(_balls(m.matrix, at)) for m in x.independent)
+        and all(determinant(_balls(m.matrix, at)).positive for m in x.positive)
+        for x in on
+    )
+
+
+def _spanned(f: Polynomial, value: Number, levels: Sequence[Polynomial]) -> bool:
+    """Is a polynomial, less a number, a combination of others?"""
+    one = (0,) * len(next(iter(f)))
+    every = [*levels, {**f, one: f.get(one, 0) - value}]
+    monomials = {m for g in every for m in g}
+    rows = [[Fraction(plain(g.get(m, 0))) for m in monomials] for g in every]
+    return q.rank(q.matrix(rows)) == q.rank(q.matrix(rows[:-1]))
+
+
+def _balls(matrix: Sequence[Line], at: Sequence[Ball]) -> Balls:
+    return [[*row] for row in numbers(matrix, at, lambda c: Ball(Fraction(c)))]
+
+
+def independent(rows: Balls) -> bool:
+    """Are the rows surely independent?"""
+    pivots = q.echelon(q.matrix([[x.mid for x in row] for row in rows]))[1]
+    return len(pivots) == len(rows) and invertible([[row[j] for j in pivots] for row in rows])
+
+
+def invertible(a: Balls) -> bool:
+    """Is a square matrix surely invertible?"""
+    found = determinant(a)
+    return abs(found.mid) > found.off
+
+
+def determinant(a: Balls) -> Ball:
+    """The determinant of a square matrix."""
+    return characteristic(a)[-1] * Ball(Fraction((-1) ** len(a)))
 
 
 # -- instability ---------------------------------------------------------------------------------
@@ -246,6 +316,11 @@ class Ball:
     def __mul__(self, other: Ball) -> Ball:
         off = abs(self.mid) * other.off + abs(other.mid) * self.off + self.off * other.off
         return Ball(self.mid * other.mid, off)
+
+    @property
+    def positive(self) -> bool:
+        """Are all its numbers positive?"""
+        return self.mid > self.off
 
     @property
     def negative(self) -> bool:
@@ -320,4 +395,9 @@ def _breaks_newton(c: Sequence[Ball]) -> bool:
 NOT_ISOLATED = (
     "the equilibrium near there is not proved to be the only one on its level of the Casimirs; "
     "exact coordinates are given by --at"
+)
+
+NOT_ON_THE_GROUP = (
+    "that an element of the group has the entries of g near there is not proved; exact coordinates "
+    "are given by --at"
 )

@@ -7,16 +7,19 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import comb
-from typing import Any
 
 from ..integrals.lie_poisson import ONE, Algebra, LiePoisson, Polynomial
+from ..language import rational as q
 from ..language.expression import parse
 from ..language.quadratic import Number, value_of
 from ..language.refused import Refused
 from ..language.suffixed import suffixed
 from ..language.tree import Tree
+from .entries_of_elements import Conditions, numbers
 
 Point = tuple[Number, ...]
+Elements = Sequence[Conditions]
+"""What the entries of g at a point satisfy, in every factor of the group."""
 Matrix = list[list[Number]]
 
 
@@ -120,13 +123,15 @@ def coordinates(system: LiePoisson, values: Mapping[str, Number]) -> list[str]:
     return names
 
 
-def given(system: LiePoisson, values: Mapping[str, Number], fixed: Sequence[Any]) -> About:
+def given(
+    system: LiePoisson, values: Mapping[str, Number], kept: Sequence[Polynomial], on: Elements
+) -> About:
     """The point with these coordinates, the others 0; ``NoEquilibriumError`` where it is none of
-    the problem or no equilibrium.  ``fixed``: the Casimirs."""
+    the problem or no equilibrium.  ``kept``: the Casimirs."""
     names = coordinates(system, values)
     about = About(system, tuple(values.get(x, Fraction(0)) for x in names))
-    if reason := off_the_group(about, fixed):
-        raise NoEquilibriumError(reason)
+    if reason := off_the_group(about, kept, on):
+        raise NoEquilibriumError(f"no element of the group has these entries: {reason}")
     moving = [
         f"the rate of {name} is {e.value}"
         for name, e in zip(names, about.rates, strict=True)
@@ -137,19 +142,29 @@ def given(system: LiePoisson, values: Mapping[str, Number], fixed: Sequence[Any]
     return about
 
 
-def off_the_group(about: About, fixed: Sequence[Any]) -> str:
-    """How the entries of g at a point cannot be those of an element: a Casimir of them alone has
-    the value that it has at 1; "" where it has."""
-    for casimir in fixed:
-        f = about.algebra.over_the_field(casimir)
+def off_the_group(about: About, kept: Sequence[Polynomial], on: Elements) -> str:
+    """How the entries of g at a point cannot be those of an element: what has one value on the
+    group, as a Casimir of them alone, has another, or rows of g are dependent, or what is positive
+    is not; "" where nothing is found."""
+    for f in (*kept, *(f for x in on for f in x.constant)):
         here = about.expansion(f).value
         there = group_value(about.system, f, here)
         if here != there:
-            return (
-                f"no element of the group has these entries: of {casimir_text(about, f)} it "
-                f"makes {there}, not {here}"
-            )
+            return f"of {casimir_text(about, f)} it makes {there}, not {here}"
+    for x in on:
+        for minor in x.independent:
+            if q.rank(numbers(minor.matrix, about.at)) < len(minor.matrix):
+                return minor.said
+        for minor in x.positive:
+            if not (here := q.determinant(numbers(minor.matrix, about.at))) > 0:
+                return f"{minor.said} would be {here}, and is positive on the group"
     return ""
+
+
+def attained(about: About, on: Elements) -> bool:
+    """Has an element of the group the entries of g at a point?  True is proved, of entries of which
+    :func:`off_the_group` says nothing."""
+    return all(x.attained(about.at) for x in on)
 
 
 def group_value(system: LiePoisson, f: Polynomial, else_: Number) -> Number:
@@ -171,7 +186,7 @@ def casimir_text(about: About, f: Polynomial) -> str:
     return show(about.algebra.field_tree(f))
 
 
-def tried(system: LiePoisson, fixed: Sequence[Any]) -> Iterator[About]:
+def tried(system: LiePoisson, kept: Sequence[Polynomial], on: Elements) -> Iterator[About]:
     """The equilibria among the points with at most one momentum that is not 0, it being 1, and at
     most one other coordinate that is not 0, it being 1 or −1; not the origin."""
     n, momenta = len(system.variables), system.momenta
@@ -181,5 +196,5 @@ def tried(system: LiePoisson, fixed: Sequence[Any]) -> Iterator[About]:
             at = tuple(Fraction(chosen.get(i, 0)) for i in range(n))
             about = About(system, at)
             moving = any(e.value for e in about.rates)
-            if any(at) and not moving and not off_the_group(about, fixed):
+            if any(at) and not moving and not off_the_group(about, kept, on):
                 yield about

@@ -12,12 +12,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
 
 from ..integrals.all_integrals import Found
 from ..integrals.lie_poisson import ONE, LiePoisson
 from ..integrals.reduced import NotReducedError
 from ..language.quadratic import Number
+from ..language.univariate import RealRoots, real_roots
 from .energy_casimir import (
     Form,
     Leaf,
@@ -30,25 +30,52 @@ from .energy_casimir import (
     product,
     signs,
 )
-from .equilibrium_points import About, Matrix, given, tried
+from .equilibrium_points import About, Elements, Matrix, attained, given, tried
 
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """An equilibrium ``about`` a point.  ``verdict``: "stable", "stable on the leaf", "unstable"
-    or "open"; ``linear``: the linearisation M on the ``leaf``, LP = PM; ``characteristic``: of M,
-    from the highest power; ``eigenvalues``: about those of M; ``signature``: of the form on the
-    leaf; ``compact``: is the stabiliser of a point on a smaller leaf than others?"""
+    """An equilibrium ``about`` a point.  ``linear``: the linearisation M on the ``leaf``, LP = PM;
+    ``characteristic``: of M, from the highest power, q(λ²); ``squares``: how many roots q has;
+    ``eigenvalues``: about those of M; ``signature``: of the form on the leaf; ``regular``: has Λ
+    its largest rank there?  ``compact``: is the stabiliser of a point on a smaller leaf than
+    others?  ``attained``: is it proved that an element of the group has the entries of g there?"""
 
     about: About
     leaf: Leaf
     form: Form | None
     linear: Matrix
     characteristic: tuple[Number, ...]
+    squares: RealRoots
     eigenvalues: tuple[complex, ...]
     signature: tuple[int, int]
+    regular: bool
     compact: bool
-    verdict: str
+    attained: bool
+
+    @property
+    def verdict(self) -> str:
+        """What is proved: "stable", "stable on the leaf", "unstable" or "open"."""
+        if not self.attained:
+            return "open"
+        definite = len(self.leaf.free) in self.signature
+        if (self.form and self.form.whole) or (definite and (self.regular or self.compact)):
+            return "stable"
+        if self.leaf.free and definite:
+            return "stable on the leaf"
+        return "unstable" if self.squares.negative < self.squares.distinct else "open"
+
+    @property
+    def sentence(self) -> str:
+        """The name of the sentence that says what is proved, and how."""
+        if not self.attained:
+            return "undecided"
+        if self.verdict == "stable":
+            beyond = self.form is not None and self.form.whole
+            return "stable_beyond" if beyond else "stable_compact" if self.compact else "stable"
+        if self.verdict == "stable on the leaf":
+            return "on_the_leaf"
+        return self.verdict if self.leaf.free else "point"
 
     @property
     def growth(self) -> float:
@@ -63,16 +90,18 @@ def require_numbers(whole: Found) -> None:
         raise NotReducedError(f"equilibria are told for numbers, and {names} has no default")
 
 
-def equilibria_of(whole: Found, values: Mapping[str, Number]) -> tuple[Equilibrium, ...]:
+def equilibria_of(
+    whole: Found, values: Mapping[str, Number], on: Elements
+) -> tuple[Equilibrium, ...]:
     """The equilibrium at a point, or those among the points that are tried where none is given;
-    ``NotReducedError`` where parameters have no numbers."""
+    ``NotReducedError`` where parameters have no numbers.  ``on``: what entries of g satisfy."""
     require_numbers(whole)
-    system, fixed = whole.system, whole.casimirs
-    found = [given(system, values, fixed)] if values else tried(system, fixed)
-    return tuple(judged(whole, about) for about in found)
+    system, kept = whole.system, [*map(whole.system.algebra.over_the_field, whole.casimirs)]
+    found = [given(system, values, kept, on)] if values else tried(system, kept, on)
+    return tuple(judged(whole, about, on) for about in found)
 
 
-def judged(whole: Found, about: About) -> Equilibrium:
+def judged(whole: Found, about: About, elements: Elements) -> Equilibrium:
     """An equilibrium with what is proved of it."""
     on = leaf(about)
     over = about.algebra.over_the_field
@@ -82,20 +111,13 @@ def judged(whole: Found, about: About) -> Equilibrium:
     linear = [image[i] for i in on.free]
     characteristic = polynomial(linear)
     regular = whole.proved.proved and len(on.free) == whole.proved.rank
-    compact = not regular and has_compact_stabilisers(whole.system)
     squares = found.squares if found else diagonalised(along_the_orbit(about, on))
-    signature = signs(squares)
-    definite = len(on.free) in signature
-    if (found and found.whole) or (definite and (regular or compact)):
-        verdict = "stable"
-    elif on.free and definite:
-        verdict = "stable on the leaf"
-    else:
-        verdict = "unstable" if grows(characteristic) else "open"
     return Equilibrium(
-        *(about, on, found, linear, characteristic, eigenvalues(linear), signature),
-        compact=compact,
-        verdict=verdict,
+        *(about, on, found, linear, characteristic, roots_of_squares(characteristic)),
+        *(eigenvalues(linear), signs(squares)),
+        regular=regular,
+        compact=not regular and has_compact_stabilisers(whole.system),
+        attained=attained(about, elements),
     )
 
 
@@ -124,41 +146,10 @@ def polynomial(a: Matrix) -> tuple[Number, ...]:
     return tuple(number_of(c, matrix.domain) for c in matrix.charpoly())
 
 
-def grows(characteristic: Sequence[Number]) -> bool:
-    """Has a polynomial q(λ²) a root with positive real part?  False for others."""
-    if any(c != 0 for c in characteristic[1::2]):
-        return False
-    chain = sturm([*characteristic[::2]])
-    several = len(chain[0]) - len(chain[-1])  # the distinct roots
-    at_zero = [p[-1] for p in chain]
-    far = [p[0] * (-1) ** (len(p) - 1) for p in chain]
-    negative = _changes(far) - _changes(at_zero)
-    return negative + (chain[0][-1] == 0) < several
-
-
-def sturm(p: list[Number]) -> list[list[Number]]:
-    """Sturm’s chain of a polynomial, each from the highest power; the last divides all."""
-    n = len(p) - 1
-    chain = [p, [c * (n - k) for k, c in enumerate(p[:-1])]]
-    while len(chain[-1]) > 1:
-        rest = [*chain[-2]]
-        divisor = chain[-1]
-        while len(rest) >= len(divisor):
-            factor = rest[0] / divisor[0]
-            padded = [*divisor, *[Fraction(0)] * (len(rest) - len(divisor))]
-            rest = [x - factor * y for x, y in zip(rest, padded, strict=True)][1:]
-        while rest and rest[0] == 0:
-            rest = rest[1:]
-        if not rest:
-            break
-        chain.append([-x for x in rest])
-    return [x for x in chain if x]
-
-
-def _changes(values: Sequence[Number]) -> int:
-    """How often the sign changes along some numbers, those that are 0 left out."""
-    signs = [x > 0 for x in values if x != 0]
-    return sum(x != y for x, y in pairwise(signs))
+def roots_of_squares(characteristic: Sequence[Number]) -> RealRoots:
+    """The roots λ² of q, for the characteristic polynomial q(λ²) of a Hamiltonian matrix."""
+    assert not any(characteristic[1::2])
+    return real_roots(characteristic[::2][::-1])
 
 
 def eigenvalues(a: Matrix) -> tuple[complex, ...]:

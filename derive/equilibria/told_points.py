@@ -9,11 +9,11 @@ from ..integrals.all_integrals import Found
 from ..integrals.told import rate
 from ..language.quadratic import Number, Quadratic, root
 from ..language.quadratic import tree as plain
-from ..language.show import show
 from ..language.tree import Tree, add, mul, neg
+from ..language.univariate import square_free
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
-from ..walk.chapter import Chapter
+from ..walk.chapter import Chapter, Draft
 from ..walk.wording import say
 from .enclosed_points import Enclosed, less
 from .energy_casimir import Form, Leaf
@@ -36,9 +36,11 @@ def told(
     made_from = [x for x in (reduced, kept, by_label[c.label("first_integrals")]) if x]
     told_steps: list[Step] = []
     for k, x in enumerate(found, 1):
-        told_steps.append(_rates(x, f"equilibrium_{k}", made_from[0], c, tried=tried and k == 1))
+        rates = _rates(x, f"equilibrium_{k}", made_from[0], c, tried=tried and k == 1)
+        told_steps.append(rates)
         if x.form:
-            told_steps.append(_form(whole, x, x.form, f"energy_casimir_{k}", made_from, c))
+            used = (*made_from, rates)
+            told_steps.append(_form(whole, x, x.form, f"energy_casimir_{k}", used, c))
     return tuple(told_steps)
 
 
@@ -56,8 +58,9 @@ def told_enclosed(whole: Found, x: Enclosed, steps: Sequence[Step], c: Chapter) 
     equations = [
         Equation(rate(v), expanded(e, away)) for v, e in zip(variables, x.about.rates, strict=True)
     ]
-    rates = draft.step(equations, say("equilibrium.near", point=_place(x.about, decimals=True)))
-    return rates, _enclosure(whole, x, made_from, c)
+    point = _point(x.about)
+    rates = draft.step(equations, draft.claim("equilibrium.near", point=point))
+    return rates, _enclosure(whole, x, (*made_from, rates), c)
 
 
 def _enclosure(whole: Found, x: Enclosed, made_from: Iterable[Step], c: Chapter) -> Step:
@@ -76,10 +79,10 @@ def _enclosure(whole: Found, x: Enclosed, made_from: Iterable[Step], c: Chapter)
     pairs = zip(x.multipliers, kept, strict=True)
     left = add("h̃", *(mul(plain(m), f) for m, f in pairs if m))
     equations.append(Equation(left, expanded(whole_energy, away)))
-    positive, negative = map(str, x.signature)
-    prose = say("enclosure.within", radius=_power_above(x.radius))
-    prose += say("enclosure.signs", positive=positive, negative=negative)
-    prose += say(f"enclosure.{x.verdict}")
+    positive, negative = x.signature
+    prose = draft.claim("enclosure.within", radius=scientific(x.radius))
+    prose += draft.claim("enclosure.signs", positive=positive, negative=negative)
+    prose += draft.claim(f"enclosure.{x.verdict}")
     if x.verdict != "stable":
         prose += say("enclosure.eigenvalues", eigenvalues=_about(x.eigenvalues))
     return draft.step(equations, prose)
@@ -101,12 +104,12 @@ def combined(energy: Expansion, kept: Sequence[Expansion], by: Sequence[Fraction
     return Expansion(value, slope, second, {m: c for m, c in higher.items() if c != 0})
 
 
-def _power_above(x: Fraction) -> str:
-    """A power of ten that is larger than a number below 1, as text."""
+def scientific(x: Fraction) -> Tree:
+    """A number of one digit, at most 1, as that digit times a power of ten."""
     k = 0
-    while Fraction(1, 10 ** (k + 1)) >= x:
-        k += 1
-    return f"1e-{k}"
+    while x < 1:
+        x, k = 10 * x, k + 1
+    return mul(plain(x), ("pow", 10, -k))
 
 
 def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool) -> Step:
@@ -117,25 +120,24 @@ def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool
     equations = [
         Equation(rate(v), expanded(e, away)) for v, e in zip(variables, x.about.rates, strict=True)
     ]
-    prose = say("equilibrium.at", point=_place(x.about))
-    prose = (say("equilibrium.tried") if tried else ()) + prose
+    prose = say("equilibrium.tried") if tried else ()
+    if any(x.about.at):
+        prose += draft.claim("equilibrium.at", point=_point(x.about))
+    else:
+        prose += draft.claim("equilibrium.origin")
     if x.form:
         return draft.step(equations, prose)
-    positive, negative = map(str, x.signature)
-    prose += say("equilibrium.none")
+    prose += draft.claim("equilibrium.none")
     if x.leaf.free:
-        prose += say("equilibrium.orbit", positive=positive, negative=negative)
-    return draft.step(equations, prose + _verdict(x))
+        positive, negative = x.signature
+        prose += draft.claim("equilibrium.orbit", positive=positive, negative=negative)
+    return draft.step(equations, prose + _verdict(draft, x))
 
 
-def _place(about: About, *, decimals: bool = False) -> str:
-    """The coordinates of a point that are not 0, as text."""
+def _point(about: About) -> Tree:
+    """The coordinates of a point that are not 0, each with its variable."""
     pairs = zip(about.system.variables, about.at, strict=True)
-    return ", ".join(
-        f"{show(v)} ≈ {float(x):.6g}" if decimals else f"{show(v)} = {show(plain(x))}"
-        for v, x in pairs
-        if x
-    )
+    return ("matrix", *(("row", v, plain(x)) for v, x in pairs if x))
 
 
 def distances(about: About) -> list[Tree]:
@@ -195,9 +197,9 @@ def _form(
         *higher(form.expansion, away),
     ]
     positive, negative = form.signature
-    prose = say("equilibrium.form", positive=str(positive), negative=str(negative))
+    prose = draft.claim("equilibrium.form", positive=positive, negative=negative)
     equation = Equation(left, add(*(t for t in right if t != 0)))
-    return draft.step([equation], prose + _verdict(x))
+    return draft.step([equation], prose + _verdict(draft, x))
 
 
 def _beside(on: Leaf, form: Form, away: Sequence[Tree]) -> list[Tree]:
@@ -214,23 +216,17 @@ def _product(n: Sequence[Number], m: Sequence[Number], away: Sequence[Tree]) -> 
     return mul(linear(n, away), linear(m, away))
 
 
-def _verdict(x: Equilibrium) -> Prose:
+def _verdict(draft: Draft, x: Equilibrium) -> Prose:
     """What is proved of its stability."""
-    if x.verdict == "stable":
-        beyond = x.form is not None and x.form.whole
-        compact = "equilibrium.stable_compact" if x.compact else "equilibrium.stable"
-        return say("equilibrium.stable_beyond" if beyond else compact)
-    if x.verdict == "stable on the leaf":
-        return say("equilibrium.on_the_leaf")
-    if not x.leaf.free:
-        return say("equilibrium.point")
-    prose = say("equilibrium.indefinite")
-    words = ", ".join(show(plain(c)) for c in x.characteristic)
-    prose += say(f"equilibrium.{x.verdict}", coefficients=words)
-    if x.eigenvalues:
-        prose += say("equilibrium.eigenvalues", eigenvalues=_about(x.eigenvalues))
+    kind, say_so = x.sentence, draft.claim
+    if kind not in ("unstable", "open"):
+        return say_so(f"equilibrium.{kind}")
+    coefficients = ("row", *map(plain, x.characteristic))
+    prose = say_so("equilibrium.indefinite")
+    prose += say_so(f"equilibrium.{kind}", coefficients=coefficients)
+    prose += say_so("equilibrium.eigenvalues", eigenvalues=nearly(x.characteristic))
     squares = exact_squares(x.characteristic)
-    return prose + (say("equilibrium.squares", squares=", ".join(squares)) if squares else ())
+    return prose + (say_so("equilibrium.squares", squares=("row", *squares)) if squares else ())
 
 
 def _about(values: Iterable[complex]) -> str:
@@ -244,20 +240,42 @@ def _about(values: Iterable[complex]) -> str:
     return ", ".join(text(*x) for x in sorted(pairs, reverse=True))
 
 
-def exact_squares(characteristic: Sequence[Number]) -> list[str]:
-    """The squares of the eigenvalues as text, where these are of q(λ²), q of degree at most 2 but
-    for powers of λ², and exact by square roots; else nothing."""
+def nearly(characteristic: Sequence[Number]) -> Tree:
+    """The eigenvalues as decimals that differ, each once but for its opposite and conjugate: roots
+    of q(λ²), q without multiple roots."""
+    import numpy as np
+
+    found = np.sqrt(np.roots([*map(float, square_free(tuple(characteristic[::-2]))[::-1])]) + 0j)
+    pairs = [
+        [0.0 if abs(y) < NOTHING * abs(x) else abs(y) for y in (x.real, x.imag)] for x in found
+    ]
+
+    def rounded(digits: int) -> set[tuple[Fraction, ...]]:
+        return {tuple(Fraction(f"{y:.{digits}g}") for y in pair) for pair in pairs}
+
+    several = len(rounded(10))
+    rows = next(x for x in map(rounded, range(4, 11)) if len(x) == several)
+    return ("matrix", *(("row", *map(plain, row)) for row in sorted(rows, reverse=True)))
+
+
+NOTHING = 1e-9
+"""A part of a root that is so much smaller than the root is 0."""
+
+
+def exact_squares(characteristic: Sequence[Number]) -> list[Tree]:
+    """The squares of the eigenvalues, where these are of q(λ²), q of degree at most 2 but for
+    powers of λ², and exact by square roots; else nothing."""
     q = [*characteristic[::2]]
-    zeros = []
+    zeros: list[Tree] = []
     while len(q) > 1 and q[-1] == 0:
-        q, zeros = q[:-1], ["0"]
+        q, zeros = q[:-1], [0]
     if len(q) == 2:
-        return [show(plain(-q[1])), *zeros]
+        return [plain(-q[1]), *zeros]
     if len(q) != 3 or any(isinstance(x, Quadratic) for x in q):
         return []
     b, c = Fraction(q[1]), Fraction(q[2])  # type: ignore[arg-type]
     disc = b * b / 4 - c
     if disc >= 0:
-        return [*dict.fromkeys(show(plain(s * root(disc) - b / 2)) for s in (1, -1)), *zeros]
-    part = show(mul(plain(root(-disc)), "i"))
-    return [f"{show(plain(-b / 2))} ± {part}" if b else f"±{part}", *zeros]
+        return [*dict.fromkeys(plain(s * root(disc) - b / 2) for s in (1, -1)), *zeros]
+    part = mul(plain(root(-disc)), "i")
+    return [add(plain(-b / 2), part), add(plain(-b / 2), neg(part)), *zeros]

@@ -8,7 +8,8 @@ from fractions import Fraction
 from math import lcm
 from typing import Any, TypeVar
 
-from .degree_search import Point, Search, UnluckyError, blocks, point
+from ..language.telling import tell
+from .degree_search import Point, Search, UnluckyError, blocks, point, unknowns
 from .independence import Integrability, fresh, integrability
 from .level import Level
 from .lie_poisson import LiePoisson
@@ -16,6 +17,8 @@ from .parameter_cases import Case, Cases
 from .weights import Grading, grading
 
 ATTEMPTS = 6
+LONG = 500
+"""More unknowns take seconds: that they are solved for is told before."""
 
 T = TypeVar("T")
 
@@ -117,6 +120,10 @@ def _all(search: Search, degree: int, known: Sequence[Any]) -> list[Any]:
     found: list[Any] = []
     there = [search.algebra.energy if type(f) is dict else over(f) for f in known]
     for v in degrees(search.grading, degree):
+        if (count := unknowns(search.grading, v)) > LONG:
+            what = "Casimirs" if len(search.derivations) > 1 else "integrals"
+            where = " on a level" if search.level else ""
+            tell(f"{what} of degree {v} are sought{where}: {count} unknowns in one linear system")
         new = search.of_degree(v, there)
         found += new
         there += map(over, new)

@@ -9,6 +9,7 @@ one, nothing is missed.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -96,6 +97,16 @@ def monomials(grading: Grading, degree: Fraction) -> list[Exponents]:
             f"degree {degree}: a linear system of {several} unknowns; at most {MONOMIALS}"
         )
     return [e for e in _monomials(grading.degree, degree, grading.homogeneous) if any(e)]
+
+
+def unknowns(grading: Grading, degree: Fraction) -> int:
+    """The most unknowns of one linear system of a degree; of more monomials than are listed, how
+    many these are."""
+    count = how_many(grading.degree, degree, exactly=grading.homogeneous)
+    if count > MONOMIALS:
+        return count
+    sizes = Counter(map(grading.block, monomials(grading, degree)))
+    return max(sizes.values(), default=0)
 
 
 def how_many(weights: Sequence[Fraction], degree: Fraction, *, exactly: bool) -> int:

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from fractions import Fraction
 from typing import Any
 
 from ..language.refused import Refused
+from ..language.telling import tell
 from ..language.tree import Tree, nodes
 from ..problem.problem import Problem
 from .all_integrals import Found, casimirs, found
-from .degree_search import TooLargeError
+from .degree_search import TooLargeError, unknowns
+from .lie_poisson import LiePoisson
 from .reduced import NotReducedError, reduced, without_energy
+from .weights import grading
 
-DEGREE = 4
-"""Up to which integrals are looked for."""
+DEGREE, UNKNOWNS = 4, 800
+"""Up to which degree integrals are looked for, and in how many unknowns at once: more would keep
+code waiting for minutes."""
 
 
 def first_integrals(problem: Problem, *, beside_symmetries: bool = False) -> dict[str, Tree]:
@@ -24,7 +29,8 @@ def first_integrals(problem: Problem, *, beside_symmetries: bool = False) -> dic
     Casimirs; none where the reduced equations are not such as can be searched.
     """
     try:
-        whole = found(reduced(problem), DEGREE)
+        system = reduced(problem)
+        whole = found(system, _sought(system, problem.name))
     except (NotReducedError, TooLargeError) as error:
         return {} if beside_symmetries else _whatever_the_energy(problem, error)
     algebra = whole.system.algebra
@@ -45,12 +51,25 @@ def _whatever_the_energy(problem: Problem, error: Refused) -> dict[str, Tree]:
     kept: dict[str, Tree] = {} if timed else {"energy": "h̃"}
     try:
         system = without_energy(problem)
-        kept |= _numbered("casimir", map(system.algebra.tree, casimirs(system, DEGREE)))
+        degree = _sought(system, problem.name)
+        kept |= _numbered("casimir", map(system.algebra.tree, casimirs(system, degree)))
     except (NotReducedError, TooLargeError):
         pass  # too many variables
     if kept:
         return kept
     raise NotReducedError(f"{error}, and no Casimir of degree 4 or less: leave out --conserved")
+
+
+def _sought(system: LiePoisson, name: str) -> int:
+    """The degree up to which there are no more unknowns than may be; that it is lower is told."""
+    by, degree = grading(system), DEGREE
+    while degree > 1 and (count := unknowns(by, Fraction(degree))) > UNKNOWNS:
+        degree -= 1
+        tell(
+            f"{name}: integrals of degree {degree + 1} are not sought, {count} unknowns in one "
+            "linear system; derive integrals seeks them"
+        )
+    return degree
 
 
 def _numbered(base: str, trees: Iterable[Tree]) -> dict[str, Tree]:

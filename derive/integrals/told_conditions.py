@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..language.show import show
+from ..language.show import in_sentence
 from ..language.tree import Tree, add, mul, neg
 from ..record.claims import text
 from ..record.record import Equation, Step
@@ -73,7 +73,7 @@ def solved_letter(algebra: Algebra, j: int, value: Any) -> tuple[Tree, Tree]:
 
 def case_tree(algebra: Algebra, case: Case) -> Tree:
     """The equations of a case: letters, each with its value."""
-    return ("row", *(("row", *solved_letter(algebra, j, value)) for j, value in case.solved))
+    return ("matrix", *(("row", *solved_letter(algebra, j, value)) for j, value in case.solved))
 
 
 def all_conditions(whole: Found, found: Conditions, draft: Draft) -> Prose:
@@ -95,4 +95,4 @@ def all_conditions(whole: Found, found: Conditions, draft: Draft) -> Prose:
 
 
 def _polynomial(algebra: Algebra, f: Any) -> str:
-    return show(algebra.number_tree(algebra.field(f)))
+    return in_sentence(algebra.number_tree(algebra.field(f)))

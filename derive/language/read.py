@@ -58,7 +58,7 @@ TOKEN = (
     r"|(?P<number>\d+(?:/[1-9]\d*)?|[½⅓¼⅔])"
     r"|(?P<mark>dm(?![A-Za-z])|\S)"
 )
-BEGIN = frozenset({"quoted", "word", "name", "number", "parameter", "opening", *"(⟨‖[/"})
+BEGIN = frozenset({"quoted", "word", "name", "number", "parameter", "opening", *"(⟨‖[/·"})
 MACRON = "\u0304"
 DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789ije0123456789-")
 SMALL = {text: q for q, text in FRACTIONS.items()}
@@ -136,6 +136,7 @@ class _Reader:
             if self.met("/"):
                 factors = [("div", _of_factors(factors), self.factor())]
             else:
+                self.met("·")
                 factors.append(self.factor())
         return _of_factors(factors)
 

@@ -79,13 +79,19 @@ def unclear(letters: Container[str], parameters: Collection[str], symbolic: bool
     )
 
 
-def in_quotes(t: Tree, names: Container[str]) -> Tree:
-    """The tree with the parameters of these names in quotes: so text has those like its letters."""
+def in_quotes(t: Tree, names: Container[str] | None = None) -> Tree:
+    """The tree with its parameters, or those of these names, in quotes: so text has those like its
+    letters, and sentences have all, which views then tell from other words."""
     if not isinstance(t, tuple):
         return t
     if t[0] == "par":
-        return ("par", f"‘{show_name(t[1])}’") if t[1] in names else t
+        return ("par", f"‘{show_name(t[1])}’") if names is None or t[1] in names else t
     return (t[0], *(in_quotes(x, names) for x in t[1:]))
+
+
+def in_sentence(t: Tree) -> str:
+    """The text of a tree in a sentence, its parameters in quotes."""
+    return show(in_quotes(t))
 
 
 def _indices(indices: tuple[object, ...]) -> str:
@@ -139,7 +145,14 @@ def has_norm(t: Tree) -> bool:
 
 def _letter(text: str) -> bool:
     """Is a text one mathematical letter with its marks, so that a product needs no space?"""
-    return re.fullmatch(r"[^\W\d_][\u0300-\u036f]*′?(⁻¹|²)?", text) is not None
+    return re.fullmatch(r"(?:[^\W\d_][\u0300-\u036f]*′?|‘[^\W\d_]’)(⁻¹|²)?", text) is not None
+
+
+def _spelt_out(t: Tree) -> bool:
+    """Is it a parameter of several letters, or a power of one: mgl would be read as m g l?"""
+    if isinstance(t, tuple) and t[0] in ("pow", "inv"):
+        return _spelt_out(t[1])
+    return isinstance(t, tuple) and t[0] == "par" and len(INDEX.sub("", t[1].strip("‘’"))) > 1
 
 
 def bar(text: str) -> str:
@@ -157,7 +170,9 @@ def _product(factors: tuple[Tree, ...]) -> str:
         shown, level = _show(f)
         inside = k < len(factors) - 1 and level == PRODUCT and (text or _spreads(f))
         piece = f"({shown})" if level == SUM or inside or (text and _spread(f)) else shown
-        text += _separator(text, last, piece) + piece
+        beside = factors[max(k - 1, 0) : k + 1]
+        apart = k and not isinstance(beside[0], (int, Fraction)) and any(map(_spelt_out, beside))
+        text += ("·" if apart else _separator(text, last, piece)) + piece
         last = piece
     return text
 
@@ -261,7 +276,8 @@ def _atomic(op: object, a: tuple[Tree, ...]) -> str:
     if op == "one":
         return "1"
     if op == "pow":
-        return _base(a[0]) + str(a[1]).translate(str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"))
+        base = f"({show(a[0])})" if _spelt_out(a[0]) else _base(a[0])
+        return base + str(a[1]).translate(str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"))
     if op == "inner":
         return f"⟨{show(a[0])}, {show(a[1])}⟩"
     if op == "metric":

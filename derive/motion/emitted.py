@@ -83,7 +83,7 @@ class Emitted(EmittedCode):
     def python(self) -> ModuleType:
         """The emitted module of Python."""
         module = ModuleType(self.name)
-        (text,) = emit(self.program, self.record, ("python",), self.name, self.options).values()
+        (text,) = emit(self.program, self.record, ("python",), self.prefix, self.options).values()
         exec(compile(text, f"{self.name}.py", "exec"), module.__dict__)  # our own templates
         return module
 
@@ -91,7 +91,7 @@ class Emitted(EmittedCode):
     def compiled(self) -> CDLL:
         """The emitted C as a library, whose iterations end at rounding, as those of the Python;
         ``CompileError`` where there is no compiler."""
-        name = self.name
+        name = self.prefix
         files = emit(self.program, self.record, ("c",), name, self.options)
         files["steps.c"] = binding(name, (self.step,), FIXED, events=bool(self.events))
         to_rounding = f"-D{name}_ENOUGH=0"
@@ -101,7 +101,7 @@ class Emitted(EmittedCode):
     def compiled_ensemble(self) -> CDLL:
         """The emitted C of many motions at once, over all cores where the compiler can; as
         ``compiled``.  Eight in lanes at a time or, to end at events, each by the step."""
-        name, step = self.name, self.step
+        name, step = self.prefix, self.step
         options = Options(ensemble=True, step=(step,) * bool(self.events))
         files = emit(self.program, self.record, ("c",), name, options)
         if self.events:
@@ -147,14 +147,15 @@ class Emitted(EmittedCode):
         return self.left.along(run, numbers)
 
     def vanishing(self, k: Array) -> list[str]:
-        """What the motion keeps that is 0 in every state for these constants, by name, as what
-        gravity gives where there is none: 0 in a state without any symmetry."""
+        """What the motion keeps that is 0 or no number in every state for these constants, by name,
+        as what gravity gives where there is none: in a state without any symmetry."""
         if not self.kept:
             return []
         x = np.cos(1.0 + np.arange(len(self.program.state)))
         with np.errstate(all="ignore"):
             found = self.python.conserved(1.0, x, k)[self.kept]
-        return [self.program.conserved[j] for j, v in zip(self.kept, found, strict=True) if v == 0]
+        pairs = zip(self.kept, found, strict=True)
+        return [self.program.conserved[j] for j, v in pairs if v == 0 or np.isnan(v)]
 
     def table(self, t: Array, x: Array, k: Array, u: Array) -> Array:
         """The rows of a run at some times and states, (instants, columns)."""

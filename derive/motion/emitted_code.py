@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..code.naming import own_prefix
 from ..code.program import Program
 from ..problem.problem import Problem
 from ..record.record import Derivation
-from .kept_words import in_order
+from .kept_words import in_order, parts
 
 KINDS = ("time", "state", "energy", "conserved", "defect", "multiplier")
 """What a column can be, in the order of a table."""
+
+UNITS = {"time": "s", "energy": "J", "multiplier": "J", "centre": "kg m"}
+UNITS |= dict.fromkeys(("momentum", "body_momentum"), "kg m/s")
+UNITS |= dict.fromkeys(("angular_momentum", "body_angular_momentum"), "kg m^2/s")
+"""Those of columns of a kind, and of the components of what is kept."""
 
 
 @dataclass(frozen=True)
@@ -37,8 +43,13 @@ class EmittedCode:
 
     @property
     def name(self) -> str:
-        """The prefix of the emitted functions."""
+        """That of the problem, for messages."""
         return self.program.name
+
+    @property
+    def prefix(self) -> str:
+        """That of the emitted functions."""
+        return own_prefix(self.name)
 
     @property
     def kept(self) -> list[int]:
@@ -60,7 +71,7 @@ class EmittedCode:
             return ""
         if kind == "state":
             return self._unit_of_state(name)
-        return {"time": "s", "energy": "J", "multiplier": "J"}.get(kind, "")
+        return UNITS.get(parts(name)[0] if kind == "conserved" else kind, "")
 
     def _unit_of_state(self, name: str) -> str:
         """That of a place, of a velocity, and of ζ on an element of the basis: of one that does no

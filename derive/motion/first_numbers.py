@@ -85,6 +85,8 @@ def _known(values: Collection[str], given: Mapping[str, float], where: str) -> N
     for name, number in given.items():
         if name not in values:
             near = did_you_mean(near_name(name, [*values]), after=" ")
+            if components := [x for x in values if x.startswith(f"{name}_")]:
+                near = f"give its components {_listed(components)}; "
             if name == "exp":
                 near = "a tilt is set by --exp, varied by a parameter that [initial] exp uses; "
             if (other := turned(name)) in values:

@@ -198,7 +198,8 @@ def simulate(
         "body": code.body(begin.p),
         "potential": code.potential(table, begin.parameters),
     }
-    return Run(columns, table, facts)
+    there = [k for k, y in enumerate(table.T) if not np.isnan(y).all()]  # along 0 there is none
+    return Run(tuple(columns[k] for k in there), table[:, there], facts)
 
 
 def behind(follow: Trajectory, t: Array, ended: str) -> tuple[float, Array] | None:

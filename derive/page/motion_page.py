@@ -141,7 +141,7 @@ def style() -> str:
 def script(code: EmittedCode, record: Derivation, body: Data) -> str:
     """The emitted module, what mounts a motion, and the call of it, in few characters."""
     (source,) = emit(
-        code.program, record, ("javascript",), code.name, Options(step=("gauss",))
+        code.program, record, ("javascript",), code.prefix, Options(step=("gauss",))
     ).values()
     own = code.program
     kept = [x for x in KEPT if x in own.functions]
@@ -174,6 +174,7 @@ def pieces(body: Data) -> dict[str, str]:
     names = {x["shape"] for x in solids if "shape" in x}
     names |= {"quadric" for x in solids if "quadric" in x}
     names |= {"of_moments" for part in body["parts"] if part["moments"]}
+    names |= {"of_inertia" for part in body["parts"] if "turning" in part}
     if body["springs"] or any(part["anchors"] for part in body["parts"]):
         names.add("spring")
     if body["stretches"]:
@@ -205,7 +206,7 @@ def data(
     unsaid |= set() if body["stretches"] else {"flat"}
     unsaid |= set() if made.inputs else {"inputs"}
     unsaid |= set() if entries else {"element", "turned"}
-    units = {x.name: x.unit for x in code.columns()}
+    units = {x.name: _unit(x.unit) for x in code.columns()}
     words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
     if body["turns"]:
         words["polhode"] = language.word(WORDS["ellipsoid" if is_free(record.problem) else "now"])
@@ -232,7 +233,9 @@ def data(
             **_labels([(x, meaning, unit) for x, _, unit, meaning in made.parameters], language),
             **_labels([(x, _meaning(x, record, language), units[x]) for x in made.state], language),
         },
-        "kept": {x: in_words(x, language.word) for x in made.conserved if x != "energy"},
+        "kept": {
+            x: (in_words(x, language.word), units[x]) for x in made.conserved if x != "energy"
+        },
         "units": {x: units.get(x, "") for x in ("t", "energy")},
         "words": words,
         "comma": language.name == "fr",
@@ -252,12 +255,17 @@ def _meaning(name: str, record: Derivation, language: Language) -> str:
     return told[0] if told and letter in VELOCITIES else ""
 
 
+def _unit(text: str) -> str:
+    """A unit as it is shown."""
+    return visible(text).replace("^2", "²").replace("^3", "³")
+
+
 def _labels(rows: Iterable[tuple[str, str, str]], language: Language) -> dict[str, tuple[str, str]]:
     """Name → meaning and unit; a meaning that is that of the name before is not said again."""
     found, before = {}, ""
     for name, meaning, unit in rows:
         told = visible(language.word(meaning)) if meaning and meaning != before else ""
         if told or unit:
-            found[name] = told, visible(unit)
+            found[name] = told, _unit(unit)
         before = meaning
     return found

@@ -32,7 +32,7 @@ def moving_body(problem: Mapping[str, Any], group: Group | None, state: Sequence
     at = element(group, state)
     if not at:
         return none
-    parts = [_part(problem, k, at, group) for k in range(len(group.places))]
+    parts = [_part(problem, k, at, group, state) for k in range(len(group.places))]
     home = {i: k for k, part in enumerate(parts) for i, *_ in part["points"]}
     springs = [p["between"] for p in problem["potentials"] if "between" in p]
     turning = _turning(group, state, {place for _, _, place in at})
@@ -58,16 +58,23 @@ def _turning(group: Group, state: Sequence[str], at: set[int]) -> list[int]:
     """The places of the velocity that turns about e_1, e_2, e_3 of the first factor; none where
     these are not among the basis."""
     velocity = [k for k in range(len(state)) if k not in at]
-    if len(velocity) != len(group.basis) or group.places[0][1].n != 3:
+    if len(velocity) != len(group.basis):
         return []
-    o = group.places[0][0]
-    found = []
-    for i in range(3):
-        after, next_after = o + (i + 1) % 3, o + (i + 2) % 3
-        turn = {(next_after, after): 1, (after, next_after): -1}
-        own = [k for k, E in zip(velocity, group.basis, strict=True) if _entries(E) == turn]
-        found += own[:1]
-    return found if len(found) == 3 else []
+    found = _along(group, velocity, _turns(group.places[0][0]))
+    return found if -1 not in found else []
+
+
+def _turns(o: int) -> list[dict[tuple[int, int], int]]:
+    """The turns about e_1, e_2, e_3 of the factor whose entries begin at o."""
+    pairs = ((o + (i + 1) % 3, o + (i + 2) % 3) for i in range(3))
+    return [{(after, before): 1, (before, after): -1} for before, after in pairs]
+
+
+def _along(group: Group, places: Sequence[int], wanted: Sequence[Any]) -> list[int]:
+    """Of places of the coordinates in a basis those of the elements wanted; −1 where it has not
+    such an element."""
+    at = [_entries(E) for E in group.basis]
+    return [places[at.index(x)] if x in at else -1 for x in wanted]
 
 
 def _entries(E: Any) -> dict[tuple[int, int], Any]:
@@ -84,8 +91,16 @@ def _gravity(problem: Mapping[str, Any]) -> Data:
     return [["add", 0, 0, *x] for x in total]
 
 
-def _part(problem: Mapping[str, Any], k: int, at: Sequence[Sequence[int]], group: Group) -> Data:
-    """What factor k of the group moves; all of the body where it is no product of points."""
+def _part(
+    problem: Mapping[str, Any],
+    k: int,
+    at: Sequence[Sequence[int]],
+    group: Group,
+    state: Sequence[str],
+) -> Data:
+    """What factor k of the group moves; all of the body where it is no product of points. Of a
+    Lagrangian alone, the places of the velocities that turn it and move it along its axes, by
+    which the energy tells its inertia."""
     offset, factor = group.places[k]
     body, n = problem["body"], factor.n
     where = {(i - offset, j - offset): place for i, j, place in at}
@@ -105,8 +120,13 @@ def _part(problem: Mapping[str, Any], k: int, at: Sequence[Sequence[int]], group
     potentials = problem["potentials"]
     attractions = [p for p in potentials if p["kind"] == "attraction"]
     linear = [[E[offset + i][offset : offset + n] for i in range(n)] for E in group.basis]
+    named = {name: s for s, name in enumerate(state)}
+    velocity = [named.get(f"zeta_{a}", -1) for a in range(1, len(group.basis) + 1)]
+    turns, moves = _turns(offset), [{(offset + i, offset + n): 1} for i in range(3)]
+    inertia = {"turning": _along(group, velocity, turns), "sliding": _along(group, velocity, moves)}
     return {
         "n": n,
+        **(inertia if body["kind"] == "none" else {}),
         "map": [own[4 * i : 4 * i + 4] for i in range(3)],
         "fixed": not any((i, n) in where for i in range(n)),
         "deforms": any(A[i][j] + A[j][i] for A in linear for i in range(n) for j in range(n)),

@@ -49,7 +49,7 @@ def _of(own: Sequence[str], text: str, needed: Collection[str]) -> str:
 def shortened(source: str) -> str:
     """A script that does the same in fewer characters."""
     plain_tokens = [_literal(x) for x in tokens(source)]
-    return "".join(spaced(_in_one(renamed(_called_once(plain_tokens)))))
+    return "".join(spaced(_in_one(_bare(renamed(_called_once(plain_tokens))))))
 
 
 def _called_once(found: Sequence[str]) -> list[str]:
@@ -74,6 +74,17 @@ def _literal(token: str) -> str:
     if token in ("true", "false"):
         return "!0" if token == "true" else "!1"
     return re.sub(r"^0(?=\.)", "", token.removesuffix(".0")) if token[0].isdigit() else token
+
+
+def _bare(found: Sequence[str]) -> list[str]:
+    """The tokens without the parentheses about a parameter that is alone."""
+    alone = [
+        k
+        for k, x in enumerate(found)
+        if x == "(" and NAME.fullmatch(found[k + 1]) and [*found[k + 2 : k + 4]] == [")", "=>"]
+    ]
+    left_out = {*alone, *(k + 2 for k in alone)}
+    return [x for k, x in enumerate(found) if k not in left_out]
 
 
 def _in_one(found: Sequence[str]) -> list[str]:

@@ -70,7 +70,7 @@ KINDS = {
                 lambda run: bool(run.of_kind("energy") or run.of_kind("conserved")),
             ),
         ),
-        _sized(6.5, 3.4),
+        time_series.size_of_energy,
     ),
     "axes": Kind(surfaces.axes, (ROTATION, ATTITUDE), _sized(4.2, 4.4)),
     "polhode": Kind(
@@ -142,12 +142,17 @@ ENSEMBLE_KINDS = {
 
 
 def plot(
-    run: Run | Ensemble, name: str, kind: str = "", word: Any = str, columns: Sequence[str] = ()
+    run: Run | Ensemble,
+    name: str,
+    kind: str = "",
+    word: Any = str,
+    columns: Sequence[str] = (),
+    mark: str = ".",
 ) -> bytes:
     """The bytes of a picture of a run or of an ensemble, in the format of the ending of ``name``;
     ``kind`` of KINDS or ENSEMBLE_KINDS, or OVERVIEW, else what suits it; ``word``: English → the
-    language of the labels; ``columns``: of the state of an ensemble, those that are drawn.
-    ``PlotError``."""
+    language of the labels; ``columns``: of the state of an ensemble, those that are drawn;
+    ``mark``: of decimals.  ``PlotError``."""
     ending(name)
     kinds, what = KINDS, "run"
     more: tuple[Sequence[str], ...] = ()
@@ -159,11 +164,11 @@ def plot(
         raise PlotError("the run has no instant: nothing to draw")
     chosen = _chosen(kinds, run, kind, what)
     with look():
-        return written(_sheet_of(kinds, chosen, run, word, more), name)
+        return written(_sheet_of(kinds, chosen, run, word, more), name, mark)
 
 
 def plot_energies(
-    listed: Sequence[tuple[str, Run | Ensemble]], name: str, word: Any = str
+    listed: Sequence[tuple[str, Run | Ensemble]], name: str, word: Any = str, mark: str = "."
 ) -> bytes:
     """The bytes of a picture of the errors of the energy of several runs, each with what it is
     called, as :func:`plot`."""
@@ -178,7 +183,7 @@ def plot_energies(
     with look():
         figure = sheet(6.5, 3.4)
         time_series.energies(figure, runs, word)
-        return written(figure, name)
+        return written(figure, name, mark)
 
 
 def _chosen(kinds: Mapping[str, Kind], run: Any, kind: str, what: str) -> list[str]:

@@ -67,12 +67,37 @@ def look() -> Any:
     return matplotlib.rc_context(plain | LOOK)
 
 
-def written(figure: Any, name: str) -> bytes:
-    """The bytes of a picture, in the format of the ending of ``name``."""
+def written(figure: Any, name: str, mark: str = ".") -> bytes:
+    """The bytes of a picture, in the format of the ending of ``name``, with a decimal mark."""
     form, file = ending(name), io.BytesIO()
+    if mark != ".":
+        with_mark(figure, mark)
     settled(figure)
     figure.savefig(file, format=form[1:], **FORMATS[form])
     return file.getvalue()
+
+
+DECIMAL = re.compile(r"(?<![\w./])([0-9]+)\.([0-9]+)(?=(?:e[+-]?[0-9]+)?(?![\w.]))")
+"""A decimal number, alone: none in the name of a file."""
+
+
+def with_mark(figure: Any, mark: str) -> None:
+    """Write the numbers of a figure with another decimal mark: in its texts, and at its ticks."""
+    from matplotlib.text import Text
+
+    def text(shown: str) -> str:
+        parts = shown.split("$")  # a comma between dollars is followed by a space
+        parts[::2] = (DECIMAL.sub(rf"\1{mark}\2", x) for x in parts[::2])
+        parts[1::2] = (DECIMAL.sub(rf"\1{{{mark}}}\2", x) for x in parts[1::2])
+        return "$".join(parts)
+
+    for panel in figure.get_axes():
+        for axis in (panel.xaxis, panel.yaxis):
+            for own in (axis.get_major_formatter(), axis.get_minor_formatter()):
+                own.format_ticks = lambda x, told=own.format_ticks: [*map(text, told(x))]
+                own.get_offset = lambda told=own.get_offset: text(told())
+    for x in figure.findobj(Text):
+        x.set_text(text(x.get_text()))
 
 
 def settled(figure: Any) -> None:

@@ -27,7 +27,7 @@ COLUMNS = ("method", "work", "error")
 MARKS = "osD^vPX"
 
 
-def plot_precision(paths: Sequence[Path], name: str, word: Any = str) -> bytes:
+def plot_precision(paths: Sequence[Path], name: str, word: Any = str, mark: str = ".") -> bytes:
     """The bytes of the diagram of runs, or of one table; the ending of ``name`` is the format."""
     ending(name)
     if len(paths) == 1:
@@ -37,7 +37,7 @@ def plot_precision(paths: Sequence[Path], name: str, word: Any = str) -> bytes:
     with look():
         figure = sheet(5.0, 3.6)
         draw(figure, series, work, word)
-        return written(figure, name)
+        return written(figure, name, mark)
 
 
 def draw(figure: Any, series: Series, work: str, word: Any) -> None:

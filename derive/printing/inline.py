@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Mapping
 
 from ..record.vocabulary import VOCABULARY
+from .letters import NAMES, quoted
 from .notation import Notation
-from .signs import LOWERED, MATH_ACCENTS, NAMED, RAISED, SYMBOLS
+from .signs import LOWERED, MATH_ACCENTS, RAISED, SYMBOLS, decomposed
 from .spelling import named
 from .typeset import (
     IDENTITY,
@@ -22,7 +24,7 @@ from .typeset import (
     operator,
     primed,
     raised,
-    sans,
+    root,
     upright,
 )
 
@@ -35,8 +37,9 @@ INDICES = "".join(c for c in SYMBOLS if c.isalpha() and c.islower())
 TOKEN = re.compile(
     "("
     + "|".join(re.escape(name) for name in sorted(KNOWN, key=len, reverse=True) if len(name) > 1)
-    + rf")(?![\u0300-\u036f])|_([A-Za-z0-9]+|[{INDICES}]′*)"
-    r"|([⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]+)|([₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ]+)"
+    + r")(?![\u0300-\u036f])|‘([^’]*)’|√\(([^()]*)\)|([0-9]+(?:[.,][0-9]+)?)"
+    rf"|_([A-Za-z0-9]+|[{INDICES}]′*)"
+    r"|([⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]+|\^(?:∞|\([^()]*\)))|([₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ]+)"
     r"|([A-Za-z]{2,})(?![\u0300-\u036f])|(.)([\u0300-\u036f]*)"
 )
 
@@ -55,34 +58,36 @@ SKEW = re.compile(r"(?<![A-Za-z_])j\(([^()]*)\)")
 """The skew matrix of a vector, j(…), as a sentence has it."""
 
 
-def math_text(formula: str) -> str:
-    """The LaTeX, without dollars, of a formula of a sentence."""
-    return spelt(formula).tex
-
-
-def inline(formula: str, notation: Notation) -> Formula:
-    """A formula of a sentence, in a notation, with j(X) as the skew matrix of X."""
+def inline(formula: str, notation: Notation, names: Mapping[str, str] = NAMES) -> Formula:
+    """A formula of a sentence, in a notation, with j(X) as the skew matrix of X; ``names``: as in
+    spelt."""
     found, at = Formula(""), 0
     for match in SKEW.finditer(formula):
-        found += spelt(formula[at : match.start()], notation)
-        found += hat(spelt(match[1], notation), notation)
+        found += spelt(formula[at : match.start()], notation, names)
+        found += hat(spelt(match[1], notation, names), notation)
         at = match.end()
-    return found + spelt(formula[at:], notation)
+    return found + spelt(formula[at:], notation, names)
 
 
-def spelt(formula: str, notation: Notation = BARS) -> Formula:
-    """A formula of a sentence, j as any letter; letters in ‘quotes’ are those of parameters."""
-    if quoted := re.fullmatch("‘([^’]*)’", formula):
-        return sans(quoted[1].replace(" ", "\\ "), quoted[1])
+def spelt(formula: str, notation: Notation = BARS, names: Mapping[str, str] = NAMES) -> Formula:
+    """A formula of a sentence, j as any letter; what stands in ‘quotes’ is a parameter, whose own
+    LaTeX is in ``names``."""
     found = Formula("")
     tight = re.sub(rf"(^|[{SCRIPTS}\s])[\u0300-\u036f]+", r"\1", formula)
     tight = re.sub(rf"\s+(?=[{SCRIPTS}])", "", tight)
     for match in TOKEN.finditer(unicodedata.normalize("NFC", tight)):
-        known, below, above, under, letters, letter, marks = match.groups()
-        if below or under:
+        known, own, under_root, number, below, above, under, letters, letter, marks = match.groups()
+        if own:
+            found += quoted(own, names)
+        elif under_root:
+            found += root(spelt(under_root, notation, names))
+        elif number:
+            found += Formula(number.replace(",", "{,}"), (f"<mn>{number}</mn>",))
+        elif below or under:
             found = lowered(_open(found, "_"), _index(below or "".join(LOWERED[c] for c in under)))
         elif above:
-            found = raised(_open(found, "^"), literal("".join(RAISED[c] for c in above)))
+            exponent = "".join(RAISED.get(c, c) for c in above.strip("^()"))
+            found = raised(_open(found, "^"), spelt(exponent, notation, names))
         elif letter == "′":
             found = primed(_open(found, "'"))
         else:
@@ -116,23 +121,19 @@ def _open(f: Formula, mark: str) -> Formula:
 
 
 def _word(letters: str, after: str) -> Formula:
-    """The formula of several letters: a Greek name, a differential as dx, or an operator as Tr."""
-    if letters in NAMED:
-        return literal(rf"\{letters}")
+    """The formula of several letters: a differential as dx, or an operator as Tr."""
     if len(letters) == 2 and letters != "Tr":
         return upright("d") + literal(letters[1]) if letters[0] == "d" else literal(letters)
     return operator(letters, near=after in ("", "(", "_", *RAISED, *LOWERED))
 
 
 def _letter(letter: str, marks: str, rest: str, notation: Notation) -> Formula:
-    """The formula of a character with its accents; R before an exponent is that of the reals."""
-    base, *own = list(unicodedata.normalize("NFD", letter))
+    """The formula of a character with its accents; d before a letter is upright."""
+    base, *own = [*decomposed(letter)]
     if unicodedata.combining(base):
         return Formula("")
     shown = symbol(base)
-    if letter == "R" and rest[:1] in RAISED:
-        shown = Formula(r"\mathbf{R}", ('<mn class="bold">R</mn>',))
-    if letter == "d" and rest[:1] in SYMBOLS and rest[0].isalpha():
+    if letter == "d" and rest[:1].isalpha():
         shown = upright("d")
     for mark in [*own, *marks]:
         if mark in MATH_ACCENTS and base.isalpha():
@@ -150,7 +151,7 @@ def symbol(c: str) -> Formula:
         return SUM_SIGN
     if c == "𝟏":
         return IDENTITY
-    if tex.startswith((r"\mathfrak", r"\mathbb", r"\mathbf ")):
+    if tex.startswith((r"\mathfrak", r"\mathbb", r"\mathcal", r"\mathbf ")):
         return Formula(tex, (f"<mi>{c}</mi>",))
     if tex.startswith(r"\tfrac"):
         return fraction(literal(tex[-2]), literal(tex[-1]), tex)

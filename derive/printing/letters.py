@@ -21,6 +21,16 @@ HARMLESS = re.compile(
 )
 
 
+SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
+
+
+def quoted(shown: str, names: Mapping[str, str]) -> Formula:
+    """The formula of a parameter as text shows it between quotes: x₁ is x_1; of words, the
+    words."""
+    name = re.sub("[₀-₉]+$", lambda index: "_" + index[0].translate(SUBSCRIPTS), shown)
+    return sans(shown.replace(" ", r"\ "), shown) if " " in shown else parameter(name, names)
+
+
 def names_of(symbols: Iterable[Symbol], parameters: Collection[str] = ()) -> dict[str, str]:
     """Name → LaTeX, for the names of a record: its own LaTeX where that is one harmless letter.
 

@@ -10,6 +10,9 @@ from typing import TypeVar
 COMMA, SUM, WEDGE, FACTOR = 0.0, 0.25, 0.5, 0.75
 """Depth added to a break by the operator it stands before: the less, the sooner."""
 
+WIDTH = 100
+"""The columns of a text, where nothing else is said."""
+
 MARK = re.compile("[\u0300-\u036f]")
 
 

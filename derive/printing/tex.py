@@ -14,12 +14,13 @@ from operator import add
 
 from ..language.show import ATOM, FIELD_OPERATORS, PRODUCT, SUM, has_norm, signed, swallows
 from ..language.tree import Tree
-from .escape import formula_ok, tex_text
+from .escape import tex_text
 from .inline import spelt
 from .juxtaposition import number, outside, separator
 from .letters import NAMES, parameter
 from .line_breaking import Piece, fill
 from .notation import Notation
+from .sentences import formula_ok
 from .spelling import named, transposed
 from .typeset import (
     AFTER_COMMA,

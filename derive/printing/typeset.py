@@ -24,7 +24,7 @@ BREAKS = {"\x01": COMMA, "\x02": TERM, "\x03": WEDGE, "\x04": FACTOR}
 AFTER_COMMA, BEFORE_TERM, BEFORE_WEDGE, BEFORE_FACTOR = BREAKS
 MARKS = "".join(BREAKS)
 UNMARKED = dict.fromkeys(map(ord, MARKS))
-OPERATORS = {SYMBOLS[c]: c for c in "∧×→∈≤≥≅≠∘⊤−"} | {c: c for c in "+=<>,/.:;|"}
+OPERATORS = {SYMBOLS[c]: c for c in "∧×→∈≤≥≅≠≈±∘⊤−√"} | {c: c for c in "+=<>,/.:;|"}
 OPERATORS |= {r"\cdot": "·", r"\int": "∫"}
 FENCES = {SYMBOLS[c]: c for c in "⟨⟩‖"} | {r"\lVert": "‖", r"\rVert": "‖"}
 FENCES |= {c: c for c in "()[]"}
@@ -108,7 +108,7 @@ def markup(items: Sequence[Item], *, before: str = "", follows: bool = False) ->
             continue
         if isinstance(x, Sign):
             form = "infix" if follows and not found else ""
-            form = "prefix" if not form and x.shown in "+−" and before in PREFIXED else form
+            form = "prefix" if not form and x.shown in "+−±" and before in PREFIXED else form
             found.append(f'<mo form="{form}">' if form else "<mo>")
             found[-1] += f"{escape(x.shown)}</mo>"
         else:

@@ -387,6 +387,10 @@ class FileReader(TableReader):
         rows = self.rows(slot.table[name], n, n, f"{where}, {name}")
         return second_moment(name, rows, slot.found["m"], slot.found["c"], where)
 
+    def central(self, slot: Slot) -> bool:
+        """That the moments are about the centre of mass."""
+        return self.has(slot)
+
     def positive(self, size: Tree, slot: Slot) -> Tree:
         """No number below 0; nor 0, where a length may not be."""
         value = approximate(size, {})

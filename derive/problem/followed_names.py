@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from ..algebra.groups import Group
 from ..language.expression import names
 from ..language.suffixed import suffixed
+from ..schema.table import hint
 from .problem import Problem
 from .state_names import entries, known_in_lagrangian, state_names
 
@@ -19,7 +20,8 @@ def faults(problem: Problem) -> Iterator[str]:
     known = numbers_followed(problem, problem.group)
     for name in problem.initial.numbers:
         if name not in known:
-            yield f"initial, {name[:40]}: the state has no such number; it has {entries(known)}"
+            told = f"the state has no such number{hint(name[:40], known)}; it has {entries(known)}"
+            yield f"initial, {name[:40]}: {told}"
     watched = {*known, *known_in_lagrangian(problem.group, problem.advected), *problem.parameters}
     watched |= of_other_forms(problem.group)
     for k, event in enumerate(problem.events, 1):
@@ -50,7 +52,7 @@ def of_points(group: Group) -> list[str]:
 def of_other_forms(group: Group) -> set[str]:
     """Those of the state in a form that can be emitted beside: dg/dt, a quaternion."""
     found = {f"{x}_dot" for x in state_names(group) if x[:2] in ("A_", "T_")}
-    return found | ({f"q_{k}" for k in range(4)} if group.turns_space else set())
+    return found | ({f"q_{k}" for k in range(4)} if group.rotates else set())
 
 
 def _inputs(problem: Problem, group: Group) -> Iterator[str]:

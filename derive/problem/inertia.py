@@ -26,8 +26,8 @@ from .solids import fault_of_quadric
 
 Vector = tuple[Any, ...]
 
-ROUNDED = 10**9
-"""One over the relative error allowed in the moments of solids."""
+ROUNDED, DIGITS = 10**9, 10**3
+"""One over the relative error that is allowed: of floats, and of moments in few digits."""
 LARGEST_SHOWN = 3
 """The rows of the largest matrix that a message writes out."""
 
@@ -213,28 +213,27 @@ def fault_of_quadrics(body: Body | None, values: Mapping[str, float], whose: str
     return next(filter(None, (fault_of_quadric(Q, values, whose) for Q in quadrics)), "")
 
 
-def impossible(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
-    """Are the moments those of no masses? J − m⁻¹cc̄ must not be negative.
-
-    Given ones are tried where all are numbers; those of solids by the defaults of the parameters.
-    """
-    if not isinstance(body, GivenBody):
-        return False
-    if body.solids:
-        found = [approximate(t, defaults(parameters)) for t in _trees(body)]
-        if any(x is None for x in found):
-            return False
-        m, *rest = (Fraction(x) for x in found if x is not None)
-        n = len(body.given.c)
-        J = [rest[n * k : n * k + n] for k in range(1, n + 1)]
-        allowance = sum((abs(J[k][k]) for k in range(n)), Fraction(0)) / ROUNDED
-        J = [[x + allowance * (i == j) for j, x in enumerate(row)] for i, row in enumerate(J)]
-        return _unlike_masses(m, rest[:n], J)
-    if not all(isinstance(x, (int, Fraction)) for x in _trees(body)):
-        return False
-    values = _Values({})
-    m, c = values.of(body.given.m), [values.of(x) for x in body.given.c]
-    return _unlike_masses(m, c, [[values.of(x) for x in row] for row in body.given.J])
+def impossible(group: Group, body: Body | None, parameters: Mapping[str, Parameter]) -> str:
+    """Why no masses have the moments, for the defaults of the parameters; "" where some have, or
+    where that is not known: J_c = J − m⁻¹cc̄ is not negative but for few digits, nor is any
+    kinetic energy ½ Tr Z J_c Z̄."""
+    if body is None or isinstance(body, PointBody):
+        return ""
+    trees = body.moments().trees()
+    found = [approximate(t, defaults(parameters)) for t in trees]
+    numbers = [Fraction(x) for x in found if x is not None]
+    if len(numbers) < len(trees):
+        return ""
+    n = len(body.moments().c)
+    m, c, J = numbers[0], numbers[1 : n + 1], [numbers[n * k + 1 :][:n] for k in range(1, n + 1)]
+    if m == 0:
+        why = "where the mass is 0, all are 0" * (any(c) or any(map(any, J)))
+    else:
+        span = range(n)
+        why = _negative(group, [[J[i][j] - c[i] * c[j] / m for j in span] for i in span])
+    drawn = isinstance(body, GivenBody) and n == 3 and m > 0 and not body.given.central
+    drawn = drawn and not _negative(group, J)
+    return f"no masses have these moments: {why}{f'; {CAD}' * drawn}" if why else ""
 
 
 CAD = (
@@ -243,30 +242,30 @@ CAD = (
 )
 
 
-def of_cad(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
-    """Are given moments, for the defaults, those of masses about the centre c alone?
-
-    The first moment is m · centre, and J is about the origin; a program for drawing gives the
-    centre itself, and the tensor of inertia about it.
-    """
-    if not isinstance(body, GivenBody) or body.solids or len(body.given.c) != 3:
-        return False
-    found = [approximate(t, defaults(parameters)) for t in _trees(body)]
-    if any(x is None for x in found):
-        return False
-    numbers = [Fraction(x) for x in found if x is not None]
-    n = len(body.given.c)
-    m, c, J = numbers[0], numbers[1 : n + 1], numbers[n + 1 :]
-    rows = [J[n * i : n * i + n] for i in range(n)]
-    moved = [[x + m * c[i] * c[j] for j, x in enumerate(row)] for i, row in enumerate(rows)]
-    return m > 0 and _unlike_masses(m, c, rows) and not _unlike_masses(m, [m * x for x in c], moved)
+def _negative(group: Group, J: list[list[Fraction]]) -> str:
+    """Where J, about the centre, is negative, in words; "" if it is not."""
+    trace = sum((J[k][k] for k in range(len(J))), Fraction(0))
+    basis, least = group.linear_basis, _least(J)
+    images = [q.times(z, tuple(map(tuple, J))) for z in basis]
+    kinetic = _least([[_inner(x, z) for z in basis] for x in images])
+    if least >= -trace / DIGITS and kinetic >= -trace / ROUNDED:
+        return ""
+    if len(J) != 3:
+        return f"J − c c̄/m must be positive, and has the eigenvalue {float(least):.4g}"
+    return (
+        "J − c c̄/m must be positive (about the centre no moment of inertia exceeds the sum of the "
+        f"two others: {float(trace - least):.6g} is above {float(trace + least):.6g})"
+    )
 
 
-def _unlike_masses(m: Fraction, c: list[Fraction], J: list[list[Fraction]]) -> bool:
-    """Is J − m⁻¹cc̄ negative in some direction?"""
-    if m == 0:
-        return any(c) or any(map(any, J))
-    central = [
-        [x - a * b / m for x, b in zip(row, c, strict=True)] for row, a in zip(J, c, strict=True)
-    ]
-    return not q.semidefinite(central)
+def _least(a: list[list[Fraction]]) -> Fraction:
+    """The least eigenvalue of a symmetric matrix where that is negative, else 0; by bisection."""
+    zero = Fraction(0)
+    low, high = zero, max((sum(map(abs, row), zero) for row in a), default=zero)
+    if q.semidefinite(a):
+        return zero
+    for _ in range(DIGITS.bit_length() * 3):
+        s = (low + high) / 2
+        shifted = [[x + s * (i == j) for j, x in enumerate(row)] for i, row in enumerate(a)]
+        low, high = (low, s) if q.semidefinite(shifted) else (s, high)
+    return -high

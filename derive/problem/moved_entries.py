@@ -6,11 +6,13 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from typing import Any, ClassVar
 
 from ..algebra.groups import Group
-from ..language.derivatives import derivative
-from ..language.tree import Tree, add, mul, nodes, plain
+from ..algebra.told_entries import constant_entries
+from ..language.derivatives import derivative, product, quotient
+from ..language.tree import Tree, add, fold, mul, nodes, plain
 
 Entry = tuple[Any, ...]
 """An entry of a letter, as a tree."""
@@ -55,25 +57,50 @@ class EntriesOfElement(Moved):
     def displaced(self, entry: Entry, a: int) -> Tree:
         """An entry of g E_a, or of E_a g."""
         *_, i, j = entry
-        g, e = self._element, rational(self.group.basis[a])
+        g, e = element(self.group), rational(self.group.basis[a])
         one, two = (g, e) if self.side == "left" else (e, g)
         return add(*(mul(x, row[j - 1]) for x, row in zip(one[i - 1], two, strict=True)))
 
-    @property
-    def _element(self) -> list[list[Tree]]:
-        span = range(self.group.n)
-        return [[entry_of(self.group, i, j) for j in span] for i in span]
+
+Rows = tuple[tuple[Tree, ...], ...]
+"""A matrix of expressions."""
 
 
-def entry_of(group: Group, i: int, j: int) -> Tree:
-    """An entry of g: a number in the last row of an affine factor, and between blocks."""
-    for offset, factor in group.places:
-        inside = range(offset, offset + factor.size)
-        if i in inside and j in inside and factor.affine and i == offset + factor.n:
-            return int(i == j)
-        if (i in inside) != (j in inside):
-            return 0
-    return ("entry", "A", i + 1, j + 1)
+@cache
+def element(group: Group) -> Rows:
+    """The entries of g: numbers where they are the same in all of the group."""
+    still, span = constant_entries(group), range(group.size)
+
+    def entry(i: int, j: int) -> Tree:
+        return plain(still[i, j]) if (i, j) in still else ("entry", "A", i + 1, j + 1)
+
+    return tuple(tuple(entry(i, j) for j in span) for i in span)
+
+
+def settled(t: Tree, group: Group) -> Tree:
+    """An expression with numbers for the entries of g that are the same in all of the group;
+    ``ZeroDivisionError`` where it divides by one that is 0."""
+    g = element(group)
+
+    @fold
+    def at(x: Tree, *parts: Tree) -> Tree:
+        match x:
+            case ("entry", "A", int(i), int(j)):
+                return g[i - 1][j - 1]
+            case ("add", *_):
+                return add(*parts)
+            case ("mul", *_):
+                return product(*parts)
+            case ("div", _, _):
+                return quotient(*parts)
+            case ("pow", _, int(n)):
+                return product(("pow", parts[0], n))
+            case ("fun", name, _):
+                return ("fun", name, parts[0])
+        return x
+
+    still = {("entry", "A", i + 1, j + 1) for i, j in constant_entries(group)}
+    return at(t) if still & {*nodes(t)} else t
 
 
 def rational(rows: Sequence[Sequence[Fraction]]) -> list[list[Tree]]:

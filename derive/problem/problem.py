@@ -69,6 +69,9 @@ class Problem:
     initial: Initial = field(default_factory=Initial)
     events: tuple[Event, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<problem {self.name}: {self.group_name}>"
+
     @property
     def group_name(self) -> str:
         """The name of the group, or that it is any."""

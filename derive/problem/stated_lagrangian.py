@@ -20,7 +20,7 @@ from ..language.tree import Tree, add, mul, neg, nodes, plain
 from ..schema.lagrangian_kinds import SECTIONS, Inertia, Lagrangian
 from .fields import used_at
 from .file_reader import FileReader
-from .moved_entries import EntriesOfElement
+from .moved_entries import EntriesOfElement, settled
 from .null_directions import Direction, along, held, hessian, null_directions, vanishes
 from .problem import ProblemError
 from .state_names import coordinates, no_entry, undeclared
@@ -50,6 +50,13 @@ def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lag
     found = of_inertia(table, group) if isinstance(table, Inertia) else table
     if not any(t in coordinates(group) for t in nodes(found.L)):
         raise ProblemError(f"{where}: no coordinate of the velocity, as zeta_1, so no motion")
+    if reader.advected is None:
+        try:
+            found = replace(found, L=settled(found.L, group))
+        except ZeroDivisionError:
+            raise ProblemError(
+                f"{where}: it divides by an entry of g that is 0 on {group.name}"
+            ) from None
     return _with_null_directions(found, group, reader, where)
 
 
@@ -76,6 +83,11 @@ def _with_null_directions(
     null = null_directions(hessian(found.L, zeta))
     if null is None:
         raise ProblemError(f"{where}: ∂²L/∂Z² is singular, in directions that are not constant")
+    if len(null) == len(zeta):
+        raise ProblemError(
+            f"{where}: L is of first order in the velocities, which the kernel of dϖ leaves free; "
+            "add a kinetic energy"
+        )
     for direction in null:
         name = as_text({k: x for k, x in enumerate(direction) if x})
         if not vanishes(along([derivative(found.L, x) for x in zeta], direction)):
@@ -106,4 +118,4 @@ def varied(found: Lagrangian, group: Group, direction: Direction) -> Tree:
         for k in span
         if x and table[b][a][k]
     ]
-    return add(turned, *terms)
+    return settled(add(turned, *terms), group)

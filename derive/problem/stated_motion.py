@@ -14,7 +14,7 @@ from typing import Any
 from ..language.expression import names
 from ..language.tree import Tree, nodes
 from ..schema.followed import Event
-from ..schema.table import nearest
+from ..schema.table import hint, nearest
 from .fields import tables
 from .file_reader import FileReader
 from .problem import Initial, Problem, ProblemError
@@ -62,7 +62,8 @@ def _initial(table: Any, reader: FileReader) -> Initial:
             raise ProblemError(f"{where}: a parameter has its default in [parameters]")
         if isinstance(value, list):
             first, second = (f"{name[:40]}_{k} = …" for k in (1, 2))
-            raise ProblemError(f"{where}: one number each, {first}, {second}; only exp is a list")
+            known = f"one number each, {first}, {second}; only exp is a list{hint(name, ())}"
+            raise ProblemError(f"{where}: {known}")
         found[reader.identifier(name, where)] = _number(value, where, reader)
     where, exp = "initial, exp", table.get("exp", [])
     if not isinstance(exp, list):
@@ -81,8 +82,8 @@ def _number(value: Any, where: str, reader: FileReader) -> Tree:
     found = reader.expression(value, where)
     for name in names(found):
         if name not in reader.parameters:
-            hint = nearest(name, reader.parameters)
-            raise ProblemError(f"{where}: {name[:40]!r} is not declared in [parameters]{hint}")
+            near = nearest(name, reader.parameters)
+            raise ProblemError(f"{where}: {name[:40]!r} is not declared in [parameters]{near}")
     return found
 
 

@@ -245,19 +245,16 @@ def _massive(problem: Problem, negative_mass: bool) -> None:
         )
     if moved and own and moved.free_translations and inertia.massless(own):
         raise ProblemError("body: its mass is 0, and it has no centre of mass; change the masses")
-    if negative_mass or not inertia.impossible(own, problem.parameters):
+    if not moved or negative_mass or not isinstance(own, GivenBody):
         return
-    if isinstance(own, GivenBody) and own.solids:
+    fault = inertia.impossible(moved, own, problem.parameters)
+    if fault and own.solids:
         raise ProblemError(
             "body: no masses have the moments of these solids: what has a negative density must be "
             "a hole inside of others; or allow it with --allow-negative-mass"
         )
-    else:
-        raise ProblemError(
-            "body, given: no masses have these moments: J − c c̄/m must be positive "
-            "(about the centre no moment of inertia exceeds the sum of the two others)"
-            + (f"; {inertia.CAD}" if inertia.of_cad(own, problem.parameters) else "")
-        )
+    if fault and not any(names(t) for t in own.trees()):  # of defaults it is a doubt
+        raise ProblemError(f"body, given: {fault}")
 
 
 def _parameters(data: Any, reader: FileReader) -> dict[str, Parameter]:

@@ -93,7 +93,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         "linear": (
             "With the rates of the entries of g in them, these equations are linear, with constant "
             "coefficients.",
-            "Avec les dérivées des entrées de g qu’elles contiennent, ces équations sont "
+            "Avec les dérivées des coefficients de g qu’elles contiennent, ces équations sont "
             "linéaires, à coefficients constants.",
         ),
     },

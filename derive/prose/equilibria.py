@@ -17,6 +17,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "nulles. Les dérivées, en puissances de la distance à ce point, n’ont pas de terme "
             "constant.",
         ),
+        "origin": (
+            "A relative equilibrium, where all variables vanish. The rates, in powers of these, "
+            "have no constant terms.",
+            "Un équilibre relatif, où toutes les variables sont nulles. Les dérivées, en "
+            "puissances de celles-ci, n’ont pas de terme constant.",
+        ),
         "none": (
             "No multiples of what is known to be kept make the derivative of the energy vanish "
             "there.",
@@ -96,6 +102,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "coefficients {coefficients}, depuis la plus haute puissance : selon le décompte des "
             "racines par Sturm, toutes les valeurs propres sont imaginaires ou 0, ce qui ne "
             "prouve rien. La stabilité de l’équilibre reste ouverte.",
+        ),
+        "undecided": (
+            "Whether an element of the group has these entries of g is not decided: of the "
+            "stability nothing is said.",
+            "Qu’un élément du groupe ait ces coefficients de g n’est pas décidé : de la stabilité "
+            "on ne dit rien.",
         ),
         "eigenvalues": (
             "The eigenvalues are about {eigenvalues}.",

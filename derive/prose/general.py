@@ -10,13 +10,13 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         "expression": (
             "The Lagrangian of this problem, an expression in the time, the entries of g and the "
             "coordinates of Z.",
-            "Le lagrangien de ce problème, une expression du temps, des entrées de g et des "
+            "Le lagrangien de ce problème, une expression du temps, des coefficients de g et des "
             "coordonnées de Z.",
         ),
         "carried": (
             "The Lagrangian of this problem, an expression in the time, the entries of Γ and the "
             "coordinates of Z.",
-            "Le lagrangien de ce problème, une expression du temps, des entrées de Γ et des "
+            "Le lagrangien de ce problème, une expression du temps, des coefficients de Γ et des "
             "coordonnées de Z.",
         ),
         "alone": (
@@ -105,6 +105,14 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "matrix of moments.",
             "Le corps n’intervient dans l’énergie cinétique que par ses moments : masse, premier "
             "moment, matrice des moments.",
+        ),
+    },
+    "volumes": {
+        "trace": (
+            "The variation of a volume of places is Tr ξ times it, by the displacements of the "
+            "points.",
+            "La variation d’un volume de positions est Tr ξ fois ce volume, par les déplacements "
+            "des points.",
         ),
     },
     "unique": {

@@ -28,6 +28,11 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Each is in its block of coordinates; an affine block ends in 1.",
             "Chacun est dans son bloc de coordonnées ; un bloc affine se termine par 1.",
         ),
+        "homogeneous": (
+            "Their coordinates end in 1: affine maps act on (r, 1) by matrices.",
+            "Leurs coordonnées se terminent par 1 : les applications affines agissent sur (r, 1) "
+            "par des matrices.",
+        ),
         "place": (
             "Point {point} has no mass: forces are attached there.",
             "Le point {point} est sans masse : des forces s’appliquent en ce point.",
@@ -230,6 +235,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         "meaning": (
             "input: {forces}",
             "entrée : {forces}",
+        ),
+        "numbers": (
+            "{meaning}, {numbers}",
+            "{meaning}, {numbers}",
         ),
         "covector_force": (
             "{name}, a force on the body's origin, in the body frame",

@@ -309,15 +309,41 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "hJh̄ = J ; leurs vitesses V sont V = JS avec des matrices antisymétriques S.",
         ),
     },
+    "tetrahedron": {
+        "kept": (
+            "The volume of the tetrahedron, here six times, is det A times that in the body, and "
+            "its variation Tr ξ times it. If it is not 0, it is kept if and only if det A = 1, and "
+            "its variation vanishes if and only if Tr ξ = 0.",
+            "Le volume du tétraèdre, ici six fois, est det A fois celui dans le corps, et sa "
+            "variation Tr ξ fois lui-même. S’il n’est pas 0, il est conservé si et seulement si "
+            "det A = 1, et sa variation s’annule si et seulement si Tr ξ = 0.",
+        ),
+        "affine": (
+            "The configurations of the same volume are one orbit of this group, of dimension 11: "
+            "four points have 12 coordinates, and this is one condition.",
+            "Les configurations de même volume forment une orbite de ce groupe, de dimension 11 : "
+            "quatre points ont 12 coordonnées, et il y a une condition.",
+        ),
+        "linear": (
+            "In space the configurations of the same volume are one orbit of the affine maps that "
+            "keep it, of dimension 11; of these dimensions the linear maps here are 8, without the "
+            "translations.",
+            "Dans l’espace, les configurations de même volume forment une orbite des applications "
+            "affines qui le conservent, de dimension 11 ; les applications linéaires, ici, en sont "
+            "8 dimensions, sans les translations.",
+        ),
+    },
     "no_rotation": {
         "free": (
-            "In a rigid rotation exp(tΩ) the velocity Z is Ω, skew, and Ż = 0. The number of rows "
-            "is odd, so that every skew matrix is singular, as Υ is: so are Ω and Ω². Without "
-            "forces Ω² = θJ⁻¹, where C = 𝟏; then θ = 0, Ω² = 0 and Ω = 0: nothing rotates rigidly.",
-            "Dans une rotation rigide exp(tΩ), la vitesse Z est Ω, antisymétrique, et Ż = 0. Le "
-            "nombre de lignes est impair, donc toute matrice antisymétrique est singulière, comme "
-            "l’est Υ : donc Ω et Ω² le sont. Sans forces Ω² = θJ⁻¹, là où C = 𝟏 ; alors θ = 0, "
-            "Ω² = 0 et Ω = 0 : rien ne tourne rigidement.",
+            "In a rigid rotation exp(tΩ)A₀, Ω skew, the velocity Z is A₀⁻¹ΩA₀, and Ż = 0. The "
+            "number of rows is odd, so that every skew matrix is singular, as Υ is: so are Ω, Ω² "
+            "and Z², which is A₀⁻¹Ω²A₀. Without forces Z² = θC⁻¹J⁻¹; then θ = 0, Ω² = 0 and Ω = 0: "
+            "nothing rotates rigidly, for any A₀.",
+            "Dans une rotation rigide exp(tΩ)A₀, Ω antisymétrique, la vitesse Z est A₀⁻¹ΩA₀, et "
+            "Ż = 0. Le nombre de lignes est impair, donc toute matrice antisymétrique est "
+            "singulière, comme l’est Υ : donc Ω, Ω² et Z², qui est A₀⁻¹Ω²A₀, le sont. Sans forces "
+            "Z² = θC⁻¹J⁻¹ ; alors θ = 0, Ω² = 0 et Ω = 0 : rien ne tourne rigidement, pour tout "
+            "A₀.",
         ),
     },
     "elimination": {
@@ -529,21 +555,32 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Sans entrées ni amortissement, le mouvement conserve {kept}.",
         ),
         "tried": (
-            "Tried were the energy and, of the displacements of space that the group has, the "
-            "rotations about the origin, all or those about one line, and the translations, all "
-            "or those across gravity; derive symmetries finds all symmetries.",
-            "Ont été essayées l’énergie et, parmi les déplacements de l’espace que contient le "
-            "groupe, les rotations autour de l’origine, toutes ou celles autour d’une droite, et "
-            "les translations, toutes ou celles perpendiculaires à la pesanteur ; derive "
-            "symmetries trouve toutes les symétries.",
-        ),
-        "tried_all": (
-            "Tried were the energy and, of the displacements of space that the group has, all "
-            "rotations about the origin together and all translations together; derive "
+            "Tried were the energy and, of the displacements of space, {displacements}; derive "
             "symmetries finds all symmetries.",
-            "Ont été essayées l’énergie et, parmi les déplacements de l’espace que contient le "
-            "groupe, toutes les rotations autour de l’origine à la fois et toutes les "
-            "translations à la fois ; derive symmetries trouve toutes les symétries.",
+            "Ont été essayés l’énergie et, parmi les déplacements de l’espace, {displacements} ; "
+            "derive symmetries trouve toutes les symétries.",
+        ),
+        "rotations": (
+            "the rotations about the origin (all, or those about one line)",
+            "les rotations autour de l’origine (toutes, ou celles autour d’une droite)",
+        ),
+        "translations": (
+            "the translations (all, or those across gravity)",
+            "les translations (toutes, ou celles perpendiculaires à la pesanteur)",
+        ),
+        "rotations_together": (
+            "all rotations about the origin together",
+            "toutes les rotations autour de l’origine à la fois",
+        ),
+        "translations_together": (
+            "all translations together",
+            "toutes les translations à la fois",
+        ),
+        "alone": (
+            "The energy alone was tried here, and no displacement of space; derive symmetries "
+            "finds all symmetries.",
+            "Seule l’énergie a été essayée ici, sans aucun déplacement de l’espace ; derive "
+            "symmetries trouve toutes les symétries.",
         ),
         "by_coordinates": (
             "Part of the potential is told by coordinates of places, so that no displacement of "
@@ -551,12 +588,6 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Une partie du potentiel est donnée par des coordonnées, si bien qu’aucun "
             "déplacement de l’espace n’a été essayé ici ; derive symmetries trouve toutes les "
             "symétries.",
-        ),
-        "product": (
-            "The group is a product, so that no displacement of space was tried here; derive "
-            "symmetries finds all symmetries.",
-            "Le groupe est un produit, si bien qu’aucun déplacement de l’espace n’a été essayé "
-            "ici ; derive symmetries trouve toutes les symétries.",
         ),
         "noether": (
             "The Cartan form, on an infinitesimal symmetry of L̃, is constant along the motion "

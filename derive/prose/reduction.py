@@ -59,10 +59,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Les coefficients de l’inertie bloquée sont désignés par leur nom.",
         ),
         "isotropy": (
-            "This holds where {conditions}: elsewhere a motion along the symmetries leaves the "
-            "configuration as it is, and the locked inertia has no inverse.",
-            "Cela vaut là où {conditions} : ailleurs, un mouvement le long des symétries laisse la "
-            "configuration comme elle est, et l’inertie bloquée n’a pas d’inverse.",
+            "This holds where {conditions}: elsewhere the locked inertia has no inverse, and where "
+            "the kinetic energy is positive a motion along the symmetries leaves the configuration "
+            "as it is.",
+            "Cela vaut là où {conditions} : ailleurs, l’inertie bloquée n’a pas d’inverse, et là "
+            "où l’énergie cinétique est positive, un mouvement le long des symétries laisse la "
+            "configuration comme elle est.",
         ),
         "free": (
             "No motion along the symmetries leaves a configuration as it is, so that the locked "

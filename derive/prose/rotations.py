@@ -6,6 +6,27 @@ Label of a step, then a name for the sentence: English, French.
 from __future__ import annotations
 
 STEPS: dict[str, dict[str, tuple[str, str]]] = {
+    "unaligned": {
+        "turned": (
+            "Rotations keep vector products. Of two points that are not on one line with the "
+            "fixed point, and of their vector product, which span the space, the images are "
+            "known: A is then unique, if the points are not all on one line through the fixed "
+            "point.",
+            "Les rotations conservent les produits vectoriels. De deux points qui ne sont pas "
+            "alignés avec le point fixe, et de leur produit vectoriel, qui engendrent l’espace, on "
+            "connaît les images : A est alors unique, si les points ne sont pas tous sur une même "
+            "droite passant par le point fixe.",
+        ),
+        "displaced": (
+            "Rotations keep vector products. Of the arms from the centre of mass to two points "
+            "that are not on one line with it, and of their vector product, which span the space, "
+            "the images are known: g_t is then unique, if the points are not all on one line.",
+            "Les rotations conservent les produits vectoriels. Des bras du centre de masse à deux "
+            "points qui ne sont pas alignés avec lui, et de leur produit vectoriel, qui engendrent "
+            "l’espace, on connaît les images : g_t est alors unique, si les points ne sont pas "
+            "tous alignés.",
+        ),
+    },
     "rigid": {
         "orbit": (
             "The body is rigid: C = 𝟏 says that the distances of its points are kept, so that it "
@@ -34,30 +55,30 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     },
     "hat": {
         "rotations": (
-            "The Lie algebra 𝔰𝔬(3) is identified with R³ by j(X)Y = X ∧ Y; the bracket is the "
+            "The Lie algebra 𝔰𝔬(3) is identified with ℝ³ by j(X)Y = X ∧ Y; the bracket is the "
             "vector product.",
-            "On identifie l’algèbre de Lie 𝔰𝔬(3) à R³ par j(X)Y = X ∧ Y ; le crochet est le "
+            "On identifie l’algèbre de Lie 𝔰𝔬(3) à ℝ³ par j(X)Y = X ∧ Y ; le crochet est le "
             "produit vectoriel.",
         ),
         "displacements": (
-            "The linear part 𝔰𝔬(3) of the Lie algebra is identified with R³ by j(X)Y = X ∧ Y; the "
+            "The linear part 𝔰𝔬(3) of the Lie algebra is identified with ℝ³ by j(X)Y = X ∧ Y; the "
             "bracket is the vector product.",
-            "On identifie la partie linéaire 𝔰𝔬(3) de l’algèbre de Lie à R³ par j(X)Y = X ∧ Y ; "
+            "On identifie la partie linéaire 𝔰𝔬(3) de l’algèbre de Lie à ℝ³ par j(X)Y = X ∧ Y ; "
             "le crochet est le produit vectoriel.",
         ),
     },
     "isomorphism": {
         "onto": (
-            "The operator j is an isomorphism of R³ onto 𝔰𝔬(3): both have dimension 3, and j(ζ) = "
+            "The operator j is an isomorphism of ℝ³ onto 𝔰𝔬(3): both have dimension 3, and j(ζ) = "
             "0 for ζ = 0 alone.",
-            "L’opérateur j est un isomorphisme de R³ sur 𝔰𝔬(3) : tous deux sont de dimension 3, "
+            "L’opérateur j est un isomorphisme de ℝ³ sur 𝔰𝔬(3) : tous deux sont de dimension 3, "
             "et j(ζ) = 0 pour ζ = 0 seulement.",
         ),
     },
     "inertia": {
         "metric": (
-            "The metric of J on 𝔰𝔬(3) is that of the tensor of inertia on R³.",
-            "La métrique de J sur 𝔰𝔬(3) est celle du tenseur d’inertie sur R³.",
+            "The metric of J on 𝔰𝔬(3) is that of the tensor of inertia on ℝ³.",
+            "La métrique de J sur 𝔰𝔬(3) est celle du tenseur d’inertie sur ℝ³.",
         ),
     },
     "exterior_vector": {

@@ -10,8 +10,8 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "most in t and the entries of g: {count}, for generic parameters, without inputs.",
             "Toutes les symétries de L̃, et de L̃ à dF près, parmi les champs δt = τ, δg = (S₀ + "
             "tS₁)g − g(B₀ + tB₁) tangents au groupe, avec des constantes τ, S et B, et F de degré "
-            "deux au plus en t et les entrées de g : {count}, pour des paramètres génériques, sans "
-            "entrées.",
+            "deux au plus en t et les coefficients de g : {count}, pour des paramètres génériques, "
+            "sans entrées.",
         ),
         "integrand": (
             "For the integral of self-gravity L̃ has its integrand, at any place ({place}) with "

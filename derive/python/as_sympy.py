@@ -28,6 +28,7 @@ from ..record.name_types import (
 )
 from ..record.record import Derivation, Equation
 from ..record.vocabulary import VOCABULARY
+from ..views.outline import named_numbers
 from ..views.text import clashing
 from .sympy_matrices import Applied, Hat, MatrixSum, Member, scalar_member
 
@@ -39,16 +40,16 @@ OF_ITS_ARGUMENT = ("δ", "δ′", "∫", "d/dt")
 class Translation:
     """From the trees of one record to SymPy.
 
-    ``n``: the dimension of the space, a symbol where it is any; ``own``: the parameters, and
-    ``apart`` those that no letter means as well; ``quoted``: those that text has in quotes;
-    ``count``: how many members a family has, by what its index counts.
+    ``n``: the dimension of the space, a symbol where it is any; ``own``: the numbers that the
+    problem names, and ``apart`` those that no letter means as well; ``quoted``: those that text
+    has in quotes; ``count``: how many members a family has, by what its index counts.
     """
 
     def __init__(self, record: Derivation):
         problem = record.problem
         n = problem["n"]
         self.n = sympy.Integer(n) if isinstance(n, int) else _natural("n")
-        self.own = {*problem["parameters"]}
+        self.own = {*named_numbers(record)}
         self.apart = self.own - ({"m"} if problem["body"]["kind"] == "moments" else set())
         self.types = {x.name: [use.type for use in x.uses] for x in record.symbols}
         self.count = _counts(record)

@@ -19,6 +19,7 @@ import numpy as np
 
 from ..code.emit import emit
 from ..code.languages import LANGUAGES
+from ..code.naming import own_prefix
 from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 from ..code.program import Block, Program
 from ..code.step.step_numbers import FIXED
@@ -142,7 +143,7 @@ class Compiled(InMomenta):
             mine = Buffers(self._names, self._run)
         if u is not None or mine.values is not self._values:
             self._refill(mine, u)
-        mine.x[...] = x
+        _fill(mine.x, x)
         mine.now[0] = t
         mine.run()
         dx = mine.copy()
@@ -155,7 +156,7 @@ class Compiled(InMomenta):
         """Put the constants and the inputs of the next call into its buffers."""
         values = self._in_use()
         mine.k[:] = values.k
-        mine.u[:] = values.u if u is None else u
+        _fill(mine.u, values.u if u is None else u)
         mine.values = values if u is None else None
 
     def _in_use(self) -> Values:
@@ -420,11 +421,24 @@ def _read_only(a: Array) -> Array:
     return view
 
 
+def _fill(place: Array, values: Any) -> None:
+    """Put so many numbers into an array, at once where they fit; ``ValueError`` for others."""
+    try:
+        place[...] = values
+        if len(values) == len(place):
+            return
+    except (TypeError, ValueError):
+        pass  # which is told:
+    place[...] = _array(values, len(place))
+
+
 def _array(values: Any, size: int) -> Array:
-    """A new array of ``size`` numbers."""
-    made = np.zeros(size)
-    made[:] = values
-    return made
+    """A new array of ``size`` numbers; ``ValueError`` for others."""
+    made = np.array(values, dtype=float)
+    if made.shape != (size,) and (size, made.shape) != (1, ()):
+        found = f"an array {made.shape}" if made.ndim > 1 else f"{made.size}"
+        raise ValueError(f"expected {size} numbers, not {found}")
+    return made.reshape(size)
 
 
 def compile(
@@ -457,7 +471,7 @@ def compile(
     if options.real != "double" or options.form != "source":
         raise ProblemError("compile: the library is of double from sources; leave out real, form")
     made_of = program(derived.problem, derived.record, options)
-    name = derived.problem.name
+    name = own_prefix(derived.problem.name)
     files = emit(made_of, derived.record, ("c",), name, options)
     files["binding.c"] = BINDING.format(name=name)
     if options.moves:

@@ -9,9 +9,9 @@ from typing import Any
 import sympy
 
 from ..language.tree import Tree
+from ..problem.moved_entries import element
 from ..problem.state_names import coordinates
 from ..symmetries.found import Found
-from ..symmetries.group_entries import element
 from ..symmetries.symmetry import Symmetry
 
 

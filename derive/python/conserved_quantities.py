@@ -80,6 +80,9 @@ class SymmetriesOf(Checked):
         """The problem, its Lagrangian as one expression."""
         return self.found.problem
 
+    def __repr__(self) -> str:
+        return f"<symmetries of {self.record.name}: {len(self)}>"
+
     def __len__(self) -> int:
         return self.found.dimension
 
@@ -138,7 +141,7 @@ class SymmetriesOf(Checked):
         return {x: float(value) for x, value in found.items() if value is not None}
 
     def _entries(self, leaves: Mapping[Tree, Any]) -> list[list[Any]]:
-        from ..symmetries.group_entries import element
+        from ..problem.moved_entries import element
 
         group = self.problem.group
         assert group is not None

@@ -15,7 +15,8 @@ def _drawn(
     from ..plot.pictures import plot
     from ..views.language import language
 
-    path.write_bytes(plot(run, path.name, kind, language(lang).word, columns))
+    words = language(lang)
+    path.write_bytes(plot(run, path.name, kind, words.word, columns, words.mark))
     return path
 
 

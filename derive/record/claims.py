@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 
-from ..language.show import show
+from ..language.show import in_sentence, show
 from ..language.tree import Tree
 from ..prose import english
 from . import sentence
@@ -25,6 +26,11 @@ KINDS = {
     ),
     "level": "multiple complete",
     "condition": "one several complete",
+    "equilibrium": (
+        "at origin none orbit form stable stable_beyond stable_compact on_the_leaf indefinite "
+        "point unstable open undecided eigenvalues squares near"
+    ),
+    "enclosure": "within signs stable unstable open",
 }
 CLAIMS = frozenset(f"{label}.{name}" for label, names in KINDS.items() for name in names.split())
 """The keys of the sentences that are claims."""
@@ -48,22 +54,42 @@ class Claim:
     @property
     def texts(self) -> dict[str, str]:
         """What stands in the places of the sentence."""
-        return {name: text(x) for name, x in self.values}
+        return {name: TEXTS.get(self.kind, text)(x) for name, x in self.values}
 
 
 def text(x: Tree) -> str:
-    """A value as it stands in a sentence: several with commas; pairs as equations, several of these
-    with commas, and lists of them with numbers."""
-    if not (isinstance(x, tuple) and x[0] == "row"):
-        return show(x)
-    depth, inside = 0, x
-    while isinstance(inside, tuple) and inside[0] == "row" and len(inside) > 1:
-        depth, inside = depth + 1, inside[1]
-    if depth == 3:
-        return "; ".join(f"({k}) {text(y)}" for k, y in enumerate(x[1:], 1))
-    if depth == 2:
-        return ", ".join(" = ".join(map(show, y[1:])) for y in x[1:])
-    return ", ".join(map(show, x[1:]))
+    """A value as it stands in a sentence: several with commas, rows of a matrix as equations, and
+    several matrices with numbers."""
+    if isinstance(x, tuple) and x[0] == "matrix":
+        return ", ".join(" = ".join(map(in_sentence, row[1:])) for row in x[1:])
+    several = x[1:] if isinstance(x, tuple) and x[0] == "row" else (x,)
+    if several and all(isinstance(y, tuple) and y[0] == "matrix" for y in several):
+        return "; ".join(f"({k}) {text(y)}" for k, y in enumerate(several, 1))
+    return ", ".join(map(in_sentence, several))
+
+
+def _decimal(x: Tree) -> str:
+    assert isinstance(x, (int, Fraction))
+    return f"{float(x):.15g}".replace("-", "−")
+
+
+def _coordinates(x: Tree) -> str:
+    """Rows of a matrix, each a name and a number, as decimals."""
+    assert isinstance(x, tuple)
+    return ", ".join(f"{show(name)} ≈ {_decimal(y)}" for _, name, y in x[1:])
+
+
+def _eigenvalues(x: Tree) -> str:
+    """Rows of a matrix, the real and the imaginary part of numbers, which come with their opposites
+    and conjugates, as decimals."""
+    assert isinstance(x, tuple)
+    pairs = ((row[1:], ("", "i")) for row in x[1:])
+    parts = ([f"±{_decimal(y)}{i}" for y, i in zip(*two, strict=True) if y] for two in pairs)
+    return ", ".join(" ".join(x) or "0" for x in parts)
+
+
+TEXTS = {"equilibrium.near": _coordinates, "equilibrium.eigenvalues": _eigenvalues}
+"""How the values of some kinds stand in their sentences, those of others as :func:`text` has it."""
 
 
 def rendered(claim: Claim, **phrases: Sentence) -> Sentence:

@@ -110,6 +110,9 @@ class Derivation:
     symbols: tuple[Symbol, ...]
     steps: tuple[Step, ...]
 
+    def __repr__(self) -> str:
+        return f"<record {self.name}: {len(self.steps)} steps>"
+
     @property
     def name(self) -> str:
         """The problem's name, which prefixes its labels."""

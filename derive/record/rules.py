@@ -99,8 +99,8 @@ RULES: dict[str, Rule] = {
     ),
     "identification": Rule(
         "identification",
-        "The same in other letters: so(3) as R³ by j, say.",
-        "La même chose en d’autres lettres : so(3) vu comme R³ par j, par exemple.",
+        "The same in other letters: so(3) as ℝ³ by j, say.",
+        "La même chose en d’autres lettres : so(3) vu comme ℝ³ par j, par exemple.",
         "identity",
     ),
     "elimination": Rule(

@@ -223,8 +223,8 @@ class _RecordReader(TableReader):
         return tuple(x for x, k in own.keys().items() if k.told)
 
     def has(self, slot: Slot) -> bool:
-        """All must be there; a list is empty where a file may leave it out."""
-        return not (slot.default == () and slot.table.get(slot.key) == [])
+        """All that are told must be; a list is empty where a file may leave it out."""
+        return slot.about.told and not (slot.default == () and slot.table.get(slot.key) == [])
 
     def meets(self, need: str, kind: str, where: str) -> None:
         """What the header says of the body and the group."""

@@ -305,7 +305,7 @@ VOCABULARY: dict[str, Name] = {
         function(SCALAR, SCALAR)),
     "d/dt": name("derivative in time along a curve",
         "dérivée dans le temps le long d’une courbe",
-        r"\frac{\mathrm{d}}{\mathrm{d}t}", function(SCALAR, SCALAR)),
+        r"\frac{\mathrm{d}}{\mathrm{d}t}", function(SCALAR, SCALAR), function(VECTOR, VECTOR)),
     "δ′": name("another variation, which commutes with δ",
         "autre variation, qui commute avec δ",
         r"\delta'", function(VECTOR, VECTOR), function(ALGEBRA, ALGEBRA),

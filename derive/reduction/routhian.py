@@ -15,11 +15,10 @@ from functools import cached_property
 from typing import Any
 
 from ..language.tree import Tree, add, neg, nodes, plain, terms
-from ..problem.moved_entries import EntriesOfElement
+from ..problem.moved_entries import EntriesOfElement, element
 from ..problem.problem import ProblemError
 from ..problem.state_names import coordinates
 from ..symmetries.found import Found
-from ..symmetries.group_entries import element
 from ..symmetries.symmetry import Symmetry
 from ..symmetries.tree_matrices import full
 from .state_functions import Element, StateFunctions

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.show import show
+from ..language.show import in_sentence, show
 from ..language.tree import Tree, add, mul, neg, plain, terms
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
@@ -245,7 +245,7 @@ def _effective(r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     prose += say("reduction.named") if r.named else ()
     varying = (x.pivot for x in reversed(r.squares) if r.named or r.functions.used(x.pivot.numer))
     pivots = dict.fromkeys(r.functions.tree(r.functions.field(x.numer)) for x in varying)
-    conditions = ", ".join(f"{show(x)} ≠ 0" for x in pivots)
+    conditions = ", ".join(f"{in_sentence(x)} ≠ 0" for x in pivots)
     if pivots and r.leaves_none:
         prose += say("reduction.free")
     elif pivots:

@@ -7,7 +7,7 @@ from ..language.layers import is_layered
 from ..language.tree import Tree, add, mul
 from .declared import Parameter
 from .solid_kinds import LAYERED, Solid
-from .table import At, Block, First, Key, Rows, Scalar, Second, Space, Table
+from .table import At, Block, Central, First, Key, Rows, Scalar, Second, Space, Table
 
 
 class Place(Table):
@@ -33,12 +33,16 @@ class Point(Table):
 
 
 class Moments(Table):
-    """m, c = Σ m r (n entries) and J = Σ m r r̄ (n × n); a file may say c and J by others."""
+    """m, c = Σ m r (n entries) and J = Σ m r r̄ (n × n); a file may say c and J by others.
+
+    ``central``: did it say J by the tensor of inertia about the centre of mass?
+    """
 
     section, called = "body", "Moments"
     m: Scalar
     c: First
     J: Second
+    central: Central = False
 
     @classmethod
     def word(cls, **given: Any) -> Any:

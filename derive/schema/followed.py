@@ -14,8 +14,8 @@ DIRECTIONS = ("both", "rising", "falling")
 
 
 class Event(Table):
-    """An instant at which the expression ``when`` becomes 0: ``rising`` from below, ``falling``
-    from above; a ``terminal`` one ends the run."""
+    """An instant at which the expression ``when`` changes its sign: ``rising`` from below 0,
+    ``falling`` from above; a ``terminal`` one ends the run."""
 
     section, called = "event", "Event"
     name: Name
@@ -25,6 +25,6 @@ class Event(Table):
 
     @classmethod
     def word(cls, name: str, when: Number, direction: str = "both", terminal: bool = False) -> Any:
-        """An event of a motion: an expression of the state, t and the parameters becomes 0, from
+        """An event of a motion: an expression of the state, t and the parameters crosses 0, from
         below, "rising", or from above, "falling", or either, "both"; a terminal one ends a run."""
         return {"name": name, "when": when, "direction": direction, "terminal": terminal}

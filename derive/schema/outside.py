@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from .table import End, Frame, Name, Number, Points, Stiffness, Table
+from .table import End, Frame, Name, Number, Points, Stiffness, Table, place
 
 
 class CovectorInput(Table):
@@ -27,10 +27,16 @@ class ForceInput(Table):
     frame: Frame = "space"
 
     @classmethod
-    def word(cls, name: str, on: int | Sequence[Number], frame: str = "space") -> Any:
-        """An input: a force on a point, or at a place of the body; its frame is "space" or
-        "body"."""
-        return {"name": name, "frame": frame} | {"on" if isinstance(on, int) else "at": on}
+    def word(
+        cls,
+        name: str,
+        on: int | Sequence[Number],
+        frame: str = "space",
+        block: int | None = None,
+    ) -> Any:
+        """An input: a force on a point, or at a place of the body, in a product of that of a block;
+        its frame is "space" or "body"."""
+        return {"name": name, "frame": frame} | place(on, block)
 
 
 class Damping(Table):
@@ -46,9 +52,11 @@ class Damping(Table):
         coefficient: Number,
         on: Sequence[int] | None = None,
         at: Sequence[Number] | None = None,
+        block: int | None = None,
     ) -> Any:
-        """The force −κ v on points (all by default), or on a place of the body, outside dϖ."""
-        return {"coefficient": coefficient, "on": on, "at": at}
+        """The force −κ v on points (all by default), or on a place of the body, in a product of
+        that of a block, outside dϖ."""
+        return {"coefficient": coefficient, "on": on, "at": at, "block": block}
 
 
 Input = CovectorInput | ForceInput

@@ -6,7 +6,7 @@ stranger's, and the word of Python.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields
 from fractions import Fraction
 from functools import cache
@@ -101,6 +101,7 @@ dimension of the space, which the group says."""
 
 First = Annotated[Row, Key("first", 1, trees=True, keys=("c", "centre"))]
 Second = Annotated[Rows, Key("second", 2, trees=True, keys=("J", "I", "I_centre"))]
+Central = Annotated[bool, Key("central", keys=("I_centre",), told=False)]
 Length = Annotated[Tree, Key("length", trees=True)]
 Inner = Annotated[Tree, Key("length", trees=True, zero=True)]
 Density = Annotated[Tree, Key("layered", trees=True)]
@@ -112,9 +113,10 @@ Vertices = Annotated[tuple[tuple[Fraction, ...], ...], Key("vertices", 2, keys=(
 Faces = Annotated[tuple[tuple[int, ...], ...], Key("faces", 2, keys=("file",))]
 Turn = Annotated[Rows | None, Key("turn", 2, trees=True, null=True)]
 Shift = Annotated[Row | None, Key("shift", 1, trees=True, null=True)]
-"""Moments of a body, and of solids in R³ the sizes: lengths, positive, one or three; a density, of
-an ellipsoid or a ball a polynomial in the level s of a place; a symmetric matrix; four corners;
-what the file of a mesh has.  A rotation and a vector of R³, or none."""
+"""Moments of a body, and whether a file says them about its centre; of solids in R³ the sizes:
+lengths, positive, one or three; a density, of an ellipsoid or a ball a polynomial in the level s of
+a place; a symmetric matrix; four corners; what the file of a mesh has.  A rotation and a vector of
+R³, or none."""
 
 Name = Annotated[str, Key("name")]
 Letters = Annotated[str, Key("letters")]
@@ -167,12 +169,52 @@ OTHER_WORDS = {
     **dict.fromkeys(("world", "inertial"), "space"),
 }
 """What others call it."""
+ELSEWHERE = {
+    **dict.fromkeys(
+        ("com", "center_of_mass", "centre_of_mass"),
+        "the centre of mass is 'centre' in [body] given = { m, centre, I_centre }",
+    ),
+    **dict.fromkeys(
+        ("inertia", "moment_of_inertia", "inertia_tensor"),
+        "a tensor of inertia is 'I' or 'I_centre' in [body] given = { m, centre, I_centre }",
+    ),
+    **dict.fromkeys(
+        ("direction", "axis", "magnitude", "value"),
+        "a force has all its components at every call, in the axes of its 'frame'; the direction "
+        "of gravity is that of the vector 'g'",
+    ),
+    **dict.fromkeys(
+        ("torque", "moment", "wrench"), 'a torque is an [[input]] with kind = "covector"'
+    ),
+    **dict.fromkeys(
+        ("rpy", "roll", "pitch", "yaw", "euler", "orientation", "quaternion", "rotation"),
+        "a rotation is { axis, angle } or rows in a solid; a motion starts turned by 'exp' in "
+        "[initial]; --attitude quaternion is of emitted code",
+    ),
+    **dict.fromkeys(
+        ("constraint", "constraints", "joint", "joints", "nonholonomic", "rolling", "link"),
+        "what holds a body is its group, as SO(3) about a point or one of your own in [group]; "
+        "other constraints, joints between bodies and rolling are not here",
+    ),
+    **dict.fromkeys(
+        ("contact", "contacts", "collision", "impact", "friction", "restitution"),
+        "contacts, impacts and dry friction are not here: an [[event]] ends a motion where a body "
+        "would touch, [[damping]] is viscous",
+    ),
+}
+"""Where a word stands that is often tried, or that it is outside of all this."""
 
 
 def nearest(word: str, known: Collection[str]) -> str:
     """``; did you mean 'spring'?``, or nothing."""
     other = OTHER_WORDS.get(word, "")
     return did_you_mean(other if other in known else near_name(word, known), "; ")
+
+
+def hint(word: str, known: Collection[str]) -> str:
+    """Where a word stands that means nothing here, as of :data:`ELSEWHERE`; or else the nearest."""
+    away = word in ELSEWHERE and OTHER_WORDS.get(word) not in known
+    return f"; {ELSEWHERE[word]}" if away else nearest(word, known)
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)
@@ -260,6 +302,11 @@ class Table:
             for x in _members(value, k.depth)
             for t in (x.trees() if isinstance(x, Table) else [x] if k.trees else [])
         ]
+
+
+def place(on: int | Sequence[Number], block: int | None) -> dict[str, Any]:
+    """The keys of a point by its number, or of a place of a body, of a block of a product."""
+    return {"on" if isinstance(on, int) else "at": on, "block": block}
 
 
 def _plain(value: Any, depth: int) -> Any:

@@ -17,7 +17,7 @@ from .declared import Parameter
 from .fluid_kinds import DENSITIES, FORCES
 from .lagrangian_kinds import SIDES
 from .outside import Input
-from .table import Rows, Slot, Table, nearest
+from .table import Rows, Slot, Table, hint
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 LONGEST = 16
@@ -68,7 +68,7 @@ class TableReader(ABC):
         """Refuse a key that has no meaning, with the nearest that has one."""
         for key in table:
             if key not in keys:
-                told = f"{nearest(key, keys)} (known: {', '.join(sorted(keys))})"
+                told = f"{hint(key, keys)} (known: {', '.join(sorted(keys))})"
                 raise self.fail(f"{where}: unknown key {key[:40]!r}{told}")
 
     def parameter(self, name: str, about: Any) -> Parameter:
@@ -80,13 +80,17 @@ class TableReader(ABC):
         return self.whole(Parameter, about, where)
 
     def distinct(self, inputs: Sequence[Input], parameters: Collection[str]) -> None:
-        """No two inputs of one name, and none with the name of a parameter."""
+        """No two inputs of one name, and none with the name of a parameter, nor its numbers."""
         names = [x.name for x in inputs]
         for k, name in enumerate(names, 1):
             if name in names[: k - 1]:
                 raise self.fail(f"input {k}: a second input {name!r}; give each its own name")
             if name in parameters:
                 raise self.fail(f"input {k}: {name!r} is a parameter as well; choose another name")
+            numbers = re.compile(rf"{re.escape(name)}_[1-9][0-9]*")
+            if clash := next(filter(numbers.fullmatch, parameters), None):
+                told = f"{clash!r} is one of its numbers, and a parameter as well"
+                raise self.fail(f"input {k}, {name!r}: {told}; choose another name")
 
     def table(self, slot: Slot) -> Any:
         """Another table."""
@@ -126,7 +130,7 @@ class TableReader(ABC):
         """One of a few strings."""
         value = self.value(slot)
         if value not in allowed:
-            near = nearest(self.text(slot), allowed) if isinstance(value, str) else ""
+            near = hint(self.text(slot), allowed) if isinstance(value, str) else ""
             told = f"{', '.join(allowed)}{near}"
             raise self.fail(f"{slot.where}: key {slot.key!r} must be one of {told}")
         return str(value)

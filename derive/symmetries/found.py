@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from ..code.graph import Graph
 from ..code.options import Options
 from ..code.state import StateSpace
 from ..language.tree import Tree, coefficient, neg, terms
+from ..problem.moved_entries import element
 from ..problem.null_directions import along, hessian, null_directions
 from ..problem.problem import Problem, ProblemError
 from ..problem.state_names import coordinates
 from ..record.record import Derivation
+from ..schema.body_kinds import Place, Point
 from ..schema.kinds.self_gravity import SelfGravity
 from ..schema.lagrangian_kinds import Lagrangian
 from .conditions import Conditions
@@ -21,6 +23,7 @@ from .field_brackets import Brackets, cocycle
 from .scalar_lagrangian import Integrand, by_state, with_scalar_lagrangian
 from .search import Search
 from .symmetry import Symmetry, of_solution
+from .tree_matrices import full, negative, plus, times
 
 ORDER: tuple[str, ...] = (
     *("time", "translation_space", "rotation_space", "displacement_space", "deformation_space"),
@@ -106,6 +109,33 @@ def symmetries_of(problem: Problem, record: Derivation, *, of_integrand: bool = 
     return Found(
         scalar, listed, system.open_functions, central, state, places, integrand, of_points
     )
+
+
+def kept_with_damping(problem: Problem, record: Derivation) -> Found:
+    """The symmetries of L̃ whose quantities the motion of a damped problem keeps: they shift no
+    instant and move no damped point, so that −κ_i v_i does no work along them; ``ProblemError``
+    where none is so."""
+    found = symmetries_of(replace(problem, damping=()), record, of_integrand=True)
+    group = found.problem.group
+    assert group is not None
+    assert problem.group is not None
+    points: tuple[Point | Place, ...] = (*problem.points, *problem.places)
+    listed = [points[i - 1] for x in problem.damping for i in x.on]
+    places = [(*problem.group.in_block(x.block, x.at, 1), 1)[: group.size] for x in listed]
+    g = element(group)
+
+    def moves(x: Symmetry, place: Sequence[Tree]) -> bool:
+        """Is (YA − AX)(r, 1) not 0?"""
+        (Y, X), r = x.matrices, [[y] for y in place]
+        return full(plus(times(Y, times(g, r)), negative(times(g, times(X, r)))))
+
+    still = [x for x in found.symmetries if x.tau == 0 and not any(moves(x, r) for r in places)]
+    if not still:
+        raise ProblemError(
+            f"{problem.name}: damping changes the energy at the rate −Σ κ |v|², and no momentum is "
+            "known to be kept: all symmetries of L̃ move damped points"
+        )
+    return replace(found, symmetries=tuple(still), central=(), commuting=())
 
 
 def says_nothing(x: Symmetry, problem: Problem) -> bool:

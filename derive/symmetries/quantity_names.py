@@ -1,10 +1,11 @@
-"""The names of conserved quantities in emitted code, and their expressions."""
+"""The names of conserved quantities in emitted code, and their expressions: of a direction, or of a
+turn of R³, the component along its unit vector."""
 
 from __future__ import annotations
 
 from collections import Counter
 
-from ..language.tree import Tree
+from ..language.tree import Tree, add
 from .found import Found
 from .scalar_lagrangian import by_state
 from .symmetry import Symmetry
@@ -51,8 +52,29 @@ def named(found: Found) -> dict[str, Tree]:
     for x, base, place in zip(found.symmetries, bases, axes, strict=True):
         seen[base] += 1
         number = f"_{place}" if by_axis[base] else f"_{seen[base]}" if many[base] > 1 else ""
-        names[base + number] = x.conserved(momenta, "h̃")
+        value, length = x.conserved(momenta, "h̃"), length_of(x)
+        plain = length == 1 or base == CIRCULATION
+        names[base + number] = value if plain else ("div", value, length)
     return names
+
+
+def length_of(x: Symmetry) -> Tree:
+    """The length of the vector along which it shifts, or about which it turns R³, in the parameters
+    that the vector has; 1 of any other."""
+    shown = next((m for m in (*x.still, x.moving[0]) if full(m)), ())
+    shifts = x.kind.startswith(("translation", "boost"))
+    if not shifts and not x.kind.startswith(("rotation", "displacement")):
+        return 1
+    for offset, factor in x.group.places:
+        rows = range(offset, offset + factor.n)
+        pairs = [(i, offset + factor.n) for i in rows if factor.affine] if shifts else []
+        if not shifts and factor.n == 3:
+            pairs = [(i, j) for i in rows for j in rows if i < j]
+        entries = [shown[i][j] for i, j in pairs if shown[i][j] != 0]
+        if entries:
+            square = by_state(add(*(("pow", y, 2) for y in entries)))
+            return 1 if square == 1 else ("fun", "sqrt", square)
+    return 1
 
 
 def axis(x: Symmetry) -> str:

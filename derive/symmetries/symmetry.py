@@ -9,8 +9,8 @@ from fractions import Fraction
 from ..algebra.groups import Group
 from ..language.derivatives import product
 from ..language.tree import Tree, add, coefficient, mul, neg, nodes, plain, terms
+from ..problem.moved_entries import Rows
 from .conditions import Monomial, Unknowns
-from .group_entries import Rows
 from .scalar_lagrangian import by_state
 from .search import Solution
 from .tree_matrices import Entries, conjugated, full, matrix, negative, plus

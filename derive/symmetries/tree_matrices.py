@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from ..algebra.groups import Group
 from ..language.tree import Tree, add, mul, neg
-from .group_entries import Rows, element
+from ..problem.moved_entries import Rows, element
 from .scalar_lagrangian import by_state
 
 Entries = Sequence[Sequence[Tree]]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import isqrt
+from random import Random
 from typing import Any
 
 from ..algebra.groups import Group
@@ -20,6 +21,8 @@ from ..language.rational import Matrix
 
 Numbers = tuple[Any, ...]
 EPSILON = nilpotent(EPS)
+LARGE = 2**20
+"""Of the random integers of two elements in which an entry is the same where it never varies."""
 Entry = tuple[str, int, int]
 """The name of a number of the state, and the row and column where it is in a matrix of the
 group."""
@@ -28,11 +31,12 @@ group."""
 @dataclass(frozen=True)
 class Chart:
     """What an emission chose about the state, in the words of its options: order of entries, matrix
-    or quaternion, ζ or ġ."""
+    or quaternion, ζ or ġ, all entries or those that vary."""
 
     layout: str = "row"
     attitude: str = "matrix"
     velocity: str = "body"
+    state: str = "whole"
 
 
 @dataclass(frozen=True)
@@ -49,6 +53,11 @@ class StateChart:
         """Those of the coordinates of 𝔤 that the state holds."""
         return tuple(x for a, x in enumerate(values, 1) if a not in self.held)
 
+    @property
+    def turned(self) -> bool:
+        """Has it a quaternion, so that all its states are on the group?"""
+        return self.chart.attitude == "quaternion"
+
     def displaced(self, g: Matrix, eta: Matrix) -> Matrix:
         """The tangent vector at g that η stands for."""
         return q.times(eta, g) if self.right else q.times(g, eta)
@@ -62,18 +71,21 @@ class StateChart:
             pairs = [(i, j) for i in span for j in span]
             if self.chart.layout == "col":
                 pairs = [(j, i) for i, j in pairs]
-            if self.chart.attitude == "matrix":
+            if not self.turned:
                 found += [(named(f"A{mark}", i, j), offset + i, offset + j) for i, j in pairs]
             if factor.affine:
                 last = offset + factor.n
                 found += [(named(f"T{mark}", i), offset + i, last) for i in span]
+        if self.chart.state == "moving" and self.group.has_inner_samples:
+            one, two = (self.group.sample_inside(Random(k), LARGE) for k in (1, 2))
+            found = [(x, i, j) for x, i, j in found if one[i][j] != two[i][j]]
         return found
 
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the numbers of the state, in order."""
         place = [name for name, _, _ in self.entries]
-        if self.chart.attitude == "quaternion":
+        if self.turned:
             place = [f"q_{i}" for i in range(4)] + place
         if self.chart.velocity == "tangent":
             return (*place, *(f"{name}_dot" for name in place))
@@ -88,7 +100,7 @@ class StateChart:
     def values(self, g: Matrix, Z: Matrix) -> Numbers:
         """The numbers of the state at g with velocity g Z."""
         place = self._read(g)
-        if self.chart.attitude == "quaternion":
+        if self.turned:
             place = (*quaternion(g), *place)
         if self.chart.velocity == "tangent":
             return (*place, *self._read(q.times(g, Z)))
@@ -98,7 +110,7 @@ class StateChart:
         """The numbers of the state at g + ε δg with Z + ε δZ, in nilpotent numbers."""
         moved = q.plus(g, q.scaled(EPSILON, self.displaced(g, eta)))
         Z = q.plus(Z, q.scaled(EPSILON, change))
-        if self.chart.attitude == "matrix":
+        if not self.turned:
             return self.values(moved, Z)
         p = quaternion(g)
         rates = half_product(p, axis(eta))
@@ -109,7 +121,7 @@ class StateChart:
         """Is a change of the numbers of the state (g, Z) tangent to the group's states?"""
         back = q.inverse(g)
         assert back is not None
-        if self.chart.attitude == "quaternion":
+        if self.turned:
             p = quaternion(g)
             return bool(sum(x * y for x, y in zip(p, change, strict=False)) == 0)
         count = len(self.entries)
@@ -138,7 +150,7 @@ class StateChart:
     def rates(self, g: Matrix, Z: Matrix, g_dot: Matrix, Z_dot: Matrix) -> Numbers:
         """The rates of the state for these ġ and Ż, with g̈ = ġZ + gŻ and q̇ = ½ q ζ."""
         place = self._read(g_dot)
-        if self.chart.attitude == "quaternion":
+        if self.turned:
             place = (*half_product(quaternion(g), axis(Z)), *place)
         if self.chart.velocity == "tangent":
             return (*place, *self._read(q.plus(q.times(g_dot, Z), q.times(g, Z_dot))))

@@ -284,7 +284,7 @@ class Comparison:
     def _inside(self) -> Sequence[Any]:
         """The state of the point; where its g is any matrix, one with an element of the group."""
         state, point = self.claims.state, self.point
-        if isinstance(state, ReducedChart) or is_named(state.group):
+        if isinstance(state, ReducedChart) or is_named(state.group) or state.turned:
             return tuple(point.arguments["x"])
         return state.values(state.group.sample_inside(self.random, INSIDE), point.Z)
 

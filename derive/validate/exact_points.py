@@ -57,7 +57,7 @@ class Claims:
     ``size``: random integers are within ±size."""
 
     def __init__(self, d: Derivation, chart: Chart, size: int):
-        self.record, self.size = d, size
+        self.record, self.chart, self.size = d, chart, size
         self._points: dict[tuple[str, tuple[str, ...]], Point] = {}
         self.scope = str(d.problem.get("group"))
         (group,) = TrialPoints(d.problem, 0).groups(self.scope)
@@ -67,9 +67,10 @@ class Claims:
 
     @cached_property
     def at(self) -> Locus:
-        """The motion, driven where its equations have inputs or damping."""
+        """The motion, driven where its equations have inputs or damping; in the group itself where
+        the state has not all entries of g."""
         motions = (s for s in self.record.steps if s.label.endswith(".motion"))
-        return Locus(driven=any(s.driven for s in motions))
+        return Locus(driven=any(s.driven for s in motions), inside=self.chart.state == "moving")
 
     @cached_property
     def inputs(self) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache, partial
 from html import escape
 from typing import Any
@@ -14,11 +14,12 @@ from ..figure.scene import scene
 from ..language.templating import environment
 from ..language.tree import Tree
 from ..paper.finding import Finding
-from ..printing.escape import between_dollars, prose
 from ..printing.inline import inline, spelt
+from ..printing.letters import NAMES
 from ..printing.line_breaking import groups
 from ..printing.macros import standard
 from ..printing.notation import Notation
+from ..printing.sentences import between_dollars, prose
 from ..printing.tex import Cut, cut_up, formula, joined
 from ..printing.typeset import Formula, literal, plain
 from ..printing.widths import measure
@@ -161,10 +162,13 @@ def numbered(parts: Sequence[BookPart]) -> dict[str, str]:
     return found
 
 
-def words(text: str, notation: Notation, *, ready: bool = False) -> str:
-    """A sentence as markup, its formulas as MathML; ``ready``: they stand between dollars."""
+def words(
+    text: str, notation: Notation, names: Mapping[str, str] = NAMES, *, ready: bool = False
+) -> str:
+    """A sentence as markup, its formulas as MathML; ``names``: the LaTeX of a record's own;
+    ``ready``: they stand between dollars."""
     between = between_dollars if ready else prose
-    shown = between(text, escaped, lambda x: movable(spelt(x).tex, inline(x, notation)))
+    shown = between(text, escaped, lambda x: movable(spelt(x).tex, inline(x, notation, names)))
     return BESIDE.sub(r'<span class="kept">\g<0></span>', shown)
 
 
@@ -223,7 +227,8 @@ class _PartFields:
         if drawn is None:
             return {"figure": "", "caption": ""}
         caption = words(self.language.of(drawn.caption), self.notation)
-        return {"figure": svg(drawn), "caption": caption}
+        titled = replace(drawn, title=title(self.part.source, self.language))
+        return {"figure": svg(titled), "caption": caption}
 
     def step(self, step: Step, shown: Equations) -> Fields:
         """The fields of a step, with the equations it rests on, or that write it in coordinates."""
@@ -237,9 +242,9 @@ class _PartFields:
             "rule": capitalised(self.language.word(step.rule)),
             "told": words(self.language.word(RULES[step.rule].sentence), self.notation),
             "printed": printed(step),
-            "notes": [words(x, self.notation) for x in assumed(step, self.language)],
+            "notes": [words(x, self.notation, self.names) for x in assumed(step, self.language)],
             "corrections": [*map(self.correction, self.corrections[step.label].values())],
-            "prose": words(self.language.of(step.prose), self.notation),
+            "prose": words(self.language.of(step.prose), self.notation, self.names),
             "equations": shown(step.label),
             "uses": [unfolded(x) for x in step.uses],
             "coordinates": [
@@ -325,7 +330,7 @@ class _PartFields:
         for s in self.part.symbols:
             yield {
                 "name": self.formula(s.name).mathml(),
-                "meaning": words(self.language.of(s.meaning), self.notation),
+                "meaning": words(self.language.of(s.meaning), self.notation, self.names),
             }
 
     def parameters(self) -> Iterable[dict[str, str]]:

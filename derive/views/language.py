@@ -15,6 +15,8 @@ from ..record import rules, vocabulary
 from ..record.sentence import Prose, Sentence, filled, phrase
 
 CATALOGUE = resources.files(__package__) / "catalogue.toml"
+POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
+"""The point of a decimal number."""
 THIN, WIDE = "\u202f", "\u00a0"
 SPACES = ((r" (?=[;!?])", THIN), (r" (?=[:»])|(?<=«) ", WIDE))
 """Where French has a space that does not break: in the catalogue it is an ordinary one."""
@@ -33,12 +35,24 @@ class Language:
 
     def sentence(self, x: Sentence) -> str:
         """One sentence in this language, its places filled."""
-        places = {name: y if isinstance(y, str) else self.sentence(y) for name, y in x.places}
+        places = {
+            name: self.numbers(y) if isinstance(y, str) else self.sentence(y)
+            for name, y in x.places
+        }
         return filled(self.messages.get(x.message, x.message), places)
+
+    @property
+    def mark(self) -> str:
+        """The decimal mark."""
+        return "," if self.name == "fr" else "."
+
+    def numbers(self, text: str) -> str:
+        """A text that is the same in all languages, with the decimal mark of this one."""
+        return POINT.sub(self.mark, text)
 
     def decimal(self, x: float) -> str:
         """A number with the decimal mark of the language."""
-        return f"{x:g}".replace(".", "," if self.name == "fr" else ".")
+        return self.numbers(f"{x:g}")
 
     def word(self, message: str, **places: str) -> str:
         """A message of the views in this language, or a word of the user's, which stays."""

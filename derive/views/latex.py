@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import accumulate, pairwise
 
 from ..figure.drawing import Scene
@@ -14,10 +14,11 @@ from ..figure.scene import scene
 from ..language.templating import environment
 from ..language.tree import Tree
 from ..paper.finding import Finding
-from ..printing.escape import between_dollars, prose, tex_text
+from ..printing.escape import tex_text
 from ..printing.letters import parameter
 from ..printing.macros import definitions, styled
 from ..printing.notation import Notation
+from ..printing.sentences import between_dollars, dollars, prose
 from ..printing.tex import latex_tree
 from ..record.record import Derivation, Step
 from .book import MOTION, REGULAR, BookPart, book, parameters, steps
@@ -202,12 +203,15 @@ class _Writer:
     def step(self, part: BookPart, step: Step) -> Iterator[str]:
         """The lines of a step: heading, sentences, equations."""
         names, language = latex_names(part.source), self.language
-        beside = "".join(f", {prose(x)}" for x in assumed(step, language)) + self.footnotes(step)
+        own = partial(dollars, names=names)
+        assumptions = (prose(x, formula=own) for x in assumed(step, language))
+        beside = "".join(f", {x}" for x in assumptions) + self.footnotes(step)
         rule = tex_text(capitalised(language.word(step.rule)))
         paper = tex_text(printed(step))
         yield rf"\walkstep{{{paper}}}{{{rule}}}{{{beside}}}{{{breakable(step.label)}}}"
         used = ", ".join(self.references(step.uses))
-        yield prose(language.of(step.prose)) + (rf" \walkfrom{{{used}}}" if used else "")
+        told = prose(language.of(step.prose), formula=own)
+        yield told + (rf" \walkfrom{{{used}}}" if used else "")
         yield from _equations(step, self.labels[step.label], names, language)
 
     def footnotes(self, step: Step) -> str:
@@ -268,7 +272,7 @@ def breakable(label: str) -> str:
 def _names(part: BookPart, names: Mapping[str, str], language: Language) -> Iterator[str]:
     """The letters of a part with their meanings, then the parameters of the problem."""
     for symbol in part.symbols:
-        meaning = prose(language.of(symbol.meaning))
+        meaning = prose(language.of(symbol.meaning), formula=partial(dollars, names=names))
         yield rf"\walkname{{{latex_tree(symbol.name, names)}}}{{{meaning}}}"
     for run, meaning, unit in parameters(part.record, language):
         shown = ", ".join(parameter(x, names).tex for x in run)

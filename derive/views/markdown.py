@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import partial
 
-from ..printing.escape import between_dollars, markdown_text, prose
+from ..printing.escape import markdown_text
 from ..printing.letters import names_of
 from ..printing.macros import standard
+from ..printing.sentences import between_dollars, dollars, prose
 from ..record.record import Derivation, Equation, Step, Symbol
 from .language import ENGLISH, Language
 from .layout import blocks
@@ -45,12 +47,13 @@ def step_markdown(step: Step, symbols: Iterable[Symbol], *, language: Language =
 
 
 def _step(step: Step, names: Mapping[str, str], language: Language) -> Iterator[str]:
-    beside = "".join(f", {prose(note, markdown_text)}" for note in notes(step, language))
+    told = partial(prose, escape=markdown_text, formula=partial(dollars, names=names))
+    beside = "".join(f", {told(note)}" for note in notes(step, language))
     rule = markdown_text(capitalised(language.word(step.rule)))
     yield f"### {rule}{beside} — {code(step.label)}"
     used = ", ".join(map(code, step.uses))
     from_these = f" ({language.word('from')} {used})" if used else ""
-    yield prose(language.of(step.prose), markdown_text) + from_these
+    yield told(language.of(step.prose)) + from_these
     for block in _aligned(step.equations, names, language):
         yield f"$$\n{block}\n$$"
 

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
-from ..language.show import show
+from ..language.show import in_sentence
 from ..language.tree import names as names_in
+from ..language.tree import nodes
 from ..printing.letters import names_of
 from ..record.contract import AMENDED, ANY_GROUP, FIELDS
 from ..record.record import Derivation, Equation, Step
@@ -141,9 +142,17 @@ ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇_b", "ṗ_b", "u̇",
 
 def latex_names(d: Derivation) -> dict[str, str]:
     """Name → LaTeX, of a record with its problem's parameters."""
-    parameters, body = [*map(str, d.problem.get("parameters") or ())], d.problem.get("body")
+    parameters, body = named_numbers(d), d.problem.get("body")
     symbolic = isinstance(body, Mapping) and body.get("kind") == "moments"
     return names_of(d.symbols, parameters) | (BOLD if "m" in parameters and not symbolic else {})
+
+
+def named_numbers(d: Derivation) -> list[str]:
+    """The numbers that the problem has names for: its parameters, and what inputs give, as far as
+    equations have them."""
+    sides = (x for s in d.steps if s.driven for e in s.equations for x in (e.lhs, e.rhs))
+    given = (x[1] for t in sides for x in nodes(t) if isinstance(x, tuple) and x[0] == "par")
+    return [*dict.fromkeys(map(str, (*(d.problem.get("parameters") or ()), *given)))]
 
 
 BOLD = {"m": r"\mathbf m"}
@@ -263,7 +272,7 @@ def assumed(step: Step, language: Language = ENGLISH) -> list[str]:
     if any(map(_of_accelerations, step.equations)) and not moving(step.equations):
         found.append(language.word("for any acceleration"))
         left = {e: None for e in left if not _velocity(e)}
-    return [*found, *(f"{show(e.lhs)} = {show(e.rhs)}" for e in left)]
+    return [*found, *(f"{in_sentence(e.lhs)} = {in_sentence(e.rhs)}" for e in left)]
 
 
 def _of_accelerations(e: Equation) -> bool:
@@ -297,7 +306,7 @@ def notes(step: Step, language: Language = ENGLISH) -> list[str]:
     return [*paper, *assumed(step, language)]
 
 
-DOMAINS = {"δA": "T_A G", "δ′A": "T_A G", "ξ′": "𝔤", "η′": "𝔤", "Ω′": "R³"}
+DOMAINS = {"δA": "T_A G", "δ′A": "T_A G", "ξ′": "𝔤", "η′": "𝔤", "Ω′": "ℝ³"}
 PAIRS = {"δ′A": "T_g G", "ξ′": "𝔤"}
 
 

@@ -8,9 +8,9 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from ..paper.finding import VERDICTS, Finding
+from ..printing.line_breaking import WIDTH
 from .language import ENGLISH, Language
 
-WIDTH = 100
 TOTAL = (
     "{confirmed} confirmed, {sign} in another sign convention, {omission} with an omission, "
     "{misprint} misprinted, {definition} definitions"
@@ -35,8 +35,9 @@ def as_json(findings: Sequence[Finding]) -> str:
     return json.dumps(data, ensure_ascii=False, indent=1) + "\n"
 
 
-def as_text(findings: Sequence[Finding], language: Language = ENGLISH) -> str:
-    """The findings as text, a paragraph each; what is false with its correction."""
+def as_text(findings: Sequence[Finding], language: Language = ENGLISH, width: int = WIDTH) -> str:
+    """The findings as text, a paragraph each, its lines of ``width`` columns at most; what is false
+    with its correction."""
     lines, word = [], language.word
     heads = [word(x) for x in HEADS]
     wide = max(map(len, heads))
@@ -47,10 +48,10 @@ def as_text(findings: Sequence[Finding], language: Language = ENGLISH) -> str:
         holds = word(f.holds) if f.holds else None
         texts = (f.printed, derived, holds, example, word(f.remark))
         for head, text in zip(heads, texts, strict=True):
-            lines += _indented(f"{head:{wide}}  ", text) if text else []
+            lines += _indented(f"{head:{wide}}  ", text, width) if text else []
     counts = Counter(f.verdict for f in findings)
     numbers = {x.split()[0]: str(counts[x]) for x in VERDICTS}
-    return "\n".join([*lines, "", word(TOTAL, **numbers)]) + "\n"
+    return "\n".join([*lines, "", *textwrap.wrap(word(TOTAL, **numbers), width)]) + "\n"
 
 
 def _example(f: Finding, language: Language) -> str:
@@ -86,10 +87,10 @@ def _short(value: str) -> str:
     return "1" if square and rows == one else value
 
 
-def _indented(head: str, text: str) -> list[str]:
+def _indented(head: str, text: str, width: int) -> list[str]:
     return textwrap.wrap(
         text,
-        WIDTH,
+        width,
         initial_indent=f"     {head}",
         subsequent_indent=" " * (5 + len(head)),
         break_long_words=False,

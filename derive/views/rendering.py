@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..language.refused import Refused
+from ..printing.line_breaking import WIDTH
 from ..record.record import Derivation
 
 if TYPE_CHECKING:
@@ -21,14 +22,6 @@ NOTES = (".tex", ".pdf", ".html", ".sty")
 
 class RenderError(Refused, ValueError):
     """A choice that has no sense, or TeX that is not there: the message says what to do."""
-
-
-def _text(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
-    from .text import step_text, text
-
-    if alone:
-        return "\n".join(step_text(step, language=words) for step in d.steps)
-    return text(d, language=words)
 
 
 def _latex(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
@@ -57,14 +50,23 @@ def _json(d: Derivation, words: Language, notation: Notation, alone: bool) -> st
     return to_json(d)
 
 
-FORMATS: dict[str, Callable[[Derivation, Language, Notation, bool], str]] = {
-    "text": _text,
+def _text(d: Derivation, words: Language, alone: bool, width: int) -> str:
+    from .text import clashing, step_text, text
+
+    if alone:
+        own = clashing(d)
+        return "\n".join(step_text(step, width, language=words, quoted=own) for step in d.steps)
+    return text(d, width, language=words)
+
+
+MARKUP: dict[str, Callable[[Derivation, Language, Notation, bool], str]] = {
     "latex": _latex,
     "markdown": _markdown,
     "html": _html,
     "json": _json,
 }
 """Format → its text of a record, or of a record of some steps ``alone``, in a language."""
+FORMATS = ("text", *MARKUP)
 LINKED = ("latex", "html")
 """Formats whose references are links, and whose notation may be chosen."""
 
@@ -76,9 +78,11 @@ def render(
     *,
     fragment: bool = False,
     steps: Sequence[Step] = (),
+    width: int = WIDTH,
     **notation: str,
 ) -> str:
-    """A record in one of the formats, in one of the languages; or some ``steps`` of it alone.
+    """A record in one of the formats, in one of the languages; or some ``steps`` of it alone; the
+    lines of a text at most ``width`` columns wide.
 
     :class:`RenderError` for a format that is none, and for choices that do not go together.
     """
@@ -103,15 +107,18 @@ def render(
         from .latex import fragment as fragment_of
 
         return fragment_of(d, language=language(lang))
-    return FORMATS[form](d, language(lang), chosen, bool(steps))
+    if form == "text":
+        return _text(d, language(lang), bool(steps), width)
+    return MARKUP[form](d, language(lang), chosen, bool(steps))
 
 
 def _of_steps(d: Derivation, steps: Sequence[Step], *, linked: bool) -> Derivation:
-    """A record of some steps; where references are ``linked``, of those among them alone."""
+    """A record of some steps; where references are ``linked``, of those among them alone, and
+    without its names."""
     there = {s.label for s in steps}
     if linked:
         steps = [replace(s, uses=tuple(x for x in s.uses if x in there)) for s in steps]
-    return replace(d, steps=tuple(steps), symbols=())
+    return replace(d, steps=tuple(steps), symbols=() if linked else d.symbols)
 
 
 def notes(

@@ -9,7 +9,18 @@ from itertools import groupby
 
 from ..language.show import in_quotes, show, show_name, unclear
 from ..printing.escape import NO_BREAK
-from ..printing.line_breaking import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
+from ..printing.line_breaking import (
+    COMMA,
+    FACTOR,
+    MARK,
+    SUM,
+    WEDGE,
+    WIDTH,
+    Piece,
+    display_width,
+    fill,
+)
+from ..printing.sentences import QUOTED
 from ..record.record import Derivation, Equation, Step
 from .entries import TABLE, cell
 from .language import ENGLISH, Language
@@ -17,6 +28,7 @@ from .outline import (
     PAPER,
     domain,
     moving,
+    named_numbers,
     notes,
     plain_conventions,
     quantified,
@@ -31,7 +43,7 @@ OPENING, CLOSING = "([⟨", ")]⟩"
 BREAKS = {" + ": SUM, " − ": SUM, " ∧ ": WEDGE}
 
 
-def text(d: Derivation, width: int = 100, *, language: Language = ENGLISH) -> str:
+def text(d: Derivation, width: int = WIDTH, *, language: Language = ENGLISH) -> str:
     """The record as text, no line longer than ``width`` columns (at least 40)."""
     width, quoted = max(width, 40), clashing(d)
     heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
@@ -44,7 +56,8 @@ def text(d: Derivation, width: int = 100, *, language: Language = ENGLISH) -> st
         blocks.extend([*_step(step, width, quoted, language)] for step in steps)
     if d.symbols:
         blocks.append([*_underlined(language.word("Names"), "-", width)])
-        named = [(show_name(s.name), language.of(s.meaning)) for s in d.symbols]
+        told = ((s.name, unquoted(language.of(s.meaning), quoted)) for s in d.symbols)
+        named = [(show_name(name), meaning) for name, meaning in told]
         blocks.append([line for name, about in named for line in _named(name, about, width)])
     if declared := [*_parameters(d, quoted, language)]:
         blocks.append([*_underlined(language.word("Parameters"), "-", width)])
@@ -53,13 +66,19 @@ def text(d: Derivation, width: int = 100, *, language: Language = ENGLISH) -> st
     return "".join(c for c in lines if c in f"\n{NO_BREAK}" or c.isprintable()) + "\n"
 
 
-def step_text(step: Step, width: int = 100, *, language: Language = ENGLISH) -> str:
-    """One step as text."""
-    lines = _step(step, width, frozenset(), language)
+def step_text(
+    step: Step,
+    width: int = WIDTH,
+    *,
+    language: Language = ENGLISH,
+    quoted: frozenset[str] = frozenset(),
+) -> str:
+    """One step as text, with these parameters in quotes."""
+    lines = _step(step, width, quoted, language)
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
-def equation_text(e: Equation, width: int = 100) -> str:
+def equation_text(e: Equation, width: int = WIDTH) -> str:
     """One equation as text, its lines at most ``width`` columns wide."""
     return textwrap.dedent("\n".join(_equations((e,), width, ENGLISH)))
 
@@ -88,17 +107,23 @@ def _parameters(
 
 def clashing(d: Derivation) -> frozenset[str]:
     """The parameters that would read like a name of the walk; text sets them in quotes."""
-    body, declared = d.problem.get("body"), d.problem.get("parameters")
+    body = d.problem.get("body")
     symbolic = isinstance(body, Mapping) and body.get("kind") == "moments"
     own = {"g", *(s.name for s in d.symbols)}
-    return unclear(own, [*map(str, declared or ())], symbolic)
+    return unclear(own, named_numbers(d), symbolic)
+
+
+def unquoted(words: str, quoted: frozenset[str]) -> str:
+    """Words whose parameters stand in quotes, without these but for the parameters ``quoted``."""
+    kept = {*map(show_name, quoted)}
+    return QUOTED.sub(lambda x: x[0] if x[0][1:-1] in kept else x[0][1:-1], words)
 
 
 def _step(step: Step, width: int, quoted: frozenset[str], language: Language) -> Iterator[str]:
     """The lines of a step: heading, sentences, what it uses, equations."""
     head = [step.label, language.word(step.rule), *notes(step, language)]
-    yield from _paragraph("  ·  ".join(head), 0, width)
-    yield from _paragraph(language.of(step.prose), MARGIN, width)
+    yield from _paragraph(unquoted("  ·  ".join(head), quoted), 0, width)
+    yield from _paragraph(unquoted(language.of(step.prose), quoted), MARGIN, width)
     if step.uses:
         used = language.word("From {labels}.", labels=", ".join(step.uses))
         yield from _paragraph(used, MARGIN, width)
@@ -200,7 +225,7 @@ def pieces(formula: str) -> list[Piece]:
             depth -= 1
         elif c == "‖":
             norm = 1 - norm
-        elif c == " " and k > start:
+        elif c in " ·" and k > start:
             after = formula[k - 1] in ",;"
             here = COMMA if after else BREAKS.get(formula[k : k + 3], FACTOR)
             if formula[max(k - 2, 0) : k + 1] in BREAKS:

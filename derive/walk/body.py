@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import Any
 
 from ..language.layers import is_layered
-from ..language.show import in_quotes, show
+from ..language.show import in_sentence
 from ..problem.problem import Problem
 from ..record.formulas import stated
 from ..record.hypotheses import Hypothesis
@@ -37,22 +36,17 @@ SIZES = ("radius", "outer", "inner", "sides", "semi_axes", "quadric", "height", 
 """The sizes of a solid that are told in words."""
 
 
-LETTERS = "mcJr"
-"""The letters of the step of the integrals itself: a parameter of the same name is in quotes."""
-
-
 def body_step(
     problem: Problem,
     points: Lagrangian | None,
     a: Alphabet,
     c: Chapter,
-    letters: str = LETTERS,
 ) -> tuple[Step, ...]:
     """The step that states the numbers of the body, after that of its integrals for solids; none
     where there is no body.
 
     ``points``: what is said of the points of any body, with the alphabet ``a``; ``None``: of these
-    integrals the moments alone are told; ``letters``: what a size must not be called in words.
+    integrals the moments alone are told.
     """
     body = problem.body
     steps: list[Step] = []
@@ -66,7 +60,7 @@ def body_step(
     elif isinstance(body, GivenBody):
         if body.solids:
             steps += [continuum(points, a, c)] if points else []
-            steps.append(_integrals(body.solids, c, letters))
+            steps.append(_integrals(body.solids, c))
         equations += _moments(body.given)
         given = say("body.given")
         prose = say("body.moments") if body.solids else given
@@ -74,7 +68,7 @@ def body_step(
         equations = [*_points(problem), *equations]
         prose = say("body.points") + prose
         if problem.group and problem.group.factors:
-            prose += say("body.blocks")
+            prose += say("body.homogeneous" if problem.homogeneous else "body.blocks")
     for k, p in enumerate(problem.places, problem.masses + 1):
         if isinstance(body, PointBody):
             equations.append(Equation(("at", "m", k), 0))
@@ -118,43 +112,42 @@ def _moments(own: Moments) -> list[Equation]:
     ]
 
 
-def _described(s: Solid, letters: str) -> Sentence:
+def _described(s: Solid) -> Sentence:
     """A solid in words: kind, density, sizes, where it is."""
-    shown = partial(_size, letters=letters)
     if s.kind == "mesh":
         sizes = [
             phrase("integrals.count_of_vertices", count=str(len(s.sizes["vertices"]))),
             phrase("integrals.count_of_triangles", count=str(len(s.sizes["faces"]))),
         ]
     else:
-        told = {k: _rows(x, letters) if k == "quadric" else shown(x) for k, x in s.sizes.items()}
+        told = {k: _rows(x) if k == "quadric" else _size(x) for k, x in s.sizes.items()}
         sizes = [phrase(f"integrals.{k}", size=x) for k, x in told.items() if k in SIZES]
     solid = phrase(
         "integrals.layered" if is_layered(s.density) else "integrals.solid",
         kind=SOLIDS[s.kind],
-        density=shown(s.density),
+        density=_size(s.density),
         sizes=listed("{first}, {second}", sizes),
     )
     if s.rotation and s.shift:
         moved = "integrals.turned_and_shifted"
-        return phrase(moved, solid=solid, shift=shown(s.shift))
+        return phrase(moved, solid=solid, shift=_size(s.shift))
     if s.shift:
-        return phrase("integrals.shifted", solid=solid, shift=shown(s.shift))
+        return phrase("integrals.shifted", solid=solid, shift=_size(s.shift))
     return phrase("integrals.turned", solid=solid) if s.rotation else solid
 
 
-def _rows(x: Any, letters: str) -> str:
-    return "; ".join(", ".join(_size(y, letters) for y in row) for row in x)
+def _rows(x: Any) -> str:
+    return "; ".join(", ".join(_size(y) for y in row) for row in x)
 
 
-def _size(x: Any, letters: str) -> str:
+def _size(x: Any) -> str:
     if isinstance(x, tuple) and x and not isinstance(x[0], str):
-        return "(" + ", ".join(_size(y, letters) for y in x) + ")"
-    return show(in_quotes(x, {*letters}))
+        return "(" + ", ".join(_size(y) for y in x) + ")"
+    return in_sentence(x)
 
 
-def _integrals(solids: tuple[Solid, ...], c: Chapter, letters: str) -> Step:
-    told = [_described(x, letters) for x in solids]
+def _integrals(solids: tuple[Solid, ...], c: Chapter) -> Step:
+    told = [*map(_described, solids)]
     return c.draft("integrals", "definition").step(
         stated("m = ∫ dm,  c = ∫ r dm,  J = ∫ rr̄ dm"),
         say("integrals.moments")

@@ -30,7 +30,7 @@ from .point_potentials import column
 from .potential import U_Q, Potentials
 from .potential_letters import moved
 from .wedge import vector_sum
-from .wording import enumerated, say
+from .wording import enumerated, phrase, say
 
 GAMMA = Letter("γ", 3)
 AXIS = Letter("y", 3)
@@ -74,7 +74,7 @@ def conserved_steps(
     if not kept:
         return ()
     prose = say("conserved.kept", kept=enumerated(laws))
-    prose += say(f"conserved.{_tried(group, v)}") + say("conserved.noether")
+    prose += _tried(group, v) + say("conserved.noether")
     draft.depends_on(motion)
     return (draft.step([*definitions, *kept], prose),)
 
@@ -125,13 +125,18 @@ def vector_momenta(momenta: Mapping[Letter, Expr], b: Alphabet) -> SpaceMomenta:
     return SpaceMomenta(whole, gradient(paired, shift) if b.affine else None, vectors=True)
 
 
-def _tried(group: Group, v: Potentials) -> str:
-    """The name of the sentence that says which displacements of space were tried."""
-    if group.factors:
-        return "product"
+def _tried(group: Group, v: Potentials) -> Prose:
+    """The sentence that says which displacements of space were tried."""
     if v.pointwise.forces:
-        return "by_coordinates"
-    return "tried" if group.n == 3 else "tried_all"
+        return say("conserved.by_coordinates")
+    has = {"rotations": _turned(group), "translations": group.free_translations}
+    which = "" if group.n == 3 else "_together"
+    listed = [phrase(f"conserved.{x}{which}") for x, there in has.items() if there]
+    return (
+        say("conserved.tried", displacements=enumerated(listed))
+        if listed
+        else say("conserved.alone")
+    )
 
 
 def _turned(group: Group) -> bool:

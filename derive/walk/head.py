@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ..algebra.groups import Group
+from ..language.show import in_sentence
 from ..problem.data import data
 from ..problem.problem import Problem
 from ..record import sentence
@@ -26,7 +27,11 @@ from ..record.vocabulary import (
     VOCABULARY,
 )
 from ..schema.outside import ForceInput
+from .inputs import numbers
 from .wording import phrase, say
+
+SHOWN = 3
+"""So many numbers of an input are told one by one."""
 
 
 def problem_data(problem: Problem) -> dict[str, object]:
@@ -61,6 +66,9 @@ def symbols(
     sizes["carried"] = sum(x.size for x in problem.advected or ())
     sizes["reduced"] = sizes["carried"] + sizes.get("dim", 0)
     meanings = {x: sentence.say(about.meaning) for x, about in meant.items()}
+    if problem.covector and group:
+        for x in ("u", "f_u"):
+            meanings[x] = say("input.numbers", meaning=meanings[x][0], numbers=_given(problem, x))
     if problem.force_inputs:
         meanings["f_u"] = _inputs(problem, vectors=not discrete)
     used = of_steps(steps, meant, sizes)
@@ -85,7 +93,7 @@ def _meant(problem: Problem) -> dict[str, Name]:
     if problem.lagrangian:
         own = dict(CARRYING) if problem.advected else {}
         return VOCABULARY | LAGRANGIANS[problem.lagrangian.trivialisation] | own
-    blocks = PRODUCTS if group and group.factors and not group.affine else {}
+    blocks = PRODUCTS if group and len(group.factors) > 1 else {}
     turning = group is not None and group.turns_space
     turned = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
     return VOCABULARY | turned | blocks
@@ -97,10 +105,17 @@ def _inputs(problem: Problem, *, vectors: bool) -> Prose:
     forces, group = [_force(x) for x in problem.force_inputs], problem.group
     if vectors and problem.covector and group and group.turns_space and group.affine:
         at_origin = "input.covector_force"
-        forces.insert(0, phrase(at_origin, name=problem.covector.name))
+        forces.insert(0, phrase(at_origin, name=_given(problem, "f_u")))
     return say("input.meaning", forces=listed("{first}; {second}", forces))
+
+
+def _given(problem: Problem, letter: str) -> str:
+    """The numbers of the covector that are the entries of u or of f_u, by the user's names."""
+    given = numbers(problem).items()
+    told = [in_sentence(x) for t, x in given if isinstance(t, tuple) and t[1] == letter]
+    return ", ".join(told if len(told) <= SHOWN else (told[0], "…", told[-1]))
 
 
 def _force(given: ForceInput) -> Sentence:
     """A force that is given at every call, in words."""
-    return phrase(f"input.{given.frame}_force", name=given.name, point=f"r_{given.on}")
+    return phrase(f"input.{given.frame}_force", name=f"‘{given.name}’", point=f"r_{given.on}")

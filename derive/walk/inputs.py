@@ -6,14 +6,16 @@ on points, from Rayleigh's function ½ κ ‖v‖²; its sums over the points ar
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 from ..algebra.calculus import gradient, reduce, substitute
 from ..algebra.groups import Group
 from ..algebra.space import fold_inertia, normal_form
 from ..algebra.word_trees import tree_of
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..language.tree import Tree, add, mul
+from ..language.suffixed import suffixed
+from ..language.tree import Tree, add, mul, plain
 from ..problem.problem import Problem
 from ..record.formulas import stated
 from ..record.record import Equation, Step
@@ -54,6 +56,43 @@ def prose(problem: Problem) -> Prose:
     """The sentences that say what acts from outside dϖ."""
     acting = [INPUTS] * bool(problem.inputs) + [DRAG] * bool(problem.damping)
     return say("input.outside", forces=listed(AND, acting)) + say("input.moments")
+
+
+def by_name(problem: Problem, steps: Iterable[Step]) -> tuple[Step, ...]:
+    """The steps with the numbers of the inputs by the names of the problem: ``thrust_3`` for an
+    entry of the member of f_u that the force ``thrust`` is, or of the covector u, f_u."""
+    given = numbers(problem)
+
+    def named(t: Tree) -> Tree:
+        if t in given or not isinstance(t, tuple):
+            return given.get(t, t)
+        return (t[0], *map(named, t[1:]))
+
+    def told(step: Step) -> Step:
+        sides = (replace(e, lhs=named(e.lhs), rhs=named(e.rhs)) for e in step.equations)
+        return replace(step, equations=tuple(sides))
+
+    return tuple(map(told, steps) if given else steps)
+
+
+def numbers(problem: Problem) -> dict[Tree, Tree]:
+    """Entries of f_u and u → the numbers that are given, of a covector in the basis that the
+    problem states."""
+    found: dict[Tree, Tree] = {}
+    group = problem.group
+    assert group is not None
+    for e, given in enumerate(problem.force_inputs, 1):
+        _, moved = group.places[problem.block(given.on) - 1]
+        for k in range(1, moved.n + 1):
+            found["entry", ("at", "f_u", e), k] = ("par", suffixed(given.name, k))
+    if covector := problem.covector:
+        own = [("par", suffixed(covector.name, a)) for a in range(1, group.dimension + 1)]
+        turns = group.dimension - (group.n if group.turns_space and group.affine else 0)
+        for a, element in enumerate(group.basis, 1):
+            parts = zip(group.stated.nearest(element), own, strict=True)
+            letter, k = ("u", a) if a <= turns else ("f_u", a - turns)
+            found["entry", letter, k] = add(*(mul(plain(x), u) for x, u in parts if x))
+    return found
 
 
 def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> External | None:

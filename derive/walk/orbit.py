@@ -11,14 +11,18 @@ from fractions import Fraction
 
 from ..algebra import forms
 from ..algebra.calculus import derivation, gradient, reduce, substitute, terms_with, without
+from ..algebra.determinants import determinant, determinant_letter
+from ..algebra.groups import Group
 from ..algebra.word_trees import WordNotation, metrics
-from ..algebra.words import Expr, Letter, inner, number, word
+from ..algebra.words import Expr, Letter, inner, number, trace, word
 from ..language.read import read
-from ..language.tree import add, neg
+from ..language.tree import Tree, add, mul, neg
+from ..problem.problem import Problem
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
+from .inverse import cancelling, inverse_letter
 from .lagrangian import Lagrangian
 from .pullback import Moments, sum_over
 from .trivialisation import body_rule, cauchy_green
@@ -110,3 +114,74 @@ def rigid(general: Distances, unit: Expr, a: Alphabet, c: Chapter) -> Step:
         say("rigid.orbit"),
         (1, 6),
     )
+
+
+def unaligned(points: Lagrangian, unit: Expr, b: Alphabet, c: Chapter) -> Step:
+    """The step that tells g where the points are not all on one line: A(x ∧ y) = Ax ∧ Ay, of places
+    or of their differences, for a matrix of determinant 1 with ĀA = 1.
+    """
+    draft, columns = c.draft("unaligned", "relation"), word(Letter("Y", 3, 3))
+    unimodular = {determinant_letter(b.A.position): number(1)}
+    if substitute(determinant(word(b.A.position) * columns), unimodular) != determinant(columns):
+        raise ValueError("the map does not keep the triple product")
+    draft.depends_on(unit, points.position)
+
+    centre = mul(("inv", b.m.name), b.c.name)
+    middle = (add("T", mul("A", centre)), centre) if b.affine else (0, 0)
+    moved, still = (
+        [add(place, neg(at)) for place in map(read, pair)]
+        for pair, at in zip((["rᵢ(t)", "rⱼ(t)"], ["rᵢ", "rⱼ"]), middle, strict=True)
+    )
+    told = Equation(("wedge", *moved), ("mul", "A", ("wedge", *still)))
+    return draft.step([told], say(f"unaligned.{'displaced' if b.affine else 'turned'}"), (8,))
+
+
+def volumes(a: Alphabet, c: Chapter) -> Step:
+    """The step that says how a volume varies, as that of which the moments tell: by Tr ξ."""
+    draft, J = c.draft("volumes", "trivialisation"), "J_c" if a.affine else "J"
+    metric, g = Letter(J, a.n, a.n, 1), word(a.A.position)
+    moved = (g * word(metric)).marked(c.label("unique"))
+    xi = word(a.Z.xi).marked(c.label("trivialisation"))
+    varied = forms.strip_left(derivation(moved, {a.A.position: g * xi}.get), a.A.position)
+    turned = draft.tree(trace(reduce(varied * word(inverse_letter(metric)), cancelling(metric))))
+    changed = read("Σᵢ mᵢ δ(rᵢ(t))(rᵢ − m⁻¹c)‾" if a.affine else "Σᵢ mᵢ δ(rᵢ(t)) r̄ᵢ")
+    ratio: Tree = ("tr", mul(changed, ("inv", J), ("inv", "A")))
+    return draft.step([Equation(ratio, turned)], say("volumes.trace"))
+
+
+def tetrahedron(problem: Problem, group: Group, c: Chapter) -> tuple[Step, ...]:
+    """The step that says that the volume of four points of R³ is kept, ⟨x, y ∧ z⟩ with the edges
+    from the first, where all maps that keep volumes move them (Exercise 2)."""
+    kept = "unimodular" in group.relations and group.keeps_no_more_than_volume
+    if group.n != 3 or group.factors or not kept or len(problem.points) != 4:
+        return ()
+    draft, road = c.draft("tetrahedron", "relation"), "affine" if group.affine else "linear"
+    draft.depends_on(*(number(1).marked(x) for x in (f"{road}.volumes", c.label("relation"))))
+    at_origin = [k for k, p in enumerate(problem.points, 1) if not any(p.at)]
+    first = at_origin[0] if at_origin else 1
+    moved, varied, still = (
+        [add(f(k), neg(f(first))) for k in range(1, 5) if k != first]
+        for f in (
+            _in_space,
+            lambda k: ("call", "δ", _in_space(k)),
+            lambda k: 0 if k in at_origin else ("at", "r", k),
+        )
+    )
+    changes = (
+        _triple_product(*(varied[j] if j == k else x for j, x in enumerate(moved)))
+        for k in range(3)
+    )
+    equations = (
+        Equation(_triple_product(*moved), _triple_product(*still)),
+        Equation(add(*changes), 0),
+    )
+    return (draft.step(equations, say("tetrahedron.kept") + say(f"tetrahedron.{road}")),)
+
+
+def _in_space(k: int) -> Tree:
+    return ("call", ("at", "r", k), "t")
+
+
+def _triple_product(x: Tree, y: Tree, z: Tree) -> Tree:
+    """⟨x, y ∧ z⟩."""
+    return ("inner", x, ("wedge", y, z))

@@ -146,8 +146,9 @@ def _force(stage: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Moments, S
     work = sum_over(inner(word(a.F_i), stage.variation), {a.F_i, a.r_i}, table)
     definitions = stated("N = Σᵢ Fᵢ r̄ᵢ,  F = Σᵢ Fᵢ" if a.affine else "N = Σᵢ Fᵢ r̄ᵢ")
     varied = read("dŨ(δA, δT)" if a.affine else "dŨ(δA)")
+    acting = neg(("sum", "i", read("⟨Fᵢ, δ(rᵢ(t))⟩")))
     step = draft.step(
-        (*definitions, Equation(varied, draft.tree(-work))),
+        (*definitions, Equation(varied, acting), Equation(varied, draft.tree(-work))),
         say("force.points"),
         (2,),
     )

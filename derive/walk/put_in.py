@@ -19,7 +19,7 @@ from ..language import rational as q
 from ..language.laurent import Laurent, OverlongError, polynomial, written
 from ..language.tree import Tree, nodes, operands, replaced
 from ..language.values import LARGEST_POWER, OPERATIONS, Value
-from ..problem.moved_entries import entry_of
+from ..problem.moved_entries import element as entries_of
 from ..record.record import Equation
 
 MOST = 200
@@ -42,9 +42,8 @@ def symbols(whole: Tree, size: int) -> Value:
 def element(group: Group) -> Value:
     """The matrix of g, s × s, by the entries that tell the others: those of A, and of T in the last
     column of an affine group."""
-    span = range(group.size)
     if not group.has_inner_samples:  # what tells the others could be tried on no exact element
-        return tuple(tuple(polynomial(entry_of(group, i, j)) for j in span) for i in span)
+        return tuple(tuple(map(polynomial, row)) for row in entries_of(group))
 
     def name(i: int, j: int) -> Laurent:
         shift = group.affine and j == group.n

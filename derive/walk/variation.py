@@ -24,7 +24,7 @@ from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter, Draft
 from .exterior import natural_variations, primes
-from .lagrangian import Lagrangian
+from .lagrangian import Lagrangian, indexed_tree
 from .pullback import Pullback, sum_over
 from .wording import say
 
@@ -52,13 +52,18 @@ def principle(
     first, across = extremal(varying, lagrangian, form.form, pulled.moment_work, a)
     summand, shown = _work(points, a)
     balance = sum_over(summand, {a.m_i, a.r_i, a.F_i}, pulled.moments)
+    moving = {p.position: word(p.velocity) for p in a.parts}
+    if derivation(points.position, moving.get) != points.velocity:
+        raise ValueError("the velocity of a point is not the derivative of its place")
+    any_rate = tuple(p.acceleration.name for p in a.parts)
+    across_points = add(("mul", -1, ("sum", "i", shown)), working.tree(across + balance))
     second = working.step(
         (
+            Equation(read("d/dt(rᵢ(t))"), read("vᵢ")),
             Equation(
-                ACROSS,
-                add(("mul", -1, ("sum", "i", shown)), working.tree(across + balance)),
-                tuple(p.acceleration.name for p in a.parts),
+                read("d/dt(vᵢ)"), indexed_tree(_acceleration(points, a), points.v_i, a), any_rate
             ),
+            Equation(ACROSS, across_points, any_rate),
         ),
         say("dalembert.extremal") + say("dalembert.points"),
         (2, 5),
@@ -121,9 +126,14 @@ def _rate(form: Expr, work: Expr, a: Alphabet) -> Expr:
     return derivation(form, rate.get)
 
 
+def _acceleration(points: Lagrangian, a: Alphabet) -> Expr:
+    """α̇ r_i + τ̇."""
+    return substitute(points.velocity, {p.velocity: word(p.acceleration) for p in a.parts})
+
+
 def _work(points: Lagrangian, a: Alphabet) -> tuple[Expr, Tree]:
     """⟨m_i r̈_i − F_i, δr_i − v_i δt⟩ on words, with the acceleration at hand; and as written."""
-    acceleration = substitute(points.velocity, {p.velocity: word(p.acceleration) for p in a.parts})
+    acceleration = _acceleration(points, a)
     varied = Letter("δr_i", a.n)
     balance = word(a.m_i) * acceleration - word(a.F_i)
     moved = word(varied) - word(points.v_i) * word(a.dt)

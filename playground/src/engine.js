@@ -1,4 +1,4 @@
-/* The worker that derives: one question at a time, ended by a button or by the clock.
+/* The worker that derives: one question at a time, ended by a button, or by the clock where nothing is heard of it.
  *
  * It is begun from a blob, so that the policy of the page holds in it, too. */
 const PATIENCE = 3000;
@@ -59,7 +59,15 @@ export class Engine {
         this.onstate?.();
       };
     });
-    asked.heard = ({ kind, news }) => (kind === "end" ? asked.end("end") : heard(kind, news));
+    asked.wind = () => {
+      clearTimeout(asked.clock);
+      asked.clock = setTimeout(() => this.stop("late"), 1000 * this.seconds);
+    };
+    asked.heard = ({ kind, news }) => {
+      if (kind === "end") return asked.end("end");
+      asked.wind();
+      heard(kind, news);
+    };
     this.onstate?.();
     try {
       await this.#ready;
@@ -67,7 +75,7 @@ export class Engine {
       asked.end("broken");
     }
     if (this.#asked === asked) {
-      asked.clock = setTimeout(() => this.stop("late"), 1000 * this.seconds);
+      asked.wind();
       asked.since = performance.now();
       this.#worker.postMessage({ id, ...question });
     }

@@ -297,6 +297,7 @@ async function write(as) {
   the("as-form").setAttribute("aria-pressed", String(shown));
   the("as-text").setAttribute("aria-pressed", String(!shown));
   if (shown) await filled();
+  if (the("as-form").getAttribute("aria-pressed") !== String(shown)) return; // asked for the other meanwhile
   the("form").hidden = !shown;
   the("editor").hidden = shown;
 }

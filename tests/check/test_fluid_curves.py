@@ -6,8 +6,8 @@ import random
 import pytest
 from scipy.integrate import quad
 
+from derive.check.fluid.ball import Ball
 from derive.check.fluid.curves import curve
-from derive.check.fluid.disc import Disc
 from derive.check.fluid.flat_torus import Torus
 from derive.check.fluid.functions import Function
 
@@ -79,7 +79,7 @@ def test_a_level():
 def test_a_laurent_curve():
     """At z = e^{is}, over a whole turn; its points come from those that the turn takes there."""
     draw = drawing()
-    space, points = Disc(), Disc()
+    space, points = Ball(2), Ball(2)
     laurent = curve(space, points, draw, level=False)
     laurent.pace = 1j
     f = Function(space, {(2, 1, 0): draw(), (1, 0, 0): draw(), (0, 3, 0): draw()})

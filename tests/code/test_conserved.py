@@ -80,6 +80,9 @@ def test_every_number_is_kept_and_is_that_of_the_search(name):
     assert spread(kept) < 1e-9
     t, x = t[:5], x[:5]  # on the group as closely as rounding allows
     wanted = derive(name).symmetries().values(t, x)
+    if "angular_momentum" in module.CONSERVED:  # by the turn about (g_1, g_2, g_3)
+        along = np.linalg.norm([module.DEFAULTS[f"g_{k}"] for k in (1, 2, 3)])
+        wanted[:, module.CONSERVED.index("angular_momentum")] /= along
     scale = 1 + np.abs(wanted).max(axis=0)
     assert (np.abs(kept[:5, : wanted.shape[1]] - wanted).max(axis=0) / scale).max() < 1e-12
 
@@ -159,6 +162,53 @@ def test_what_is_refused(capsys):
     assert "damping" in capsys.readouterr().err
     with pytest.raises(LoweringError, match="leave out --frame"):
         derive("se3").emit(conserved=True, frame="principal")
+
+
+TOP = """name = "top"
+group = "GROUP"
+[[point]]
+mass = 1
+at = [0.3, 0, 1]
+[[point]]
+mass = 1
+at = [-0.3, 0, 1]
+[[point]]
+mass = 1
+at = [0, 0.3, 1]
+[[point]]
+mass = 1
+at = [0, -0.3, 1]
+[[potential]]
+kind = "gravity"
+g = [0, 0, -9.81]
+[[damping]]
+coefficient = 0.2
+"""
+
+
+@pytest.mark.parametrize("group", ["SO(3)", "SE(3)"])
+def test_what_is_kept_with_damping(group, tmp_path, capsys):
+    """A turn of the body about the axis that the damped point is on, and nothing else."""
+    path = tmp_path / "top.toml"
+    head = TOP.replace("GROUP", group)
+    path.write_text(head + "at = [0, 0, 1]\n")
+    emit = ["emit", str(path), "--conserved", "--lang", "python", "--out", str(tmp_path)]
+    assert main([*emit, "--validate"]) == 0
+    assert "conserved equal the record" in capsys.readouterr().err
+    module = ModuleType("top")
+    exec((tmp_path / "top.py").read_text(), vars(module))
+    assert module.CONSERVED == ("body_angular_momentum_3",)
+    start = ["--set", "zeta_1=1", "--set", "zeta_3=9"]
+    assert main(["simulate", str(path), "--t", "1", *start, "--out", str(tmp_path / "r.csv")]) == 0
+    assert "damping" not in capsys.readouterr().err
+    kept = np.genfromtxt(tmp_path / "r.csv", delimiter=",", names=True)["body_angular_momentum_3"]
+    assert np.ptp(kept) < 1e-9 < 1 < abs(kept[0])
+    for at in ("at = [0, 0.1, 1]\n", ""):  # beside the axis, or all points
+        path.write_text(head + at)
+        assert main(emit) == 2
+        told = capsys.readouterr().err
+        assert "no momentum is known to be kept" in told
+        assert "take" not in told
 
 
 def reports(name, change=lambda text: text):

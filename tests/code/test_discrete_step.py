@@ -114,7 +114,7 @@ def test_it_is_the_motion_that_the_record_tells(name):
                 known.given["f_u_1"] = tuple((next(u),) for _ in range(problem.group.n))
             else:
                 size = range(1, problem.group.dimension + 1)
-                known.given |= {f"u_{i}": next(u) for i in size}
+                known.parameters |= {f"{given.name}_{i}": next(u) for i in size}
         found, _ = known.next(*states[:2])
         off = (abs(x) for row in q.minus(found, states[2]) for x in row)
         assert max(off) < 1e-14

@@ -1,10 +1,13 @@
 """Many motions at once: the same as one by one, each with a step and an end of its own."""
 
+import subprocess
+
 import numpy as np
 import pytest
 
 import derive
 from tests.problems.line import FALLING
+from tests.support.needs import CC, need
 
 AT_ONE = [1.0, 0, 0, 0, 1, 0, 0, 0, 1]
 
@@ -43,6 +46,62 @@ def test_parameters_of_their_own():
     for own, one, end in zip(p, x, found, strict=True):
         assert np.abs(f.use(own).begin(one).move_to(1, 1e-14).x - end).max() < 1e-10
     f.use()
+
+
+FIXED = """\
+#include "{name}_steps.h"
+#include <stdio.h>
+#define N {n}
+static double given(void) {{ double x = 0; return scanf("%lf", &x) == 1 ? x : 0; }}
+int main(void)
+{{
+    static double x[N][{name}_N_STATE], k[N][{name}_SIZE_K], u[N][{name}_SIZE_U];
+    for (int i = 0; i < N; ++i) {{
+        double p[{name}_SIZE_P];
+        for (int j = 0; j < {name}_N_PARAMETERS; ++j) p[j] = given();
+        for (int j = 0; j < {name}_N_INPUTS; ++j) u[i][j] = given();
+        for (int j = 0; j < {name}_N_STATE; ++j) x[i][j] = given();
+        if ({name}_constants(p, k[i])) return 1;
+    }}
+    for (int each = 0; each < 2; ++each) {{
+        static double many[N][{name}_N_STATE];
+        memcpy(many, x, sizeof x);
+        {name}_ensemble_rk4(N, many[0], k[0], each*{name}_SIZE_K, u[0], each*{name}_SIZE_U, 0.5,
+            -0.01, 40);
+        for (int i = 0; i < N; ++i) {{
+            {name}_motion m;
+            {name}_begin(&m, 0.5, x[i]);
+            if ({name}_rk4(&m, k[i*each], u[i*each], -0.01, 40)) return 2;
+            for (int j = 0; j < {name}_N_STATE; ++j) {{
+                printf("%.17g %.17g %.17g\\n", x[i][j], m.x[j], many[i][j]);
+            }}
+        }}
+    }}
+    return 0;
+}}
+"""
+
+
+@pytest.mark.parametrize("problem", ["so3", "se3", "sl3"])
+def test_steps_of_one_size_are_those_of_one_by_one(problem, tmp_path):
+    """Kutta's, backwards: of one body under one force, then each of its own."""
+    need("cc")
+    derive.derive(problem).emit(tmp_path, ("c",), step=("rk4",), ensemble=True)
+    f, rng, n = derive.compile(problem), np.random.default_rng(7), 21
+    p = f.p * rng.uniform(0.95, 1.05, size=(n, len(f.p)))
+    x = many(f, n) * np.array([1.0] * 9 + [0.1] * (len(f.STATE) - 9))
+    rows = np.hstack([p, rng.normal(size=(n, len(f.INPUTS))), x])
+    (tmp_path / "main.c").write_text(FIXED.format(name=problem, n=n))
+    strict = [CC, "-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O2", "-o", "main"]
+    subprocess.run([*strict, "main.c", f"{problem}.c", "-lm"], cwd=tmp_path, check=True)
+    given = " ".join(repr(float(v)) for v in rows.flat)
+    done = subprocess.run(
+        [str(tmp_path / "main")], input=given, capture_output=True, text=True, check=True
+    )
+    start, one, found = np.array(done.stdout.split(), float).reshape(2, n, len(f.STATE), 3).T
+    assert np.abs(found - one).max() < 1e-13 * np.abs(one).max()
+    assert (np.abs(one - start).max(0) > 1e-2).all()
+    assert np.abs(one[..., 0] - one[..., 1])[:, 1:].max(0).min() > 1e-4
 
 
 def test_a_motion_that_ends_leaves_the_others(tmp_path):

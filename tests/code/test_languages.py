@@ -67,6 +67,8 @@ def emitted(tmp_path_factory):
     plain.append(
         Emitted("turning", "se3", folder, (*REFERENCE, *OTHERS), {"attitude": "quaternion"})
     )
+    moving = {"state": "moving", "jacobian": ALL[:1], "conserved": True}
+    plain.append(Emitted("moving", "screw", folder, (*REFERENCE, *OTHERS), moving))
     framed = {"frame": "principal", "jacobian": ALL[:2]}
     able = tuple(x for x in (*REFERENCE, *OTHERS) if LANGUAGES[x].framed)
     turned = Emitted("turned", "se3", folder, able, framed, tolerance=1e-12)

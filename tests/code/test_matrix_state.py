@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import derive
+from derive.validate.chart import Chart
+from derive.validate.emission import EmittedFiles
 from tests.oracles.sampling import quaternion
 from tests.support.emitted import import_python
 from tests.support.needs import need
@@ -131,3 +133,51 @@ def test_without_a_quaternion_there_are_none():
     f = derive.compile("so3")
     with pytest.raises(ValueError, match="attitude='quaternion'"):
         f.to_matrix(np.zeros(12))
+
+
+MIXED = [
+    [[0, 0, 0, 1], [0] * 4, [0] * 4, [0] * 4],
+    [[0] * 4, [0, 0, -2, 0], [0, 2, 0, 0], [0] * 4],
+    [[0, 0, 1, 0], [0] * 4, [-1, 0, 0, 0], [0] * 4],
+    [[0] * 4, [0, 0, 0, 1], [0] * 4, [0] * 4],
+    [[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 1], [0] * 4],
+    [[0] * 4, [0] * 4, [0, 0, 0, 1], [0] * 4],
+]
+"""A basis of se(3) of one's own, a screw in it."""
+OPERATOR = np.diag([2.0, 3, 2.5, 1, 2, 3]) + 0.4 * np.eye(6, k=4)
+L = "zeta_1^2 + 2*zeta_2^2 + 3/2*zeta_3^2 + zeta_4^2 + zeta_5^2/2 + 3*zeta_6^2 + zeta_1*zeta_5/3"
+STATED = {
+    "expression": ("SE(3)", derive.Lagrangian(f"{L} - 2*T_3 - A_33*T_1")),
+    "operator": ("SE(3)", derive.Inertia((OPERATOR + OPERATOR.T) / 2)),
+    "basis": (derive.Group("Own", MIXED, "affine"), derive.Lagrangian(f"{L} - T_3 - A_33*T_1")),
+}
+
+
+@pytest.mark.parametrize("name", STATED)
+def test_a_lagrangian_of_ones_own(name, tmp_path):
+    """In a quaternion it has the motion that it has in matrices, and equals the record."""
+    group, lagrangian = STATED[name]
+    problem = derive.Problem("own", group, lagrangian, [derive.Covector("u")])
+    record = derive.derive(problem)
+    plain = derive.compile(record, step="gauss")
+    turned = derive.compile(record, step="gauss", attitude="quaternion")
+    rng = np.random.default_rng(5)
+    x = np.concatenate([quaternion(rotation([1, 2, 3], 1.0)), rng.normal(size=9)])
+    ends = []
+    for f, at in ((plain, turned.to_matrix(x)), (turned, x)):
+        f.u = 0.1 * np.arange(6)
+        ends.append(f.begin(at).move_to(2.0, 1e-12).x)
+    assert len(turned.STATE) == 13
+    assert np.abs(turned.to_matrix(ends[1]) - ends[0]).max() < 1e-11
+    assert np.abs(turned.to_matrix(ends[1]) - turned.to_matrix(x)).max() > 0.1
+
+
+@pytest.mark.parametrize("name", STATED)
+def test_a_lagrangian_of_ones_own_equals_the_record(name):
+    group, lagrangian = STATED[name]
+    d = derive.derive(derive.Problem("own", group, lagrangian, [derive.Covector("u")]))
+    options = {"attitude": "quaternion", "momenta": True, "jacobian": ("state", "inputs")}
+    files = d.emit(languages=("python",), **options)
+    reports = [*EmittedFiles(files, "own", Chart("row", "quaternion", "body")).reports(d.record)]
+    assert all(report.holds for report in reports)
+    assert "to_matrix, from_matrix, momentum, velocity, momentum_rhs" in reports[0].text

@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 import derive
 from derive.code.assemble import assemble
 from derive.code.emit import emit
+from derive.code.languages import LANGUAGES
 from derive.code.options import Options
 from derive.command.cli import main
 from derive.pipeline import walk
@@ -20,6 +21,7 @@ from tests.oracles.euler_lagrange import acceleration
 from tests.support.emitted import import_python
 from tests.support.languages import OTHERS, REFERENCE, Emitted, agree, built, command, known
 from tests.support.needs import need
+from tests.support.read_julia import REALS, Module, Numbers
 
 SQUARE = "zeta_1^2 + zeta_2^2 + zeta_3^2"
 CASES = {  # group, side, ℓ; the last three are found by Newton's method
@@ -220,10 +222,25 @@ int main()
     std::printf("%d", !m::velocity(0, bad, k) && !m::momentum_rhs(0, bad, k));
 }
 """
+
+
+def in_julia(source, real):
+    m, number = Module(source), REALS[LANGUAGES["julia"].reals[real]]
+    y, bad, u = (
+        Numbers(len(v), values=map(number, v))
+        for v in ([1, 0, 0, 1, 0.7], [1, 0, 0, 1, np.nan], [0.3])
+    )
+    k, x, dy = m.call("constants", Numbers(0)), Numbers(5), Numbers(5)
+    assert m.call("velocity!", x, y, k, number(0)) is True
+    assert m.call("momentum_rhs!", dy, y, k, number(0), u=u) is True
+    none = m.call("velocity!", Numbers(5), bad, k, number(0)) is False
+    return " ".join(map(str, map(float, [*x, *dy, none])))
+
+
 STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
 
 
-@pytest.mark.parametrize("language", ["javascript", "rust", "cpp", "cpp in one header"])
+@pytest.mark.parametrize("language", ["javascript", "rust", "julia", "cpp", "cpp in one header"])
 @pytest.mark.parametrize("real", ["double", "float"])
 def test_newton_in_every_language(language, real, tmp_path):
     """Π = sinh ζ, which asinh turns round."""
@@ -237,6 +254,8 @@ def test_newton_in_every_language(language, real, tmp_path):
         known("node", ["node"])
         (tmp_path / "main.mjs").write_text(NODE)
         out = command("node", "main.mjs", cwd=tmp_path)
+    elif language == "julia":
+        out = in_julia((tmp_path / "test.jl").read_text(encoding="utf-8"), real)
     elif language == "rust":
         known("rust2021", ["rustc"])
         name = "f64" if real == "double" else "f32"

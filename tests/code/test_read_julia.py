@@ -68,7 +68,11 @@ WRONG = {
     "a product by juxtaposition": ("2.0*(x", "2.0(x"),
     "an operator that is not known": ("-sqrt(y)*", "-sqrt(y)^2*"),
     "integers": ("x[2]\n        + 1.0", "1 + 2"),
-    "a loop": ("    if y <= 0", "    for i in 1:2\n    end\n    if y <= 0"),
+    "a loop without an end": ("    if y <= 0", "    while y <= 0\n    end\n    if y <= 0"),
+    "a name of a loop after it": (
+        "    y = 2.0*",
+        "    for i in 1:2\n        z = 1.0\n    end\n    y = z*",
+    ),
     "no syntax": ("if y <= 0", "if y <= "),
     "a keyword": ("    y = 2.0*", "    end = 1.0\n    y = 2.0*"),
     "a name twice": ("const N_INPUTS = 2\n", "const N_INPUTS = 2\nconst N_INPUTS = 2\n"),

@@ -60,7 +60,8 @@ def environment(name, p, x, u):
     given["u"] = column(u[:size])
     names = Names(d, given)
     listed = [*d.problem["body"].get("points", []), *d.problem.get("places", [])]
-    env = Environment(n, names, parameters=p, listed=len(listed))
+    numbers = p | dict(zip(module(name).INPUTS, u, strict=False))
+    env = Environment(n, names, parameters=numbers, listed=len(listed))
     names.env = env
     for step in d.steps:
         for e in step.equations:

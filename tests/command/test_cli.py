@@ -11,6 +11,7 @@ import pytest
 
 from derive.command.cli import main
 from derive.command.loading import ready_made
+from derive.printing.line_breaking import display_width
 from derive.record.json_writer import to_data, to_json
 from derive.views.rendering import FORMATS
 from tests.support.needs import CC, needs
@@ -48,6 +49,50 @@ def test_walk_formats(form, capsys, tmp_path):
     assert main(["walk", "so3", "--format", form, "--out", str(target)]) == 0
     assert target.read_text(encoding="utf-8") == out
     assert os.listdir(tmp_path) == ["walk"]
+
+
+def widest(text):
+    return max(map(display_width, text.split("\n")))
+
+
+TEXTS = (
+    ("walk", "so3"),
+    ("walk", "so3", "linear.kernel"),
+    ("integrals", "euler_top"),
+    ("equilibria", "euler_top"),
+    ("symmetries", "euler_top"),
+    ("paper",),
+)
+
+
+@pytest.mark.parametrize("words", TEXTS)
+def test_a_text_is_as_wide_as_what_shows_it(words, capsys, tmp_path, monkeypatch):
+    """COLUMNS, of standard output alone; 100 where nothing is known of the reader."""
+    said = {}
+    for columns in ("", "72", "160"):
+        monkeypatch.setenv("COLUMNS", columns)
+        assert main([*words]) == 0
+        said[columns] = capsys.readouterr().out
+        file = tmp_path / "said.txt"
+        assert main([*words, "--out", str(file)]) == 0
+        assert file.read_text(encoding="utf-8") == said[""]
+    assert 72 < widest(said[""]) <= 100 < widest(said["160"]) <= 160
+    assert 60 < widest(said["72"]) <= 72
+    assert len({x.replace("\n", " ").replace(" ", "") for x in said.values()}) == 1
+
+
+def test_a_text_is_as_wide_as_the_terminal():
+    pty, termios = pytest.importorskip("pty"), pytest.importorskip("termios")
+    ours, theirs = pty.openpty()
+    termios.tcsetwinsize(theirs, (24, 64))
+    own = {x: y for x, y in os.environ.items() if x != "COLUMNS"}
+    command = [sys.executable, "-m", "derive", "walk", "so3", "so3.kernel"]
+    done = subprocess.run(command, stdout=theirs, env=own, timeout=60)
+    said = os.read(ours, 10_000).decode()
+    os.close(ours)
+    os.close(theirs)
+    assert done.returncode == 0
+    assert 40 < widest(said.replace("\r", "")) <= 64
 
 
 def test_check_a_problem_and_a_file(capsys, tmp_path):

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from derive import compile as compiled
 from derive.command.cli import main
 from tests.support.emitted import import_python
 from tests.support.needs import CC, needs
@@ -35,6 +36,41 @@ def test_prefixes_that_are_words(prefix, refused, tmp_path):
         "so3", f"--prefix={prefix}", "--out", tmp_path / "new"
     )
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("prefix", "language", "what"),
+    [
+        ("box", "rust", "a word of Rust"),
+        ("loop", "rust", "a word of Rust"),
+        ("begin", "julia", "a word of Julia"),
+        ("imp", "python", "a module of Python"),
+        ("lambda", "python", "a keyword of Python"),
+        ("virtual", "cpp", "a keyword of C++"),
+        ("sqrt", "cvode", "a name of C's math.h"),
+    ],
+)
+def test_words_of_one_language_are_prefixes_in_others(prefix, language, what, refused, tmp_path):
+    told = refused("so3", "--prefix", prefix, "--lang", language, "--out", tmp_path / "new")
+    assert f"the prefix {prefix!r} cannot be used, it is {what}:" in told
+    free = "javascript" if language in ("cpp", "cvode") else "c"
+    assert main(["emit", "so3", f"--prefix={prefix}", "--lang", free, "--out", str(tmp_path)]) == 0
+
+
+@needs("cc")
+@pytest.mark.parametrize("name", ["box", "match", "core", "stdio", "imp"])
+def test_a_problem_of_any_name_runs(name, tmp_path, capsys):
+    """Also compiled, and in a page: no file of its code is left to be named."""
+    path = tmp_path / "problem.toml"
+    points = "".join(f"[[point]]\nmass = 1\nat = {x}\n" for x in ([1, 0, 0], [0, 2, 0], [0, 0, 3]))
+    path.write_text(f'name = "{name}"\ngroup = "SO(3)"\n{points}')
+    start = ["--t", "1", "--set", "zeta_1=1"]
+    page = ["--html", str(tmp_path / "page.html"), "--out", str(tmp_path / "run.csv")]
+    assert main(["simulate", str(path), *start, *page]) == 0
+    assert capsys.readouterr().out.split("\n")[1].startswith(f"{name}: ")
+    assert main(["simulate", str(path), *start, "--dt", "0.001"]) == 0
+    assert "in C" in capsys.readouterr().out
+    assert len(compiled(str(path)).STATE) == 12
 
 
 USE = """\

@@ -210,6 +210,22 @@ def test_nobody_reads(command):
         assert (done.stdout, done.stderr) == ("0\n", ""), end
 
 
+def test_what_nobody_reads_is_in_the_files(tmp_path):
+    """A run and its page are whole, though the pipe is closed before the first line."""
+    run, page = tmp_path / "run.csv", tmp_path / "page.html"
+    simulate = f"derive simulate top --t 0.1 --points 10 --out {run} --html {page}"
+    read, unread = os.pipe()
+    os.close(read)
+    line = simulate.replace("derive", f"{sys.executable} -u -m derive", 1)
+    done = subprocess.run(
+        ["sh", "-c", f"exec {line}"], stdout=unread, stderr=subprocess.PIPE, text=True, cwd=ROOT
+    )
+    os.close(unread)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert len(run.read_text().splitlines()) > 10
+    assert page.read_text().endswith("</html>\n")
+
+
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
 def test_output_without_room():
     done = shell("derive walk so3 >/dev/full")

@@ -7,16 +7,18 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
-from derive import ProblemError, derive
+from derive import ProblemError, derive, pipeline
+from derive.algebra.families import group
 from derive.check.checker import Checker
 from derive.check.enclosure import enclosure_fault
 from derive.command.cli import main
+from derive.equilibria import enclosed_points
 from derive.equilibria.enclosed_points import Ball, characteristic
-from derive.language.tree import add
+from derive.language.tree import add, replaced
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from tests.support.coadjoint_orbits import hat, match, orbit_signature
-from tests.support.lagrangians import bent, heavy
+from tests.support.lagrangians import LINE, bent, heavy, lagrangian, squares
 from tests.support.walks import SEED, repeated
 
 MOMENTS = np.array([1.0, 3.0, 2.0])
@@ -93,6 +95,98 @@ def test_the_checker_encloses_once_more():
         assert checker.check(replace(step, equations=(*equations,))).reason
 
 
+def forged(monkeypatch, problem, near, value=None, changed=None):
+    """The steps of a record whose entries of g were never compared with those of an element: with
+    another ``value`` of what they keep, or its Casimirs ``changed``; each with its verdict."""
+    monkeypatch.setattr(enclosed_points, "near_the_group", lambda *_: True)
+    if value is not None:
+
+        def other(system, f, else_):
+            return else_ if any(any(e[: system.momenta]) for e in f) else Fraction(value)
+
+        monkeypatch.setattr(enclosed_points, "group_value", other)
+    if changed:
+        found = pipeline.integrals
+
+        def integrals(*args, **options):
+            whole, record = found(*args, **options)
+            return replace(whole, casimirs=(*changed(whole.casimirs),)), record
+
+        monkeypatch.setattr(pipeline, "integrals", integrals)
+    record = problem.equilibrium_near(near).record
+    checker = Checker(record.problem, SEED)
+    return [checker.check(record[x]).reason for x in ("equilibrium_1", "enclosure_1")]
+
+
+LEVELS = {
+    "another value": ("13/144", None),
+    "nearly the same": ("1000001/1000000", None),
+    "hidden in a sum": ("13/144", lambda c: (c[0] + c[1], c[0] - c[1])),
+    "hidden in a square": ("13/144", lambda c: (c[0], c[0] ** 2 + c[1])),
+}
+
+
+@pytest.mark.parametrize("name", LEVELS)
+def test_a_level_that_no_element_has(name, monkeypatch):
+    """|Γ|² is 1 on SO(3): whatever a record fixes, its level has to say that."""
+    value, changed = LEVELS[name]
+    reasons = forged(monkeypatch, bent(), STARTS["hangs"], value, changed)
+    assert reasons[0] == ""
+    assert "element" in reasons[1]
+
+
+BOWL = squares(1, 2, 3, 5) + " - "
+PLACES = {
+    "a row that is 0": (lagrangian(BOWL + "(A_11^2 + A_12^2)", "GL(2)"), {"A_11": "0.001"}),
+    "a column that is 0": (
+        lagrangian(BOWL + "(A_11^2 + A_21^2)", "GL(2)", side="right"),
+        {"A_11": "0.001"},
+    ),
+    "what is positive": (lagrangian("zeta_1^2 + zeta_2^2 - (A_11 + 2)^2", LINE), {"A_11": "-2"}),
+}
+
+
+@pytest.mark.parametrize("name", PLACES)
+def test_entries_that_no_element_has(name, monkeypatch):
+    problem, near = PLACES[name]
+    with pytest.raises(ProblemError, match="has the entries of g near there is not proved"):
+        derive(problem).equilibrium_near(near)
+    reasons = forged(monkeypatch, derive(problem), near)
+    assert reasons[0] == ""
+    assert "element" in reasons[1]
+
+
+HELD = {
+    "SO(3), its last row": ("SO(3)", "A_31 - A_33/2", {"A_31": -1}),
+    "SO(3), a column": ("SO(3)", "A_13 - A_33/2", {"A_13": -1}),
+    "SL(2), a row": ("SL(2)", "(A_11 - 1)^2 + (A_12 - 2)^2", {"A_11": 1, "A_12": 2}),
+    "a line": (LINE, "(A_11 - 3)^2 + A_12^2", {"A_11": 3}),
+}
+
+
+@pytest.mark.parametrize("name", HELD)
+def test_entries_of_elements_pass(name):
+    g, U, near = HELD[name]
+    side = "right" if "column" in name else "left"
+    kinetic = squares(1, 2) if g is LINE else squares(1, 2, 3)
+    problem = lagrangian(f"{kinetic} - ({U})", g, side=side)
+    record = derive(problem).equilibrium_near(near).record
+    checker = Checker(record.problem, SEED)
+    assert checker.check(record["enclosure_1"]).reason == ""
+
+
+def test_a_variable_that_stays_free():
+    """Of the level and the energy without a variable, there is no single critical point."""
+    record = bent().equilibrium_near(STARTS["hangs"]).record
+    step = record["enclosure_1"]
+    flat = [
+        replace(e, lhs=replaced(e.lhs, ("at", "Π", 2), 0), rhs=replaced(e.rhs, ("at", "Π", 2), 0))
+        for e in step.equations
+    ]
+    fault = enclosure_fault(replace(step, equations=(*flat,)), group("SO(3)"), "left")
+    assert "Π₂ is free" in fault
+
+
 @pytest.mark.parametrize("power", [9, 0])
 def test_a_polynomial_of_too_many_terms_is_none(power):
     record = bent().equilibrium_near(STARTS["hangs"]).record
@@ -100,7 +194,7 @@ def test_a_polynomial_of_too_many_terms_is_none(power):
     first, *others = step.equations
     false = replace(first, rhs=("pow", first.rhs, power))
     with pytest.raises(ValueError, match="in a polynomial"):
-        enclosure_fault(replace(step, equations=(false, *others)))
+        enclosure_fault(replace(step, equations=(false, *others)), group("SO(3)"), "left")
 
 
 def test_a_characteristic_polynomial_is_enclosed():

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from fractions import Fraction
+from random import Random
 
 import numpy as np
 import pytest
@@ -13,16 +14,17 @@ from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.command.cli import main
 from derive.equilibria.energy_casimir import along_the_orbit, kernel, restricted, solutions
-from derive.equilibria.stability import grows, sturm
+from derive.equilibria.stability import roots_of_squares
 from derive.language.expression import parse
-from derive.language.quadratic import Quadratic, RootError, root, value_of
+from derive.language.quadratic import RootError, root, value_of
 from derive.language.tree import add, replaced
 from derive.pipeline import walk
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
+from derive.record.sentence import english
 from tests.support.coadjoint_orbits import hat, match, orbit_signature
 from tests.support.emitted import import_python
-from tests.support.lagrangians import heavy, lagrangian, squares
+from tests.support.lagrangians import disc, heavy, lagrangian, squares
 from tests.support.walks import SEED
 
 MOMENTS = (1, 3, 2)
@@ -171,15 +173,77 @@ def test_linear_algebra_over_a_quadratic_field():
     assert len(free) == 1
 
 
-@pytest.mark.parametrize("roots", [(-1, -2), (-1, 3), (0, -2), (-1, -1, -4), (2, 5), ()])
-def test_sturm(roots):
-    """Of q(λ²) with roots r√2: some λ has a positive real part where some r is positive."""
-    q = [Fraction(1)]
-    for r in roots:
-        q = [x - r * root(2) * y for x, y in zip([*q, 0], [0, *q], strict=True)]
-    even = [y for x in q for y in (x, Fraction(0))][:-1]
-    assert grows(even) == any(r > 0 for r in roots)
-    assert all(isinstance(x, (int, Fraction, Quadratic)) for p in sturm(q) for x in p)
+def random_roots(random):
+    """Roots with their multiplicities, some of them 0, and pairs of complex ones; by name."""
+    pool = [*map(Fraction, range(-4, 4)), Fraction(-1, 3), Fraction(2, 5)]
+    reals = {random.choice(pool): random.randint(1, 3) for _ in range(random.randint(0, 3))}
+    pairs = {(random.randint(-2, 2), random.randint(1, 2)) for _ in range(random.randint(0, 2))}
+    return reals, {x: random.randint(1, 2) for x in pairs}
+
+
+@pytest.mark.parametrize("scale", [1, root(2)])
+def test_roots_are_counted(scale):
+    """Of q(λ²) with known roots, times a number: by name, and by NumPy where none is multiple."""
+    random, seen = Random(7), set()
+    for _ in range(200):
+        reals, pairs = random_roots(random)
+        factors = [[1, -x * scale] for x, k in reals.items() for _ in range(k)]
+        factors += [
+            [1, -2 * a * scale, (a * a + b * b) * scale**2]
+            for (a, b), k in pairs.items()
+            for _ in range(k)
+        ]
+        q = [Fraction(1)]
+        for f in factors:
+            q = [
+                sum((f[j] * q[i - j] for j in range(len(f)) if 0 <= i - j < len(q)), Fraction(0))
+                for i in range(len(q) + len(f) - 1)
+            ]
+        found = roots_of_squares([y for x in q for y in (x, Fraction(0))][:-1])
+        nonzero = [x for x in reals if x]
+        expected = (reals.get(0, 0), sum(x < 0 for x in nonzero), len(nonzero) + 2 * len(pairs))
+        assert (found.at_zero, found.negative, found.distinct) == expected
+        if {*reals.values(), *pairs.values()} <= {1}:
+            near = np.roots([float(x) for x in q])
+            real = near[np.abs(near.imag) < 1e-6].real
+            assert found.negative == sum(real < -1e-6)
+        seen.add((found.at_zero > 0, found.negative < found.distinct))
+    assert len(seen) == 4
+
+
+NAMED = {
+    "a disc in a fluid, edge-on": ((1, 0, "-2/3", 0, 0), 2, True),
+    "a ball beside Euler's top": ((1, 0, "-1/12", 0, 0), 2, True),
+    "three and a zero": ((1, 0, -3, 0, 0), 2, True),
+    "imaginary, and 0": ((1, 0, 5, 0, 0), 2, False),
+    "imaginary twice": ((1, 0, 2, 0, 1), 0, False),
+    "0 alone": ((1, 0, 0, 0, 0), 4, False),
+    "no root": ((1,), 0, False),
+}
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_a_root_0_is_no_other(name):
+    coefficients, zeros, grows = NAMED[name]
+    found = roots_of_squares([*map(Fraction, coefficients)])
+    assert (2 * found.at_zero, found.negative < found.distinct) == (zeros, grows)
+    assert grows == any(x.real > 1e-6 for x in np.roots([*map(float, map(Fraction, coefficients))]))
+
+
+BALL = squares("1/2", "1/2", "1/2", "1/2", 1, "3/2")
+UNSTABLE = {
+    "disc": (disc(), {"Pi_4": 1}),
+    "ball": (lagrangian(BALL, "SO(3) x SO(3)"), {"Pi_1": 1, "Pi_5": 1}),
+}
+
+
+@pytest.mark.parametrize("name", UNSTABLE)
+def test_unstable_beside_a_zero(name):
+    problem, at = UNSTABLE[name]
+    found = derive(problem).equilibria(at)
+    assert (found[0].verdict, found[0].found.squares.at_zero) == ("unstable", 1)
+    assert found[0].growth > 0.2
+    assert "all eigenvalues are imaginary" not in english(found.record.steps[-1].prose)
 
 
 REFUSED = {

@@ -74,6 +74,27 @@ def test_goryachev_and_chaplygin():
     assert sympy.expand(third.sympy() - 16 * moment**3 * published) == 0
 
 
+def test_what_is_in_involution_on_a_level_commutes_there():
+    """Beside Goryachev and Chaplygin's top a ball, whose momenta do not; by cross products."""
+    L = "4*zeta_1^2 + 4*zeta_2^2 + zeta_3^2 + zeta_4^2 + zeta_5^2 + zeta_6^2"
+    found = first_integrals(lagrangian(f"({L})/2 - A1_31", "SO(3) x SO(3)"), 3)
+    top, ball, gamma = (sympy.Matrix(found.x[k : k + 3]) for k in (0, 3, 6))
+    (level,), ((third,),) = found.found.levels, found.levels.values()
+    functions = [*(x.sympy() for x in found.integrals), third.sympy()]
+    on = dict(zip(found.x, (1, 2, 3, 5, -2, 7, 3, 3, -3), strict=True))
+    assert top.dot(gamma).subs(on) == 0
+
+    def bracket(f, g):
+        a, b, c = (sympy.Matrix([f.diff(v) for v in x]) for x in (top, ball, gamma))
+        d, e, h = (sympy.Matrix([g.diff(v) for v in x]) for x in (top, ball, gamma))
+        return top.dot(a.cross(d)) + ball.dot(b.cross(e)) + gamma.dot(a.cross(h) + c.cross(d))
+
+    chosen = [functions[k] for k in level.proved.involution]
+    assert len(chosen) == level.proved.rank // 2 == 3
+    assert all(bracket(f, g).subs(on) == 0 for f in chosen for g in chosen)
+    assert bracket(functions[1], functions[2]).subs(on) != 0
+
+
 def test_clebsch():
     """U = ½⟨Γ, IΓ⟩: a second quadratic integral."""
     moments, parameters = ("I1", "I2", "I3"), "I1 I2 I3 k"

@@ -210,6 +210,34 @@ def test_the_folder_of_a_run_is_made_as_by_other_commands(tmp_path, capsys):
     assert read(out).facts["problem"] == "so3"
 
 
+@pytest.mark.parametrize("g", [(0.0, 0.0, -9.81), (0.0, 3.0, 4.0), (1.0, -2.0, 0.5)])
+def test_components_are_along_unit_vectors_and_have_their_units(g):
+    """Of the parameters of so3, and of numbers in a problem: Σ m r ∧ v along g/|g|."""
+    m, r = [1.0, 2.0, 0.5], np.array([[1.0, 0.0, 0.5], [0.0, 1.0, 1.0], [0.5, -1.0, 0.0]])
+    J, c = (np.einsum("p,pi,pj->ij", m, r, r), np.einsum("p,pi->i", m, r))
+    symbolic = {f"g_{k}": x for k, x in enumerate(g, 1)} | {f"c_{k}": x for k, x in enumerate(c, 1)}
+    symbolic |= {f"J_{i + 1}{j + 1}": J[i, j] for i in range(3) for j in range(i, 3)}
+    points = derive.Points(*zip(m, r.tolist(), strict=True))
+    numbers = derive.Problem("by_numbers", "SO(3)", points, [derive.Gravity(*g)])
+    for problem, given in (("so3", symbolic), (numbers, {})):
+        begin = given | {"zeta_1": 1.0, "zeta_3": 2.0}
+        run = derive.derive(problem).simulate(0.3, points=3, start=begin)
+        A, zeta = run.states[:, :9].reshape(-1, 3, 3), run.states[:, 9:]
+        v = np.cross(zeta[:, None], r[None])
+        momentum = np.einsum("tij,p,tpj->ti", A, m, np.cross(r[None], v))
+        column = next(x for x in run.columns if x.name.startswith("angular_momentum"))
+        unit = np.array(g) / np.linalg.norm(g)
+        unit = abs(unit) if column.name[-1].isdigit() else unit  # about an axis of space
+        assert np.allclose(abs(run[column.name]), abs(momentum @ unit), rtol=0, atol=1e-12)
+        assert column.unit == ("kg m^2/s" if given else "")
+
+
+def test_without_gravity_there_is_no_component_along_it():
+    run = derive.derive("so3").simulate(0.1, points=1, start={"zeta_1": 1.0, "g_3": 0.0})
+    assert [x.name for x in run.columns if x.kind == "conserved"] == []
+    assert np.isfinite(run.table).all()
+
+
 def test_what_vanishes_for_these_parameters_is_not_told(capsys):
     """What gravity gives is 0 without it, a momentum that is 0 at the start is a fact."""
     start = ("so3", "--t", "0.1", "--set", "zeta_1=1")
@@ -225,7 +253,7 @@ def test_what_vanishes_for_these_parameters_is_not_told(capsys):
 def test_what_is_amiss_is_told(capsys):
     err = told(capsys, "jelly", "--t", "1")[2]
     assert "nothing moves" in err
-    assert "note: jelly: of what it keeps the energy alone is told: damping is no part" in err
+    assert "note: jelly: damping changes the energy at the rate −Σ κ |v|², and no momentum" in err
     turning = [
         x for name in ("zeta_1=0", "zeta_5=0", "zeta_2=1", "zeta_4=-1") for x in ("--set", name)
     ]

@@ -5,6 +5,7 @@ import json
 import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -94,7 +95,8 @@ def test_what_a_body_has_not_is_not_in_its_page(pages):
             "polhode": body["polhode"],
             "spring": body["springs"] or anchored,
             "camera": body["parts"],
-            "ball": round_ones or any(part["moments"] for part in body["parts"]),
+            "ball": round_ones
+            or any(part["moments"] or "turning" in part for part in body["parts"]),
         }
         assert {x: mark in page for x, mark in marks.items()} == {
             x: bool(y) for x, y in has.items()
@@ -105,11 +107,11 @@ def test_both_languages(pages):
     english, french = (told(pages("top", x)) for x in ("en", "fr"))
     assert english["words"]["energy"] == "energy"
     assert french["words"]["energy"] == "énergie"
-    assert french["kept"]["angular_momentum_3"] == "moment cinétique 3"
-    assert french["labels"]["rho"] == ["masse volumique", "kg/m^3"]
+    assert french["kept"]["angular_momentum_3"] == ["moment cinétique 3", "kg m²/s"]
+    assert french["labels"]["rho"] == ["masse volumique", "kg/m³"]
     assert french["labels"]["zeta_1"] == ["vitesse angulaire dans le corps", "1/s"]
     assert '<html lang="fr">' in pages("top", "fr")
-    assert english["kept"]["body_angular_momentum_3"] == "angular momentum in the body 3"
+    assert english["kept"]["body_angular_momentum_3"][0] == "angular momentum in the body 3"
     untold = {x for x, y in english["words"].items() if y == french["words"][x]}
     assert untold == {"pause"}
 
@@ -185,7 +187,7 @@ HAND = {
     "f([1, , ], { a: 1, }, [, a], [1, 2,],);": "f([1,,],{a:1},[,a],[1,2]);",
     # an inner name may be that of an outer one which is not used within
     "const one = 1; const two = (x) => x + one; g((one) => one, two);": (
-        "const a=1,b=(b)=>b+a;g((a)=>a,b);"
+        "const a=1,b=b=>b+a;g(a=>a,b);"
     ),
     # keys stay, also of patterns, methods and getters
     "function f({ x, y: z = x }, ...more) { return { x, z: z, get more() { return more; } }; }": (
@@ -193,6 +195,9 @@ HAND = {
     ),
     "for (const x of [1]) for (let y = x; y < 2; ++y) { const x = y; h(x); } x(y);": (
         "for(const a of[1])for(let b=a;b<2;++b){const a=b;h(a)}x(y);"
+    ),
+    "f((x, y) => (z) => x, () => 1); const g = (x) => { return (y) => y; };": (
+        "f((a,b)=>b=>a,()=>1);const a=a=>{return a=>a};"
     ),
     "try { f(); } catch (fault) { const f = fault; g(f); }": "try{f()}catch(b){const a=b;g(a)}",
 }
@@ -285,6 +290,122 @@ def test_what_is_drawn():
     assert body("sl3")["parts"][0]["deforms"]
     assert body("sl3")["polhode"] == []
     assert body("so4")["parts"] == body("zeitlin")["parts"] == []
+    assert body("rod")["parts"][0]["turning"] == [12, 13, -1]
+    assert body("kirchhoff")["parts"][0]["sliding"] == [15, 16, 17]
+    assert "turning" not in body("so3")["parts"][0]
+
+
+SIDES = (0.5, 1.2, 0.9)
+"""Half axes of a solid ellipsoid of mass 3, whose moments of inertia are 3 (b² + c²)/5, …"""
+INERTIA = [3 * (sum(x * x for x in SIDES) - x * x) / 5 for x in SIDES]
+TURNED = "(" + " + ".join(f"{v!r}*zeta_{i}^2" for i, v in enumerate(INERTIA, 1)) + ")/2"
+OTHER = TURNED.replace("zeta_3", "zeta_6").replace("zeta_2", "zeta_5").replace("zeta_1", "zeta_4")
+LAGRANGIANS = {
+    "turned alone": ("SO(3)", f"{TURNED} + 0.7*zeta_1 - A_33", [0], [3**0.5]),
+    "free": ("SE(3)", f"{TURNED} + 3*(zeta_4^2 + zeta_5^2 + zeta_6^2)/2 + T_2", [0], [1]),
+    "two": ("SO(3) x SO(3)", f"{TURNED} + 4*{OTHER} + zeta_1*zeta_5/9", [0, 1], [3**0.5, 12**0.5]),
+}
+"""Group and L; its parts, and by how much the square root of a mass that is not known stretches."""
+BUILT = """
+    const module = (() => {{ {source} return {{ constants, energy, PARAMETERS }}; }})();
+    {drawing}
+    const velocity = {velocity}, x = {x}, page = {{ body: {body}, module }};
+    const {{ energy }} = module, run = {{ k: module.constants([]) }};
+    const {{ parts }} = built({{ page, p: [], velocity, energy, run }}, x, {{ of_inertia }});
+    const most = (part, i) => max(...part.faces.flatMap((f) => f.v.map((r) => abs(r[i]))));
+    console.log(JSON.stringify(parts.map((part) => [0, 1, 2].map((i) => most(part, i)))));
+"""
+
+
+@pytest.mark.parametrize("name", LAGRANGIANS)
+def test_the_ellipsoid_of_an_inertia_that_the_energy_tells(name, tmp_path):
+    need("node")
+    group, L, parts, stretched = LAGRANGIANS[name]
+    path = tmp_path / "typed.toml"
+    path.write_text(f'name = "typed"\ngroup = "{group}"\n[lagrangian]\nL = "{L}"\n')
+    d = derive.derive(path)
+    made = motion_of(d.problem, d.record).program
+    (source,) = emit(made, d.record, ("javascript",), "typed", Options()).values()
+    scripts = Path(derive.__file__).parents[1] / "templates" / "html" / "motion"
+    velocity = [k for k, x in enumerate(made.state) if x.startswith("zeta")]
+    text = BUILT.format(
+        source=source.replace("\nexport ", "\n"),
+        drawing="".join((scripts / f"{x}.js").read_text() for x in ("vectors", "shapes", "body")),
+        velocity=velocity,
+        x=[float(x[-2] == x[-1]) if x[0] == "A" else 0.3 for x in made.state],
+        body=json.dumps(moving_body(d.record.problem, d.problem.group, made.state)),
+    )
+    found = json.loads(run_in_node(tmp_path, text))
+    assert np.abs(np.array(found) - np.outer(stretched, SIDES)).max() < 1e-9
+    assert len(found) == len(parts)
+
+
+PAINTED = """
+    {drawing}
+    const eye = {{ look() {{}}, right: {right}, up: {up}, towards: {towards} }};
+    const painted = [], pen = new Proxy({{}}, {{ get: () => () => {{}}, set: () => true }});
+    const path = (list) => painted.push(list);
+    const view = {{ width: 400, height: 400, pen, path, stroke() {{}} }};
+    const pic = picture({{ colours: {{}} }}, view, eye, [0, 0, 0], 100);
+    const part = {{ points: [], anchors: [], attractions: [], solids: [{solid}] }};
+    const scene = {{ p: [], page: {{ module: {{ PARAMETERS: [] }}, body: {{ parts: [part] }} }} }};
+    const [{{ faces }}] = built(scene, [], {{ {shape} }}).parts;
+    for (const f of faces) pic.face(f.v, Array(33).fill("grey"), f.clear, f.inside);
+    pic.done();
+    console.log(JSON.stringify([painted, faces.map((f) => f.v.map(pic.to))]));
+"""
+FAR = 16
+"""How far the eye is, where 100 pixels are 1 on a paper of 400."""
+
+
+def nearness(face, places):
+    """Of a flat face at places of the paper, by its corners there and their depths, 1/(FAR − z), as
+    this is linear on the paper; −1 beside it."""
+    x, y, z = np.array(face, float).T
+    along, up = np.roll(x, -1) - x, np.roll(y, -1) - y
+    if abs((x * np.roll(y, -1) - y * np.roll(x, -1)).sum()) < 1e-3:
+        return np.full(len(places), -1.0)
+    side = along * (places[:, 1:] - y) - up * (places[:, :1] - x)
+    near = np.linalg.lstsq(np.stack([x, y, np.ones(len(x))], 1), 1 / (FAR - z), rcond=None)[0]
+    inside = (side > -1e-9).all(axis=1) | (side < 1e-9).all(axis=1)
+    return np.where(inside, places @ near[:2] + near[2], -1.0)
+
+
+@pytest.mark.parametrize("shape", ["ball", "cylinder", "cone", "box", "tetrahedron"])
+def test_what_is_in_front_is_drawn_over_what_is_behind(shape, tmp_path):
+    """At many places of the paper the last face that is drawn there is the nearest that is."""
+    need("node")
+    scripts = Path(derive.__file__).parents[1] / "templates" / "html" / "motion"
+    names = ("vectors", "shapes", "body", "canvas")
+    drawing = "".join((scripts / f"{x}.js").read_text() for x in names)
+    random = np.random.default_rng(7)
+    for turn in range(4):
+        right, up, towards = np.linalg.qr(random.normal(size=(3, 3)))[0].tolist()
+        columns = random.normal(size=(3, 3)) + 2 * np.eye(3)
+        columns[0] *= (-1) ** turn  # also mirrored
+        solid = json.dumps({"shape": shape, "columns": columns.tolist(), "shift": [0.2, -0.1, 0.3]})
+        text = PAINTED.format(**locals())
+        painted, faces = json.loads(run_in_node(tmp_path, text))
+        places = random.uniform(50, 350, size=(1000, 2))
+        nearest = np.max([nearness(f, places) for f in faces], axis=0)
+        last = np.full(len(places), -1.0)
+        for face in painted:
+            here = nearness(face, places)
+            last = np.where(here > 0, here, last)
+        assert (nearest > 0).sum() > 20
+        assert np.abs(last - nearest).max() < 1e-9
+
+
+def test_every_ready_made_body_has_a_shape():
+    for name in ready_made():
+        if name in PAGELESS:
+            continue
+        d = derive.derive(name)
+        state = motion_of(d.problem, d.record).program.state
+        group = d.problem.group if d.problem.advected is None else None
+        for part in moving_body(d.record.problem, group, state)["parts"]:
+            told = [part.get(x) for x in ("points", "solids", "moments", "turning")]
+            assert any(told), name
 
 
 def test_a_mesh_is_drawn_as_it_is(tmp_path):
@@ -455,6 +576,86 @@ def test_every_ready_made_problem_has_a_page_that_draws(name, opened):
     assert min(page.evaluate(INK)) > 0.002
 
 
+DRAWN = """(n) => {
+    const { prototype } = CanvasRenderingContext2D, stage = document.querySelectorAll("canvas")[n];
+    const kept = globalThis.drawn = { dots: [], lines: [], strokes: [] };
+    const heard = (name, does) => {
+        const own = prototype[name];
+        prototype[name] = function (...a) {
+            if (this.canvas === stage) does.apply(this, a);
+            own.call(this, ...a);
+        };
+    };
+    heard("clearRect", () => Object.assign(kept, { dots: [], lines: [], strokes: [] }));
+    heard("arc", (x, y) => kept.dots.push([x, y]));
+    heard("beginPath", () => { kept.path = []; });
+    heard("stroke", function () { kept.strokes.push([this.strokeStyle, kept.path]); });
+    for (const name of ["moveTo", "lineTo"]) {
+        heard(name, (x, y) => [kept.lines, kept.path].forEach((list) => list.push([x, y])));
+    }
+}"""
+"""Keeps the places, in pixels, of what the last picture on the n-th canvas has: its dots, ends of
+its lines, and strokes, colour and line."""
+
+IN_PLANE = """
+name = "flat"
+group = "{}"
+[[point]]
+mass = 1
+at = [0.3, -0.7]
+[[point]]
+mass = 2
+at = [0.4, 0.2]
+[[potential]]
+kind = "gravity"
+g = {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("group", "gravity"),
+    [("SO(2)", [0, -9.81]), ("SO(2)", [3, 2]), ("SE(2)", [0, -9.81]), ("SL(2)", [-1, 0])],
+)
+def test_a_plane_is_seen_as_it_is(group, gravity, opened, tmp_path):
+    """The first axis to the right, the second up, and gravity along them."""
+    path = tmp_path / "flat.toml"
+    path.write_text(IN_PLANE.format(group, gravity))
+    page = opened(derive.derive(path).motion_page(2.0, start={"zeta_1": 1.3}))
+    page.wait_for_timeout(100)
+    page.evaluate(DRAWN, 0)
+    seek(page, 0.7)
+    page.wait_for_timeout(100)
+    (one, other, *_), lines = map(np.array, page.evaluate("[drawn.dots, drawn.lines]"))
+    A = np.reshape(page.evaluate(f"[...{MOTION}.state]")[:4], (2, 2))
+    apart, own = (other - one) * [1, -1], A @ [0.1, 0.9]
+    scale = np.linalg.norm(apart) / np.linalg.norm(own)
+    assert scale > 50
+    assert np.abs(apart - scale * own).max() < 1e-6
+    fall = (lines[-4] - lines[-5]) * [1, -1]  # before the head of the arrow
+    assert np.abs(fall - 30 * np.array(gravity) / np.linalg.norm(gravity)).max() < 1e-6
+
+
+def test_a_curve_ends_where_its_time_does(opened):
+    """What leads to its name is of another colour, that of no curve."""
+    page = opened(derive.derive("hung_bar").motion_page(2.0))
+    page.wait_for_timeout(100)
+    page.evaluate(DRAWN, 1)
+    seek(page, 1.5)
+    page.wait_for_timeout(100)
+    strokes = [(x, np.array(line)) for x, line in page.evaluate("drawn.strokes")]
+    axes = strokes[0][1]
+    curves = [(x, line) for x, line in strokes if len(line) > 20]
+    assert len(curves) == 3
+    colours = {x for x, _ in curves}
+    for colour, line in strokes:
+        assert colour not in colours or line[:, 0].max() <= axes[:, 0].max() + 1e-9
+    state = page.evaluate(f"[...{MOTION}.state]")[6:]
+    ends = [line[-1, 1] for _, line in curves]  # in the order of their names, the highest first
+    assert np.all(np.diff(ends) > 0)
+    span = (ends[0] - ends[-1]) / (max(state) - min(state))
+    assert ends == pytest.approx([ends[0] + span * (v - max(state)) for v in sorted(state)[::-1]])
+
+
 @pytest.mark.dist
 def test_the_state_is_that_of_a_run(pages, opened):
     page = opened(pages("sl3"))
@@ -559,6 +760,19 @@ def test_what_is_not_kept_stands_apart(opened):
     assert "energy" not in kept
     assert others.startswith("What is not kept")
     assert "energy" in others
+
+
+@pytest.mark.dist
+def test_a_component_along_no_direction_is_not_shown(pages, opened):
+    """Along gravity, in its unit; without gravity none, beside a body that turns."""
+    page = opened(pages("so3"))
+    row = "[...document.querySelectorAll('[data-name=angular_momentum]')].map((x) => x.innerText)"
+    (shown,) = page.evaluate(row)
+    assert "kg m²/s" in shown
+    page.locator('[data-name="g_3"] input[type=number]').fill("0")
+    page.locator('[data-name="g_3"] input[type=number]').press("Enter")
+    page.wait_for_timeout(100)
+    assert page.evaluate(row) == []
 
 
 def test_the_energy_is_kept_where_nothing_moves_it(pages):

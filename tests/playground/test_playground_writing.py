@@ -197,6 +197,28 @@ def test_starting_afresh_asks(form):
     assert page.inner_text("#errors") == ""
 
 
+SHOWN = """async () => {
+    await play.engine.ask({ ask: "plain", text: "" }, () => {}); // the others end before it
+    const is = (id) => !document.getElementById(id).hidden;
+    const on = (id) => document.getElementById(id).getAttribute("aria-pressed") === "true";
+    return [is("form"), on("as-form"), is("editor"), on("as-text")];
+}"""
+
+
+@pytest.mark.parametrize("clicks", ["form text", "form text form", "text form", "form form text"])
+def test_the_last_button_counts_while_python_works(page, clicks):
+    """Is the form shown, and its button pressed; the text, and its button?"""
+    page.evaluate("(text) => { play.text.text = text; }", PENDULUM)
+    rewalked(page)
+    page.click("#check")
+    page.wait_for_function("() => play.engine.busy")
+    for each in clicks.split():
+        page.click(f"#as-{each}")
+    form = clicks.endswith("form")
+    assert page.evaluate(SHOWN) == [form, form, not form, not form]
+    page.click("#as-text")
+
+
 def test_the_form_is_in_french(form):
     page = form(PENDULUM)
     page.click("[data-lang=fr]")

@@ -2,6 +2,7 @@
 
 import importlib
 import json
+import re
 from dataclasses import replace
 from functools import cache
 
@@ -17,7 +18,7 @@ from derive.plot import kinds_told
 from derive.plot.body_pictures import hull
 from derive.plot.kinds_told import OVERVIEW, PRECISION
 from derive.plot.pictures import ENSEMBLE_KINDS, KINDS, plot, plot_energies
-from derive.plot.plot_sheet import FORMATS, PlotError, label, settled, sheet
+from derive.plot.plot_sheet import FORMATS, PlotError, label, settled, sheet, with_mark
 from derive.plot.polhode_picture import levels, unstable
 from derive.plot.precision import of_runs, table
 from derive.plot.spheroid_pictures import followed, maps, section
@@ -27,6 +28,7 @@ from derive.plot.torus_pictures import vorticity
 from derive.views.language import language
 from tests.support.flows import emitted, flow
 from tests.support.needs import needs
+from tests.support.pages import blocks, commands
 
 pytestmark = needs("the module matplotlib")
 BODY = {"inertia": [[1.0, 0, 0], [0, 1.6, 0], [0, 0, 2.2]]}
@@ -94,6 +96,21 @@ def words_of(run, kind, word=str):
     return "\n".join(x.get_text() for x in figure.findobj(lambda x: hasattr(x, "get_text")))
 
 
+@pytest.mark.parametrize("kind", ["state", "polhode", "body", "potential"])
+def test_the_numbers_speak_french(kind):
+    """At the ticks, in titles and at marks; a file keeps its name."""
+    figure = sheet(8, 4)
+    KINDS[kind].draw(figure, fitting(kind), str)
+    figure.get_axes()[0].plot([], [], label="run_1.5.npz")
+    named = figure.text(0, 0, "a/1.5.npz 0.25 $x = 1.5e-3$")
+    with_mark(figure, ",")
+    settled(figure)
+    shown = [x.get_text() for x in figure.findobj(type(named))]
+    assert named.get_text() == "a/1.5.npz 0,25 $x = 1{,}5e-3$"
+    assert [x for x in shown if re.search(r"[0-9]\.[0-9]", x) and ".npz" not in x] == []
+    assert any(re.search(r"[0-9](?:,|\{,\})[0-9]", x) for x in shown if x is not named)
+
+
 def test_the_quantities_speak_french():
     found = simulated("riemann_ellipsoid", 1.0)
     assert "circulation in the body 1" in words_of(found, "energy")
@@ -119,6 +136,65 @@ def test_what_is_exact_is_not_drawn():
     assert len(drawn) == 1
     assert np.isnan(drawn[0].get_ydata()).tolist() == [True, False, True]
     assert "exact: linear momentum 1" in panel.get_legend_handles_labels()[1]
+
+
+def panels_of(run, kind):
+    """The panels of a picture, and all words of each."""
+    figure = sheet(7.5, 3.4)
+    KINDS[kind].draw(figure, run, str)
+    texts = [x.findobj(lambda t: hasattr(t, "get_text")) for x in figure.get_axes()]
+    return [
+        *zip(figure.get_axes(), (" ".join(t.get_text() for t in x) for x in texts), strict=True)
+    ]
+
+
+def curves(panel):
+    """Label → y, of the curves that are seen: two neighbours, or a point with a mark."""
+    found = {}
+    for line in panel.get_lines():
+        there = np.isfinite(line.get_ydata())
+        marked = line.get_marker() not in ("None", "") and there[[*(line.get_markevery() or [])]]
+        if (there[1:] & there[:-1]).any() or np.any(marked):
+            found[line.get_label()] = line.get_ydata()
+    return found
+
+
+def test_where_all_is_exact_that_is_said_and_takes_little_room():
+    t = np.linspace(0, 2, 40)
+    columns = (Column("t", "time"), Column("x_1", "state"), Column("energy", "energy"))
+    exact = Run(columns, np.stack([t, np.sin(t), 0 * t + 3], 1))
+    assert KINDS["energy"].size(exact)[1] < 1.5 < KINDS["energy"].size(run_of("euler_top"))[1]
+    ((panel, words),) = panels_of(exact, "energy")
+    assert "exact: energy" in words
+    assert not curves(panel)
+    assert panel.get_xlim() == (0, 2)
+
+
+@pytest.mark.parametrize("rows", [2, 3, 5])
+def test_a_change_at_one_instant_alone_is_seen(rows):
+    columns, change = (Column("t", "time"), Column("energy", "energy")), np.zeros(rows)
+    change[rows // 2] = 1e-9
+    run = Run(columns, np.stack([np.arange(rows), 1 + change], 1))
+    ((panel, _),) = panels_of(run, "energy")
+    assert [*curves(panel)] == ["energy"]
+
+
+@pytest.mark.parametrize("turned", [0.1, 0.5, 1.0, 2.5, 6.0])
+def test_a_state_that_is_too_fast_for_its_instants_is_named_instead(turned):
+    """By how much it turns from one instant to the next, in radians: 8 instants a period are 0.79;
+    at 6.0 it looks like one that turns back by 0.28."""
+    t = np.arange(200.0)
+    random = np.random.default_rng(3)
+    columns = [np.cos(turned * t), np.cos(0.01 * t), 1 + 1e-15 * random.normal(size=200), 0.3 * t]
+    names = [Column("t", "time"), *(Column(f"A_1{k}", "state") for k in range(1, 5))]
+    ((panel, words),) = panels_of(Run(tuple(names), np.stack([t, *columns], 1)), "state")
+    slow = turned < 0.7 or turned == 6.0  # which no picture of these instants can know
+    assert [label(f"A_1{k}") for k in range(1 if slow else 2, 5)] == [*curves(panel)]
+    assert ("too few instants:" in words) is not slow
+    alone = Run((names[0], names[1]), np.stack([t, columns[0]], 1))
+    ((panel, words),) = panels_of(alone, "state")
+    assert bool(curves(panel)) is slow
+    assert ("too few instants:" in words) is not slow
 
 
 def test_a_component_is_held_against_its_vector():
@@ -440,6 +516,22 @@ def test_a_diagram_of_runs(tmp_path):
     for x in out:
         assert main(["plot", *map(str, paths), "--kind", PRECISION, "--out", str(x)]) == 0
     assert out[0].read_bytes() == out[1].read_bytes()
+
+
+def test_the_recipe_of_the_page_has_points_apart(tmp_path, monkeypatch):
+    """That of docs/plot.md: each method's by their work and by their error."""
+    monkeypatch.chdir(tmp_path)
+    (recipe,) = [x.text for x in blocks("docs/plot.md") if f"--kind {PRECISION}" in x.text]
+    for line in commands(recipe):
+        assert main(line.split()[1:]) == 0
+    names = [x for x in commands(recipe)[-1].split() if x.endswith(".npz")]
+    series = of_runs([derive_read(tmp_path / x) for x in names])
+    assert len(series) > 1
+    for points in series.values():
+        work, error = np.array(sorted(points)).T
+        assert len(work) > 1
+        assert (work[1:] > 1.2 * work[:-1]).all()
+        assert (error[1:] < 0.1 * error[:-1]).all()
 
 
 def derive_read(path):

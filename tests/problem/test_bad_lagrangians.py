@@ -31,7 +31,8 @@ TABLES = {
         {"L": "(A_11*zeta_1 + A_12*zeta_2)^2 + zeta_3^2"},
         "singular, in directions that are not constant",
     ),
-    "linear": ({"L": "zeta_1*A_11"}, "singular along E_1, and L is linear there"),
+    "linear": ({"L": "zeta_1*A_11"}, "L is of first order in the velocities, which the kernel"),
+    "first order": ({"L": "zeta_1*A_11 - A_12^2"}, "L is of first order in the velocities"),
     "linear beside": ({"L": "zeta_1^2 + zeta_2^2 + zeta_3"}, "along E_3, and L is linear there"),
     "another entry": ({"L": SQUARE + " + A_14"}, "SO(3) has no A_14; its entries"),
     "a translation": (

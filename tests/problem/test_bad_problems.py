@@ -79,6 +79,10 @@ FILES = {
         TWO + '[parameters]\nF = 1\n[[input]]\nname = "F"\nkind = "force"\non = 1',
         "'F' is a parameter as well",
     ),
+    "a number of an input named as a parameter": (
+        TWO + '[parameters]\nF_2 = 1\n[[input]]\nname = "F"\nkind = "force"\non = 1',
+        "'F_2' is one of its numbers, and a parameter as well",
+    ),
     "parameter t": (TWO + "[parameters]\nt = 1", "this is the time"),
     "parameter r1_x": (TWO + "[parameters]\nr1_x = 1", "a place of a point"),
     "time in a mass": (

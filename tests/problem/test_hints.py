@@ -8,12 +8,27 @@ import sys
 import numpy as np
 import pytest
 
-from derive import SE, Damping, Force, Gravity, Moments, Points, Problem, Solid, Spring
+from derive import (
+    SE,
+    Damping,
+    Force,
+    Gravity,
+    Lagrangian,
+    Moments,
+    MotionError,
+    Points,
+    Problem,
+    Solid,
+    Spring,
+    derive,
+)
 from derive.command.cli import COMMANDS, main
+from derive.language.near_names import near_name
 from derive.language.values import approximate
 from derive.motion.run import Column, Run
 from derive.motion.run_files import written
 from derive.problem.data import data
+from derive.problem.doubts import doubts
 from derive.problem.problem import ProblemError
 from derive.problem.toml import load
 from derive.python.api import Table
@@ -106,6 +121,7 @@ def test_an_unknown_option(words, named, meant, capsys):
         (["walk", "so3", "--seconds", "soon"], "expected seconds, above 0, not 'soon'"),
         (["check", "so3", "--seed", "-1"], "expected an integer, 0 or more, not '-1'"),
         (["emit", "so3", "--lang", "cobol"], "invalid choice: 'cobol' (choose from 'c', "),
+        (["emit", "so3", "--lang", "rst"], "; did you mean 'rust'?"),
     ],
 )
 def test_a_wrong_value(words, said, capsys):
@@ -302,7 +318,7 @@ def test_numbers_of_a_drawing_program(tmp_path, capsys):
         )
         assert main(["walk", str(path)]) == 0
         told = capsys.readouterr().err
-        assert bool(re.search("warning: .*part.toml: body, given: no masses", told)) == warned
+        assert bool(re.search("warning: .*part.toml: body: no masses", told)) == warned
         assert ("then write centre and I_centre" in told) == warned
 
 
@@ -311,6 +327,135 @@ def test_no_word_on_moments_that_are_impossible_in_both_ways():
         Problem("b", SE(3), Moments(m=2, c=FAR, I=np.diag([1, 1, 5])))
     assert "no masses have these moments" in str(caught.value)
     assert "I_centre" not in str(caught.value)
+
+
+def plate(seed, digits):
+    """m, the centre and I about it, of points in a plane, with so many digits."""
+    rng = np.random.default_rng(seed)
+    points = (
+        rng.normal(size=(6, 3))
+        @ np.diag([1.0, 0.6, 0.0])
+        @ np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    )
+    points += rng.normal(size=3)
+    masses = rng.uniform(0.1, 1, size=6)
+    m = masses.sum()
+    r = points - (centre := masses @ points / m)
+    J = np.einsum("i,ij,ik->jk", masses, r, r)
+    tensor = np.trace(J) * np.eye(3) - J
+    return m, *([[float(f"{y:.{digits}g}") for y in np.ravel(x)]] for x in (centre, tensor))
+
+
+@pytest.mark.parametrize("digits", [4, 16])
+@pytest.mark.parametrize("symbolic", [False, True])
+def test_flat_bodies_in_few_digits_are_bodies(digits, symbolic):
+    """None of them is told to be of no masses, whether its numbers are written or are defaults."""
+    for seed in range(12):
+        m, (centre,), (tensor,) = plate(seed, digits)
+        values = {f"i{j}{k}": tensor[3 * j + k] for j in range(3) for k in range(j, 3)}
+        rows = [[f"i{min(j, k)}{max(j, k)}" for k in range(3)] for j in range(3)]
+        if not symbolic:
+            rows, values = [[values[x] for x in row] for row in rows], {}
+        body = Moments(m=m, centre=centre, I_centre=rows)
+        assert not [*doubts(Problem("plate", SE(3), body, parameters=values), {})]
+
+
+@pytest.mark.parametrize(("word", "meant"), [("simulat", "simulate"), ("symmetry", "symmetries")])
+def test_a_command_that_is_none(word, meant, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main([word, "so3"])
+    assert ended.value.code == 2
+    err = capsys.readouterr().err
+    assert err.startswith(f"derive: error: argument COMMAND: invalid choice: {word!r} (choose from")
+    assert err.endswith(f"; did you mean {meant!r}?\n")
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (
+            {"com": [0, 0, 0], "I": I_C},
+            "unknown key 'com'; the centre of mass is 'centre' in [body]",
+        ),
+        ({"centre": [0, 0, 0], "inertia": I_C}, "'inertia'; a tensor of inertia is 'I' or"),
+    ],
+)
+def test_moments_as_others_call_them(given, told):
+    with pytest.raises(ProblemError) as caught:
+        Problem("b", SE(3), Moments(m=1, **given))
+    assert told in str(caught.value)
+
+
+@pytest.mark.parametrize("rpy", [[0, 0, 1], 1])
+def test_a_start_by_angles(rpy, tmp_path, capsys):
+    path = tmp_path / "good.toml"
+    path.write_text(f"{HEAD}{POINTS}[initial]\nrpy = {rpy}\n")
+    assert main(["walk", str(path)]) == (2 if isinstance(rpy, list) else 0)
+    assert "a motion starts turned by 'exp' in [initial]" in capsys.readouterr().err
+
+
+def test_of_names_as_near_the_first_is_meant():
+    """The component that begins so, and all of them where there are some."""
+    assert near_name("f1", ["f4_1", "f1_1", "f1_2", "f2_1"]) == "f1_1"
+    assert near_name("zeta_9", ["zeta_1", "zeta_2"]) == "zeta_1"
+    problem = Problem("b", "SE(3)", Points(*PLACES), [Force(f"f{k}", 1) for k in range(1, 5)])
+    with pytest.raises(MotionError) as caught:
+        derive(problem).simulate(1, start={"f1": 1.0})
+    assert "has no 'f1'; give its components f1_1, f1_2, f1_3; its numbers" in str(caught.value)
+
+
+IMPOSSIBLE = "no masses have these moments: J − c c̄/m must be positive"
+
+
+@pytest.mark.parametrize(
+    ("group", "moments", "told"),
+    [
+        ("SE(3)", {"c": [0, 0, 0], "I": np.diag([0.33, 0.21, 1.0])}, "1 is above 0.54"),
+        # far from the origin, and said as it must be: nothing else to write
+        ("SE(3)", {"centre": FAR, "I_centre": np.diag([0.33, 0.21, 1.0])}, "1 is above 0.54"),
+        ("SE(3)", {"centre": FAR, "I_centre": np.diag([0.5, 0.5, 1.003])}, "1.003 is above 1"),
+        ("SO(3)", {"c": [0, 0, 0], "I": np.diag([-1e-4, 1, 1])}, "1 is above 0.9999"),
+        # stretched along an axis, a body has kinetic energy by that moment alone
+        ("SL(3)", {"c": [0, 0, 0], "J": np.diag([1, 1, -1e-4])}, "2 is above 1.9998"),
+        ("SE(2)", {"c": [0, 0], "J": np.diag([1, -0.25])}, "eigenvalue -0.25"),
+    ],
+)
+def test_impossible_moments_with_their_numbers(group, moments, told, tmp_path, capsys):
+    with pytest.raises(ProblemError, match=IMPOSSIBLE) as caught:
+        Problem("b", group, Moments(m=2, **moments))
+    assert told in str(caught.value)
+    assert "I_centre" not in str(caught.value)
+    (first, c), (second, tensor) = moments.items()
+    least = tensor[-1][-1] if tensor[0][0] > 0 else tensor[0][0]
+    rows = [[("x" if x == least else float(x)) for x in row] for row in np.asarray(tensor)]
+    problem = Problem("b", group, Moments(m=2, **{first: c, second: rows}), parameters={"x": least})
+    (doubt,) = doubts(problem, {})
+    assert IMPOSSIBLE in doubt
+    assert told in doubt
+    assert not [*doubts(problem, {"x": 0.5})]
+
+
+def test_every_command_tells_impossible_moments(tmp_path, capsys):
+    path = tmp_path / "part.toml"
+    path.write_text(
+        'name = "part"\ngroup = "SO(3)"\n[parameters]\nC = 0.4\n[body]\n'
+        'given = { m = 2, c = [0, 0, 0], I = [[0.33, 0, 0], [0, 0.21, 0], [0, 0, "C"]] }\n'
+    )
+    simulate = ["simulate", str(path), "--t", "0.1", "--dt", "0.1", "--step", "rk4"]
+    assert main(simulate) == 0
+    assert IMPOSSIBLE not in capsys.readouterr().err
+    assert main([*simulate, "--set", "C=1"]) == 0
+    assert IMPOSSIBLE in capsys.readouterr().err
+    path.write_text(path.read_text().replace("0.4", "1"))
+    for command in (
+        ["check"],
+        ["integrals"],
+        ["equilibria"],
+        ["walk", "--discrete"],
+        ["reduction"],
+    ):
+        assert main([command[0], str(path), *command[1:]]) == 0
+        assert IMPOSSIBLE in capsys.readouterr().err
 
 
 def test_a_centre_that_is_too_long(tmp_path):
@@ -336,6 +481,13 @@ ALMOST = [
     (("potential", {"kind": "sprng"}), "did you mean 'spring'?"),
     (("potential", {"kind": "spring", "stifness": 1}), "'stifness'; did you mean 'stiffness'?"),
     (("input", {"kind": "torque", "name": "f"}), "did you mean 'covector'?"),
+    (("input", {**FORCE, "on": 1, "direction": [1, 0, 0]}), "has all its components at every call"),
+    (("input", {**FORCE, "on": 1, "torque": 1}), '[[input]] with kind = "covector"'),
+    (("potential", {"kind": "gravity", "direction": [0, 0, 1]}), "that of the vector 'g'"),
+    (("potential", {"kind": "friction"}), "contacts, impacts and dry friction are not here"),
+    (("contact", {"mu": 1}), "contacts, impacts and dry friction are not here"),
+    (("joint", {"on": 1}), "other constraints, joints between bodies and rolling are not here"),
+    (("constraint", {"on": 1}), "what holds a body is its group"),
     (("input", {**FORCE, "on": 1, "frame": "world"}), "did you mean 'space'?"),
     (("input", FORCE), "input 1: key 'on' or 'at' is missing"),
     (("input", {**FORCE, "on": [1, 2]}), "input 1: key 'on' must be one point"),
@@ -377,3 +529,19 @@ def test_one_point_or_a_list_of_them():
         given = [Table(key, **fields, on=x) for x in (2, [2])]
         one, listed = (Problem("b", "SE(3)", Points(*PLACES), [x]) for x in given)
         assert data(one) == data(listed)
+
+
+@pytest.mark.parametrize(
+    ("L", "told"),
+    [
+        ("(1 - t/9)*zeta_1^2 + zeta_2^2 + zeta_3^2", True),
+        ("cos(t)^2*zeta_1*zeta_2 + zeta_1^2 + zeta_2^2 + zeta_3^2", True),
+        ("zeta_1^2 + zeta_2^2 + zeta_3^2 + t*zeta_1 - t^2*A_33", False),
+        ("(1 + t - t)*zeta_1^2 + zeta_2^2 + zeta_3^2", False),
+    ],
+)
+def test_a_mass_that_depends_on_the_time(L, told):
+    """It is said that this is no rocket; not of potentials and gyroscopic terms in time."""
+    found = [*doubts(Problem("b", "SO(3)", Lagrangian(L)), {})]
+    assert bool(found) == told
+    assert all("a rocket has m dv/dt = F + dm/dt c" in x for x in found)

@@ -2,16 +2,21 @@
 
 import ast
 import re
+import runpy
 import subprocess
 import sys
 import tomllib
+from types import SimpleNamespace
 
 import pytest
 
 import derive
+from derive.code.emit import emit
 from derive.code.languages import LANGUAGES
+from derive.code.options import Options
 from derive.command.arguments import parser
 from derive.command.cli import COMMANDS, main
+from derive.pipeline import program
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.schema.kinds import kinds
@@ -43,7 +48,7 @@ PROSE = {page: FENCE.sub("", text) for page, text in PAGES.items()}
 SPANS = [(page, x) for page, text in PROSE.items() for x in re.findall(r"`([^`\n]+)`", text)]
 PATH = re.compile(r"((?:derive|templates|cmake|generated|tests|benchmarks|examples|docs)/[\w./-]*)")
 OPTIONS = {x for _, span in SPANS for x in re.findall(r"(?<![\w-])--[a-z][a-z-]+", span)}
-OF_OTHERS = {"--upgrade"}
+OF_OTHERS = {"--upgrade", "--quick"}
 
 
 def test_the_pages_are_found():
@@ -105,7 +110,7 @@ def test_every_option_that_is_named_is_one():
     for command in COMMANDS:
         sub = parser(COMMANDS, None)._subparsers._group_actions[0].choices[command]
         known |= {*sub._option_string_actions}
-    named = OPTIONS - {x for x in OPTIONS if x in OF_OTHERS}
+    named = OPTIONS - OF_OTHERS
     assert named <= known, named - known
     emit = PAGES["docs/options.md"]
     sub = parser(COMMANDS, None)._subparsers._group_actions[0].choices["emit"]
@@ -218,3 +223,50 @@ def test_every_make_target_is_described():
     told = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert all(f"make {t}" in told for t in TARGETS)
     assert {"derive", "test", "bench", "docs", "help"} <= {*TARGETS}
+
+
+@needs("make")
+def test_the_site_leads_to_its_playground():
+    """From every page, however deep, and only where there is one: make docs has none."""
+    for target, told in (("site", True), ("docs", False)):
+        command = ["make", "--dry-run", target]
+        said = subprocess.run(command, cwd=ROOT, capture_output=True, text=True).stdout
+        (build,) = [x for x in said.splitlines() if "sphinx-build" in x]
+        tags = {build.split()[build.split().index("-t") + 1]} if "-t" in build.split() else set()
+        app = SimpleNamespace(tags=SimpleNamespace(has=tags.__contains__))
+        conf = runpy.run_path(str(ROOT / "docs" / "conf.py"))
+        context = {"pathto": lambda path, resource: f"../{path}" if resource else ""}
+        conf["playground"](app, "docs/motion", "page.html", context, None)
+        assert ('href="../play/index.html"' in context.get("theme_announcement", "")) is told
+
+
+EMITTED = {
+    "C, C++": ("c", "gauss"),
+    "Rust": ("rust", "gauss"),
+    "Python": ("python", "gauss"),
+    "Python, JAX": ("python", "gauss_jax"),
+    "JavaScript": ("javascript", "gauss"),
+}
+MARKS = {
+    "a thousandth": r"(?<![\d.])0\.001(?!\d)",
+    "places first": r"first_rhs_lanes\(times|places, then velocities",
+    "by its iterations": r"\b16(\.0)? ?/ ?(m->sweeps|f64::from\(m\.sweeps|sweeps)",
+    "evaluations": r"\bm(->|\.)evaluations \+",
+}
+"""What each column of the table means in the code."""
+
+
+def test_what_gauss_to_is_said_to_do_in_each_language():
+    """The table of docs/steps.md, in the code that is emitted for `se3`, of 18 numbers."""
+    page = (ROOT / "docs" / "steps.md").read_text(encoding="utf-8")
+    rows = [x.strip(" |").split(" | ") for x in page.splitlines() if x.startswith("  | ")]
+    told = rows[1:]
+    assert [x for x, *_ in told] == [*EMITTED]
+    d = derive.derive("se3")
+    made = program(d.problem, d.record)
+    for name, ends, *others in told:
+        language, step = EMITTED[name]
+        files = emit(made, d.record, (language,), "se3", Options(step=(step,)))
+        code = "\n".join(files.values())
+        found = [bool(re.search(mark, code)) for mark in MARKS.values()]
+        assert found == ["thousandth" in ends, *(x.startswith("yes") for x in others)], name

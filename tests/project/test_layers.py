@@ -16,7 +16,7 @@ ALLOWED = {
     "record": {"record", "prose", "schema", "language"},
     "walk": {"walk", "prose", "record", "problem", "schema", "algebra", "language"},
     "integrals": {"integrals", "walk", "record", "problem", "algebra", "language"},
-    "equilibria": {"equilibria", "integrals", "walk", "record", "language"},
+    "equilibria": {"equilibria", "integrals", "walk", "record", "algebra", "language"},
     "check": {"check", "record", "algebra", "language"},
     "paper": {"paper", "check", "record", "algebra", "language"},
     "printing": {"printing", "record", "language"},

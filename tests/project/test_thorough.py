@@ -1,11 +1,12 @@
-"""What the quick run leaves out: each entry is a test that there is; coverage runs half of it."""
+"""What the quick run leaves out: each entry is a test that there is; coverage runs half of it, and
+what is run is chosen by a seed, of each kind one."""
 
 import re
 from pathlib import Path
 
 import pytest
 
-from tests.support.thorough import KEPT, half, split
+from tests.support.thorough import KEPT, half, kinds, split
 
 TESTS = Path(__file__).parents[1]
 
@@ -16,20 +17,50 @@ def test_an_entry_is_a_test(name):
     assert re.search(rf"^def {test}\(", (TESTS / file).read_text(encoding="utf-8"), re.M)
 
 
-def test_the_first_cases_are_kept():
+def items_of(name, cases):
+    return [type("item", (), {"nodeid": f"tests/{name}[{x}]"}) for x in cases]
+
+
+def ids(items):
+    return [x.nodeid for x in items]
+
+
+def test_a_seed_chooses_and_nothing_else_is_left():
     name, kept = max(KEPT.items(), key=lambda x: x[1])
-    items = [type("item", (), {"nodeid": f"tests/{name}[{k}]"}) for k in range(kept + 3)]
-    items.append(type("item", (), {"nodeid": "tests/else.py::test_else"}))
-    run, left = split(items)
-    assert [x.nodeid for x in left] == [f"tests/{name}[{k}]" for k in range(kept, kept + 3)]
-    assert len(run) == kept + 1
+    items = items_of(name, range(2 * kept)) + items_of("else.py::test_else", "ab")
+    (run, left), again, other = split(items), split(items[::-1]), split(items, "other")
+    assert len(run) == kept + 2
+    assert sorted(ids(run + left)) == sorted(ids(items))
+    assert ids(again[0]) == ids(run)[::-1]
+    assert {*ids(other[0])} != {*ids(run)}
+    assert {*ids(items[-2:])} < {*ids(run)} & {*ids(other[0])}
+
+
+@pytest.mark.parametrize("seed", "12345")
+def test_a_case_of_each_kind_is_run(seed):
+    """However few are; and none where none is to be."""
+    name = next(name for name, kept in KEPT.items() if kept == 1)
+    cases = [f"so{k}-{x}-{y}" for k in range(9) for x in ("g++17", "rust2021", "julia", "c")
+             for y in ("vern9", "{'step': 'gauss'}")]  # fmt: skip
+    run, _ = split(items_of(name, cases), seed)
+    assert {kind for x in run for kind in kinds(x)} == {
+        "cpp",
+        "rust",
+        "julia",
+        "c",
+        "vern",
+        "gauss",
+    }
+    assert len(run) < 7
+    none = next(name for name, kept in KEPT.items() if kept == 0)
+    assert split(items_of(none, cases), seed)[0] == []
 
 
 def test_half_of_the_cases_are_of_every_test():
     names = ["a[0]", "b", "a[1]", "c[x]", "a[2]", "c[y]"]
-    run, rest = half([type("item", (), {"nodeid": x}) for x in names])
-    assert [x.nodeid for x in run] == ["a[0]", "b", "c[x]", "a[2]"]
-    assert [x.nodeid for x in rest] == ["a[1]", "c[y]"]
+    run, rest = map(ids, half([type("item", (), {"nodeid": x}) for x in names]))
+    assert run == ["a[0]", "b", "c[x]", "a[2]"]
+    assert rest == ["a[1]", "c[y]"]
 
 
 def test_the_build_server_has_some_cases_of_every_test():

@@ -5,8 +5,11 @@ import doctest
 import pytest
 
 import derive
+from derive.code.emit import EmitError
+from derive.motion.start import MotionError
 from derive.problem.problem import ProblemError
 from derive.python import api
+from derive.schema.python_words import words
 
 
 def pair(**more):
@@ -108,3 +111,39 @@ def test_damping_at_a_place_of_a_solid():
     at = derive.derive(derive.Problem("a", "SE(3)", body[:3], derive.Damping(2, at=[1, 1, 1])))
     assert all(v.holds for v in at.check())
     assert on["motion"].equations == at["motion"].equations
+
+
+def test_a_place_of_a_block():
+    """Beside others it is the point with the same coordinates and the same block."""
+    body = derive.Points((1, [1, 0]), (1, [0, 1]), (1, [1, 1], 2), (1, [0, 2], 2), (0, [2, 3], 2))
+    forces = [
+        (derive.Force("F", [2, 3], block=2), derive.Force("F", 5)),
+        (derive.Damping(2, at=[2, 3], block=2), derive.Damping(2, on=[5])),
+        (derive.Spring([2, 3], [0, 0], 4, block=2), derive.Spring(5, [0, 0], 4)),
+    ]
+    for at, on in forces:
+        one = derive.Problem("p", derive.SE(2) * derive.SE(2), body[:4], [at])
+        assert [x.block for x in one.places] == [2]
+        other = derive.Problem("p", derive.SE(2) * derive.SE(2), body, [on])
+        assert derive.derive(one)["motion"].equations == derive.derive(other)["motion"].equations
+    with pytest.raises(ProblemError, match="either 'between' or an end"):
+        derive.Problem("p", "SE(2)", body[:2], [derive.Spring(1, 2, 4, block=1)])
+
+
+def test_every_word_is_a_public_name():
+    space = {}
+    exec("from derive import *", space)
+    for name in {*words(), *derive.PLACES}:
+        assert name in derive.__all__
+        assert name in dir(derive)
+        assert space[name] is getattr(derive, name)
+    for name, kind in (("MotionError", MotionError), ("EmitError", EmitError)):
+        assert getattr(derive, name) is kind
+        assert issubclass(kind, derive.Refused)
+
+
+def test_what_is_large_is_shown_in_one_line():
+    d = derive.derive("two_tops")
+    for x in (d, d.problem, d.problem.group, d.record, d.symmetries()):
+        assert len(repr(x)) < 80
+    assert repr(d.problem) == "<problem two_tops: SO(3) x SO(3)>"

@@ -48,6 +48,22 @@ def test_results_are_not_overwritten(top):
     assert np.array_equal(first, kept)
 
 
+@pytest.mark.parametrize(
+    ("x", "found"),
+    [([1] * 5, "5"), (2.0, "1"), ([2.0], "1"), (np.ones((12, 2)), r"an array \(12, 2\)")],
+)
+def test_other_than_a_state(top, x, found):
+    """Neither of another length nor, as NumPy has it, one number for all."""
+    for call in (top, top.energy, top.jacobian, top.conserved):
+        with pytest.raises(ValueError, match=f"^expected 12 numbers, not {found}$"):
+            call(0, x)
+    for u in (1.0, [1.0], [1, 2]):
+        with pytest.raises(ValueError, match=r"^expected 3 numbers, not \d$"):
+            top(0, START, u)
+        with pytest.raises(ValueError, match=r"^expected 3 numbers, not \d$"):
+            top.u = u
+
+
 def test_other_parameters():
     f = derive.compile("so3", {"c_3": 0.0})
     assert f.p[2] == 0
@@ -131,7 +147,7 @@ def test_inputs_of_one_call():
     for kept in (f.u, f.p, f.k):
         with pytest.raises(ValueError, match="read-only"):
             kept[0] = 1
-    with pytest.raises(ValueError, match="broadcast"):
+    with pytest.raises(ValueError, match="expected 3 numbers, not 2"):
         f(0, START, [1, 2])
     assert np.array_equal(f(0, START), before[1])
 

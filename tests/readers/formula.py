@@ -9,10 +9,12 @@ factor, ∧ joins products.  The readers of the formats make the tokens:
     ("word", Tr det Σ ∫ dm d ∂ or a function) ("tree", already read)
 """
 
+import re
 import unicodedata
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from derive.language.tree import nodes
 from derive.record.vocabulary import VOCABULARY
 
 OF_FIELDS = ("grad", "div", "Δ", "∇", "∂ₙ")
@@ -112,6 +114,10 @@ def letters_of(d):
     """Those of a record."""
     own = {s.name for s in d.symbols} | {"g", "δ", "δ′", "∫", "d/dt"}
     given = {*map(str, d.problem.get("parameters") or ())}
+    inputs = "|".join(x["name"] for x in d.problem.get("inputs") or ())
+    sides = (x for s in d.steps for e in s.equations for t in (e.lhs, e.rhs) for x in nodes(t))
+    named = (x[1] for x in sides if isinstance(x, tuple) and x[0] == "par")
+    given |= {x for x in named if inputs and re.fullmatch(rf"({inputs})_\d+", x)}
     body = d.problem.get("body") or {}
     n = range(1, 10)
     entries = {"m", *(f"c_{i}" for i in n), *(f"J_{i}{j}" for i in n for j in n if i <= j)}

@@ -17,16 +17,28 @@ WORDS = {r"\Tr": "Tr", r"\sum": "Σ", r"\int": "∫", r"\det": "det", r"\dd": "d
 WORDS |= {rf"\{x}": x for x in ("cos", "cosh", "exp", "log", "sin", "sinh", "tan", "tanh")}
 WORDS |= {r"\arctan": "atan"}
 OPERATORS = {r"\wedge": "∧", r"\cdot": "·", r"\top": "⊤"}
-OPERATORS |= {c: c for c in "+-=/,;"}
+OPERATORS |= {r"\neq": "≠", r"\le": "≤", r"\ge": "≥", r"\cong": "≅", r"\approx": "≈", r"\pm": "±"}
+OPERATORS |= {
+    r"\in": "∈",
+    r"\to": "→",
+    r"\times": "×",
+    r"\circ": "∘",
+    r"\surd": "√",
+    r"\mapsto": "↦",
+    r"\infty": "∞",
+}
+OPERATORS |= {c: c for c in "+-=/,;<>:.|"}
 BRACKETS = {r"\langle": "⟨", r"\rangle": "⟩"} | {c: c for c in "()[]"}
 ACCENTS = {r"\tilde": "~", r"\pulled": "~", r"\dot": "˙", r"\rate": "˙", r"\hat": "^"}
 SPACES = (r"\,", r"\quad", r"\qquad", r"\ ", r"\;")
 
 
 STYLES = {
-    r"\mathbb": {"J": "𝕁", "I": "𝕀"},
+    r"\mathbb": {"J": "𝕁", "I": "𝕀", "R": "ℝ"},
     r"\mathcal": {"J": "𝒥", "A": "𝒜", "R": "ℛ", "V": "𝒱"},
+    r"\mathfrak": {"g": "𝔤", "s": "𝔰", "o": "𝔬"},
 }
+STYLES[r"\algebraof"] = STYLES[r"\mathfrak"]
 
 
 class _Lexer:
@@ -89,6 +101,10 @@ class _Lexer:
         if token.isdigit():
             while self.peek().isdigit():
                 token += self.take()
+            rest = "".join(self.raw[self.at :])
+            if decimals := re.match(r"\.(\d+)|\{,\}(\d+)", rest):
+                self.at += decimals.end()
+                return [("number", Fraction(f"{token}.{decimals[1] or decimals[2]}"))]
             return [("number", int(token))]
         if token.isalpha():
             return [("name", token)]
@@ -127,6 +143,8 @@ class _Lexer:
         if token in (r"\unitmatrix", r"\mathbf"):
             bold = self.words() if token == r"\mathbf" else "1"
             return [("tree", ("one",)) if bold == "1" else ("name", {"m": "𝐦", "n": "𝐧"}[bold])]
+        if token == r"\Liealgebra":
+            return [("name", "𝔤")]
         if token in STYLES:
             return [("name", STYLES[token][self.words()])]
         if token == r"\mathrm" and self.words() == "d":

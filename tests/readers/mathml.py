@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 from tests.readers.formula import UnreadableError, accented, equation, parsed
 
-OPERATORS = {"−": "-", "∧": "∧", "·": "·", "⊤": "⊤"} | {c: c for c in "+=/,;"}
+OPERATORS = {"−": "-", "∧": "∧", "·": "·", "⊤": "⊤"} | {c: c for c in "+=/,;<>:.|≠≤≥≅≈±∈→×∘√"}
 ACCENTS = "˙~^"
 BRACKETS = "([⟨)]⟩"
 WORDS = {"∑": "Σ", "∫": "∫"}
@@ -20,7 +20,7 @@ def tokens(node, known):
     if node.tag == "mn":
         if kind == "bold":
             return [("tree", ("one",))]
-        return [("number", int(text))]
+        return [("number", Fraction(text.replace(",", ".")))]
     if node.tag == "mi":
         return _letter(text, kind, node.attrib.get("mathvariant") == "normal")
     if node.tag == "mo":

@@ -1,17 +1,21 @@
 """Does a page say the equations of its record, and a formula its tree?"""
 
 import random
+from functools import partial
 
 from derive.language.show import show
-from derive.printing.macros import styled
+from derive.printing.escape import markdown_text, tex_text
+from derive.printing.macros import standard, styled
 from derive.printing.notation import Notation
+from derive.printing.sentences import dollars, prose
 from derive.printing.tex import formula, latex_tree
 from derive.views import html
 from derive.views import latex as latex_view
 from derive.views import markdown as markdown_view
 from derive.views import text as text_view
 from derive.views.language import language
-from tests.readers import latex, markdown, mathml, text
+from derive.views.outline import assumed, latex_names
+from tests.readers import latex, markdown, mathml, sentence, text
 from tests.readers.formula import Letters, UnreadableError, canonical, letters_of, value
 from tests.support import random_trees
 
@@ -89,6 +93,32 @@ def _put(t, old, new):
     if t == old:
         return new
     return (t[0], *(_put(x, old, new) for x in t[1:])) if isinstance(t, tuple) else t
+
+
+# -- sentences -----------------------------------------------------------------------------------
+
+
+def said(d, words):
+    """The sentences of a record in a language, as its steps and names have them."""
+    for step in d.steps:
+        yield from (words.of(step.prose), *assumed(step, words))
+    for s in d.symbols:
+        yield words.of(s.meaning)
+
+
+def misread_sentences(d, words):
+    """The sentences that a format shows as others: the format, what is said, what is shown."""
+    known, names = letters_of(d), latex_names(d)
+    own = partial(dollars, names=names)
+    for x in dict.fromkeys(said(d, words)):
+        want = sentence.plain(x, known)
+        for kind, shown in (
+            ("latex", sentence.of_latex(styled(prose(x, tex_text, own)), known)),
+            ("markdown", sentence.of_markdown(standard(prose(x, markdown_text, own)), known)),
+            ("html", sentence.of_html(html.words(x, Notation(), names), known)),
+        ):
+            if shown != want:
+                yield kind, want, shown
 
 
 # -- formulas ------------------------------------------------------------------------------------

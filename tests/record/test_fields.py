@@ -21,7 +21,7 @@ from tests.support.walks import SEED, record, repeated
 NAMES = ("so3", "sl3")
 HARMLESS = {
     "default": "the equations are of the parameter, whatever its value",
-    "problem.inputs.*.name": "how the emitted code calls an array; equations have u, f_u",
+    "problem.inputs.*.name": "of a force or covector whose numbers stand in no equation",
 }
 """What may be changed: its equations are as true as before, and why."""
 

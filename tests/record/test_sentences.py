@@ -46,7 +46,7 @@ def test_old_records_are_one_sentence_a_step():
 
 def test_meanings_with_places_are_written():
     symbols = {s["name"]: s for s in to_data(walks.record("ellipsoid"))["symbols"]}
-    assert symbols["f_u"]["meaning"].startswith("input: thrust, a force at r_2")
+    assert symbols["f_u"]["meaning"].startswith("input: ‘thrust’, a force at r_2")
     assert symbols["f_u"]["sentences"][0]["message"] == "input: {forces}"
     assert "sentences" not in symbols["m"]
 
@@ -57,8 +57,8 @@ def test_a_wrench_beside_forces():
     d = walk(problem_of(tomllib.loads(GIVEN + forces)))
     (meaning,) = (s.meaning for s in d.symbols if s.name == "f_u")
     assert english(meaning) == (
-        "input: u, a force on the body's origin, in the body frame; "
-        "F, a force at r_1, in the body frame"
+        "input: ‘u₄’, ‘u₅’, ‘u₆’, a force on the body's origin, in the body frame; "
+        "‘F’, a force at r_1, in the body frame"
     )
 
 

@@ -20,8 +20,12 @@ def said(capsys, *words, code=0):
 def test_it_prints_the_reduction_alone(capsys):
     words = said(capsys, "lagrange_top").out
     assert words.startswith("lagrange_top.momentum_1")
-    assert "𝒱 = mgl A₃₃ + (𝒥₁ − A₃₃ 𝒥₂)²/(2 I1(1 − A₃₃²)) + 𝒥₂²/(2 I3)" in words
+    assert "𝒱 = mgl·A₃₃ + (𝒥₁ − A₃₃ 𝒥₂)²/(2 I1(1 − A₃₃²)) + 𝒥₂²/(2 I3)" in words
     assert "degree 3: the integral\n  is elliptic" in words
+
+
+def test_a_parameter_is_told_from_the_element_of_the_group(capsys):
+    assert "𝒱 = ml‘g’ A₃₃ + " in said(capsys, "spherical_pendulum").out
 
 
 def test_it_speaks_french(capsys):
@@ -129,5 +133,19 @@ def test_the_walk_imports_nothing_of_it():
 def test_where_a_configuration_is_left_as_it_is(capsys, name, left):
     """Upright, by a turn of space and one of the body; by turns of space alone never."""
     words = " ".join(said(capsys, name, "effective").out.split())
-    assert ("elsewhere a motion along the symmetries leaves" in words) == left
+    assert ("is positive a motion along the symmetries leaves" in words) == left
     assert ("No motion along the symmetries leaves" in words) != left
+
+
+def test_a_null_field_is_not_said_to_vanish(capsys, tmp_path):
+    """A boost on its light cone: 𝕀 = A₂₃² − A₁₃² is 0 there, and the field (A₂₃, A₁₃) is not."""
+    shifts = [[[0, 0, int(i == 0)], [0, 0, int(i == 1)], [0, 0, 0]] for i in range(2)]
+    file = tmp_path / "boost.toml"
+    file.write_text(
+        f'name = "boost"\n[group]\nname = "R2"\naction = "affine"\nbasis = {shifts}\n'
+        '[lagrangian]\nL = "(zeta_1^2 - zeta_2^2)/2 - (T_1^2 - T_2^2)^2"\n'
+    )
+    words = " ".join(said(capsys, str(file)).out.split())
+    assert "𝒥₁ = Π₁ A₂₃ + Π₂ A₁₃" in words
+    assert "where the kinetic energy is positive a motion along the symmetries leaves" in words
+    assert "elsewhere a motion" not in words

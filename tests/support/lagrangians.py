@@ -44,6 +44,11 @@ def unit(i, j):
     return [[int((i, j) == (k, m)) for m in range(4)] for k in range(4)]
 
 
+TURN = [[0, -1, 0], [1, 0, 0], [0, 0, 0]]
+BOOSTS = ([[0, 0, 1], [0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 1, 0]])
+LORENTZ = {"name": "Lorentz", "basis": [TURN, *BOOSTS]}
+"""Those of a plane and a time that runs forwards, which is not what a form tells."""
+
 LINES = {"name": "Lines", "basis": [unit(0, 0), unit(0, 1), unit(2, 2), unit(2, 3)]}
 
 
@@ -87,6 +92,13 @@ def bent():
     return derive(heavy("132", "A_31/2 + A_33/3", ""))
 
 
+def disc():
+    """A disc in a fluid: edge-on it is unstable, and has an eigenvalue 0 as well."""
+    moments = (1, 1, 2, 1, 1, 3)
+    operator = [[int(i == j) * k for j in range(6)] for i, k in enumerate(moments)]
+    return problem_of({"name": "x", "group": "SE(3)", "inertia": {"operator": operator}})
+
+
 def every_equilibrium():
     """Equilibria that together reach whatever may be said of them."""
     solid = squares(3, 5, 11, 13, 13, 13)
@@ -97,6 +109,8 @@ def every_equilibrium():
         bent().equilibrium_near({"A_31": "-0.7", "A_33": "-0.5"}),
         derive(heavy("132", "A_33/2", "")).equilibrium_near(tilted),
         derive("euler_top").equilibria(),
+        derive("euler_top").equilibria({"Pi_1": 0}),
+        derive(disc()).equilibria({"Pi_4": 1}),
         nilpotent().equilibria({"Pi_1": 1}),
         derive(heavy("132", "A_33/2", "")).equilibria(exact),
         derive("lagrange_top").equilibria({"A_33": -1}),
@@ -105,4 +119,5 @@ def every_equilibrium():
         derive(lagrangian(solid, "SE(3)")).equilibria({"Pi_1": 1}),
         derive(lagrangian(squares(*range(2, 12)), "SO(5)")).equilibria({"Pi_1": 1}),
         derive(lagrangian(squares(*range(2, 8)), "SO(4)")).equilibria({"Pi_1": 1, "Pi_6": 1}),
+        derive(lagrangian(squares(1, 1, 3) + " - A_33", LORENTZ)).equilibria({"A_33": -1}),
     ]

@@ -1,4 +1,5 @@
-"""Everything made wrong, once at a time: records, emitted programs, printers, rules of the engine.
+"""Everything made wrong, once at a time: records, emitted programs, printers, rules of the engine,
+and what is made wrong by hand.
 
 Of records the equations, and the heads, arguments, indices, quantifiers and headers.
 
@@ -11,7 +12,7 @@ from collections import Counter
 
 from derive.check.checker import Checker, checker_of
 from derive.record.contract import ANY_GROUP
-from tests.support import printing_mutations, record_forgeries, record_mutations
+from tests.support import faults, printing_mutations, record_forgeries, record_mutations
 from tests.support.walks import FLUIDS, NAMES, OTHERS, SEED, record
 from tests.validate.test_validation import MUTATED, tried
 
@@ -85,4 +86,5 @@ def rules():
 
 
 if __name__ == "__main__":
-    sys.exit(not all([records(), forgeries(), programs(), printing_mutations.main(), rules()]))
+    fine = [records(), forgeries(), programs(), printing_mutations.main(), faults.main(), rules()]
+    sys.exit(not all(fine))

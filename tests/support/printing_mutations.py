@@ -14,13 +14,14 @@ from fractions import Fraction
 
 from derive.record.record import Equation, Step, Symbol
 from derive.record.sentence import say
-from tests.readers.read import PAGES, faults, misread
+from derive.views.language import ENGLISH
+from tests.readers.read import PAGES, faults, misread, misread_sentences
 from tests.support import random_trees
 from tests.support.walks import record
 
 SHOW, TREES, TYPESET = "language.show", "printing.tex", "printing.typeset"
 LETTERS, TEXT, LAYOUT, HTML = "printing.letters", "views.text", "views.layout", "views.html"
-NAMES = "printing.spelling"
+NAMES, INLINE, SIGNS = "printing.spelling", "printing.inline", "printing.signs"
 GLUE, MACROS, ENTRIES = "printing.juxtaposition", "printing.macros", "views.entries"
 
 MUTATIONS = {
@@ -57,13 +58,13 @@ MUTATIONS = {
         SHOW, 'return f"({text})" if level == SUM or swallows(t) else text',
         'return f"({text})" if level == SUM else text'),
     "text: an exponent dropped": (
-        SHOW, "return _base(a[0]) + str(a[1])", "return _base(a[0]) + str(2)"),
+        SHOW, "return base + str(a[1])", "return base + str(2)"),
     "text: letters of a product run together with names": (
         SHOW, 'return " " if WORD.search(text + piece) else ""', 'return ""'),
     "text: the metric of a norm left out": (
         SHOW, '(f"_{_below(a[0])}" if len(a) == 2 else "")', '""'),
     "text: rows and entries with one mark": (SHOW, '"; ".join(show(row)', '", ".join(show(row)'),
-    "text: no quotes": (TEXT, "return unclear(own, [*map(str, declared or ())], symbolic)",
+    "text: no quotes": (TEXT, "return unclear(own, named_numbers(d), symbolic)",
                         "return frozenset()"),
     "text: continued lines lost": (
         TEXT, 'lines = [f"{lead} = {first[indent:]}", *others]',
@@ -140,8 +141,28 @@ MUTATIONS = {
     "names: an index lost under a bar": (
         NAMES, "return _whole(whole, lead, letter, primes, below)",
         'return _whole(whole, lead, letter, primes, "")'),
+    "sentences: a relation without its stroke": (
+        SIGNS, "x if x[0].isalpha() else c for", "x for"),
+    "sentences: ≤ as ≥": (SIGNS, r'"≤": r"\le"', r'"≤": r"\ge"'),
+    "sentences: a prime lost": (INLINE, 'primed(_open(found, "\'"))', 'found'),
+    "sentences: the prime of an index lost": (
+        INLINE, 'primed(shown, letters.count("′"))', "shown"),
+    "sentences: a parameter like a letter": (
+        INLINE, "found += quoted(own, names)", "found += literal(own)"),
+    "sentences: a decimal cut": (INLINE, 'number.replace(",", "{,}")', "number[:1]"),
+    "sentences: an exponent lost": (
+        INLINE, 'raised(_open(found, "^"), spelt(exponent, notation, names))', "found"),
+    "sentences: a root of nothing": (
+        INLINE, "root(spelt(under_root, notation, names))", 'Formula("")'),
+    "sentences: an accent for another": (SIGNS, r'"\u0303": r"\tilde"', r'"\u0303": r"\hat"'),
 }  # fmt: skip
 """What is changed → the module, its source, and what stands there instead."""
+
+
+HARD = say(
+    "Where A₁₂² ≠ 0, δ′h̃ ≤ ½ + √(21), ‘x1’ ‘sn’ > −‘x₁’ and ∇_η′ u ≈ 4.58, P′ = 0, there is g⁻¹δ′g."
+)
+"""A sentence that has what is rare in sentences."""
 
 
 def hard():
@@ -168,7 +189,7 @@ def hard():
     given = {x: {"default": None, "unit": "", "meaning": ""} for x in named}
     d = record("two_tops")
     scope = d.steps[-1].scope
-    step = Step("hard.step", "definition", (), tuple(equations), say("Hard."), (), scope=scope)
+    step = Step("hard.step", "definition", (), tuple(equations), HARD, (), scope=scope)
     problem = {**d.problem, "parameters": {**d.problem["parameters"], **given}}
     symbols = tuple(Symbol(x, say("a letter"), "") for x in names)
     return replace(d, problem=problem, symbols=symbols, steps=(step,))
@@ -226,6 +247,7 @@ def seen(trees, records):
     for d in records:
         for kind in PAGES:
             yield from faults(d, kind)
+        yield from misread_sentences(d, ENGLISH)
 
 
 def material():

@@ -111,6 +111,22 @@ def thrown(error):
     raise error
 
 
+def real_of(x):
+    """The type of the numbers of an array, as far as they are written."""
+    return next(type(v) for v in x.values if v is not None)
+
+
+def copied(x, y):
+    if x.shape != y.shape:
+        raise JuliaError(f"an array of shape {y.shape} into one of {x.shape}")
+    x.values[:] = y.whole()
+
+
+def filled(places, value):
+    for x, i in places:
+        x[i,] = real_of(x)(value)
+
+
 BUILT_IN = {
     **REALS,
     **{name: elementary(name) for name in FUNCTIONS},
@@ -125,6 +141,11 @@ BUILT_IN = {
     "eltype": lambda x: max((type(v) for v in x), key=lambda t: t().itemsize, default=np.float64),
     "promote_type": lambda a, b: np.result_type(a, b).type,
     "throw": thrown,
+    "sum": lambda x: sum(x[1:], x[0]),
+    "similar": lambda x: Numbers(*x.shape),
+    "view": lambda x, places: [(x, i) for i in places],
+    "copyto!": copied,
+    "fill!": filled,
     "DomainError": lambda given, why: DomainError(why),
 }  # fmt: skip
 
@@ -239,11 +260,37 @@ class Module:
                     done, value = self._statements(body, scope)
                     if done:
                         return True, value
-            elif text(node).startswith(("throw(", "all(")):
+            elif node.type == "for_statement":
+                done, value = self._loop(node, scope)
+                if done:
+                    return True, value
+            elif node.type == "binary_expression" and named(node)[2].type == "return_statement":
+                condition, op, (value,) = *named(node)[:2], named(named(node)[2])
+                if self._condition(condition, scope) == (text(op) == "&&"):
+                    return True, self._value(value, scope)
+            elif text(node).startswith(("throw(", "all(")) or (
+                node.type == "call_expression" and text(named(node)[0]).endswith("!")
+            ):
                 self._value(node, scope)
             else:
                 raise unknown(node)  # what begins a line with a sign, say, after an expression
         return False, None
+
+    def _loop(self, node, scope):
+        """What a name has from within a loop it has within each turn alone."""
+        binding, *body = named(node)
+        outside = [x for x, value in scope.items() if value is not JuliaError]
+        for turn in self._turns(binding, scope):
+            own = scope | turn
+            done, value = self._statements(body, own)
+            scope.update({x: own[x] for x in outside})
+            if done:
+                return True, value
+        return False, None
+
+    def _turns(self, binding, scope):
+        name, _, values = named(binding)
+        return [{text(name): i} for i in self._value(values, scope)]
 
     def _assign(self, node, scope):
         target, _, value = named(node)
@@ -284,6 +331,13 @@ class Module:
     def _integer_literal(self, node, scope):
         return int(text(node))
 
+    def _boolean_literal(self, node, scope):
+        return text(node) == "true"
+
+    def _range_expression(self, node, scope):
+        first, last = (self._value(x, scope) for x in named(node))
+        return range(first, last + 1)
+
     def _float_literal(self, node, scope):
         written = text(node)
         real = np.float32 if "f" in written else np.float64
@@ -298,6 +352,11 @@ class Module:
     def _parenthesized_expression(self, node, scope):
         (inside,) = named(node)
         return self._value(inside, scope)
+
+    def _each(self, inside, clause, scope):
+        """The values of an expression that is for each of some."""
+        (binding,) = named(clause)
+        return [self._value(inside, scope | turn) for turn in self._turns(binding, scope)]
 
     def _index_expression(self, node, scope):
         array, index = named(node)
@@ -335,7 +394,10 @@ class Module:
         positional = [x for x in named(listed) if x.type != "named_argument"]
         if head.type == "parametrized_type_expression":
             return self._vector(head, listed, scope)
-        given = [self._value(x, scope) for x in positional]
+        if positional[-1:] and positional[-1].type == "for_clause":
+            given = [self._each(*positional, scope)]
+        else:
+            given = [self._value(x, scope) for x in positional]
         if head.type == "operator" and text(head) == "-" and len(given) == 1:
             return -given[0]
         by_name = [named(x) for x in named(listed) if x.type == "named_argument"]

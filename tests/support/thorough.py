@@ -1,11 +1,18 @@
 """What a quick run leaves out: the long ones that try the tests themselves (mutations, forgeries),
 random problems, and most cases of what has many.  ``make coverage`` has half of these, every other
-case, ``make thorough`` all.
+case, ``make thorough`` all.  Which cases are run with the others, a hash of their names and of a
+seed says: at least one of each language and of each other kind.
 
-A test that is named on the command line, by its file or folder, is run whole.
+A test that is named on the command line, by its file or folder, is run whole, or by ``--quick`` as
+in a quick run.
 """
 
-from collections import Counter
+import re
+from collections import Counter, defaultdict
+from hashlib import sha256
+
+SEED = "1"
+"""Of the choice, unless ``--seed`` has another: the same tree is tested alike."""
 
 FORMS = "test_every_form_of_the_state_and_the_jacobians_equal_the_record"
 KEPT = {
@@ -14,7 +21,7 @@ KEPT = {
     "check/test_any_n.py::test_what_is_so_for_some_n_is_refused": 20,
     "check/test_checker_ranges.py::test_no_degree_is_larger_than_that_of_the_bound": 1,
     "check/test_discrete.py::test_a_discrete_record_holds_also_from_its_json": 1,
-    "check/test_discrete.py::test_every_corruption_of_a_discrete_step_is_refused": 5,
+    "check/test_discrete.py::test_every_corruption_of_a_discrete_step_is_refused": 3,
     "check/test_fluid_forgeries.py::test_what_advection_and_energy_rest_on": 1,
     "check/test_forgeries.py::test_forgeries_around_heads_arguments_indices_and_quantifiers": 1,
     "check/test_forgeries.py::test_forgeries_of_headers": 1,
@@ -259,9 +266,38 @@ KEPT = {
     "walk/test_signed_masses.py::test_the_key_has_one_value": 0,
     "walk/test_sizes.py::test_code_against_points": 8,
     "walk/test_sizes.py::test_the_record_holds": 1,
+    "walk/test_superposition.py::test_the_second_of_two_adds_what_the_first_adds": 5,
     "walk/test_stages.py::test_what_runs_is_what_the_table_says": 30,
 }
-"""Test → how many of its cases, the first ones, are run with the others: two seconds or so."""
+"""Test → how many of its cases are run with the others, and more where it has more kinds of them:
+two seconds or so."""
+
+WORDS = (
+    "c cpp python javascript rust julia jax gauss vern rk discrete left right plain quaternion "
+    "tangent columns col header float attraction expression far_centre field gravity "
+    "harmonic self_gravity spring torsion volume damping"
+)
+KINDS = frozenset(WORDS.split(" "))
+"""What no test leaves out that has cases of it: languages, steps, forms of the state, energies."""
+SPELT = {"g++": "cpp", "clang++": "cpp"}
+
+
+def kinds(item):
+    """The kinds that the name of a case has: ``so3-rust2021`` is one of Rust."""
+    words = re.split(r"[^\w+/.]+", item.nodeid.partition("[")[2].lower())
+    plain = (x.rstrip("0123456789") for x in words)
+    return KINDS & {SPELT.get(x, x) for x in plain}
+
+
+def chosen(cases, count, seed):
+    """So many cases of a test by a hash, the first of each kind before the others; no kind is
+    missing unless all are."""
+    drawn = sorted(cases, key=lambda x: sha256(f"{seed} {x.nodeid}".encode()).digest())
+    seen, first, rest = set(), [], []
+    for case in drawn:
+        (rest if kinds(case) <= seen else first).append(case)
+        seen |= kinds(case)
+    return [*first, *rest][: count and max(count, len(first))]
 
 
 def half(items):
@@ -274,11 +310,10 @@ def half(items):
     return run, rest
 
 
-def split(items):
+def split(items, seed=SEED):
     """The items of pytest that are run, and those that are left."""
-    seen, run, left = Counter(), [], []
+    cases = defaultdict(list)
     for item in items:
-        name = item.nodeid.removeprefix("tests/").partition("[")[0]
-        seen[name] += 1
-        (run if seen[name] <= KEPT.get(name, seen[name]) else left).append(item)
-    return run, left
+        cases[item.nodeid.removeprefix("tests/").partition("[")[0]].append(item)
+    run = {x for name, own in cases.items() for x in chosen(own, KEPT.get(name, len(own)), seed)}
+    return [x for x in items if x in run], [x for x in items if x not in run]

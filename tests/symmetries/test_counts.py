@@ -7,10 +7,13 @@ import pytest
 from derive.command.loading import derive, ready_made
 from derive.language.expression import parse
 from derive.language.show import show
+from derive.language.tree import add
 from derive.pipeline import symmetries, walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.record.sentence import english
+from derive.symmetries import search
+from derive.symmetries.in_parameters import quotients_of
 from derive.symmetries.parameter_values import ParameterValues
 from tests.support.symmetric import FILES, found
 from tests.support.walks import FLUIDS, problem, record
@@ -46,6 +49,7 @@ READY = {
     "kovalevskaya_top": {"time": 1, "rotation_space": 1},
     "lagrange_top": {"time": 1, "rotation_space": 1, "rotation_body": 1},
     "manakov": {"time": 1, "rotation_space": 6},
+    "pendulum": {"time": 1},
     "rod": SPACE | {"rotation_space": 1},
     "spherical_pendulum": {"time": 1, "rotation_space": 1},
     "dirichlet": RELABELLED,
@@ -55,6 +59,7 @@ READY = {
     "gyrostat": {"time": 1, "rotation_space": 1},
     "hammer": SPACE | {"rotation_space": 1},
     "heisenberg": {"time": 1, "deformation_space": 2, "moving": 2},
+    "hung_bar": {"time": 1},
     "kirchhoff": {"time": 1, "translation_space": 3, "rotation_space": 3},
     "saff3": SPACE | {"rotation_space": 1},
     "screw": {"time": 1, "displacement_space": 1, "moving": 1},
@@ -149,3 +154,19 @@ def test_products_of_roots_of_numbers_are_kept():
     for p in values.primes:
         drawn = {x: int(v[0]) for x, v in values.drawn(1, p, 1).items()}
         assert values.at(parse("sqrt(2)*sqrt(3) - sqrt(6)"), drawn, p) == 0
+
+
+@pytest.mark.parametrize("name", ["screw", "hammer"])
+def test_a_guess_is_taken_only_where_it_is_so_for_another_prime(name, monkeypatch):
+    """Though a false one comes first, for each coefficient that is guessed."""
+    guessed = []
+
+    def with_false_ones(*given):
+        for above, below in quotients_of(*given):
+            guessed.append(above)
+            yield from ((add(above, below), below), (above, add(below, 1)), (above, below))
+
+    right = symmetries(problem(name), record(name)).found.symmetries
+    monkeypatch.setattr(search, "quotients_of", with_false_ones)
+    assert symmetries(problem(name), record(name)).found.symmetries == right
+    assert guessed

@@ -15,7 +15,8 @@ from derive.command.cli import main
 from derive.command.loading import ready_made
 from derive.paper.printed import PAPER
 from derive.pipeline import discrete, symmetries, walk
-from derive.printing.escape import markdown_text, prose, tex_text
+from derive.printing.escape import markdown_text, tex_text
+from derive.printing.sentences import prose
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
 from derive.record.discrete_names import DISCRETE
@@ -28,6 +29,7 @@ from derive.schema.body_kinds import MomentBody
 from derive.schema.kinds import kinds
 from derive.schema.solid_kinds import SOLIDS
 from derive.views import outline
+from derive.views.html import html
 from derive.views.language import ENGLISH, LANGUAGES, THIN, WIDE, Language, entries, language
 from derive.views.latex import latex
 from derive.views.markdown import markdown, step_markdown
@@ -311,6 +313,18 @@ def test_sentences_in_a_language():
     told = say("{a} and {b}", a=phrase("x"), b="x") + say("no such {place}")
     assert small.of(told) == "x et y no such {place}"
     assert ENGLISH.of(told) == english(told) == "x and x no such {place}"
+
+
+def test_numbers_have_the_mark_of_the_language():
+    told = phrase("The eigenvalues are about {eigenvalues}.", eigenvalues="±0.0962 ±12.5i, 3")
+    assert FRENCH.sentence(told) == "Les valeurs propres sont environ ±0,0962 ±12,5i, 3."
+    assert r"$\pm0{,}0962 \pm12{,}5i$" in prose(FRENCH.sentence(told))
+    assert "±0.0962 ±12.5i" in ENGLISH.sentence(told)
+
+
+def test_the_title_of_a_figure_is_french():
+    page = html([walks.record("so3")], language=FRENCH)
+    assert page.count("<title>Le solide autour d’un point fixe</title>") == 2
 
 
 def test_what_the_user_said_stays():

@@ -11,12 +11,14 @@ from pathlib import Path
 
 import pytest
 
+from derive.language.read import read
 from derive.language.show import show
 from derive.pipeline import discrete, walk
-from derive.printing.escape import markdown_text, prose, tex_text
+from derive.printing.escape import markdown_text, tex_text, unknown_to_tex
 from derive.printing.letters import names_of, parameter
 from derive.printing.line_breaking import Piece, display_width, fill
 from derive.printing.notation import Notation
+from derive.printing.sentences import prose
 from derive.printing.spelling import transposed
 from derive.printing.tex import latex_tree
 from derive.problem.toml import load
@@ -203,7 +205,7 @@ def test_prose_has_its_formulas_between_dollars() -> None:
         r"The forces $F_{i} = -\partial U/\partial r_{i}$ act."
     )
     assert prose("dϖ(X, δ′y) vanishes") == r"$\mathrm{d}\varpi(X, \delta' y)$ vanishes"
-    assert prose("A sentence, a vector on R³.") == r"A sentence, a vector on $\mathbf{R}^{3}$."
+    assert prose("A sentence, a vector on ℝ³.") == r"A sentence, a vector on $\mathbb{R}^{3}$."
 
 
 def test_parameters_keep_their_own_names() -> None:
@@ -249,6 +251,24 @@ def test_trees_in_latex(tree: tuple[object, ...], expected: str) -> None:
 def test_products_in_text() -> None:
     assert show(("T", ("at", "r", "i"))) == "r̄ᵢ"
     assert show(("mul", ("wedge", "c", "w"), "δt")) == "(c ∧ w) δt"
+
+
+def test_a_name_of_several_letters_is_read_as_no_product() -> None:
+    """mgl² would be m g l²."""
+    weight, moment, axis = ("par", "mgl"), ("par", "I"), ("entry", "A", 3, 3)
+    long = ("mul", 16, ("pow", moment, 2), ("pow", weight, 2), axis)
+    assert show(long) == "16I²·(mgl)²·A₃₃"
+    assert read(show(long), "I", "mgl") == long
+    assert show(("mul", *(("par", x) for x in "mgl"), axis)) == "mgl A₃₃"
+    assert show(("mul", ("par", "rho"), ("add", axis, 1))) == "rho·(A₃₃ + 1)"
+    assert show(("div", ("par", "thrust_3"), "m")) == "thrust₃/m"
+    assert show(("mul", ("pow", ("par", "I1"), 2), axis)) == "I1² A₃₃"
+
+
+def test_a_relation_keeps_its_stroke() -> None:
+    assert prose("where A ≠ 0") == r"where $A \neq 0$"
+    assert tex_text("x≠0 ∉ S") == r"x\ensuremath{\neq}0 ? S"
+    assert unknown_to_tex("x ∉ S") == "∉"
 
 
 def test_trivialised_exterior_derivative_of_so3() -> None:

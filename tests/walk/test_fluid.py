@@ -316,7 +316,7 @@ def test_a_pair_along_a_curve_is_read_either_way():
 
 def test_fields_with_a_divergence_break_what_rests_on_it(monkeypatch):
     """So that each of these steps is tried where it needs its hypothesis."""
-    monkeypatch.setattr(Torus, "solenoidal", lambda self, draw, wide=False: self.any_field(draw))
+    monkeypatch.setattr(Torus, "solenoidal", lambda self, draw: self.any_field(draw))
     d = record("ideal_fluid")
     checker = checker_of(d.problem, SEED)
     broken = {s.label.partition(".")[2] for s in d.steps if not checker.check(s).holds}

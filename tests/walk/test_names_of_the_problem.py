@@ -4,12 +4,15 @@ import tomllib
 
 import pytest
 
-from derive.pipeline import walk
+from derive.language.tree import nodes
+from derive.pipeline import program, walk
 from derive.problem.toml import problem_of
 from derive.record.sentence import english
 from derive.views.language import language
 from derive.views.outline import latex_names
 from derive.views.rendering import render
+from derive.views.text import text
+from tests.support.walks import own_verdicts
 
 CARRIED = """
 name = "carried"
@@ -58,7 +61,7 @@ def meaning(d, name):
 
 def test_what_is_carried_is_named_in_order():
     d = walked(CARRIED)
-    assert "v_1, v_2, w_1, w_2, in this order" in told(d, "advected")
+    assert "‘v_1’, ‘v_2’, ‘w_1’, ‘w_2’, in this order" in told(d, "advected")
     assert ("entry", "Γ", 3) in d["carried.lagrangian"].equations[0].rhs[-1]  # w_1
     assert "the entries of Γ" in told(d, "lagrangian")
     assert "semidirect" in told(d, "poisson_tensor")
@@ -73,7 +76,7 @@ def test_many_of_one_name_are_shortened():
     )
     squares = " + ".join(f"zeta_{k}^2" for k in range(1, 49))
     text = text.partition("L =")[0] + f'L = "{squares} - v_1"'
-    assert "are v_1, v_2, …, v_7, in" in told(walked(text), "advected")
+    assert "are ‘v_1’, ‘v_2’, …, ‘v_7’, in" in told(walked(text), "advected")
 
 
 def test_an_algebra_alone_has_neither_g_nor_the_advected():
@@ -135,3 +138,59 @@ def test_the_total_mass_is_another_letter_than_a_parameter_m(m, latex):
 def test_moments_are_the_same_in_both_meanings():
     moments = 'name = "masses"\ngroup = "SE(3)"\n[body]\nmoments = "symbolic"\n'
     assert latex_names(walked(moments))["m"] == "m"
+
+
+PLACES = ([1, 0, 0], [-1, 0, 0], [0, 2, 0], [0, -2, 0], [0, 0, 3], [0, 0, -3])
+POINTS = "".join(f"[[point]]\nmass = 1\nat = {at}\n" for at in PLACES)
+INPUTS = """
+[[input]]
+name = "thrust"
+kind = "force"
+on = 1
+frame = "body"
+[[input]]
+name = "F"
+kind = "covector"
+"""
+TURNED = """
+[group]
+name = "Turned"
+basis = [
+  [[0, 0, 1], [0, 0, 0], [-1, 0, 0]],
+  [[0, -1, 1], [1, 0, 0], [-1, 0, 0]],
+  [[0, 0, 0], [0, 0, 2], [0, -2, 0]],
+]
+"""
+
+
+def driven(group):
+    return walked(f'name = "driven"\n{group}\n{POINTS}{INPUTS}')
+
+
+@pytest.mark.parametrize("group", ['group = "SE(3)"', 'group = "SO(3)"', 'group = "SL(3)"', TURNED])
+def test_the_numbers_of_inputs_have_the_names_of_the_file(group):
+    """f_u₁ was force 1, and the first component of the force of a covector as well."""
+    d = driven(group)
+    parts = {x for s in d.steps for e in s.equations for t in (e.lhs, e.rhs) for x in nodes(t)}
+    entries = [x for x in parts if isinstance(x, tuple) and x[0] == "entry" and x[2] != "a"]
+    assert not [x for x in entries if x[1] in ("u", "f_u") or x[1][:2] == ("at", "f_u")]
+    size = {"SE(3)": 6, "SL(3)": 8}.get(d.problem["group"], 3)
+    given = {f"thrust_{k}" for k in (1, 2, 3)} | {f"F_{k}" for k in range(1, size + 1)}
+    named = {x[1] for x in parts if isinstance(x, tuple) and x[0] == "par"}
+    assert named
+    assert named <= given
+    assert all(x.holds for x in own_verdicts(d))
+
+
+def test_text_and_code_call_an_input_alike():
+    """F are the forces on the points as well: in quotes."""
+    p = problem_of(tomllib.loads(f'name = "driven"\ngroup = "SE(3)"\n{POINTS}{INPUTS}'))
+    d = walk(p)
+    (solved,) = (x for x in text(d).split("\n\n") if x.startswith("driven.explicit"))
+    assert "thrust₂" in solved
+    assert "‘F₅’" in solved
+    assert meaning(d, "u").endswith("in the body frame, ‘F₁’, ‘F₂’, ‘F₃’")
+    assert {*program(p, d).inputs} == {
+        *(f"thrust_{k}" for k in (1, 2, 3)),
+        *(f"F_{k}" for k in range(1, 7)),
+    }

@@ -10,7 +10,8 @@ from random import Random
 from ...record.claims import Claim, fault
 from ...record.record import Derivation, RecordError, Step
 from ..problem_group import group_of
-from . import integral_claims
+from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count
+from . import enclosure_claims, equilibrium_claims, integral_claims
 from .reduced_system import ReducedSystem
 
 
@@ -31,16 +32,21 @@ class ClaimChecker:
     def fault(self, step: Step) -> str:
         """What is wrong with the claims of a step, or with a sentence that is a claim and has none;
         "" if nothing is."""
-        if reason := fault(step.prose, step.claims):
-            return reason
-        for claim in step.claims:
-            try:
-                reason = JUDGES[claim.kind](self, step, claim)
-            except (ArithmeticError, LookupError, TypeError, ValueError) as error:
-                reason = f"makes no sense: {type(error).__name__}: {error}"
-            if reason:
-                return f"the claim {claim.kind}: {reason}"
-        return ""
+        try:
+            if any(bit_count(x) > MOST_BITS for c in step.claims for _, x in c.values):
+                return "a claim of powers of numbers that are too large"
+            reasons = (self._fault(step, claim) for claim in step.claims)
+            return fault(step.prose, step.claims) or next(filter(None, reasons), "")
+        except IMPOSSIBLE as error:
+            return f"a claim makes no sense: {type(error).__name__}"
+
+    def _fault(self, step: Step, claim: Claim) -> str:
+        """What is wrong with one claim, in words; "" if nothing is."""
+        try:
+            reason = JUDGES[claim.kind](self, step, claim)
+        except IMPOSSIBLE as error:
+            reason = f"makes no sense: {type(error).__name__}: {error}"
+        return reason and f"the claim {claim.kind}: {reason}"
 
 
 Judge = Callable[[ClaimChecker, Step, Claim], str]
@@ -52,7 +58,14 @@ def _of_reduced(judge: integral_claims.Judge) -> Judge:
     return lambda c, step, x: c.reduced.fault or judge(c.reduced, step, x)
 
 
+def _of_point(judge: Judge) -> Judge:
+    """The judge of a claim about an equilibrium of reduced equations, which must be Hamiltonian."""
+    return lambda c, step, x: c.reduced.fault or judge(c, step, x)
+
+
 JUDGES: dict[str, Judge] = {
-    kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()
+    **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
+    **{kind: _of_point(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
+    **{kind: _of_point(judge) for kind, judge in enclosure_claims.JUDGES.items()},
 }
 """How each kind of claim is judged."""

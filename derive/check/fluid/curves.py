@@ -1,8 +1,9 @@
 """Closed curves on the spaces, along which functions are integrated exactly.
 
-On a torus they are polygons, on whose edges e^{ik·x} is an exponential; in the disc Laurent curves
-c + az + b/z.  Values of exponentials at the corners are drawn at random, for they are independent
-of the frequencies and the edges; so is the rate of z, an i that is taken into the parameter.
+On a torus they are polygons, on whose edges e^{ik·x} is an exponential; in a ball Laurent
+polynomials in a z.  Values of exponentials at the corners are drawn at random, for they are
+independent of the frequencies and the edges; so is the rate of z, an i that is taken into the
+parameter.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from functools import cache, cached_property
 from typing import Any
 
 from ..arithmetic import EvaluationError
-from .disc import COSINE, SINE, Disc, power
+from .ball import Ball, substituted
 from .edges import Edges
 from .flat_torus import Torus, crossed
 from .functions import Exponents, Field, Function
@@ -99,7 +100,7 @@ class Polygon(Curve):
         terms: dict[Exponents, Any] = {}
         for m, x in f.terms.items():
             left = (0, *m[1:])
-            y = x * self.value((m[0], 0, 0), 0)
+            y = x * self.value(m[:1], 0)
             terms[left] = terms[left] + y if left in terms else y
         return Function(self, terms)
 
@@ -135,21 +136,19 @@ class Polygon(Curve):
 
 
 class Laurent(Curve):
-    """The curve c + az + b/z in the disc, with the exponents of z, 0 and s."""
+    """A curve in a ball, Σ a_n zⁿ with |n| ≤ 2, with the exponents of z, 0, … and s."""
 
-    def __init__(self, space: Disc, points: Disc, draw: Any):
+    def __init__(self, space: Ball, points: Ball, draw: Any):
         self.space, self.points, self.pace = space, points, draw()
-        x, y = (Function(self, {(n, 0, 0): draw() for n in (-1, 0, 1)}) for _ in range(2))
-        turned = x * COSINE - y * SINE, x * SINE + y * COSINE
-        self.start, self.place = (x, y), turned
+        self.start = tuple(
+            Function(self, {space.exponents(0, n): draw() for n in range(-2, 3)})
+            for _ in range(space.dimension)
+        )
+        self.place = points.turned(self.start)
 
     def composed(self, f: Function) -> Function:
         """f along the curve, monomial by monomial."""
-        x, y = self.start if f.space is self.points else self.place
-        total = Function(self, {})
-        for (a, b, s), c in f.terms.items():
-            total = total + power(x, a) * power(y, b) * Function(self, {(0, 0, s): c})
-        return total
+        return substituted(f, self.start if f.space is self.points else self.place)
 
     def derivative(self, f: Function, j: int) -> Function:
         """∂f/∂s, where ∂z/∂s is a multiple of z."""

@@ -120,12 +120,6 @@ def componentwise(change: Callable[[Any], Any], *, on_curve: bool = False) -> Op
     )
 
 
-def divergence(field: Field) -> Any:
-    """Σ ∂_j a_j."""
-    found = [f.d(j) for j, f in enumerate(field)]
-    return sum(found[1:], found[0])
-
-
 def field_of(x: Value) -> Field:
     """It, if it is a field; else ``EvaluationError``."""
     if not isinstance(x, tuple):

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 from ..nilpotent import EPS, EPS_PRIME, part
-from .field_algebra import Normal, Value, componentwise, divergence, field_of
+from .field_algebra import Normal, Value, componentwise, field_of
 from .fluid_model import FluidModel, gradient
-from .functions import Field
+from .functions import Field, divergence
 from .operators import Operator
 
 

@@ -9,6 +9,7 @@ from typing import Any
 from ...language.tree import Tree
 from ..arithmetic import EvaluationError
 from ..nilpotent import EPS, EPS_PRIME, nilpotent, part
+from .ball import on_boundary
 from .field_algebra import (
     Matrix,
     Normal,
@@ -16,7 +17,6 @@ from .field_algebra import (
     Slope,
     Value,
     componentwise,
-    divergence,
     field_of,
     plus,
     power,
@@ -25,7 +25,7 @@ from .field_algebra import (
 )
 from .field_names import NAMES
 from .fluid_model import Direction, FluidModel, gradient, mean
-from .functions import Field, Function, dot, shifted
+from .functions import Field, Function, divergence, dot, laplacian, shifted
 from .operators import Operator, Told
 
 ALONG_CURVE = ("mul", "Γ", "u")
@@ -97,13 +97,10 @@ class FluidValues:
 
     def _normal_part(self, field: Field) -> Function:
         """Of a field at the boundary."""
-        from .disc import axis, on_boundary
-
         space = self.model.space
         if not space.bounded:
             raise EvaluationError("there is no boundary")
-        found = [x * axis(space, j) for j, x in enumerate(field)]
-        return on_boundary(sum(found[1:], found[0]))
+        return on_boundary(space.outwards(field))
 
     def _product(self, op: str, parts: list[Tree], pointwise: bool) -> Value:
         found = [self.of(x) for x in parts]
@@ -177,9 +174,8 @@ class FluidValues:
 
     def laplacian(self, t: Tree) -> Function:
         """Δ of a function: its second derivatives."""
-        f = self.functional(t)
-        second = [f.d(j).d(j) for j in range(self.model.space.dimension)]
-        return sum(second[1:], second[0])
+        found: Function = laplacian(self.functional(t))
+        return found
 
     def jacobian(self, t: Tree) -> Matrix:
         """∇ of a field, the matrix of its derivatives."""

@@ -1,9 +1,9 @@
-"""The checker of a record about a fluid: every equation at random exact fields on T², T³ and the
-disc."""
+"""The checker of a record about a fluid: every equation at random exact fields on T², T³, the disc
+and the ball."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -16,28 +16,27 @@ from ...record.hypotheses import Hypothesis
 from ...record.record import Derivation, Equation, RecordError, Step
 from ..arithmetic import EvaluationError
 from ..equation_sides import as_text
-from ..grades import DegreeSource, common_degree
+from ..grades import DegreeSource, common_degree, with_slots
 from ..necessary_hypotheses import denominators
 from ..residue import ResidueSource, random_prime
 from ..trial_points import SIZE
 from ..verdict import IMPOSSIBLE, MOST_BITS, RefusedError, Verdict, bit_count, refusal
 from . import fluid_symbols
-from .disc import Disc
-from .edges import Edges
-from .field_algebra import Matrix, OnBoundary, Value, times
+from .ball import Ball
 from .field_values import FluidValues
-from .flat_torus import torus
+from .flat_torus import Torus
 from .fluid_model import FluidModel, Locus
-from .functions import Function
-from .operators import Operator, Told
+from .fluid_sides import kind_of, pairs
+from .reach import BOUNDARY, LEAST, MORE, MOST_FIELDS, Reach, needed, too_much
 
-SPACES: dict[str, Callable[[Source, int], Any]] = {
-    "T²": lambda source, size: torus(2, source, size),
-    "T³": lambda source, size: torus(3, source, size),
-    "disc": lambda source, size: Disc(),
+SPACES: dict[str, tuple[type[Torus] | type[Ball], int]] = {
+    "T²": (Torus, 2),
+    "T³": (Torus, 3),
+    "disc": (Ball, 2),
+    "ball": (Ball, 3),
 }
-TORI = ("T²", "T³")
-BOUNDARY = frozenset({"n", "∂ₙ"})
+"""Name → what it is, and its dimension."""
+TORI, BALLS = ("T²", "T³"), ("disc", "ball")
 LEVEL = Equation(("mul", ("nabla", "ϑ"), "ρ"), ("mul", "ρ", ("nabla", "ϑ")))
 ONE_LEVEL = Equation(("mul", "Γ", "ρ"), ("mul", "κ", "Γ"))
 GIVEN: dict[Equation, str] = {
@@ -72,7 +71,7 @@ class FluidChecker:
         self.advected = problem["fluid"]["density"] == "advected"
         self.forced = problem["fluid"]["forces"] == "potential"
         self._prime: int | None = None
-        self._places: dict[tuple[str, Locus, int], Place] = {}
+        self._places: dict[tuple[str, Locus, int, int], Place] = {}
 
     # -- points --------------------------------------------------------------------------------
 
@@ -88,9 +87,11 @@ class FluidChecker:
             self._prime = random_prime(Random(f"{self.seed} prime"))
         return ResidueSource(random, self._prime)
 
-    def place(self, name: str, at: Locus, size: int = SIZE) -> Place:
+    def place(self, name: str, at: Locus, size: int = SIZE, reach: Reach = LEAST) -> Place:
         """A random point on a space, by its name."""
-        key = name, at, size
+        shape, dimension = SPACES[name]
+        extent = reach.fields if shape is Torus else reach.derivatives
+        key = name, at, size, extent
         if key not in self._places:
             source = self.source(name, at, size)
 
@@ -98,7 +99,15 @@ class FluidChecker:
                 found = source.randint(-size, size)
                 return Fraction(found) if isinstance(found, int) else found
 
-            space = SPACES[name](source, size)
+            def length() -> Any:
+                return with_slots(draw(), 0)
+
+            space: Any = None
+            if shape is Torus:
+                k = tuple(tuple(length() for _ in range(dimension)) for _ in range(extent))
+                space = Torus(k, length())
+            else:
+                space = Ball(dimension, length(), extent)
             model = FluidModel(space, draw, at, advected=self.advected, forced=self.forced)
             self._places[key] = Place(model, FluidValues(model))
         return self._places[key]
@@ -109,15 +118,23 @@ class FluidChecker:
         used = {*names(equation.lhs), *names(equation.rhs)}
         if at.one_level:
             return TORI
-        return ("disc",) if used & BOUNDARY else tuple(SPACES)
+        return BALLS if used & BOUNDARY else tuple(SPACES)
 
-    def degree(self, step: Step, equation: Equation) -> int:
+    def reach(self, equation: Equation, at: Locus) -> Reach:
+        """What points are to tell apart where an equation is tried; ``EvaluationError`` where it is
+        more than they can."""
+        inside = BOUNDARY.isdisjoint({*names(equation.lhs), *names(equation.rhs)})
+        found = needed(equation, self.place("T²", at, 0).values if inside else None)
+        if found.fields > MOST_FIELDS:
+            raise EvaluationError(MORE.format("fields"))
+        return found
+
+    def degree(self, equation: Equation, at: Locus, reach: Reach) -> int:
         """The degree of an equation in all that is drawn, of numerators and denominators."""
-        at = locus_of(step, equation)
         return max(
             common_degree(pair).total_degree
             for name in self.spaces(equation, at)
-            for pair in pairs(equation, self.place(name, at, 0).values)
+            for pair in pairs(equation, self.place(name, at, 0, reach).values)
         )
 
     # -- verdicts ------------------------------------------------------------------------------
@@ -146,19 +163,23 @@ class FluidChecker:
             if reason := ill_formed(e, step):
                 raise RefusedError(refusal(step, e, reason))
             at = locus_of(step, e)
+            try:
+                reach = self.reach(e, at)
+            except EvaluationError as error:
+                raise RefusedError(refusal(step, e, str(error))) from error
             for name in self.spaces(e, at):
-                if reason := self.difference(e, name, at):
+                if reason := self.difference(e, name, at, reach):
                     raise RefusedError(refusal(step, e, reason, f" on {name}"))
-            found = max(found, self.degree(step, e))
+            found = max(found, self.degree(e, at, reach))
         return found + 1
 
-    def difference(self, equation: Equation, name: str, at: Locus) -> str:
+    def difference(self, equation: Equation, name: str, at: Locus, reach: Reach) -> str:
         """How the sides of an equation differ on a space; "" if they agree."""
         try:
-            if all(x == y for x, y in pairs(equation, self.place(name, at).values)):
+            if all(x == y for x, y in pairs(equation, self.place(name, at, SIZE, reach).values)):
                 return ""
             with suppress(*IMPOSSIBLE):  # a small denominator may be 0
-                for x, y in pairs(equation, self.place(name, at, SMALL).values):
+                for x, y in pairs(equation, self.place(name, at, SMALL, reach).values):
                     if x != y:
                         return f"the sides differ: {as_text(x)} and {as_text(y)}"
         except EvaluationError as error:
@@ -216,19 +237,11 @@ def ill_formed(equation: Equation, step: Step) -> str:
             return "η′ is fixed by what is given"
         if x in ACCELERATIONS and not used & {"X", "d/dt"}:
             return f"nothing holds for all {x}: it is the acceleration of the motion"
-    if max(densities(equation.lhs), densities(equation.rhs)) > 1:
-        return "a product with more densities than those that are tried can tell"
+    if reason := too_much(equation):
+        return reason
     if equation.exists and (equation.exists != ("p",) or "p" not in used):
         return "what is said to exist is the pressure"
     return ""
-
-
-def densities(t: Tree) -> int:
-    """The most factors ρ, ρ₀, ρ⁻¹ or κ, or rates of them, in a term of a tree."""
-    if not isinstance(t, tuple):
-        return t in ("ρ", "ρ_0", "ρ̇", "κ", "κ̇")
-    found = map(densities, t[1:])
-    return max(found) if t[0] == "add" else sum(found)
 
 
 def hypothesis_fault(step: Step) -> str:
@@ -240,68 +253,3 @@ def hypothesis_fault(step: Step) -> str:
     if step.hypotheses != ((DENSE,) if needed else ()):
         return "it must suppose that ρ is nowhere 0, if and only if it divides by it"
     return ""
-
-
-# -- the sides of an equation --------------------------------------------------------------------
-
-
-def pairs(equation: Equation, values: FluidValues) -> Iterator[tuple[Any, Any]]:
-    """The numbers that must agree, two by two; ``EvaluationError`` for sides of two kinds."""
-    left, right = values.of(equation.lhs), values.of(equation.rhs)
-    model = values.model
-    written = 0 in (equation.lhs, equation.rhs)  # a 0 of any kind
-    for x, y in ((left, right), (right, left)):
-        if written and isinstance(x, Function) and x == 0 and not isinstance(y, Function):
-            left, right = y, times(Fraction(0), y)
-    if isinstance(left, Operator) and isinstance(right, Operator):
-        b = model.space.any_field(model.draw)
-        on_curve = {x.on_curve for x in (left, right)}
-        if on_curve == {True}:
-            b = tuple(map(model.curve.of_space, b))
-        left, right = (times(x, b) for x in (left, right))
-    if isinstance(left, Told) or isinstance(right, Told):
-        like = next((x for x in (left, right) if not isinstance(x, Told)), ())
-        if isinstance(like, Function):
-            raise EvaluationError("the sides differ: a field and a number")
-        if like and like[0].space is model.curve:
-            test = tuple(map(model.curve.of_space, model.space.any_field(model.draw)))
-        else:
-            test = model.space.tangent(model.draw, like)
-        left, right = (values.pair(x, test) for x in (left, right))
-    if type(left) is not type(right):
-        raise EvaluationError("the sides are of two kinds")
-    for x, y in zip(functions(left), functions(right), strict=True):
-        if x.space is not y.space and not (x.is_constant or y.is_constant):
-            raise EvaluationError("one side is over the points, the other in space")
-        for m in {**x.terms, **y.terms}:
-            yield from entries(x.terms.get(m, Fraction(0)), y.terms.get(m, Fraction(0)))
-
-
-def entries(x: Any, y: Any) -> Iterator[tuple[Any, Any]]:
-    """Two numbers, or those of each edge."""
-    if not isinstance(x, Edges) and not isinstance(y, Edges):
-        yield x, y
-        return
-    size = len(x.each if isinstance(x, Edges) else y.each)
-    each = (z.each if isinstance(z, Edges) else (z,) * size for z in (x, y))
-    yield from zip(*each, strict=True)
-
-
-def functions(x: Value) -> tuple[Function, ...]:
-    """The functions that a value is made of."""
-    if isinstance(x, Matrix):
-        return tuple(f for row in x.rows for f in row)
-    if isinstance(x, OnBoundary):
-        return (x.f,)
-    return x if isinstance(x, tuple) else (x,)
-
-
-def kind_of(x: Value) -> str:
-    """The type of a value, as a record has it."""
-    if isinstance(x, Function):
-        return "scalar" if x.is_constant else "scalar field"
-    if isinstance(x, OnBoundary):
-        return "scalar field"
-    if isinstance(x, Matrix):
-        return "tensor field"
-    return "operator" if isinstance(x, Operator) else "vector field"

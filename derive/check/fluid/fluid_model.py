@@ -13,6 +13,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from ..grades import with_slots
 from ..nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, nilpotent, part
 from .curves import curve
 from .flat_torus import crossed
@@ -58,8 +59,7 @@ class FluidModel:
         self.V = space.energy(draw) if forced else self.one * 0
         self.u = self.solenoidal()
         self.first = Direction(self.number(), self.solenoidal(), self.solenoidal())
-        wide = (self.solenoidal(wide=advected) for _ in range(2))
-        self.second = Direction(self.number(), *wide)
+        self.second = Direction(self.number(), self.solenoidal(), self.solenoidal())
         self.mixed = Direction(self.number(), self.solenoidal(), self.solenoidal())
         self.moved_field = self._moved_field()
         self.any_pressure = space.function(draw)
@@ -79,11 +79,11 @@ class FluidModel:
 
     def number(self) -> Any:
         """A random number."""
-        return self.one * self.draw()
+        return self.one * with_slots(self.draw(), 0)
 
-    def solenoidal(self, *, wide: bool = False) -> Fields:
-        """A random field of the Lie algebra; ``wide``: with more modes, for products of four."""
-        return tuple(self.space.solenoidal(self.draw, wide=wide))
+    def solenoidal(self) -> Fields:
+        """A random field of the Lie algebra."""
+        return tuple(self.space.solenoidal(self.draw))
 
     def _moved_field(self) -> Fields:
         """ϑ: a field of the algebra; where it is to leave the density alone, one along the level
@@ -99,7 +99,9 @@ class FluidModel:
     @cached_property
     def curve(self) -> Any:
         """A closed curve."""
-        return curve(self.space, self.points, self.draw, level=self.at.one_level)
+        return curve(
+            self.space, self.points, lambda: with_slots(self.draw(), 0), level=self.at.one_level
+        )
 
     # -- the density ---------------------------------------------------------------------------
 

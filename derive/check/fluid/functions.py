@@ -1,21 +1,26 @@
 """Functions on a space as sums of coefficients times monomials, whose products add exponents.
 
-On a torus a monomial is e^{ik·x}, k a sum of three frequencies with the exponents, on the disc it
-is a product of powers of x and y.  The last exponent is that of s, a letter with s³ = 0, for
+On a torus a monomial is e^{ik·x}, k a sum of frequencies with the exponents, in a ball it is a
+product of powers of the coordinates.  The last exponent is that of s, a letter with s³ = 0, for
 densities 1 + sθ.  Numbers are constant functions.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from functools import lru_cache
+from operator import add, mul
 from typing import Any
 
 from ..arithmetic import EvaluationError
+from ..grades import Graded, _degree_of_product, _degree_of_sum
 from ..nilpotent import Nilpotent
+from ..residue import Residue, _residue
 from .edges import Edges
 
 Exponents = tuple[int, ...]
+Combine = Callable[[Any, Any], Any]
 ORDERS = 3
 """Densities are series in s up to this power, which is enough: a term has at most one factor ρ or
 ρ⁻¹, and another by the mass of the points.  Where the motion is put in, −∇_u u − ρ⁻¹ grad p for u̇,
@@ -67,14 +72,7 @@ class Function:
             return NotImplemented
         if not isinstance(other, Function):
             return Function(self.space, {m: x * other for m, x in self.terms.items()})
-        here = self._same(other)
-        total: dict[Exponents, Any] = {}
-        for m, x in self.terms.items():
-            for k, y in other.terms.items():
-                if m[-1] + k[-1] < ORDERS:
-                    e = tuple(map(int.__add__, m, k))
-                    total[e] = total[e] + x * y if e in total else x * y
-        return Function(here, total)
+        return Function(self._same(other), _product(self.terms, other.terms))
 
     __rmul__ = __mul__
 
@@ -106,6 +104,58 @@ class Function:
         return bool(left == 0)
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def _product(a: Mapping[Exponents, Any], b: Mapping[Exponents, Any]) -> dict[Exponents, Any]:
+    """The terms of a product, residues reduced once and degrees without their numbers."""
+    kinds = {type(x) for terms in (a, b) for x in terms.values()}
+    if Residue in kinds and kinds <= {Residue, Fraction}:
+        p = next(x.p for terms in (a, b) for x in terms.values() if type(x) is Residue)
+        left, right = ({m: _residue(x, p) for m, x in terms.items()} for terms in (a, b))
+        found = _summed(left, right, mul, add)
+        return {m: Residue(x, p) for m, x in found.items()}
+    if kinds == {Graded}:
+        first, other = ({m: x.degree for m, x in terms.items()} for terms in (a, b))
+        found = _summed(first, other, _degree_of_product, _degree_of_sum)
+        return {m: Graded(x) for m, x in found.items()}
+    return _summed(a, b, mul, add)
+
+
+def _summed(
+    a: Mapping[Exponents, Any], b: Mapping[Exponents, Any], times: Combine, plus: Combine
+) -> dict[Exponents, Any]:
+    """The products of all terms, those of the same exponents together."""
+    total: dict[int, Any] = {}
+    right = [(_packed(k), k[-1], y) for k, y in b.items()]
+    for m, x in a.items():
+        first, most = _packed(m), ORDERS - m[-1]
+        for second, order, y in right:
+            if order < most:
+                e, found = first + second, times(x, y)
+                total[e] = plus(total[e], found) if e in total else found
+    length = len(next(iter(a), ()))
+    return {_unpacked(e, length): x for e, x in total.items()}
+
+
+BITS = 16
+"""Of an exponent where several are one number."""
+
+
+@lru_cache(2**16)
+def _packed(m: Exponents) -> int:
+    """Exponents as one number, whose sums are those of the exponents."""
+    return sum(n << BITS * i for i, n in enumerate(m))
+
+
+@lru_cache(2**16)
+def _unpacked(e: int, length: int) -> Exponents:
+    """The exponents of which a number is made."""
+    found = []
+    for _ in range(length):
+        n = (e + 2 ** (BITS - 1)) % 2**BITS - 2 ** (BITS - 1)
+        found.append(n)
+        e = (e - n) >> BITS
+    return tuple(found)
 
 
 Field = tuple[Any, ...]
@@ -140,3 +190,14 @@ def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
     """Σ a_j b_j at each place."""
     first, *rest = (x * y for x, y in zip(a, b, strict=True))
     return sum(rest, first)
+
+
+def divergence(field: Sequence[Any]) -> Any:
+    """Σ ∂_j a_j."""
+    found = [f.d(j) for j, f in enumerate(field)]
+    return sum(found[1:], found[0])
+
+
+def laplacian(f: Function) -> Any:
+    """Δf: the divergence of its gradient."""
+    return divergence([f.d(j) for j in range(f.space.dimension)])

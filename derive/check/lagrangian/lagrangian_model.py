@@ -67,8 +67,8 @@ class LagrangianModel(Draws):
         self.hypothesis_failures: dict[Any, str] = {}
         told = () if generic else problem.get("symmetries", ())
         self.symmetries = [GivenField(0, decode(x, "problem, symmetries")) for x in told]
-        inside = bool(at.field or at.field_prime or self.symmetries)
-        inside = inside or (at.inside and group.has_inner_samples)
+        inside = bool(at.field or at.field_prime or self.symmetries)  # else any coset, if need be
+        inside = inside or group.has_inner_samples
         g = group.sample_inside(random, size) if inside else group.sample(random, size)
         self.t, self.g, self.Z = self.draw(), g, self.algebra()
         self.advected: CarriedAlong | None = None
@@ -102,6 +102,7 @@ class LagrangianModel(Draws):
         pulled = self.driven and bool(self.inputs_of("covector"))
         self.covector = [self.draw() if pulled else Fraction(0) for _ in group.basis]
         self.input_forces: list[tuple[Any, ...]] = []
+        self.parameters |= self.name_inputs(self.covector, ())
 
     def _restrict(self, at: Locus) -> None:
         """Set the parts of δ and δ′ to 0 that vanish at a locus."""

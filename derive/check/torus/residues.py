@@ -1,4 +1,4 @@
-"""Residues at all points of the lattice at once: what a sum over it adds, as one list."""
+"""Numbers at all points of the lattice at once: residues, and multiples of whole numbers."""
 
 from __future__ import annotations
 
@@ -7,11 +7,8 @@ from fractions import Fraction
 from operator import add, mul
 from typing import Any
 
-from ..arithmetic import EvaluationError
-from ..residue import Residue, _quotient, _residue
+from ..residue import Residue, _inverse, _residue
 
-SMALL = 2**30
-"""Integers of the lattice are below it; the residue of another number only by a rare chance."""
 NUMBERS = (int, Fraction, Residue)
 
 
@@ -23,16 +20,10 @@ class Residues:
     def __init__(self, a: Sequence[int], p: int):
         self.a, self.p = a, p
 
-    def integers(self) -> list[int]:
-        """The small integers of which these are the residues; ``EvaluationError`` for others."""
-        p, half = self.p, self.p // 2
-        found = [x if x <= half else x - p for x in self.a]
-        if not all(-SMALL < x < SMALL for x in found):
-            raise EvaluationError("small integers are expected on the lattice")
-        return found
-
     def _with(self, f: Callable[[int, int], int], other: Any) -> Any:
         p = self.p
+        if isinstance(other, Multiples):
+            other = other.residues
         if isinstance(other, Residues):
             return Residues([x % p for x in map(f, self.a, other.a)], p)
         if not isinstance(other, NUMBERS):
@@ -59,11 +50,24 @@ class Residues:
     def __rsub__(self, other: Any) -> Any:
         return -self + other
 
+    @property
+    def inverse(self) -> Residues:
+        """1 over each; ``ZeroDivisionError`` where one is 0."""
+        return Residues([_inverse(x, self.p) for x in self.a], self.p)
+
     def __truediv__(self, other: Any) -> Any:
-        return self * (1 / other if isinstance(other, Residues) else Fraction(1) / other)
+        many = isinstance(other, (Residues, Multiples))
+        return self * (other.inverse if many else Fraction(1) / other)
 
     def __rtruediv__(self, other: Any) -> Any:
-        return Residues([_quotient(1, x, self.p) for x in self.a], self.p) * other
+        return self.inverse * other
+
+    def __eq__(self, other: object) -> bool:
+        """The same at all points?"""
+        rest = self - other
+        return rest is not NotImplemented and not any(rest.a)
+
+    __hash__ = None  # type: ignore[assignment]
 
     @staticmethod
     def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
@@ -73,3 +77,74 @@ class Residues:
     def total(self) -> Residue:
         """The sum of all of them."""
         return Residue(sum(self.a), self.p)
+
+
+class Multiples:
+    """Whole numbers ``k``, one for each point, times a ``unit``, modulo p."""
+
+    __slots__ = ("k", "p", "unit")
+
+    def __init__(self, k: Sequence[int], p: int, unit: Any = 1):
+        if unit != 1 and isinstance(unit, (int, Fraction)) and unit.denominator == 1:
+            n = int(unit)
+            k, unit = [x * n for x in k], 1
+        self.k, self.p, self.unit = k, p, unit
+
+    @property
+    def residues(self) -> Residues:
+        """The same, each as one number."""
+        n, p = _residue(self.unit, self.p), self.p
+        return Residues([x * n % p for x in self.k], p)
+
+    @property
+    def inverse(self) -> Residues:
+        """1 over each; ``ZeroDivisionError`` where one is 0."""
+        return self.residues.inverse
+
+    def __mul__(self, other: Any) -> Any:
+        if isinstance(other, Multiples):
+            unit = self.unit * other.unit
+            return Multiples([*map(mul, self.k, other.k)], self.p, unit)
+        if isinstance(other, NUMBERS):
+            return Multiples(self.k, self.p, self.unit * other)
+        return NotImplemented
+
+    __rmul__ = __mul__
+
+    def __add__(self, other: Any) -> Any:
+        if isinstance(other, Multiples) and self.unit == other.unit:
+            return Multiples([*map(add, self.k, other.k)], self.p, self.unit)
+        if isinstance(other, (int, Fraction)) and other.denominator == self.unit == 1:
+            n = int(other)
+            return Multiples([x + n for x in self.k], self.p)
+        return self.residues + other
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Any:
+        return self * -1
+
+    def __sub__(self, other: Any) -> Any:
+        return self + -other
+
+    def __rsub__(self, other: Any) -> Any:
+        return -self + other
+
+    def __truediv__(self, other: Any) -> Any:
+        many = isinstance(other, (Residues, Multiples))
+        return self * (other.inverse if many else Fraction(1) / other)
+
+    def __rtruediv__(self, other: Any) -> Any:
+        return self.inverse * other
+
+    def __eq__(self, other: object) -> bool:
+        """The same at all points?"""
+        return self.residues == other
+
+    __hash__ = None  # type: ignore[assignment]
+
+    dot = Residues.dot
+
+    def total(self) -> Any:
+        """The sum of all of them."""
+        return self.unit * sum(self.k)

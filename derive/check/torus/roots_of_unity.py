@@ -15,7 +15,7 @@ from typing import Any
 from ..arithmetic import EvaluationError
 from ..grades import CONSTANT, Graded
 from ..residue import BITS, ROUNDS, Residue, _passes_miller_rabin
-from .residues import Residues
+from .residues import Multiples, Residues
 
 
 def prime_with_roots(random: Random, order: int) -> tuple[int, int]:
@@ -65,10 +65,11 @@ class Turns:
 
     def __init__(self, roots: RootsOfUnity, pi: Any, most: int):
         self.roots, self.values = roots, dict[Any, Any]()
-        self.step, self.turns = Fraction(0), dict[Any, int]()
+        self.step, self.turns, self.counts = Fraction(0), dict[Any, int](), dict[Any, int]()
         if roots.p:
             self.step = 2 * pi / roots.N
             self.turns = {self.step * k: k for k in range(-most, most + 1)}
+            self.counts = {roots.i * 0 + k: k for k in range(-most, most + 1)}
 
     def __call__(self, name: str, x: Any) -> Any:
         """The value of a function at one of these angles."""
@@ -76,10 +77,10 @@ class Turns:
             raise EvaluationError(f"no value of {name} on the torus")
         if not self.roots.p:
             return Graded(CONSTANT)
-        if isinstance(x, Residues):
-            wave, N = self.waves[name], self.roots.N
-            return Residues([wave[k % N] for k in (x / self.step).integers()], self.roots.p)
-        if x not in self.turns:
+        if isinstance(x, Multiples) and x.unit / self.step in self.counts:
+            wave, N, k = self.waves[name], self.roots.N, self.counts[x.unit / self.step]
+            return Residues([wave[k * n % N] for n in x.k], self.roots.p)
+        if isinstance(x, Residues) or x not in self.turns:
             raise EvaluationError("an angle on the torus is a multiple of 2π/N")
         return self.value(name, self.turns[x])
 

@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache
-from itertools import repeat
+from functools import cache, cached_property, lru_cache
 from random import Random
 from typing import Any
 
@@ -19,17 +18,16 @@ from ...algebra.torus import Place, Torus
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
-from ..arithmetic import EvaluationError, is_matrix
+from ..arithmetic import EvaluationError
 from ..evaluate import Environment, evaluate
 from ..grades import DegreeSource
 from ..residue import _residue
-from .residues import Residues
+from .elements import Drawn, Elements, Places, Term, Wave
+from .residues import Multiples, Residues
 from .roots_of_unity import RootsOfUnity, Turns
 
-ALL_PAIRS = 5
-"""Up to this N an equation with free indices is tried at all places of the lattice; for larger N at
-``SAMPLES`` that are drawn."""
-SAMPLES = 12
+KEPT = 64
+"""The most T(n) that are kept."""
 LEAST = 3
 """The N of a model of which the degrees alone are asked for: they are those of any N."""
 STEPS = ((-2, Fraction(1, 12)), (-1, Fraction(-2, 3)), (1, Fraction(2, 3)), (2, Fraction(-1, 12)))
@@ -50,7 +48,7 @@ class TorusModel:
         self.elementary = Turns(self.roots, self.pi, torus.N**2)
         self.zeta = {n: self.draw() for n in torus.places}
         self.vorticity = {n: self.derivative(n) for n in torus.places}
-        self.made: dict[Place, Matrix] = {}
+        self.basis = lru_cache(KEPT)(self._basis)
         self.hypothesis_failures: dict[Any, str] = {}
         self.scale = torus.N / (4 * self.pi * self.roots.i)
         self.Z = q.scaled(self.scale, self.matrix(self.grid(self.zeta)))
@@ -61,7 +59,12 @@ class TorusModel:
     @property
     def all_places(self) -> Matrix:
         """The points of the lattice, all at once, as one vector."""
-        return tuple((Residues(x, self.roots.p),) for x in zip(*self.torus.places, strict=True))
+        return tuple((Multiples(x, self.roots.p),) for x in zip(*self.torus.places, strict=True))
+
+    @cached_property
+    def drawn(self) -> Drawn:
+        """By what matrices at all points are compared."""
+        return Drawn(self)
 
     def draw(self) -> Any:
         """A random number of the field, not 0."""
@@ -100,22 +103,11 @@ class TorusModel:
         )
         return q.scaled(Fraction(1, N), q.times(self.fourier(-1), sums))
 
-    def basis(self, n: Place) -> Matrix:
-        """T(n) = ω^(n₁n₂) g^n₁ h^n₂, by the clock and the shift; each made once."""
-        if n not in self.made:
-            self.made[n] = self._basis(n)
-        return self.made[n]
-
     def _basis(self, n: Place) -> Matrix:
-        N, (a, b) = self.torus.N, n
-        zero = Fraction(0)
-        return tuple(
-            tuple(
-                self.roots[a * b] * self.roots[2 * a * row] if column == (row + b) % N else zero
-                for column in range(N)
-            )
-            for row in range(N)
-        )
+        """T(n) = ω^(n₁n₂) g^n₁ h^n₂, by the clock and the shift."""
+        a, b = n
+        rows = range(self.torus.N)
+        return Wave.of([self.roots[a * b] * self.roots[2 * a * r] for r in rows], b)
 
     def moved(self, s: int) -> Matrix:
         """W + s Ẇ."""
@@ -127,55 +119,41 @@ def environment(model: TorusModel) -> Environment:
     return _environment(model, model.W)
 
 
-def _place(torus: Torus, given: tuple[Tree, ...], env: Environment) -> Place | list[Place]:
+def _place(torus: Torus, given: tuple[Tree, ...], env: Environment) -> Place | Places:
     """A point of the lattice, given as one or by its two coordinates; or all at once."""
     found = [evaluate(x, env) for x in given]
     if len(found) == 1:
-        if not is_matrix(found[0]) or len(found[0]) != 2:
+        if not isinstance(found[0], tuple) or len(found[0]) != 2:
             raise EvaluationError("a point of the lattice is expected")
         found = [row[0] for row in found[0]]
+    if any(isinstance(x, (Multiples, Residues)) for x in found):
+        x, y = (_coordinates(torus, x) for x in found)
+        N = torus.N
+        return [a % N * N + b % N for a, b in zip(x, y, strict=True)]
     x, y = found
-    if isinstance(x, Residues) and isinstance(y, Residues):
-        N, both = torus.N, zip(x.integers(), y.integers(), strict=True)
-        return [(a % N, b % N) for a, b in both]
     return torus.representative((int(x), int(y)))
 
 
-class Elements:
-    """Σ a(n) T(n), a sum that is not yet taken, over the points of the lattice."""
-
-    def __init__(self, model: TorusModel, n: list[Place], a: Any = 1):
-        self.model, self.n, self.a = model, n, a
-
-    def __mul__(self, other: Any) -> Elements:
-        if isinstance(other, Elements):
-            raise EvaluationError("a product of two T(n) in a sum")
-        return Elements(self.model, self.n, self.a * other)
-
-    __rmul__ = __mul__
-
-    def total(self) -> Matrix:
-        """The matrix."""
-        N, p = self.model.torus.N, self.model.roots.p
-        grid = [[0] * N for _ in range(N)]
-        numbers = self.a.a if isinstance(self.a, Residues) else repeat(_residue(self.a, p))
-        for (x, y), a in zip(self.n, numbers, strict=False):
-            grid[x][y] += a
-        return self.model.matrix(q.matrix(grid))
+def _coordinates(torus: Torus, x: Any) -> Sequence[int]:
+    """A coordinate of all points at once, of which some may be the same."""
+    if isinstance(x, Multiples) and x.unit == 1:
+        return x.k
+    if isinstance(x, (Multiples, Residues)):
+        raise EvaluationError("whole numbers are expected on the lattice")
+    return [int(x)] * len(torus.places)
 
 
 def _of_grid(model: TorusModel, grid: Callable[[], Matrix]) -> Callable[[Any], Any]:
     """a(n) at a point, or at all at once, of a matrix that is made when it is asked for."""
 
     @cache
-    def residues() -> list[list[int]]:
-        return [[_residue(x, model.roots.p) for x in row] for row in grid()]
+    def residues() -> list[int]:
+        return [_residue(x, model.roots.p) for row in grid() for x in row]
 
-    def value(n: Place | list[Place]) -> Any:
+    def value(n: Place | Places) -> Any:
         if isinstance(n, tuple):
             return grid()[n[0]][n[1]]
-        found = residues()
-        return Residues([found[x][y] for x, y in n], model.roots.p)
+        return Residues([*map(residues().__getitem__, n)], model.roots.p)
 
     return value
 
@@ -200,8 +178,8 @@ def _environment(model: TorusModel, W: Matrix) -> Environment:
         (_, *first), *rest = model.coefficients(W)
         return ((zero, *first), *rest)
 
-    def basis(n: Place | list[Place]) -> Any:
-        return model.basis(n) if isinstance(n, tuple) else Elements(model, n)
+    def basis(n: Place | Places) -> Any:
+        return model.basis(n) if isinstance(n, tuple) else Elements(model, [Term(n)])
 
     vorticity = _of_grid(model, coefficients)
 
@@ -244,18 +222,8 @@ def _environment(model: TorusModel, W: Matrix) -> Environment:
         },
         elementary=model.elementary,
         lattice=torus.places,
-        chosen=_chosen(model),
         at_once=None if model.graded else model.all_places,
     )
-
-
-def _chosen(model: TorusModel) -> Sequence[tuple[int, int]]:
-    """Pairs of places, by their numbers; none where all are tried."""
-    if model.graded or model.torus.N <= ALL_PAIRS:
-        return ()
-    random = Random(f"{model.roots.p}")
-    count = len(model.torus.places)
-    return tuple((random.randint(1, count), random.randint(1, count)) for _ in range(SAMPLES))
 
 
 class _Lazily(dict[str, Any]):

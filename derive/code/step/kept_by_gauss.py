@@ -141,8 +141,7 @@ def _on_the_group(space: StateSpace, at: _Points) -> list[Residues]:
         v = [at.draw() for _ in range(3)]
         square = reduce(add, (x * x for x in v))
         turned = [(1 - square) / (1 + square), *(2 * x / (1 + square) for x in v)]
-        T = [at.draw() for x in space.slots if x.letter == "T"]
-        place = [*turned, *T]
+        place = [*turned, *(at.draw() for _ in space.entry_slots)]
     else:
         g = space.group.sample_inside(at.source)
         place = [x + zero for x in space.entries(g)]

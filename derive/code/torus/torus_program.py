@@ -113,6 +113,7 @@ def require_on_torus(d: Derivation, chosen: Options) -> None:
         (chosen.attitude != "matrix", f"--attitude {chosen.attitude}"),
         (chosen.frame != "given", f"--frame {chosen.frame}"),
         (chosen.velocity != "body", f"--velocity {chosen.velocity}"),
+        (chosen.state != "whole", f"--state {chosen.state}"),
         (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
         (chosen.momenta, "--momenta"),
         ("discrete" in chosen.step, "--step discrete"),

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from ..kind import Potential
-from ..table import End, Number, Pair, Scalar, Stiffness, Vector
+from ..table import End, Number, Pair, Scalar, Stiffness, Vector, place
 
 
 class Spring(Potential):
@@ -23,7 +23,7 @@ class Spring(Potential):
     def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
         """Either ``between``, or an end with an ``anchor``."""
         if "between" in table:
-            if any(x in table for x in ("at", "on", "anchor")):
+            if any(x in table for x in ("at", "on", "anchor", "block")):
                 return "give either 'between' or an end with an 'anchor'"
             return "between", "stiffness", "length"
         if "anchor" not in table:
@@ -38,13 +38,12 @@ class Spring(Potential):
         j: int | Sequence[Number],
         stiffness: Number,
         length: Number = 0,
+        block: int | None = None,
     ) -> Any:
         """A spring, U = ½ k (‖s‖ − length)², between points i and j; or from point i, or a place i
-        of the body, to an anchor j in space."""
-        if isinstance(j, int):
-            ends: dict[str, Any] = {"between": [i, j]}
-        else:
-            ends = {"on" if isinstance(i, int) else "at": i, "anchor": j}
+        of the body, in a product of that of a block, to an anchor j in space."""
+        between = {"between": [i, j], "block": block}
+        ends = between if isinstance(j, int) else place(i, block) | {"anchor": j}
         return {"stiffness": stiffness, "length": length, **ends}
 
     @property

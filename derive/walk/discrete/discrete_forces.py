@@ -12,7 +12,7 @@ from ...algebra.words import Expr, Letter, word
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ..alphabet import Alphabet
-from ..body import LETTERS, body_step
+from ..body import body_step
 from ..chapter import Chapter
 from ..inverse import cancelling, inverse_letter
 from ..potential import Potentials, potentials
@@ -65,7 +65,7 @@ def forces(
     if a.affine:
         equations.append(Equation("f_1", acting.tree(resultant, notation)))
     steps = (
-        *body_step(problem, None, a, c, LETTERS + "h"),
+        *body_step(problem, None, a, c),
         named,
         *told,
         acting.step(equations, say("force.at_element")),

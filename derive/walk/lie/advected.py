@@ -110,7 +110,7 @@ def _names(advected: Iterable[Advected]) -> Iterator[str]:
     """What the problem calls the entries of Γ; of many under one name the first two and the
     last."""
     for x in advected:
-        listed = [suffixed(x.name, i) for i in range(1, x.size + 1)]
+        listed = [f"‘{suffixed(x.name, i)}’" for i in range(1, x.size + 1)]
         yield from listed if x.size <= NAMED else (*listed[:2], "…", listed[-1])
 
 

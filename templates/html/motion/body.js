@@ -22,9 +22,15 @@ function valued(module, p) {
   return { number, vector };
 }
 
-/* the parts of the body; pieces: the shapes that it has, and what makes them */
-function built({ body, module }, p, pieces) {
-  const { number, vector } = valued(module, p);
+/* the faces of a convex solid, with a place inside */
+function convex(faces) {
+  const corners = faces.flatMap((f) => f.v), inside = corners.reduce((r, v) => plus(r, v, 1 / corners.length), [0, 0, 0]);
+  return faces.map((f) => ({ ...f, inside }));
+}
+
+/* the parts of the body in the state x; pieces: the shapes that it has, and what makes them */
+function built(scene, x, pieces) {
+  const { page: { body, module }, p } = scene, { number, vector } = valued(module, p);
   const parts = body.parts.map((part) => {
     const points = Object.fromEntries(part.points.map(([id, m, at]) => [id, { mass: number(m), at: vector(at) }]));
     const matter = Object.values(points).filter((x) => x.mass > 0);
@@ -39,7 +45,7 @@ function built({ body, module }, p, pieces) {
         ? pieces.quadric(solid.quadric.map(vector))
         : solid.columns.map(vector);
       const place = (u) => columns.reduce((r, column, k) => plus(r, column, u[k]), shift);
-      faces.push(...pieces[solid.shape]().map((f) => ({ ...f, v: f.v.map(place) })));
+      faces.push(...convex(pieces[solid.shape]().map((f) => ({ ...f, v: f.v.map(place) }))));
     }
     let centre = [0, 0, 0];
     if (part.moments) {
@@ -50,6 +56,7 @@ function built({ body, module }, p, pieces) {
       const m = matter.reduce((sum, x) => sum + x.mass, 0);
       centre = matter.reduce((r, x) => plus(r, x.at, x.mass / m), centre);
     }
+    if (part.turning) faces.push(...pieces.of_inertia(scene, x, part));
     const edges = [];
     if (!faces.length && matter.length < 5) {
       const corners = matter.map((x) => x.at);
@@ -73,7 +80,7 @@ function built({ body, module }, p, pieces) {
     const anchors = part.anchors.map((a) => ({ on: a.on, at: vector(a.at) }));
     return { ...part, points, faces, edges, centre, reach, tips, heavy, traced, centres, anchors };
   });
-  return { parts, gravity: vector(body.gravity), reach: max(...parts.map((x) => x.reach)) };
+  return { parts, reach: max(...parts.map((x) => x.reach)) };
 }
 
 /* what is built, with the height of its middle at first, and that of the ground: where it stands */

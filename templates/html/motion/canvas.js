@@ -30,18 +30,18 @@ function camera({ ask }, { element: seen }, up, azimuth, elevation) {
   const eye = { azimuth, elevation, zoom: 1 };
   const k = up.reduce((most, v, i) => (abs(v) >= abs(up[most]) ? i : most), 0);
   const unit = (i, s = 1) => [0, 1, 2].map((j) => (i % 3 === j ? s : 0));
-  const ahead = unit(up[k] < 0 ? k + 2 : k + 1), aside = unit(up[k] < 0 ? k + 1 : k + 2), above = unit(k, up[k] < 0 ? -1 : 1);
+  const down = up[k] < 0 ? 1 : 0, ahead = unit(k + 1 + down), aside = unit(k + 2 - down), above = unit(k, 1 - 2 * down);
   eye.above = above;
   eye.look = () => {
-    const a = eye.azimuth, e = eye.elevation;
+    const a = eye.azimuth, e = eye.elevation, c = e < PI / 2 ? cos(e) : 0; // all of a plane is as deep
     const level = plus(scaled(cos(a), ahead), aside, sin(a));
     eye.right = plus(scaled(-sin(a), ahead), aside, cos(a));
-    eye.up = plus(scaled(-sin(e), level), above, cos(e));
-    eye.towards = plus(scaled(cos(e), level), above, sin(e));
+    eye.up = plus(scaled(-sin(e), level), above, c);
+    eye.towards = plus(scaled(c, level), above, sin(e));
   };
   const turned = (dx, dy) => {
     eye.azimuth -= dx;
-    eye.elevation = max(-1.55, min(1.5708, eye.elevation + dy));
+    eye.elevation = max(-1.55, min(PI / 2, eye.elevation + dy));
     ask();
   };
   const zoomed = (by) => {
@@ -89,7 +89,7 @@ function camera({ ask }, { element: seen }, up, azimuth, elevation) {
 /* a picture: items with a depth, drawn the farthest first */
 function picture({ colours }, view, eye, target, scale) {
   eye.look();
-  const far = 8 * min(view.width, view.height) / scale / 2, items = [];
+  const far = 4 * min(view.width, view.height) / scale, items = [], from = plus(target, eye.towards, far);
   const to = (r) => {
     const q = plus(r, target, -1), z = dot(eye.towards, q);
     const f = scale * far / max(far - z, far / 20);
@@ -100,8 +100,10 @@ function picture({ colours }, view, eye, target, scale) {
   const lit = scaled(1 / size([-0.45, 0.65, 0.75]), [-0.45, 0.65, 0.75]);
   const own = {
     to, items,
-    face(v, tones, clear) {
+    /* inside: a place in the convex solid of which it is a face, whose far side is hidden */
+    face(v, tones, clear, inside) {
       const s = v.map(to), m = cross(plus(v[2], v[0], -1), plus(v.at(-1), v[1], -1));
+      if (inside && dot(m, plus(v[0], inside, -1)) * dot(m, plus(v[0], from, -1)) > 0) return;
       const w = [dot(m, eye.right), dot(m, eye.up), dot(m, eye.towards)], long = size(w) || 1;
       const light = max(0, sign(w[2] || 1) * dot(w, lit) / long);
       items.push([mean(s), () => {
@@ -140,13 +142,15 @@ function picture({ colours }, view, eye, target, scale) {
       const [x, y, z] = to(b), [u, v] = to(plus(scaled(0.1, a), b, 0.9));
       const long = hypot(x - u, y - v) || 1, c = (x - u) / long, s = (y - v) / long;
       items.push([z, () => {
-        if (long > 1) {
-          path([[x + 3 * c, y + 3 * s], [x - 6 * c - 3 * s, y - 6 * s + 3 * c], [x - 6 * c + 3 * s, y - 6 * s - 3 * c]]);
-          pen.fillStyle = colour;
-          pen.fill();
-        }
+        if (long > 1) own.head(x, y, c, s, colour);
         own.text(name, x + 13 * c, y + 13 * s, colour);
       }]);
+    },
+    /* that of an arrow which points along (c, s) */
+    head(x, y, c, s, colour) {
+      path([[x + 3 * c, y + 3 * s], [x - 6 * c - 3 * s, y - 6 * s + 3 * c], [x - 6 * c + 3 * s, y - 6 * s - 3 * c]]);
+      pen.fillStyle = colour;
+      pen.fill();
     },
     text(what, x, y, colour, align = "center") {
       pen.fillStyle = colour;

@@ -33,7 +33,8 @@ function chart(scene, label, places) {
       ends.forEach(([y, s, i], k) => {
         const colour = colours.lines[i % 6];
         pen.setLineDash(i > 5 ? [4, 3] : []);
-        view.stroke([...trail.map(([t, x]) => [X(t), Y(x[s])]), [right + 10, at[k]]], colour, 1.5);
+        view.stroke(trail.map(([t, x]) => [X(t), Y(x[s])]), colour, 1.5);
+        view.stroke([[right + 2, y], [right + 11, at[k]]], colours.line); // to its name: no part of the curve
         write(called(page.names[s]), right + 13, at[k], "left", colour);
       });
     },

@@ -6,7 +6,7 @@
  * order × order matrices have the basis, [row, column, entry] of each; names: { place: name } of what is
  * shown of x, adjusted: the places that have sliders, curves: those drawn where no body is;
  * reach: how far the slider of each goes at least; lost: is the energy not kept?
- * labels: { name: [meaning, unit] }; kept: { name: words }; units: { t, energy }; body: see
+ * labels: { name: [meaning, unit] }; kept: { name: [words, unit] }; units: { t, energy }; body: see
  * moving_body.py; words, comma }.
  * pieces: { stage, side: what draws there; turned_start; flattened, where a group stretches; the shapes of
  * the body, and what makes them }.
@@ -19,8 +19,8 @@ function mount(element, page, pieces) {
   /* ---- what is moved by the reader */
 
   const p = [...page.p], u = [...page.u], x0 = [...page.x], theta = page.basis.map(() => 0);
-  const place = new Set(page.entries.map((e) => e[2]));
-  const velocity = [...x0.keys()].filter((s) => !place.has(s));
+  const element_at = page.entries.map((e) => e[2]);
+  const velocity = [...x0.keys()].filter((s) => !element_at.includes(s));
   const start = () => {
     const x = [...x0];
     if (theta.some((a) => a !== 0)) pieces.turned_start(page, x, theta);
@@ -70,7 +70,7 @@ function mount(element, page, pieces) {
     const found = {};
     if (module.energy) found.energy = module.energy(t, x, run.k);
     const values = keeping.conserved?.(t, x, k);
-    values?.forEach((v, i) => (found[keeping.CONSERVED[i]] = v));
+    values?.forEach((v, i) => v === v && (found[keeping.CONSERVED[i]] = v));  // a component along what is 0 is none
     if (module.defect) found.defect = module.defect(x);
     if (module.multiplier) found.multiplier = module.multiplier(t, x, run.k, u);
     return found;
@@ -113,7 +113,7 @@ function mount(element, page, pieces) {
 
   /* the trail has a point in every frame, and one for every TURN of what turns fast */
   const TRAIL = 480, TURN = 0.15;
-  const places = page.entries.length ? page.entries.map((e) => e[2]) : velocity;
+  const places = element_at.length ? element_at : velocity;
   const large = (list) => max(...list.map(abs), 1e-12);
   const rate = (x, k) => {
     const rates = module.rhs(time, x, k, u);
@@ -167,12 +167,9 @@ function mount(element, page, pieces) {
     const power = 10 ** floor(log10(v));
     return power * [1, 2, 5, 10].reduce((best, c) => (c * power <= v * 1.001 ? c : best), 1);
   };
-  function first_speed() {
-    return nice(max(1e-6, min(max(1, page.t / 60), 16 / max(rate(start(), module.constants(p)), 1e-9))));
-  }
   let speed = 1;
   try {
-    speed = first_speed();
+    speed = nice(max(1e-6, min(max(1, page.t / 60), 16 / max(rate(start(), module.constants(p)), 1e-9))));
   } catch (e) { /* told by restart */ }
   const digits = max(2, min(6, ceil(2 - log10(speed))));
 
@@ -256,7 +253,7 @@ function mount(element, page, pieces) {
     });
     write(initial);
     const whole = make("div", { class: "adjuster", "data-name": name },
-      make("span", { class: "name" }, called(name)), range, exact, make("span", { class: "unit" }, unit.replace("^2", "²").replace("^3", "³")),
+      make("span", { class: "name" }, called(name)), range, exact, measured(unit),
       ...(title ? [make("small", {}, title)] : []));
     return whole;
   }
@@ -264,6 +261,7 @@ function mount(element, page, pieces) {
   const about_zero = (least, most = max(least, 2 * fast)) => [-most, most];
   const about = (name) => page.labels[name] ?? ["", ""];
   const fast = max(...velocity.map((s) => abs(x0[s])), 0);
+  const measured = (unit) => make("span", { class: "unit" }, unit);
   const MOST = 24;
   const group = (title, note, rows, open) => rows.length
     ? [make("details", open ? { open: "" } : {}, make("summary", {}, title), ...(note ? [make("p", {}, note)] : []), ...rows)] : [];
@@ -278,9 +276,8 @@ function mount(element, page, pieces) {
     for (const name of Object.keys(first)) {
       const cells = [make("td"), make("td")], lost = name === "multiplier" || name === "energy" && page.lost;
       rows[name] = lost || name === "defect" ? [cells[0]] : cells;
-      const unit = name === "energy" || name === "multiplier" ? page.units.energy : "";
-      const label = words[name] ?? page.kept[name];
-      (lost ? others : lines).append(make("tr", { "data-name": name }, make("th", { scope: "row" }, label, ...(unit ? [make("span", { class: "unit" }, ` ${unit}`)] : [])), ...cells));
+      const [label, unit] = page.kept[name] ?? [words[name], name === "defect" ? "" : page.units.energy];
+      (lost ? others : lines).append(make("tr", { "data-name": name }, make("th", { scope: "row" }, label, measured(" " + unit)), ...cells));
     }
     table.tHead.hidden = !lines.firstChild;
   }

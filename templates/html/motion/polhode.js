@@ -2,33 +2,20 @@
 function polhode(scene) {
   const { body, words } = scene.page, { energy } = scene;
   const side = canvas(scene, words.polhode), glance = camera(scene, side, [0, 0, 1], 0.6, 0.4);
-  let inertia;
-
-  /* the matrix of the kinetic energy in the angular velocity, which the energy says */
-  const found_inertia = (x) => {
-    if (!body.turns || !energy) return null;
-    const E = (w) => {
-      const y = Float64Array.from(x);
-      body.polhode.forEach((s, i) => (y[s] = w[i]));
-      return energy(0, y, scene.run.k);
-    };
-    const e = (i, j) => [0, 1, 2].map((k) => Number(k === i) + Number(k === j)), rest = E([0, 0, 0]);
-    const one = (i) => 2 * (E(e(i, -1)) - rest);
-    return [0, 1, 2].map((i) => [0, 1, 2].map((j) => (i === j ? one(i) : E(e(i, j)) - rest - (one(i) + one(j)) / 2)));
-  };
+  let I;
 
   return {
     element: side.element,
     shape: "side",
     restart() {
-      inertia = undefined;
+      I = undefined;
     },
     draw(x) {
       const { trail, colours } = scene;
       const at = (y) => body.polhode.map((s) => y[s]);
-      inertia ??= found_inertia(x);
-      const now = at(x), turning = inertia && dot(now, inertia.map((row) => dot(row, now)));
-      const axes = turning > 0 && principal(inertia).map(([q, v]) => (q > 0 ? scaled(sqrt(turning / q), v) : null));
+      I ??= body.turns && energy ? inertia(scene, x, body.polhode) : null;
+      const now = at(x), turning = I && dot(now, I.map((row) => dot(row, now)));
+      const axes = turning > 0 && principal(I).map(([q, v]) => (q > 0 ? scaled(sqrt(turning / q), v) : null));
       const wires = axes && axes.every(Boolean) ? axes : [];
       const most = max(...trail.map(([, y]) => size(at(y))), size(now), ...wires.map(size)) || 1;
       const pic = picture(scene, side, glance, [0, 0, 0], 0.36 * min(side.width, side.height) / most * glance.zoom);

@@ -51,6 +51,28 @@ function quadric(Q) {
 function of_moments(m, centre, J) {
   const axes = principal(J.map((row, i) => row.map((v, j) => v / m - centre[i] * centre[j])));
   const half = axes.map(([q]) => sqrt(5 * max(q, 0)) || 0), least = 0.02 * max(...half);
+  if (!least) return [];
   const thick = axes.map(([, v], k) => scaled(max(half[k], least), v));
-  return ball().map((f) => ({ ...f, v: f.v.map((u) => thick.reduce((r, a, k) => plus(r, a, u[k]), centre)) }));
+  return convex(ball().map((f) => ({ ...f, v: f.v.map((u) => thick.reduce((r, a, k) => plus(r, a, u[k]), centre)) })));
+}
+
+/* the matrix of the kinetic energy in the velocities at some places of the state, which the energy says; 0 where there is no place */
+function inertia({ energy, run, velocity }, x, places) {
+  const E = (w) => {
+    const y = Float64Array.from(x);
+    for (const s of velocity) y[s] = 0;
+    places.forEach((s, i) => (y[s] = w[i]));
+    return energy(0, y, run.k);
+  };
+  const e = (i, j) => places.map((_, k) => Number(k === i) + Number(k === j)), rest = E(e(-1, -1));
+  const one = (i) => 2 * (E(e(i, -1)) - rest);
+  return places.map((_, i) => places.map((_, j) => (i === j ? one(i) : E(e(i, j)) - rest - (one(i) + one(j)) / 2)));
+}
+const trace = (A) => A.reduce((sum, row, i) => sum + row[i], 0);
+
+/* the solid ellipsoid that has the inertia of a part; of mass 1 where that is not told */
+function of_inertia(scene, x, { turning, sliding, n }) {
+  if (!scene.energy) return [];
+  const I = inertia(scene, x, turning), m = trace(inertia(scene, x, sliding)) / n || 1;
+  return of_moments(m, [0, 0, 0], I.map((row, i) => row.map((v, j) => (i === j) * trace(I) / 2 - v)));
 }

@@ -1,9 +1,9 @@
-/* The body on the stage, with gravity and the ground; pieces: see built. */
+/* The body on the stage, with gravity and the ground; pieces: see built. A plane is seen as it is. */
 function solid_stage(scene, pieces) {
   const { page } = scene, { body } = page;
   const stage = canvas(scene, page.words.stage);
-  const eye = camera(scene, stage, scaled(-1, built(page, scene.p, pieces).gravity),
-    body.planar ? -PI / 2 : 0.55, body.planar ? 1.5708 : 0.33);
+  const falling = () => valued(page.module, scene.p).vector(body.gravity);
+  const eye = camera(scene, stage, ...(body.planar ? [[0, 0, 1], -PI / 2, PI / 2] : [scaled(-1, falling()), 0.55, 0.33]));
   let drawn, reached = 0;
 
   /* a faint net below the body, or where it stands; it goes with a body that flies, line by line */
@@ -32,11 +32,11 @@ function solid_stage(scene, pieces) {
   return {
     element: stage.element,
     restart(x) {
-      drawn = placed(built(page, scene.p, pieces), x, eye.above);
+      drawn = placed(built(scene, x, pieces), x, eye.above);
       reached = 0;
     },
     draw(x) {
-      const { parts, gravity } = drawn, { trail, colours } = scene;
+      const { parts } = drawn, gravity = falling(), { trail, colours } = scene;
       const spots = parts.map((part) => moved(part, x));
       const free = parts.every((part) => !part.fixed && !part.centres.length && !part.anchors.length);
       const target = free ? spots[0](parts[0].centre) : drawn.middle;
@@ -48,7 +48,7 @@ function solid_stage(scene, pieces) {
       ground(pic, target);
       parts.forEach((part, i) => {
         const at = spots[i], tones = colours.tones[i % 2];
-        for (const f of part.faces) pic.face(f.v.map(at), tones[f.tone], f.clear);
+        for (const f of part.faces) pic.face(f.v.map(at), tones[f.tone], f.clear, f.inside && at(f.inside));
         for (const [a, b] of part.edges) pic.line(at(a), at(b), tones[0][10], 1.4);
         for (const r of Object.values(part.points)) {
           pic.dot(at(r.at), r.mass > 0 ? 6.5 * cbrt(max(r.mass / part.heavy, 0.1)) : 2.5, tones[0][6]);
@@ -76,12 +76,9 @@ function solid_stage(scene, pieces) {
       const strength = size(gravity);
       if (strength) {
         const g = scaled(30 / strength, gravity), dx = dot(g, eye.right), dy = -dot(g, eye.up);
-        const X = stage.width - 34, Y = 44, { pen } = stage;
-        const long = hypot(dx, dy), c = dx / (long || 1), s = dy / (long || 1);
+        const X = stage.width - 34, Y = 44, long = hypot(dx, dy) || 1;
         stage.stroke([[X - dx / 2, Y - dy / 2], [X + dx / 2, Y + dy / 2]], colours.soft, 1.5);
-        pen.fillStyle = colours.soft;
-        stage.path([[X + dx / 2 + 4 * c, Y + dy / 2 + 4 * s], [X + dx / 2 - 5 * c - 3.5 * s, Y + dy / 2 - 5 * s + 3.5 * c], [X + dx / 2 - 5 * c + 3.5 * s, Y + dy / 2 - 5 * s - 3.5 * c]]);
-        pen.fill();
+        pic.head(X + dx / 2, Y + dy / 2, dx / long, dy / long, colours.soft);
         pic.text("g", X + 14, Y, colours.soft);
       }
     },

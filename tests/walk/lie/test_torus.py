@@ -14,7 +14,7 @@ from derive.check.checker import Checker, check
 from derive.command.cli import main
 from derive.language.read import read
 from derive.language.show import show
-from derive.language.tree import mul
+from derive.language.tree import add, mul
 from derive.pipeline import walk
 from derive.problem.toml import ProblemError, problem_of
 from derive.record.contract import ANY_GROUP
@@ -164,6 +164,17 @@ def test_false_equations_are_refused(name):
 
     verdict = changed(label, number, lambda e: Equation(e.lhs, put(e.rhs)))
     assert not verdict.holds
+
+
+@pytest.mark.parametrize("true", [(1, 2, 4, 5, 8), (9, 10, 13, 18)], ids=["small", "large"])
+@pytest.mark.parametrize("seed", range(2))
+def test_an_equation_that_is_true_at_half_of_the_places_is_refused(seed, true):
+    """Where |n|² is one of some numbers; each time, whatever is drawn."""
+    step = record(7)["fluid.motion"]
+    (e,) = step.equations
+    else_0 = mul(*(add(("norm2", "𝐧"), -v) for v in true))
+    wrong = Equation(e.lhs, add(e.rhs, mul(else_0, ("call", "ω̂", "𝐧"))))
+    assert not Checker(record(7).problem, seed).check(replace(step, equations=(wrong,))).holds
 
 
 def test_what_is_true_in_another_form_holds():

@@ -1,0 +1,171 @@
+"""The claims about an enclosed equilibrium: how near it is, its signs, whether it is stable.
+
+All eigenvalues are on the leaf or 0 where Λ has the corank of the level's Casimirs: their
+polynomial is μᵏq(μ²).  Within ρ of the decimals M changes by at most off_ij, so that a coefficient
+of det(μ − M), a sum of minors, changes by at most that of Π(1 + (r_i + Σ_j off_ij)t) −
+Π(1 + r_i t), with r_i = Σ_j |M_ij|, as a determinant is at most the product of the sums of its
+rows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from ...language import rational as q
+from ...language.quadratic import value_of
+from ...language.tree import Tree
+from ...record.claims import Claim
+from ...record.record import RecordError, Step
+from ..enclosure import DIGITS, Enclosure, enclosure_of, polynomial
+from ..entries_on_a_level import invertible
+from .equilibrium_claims import Judge, coordinates, not_from
+from .exact_spectra import characteristic, signature
+
+if TYPE_CHECKING:
+    from .claim_checker import ClaimChecker
+
+Numbers = Sequence[Fraction]
+
+
+def _near(c: ClaimChecker, step: Step, claim: Claim) -> str:
+    """The equations are in powers of the distance from the point, which is enclosed."""
+    if not any(step.label in s.uses and _says_within(s) for s in c.record.steps):
+        return "no step encloses it"
+    return not_from(step, coordinates(claim), constants=True)
+
+
+def _says_within(step: Step) -> bool:
+    return any(x.kind == "enclosure.within" for x in step.claims)
+
+
+def enclosed(c: ClaimChecker, step: Step) -> Enclosure:
+    """What a step encloses, about the decimals of a step that it uses; ``RecordError`` where it
+    does not, or takes for a Casimir what is none."""
+    steps = [c.record[x] for x in step.uses]
+    (told,) = (x for s in steps for x in s.claims if x.kind == "equilibrium.near")
+    found, decimals = enclosure_of(step), dict(coordinates(told))
+    if any(y != decimals.get(x, 0) for x, y in found.centre.items()):
+        raise RecordError("these are not the decimals")
+    if any(any(c.reduced.anywhere.field(e.lhs)) for e in step.equations[:-1]):
+        raise RecordError("what has values on the level is no Casimir")
+    return found
+
+
+def _within(c: ClaimChecker, step: Step, claim: Claim) -> str:
+    """One critical point is within the radius, which is not much larger than is needed."""
+    found, told = enclosed(c, step), value_of(claim["radius"])
+    assert isinstance(told, Fraction)
+    if not found.contracts(told):
+        return "Newton's step is not proved to contract"
+    return "" if told <= max(2 * found.least, Fraction(1, DIGITS)) else "it is nearer"
+
+
+def _squares(c: ClaimChecker, step: Step) -> tuple[int, int]:
+    """The signs on the level: those of J, less one of each for every Casimir."""
+    several = len(step.equations) - 1
+    positive, negative = signature(enclosed(c, step).second)
+    return positive - several, negative - several
+
+
+def _signs(c: ClaimChecker, step: Step, claim: Claim) -> str:
+    found = _squares(c, step)
+    if found == (claim["positive"], claim["negative"]):
+        return ""
+    return f"it has {found[0]} positive and {found[1]} negative squares"
+
+
+def _verdict(c: ClaimChecker, step: Step, claim: Claim) -> str:
+    definite = 0 in _squares(c, step)
+    found = "stable" if definite else "unstable" if grows(c, step) else "open"
+    return "" if claim.kind == f"enclosure.{found}" else f"what follows is: {found}"
+
+
+# -- instability ----------------------------------------------------------------------------------
+
+
+def grows(c: ClaimChecker, step: Step) -> bool:
+    """Have the linearised rates an eigenvalue with positive real part?  True is proved."""
+    found, system = enclosed(c, step), c.reduced
+    several, n = len(step.equations) - 1, len(system.variables)
+    centre, radius = {x: found.centre.get(x, Fraction(0)) for x in system.variables}, found.least
+    if not _has_rank(system.tensor.forms, [*centre.values()], radius, n - several):
+        return False
+    slopes = [_slopes(t, centre, radius) for t in system.rates]
+    mid, off = ([[x[k] for x in row] for row in slopes] for k in (0, 1))
+    pairs: Any = zip(characteristic(mid), changes_of_coefficients(mid, off), strict=True)
+    return not_real_and_not_positive([*pairs][: n - several + 1 : 2])
+
+
+def _has_rank(forms: Any, at: Numbers, radius: Fraction, rank: int) -> bool:
+    """Has Λ this rank everywhere within the radius?"""
+    n = len(at)
+    mid, off = ([[Fraction(0)] * n for _ in at] for _ in range(2))
+    for (i, j), form in forms.items():
+        mid[i][j] = sum((x if k is None else x * at[k] for k, x in form.items()), Fraction(0))
+        off[i][j] = radius * sum(abs(x) for k, x in form.items() if k is not None)
+    rows, columns = (q.echelon(q.matrix(x))[1] for x in (q.transposed(q.matrix(mid)), mid))
+    chosen, change = ([[x[i][j] for j in columns] for i in rows] for x in (mid, off))
+    return len(rows) == rank and invertible(q.matrix(chosen), change)
+
+
+def _slopes(
+    t: Tree, centre: dict[Tree, Fraction], radius: Fraction
+) -> list[tuple[Fraction, Fraction]]:
+    """The first derivatives of a polynomial, and how much they change within the radius."""
+    found = {x: (Fraction(0), Fraction(0)) for x in centre}
+    for m, c in polynomial(t, centre).items():
+        degree = sum(k for _, k in m)
+        for x, k in m:
+            mid, off = found[x]
+            if degree == 1:
+                found[x] = mid + c, off
+            else:
+                found[x] = mid, off + abs(c) * k * radius ** (degree - 1)
+    return [*found.values()]
+
+
+def changes_of_coefficients(mid: Sequence[Numbers], off: Sequence[Numbers]) -> list[Fraction]:
+    """How much the coefficients of det(μ − M) change at most with the entries of M."""
+
+    def by_rows(a: Sequence[Numbers], change: Sequence[Numbers]) -> list[Fraction]:
+        sums = [sum(map(abs, row), Fraction(0)) for row in a]
+        more = [x + sum(row) for x, row in zip(sums, change, strict=True)]
+        return [x - y for x, y in zip(symmetric(more), symmetric(sums), strict=True)]
+
+    columns = (q.transposed(q.matrix(x)) for x in (mid, off))
+    return [*map(min, by_rows(mid, off), by_rows(*columns))]
+
+
+def symmetric(x: Numbers) -> list[Fraction]:
+    """The coefficients of Π(1 + x_i t)."""
+    zero, found = Fraction(0), [Fraction(1)]
+    for y in x:
+        found = [a + y * b for a, b in zip([*found, zero], [zero, *found], strict=True)]
+    return found
+
+
+def not_real_and_not_positive(c: Sequence[tuple[Fraction, Fraction]]) -> bool:
+    """Has a polynomial with such coefficients, each with a bound of its error, surely a root that
+    is not real and at most 0: a negative coefficient, or c_j² j(d − j) < c_{j−1}c_{j+1}(j + 1)(d −
+    j + 1) for some j (Newton)?"""
+    d = len(c) - 1
+    if any(x + e < 0 for x, e in c):
+        return True
+    least, most = [max(x - e, Fraction(0)) for x, e in c], [abs(x) + e for x, e in c]
+    return any(
+        most[j] ** 2 * j * (d - j) < least[j - 1] * least[j + 1] * (j + 1) * (d - j + 1)
+        for j in range(1, d)
+    )
+
+
+JUDGES: dict[str, Judge] = {
+    "equilibrium.near": _near,
+    "enclosure.within": _within,
+    "enclosure.signs": _signs,
+    "enclosure.stable": _verdict,
+    "enclosure.unstable": _verdict,
+    "enclosure.open": _verdict,
+}
+"""How claims about enclosed equilibria are judged, of equations that are Hamiltonian."""

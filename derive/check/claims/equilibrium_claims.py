@@ -1,0 +1,254 @@
+"""The claims about relative equilibria of reduced equations, and about their stability.
+
+The point is that which a step says, or the one step among those it uses that says one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from ...language import rational as q
+from ...language.quadratic import Number, tree, value_of
+from ...language.tree import Tree, add, neg, nodes, replaced, terms
+from ...record.claims import Claim
+from ...record.record import RecordError, Step
+from .equilibrium_facts import Equilibrium, equilibrium
+from .exact_spectra import distinct_roots, hermite, signature
+from .second_order import SecondOrder
+
+if TYPE_CHECKING:
+    from .claim_checker import ClaimChecker
+
+Judge = Callable[["ClaimChecker", Step, Claim], str]
+
+Coordinates = tuple[tuple[Tree, Number], ...]
+POINTS = ("equilibrium.at", "equilibrium.origin")
+"""The claims that say a point."""
+
+
+def coordinates(claim: Claim) -> Coordinates:
+    """The coordinates that a claim tells, rows of a matrix; none where it tells none."""
+    told = dict(claim.values).get("point", ("matrix",))
+    assert isinstance(told, tuple)
+    found = [(x, value_of(y)) for _, x, y in told[1:]]
+    if len(dict(found)) < len(found):
+        raise RecordError("a coordinate is told twice")
+    return (*found,)
+
+
+def point_of(c: ClaimChecker, step: Step) -> Equilibrium:
+    """The point that a step speaks of; ``RecordError`` for none or several."""
+    steps = (step, *(c.record[x] for x in step.uses))
+    for s in steps[:1], steps[1:]:
+        found = [x for y in s for x in y.claims if x.kind in POINTS]
+        if len(found) == 1:
+            return equilibrium(c.reduced, coordinates(found[0]))
+        if found:
+            break
+    raise RecordError("no one point is told")
+
+
+def _at(c: ClaimChecker, step: Step, claim: Claim) -> str:
+    """Nothing moves at the point, which an element may have, and the equations are in powers of the
+    distance from it."""
+    here, told = point_of(c, step), coordinates(claim)
+    if unknown := [x for x, _ in told if x not in here.variables]:
+        raise RecordError(f"{unknown[0]} is no variable")
+    if any(x.value != 0 for x in here.rates):
+        return "something moves there"
+    if here.entries == "no":
+        return "no element of the group has these entries"
+    return not_from(step, told)
+
+
+def not_from(step: Step, point: Coordinates, *, constants: bool = False) -> str:
+    """Why the equations of a step are not in powers of the distance from a point, without constant
+    terms but where there may be ``constants``; "" where they are."""
+    distances = [terms(add(x, neg(tree(y)))) for x, y in point]
+    if any(_strays(e.rhs, distances, constants=constants) for e in step.equations):
+        return "the equations are not in powers of the distance from it"
+    return ""
+
+
+def _strays(t: Tree, distances: Sequence[Sequence[Tree]], *, constants: bool) -> bool:
+    """Is a variable that has a distance in a tree, or a number in a sum, elsewhere than in sums
+    with all terms of a distance?"""
+    if not isinstance(t, tuple) or t[0] in ("at", "entry"):
+        return any(t == x for x, *_ in distances)
+    parts = [*t[1:]]
+    if t[0] == "add":
+        for own in distances:
+            if all(y in parts for y in own):
+                for y in own:
+                    parts.remove(y)
+        if not constants and any(map(_is_number, parts)):
+            return True
+    return any(_strays(y, distances, constants=False) for y in parts)
+
+
+def _is_number(t: Tree) -> bool:
+    return not any(isinstance(x, tuple) and x[0] in ("at", "entry") for x in nodes(t))
+
+
+# -- forms ----------------------------------------------------------------------------------------
+
+
+def kept(c: ClaimChecker, step: Step) -> Tree:
+    """The left side of a step: h̃ and what is kept beside it; ``RecordError`` for another one."""
+    (equation,) = step.equations
+    h, *others = terms(equation.lhs)
+    if h != "h̃" or any("h̃" in nodes(x) for x in others):
+        raise RecordError("the left side is not the energy and what is kept beside it")
+    system, here = c.reduced, c.reduced.anywhere
+    roots = {x for t in others for x in nodes(t) if isinstance(x, tuple) and x[0] == "fun"}
+    # it has rational coefficients in place of roots: kept for any of them, if for a random one
+    at = {**here.at} | {x: system.random.randrange(system.prime) for x in roots}
+    if others and type(here)(system, at).bracket(add(*others), system.energy):
+        raise RecordError("the left side is not kept")
+    return equation.lhs
+
+
+def form_of(c: ClaimChecker, step: Step) -> q.Matrix | None:
+    """The second derivatives of what a step takes for the form; ``None`` where it has none."""
+    if all(x.kind != "equilibrium.form" for x in step.claims):
+        return None
+    here = point_of(c, step)
+    found = here.expansion(kept(c, step))
+    if any(found.slopes(here.n)):
+        raise RecordError("the derivative does not vanish at the equilibrium")
+    return q.matrix(found.matrix(here.n))
+
+
+def _form(c: ClaimChecker, step: Step, claim: Claim) -> str:
+    """The squares on the leaf are as many as are claimed, and are those that are written."""
+    here, form = point_of(c, step), form_of(c, step)
+    found = here.squares(form)
+    if found != (claim["positive"], claim["negative"]):
+        return f"it has {found[0]} positive and {found[1]} negative squares"
+    signs = [_square(here, here.expansion(t)) for t in terms(step.equations[0].rhs)]
+    written = signs.count(1), signs.count(-1)
+    return "" if written == found else f"{written[0]} and {written[1]} are written"
+
+
+def _square(here: Equilibrium, term: SecondOrder) -> int:
+    """The sign of a term that is a square on the leaf; 0 for what vanishes there to the second
+    order; ``RecordError`` for any other."""
+    if any(term.slope.values()):
+        raise RecordError("a term is not of the second order in the distance")
+    on_the_leaf = here.on_the_leaf(q.matrix(term.matrix(here.n))) if here.dimension else ()
+    if not any(map(any, on_the_leaf)):
+        return 0
+    if q.rank(on_the_leaf) > 1:
+        raise RecordError("a term is no square on the leaf")
+    return 1 if q.trace(on_the_leaf) > 0 else -1
+
+
+def _none(c: ClaimChecker, step: Step, claim: Claim) -> str:
+    """The derivative of the energy is no combination of those of what is kept."""
+    here = point_of(c, step)
+    known = (*c.reduced.casimirs, *c.reduced.integrals[1:])
+    rows = [here.expansion(f).slopes(here.n) for f in known]
+    whole = [*rows, here.energy.slopes(here.n)]
+    more, fewer = (q.rank(q.matrix(x)) if x else 0 for x in (whole, rows))
+    return "" if more > fewer else "there are such multiples"
+
+
+def _orbit(c: ClaimChecker, step: Step, claim: Claim) -> str:
+    found = point_of(c, step).squares(None)
+    if found == (claim["positive"], claim["negative"]):
+        return ""
+    return f"it has {found[0]} positive and {found[1]} negative squares"
+
+
+# -- verdicts -------------------------------------------------------------------------------------
+
+
+def _verdict(c: ClaimChecker, step: Step, claim: Claim) -> str:
+    """It is what the form, the ranks and the roots imply."""
+    here, form = point_of(c, step), form_of(c, step)
+    found, told = here.verdict(form), claim.kind.partition(".")[2]
+    if told != found and (told != "indefinite" or found not in ("unstable", "open")):
+        return f"what follows is: {found}"
+    row = dict(claim.values).get("coefficients")
+    if row is not None and [*map(value_of, _listed(row))] != here.characteristic:
+        return "the characteristic polynomial has other coefficients"
+    return ""
+
+
+def _listed(t: Tree) -> tuple[Tree, ...]:
+    return t[1:] if isinstance(t, tuple) and t[0] == "row" else (t,)
+
+
+def _exact_squares(c: ClaimChecker, step: Step, claim: Claim) -> str:
+    """They are all roots of q, for the characteristic polynomial q(λ²)."""
+    f = point_of(c, step).characteristic[::2]
+    told = [_complex(t) for t in _listed(claim["squares"])]
+    if any(any(_at_complex(f, s)) for s in told):
+        return "one is no square of an eigenvalue"
+    return "" if len({*told}) == len(told) == distinct_roots(f) else "they are not all, each once"
+
+
+def _eigenvalues(c: ClaimChecker, step: Step, claim: Claim) -> str:
+    """Their squares s are roots of q, for the characteristic polynomial q(λ²), up to the fourth
+    digit: |q(s)| ≤ s q′(s)/500, so that a root is near; and they are as many as q has, of each
+    kind."""
+    f, told = point_of(c, step).characteristic[::2], claim["eigenvalues"]
+    assert isinstance(told, tuple)
+    d, squares = len(f) - 1, [(re * re - im * im, 2 * re * im) for _, re, im in told[1:]]
+    for s in squares:
+        above, slope = (
+            _at_complex(f, s),
+            _at_complex([(d - k) * x for k, x in enumerate(f[:-1])], s),
+        )
+        if _size(above) * 500**2 > _size(s) * _size(slope):
+            return "one is no eigenvalue"
+    reals = [s for s, im in squares if not im]
+    found = (
+        sum(2 if im else 1 for _, im in squares),
+        len(reals),
+        sum((s > 0) - (s < 0) for s in reals),
+    )
+    (more, fewer), (positive, negative) = (signature(hermite(f, k)) for k in (0, 1))
+    known = (more + fewer, more - fewer, positive - negative)
+    return "" if found == known and len({*squares}) == len(squares) else "they are not all"
+
+
+def _at_complex(f: Sequence[Number], s: tuple[Any, Any]) -> tuple[Any, Any]:
+    """The value of a polynomial, given from the highest power, at a complex number."""
+    re, im = Fraction(0), Fraction(0)
+    for x in f:
+        re, im = re * s[0] - im * s[1] + x, re * s[1] + im * s[0]
+    return re, im
+
+
+def _size(z: tuple[Any, Any]) -> Any:
+    """|z|²."""
+    return z[0] * z[0] + z[1] * z[1]
+
+
+def _complex(t: Tree) -> tuple[Number, Number]:
+    """The real and the imaginary part of a number that is linear in i."""
+    zero, one, two = (value_of(replaced(t, "i", k)) for k in (0, 1, 2))
+    if two - one != one - zero:
+        raise RecordError("a power of i")
+    return zero, one - zero
+
+
+VERDICTS = (
+    *("stable", "stable_beyond", "stable_compact", "on_the_leaf", "point", "indefinite"),
+    *("unstable", "open", "undecided"),
+)
+
+JUDGES: dict[str, Judge] = {
+    "equilibrium.at": _at,
+    "equilibrium.origin": _at,
+    "equilibrium.none": _none,
+    "equilibrium.orbit": _orbit,
+    "equilibrium.form": _form,
+    "equilibrium.squares": _exact_squares,
+    "equilibrium.eigenvalues": _eigenvalues,
+    **dict.fromkeys((f"equilibrium.{x}" for x in VERDICTS), _verdict),
+}
+"""How claims about equilibria are judged, of equations that are Hamiltonian."""

@@ -1,0 +1,101 @@
+"""Eigenvalues of exact matrices, counted: over Q, or numbers of one quadratic field.
+
+The characteristic polynomial is that of Hessenberg's form.  Of a symmetric matrix all roots are
+real, so that Descartes' changes of sign count them.  Of any polynomial the sums of powers of its
+roots, p_k = Σ μ^k, in Hermite's forms (p_{i+j}) and (p_{i+j+1}): the rank of the first is the
+number of distinct roots, and the second has no positive square where all roots are real and at most
+0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from itertools import pairwise
+
+from ...language.quadratic import Number
+
+Matrix = Sequence[Sequence[Number]]
+
+
+def characteristic(a: Matrix) -> list[Number]:
+    """The coefficients of det(μ − a), from the highest power."""
+    h = hessenberg(a)
+    found: list[list[Number]] = [[Fraction(1)]]
+    for m, _ in enumerate(h):
+        # det(μ − h) of the first m + 1 rows, by the last column
+        total = [*found[m], Fraction(0)]
+        chain: Number = Fraction(1)
+        for i in range(m, -1, -1):
+            for k, x in enumerate(found[i]):
+                total[k + 1 + m - i] -= chain * h[i][m] * x
+            chain = chain * h[i][i - 1] if i else chain
+        found.append(total)
+    return found[-1]
+
+
+def hessenberg(a: Matrix) -> list[list[Number]]:
+    """A similar matrix with 0 below the diagonal beside the main one."""
+    h, n = [[*row] for row in a], len(a)
+    for m in range(1, n - 1):
+        pivot = next((i for i in range(m, n) if h[i][m - 1]), None)
+        if pivot is None:
+            continue
+        h[pivot], h[m] = h[m], h[pivot]
+        for row in h:
+            row[pivot], row[m] = row[m], row[pivot]
+        for i in range(m + 1, n):
+            if ratio := h[i][m - 1] / h[m][m - 1]:
+                h[i] = [x - ratio * y for x, y in zip(h[i], h[m], strict=True)]
+                for row in h:
+                    row[m] += ratio * row[i]
+    return h
+
+
+def signature(a: Matrix) -> tuple[int, int]:
+    """How many positive and how many negative squares a symmetric matrix has; ``ValueError`` for
+    another one."""
+    if any(a[i][j] != a[j][i] for i in range(len(a)) for j in range(i)):
+        raise ValueError("a form that is not symmetric")
+    c = characteristic(a)
+    return changes(c), changes((-1) ** k * x for k, x in enumerate(c))
+
+
+def changes(c: Iterable[Number]) -> int:
+    """How often the sign changes along some numbers, those that are 0 left out."""
+    return sum(x != y for x, y in pairwise(x > 0 for x in c if x))
+
+
+def powers(f: Sequence[Number], most: int) -> list[Number]:
+    """The sums p_0 … of powers of the roots of a polynomial with the highest coefficient 1, given
+    from there (Newton)."""
+    d = len(f) - 1
+    found: list[Number] = [Fraction(d)]
+    for k in range(1, most + 1):
+        own = -k * f[k] if k <= d else Fraction(0)
+        found.append(own - sum((f[i] * found[k - i] for i in range(1, min(k, d + 1))), Fraction(0)))
+    return found
+
+
+def hermite(f: Sequence[Number], shift: int) -> Matrix:
+    """The form (p_{i+j+shift}) of a polynomial."""
+    d = len(f) - 1
+    p = powers(f, 2 * d + shift)
+    return [[p[i + j + shift] for j in range(d)] for i in range(d)]
+
+
+def distinct_roots(f: Sequence[Number]) -> int:
+    """How many roots a polynomial has, complex ones too."""
+    return sum(signature(hermite(f, 0)))
+
+
+def real_and_not_positive(f: Sequence[Number]) -> bool:
+    """Are all roots real and at most 0?"""
+    return not signature(hermite(f, 1))[0]
+
+
+def negative_or_zero(f: Sequence[Number]) -> bool:
+    """Is a root real and at most 0?"""
+    (more, fewer), (positive, negative) = (signature(hermite(f, k)) for k in (0, 1))
+    real_ones, difference = more - fewer, positive - negative
+    return real_ones > difference  # so many are real, and so many more positive than negative

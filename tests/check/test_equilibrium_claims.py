@@ -1,0 +1,291 @@
+"""What is said of equilibria is computed again: no other value, verdict or point passes."""
+
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from random import Random
+
+import numpy as np
+import pytest
+
+from derive import derive
+from derive.check.checker import check
+from derive.check.claims.claim_checker import ClaimChecker
+from derive.check.claims.enclosure_claims import changes_of_coefficients, not_real_and_not_positive
+from derive.check.claims.exact_spectra import (
+    characteristic,
+    distinct_roots,
+    negative_or_zero,
+    real_and_not_positive,
+    signature,
+)
+from derive.equilibria import stability
+from derive.language.quadratic import root
+from derive.language.tree import add, mul, neg, nodes, replaced
+from derive.record.claims import CLAIMS, Claim, rendered
+from tests.check.test_record_claims import EQUILIBRIA, changes, said
+from tests.support.lagrangians import bent, disc, every_equilibrium, heavy, lagrangian
+from tests.support.walks import SEED
+
+EXACT = ("stable", "stable_beyond", "stable_compact", "on_the_leaf", "point", "undecided")
+VERDICTS = {
+    *(f"equilibrium.{x}" for x in (*EXACT, "unstable", "open")),
+    *(f"enclosure.{x}" for x in ("stable", "unstable", "open")),
+}
+
+
+@cache
+def records():
+    return [x.record for x in every_equilibrium()]
+
+
+def made():
+    """A judge of steps, a step and each of its claims about an equilibrium."""
+    for record in records():
+        judge = ClaimChecker(record, SEED).fault
+        for step in record.steps:
+            for claim in step.claims:
+                if claim.kind.startswith(EQUILIBRIA):
+                    yield judge, step, claim
+
+
+def refused(reason):
+    """Is a claim refused for what it claims, not for a sentence that is none?"""
+    return reason.startswith("the claim") and "sentences say" not in reason
+
+
+def exchanged(step, old, new):
+    """A step with another claim in the place of one, and its sentence."""
+    prose, claims = (
+        tuple(there if x == here else x for x in found)
+        for found, here, there in (
+            (step.prose, rendered(old), rendered(new)),
+            (step.claims, old, new),
+        )
+    )
+    return replace(step, prose=prose, claims=claims)
+
+
+def test_every_kind_is_made():
+    kinds = {claim.kind for _, _, claim in made()}
+    assert kinds == {x for x in CLAIMS if x.startswith(EQUILIBRIA)}
+
+
+def test_claims_hold():
+    assert not any(judge(step) for judge, step, _ in made())
+
+
+def test_another_value_is_refused():
+    seen = set()
+    for judge, step, claim in made():
+        for wrong in changes(claim):
+            assert refused(judge(said(step, claim, wrong))), wrong
+            seen.add(claim.kind)
+    assert len(seen) == 10
+
+
+def test_another_verdict_is_refused():
+    for judge, step, claim in made():
+        label = claim.kind.partition(".")[0]
+        for kind in VERDICTS - {claim.kind} if claim.kind in VERDICTS else ():
+            if kind.startswith(label):
+                row = dict(claim.values).get("coefficients", ("row", 1, 0, 0))
+                values = (("coefficients", row),) if kind in COUNTED else ()
+                assert refused(judge(exchanged(step, claim, Claim(kind, values)))), kind
+
+
+COUNTED = ("equilibrium.unstable", "equilibrium.open")
+
+
+def test_a_sentence_without_its_claim_is_refused():
+    for judge, step, claim in made():
+        without = replace(step, claims=tuple(x for x in step.claims if x != claim))
+        assert "none such" in judge(without)
+
+
+def test_the_other_sentence_about_roots():
+    """A disc in a fluid, edge-on: of 1, 0, −2/3, 0, 0 a root has a positive real part."""
+    record = derive(disc()).equilibria({"Pi_4": 1}).record
+    step = record.steps[-1]
+    (claim,) = (x for x in step.claims if x.kind == "equilibrium.unstable")
+    assert claim["coefficients"] == ("row", 1, 0, Fraction(-2, 3), 0, 0)
+    false = exchanged(step, claim, Claim("equilibrium.open", claim.values))
+    assert "what follows is: unstable" in ClaimChecker(record, SEED).fault(false)
+
+
+SL2 = "(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 - (A_11^2 + A_12^2)"
+ABSENT = {
+    "a row that is 0": (lagrangian(SL2, "SL(2)"), {"A_11": 0}),
+    "too long a row": ("lagrange_top", {"A_33": 2}),
+    "two equal rows": (lagrangian(SL2 + " - A_21^2", "SL(2)"), {"A_11": 0, "A_21": 0}),
+}
+
+
+@pytest.mark.parametrize("name", ABSENT)
+def test_a_point_that_no_element_has(name, monkeypatch):
+    problem, at = ABSENT[name]
+    monkeypatch.setattr("derive.equilibria.equilibrium_points.off_the_group", lambda *_: "")
+    monkeypatch.setattr(stability, "attained", lambda *_: True)
+    record = derive(problem).equilibria(at).record
+    assert ["no element of the group has these" in x.reason for x in check(record)].count(True) == 1
+
+
+def form_step():
+    record = derive("lagrange_top").equilibria({"Pi_3": 3, "A_33": 1}).record
+    return record, record["energy_casimir_1"]
+
+
+def judged(record, step):
+    return ClaimChecker(record, SEED).fault(step)
+
+
+FORGED = {
+    "what is not kept": (lambda e: both_sides(e, ("pow", ("at", "Π", 1), 2)), "is not kept"),
+    "twice the energy": (lambda e: both_sides(e, "h̃"), "beside it"),
+    "another slope": (
+        lambda e: both_sides(e, ("at", "Π", 3)),
+        "the derivative does not vanish",
+    ),
+    "other squares": (
+        lambda e: replace(e, rhs=add(e.rhs, SQUARE, neg(SQUARE))),
+        "5 and 1 are written",
+    ),
+}
+SQUARE = ("pow", ("at", "Π", 1), 2)
+
+
+def both_sides(e, t):
+    return replace(e, lhs=add(e.lhs, t), rhs=add(e.rhs, t))
+
+
+@pytest.mark.parametrize("name", FORGED)
+def test_a_form_that_is_none(name):
+    change, reason = FORGED[name]
+    record, step = form_step()
+    (e,) = step.equations
+    assert not judged(record, step)
+    assert reason in judged(record, replace(step, equations=(change(e),)))
+
+
+def test_multiples_with_roots_are_kept():
+    at = {"A_31": "sqrt(3)/2", "A_33": "1/2", "Pi_1": "sqrt(3)/2", "Pi_3": 1}
+    record = derive(heavy("132", "A_33/2", "")).equilibria(at).record
+    step, three = record["energy_casimir_1"], ("fun", "sqrt", 3)
+    (e,) = step.equations
+    wrong = both_sides(e, mul(three, SQUARE))
+    assert "is not kept" in judged(record, replace(step, equations=(wrong,)))
+
+
+def test_a_form_of_another_point():
+    """A form stands for the point of the step that it uses."""
+    record = derive("euler_top").equilibria().record
+    step = record["energy_casimir_1"]
+    uses = tuple(x.replace("equilibrium_1", "equilibrium_2") for x in step.uses)
+    assert "does not vanish" in judged(record, replace(step, uses=uses))
+    none = tuple(x for x in step.uses if "equilibrium" not in x)
+    assert "no one point is told" in judged(record, replace(step, uses=none))
+
+
+def test_what_is_no_casimir_has_no_level():
+    record = bent().equilibrium_near({"A_31": "-0.7", "A_33": "-0.5"}).record
+    step = record["enclosure_1"]
+    first, *others = step.equations
+    false = (both_sides(first, ("at", "Π", 2)), *others)
+    assert "is no Casimir" in judged(record, replace(step, equations=false))
+
+
+def test_other_decimals():
+    """What is enclosed is about the decimals of the step that is used."""
+    record = bent().equilibrium_near({"A_31": "-0.7", "A_33": "-0.5"}).record
+    step = record["enclosure_1"]
+    a, there, away = ("entry", "A", 3, 1), Fraction(-83205, 10**5), Fraction(-832051, 10**6)
+    (old,) = {x for e in step.equations for x in _sums(e.rhs) if a in x and len(x) == 3}
+    assert old[2] == -there
+    moved = [replace(e, rhs=replaced(e.rhs, old, add(a, -away))) for e in step.equations]
+    assert "not the decimals" in judged(record, replace(step, equations=(*moved,)))
+
+
+def _sums(t):
+    return [x for x in nodes(t) if isinstance(x, tuple) and x[0] == "add"]
+
+
+# -- the arithmetic -------------------------------------------------------------------------------
+
+
+def random_matrix(random, n):
+    return [[Fraction(random.choice([0, 0, 0, 1, -1, 2, -3])) for _ in range(n)] for _ in range(n)]
+
+
+def floats(a):
+    return np.array([[float(x) for x in row] for row in a]).reshape(len(a), len(a))
+
+
+def test_spectra_beside_numpy():
+    random = Random(3)
+    for k in range(200):
+        a = random_matrix(random, 1 + k % 5)
+        by = root(2) if k % 2 else 1
+        a = [[x * by + (j == 0) for j, x in enumerate(row)] for row in a]
+        assert np.allclose([*map(float, characteristic(a))], np.poly(floats(a)), atol=1e-6)
+        both = [[a[i][j] + a[j][i] for j in range(len(a))] for i in range(len(a))]
+        values = np.linalg.eigvalsh(floats(both))
+        assert signature(both) == ((values > 1e-9).sum(), (values < -1e-9).sum())
+    with pytest.raises(ValueError, match="not symmetric"):
+        signature([[0, 1], [2, 0]])
+
+
+def product_of(f, g):
+    found = [Fraction(0)] * (len(f) + len(g) - 1)
+    for i, x in enumerate(f):
+        for j, y in enumerate(g):
+            found[i + j] += x * y
+    return found
+
+
+def test_roots_are_counted():
+    random, seen = Random(5), set()
+    for k in range(200):
+        roots = [Fraction(random.randint(-3, 1 + k % 2)) for _ in range(random.randint(0, 4))]
+        pairs = [
+            (random.randint(-2, 2), random.randint(1, 2)) for _ in range(random.choice((0, 1)))
+        ]
+        f = [Fraction(1)]
+        for x in roots:
+            f = product_of(f, [1, -x])
+        for re, im in pairs:
+            f = product_of(f, [1, -2 * re, re * re + im * im])
+        assert distinct_roots(f) == len({*roots}) + 2 * len({*pairs})
+        assert real_and_not_positive(f) == (not pairs and all(x <= 0 for x in roots))
+        assert negative_or_zero(f) == any(x <= 0 for x in roots)
+        seen.add((real_and_not_positive(f), negative_or_zero(f)))
+    assert len(seen) == 4
+
+
+def test_coefficients_change_within_their_bound():
+    random = np.random.default_rng(2)
+    for size in (0.01, 0.3):
+        a = random.integers(-5, 6, size=(4, 4))
+        mid, off = ([[Fraction(x) for x in row] for row in y.tolist()] for y in (a, 0 * a + size))
+        bound = changes_of_coefficients(mid, off)
+        moved = [np.poly(a + random.uniform(-size, size, size=(4, 4))) for _ in range(50)]
+        changed = np.max(np.abs(np.array(moved) - np.poly(a)), axis=0)
+        assert all(x <= float(y) for x, y in zip(changed, bound, strict=True))
+
+
+def test_what_coefficients_prove():
+    """Of polynomials with real roots that are not positive nothing, whatever the errors."""
+    random = Random(4)
+    for _ in range(200):
+        f = [Fraction(1)]
+        for _ in range(random.randint(1, 4)):
+            f = product_of(f, [1, Fraction(random.randint(0, 5))])
+        errors = [Fraction(random.randint(0, 3), 2) for _ in f]
+        moved = [x + e * random.choice((-1, 0, 1)) for x, e in zip(f, errors, strict=True)]
+        assert not not_real_and_not_positive([*zip(moved, errors, strict=True)])
+    for f in ([1, 0, 1], [1, 1, 1], [1, 3, -1], [1, 2, 3, 1]):
+        assert not_real_and_not_positive([(Fraction(x), Fraction(1, 1000)) for x in f])
+
+
+def test_a_claim_is_rendered():
+    values = (("eigenvalues", ("matrix", ("row", Fraction(1, 4), Fraction(1, 2)), ("row", 0, 0))),)
+    assert "about ±0.25 ±0.5i, 0." in str(rendered(Claim("equilibrium.eigenvalues", values)))

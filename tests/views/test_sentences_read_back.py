@@ -1,0 +1,75 @@
+"""Every sentence says the same in text, LaTeX, Markdown and MathML: each letter, number, sign."""
+
+import re
+from functools import cache
+
+import pytest
+
+from derive.language.show import show_name
+from derive.pipeline import discrete
+from derive.printing.sentences import QUOTED
+from derive.record.sentence import Sentence
+from derive.views.html import html
+from derive.views.language import language
+from derive.views.latex import latex
+from derive.views.markdown import markdown
+from derive.views.text import text
+from tests.readers.formula import letters_of
+from tests.readers.read import misread_sentences
+from tests.support import reduced, symmetric
+from tests.support.lagrangians import every_case, every_equilibrium
+from tests.support.walks import FLUIDS, NAMES, OTHERS, problem, record, repeated
+
+LANGUAGES = ("en", "fr")
+WALKS = tuple(dict.fromkeys((*NAMES, *FLUIDS, *OTHERS)))
+
+
+@cache
+def found():
+    """What is told of problems beside their walks."""
+    told = [reduced.reduced(x).record for x in reduced.FILES]
+    told += [symmetric.found(x).record for x in symmetric.FILES]
+    told += [x.record for x in (*every_case(), *every_equilibrium())]
+    return [*told, *(discrete(problem(x)) for x in ("so3", "se3", "comet"))]
+
+
+@pytest.mark.parametrize("name", repeated(WALKS))
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_every_sentence_of_a_walk_is_read_back(name, lang):
+    assert [*misread_sentences(record(name), language(lang))] == []
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_every_sentence_of_what_is_found_is_read_back(lang):
+    assert [x for d in found() for x in misread_sentences(d, language(lang))] == []
+
+
+def places(x):
+    """What fills the places of a sentence, in any depth."""
+    for _, y in x.places:
+        yield from places(y) if isinstance(y, Sentence) else (y,)
+
+
+def unmarked(d):
+    """The places with a parameter that stands in no quotes."""
+    known = letters_of(d)
+    own = {show_name(x) for x in known.parameters - known.letters} - {"i"}
+    filled = (y for step in d.steps for x in step.prose for y in places(x))
+    bare = re.compile(rf"(?<![^\W\d])(?:{'|'.join(map(re.escape, sorted(own)))})(?![\w(])")
+    return [x for x in filled if own and bare.search(QUOTED.sub("", x))]
+
+
+def test_parameters_of_a_sentence_are_told_from_its_letters():
+    assert [x for d in (*map(record, WALKS), *found()) for x in unmarked(d)] == []
+
+
+def test_a_condition_on_every_page():
+    """The radius R, the moment I1 and mgl are parameters, in the letters of the equations."""
+    top, lagrange = (reduced.reduced(x).record for x in ("top", "lagrange_top"))
+    assert r"\parameter{R}^{2}\parameter{h}\cdot\rho\cdot(" in latex(top)
+    assert r"\neq 0$: elsewhere" in latex(top)
+    assert r"where $\mathsf{I}_{\mathsf{1}}(1 - A_{33}^{2}) \neq 0$: elsewhere" in markdown(
+        lagrange
+    )
+    assert "<mo>≠</mo>" in html([lagrange])
+    assert "πR²h·rho·(R² + 4h²)(1 − A₃₃²) ≠ 0" in " ".join(text(top).split())
