@@ -26,6 +26,8 @@ KINDS = {
     ),
     "level": "multiple complete",
     "condition": "one several complete",
+    "reduction": "flat curved elementary elliptic hyperelliptic",
+    "relation": "left_invariant",
     "equilibrium": (
         "at origin none orbit form stable stable_beyond stable_compact on_the_leaf indefinite "
         "point unstable open undecided eigenvalues squares near"

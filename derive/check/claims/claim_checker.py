@@ -7,11 +7,12 @@ from collections.abc import Callable
 from functools import cached_property
 from random import Random
 
+from ...algebra.groups import Group
 from ...record.claims import Claim, fault
 from ...record.record import Derivation, RecordError, Step
 from ..problem_group import group_of
 from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count
-from . import enclosure_claims, equilibrium_claims, integral_claims
+from . import enclosure_claims, equilibrium_claims, integral_claims, reduction_claims
 from .reduced_system import ReducedSystem
 
 
@@ -24,10 +25,15 @@ class ClaimChecker:
     @cached_property
     def reduced(self) -> ReducedSystem:
         """The Lie–Poisson equations of the record; ``RecordError`` where it has none."""
+        return ReducedSystem(self.record, self.group, self.random)
+
+    @cached_property
+    def group(self) -> Group:
+        """The group of the problem; ``RecordError`` where it has none."""
         group = group_of(self.record.problem)
         if group is None:
-            raise RecordError("reduced equations are of a group")
-        return ReducedSystem(self.record, group, self.random)
+            raise RecordError("the claim is of a group")
+        return group
 
     def fault(self, step: Step) -> str:
         """What is wrong with the claims of a step, or with a sentence that is a claim and has none;
@@ -63,7 +69,13 @@ def _of_point(judge: Judge) -> Judge:
     return lambda c, step, x: c.reduced.fault or judge(c, step, x)
 
 
+def _of_group(judge: reduction_claims.Judge) -> Judge:
+    """The judge of a claim that needs no more than its step and the group."""
+    return lambda c, step, x: judge(c.group, c.random, step, x)
+
+
 JUDGES: dict[str, Judge] = {
+    **{kind: _of_group(judge) for kind, judge in reduction_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
     **{kind: _of_point(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
     **{kind: _of_point(judge) for kind, judge in enclosure_claims.JUDGES.items()},
