@@ -73,7 +73,7 @@ def solved_letter(algebra: Algebra, j: int, value: Any) -> tuple[Tree, Tree]:
 
 def case_tree(algebra: Algebra, case: Case) -> Tree:
     """The equations of a case: letters, each with its value."""
-    return ("row", *(("row", *solved_letter(algebra, j, value)) for j, value in case.solved))
+    return ("matrix", *(("row", *solved_letter(algebra, j, value)) for j, value in case.solved))
 
 
 def all_conditions(whole: Found, found: Conditions, draft: Draft) -> Prose:

@@ -26,6 +26,8 @@ KINDS = {
     ),
     "level": "multiple complete",
     "condition": "one several complete",
+    "reduction": "flat curved elementary elliptic hyperelliptic",
+    "relation": "left_invariant",
     "equilibrium": (
         "at origin none orbit form stable stable_beyond stable_compact on_the_leaf indefinite "
         "point unstable open undecided eigenvalues squares near"
@@ -60,18 +62,14 @@ class Claim:
 
 
 def text(x: Tree) -> str:
-    """A value as it stands in a sentence: several with commas; pairs, and rows of a matrix, as
-    equations, several of these with commas, and lists of them with numbers."""
-    if not (isinstance(x, tuple) and x[0] in ("row", "matrix")):
-        return in_sentence(x)
-    depth, inside = 0, x
-    while isinstance(inside, tuple) and inside[0] in ("row", "matrix") and len(inside) > 1:
-        depth, inside = depth + 1, inside[1]
-    if depth == 3:
-        return "; ".join(f"({k}) {text(y)}" for k, y in enumerate(x[1:], 1))
-    if depth == 2:
-        return ", ".join(" = ".join(map(in_sentence, y[1:])) for y in x[1:])
-    return ", ".join(map(in_sentence, x[1:]))
+    """A value as it stands in a sentence: several with commas, rows of a matrix as equations, and
+    several matrices with numbers."""
+    if isinstance(x, tuple) and x[0] == "matrix":
+        return ", ".join(" = ".join(map(in_sentence, row[1:])) for row in x[1:])
+    several = x[1:] if isinstance(x, tuple) and x[0] == "row" else (x,)
+    if several and all(isinstance(y, tuple) and y[0] == "matrix" for y in several):
+        return "; ".join(f"({k}) {text(y)}" for k, y in enumerate(several, 1))
+    return ", ".join(map(in_sentence, several))
 
 
 def _decimal(x: Tree) -> str:

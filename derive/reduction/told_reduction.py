@@ -194,7 +194,7 @@ def _curvature(r: Routhian, made_from: Iterable[Step], c: Chapter) -> tuple[Step
         Equation(curvature(i), _two_form(values, r)) for i, values in enumerate(r.curvature)
     ]
     flat = not any(r.curvature)
-    return (draft.step(equations, say("reduction.flat" if flat else "reduction.curved")),)
+    return (draft.step(equations, draft.claim("reduction.flat" if flat else "reduction.curved")),)
 
 
 def _two_form(values: Mapping[tuple[int, int], Element], r: Routhian) -> Tree:
@@ -300,7 +300,7 @@ def _quadrature(r: Routhian, made_from: Iterable[Step], c: Chapter) -> tuple[Ste
     whole = add(tree(2 * found.slope, add(*inside)), *aside)
     prose = say("reduction.quadrature", entry=show(found.entry))
     if found.degree:
-        prose += say(f"reduction.{_integral(found.degree)}", degree=str(found.degree))
+        prose += draft.claim(f"reduction.{_integral(found.degree)}", degree=found.degree)
     return (draft.step([Equation(("pow", rate, 2), whole)], prose),)
 
 

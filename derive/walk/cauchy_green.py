@@ -13,6 +13,7 @@ from ..record.formulas import stated
 from ..record.record import Equation
 from ..record.sentence import Prose
 from .alphabet import Alphabet
+from .chapter import Draft
 from .wording import say
 
 
@@ -42,8 +43,8 @@ def metric_equations(bodies: Bodies) -> list[Equation]:
     return stated("ξ̄CZ = ξ̄Z" if bodies == EVERY else "Tr ξJZ̄C = Tr ξJZ̄")
 
 
-def metric_prose(bodies: Bodies) -> Prose:
-    """The sentence for :func:`metric_equations`."""
+def metric_prose(bodies: Bodies, draft: Draft) -> Prose:
+    """The sentence of a step for :func:`metric_equations`."""
     if bodies == EVERY:
         return say("relation.lengths")
-    return say("relation.left_invariant")
+    return draft.claim("relation.left_invariant")

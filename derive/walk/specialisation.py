@@ -162,14 +162,14 @@ def relation(group: Group, bodies: Bodies | None, c: Chapter) -> tuple[Step, ...
     elif "unimodular" in group.relations:
         known = stated("det(A) = 1,  Tr Z = 0,  Tr ξ = 0")
         prose = _kept(group, stays=not bodies)
-    if bodies:
-        prose += metric_prose(bodies)
-    equations = [*known, *(metric_equations(bodies) if bodies else ())]
-    if not equations:
+    if not (known or bodies):
         return ()
+    draft = c.draft("relation", "relation")
+    equations = [*known, *(metric_equations(bodies) if bodies else ())]
+    prose += metric_prose(bodies, draft) if bodies else ()
     if known:
         prose += _smaller(group)
-    return (c.draft("relation", "relation").step(equations, prose),)
+    return (draft.step(equations, prose),)
 
 
 def _smaller(group: Group) -> Prose:

@@ -1,22 +1,26 @@
 """Claims are judged: what a sentence says beside the equations is data that a checker computes
 again, and neither a changed value nor a sentence without its claim passes."""
 
+import tomllib
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 
 import pytest
 
-from derive import first_integrals
+from derive import derive, first_integrals
 from derive.check.claims import no_more
 from derive.check.claims.claim_checker import JUDGES, ClaimChecker
 from derive.integrals import told
 from derive.language.tree import add
+from derive.pipeline import walk
+from derive.problem.toml import problem_of
 from derive.prose import english
 from derive.record.claims import CLAIMS, Claim
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.sentence import Sentence
+from tests.problems import PROBLEMS
 from tests.support.lagrangians import APART, LINE, LINES, heavy, lagrangian, squares
 from tests.support.walks import SEED
 
@@ -33,6 +37,11 @@ RECORDS = {
     "a level": lambda: first_integrals(heavy("441", "m*A_31", "m"), 4).record,
     "conditions": lambda: first_integrals("euler_top", 2, conditions=True).record,
     "a condition": lambda: first_integrals("top", 1, conditions=True).record,
+    "quadrature": lambda: reduced("0"),
+    "elliptic": lambda: reduced("A_33"),
+    "hyperelliptic": lambda: reduced("A_33^4"),
+    "curved": lambda: derive("euler_top").reduction().record,
+    "a flat body": lambda: walk(problem_of(tomllib.loads(PROBLEMS["a flat body"]))),
     "large": lambda: large("euler_top"),
     "large at defaults": lambda: large("euler_top", at_defaults=True),
 }
@@ -47,6 +56,11 @@ variables count."""
 FALSE = {("first_integrals.complete_by_one", "number"): (1, 0)}
 """Numbers that make a claim false where another one does not: the energy of a ball is a Casimir."""
 MONOMIALS = 4
+
+
+def reduced(potential):
+    """The record of Routh's reduction of a solid with an axis."""
+    return derive(heavy(("1", "1", "2"), potential, "")).reduction().record
 
 
 def large(name, **how):
@@ -165,3 +179,11 @@ def test_no_integral_or_casimir_is_missing(label, place):
     changed = replace(d, steps=tuple(fewer if x is own else x for x in d.steps))
     found = JUDGES[claims[0].kind](ClaimChecker(changed, SEED), fewer, claims[0])
     assert "in which the products have the rank" in found
+
+
+@pytest.mark.parametrize(("name", "other"), [("curved", "flat"), ("elliptic", "curved")])
+def test_no_curvature_is_told_that_is_not_there(name, other):
+    step = record(name)["curvature"]
+    wrong = Claim(f"reduction.{other}")
+    prose = (Sentence(english(wrong.kind)),)
+    assert "vanishes, or does not" in judged(name, replace(step, prose=prose, claims=(wrong,)))

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from ...record.claims import Claim, fault
 from ...record.record import Step
 from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
-from . import enclosure_claims, equilibrium_claims, integral_claims
+from . import enclosure_claims, equilibrium_claims, integral_claims, reduction_claims
 from .claimed_record import ClaimedRecord
 
 
@@ -49,7 +49,13 @@ def _of_point(judge: Judge) -> Judge:
     return lambda c, step, x: c.reduced.fault or judge(c, step, x)
 
 
+def _of_group(judge: reduction_claims.Judge) -> Judge:
+    """The judge of a claim that needs no more than its step and the group."""
+    return lambda c, step, x: judge(c.group, c.random, step, x)
+
+
 JUDGES: dict[str, Judge] = {
+    **{kind: _of_group(judge) for kind, judge in reduction_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
     **{kind: _of_point(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
     **{kind: _of_point(judge) for kind, judge in enclosure_claims.JUDGES.items()},

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from random import Random
 
+from ...algebra.groups import Group
 from ...record.record import Derivation, RecordError
 from ..problem_group import group_of
 from .reduced_system import ReducedSystem
@@ -19,7 +20,12 @@ class ClaimedRecord:
     @cached_property
     def reduced(self) -> ReducedSystem:
         """The Lie–Poisson equations of the record; ``RecordError`` where it has none."""
+        return ReducedSystem(self.record, self.group, self.random)
+
+    @cached_property
+    def group(self) -> Group:
+        """The group of the problem; ``RecordError`` where it has none."""
         group = group_of(self.record.problem)
         if group is None:
-            raise RecordError("reduced equations are of a group")
-        return ReducedSystem(self.record, group, self.random)
+            raise RecordError("the claim is of a group")
+        return group

@@ -213,7 +213,9 @@ def _complete_on_level(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 def _solved(t: Tree) -> list[tuple[Tree, Tree]]:
     """The letters of a condition, each with its value in the others."""
-    pairs = [listed(x) for x in listed(t)]
+    if not isinstance(t, tuple) or t[0] != "matrix":
+        raise RecordError("a condition is a matrix, its rows letters with their values")
+    pairs = [listed(x) for x in t[1:]]
     letters = {x[0] for x in pairs if len(x) == 2}
     if len(letters) < len(pairs) or letters & {x for _, y in pairs for x in nodes(y)}:
         raise RecordError("a condition gives letters their values in others")
