@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ...record.claims import Claim, fault
-from ...record.record import Step
+from ...record.record import RecordError, Step
 from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
 from . import enclosure_claims, equilibrium_claims, integral_claims, reduction_claims
 from .claimed_record import ClaimedRecord
@@ -30,6 +30,8 @@ class ClaimChecker(ClaimedRecord):
         """What is wrong with one claim, in words; "" if nothing is."""
         try:
             reason = JUDGES[claim.kind](self, step, claim)
+        except RecordError as error:
+            reason = str(error)
         except IMPOSSIBLE as error:
             reason = no_sense(error)
         return reason and f"the claim {claim.kind}: {reason}"
