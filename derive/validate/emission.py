@@ -28,7 +28,7 @@ Judge = Callable[[tuple[str, ...]], Agreement]
 UNREAD = "not validated: only C and Python are read back"
 UNSTEPPED = "not validated: steps in time, which are not read back"
 UNPROVED = "; not validated, for it is a loop: Carlson's duplication, which gives the integrals"
-UNCHECKED = "not validated: what constants refuses, but that it takes the bodies there"
+UNCHECKED = "not validated: what constants refuses"
 SHOWN = 3
 """The most decimals that a report lists."""
 PRINCIPAL = "not validated: the principal frame has eigenvectors, which are not rational"
