@@ -12,6 +12,7 @@ import hashlib
 import secrets
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ..algebra.groups import Group
@@ -153,9 +154,10 @@ class Checker(TrialPoints):
 
     def enclosure_fault(self, step: Step) -> str:
         """Why a step encloses no critical point on a level of what motions keep; "" if it does."""
+        along = replace(step, rule="Poisson bracket")  # what motions keep is so along them
         for e in kept_claims(step):
-            for g in self.groups_for(step, e):
-                if reason := difference(e, self.environment(g, step, SIZE, e)):
+            for g in self.groups_for(along, e):
+                if reason := difference(e, self.environment(g, along, SIZE, e)):
                     return f"motions do not keep the left side of a level: {reason}"
         (group,) = self.groups(step.scope, driven=step.driven)
         return enclosure_fault(step, group, side_of(self.problem))
