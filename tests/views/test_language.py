@@ -285,8 +285,8 @@ def test_the_two_sides_begin_and_end_alike():
 
 
 def formulas(words, escape):
-    """The formulas that a view finds, piece by piece."""
-    found = re.findall(r"\$([^$]*)\$", prose(words, escape))
+    """The formulas that a view finds, piece by piece, with points in numbers."""
+    found = re.findall(r"\$([^$]*)\$", prose(words, escape).replace("{,}", "."))
     return Counter(x for formula in found for x in formula.split())
 
 
