@@ -12,7 +12,7 @@ LONGEST = 40
 
 def near_name(word: str, known: Iterable[str], alike: float = 0.6) -> str:
     """The known name nearest to a word, ``alike`` from 0 (any) to 1 (the same), and of those as
-    near the first that begins as it does for longest; "" if none is."""
+    near the last that begins as it does for longest; "" if none is."""
     listed, word = [*known], word[:LONGEST]
     close = {*difflib.get_close_matches(word, listed, len(listed) or 1, alike)}
 
@@ -20,7 +20,7 @@ def near_name(word: str, known: Iterable[str], alike: float = 0.6) -> str:
         alike = (a == b for a, b in zip(name, word, strict=False))
         return difflib.SequenceMatcher(None, name, word).ratio(), sum(takewhile(bool, alike))
 
-    return max((x for x in listed if x in close), key=nearness, default="")
+    return max((x for x in reversed(listed) if x in close), key=nearness, default="")
 
 
 def did_you_mean(name: str, before: str = "", after: str = "") -> str:

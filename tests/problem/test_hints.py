@@ -394,10 +394,10 @@ def test_a_start_by_angles(rpy, tmp_path, capsys):
     assert "a motion starts turned by 'exp' in [initial]" in capsys.readouterr().err
 
 
-def test_of_names_as_near_the_first_is_meant():
+def test_of_names_as_near_one_that_begins_so_is_meant():
     """The component that begins so, and all of them where there are some."""
-    assert near_name("f1", ["f4_1", "f1_1", "f1_2", "f2_1"]) == "f1_1"
-    assert near_name("zeta_9", ["zeta_1", "zeta_2"]) == "zeta_1"
+    assert near_name("f1", ["f4_1", "f1_1", "f2_1"]) == "f1_1"
+    assert near_name("zeta_9", ["zeta_1", "zeta_2"]) == "zeta_2"
     problem = Problem("b", "SE(3)", Points(*PLACES), [Force(f"f{k}", 1) for k in range(1, 5)])
     with pytest.raises(MotionError) as caught:
         derive(problem).simulate(1, start={"f1": 1.0})
