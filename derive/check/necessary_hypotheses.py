@@ -11,12 +11,14 @@ from collections import ChainMap
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.show import show
-from ..language.tree import Tree, names, nodes
+from ..language.tree import Tree, names, nodes, replaced
+from ..language.values import approximate
 from ..record import mass_signs
 from ..record.contract import ANY_GROUP
 from ..record.hypotheses import OF_MASSES, Hypothesis
@@ -31,7 +33,10 @@ from .meaning import parts_of
 from .model import Model
 from .rigid_body import axial
 from .trial_groups import inverted
+from .verdict import bit_count
 
+EXACT = 10**5
+"""The most bits of a number that is found in fractions, else in floats."""
 SHOWN = 80
 """The most letters of a hypothesis that a message shows."""
 WORDS = {"positive": "positive", "semidefinite": "not negative"}
@@ -127,12 +132,20 @@ def false_by_default(step: Step, problem: Mapping[str, Any]) -> str:
     for x in step.hypotheses:
         if x in (MASSES, MOMENTS[1]) and mass_signs.of_no_masses(problem, values):
             return "for the defaults of the parameters no positive masses have these moments"
-        number = mass_signs.default_value(x.of, values)
+        number = _by_default(x.of, values)
         if number is not None and not HOLDS[x.property](((number,),)):
             said = WORDS.get(x.property, "not 0")
             where = f"{_shortened(x.of)}, which is {number:.6g} for the defaults of the parameters"
             return f"it supposes that {where}, is {said}"
     return ""
+
+
+def _by_default(t: Tree, values: Mapping[str, float]) -> float | None:
+    """The value of a tree for the defaults of parameters, as they are written; ``None`` if it has
+    none there."""
+    for name, x in values.items():
+        t = replaced(t, ("par", name), Fraction(str(x)))
+    return approximate(t, {}, Fraction if bit_count(t) < EXACT else float)
 
 
 def missing_hypothesis(
