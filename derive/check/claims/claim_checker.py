@@ -58,14 +58,9 @@ def _of_reduced(judge: integral_claims.Judge) -> Judge:
     return lambda c, step, x: c.reduced.fault or judge(c.reduced, step, x)
 
 
-def _of_point(judge: Judge) -> Judge:
-    """The judge of a claim about an equilibrium of reduced equations, which must be Hamiltonian."""
-    return lambda c, step, x: c.reduced.fault or judge(c, step, x)
-
-
 JUDGES: dict[str, Judge] = {
-    **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
-    **{kind: _of_point(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
-    **{kind: _of_point(judge) for kind, judge in enclosure_claims.JUDGES.items()},
+    kind: _of_reduced(judge)
+    for judges in (integral_claims.JUDGES, equilibrium_claims.JUDGES, enclosure_claims.JUDGES)
+    for kind, judge in judges.items()
 }
 """How each kind of claim is judged."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...language import rational as q
 from ...language.quadratic import value_of
@@ -20,18 +20,17 @@ from ...record.claims import Claim
 from ...record.record import RecordError, Step
 from ..enclosure import DIGITS, Enclosure, enclosure_of, polynomial
 from ..entries_on_a_level import invertible
-from .equilibrium_claims import Judge, coordinates, not_from
+from .equilibrium_claims import coordinates, not_from
 from .exact_spectra import characteristic, signature
-
-if TYPE_CHECKING:
-    from .claim_checker import ClaimChecker
+from .integral_claims import Judge
+from .reduced_system import ReducedSystem
 
 Numbers = Sequence[Fraction]
 
 
-def _near(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _near(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The equations are in powers of the distance from the point, which is enclosed."""
-    if not any(step.label in s.uses and _says_within(s) for s in c.record.steps):
+    if not any(step.label in s.uses and _says_within(s) for s in system.record.steps):
         return "no step encloses it"
     return not_from(step, coordinates(claim), constants=True)
 
@@ -40,54 +39,54 @@ def _says_within(step: Step) -> bool:
     return any(x.kind == "enclosure.within" for x in step.claims)
 
 
-def enclosed(c: ClaimChecker, step: Step) -> Enclosure:
+def enclosed(system: ReducedSystem, step: Step) -> Enclosure:
     """What a step encloses, about the decimals of a step that it uses; ``RecordError`` where it
     does not, or takes for a Casimir what is none."""
-    steps = [c.record[x] for x in step.uses]
+    steps = [system.record[x] for x in step.uses]
     (told,) = (x for s in steps for x in s.claims if x.kind == "equilibrium.near")
     found, decimals = enclosure_of(step), dict(coordinates(told))
     if any(y != decimals.get(x, 0) for x, y in found.centre.items()):
         raise RecordError("these are not the decimals")
-    if any(any(c.reduced.anywhere.field(e.lhs)) for e in step.equations[:-1]):
+    if any(any(system.anywhere.field(e.lhs)) for e in step.equations[:-1]):
         raise RecordError("what has values on the level is no Casimir")
     return found
 
 
-def _within(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _within(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """One critical point is within the radius, which is not much larger than is needed."""
-    found, told = enclosed(c, step), value_of(claim["radius"])
+    found, told = enclosed(system, step), value_of(claim["radius"])
     assert isinstance(told, Fraction)
     if not found.contracts(told):
         return "Newton's step is not proved to contract"
     return "" if told <= max(2 * found.least, Fraction(1, DIGITS)) else "it is nearer"
 
 
-def _squares(c: ClaimChecker, step: Step) -> tuple[int, int]:
+def _squares(system: ReducedSystem, step: Step) -> tuple[int, int]:
     """The signs on the level: those of J, less one of each for every Casimir."""
     several = len(step.equations) - 1
-    positive, negative = signature(enclosed(c, step).second)
+    positive, negative = signature(enclosed(system, step).second)
     return positive - several, negative - several
 
 
-def _signs(c: ClaimChecker, step: Step, claim: Claim) -> str:
-    found = _squares(c, step)
+def _signs(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    found = _squares(system, step)
     if found == (claim["positive"], claim["negative"]):
         return ""
     return f"it has {found[0]} positive and {found[1]} negative squares"
 
 
-def _verdict(c: ClaimChecker, step: Step, claim: Claim) -> str:
-    definite = 0 in _squares(c, step)
-    found = "stable" if definite else "unstable" if grows(c, step) else "open"
+def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    definite = 0 in _squares(system, step)
+    found = "stable" if definite else "unstable" if grows(system, step) else "open"
     return "" if claim.kind == f"enclosure.{found}" else f"what follows is: {found}"
 
 
 # -- instability ----------------------------------------------------------------------------------
 
 
-def grows(c: ClaimChecker, step: Step) -> bool:
+def grows(system: ReducedSystem, step: Step) -> bool:
     """Have the linearised rates an eigenvalue with positive real part?  True is proved."""
-    found, system = enclosed(c, step), c.reduced
+    found = enclosed(system, step)
     several, n = len(step.equations) - 1, len(system.variables)
     centre, radius = {x: found.centre.get(x, Fraction(0)) for x in system.variables}, found.least
     if not _has_rank(system.tensor.forms, [*centre.values()], radius, n - several):
