@@ -89,15 +89,15 @@ def grows(system: ReducedSystem, step: Step) -> bool:
     found = enclosed(system, step)
     several, n = len(step.equations) - 1, len(system.variables)
     centre, radius = {x: found.centre.get(x, Fraction(0)) for x in system.variables}, found.least
-    if not _has_rank(system.tensor.forms, [*centre.values()], radius, n - several):
+    if not has_rank(system.tensor.forms, [*centre.values()], radius, n - several):
         return False
-    slopes = [_slopes(t, centre, radius) for t in system.rates]
-    mid, off = ([[x[k] for x in row] for row in slopes] for k in (0, 1))
+    rows = [slopes(t, centre, radius) for t in system.rates]
+    mid, off = ([[x[k] for x in row] for row in rows] for k in (0, 1))
     pairs: Any = zip(characteristic(mid), changes_of_coefficients(mid, off), strict=True)
     return not_real_and_not_positive([*pairs][: n - several + 1 : 2])
 
 
-def _has_rank(forms: Any, at: Numbers, radius: Fraction, rank: int) -> bool:
+def has_rank(forms: Any, at: Numbers, radius: Fraction, rank: int) -> bool:
     """Has Λ this rank everywhere within the radius?"""
     n = len(at)
     mid, off = ([[Fraction(0)] * n for _ in at] for _ in range(2))
@@ -109,7 +109,7 @@ def _has_rank(forms: Any, at: Numbers, radius: Fraction, rank: int) -> bool:
     return len(rows) == rank and invertible(q.matrix(chosen), change)
 
 
-def _slopes(
+def slopes(
     t: Tree, centre: dict[Tree, Fraction], radius: Fraction
 ) -> list[tuple[Fraction, Fraction]]:
     """The first derivatives of a polynomial, and how much they change within the radius."""
