@@ -46,11 +46,6 @@ def _of_reduced(judge: integral_claims.Judge) -> Judge:
     return lambda c, step, x: c.reduced.fault or judge(c.reduced, step, x)
 
 
-def _of_point(judge: Judge) -> Judge:
-    """The judge of a claim about an equilibrium of reduced equations, which must be Hamiltonian."""
-    return lambda c, step, x: c.reduced.fault or judge(c, step, x)
-
-
 def _of_group(judge: reduction_claims.Judge) -> Judge:
     """The judge of a claim that needs no more than its step and the group."""
     return lambda c, step, x: judge(c.group, c.random, step, x)
@@ -59,7 +54,7 @@ def _of_group(judge: reduction_claims.Judge) -> Judge:
 JUDGES: dict[str, Judge] = {
     **{kind: _of_group(judge) for kind, judge in reduction_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
-    **{kind: _of_point(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
-    **{kind: _of_point(judge) for kind, judge in enclosure_claims.JUDGES.items()},
+    **{kind: _of_reduced(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
+    **{kind: _of_reduced(judge) for kind, judge in enclosure_claims.JUDGES.items()},
 }
 """How each kind of claim is judged."""
