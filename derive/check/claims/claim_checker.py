@@ -12,8 +12,15 @@ from ...record.claims import Claim, fault
 from ...record.record import Derivation, RecordError, Step
 from ..problem_group import group_of
 from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count
-from . import enclosure_claims, equilibrium_claims, integral_claims, reduction_claims
+from . import (
+    enclosure_claims,
+    equilibrium_claims,
+    integral_claims,
+    reduction_claims,
+    symmetry_claims,
+)
 from .reduced_system import ReducedSystem
+from .symmetry_count import SymmetryCount
 
 
 class ClaimChecker:
@@ -34,6 +41,11 @@ class ClaimChecker:
         if group is None:
             raise RecordError("the claim is of a group")
         return group
+
+    @cached_property
+    def symmetries(self) -> SymmetryCount:
+        """The symmetries of its Lagrangian."""
+        return SymmetryCount(self.record.problem, self.group, self.random)
 
     def fault(self, step: Step) -> str:
         """What is wrong with the claims of a step, or with a sentence that is a claim and has none;
@@ -69,6 +81,11 @@ def _of_point(judge: Judge) -> Judge:
     return lambda c, step, x: c.reduced.fault or judge(c, step, x)
 
 
+def _of_symmetries(judge: symmetry_claims.Judge) -> Judge:
+    """The judge of a claim about the symmetries of a Lagrangian."""
+    return lambda c, step, x: judge(c.symmetries, c.record, step, x)
+
+
 def _of_group(judge: reduction_claims.Judge) -> Judge:
     """The judge of a claim that needs no more than its step and the group."""
     return lambda c, step, x: judge(c.group, c.random, step, x)
@@ -76,6 +93,7 @@ def _of_group(judge: reduction_claims.Judge) -> Judge:
 
 JUDGES: dict[str, Judge] = {
     **{kind: _of_group(judge) for kind, judge in reduction_claims.JUDGES.items()},
+    **{kind: _of_symmetries(judge) for kind, judge in symmetry_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
     **{kind: _of_point(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
     **{kind: _of_point(judge) for kind, judge in enclosure_claims.JUDGES.items()},
