@@ -26,7 +26,9 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    """Tests that are named on the command line are run whole."""
+    """Tests that are named on the command line are run whole; texts are as wide as where nobody
+    says, which xdist does by COLUMNS."""
+    os.environ.pop("COLUMNS", None)
     if hasattr(config, "workerinput"):
         return
     if config.getoption("--quick"):

@@ -264,7 +264,9 @@ class Group:
 
     @cached_property
     def _inner_sampler(self) -> Sampler | None:
-        return inner_sampler(self.basis) if self.larger else self.sampler
+        if self.larger and not self.rotates:  # all rotations, and displacements: they are known
+            return inner_sampler(self.basis)
+        return self.sampler
 
     @property
     def has_inner_samples(self) -> bool:

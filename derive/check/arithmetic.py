@@ -10,6 +10,8 @@ from ..language.limits import DEGREE
 
 Value = Any
 
+SHOWN = 20
+"""The most digits of an exponent that a message shows."""
 LARGEST_POWER, LARGEST_MATRIX = DEGREE + 1, 8
 """The largest exponent: the derivative of 1/xⁿ has xⁿ⁺¹, and n is at most the degree of an
 expression; and the most rows of a matrix that has a determinant."""
@@ -180,8 +182,13 @@ def _cofactor_expansion(x: Value) -> Value:
 
 def power(x: Value, n: Value) -> Value:
     """xⁿ, for an integer n ≠ 0 of at most ±LARGEST_POWER; ``EvaluationError`` for other n."""
-    if not isinstance(n, Fraction) or n.denominator != 1 or not 0 < abs(n) <= LARGEST_POWER:
-        raise EvaluationError(f"the exponent must be an integer up to ±{LARGEST_POWER}, not 0")
+    if not isinstance(n, Fraction):
+        raise EvaluationError("an exponent that is no number")
+    if n.denominator != 1 or n == 0:
+        raise EvaluationError(f"an exponent of {str(n)[:SHOWN]}, where a whole number but 0 is due")
+    if abs(n) > LARGEST_POWER:
+        size = f"{n}" if abs(n) < 10**SHOWN else "more digits than are shown"
+        raise EvaluationError(f"an exponent of {size}: at most ±{LARGEST_POWER} is tried")
     base = inverse(x) if n < 0 else x
     result = base
     for _ in range(abs(int(n)) - 1):

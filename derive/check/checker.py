@@ -12,6 +12,7 @@ import hashlib
 import secrets
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ..algebra.groups import Group
@@ -29,13 +30,14 @@ from .equation_sides import difference, largest_degree
 from .locus import Locus, locus_of
 from .necessary_hypotheses import (
     ORDER,
+    false_by_default,
     false_hypothesis,
     missing_hypothesis,
     missing_mass_hypotheses,
 )
 from .trial_groups import LEAST, LEAST_BY_MOMENTA, fault_for_any_group, free, sizes
 from .trial_points import SIZE, TrialPoints, action_of, side_of
-from .verdict import IMPOSSIBLE, MOST_BITS, RefusedError, Verdict, bit_count, refusal
+from .verdict import IMPOSSIBLE, MOST_BITS, RefusedError, Verdict, bit_count, no_sense, refusal
 
 if TYPE_CHECKING:
     from .fluid.fluid_checker import FluidChecker
@@ -117,12 +119,12 @@ class Checker(TrialPoints):
         except (EvaluationError, RecordError, ZeroDivisionError) as error:
             return Verdict(step.label, False, str(error), 1.0)
         except (ArithmeticError, AssertionError, LookupError, TypeError, ValueError) as error:
-            reason = f"the problem or the step makes no sense: {type(error).__name__}: {error}"
-            return Verdict(step.label, False, reason.splitlines()[0], 1.0)
+            return Verdict(step.label, False, no_sense(error), 1.0)
         except (AttributeError, RecursionError) as error:
             return Verdict(step.label, False, f"not a claim: {type(error).__name__}", 1.0)
         groups = {g.name: 0 for e in step.equations for g in self.groups_for(step, e)}
-        return Verdict(step.label, True, "", bound / SIZE, (len(step.equations), (*groups,)))
+        tried, note = (len(step.equations), (*groups,)), false_by_default(step, self.problem)
+        return Verdict(step.label, True, "", bound / SIZE, tried, note=note)
 
     def degree_if_true(self, step: Step) -> int:
         """The Schwartz–Zippel degree of a step whose claims all hold; ``RefusedError`` or another
@@ -152,9 +154,10 @@ class Checker(TrialPoints):
 
     def enclosure_fault(self, step: Step) -> str:
         """Why a step encloses no critical point on a level of what motions keep; "" if it does."""
+        along = replace(step, rule="Poisson bracket")  # what motions keep is so along them
         for e in kept_claims(step):
-            for g in self.groups_for(step, e):
-                if reason := difference(e, self.environment(g, step, SIZE, e)):
+            for g in self.groups_for(along, e):
+                if reason := difference(e, self.environment(g, along, SIZE, e)):
                     return f"motions do not keep the left side of a level: {reason}"
         (group,) = self.groups(step.scope, driven=step.driven)
         return enclosure_fault(step, group, side_of(self.problem))
@@ -195,7 +198,7 @@ class Checker(TrialPoints):
         except (EvaluationError, RecordError) as error:
             reason = str(error)
         except IMPOSSIBLE as error:
-            reason = f"the problem or a step makes no sense: {type(error).__name__}"
+            reason = no_sense(error)
         if reason:
             return Verdict(label, False, reason, 1.0, of="symbol")
         return Verdict(label, True, "", 0.0, (len(d.symbols), tuple(groups)), "symbol")

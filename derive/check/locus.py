@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from ..language.show import show
 from ..language.tree import Tree
 from ..record.record import Equation, RecordError, Step
+from ..record.rules import OFF_MOTION
 from .function_signatures import RATES
 
 TIME, LINEAR, TRANSLATION = "time", "linear", "translation"
@@ -76,7 +77,8 @@ class Locus:
 
 
 def locus_of(step: Step, equation: Equation | None = None) -> Locus:
-    """The locus of a step; with ``equation``, also whether that holds for all accelerations.
+    """The locus of a step; with ``equation``, also whether that holds for all accelerations, as
+    what is no claim about the motion does.
 
     ``RecordError`` for a hypothesis that is none of these.
     """
@@ -102,7 +104,8 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
         else:
             text = f"{show(lhs)} = {show(rhs)}"
             raise RecordError(f"the hypothesis {text[:80]} is not one that can be tried")
-    free = equation is not None and any({*equation.for_all} & {*form} for form in RATES)
+    any_rate = equation is not None and any({*equation.for_all} & {*form} for form in RATES)
+    free = any_rate or step.kind in OFF_MOTION
     told = frozenset(vanishing), frozenset(along)
     found = Locus(principal, contracted, *told, free, step.driven, fields[0], fields[1])
     if still and contracted:

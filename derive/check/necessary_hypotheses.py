@@ -34,6 +34,8 @@ from .trial_groups import inverted
 
 SHOWN = 80
 """The most letters of a hypothesis that a message shows."""
+WORDS = {"positive": "positive", "semidefinite": "not negative"}
+"""What a property says of a number; of any other one that it is not 0."""
 INVERSE = ("invertible", "nonzero", "positive")
 """The properties that let one divide."""
 REGULAR = "the metric of the kinetic energy is not degenerate"
@@ -115,6 +117,21 @@ def false_hypothesis(
         places = ordered if x.property in ORDER else [env]
         if why := next(filter(None, (_failure(x, at, model) for at in places)), ""):
             return f"the hypothesis that {_shortened(x.of)} is {x.property} is {why}"
+    return ""
+
+
+def false_by_default(step: Step, problem: Mapping[str, Any]) -> str:
+    """The first hypothesis of a step that is false for the defaults of the parameters, in words; ""
+    if none is that has a value there."""
+    values = mass_signs.defaults(problem)
+    for x in step.hypotheses:
+        if x in (MASSES, MOMENTS[1]) and mass_signs.of_no_masses(problem, values):
+            return "for the defaults of the parameters no positive masses have these moments"
+        number = mass_signs.default_value(x.of, values)
+        if number is not None and not HOLDS[x.property](((number,),)):
+            said = WORDS.get(x.property, "not 0")
+            where = f"{_shortened(x.of)}, which is {number:.6g} for the defaults of the parameters"
+            return f"it supposes that {where}, is {said}"
     return ""
 
 

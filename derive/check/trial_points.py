@@ -150,7 +150,9 @@ class TrialPoints:
     def _place(self, g: Group, source: Source, size: int, at: Locus, *, generic: bool) -> Place:
         """A random model at which the hypotheses of a step hold, and its names."""
         if "torus" in self.problem and not generic:
-            fluid: Any = torus_model.TorusModel(torus_of(self.problem), source, size)
+            fluid: Any = torus_model.TorusModel(
+                torus_of(self.problem), source, size, free=at.free_acceleration
+            )
             return fluid, torus_model.environment(fluid)
         model = model_at(self.problem, g, source, size, at, generic=generic)
         return model, names_at(model)

@@ -28,7 +28,7 @@ class Verdict:
 
     ``bound``: on the probability that a false claim passes. ``tried``: how many claims, and the
     names of the groups on which they were tried; ``of``: what these claims are, "equation" or
-    "symbol".
+    "symbol". ``note``: what is to be known of one that holds.
     """
 
     label: str
@@ -37,6 +37,12 @@ class Verdict:
     bound: float
     tried: tuple[int, tuple[str, ...]] = (0, ())
     of: str = "equation"
+    note: str = ""
+
+
+def no_sense(error: Exception) -> str:
+    """What is said of a record that cannot be evaluated, by no message of Python's."""
+    return f"the problem or a step makes no sense where it is evaluated ({type(error).__name__})"
 
 
 class RefusedError(Exception):

@@ -220,7 +220,8 @@ def told(name: str, verdicts: Sequence[Verdict]) -> int:
 def _trial_text(v: Verdict) -> str:
     """What a verdict says was found to hold, and on which groups, as text."""
     count, groups = v.tried
-    return f"{count} {v.of}{'s' * (count != 1)} on {', '.join(groups)}"
+    note = f"; {one_line(v.note)}" if v.note else ""
+    return f"{count} {v.of}{'s' * (count != 1)} on {', '.join(groups)}{note}"
 
 
 def command_paper(args: argparse.Namespace) -> int:

@@ -51,7 +51,7 @@ def told_enclosed(whole: Found, x: Enclosed, steps: Sequence[Step], c: Chapter) 
         by_label.get(c.label(x)) for x in ("poisson", "casimirs", "first_integrals")
     )
     made_from = [y for y in (reduced, kept, integrals) if y]
-    draft = c.draft("equilibrium_1", "expansion")
+    draft = c.draft("equilibrium_1", "components")
     draft.depends_on(made_from[0])
     away = distances(x.about)
     variables = x.about.system.variables
@@ -114,7 +114,7 @@ def scientific(x: Fraction) -> Tree:
 
 def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool) -> Step:
     """The rates in powers of the distance from the equilibrium: none has a constant term."""
-    draft = c.draft(label, "expansion")
+    draft = c.draft(label, "components")
     draft.depends_on(reduced)
     variables, away = x.about.system.variables, distances(x.about)
     equations = [

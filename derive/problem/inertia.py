@@ -176,8 +176,12 @@ def _listed(x: Vector) -> str:
 
 def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str | None:
     """Where a mass is negative, for the defaults of the parameters; ``None`` when nowhere."""
-    if isinstance(body, GivenBody) and is_negative(body.given.m, parameters):
+    if isinstance(body, (GivenBody, MomentBody)) and is_negative(body.moments().m, parameters):
         return "body: the mass"
+    if isinstance(body, MomentBody):
+        squares = ((f"J_{i}{i}", row[i - 1]) for i, row in enumerate(body.moments().J, 1))
+        found = (name for name, t in squares if is_negative(t, parameters))
+        return next((f"body: the moment {name}" for name in found), None)
     for solid in body.solids if isinstance(body, GivenBody) else ():
         for level, density in at_levels(solid.density) if is_layered(solid.density) else ():
             if is_negative(density, parameters):

@@ -314,7 +314,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The volume of the tetrahedron, here six times, is det A times that in the body, and "
             "its variation Tr ξ times it. If it is not 0, it is kept if and only if det A = 1, and "
             "its variation vanishes if and only if Tr ξ = 0.",
-            "Le volume du tétraèdre, ici six fois, est det A fois celui dans le corps, et sa "
+            "Le volume du tétraèdre, ici six fois, est celui dans le corps fois det A, et sa "
             "variation Tr ξ fois lui-même. S’il n’est pas 0, il est conservé si et seulement si "
             "det A = 1, et sa variation s’annule si et seulement si Tr ξ = 0.",
         ),
@@ -322,7 +322,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The configurations of the same volume are one orbit of this group, of dimension 11: "
             "four points have 12 coordinates, and this is one condition.",
             "Les configurations de même volume forment une orbite de ce groupe, de dimension 11 : "
-            "quatre points ont 12 coordonnées, et il y a une condition.",
+            "quatre points ont 12 coordonnées, et ceci est une condition.",
         ),
         "linear": (
             "In space the configurations of the same volume are one orbit of the affine maps that "

@@ -10,12 +10,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         "turned": (
             "Rotations keep vector products. Of two points that are not on one line with the "
             "fixed point, and of their vector product, which span the space, the images are "
-            "known: A is then unique, if the points are not all on one line through the fixed "
-            "point.",
+            "known: the rotation is then unique, if the points are not all on one line through "
+            "the fixed point.",
             "Les rotations conservent les produits vectoriels. De deux points qui ne sont pas "
             "alignés avec le point fixe, et de leur produit vectoriel, qui engendrent l’espace, on "
-            "connaît les images : A est alors unique, si les points ne sont pas tous sur une même "
-            "droite passant par le point fixe.",
+            "connaît les images : la rotation est alors unique, si les points ne sont pas tous "
+            "sur une même droite passant par le point fixe.",
         ),
         "displaced": (
             "Rotations keep vector products. Of the arms from the centre of mass to two points "

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..language.show import in_sentence, show
+from ..language.show import in_sentence
 from ..language.tree import Tree
 from ..prose import english
 from . import sentence
@@ -35,7 +35,9 @@ KINDS = {
     ),
     "enclosure": "within signs stable unstable open",
 }
-CLAIMS = frozenset(f"{label}.{name}" for label, names in KINDS.items() for name in names.split())
+CLAIMS = frozenset(
+    f"{subject}.{name}" for subject, names in KINDS.items() for name in names.split()
+)
 """The keys of the sentences that are claims."""
 
 MONOMIALS = 10_000
@@ -79,7 +81,7 @@ def _decimal(x: Tree) -> str:
 def _coordinates(x: Tree) -> str:
     """Rows of a matrix, each a name and a number, as decimals."""
     assert isinstance(x, tuple)
-    return ", ".join(f"{show(name)} ≈ {_decimal(y)}" for _, name, y in x[1:])
+    return ", ".join(f"{in_sentence(name)} ≈ {_decimal(y)}" for _, name, y in x[1:])
 
 
 def _eigenvalues(x: Tree) -> str:

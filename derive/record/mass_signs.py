@@ -18,47 +18,66 @@ ANY_SIGN = "of any sign"
 
 SUPPOSED = "it supposes positive masses, and some of this problem may be negative"
 
+DIGITS = 10**3
+"""Moments in few digits are those of positive masses where they are so but for this part of J."""
+
 
 def any_sign(problem: Mapping[str, Any]) -> bool:
-    """Does the problem say that masses may be negative, or has it a negative one? ``RecordError``
-    for another value of the key ``masses``."""
+    """Does the problem say that masses may be negative, or has it a negative one, or one of the
+    moments that are sums of masses times squares? ``RecordError`` for another value of the key
+    ``masses``."""
     if problem.get("masses") not in (None, ANY_SIGN):
         raise RecordError(f"record, problem: key 'masses' can only be {ANY_SIGN!r}")
-    body = problem.get("body", {})
-    defaults = {
-        name: about["default"]
-        for name, about in problem.get("parameters", {}).items()
-        if about["default"] is not None
-    }
-    masses = [p["mass"] for p in body.get("points", [])]
-    masses.append(body.get("given", {}).get("m", 1))
-    trees = [decode(x, "problem") for x in masses]
+    body, known = problem.get("body", {}), defaults(problem)
+    trees = [decode(p["mass"], "problem") for p in body.get("points", [])]
+    trees.append(decode(body.get("given", {}).get("m", 1), "problem"))
+    if body.get("kind") == "moments":
+        m, _, J = moments(problem)
+        trees += (m, *(row[i] for i, row in enumerate(J)))
     for x in body.get("solids", []):
         trees += (density for _, density in at_levels(decode(x["density"], "problem")))
-    negative = any((_default_value(t, defaults) or 0) < 0 for t in trees)
-    return "masses" in problem or negative or _of_no_positive_masses(body)
+    negative = any((default_value(t, known) or 0) < 0 for t in trees)
+    return "masses" in problem or negative or of_no_masses(problem, {})
 
 
-def _of_no_positive_masses(body: Mapping[str, Any]) -> bool:
-    """Are the given m, c, J numbers for which [[J, c], [c̄, m]] is not semidefinite?"""
-    given = body.get("given", {})
-    if not given or body.get("solids"):
+def of_no_masses(problem: Mapping[str, Any], values: Mapping[str, float]) -> bool:
+    """Is [[J, c], [c̄, m]] of a body that is told by its moments not semidefinite, for ``values`` of
+    the parameters? No, where one has none."""
+    body = problem.get("body", {})
+    if body.get("solids") or not (body.get("given") or body.get("kind") == "moments"):
         return False
-    m, *c = (_plain_number(x) for x in (given["m"], *given["c"]))
-    J = [[_plain_number(x) for x in row] for row in given["J"]]
-    whole = [[*row, x] for row, x in zip(J, c, strict=True)] + [[*c, m]]
-    return all(x is not None for row in whole for x in row) and not q.semidefinite(whole)
+    m, c, J = moments(problem)
+    rows = [*([*row, x] for row, x in zip(J, c, strict=True)), [*c, m]]
+    found = [[default_value(t, values) for t in row] for row in rows]
+    whole = [[Fraction(x) for x in row if x is not None] for row in found]
+    if any(len(row) < len(rows) for row in whole):
+        return False
+    few = sum((abs(row[i]) for i, row in enumerate(whole[:-1])), Fraction(0)) / DIGITS
+    for i, row in enumerate(whole[:-1]):
+        row[i] += few
+    return not q.semidefinite(whole)
 
 
-def _plain_number(x: Any) -> Fraction | None:
-    """The number that an expression of the record is; ``None`` where it has parameters."""
-    t = decode(x, "problem")
-    return Fraction(t) if isinstance(t, (int, Fraction)) else None
+def moments(problem: Mapping[str, Any]) -> tuple[Tree, list[Tree], list[list[Tree]]]:
+    """m, c and J of a body that is told by them, as expressions in parameters."""
+    if given := problem["body"].get("given"):
+        c, *J = ([decode(x, "problem") for x in row] for row in (given["c"], *given["J"]))
+        return decode(given["m"], "problem"), c, J
+    span = range(1, problem["n"] + 1)
+    first: list[Tree] = [("par", f"c_{i}") for i in span]
+    second: list[list[Tree]] = [[("par", f"J_{min(i, j)}{max(i, j)}") for j in span] for i in span]
+    return ("par", "m"), first, second
 
 
-def _default_value(t: Tree, defaults: Mapping[str, float]) -> float | None:
+def defaults(problem: Mapping[str, Any]) -> dict[str, float]:
+    """Name → the default of a parameter that has one."""
+    listed = problem.get("parameters", {}).items()
+    return {x: about["default"] for x, about in listed if about["default"] is not None}
+
+
+def default_value(t: Tree, known: Mapping[str, float]) -> float | None:
     """The value of an expression at its parameters' defaults; ``None`` if one has none."""
     try:
-        return approximate(t, defaults, float)
+        return approximate(t, known, float)
     except ValueError:
         return None

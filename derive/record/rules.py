@@ -21,6 +21,9 @@ class Rule(NamedTuple):
     kind: str
 
 
+OFF_MOTION = ("definition", "identity", "restriction")
+"""The kinds of what holds whether or not a point moves as the equations of motion say."""
+
 RULES: dict[str, Rule] = {
     "definition": Rule(
         "définition",
@@ -126,6 +129,12 @@ RULES: dict[str, Rule] = {
         "A basis of the Lie algebra is chosen.",
         "Une base de l’algèbre de Lie est choisie.",
         "identity",
+    ),
+    "components": Rule(
+        "composantes",
+        "The equations of motion are written in coordinates.",
+        "Les équations du mouvement sont écrites en coordonnées.",
+        "solution",
     ),
     "conservation": Rule(
         "conservation",

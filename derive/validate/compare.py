@@ -213,7 +213,7 @@ class Comparison:
         try:
             found = self.machine.call(name, arguments, **sizes)
         except CodeError as error:
-            raise CodeError(f"{name}: {error}") from None
+            raise type(error)(f"{name}: {error}") from None
         if "k" in arguments:
             self.read |= arguments["k"].read
         self._measure([x for values in found.values() for x in values])

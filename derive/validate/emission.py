@@ -19,6 +19,7 @@ from .exact_points import Claims
 from .read_c import read_c
 from .read_python import read_python, unread_statements
 from .run_time_text import loops, without_loops
+from .straight_line import error_checks
 from .terms import CodeError
 from .torus.torus_files import TorusClaims, compare_c, compare_python
 
@@ -27,6 +28,7 @@ Judge = Callable[[tuple[str, ...]], Agreement]
 UNREAD = "not validated: only C and Python are read back"
 UNSTEPPED = "not validated: steps in time, which are not read back"
 UNPROVED = "; not validated, for it is a loop: Carlson's duplication, which gives the integrals"
+UNCHECKED = "not validated: what constants refuses"
 SHOWN = 3
 """The most decimals that a report lists."""
 PRINCIPAL = "not validated: the principal frame has eigenvectors, which are not rational"
@@ -104,6 +106,8 @@ class EmittedFiles:
         loop = any(x in self.files[name] for x in called for name in names)
         stepped = "\nclass Motion:" in self.files[names[-1]]
         text = as_text(verdict) + UNPROVED * loop + f"; {UNSTEPPED}" * stepped
+        if self.fresh is None:
+            text += f"; {UNCHECKED}"
         return Report(names, text)
 
     def _compared(self, claims: Claims, whole: str, names: tuple[str, ...]) -> Agreement:
@@ -129,8 +133,18 @@ class EmittedFiles:
                     (x for x in {**wanted, **here} if here.get(x) != wanted.get(x)), ""
                 ):
                     raise DiffersError(f"{other} is not read, and not what is emitted")
-        read = {name: without_loops(text) for name, text in self.files.items()}
-        return read_c(names[-1], read, self.prefix)
+        module = self._read_c(names[-1], self.files)
+        if self.fresh is not None and any(self.files[x] != self.fresh[x] for x in names):
+            fresh = self._read_c(names[-1], self.fresh)
+            both = [m.functions["constants"] for m in (module, fresh) if "constants" in m.functions]
+            if len({error_checks(f) for f in both}) > 1:
+                raise DiffersError("constants: its error checks are not what is emitted")
+        return module
+
+    def _read_c(self, name: str, files: Mapping[str, str]) -> Module:
+        """The module in a C file without the loops that are not read."""
+        read = {x: without_loops(text) for x, text in files.items()}
+        return read_c(name, read, self.prefix)
 
     def _same_unread(self, name: str) -> None:
         """``DiffersError`` where Python that is run but not read is not what is emitted."""

@@ -91,6 +91,21 @@ def _sizes(f: CodeFunction, e: Any) -> list[Any]:
     return [e[1]]
 
 
+def error_checks(f: CodeFunction) -> Body:
+    """What in a function serves its checks alone: conditions, what depends on sizes, and what is
+    named when all results are stored."""
+    tainted: set[str] = set()
+    stored = [i for i, s in enumerate(f.body) if s[0] == "store"]
+    found = []
+    for i, s in enumerate(f.body):
+        if s[0] == "set" and _unsmooth(s[2], tainted):
+            tainted.add(s[1])
+        named = s[0] == "set" and (s[1] in tainted or i > max(stored, default=-1))
+        if named or s[0] in ("if", "for", "return"):
+            found.append(s)
+    return tuple(found)
+
+
 def _body(f: CodeFunction, body: Body, tainted: set[str], checks: list[str]) -> None:
     """Check statements; ``tainted``: the names that depend on a size or a condition, ``checks``:
     the conditions met so far."""

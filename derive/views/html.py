@@ -250,7 +250,7 @@ class _PartFields:
             "coordinates": [
                 unfolded(x.label)
                 for x in self.part.steps
-                if x.rule == "coordinates" and step.label in x.uses
+                if x.rule in ("coordinates", "components") and step.label in x.uses
             ],
         }
 

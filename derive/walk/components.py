@@ -120,7 +120,7 @@ def _motion(
         for i, x in enumerate(components(e.rhs, known, moments), 1)
     ]
     driven = c.with_input() if motion.driven else c
-    draft = driven.draft("components", "coordinates")
+    draft = driven.draft("components", "components")
     draft.depends_on(*made_from)
     return (draft.step(equations, say("components.principal")),)
 

@@ -40,7 +40,7 @@ def mass_steps(
     as a matrix? Not where C dropped out for what pairs with 𝔤 alone. ``central``: the equations
     seen from the centres of mass; the coordinates ψ are then those of Ż(1 + S).
     """
-    weighing, solving = c.draft("mass", "coordinates"), c.draft("motion", "solution")
+    weighing, solving = c.draft("mass", "components"), c.draft("motion", "solution")
     E_a, E_b = basis_member("a", b), basis_member("b", b)
     notation = WordNotation(display={E_a: read("E_a"), E_b: read("E_b")})
     rate = word(RATE) * word(E_b)

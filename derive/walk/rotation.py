@@ -135,7 +135,7 @@ def energy_step(stage: Isometry, v: Potentials, hat_map: HatMap, c: Chapter) -> 
 def principal_step(euler: Step, c: Chapter) -> Step:
     """The step ``principal`` (35): the solved equation in axes that diagonalise I, component by
     component."""
-    draft = c.draft("principal", "coordinates")
+    draft = c.draft("principal", "components")
     draft.depends_on(euler)
     moments: list[Tree] = [("entry", "λ", i) for i in (1, 2, 3)]
     rows = (("row", *(x if i == j else 0 for j in range(3))) for i, x in enumerate(moments))

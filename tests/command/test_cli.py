@@ -82,7 +82,9 @@ def test_a_text_is_as_wide_as_what_shows_it(words, capsys, tmp_path, monkeypatch
 
 
 def test_a_text_is_as_wide_as_the_terminal():
-    pty, termios = pytest.importorskip("pty"), pytest.importorskip("termios")
+    import pty
+    import termios
+
     ours, theirs = pty.openpty()
     termios.tcsetwinsize(theirs, (24, 64))
     own = {x: y for x, y in os.environ.items() if x != "COLUMNS"}

@@ -23,21 +23,22 @@ KAPPA = (0.2, 0.3, 0.4, 0.45, 0.49, 0.51, 0.55, 0.7, 0.9)
 
 
 def polynomial(seed, kappa):
-    """A polynomial of degree 4 with a contraction number of about κ, exponents → coefficient."""
+    """A polynomial of degree 4 with a contraction number of about κ in a cube whose half-width has
+    one digit, as the radii that are told, exponents → coefficient."""
     rng = np.random.default_rng(seed)
     terms = {(2, 0): 3, (1, 1): int(rng.integers(-2, 3)), (0, 2): int(rng.choice([-2, 2]))}
     terms |= {e: int(rng.integers(-3, 4)) for e in HIGHER}
     terms = {e: Fraction(c) for e, c in terms.items()}
-    slope = rng.integers(-9, 10, size=2)
-    low, high = 0, 10**4
-    while high - low > 1:  # κ grows with the slope
-        middle = (low + high) // 2
-        terms |= {e: Fraction(int(x) * middle, 10**4) for e, x in zip(ONES, slope, strict=True)}
-        low, high = (middle, high) if contraction(terms)[1] < kappa else (low, middle)
-    return terms
+    terms |= {e: Fraction(int(x)) for e, x in zip(ONES, rng.integers(1, 10, size=2), strict=True)}
+    width, _ = contraction(terms)
+    terms |= {e: terms[e] * WIDTH / Fraction(str(width)) for e in ONES}
+    _, exact = contraction(terms)  # which is linear in the higher terms
+    by = Fraction(kappa / float(exact)).limit_denominator(10**4)
+    return terms | {e: terms[e] * by for e in HIGHER}
 
 
 ONES = ((1, 0), (0, 1))
+WIDTH = Fraction(1, 5)
 
 
 def summed(terms):

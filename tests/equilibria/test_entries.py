@@ -9,6 +9,7 @@ import pytest
 
 from derive import ProblemError
 from derive.algebra.families import group
+from derive.algebra.told_entries import constant_entries
 from derive.check.entries_of_an_element import decided as checked
 from derive.equilibria.entries_of_elements import conditions
 from derive.equilibria.equilibrium_points import About, attained, off_the_group
@@ -21,11 +22,15 @@ from tests.support.lagrangians import LINE, LINES, LORENTZ, lagrangian, squares
 
 def decider(problem):
     """Has an element such entries, "yes", "no" or "open", as the search and as the checker say: a
-    function of entries by their places from 1; others are as at 1."""
-    system = without_energy(problem)
+    function of entries by their places from 1; others are as at 1.  What no element varies is no
+    variable."""
+    system, constant = without_energy(problem), constant_entries(problem.group)
     on = conditions(system, problem.group, left=problem.lagrangian.trivialisation == "left")
 
     def decided(entries):
+        known = {x: constant.get((x[0] - 1, x[1] - 1), y) for x, y in entries.items()}
+        if known != entries:
+            return "no"
         at = [
             Fraction(0) if x[1] == "Π" else entries.get(x[2:], Fraction(int(x[2] == x[3])))
             for x in system.variables

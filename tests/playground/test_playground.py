@@ -155,12 +155,11 @@ def test_a_motion_has_what_the_page_of_the_command_has(page, name):
     own = derived(name)
     code = motion_of(own.problem, own.record)
     begin = beginning(code, own.problem, given={})
-    there = data(code, own.problem, own.record, begin, language("fr"))
+    there = json.loads(json.dumps(data(code, own.problem, own.record, begin, language("fr"))))
     assert told["kept"] == there["kept"] != {}
     assert shown["page"]["kept"] == {}
-    assert {
-        x for x in shown["page"] if shown["page"][x] != json.loads(json.dumps(there)).get(x)
-    } <= {*("kept", "x", "t", "tol", "names", "pushed")}
+    different = {x for x in shown["page"] if shown["page"][x] != there.get(x)}
+    assert different <= {"kept", "x", "t", "tol", "names", "pushed"}
     chosen = Options(step=("gauss",))
     (source,) = emit(code.program, own.record, ("javascript",), name, chosen).values()
     assert told["source"] == source

@@ -27,6 +27,7 @@ SUPPOSED = {
         "η = u",
         "δg = Gϑ",
         "δu = 0",
+        "Z² = θC⁻¹J⁻¹",
     ),
 }
 FORMULAS = ("Tr", "det", "Du")

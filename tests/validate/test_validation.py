@@ -456,6 +456,40 @@ def test_python_that_is_run_and_not_read_must_be_what_is_emitted(case):
     assert found.holds
 
 
+REFUSING = {
+    "all of them": ("if (so3_margin_1 <= 0*so3_margin_1)", "if (so3_margin_1 > 0*so3_margin_1)"),
+    "without asking": ("if (!(p[i] - p[i] == 0))", "if (p[i] - p[i] == 0)"),
+    "at the end": ("return 0;\n}", "return 1;\n}"),
+}
+"""Of the C of so3: what refuses every body."""
+CHECKS = REFUSING | {
+    "a margin": ("I_11 - 1e-13*size_I_1", "I_11 - 1e-3*size_I_1"),
+    "a size": ("size_J_22 + size_J_33;", "size_J_22 - size_J_33;"),
+    "a check": ("if (so3_margin_2 <= 0*so3_margin_2)", "if (so3_margin_1 <= 0*so3_margin_1)"),
+    "a reason": ("return so3_NOT_FINITE;", "return so3_SINGULAR;"),
+}
+"""And what refuses others than it should.  The points of the comparison have numbers of any size,
+which code in doubles may refuse: whether it takes them says nothing."""
+
+
+@pytest.mark.parametrize("case", CHECKS)
+def test_what_constants_refuses_is_compared_or_not_told_as_compared(case):
+    files, numbers, chart = emitted("so3")
+    old, new = CHECKS[case]
+    assert old in files["so3.c"]
+    changed = files | {"so3.c": files["so3.c"].replace(old, new, 1)}
+
+    def told(fresh):
+        found = EmittedFiles(changed, "so3", chart, numbers, fresh=fresh).reports(record("so3"))
+        return next(r for r in found if "so3.c" in r.files)
+
+    alone, beside = told(None), told(files)
+    assert alone.holds
+    assert "not validated: what constants refuses" in alone.text
+    assert not beside.holds
+    assert "its error checks are not what is emitted" in beside.text
+
+
 @pytest.mark.parametrize("old", ["*n + s] =", "s < n"])
 def test_batches_are_tried_with_several_sizes(old):
     text = text_of("so3", "c")

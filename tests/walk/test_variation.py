@@ -61,7 +61,7 @@ def varied(curve, s):
 
 def across(A, speed, acceleration, delta, force):
     """dϖ(δy, X), δt being 0, by the equation of the record."""
-    (equation,) = record("linear")["linear.dalembert"].equations
+    *_, equation = record("linear")["linear.dalembert"].equations
     rows = {"α̇": acceleration, "α": speed, "δA": delta, "A": A}
     names = {x: tuple(map(tuple, M.tolist())) for x, M in rows.items()} | {"δt": sp.Integer(0)}
     points = [sp.Matrix(r) for r in POINTS[A.rows]]

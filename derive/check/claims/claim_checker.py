@@ -4,14 +4,10 @@ the record and the matrices of its group, by none of the searches that found it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
-from random import Random
 
-from ...algebra.groups import Group
 from ...record.claims import Claim, fault
-from ...record.record import Derivation, RecordError, Step
-from ..problem_group import group_of
-from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count
+from ...record.record import RecordError, Step
+from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
 from . import (
     enclosure_claims,
     equilibrium_claims,
@@ -19,33 +15,11 @@ from . import (
     reduction_claims,
     symmetry_claims,
 )
-from .reduced_system import ReducedSystem
-from .symmetry_count import SymmetryCount
+from .claimed_record import ClaimedRecord
 
 
-class ClaimChecker:
-    """The claims of one record; what they speak of is read once."""
-
-    def __init__(self, d: Derivation, seed: int | str):
-        self.record, self.random = d, Random(f"{seed} claims")
-
-    @cached_property
-    def reduced(self) -> ReducedSystem:
-        """The Lie–Poisson equations of the record; ``RecordError`` where it has none."""
-        return ReducedSystem(self.record, self.group, self.random)
-
-    @cached_property
-    def group(self) -> Group:
-        """The group of the problem; ``RecordError`` where it has none."""
-        group = group_of(self.record.problem)
-        if group is None:
-            raise RecordError("the claim is of a group")
-        return group
-
-    @cached_property
-    def symmetries(self) -> SymmetryCount:
-        """The symmetries of its Lagrangian."""
-        return SymmetryCount(self.record.problem, self.group, self.random)
+class ClaimChecker(ClaimedRecord):
+    """The claims of one record."""
 
     def fault(self, step: Step) -> str:
         """What is wrong with the claims of a step, or with a sentence that is a claim and has none;
@@ -62,12 +36,14 @@ class ClaimChecker:
         """What is wrong with one claim, in words; "" if nothing is."""
         try:
             reason = JUDGES[claim.kind](self, step, claim)
+        except RecordError as error:
+            reason = str(error)
         except IMPOSSIBLE as error:
-            reason = f"makes no sense: {type(error).__name__}: {error}"
+            reason = no_sense(error)
         return reason and f"the claim {claim.kind}: {reason}"
 
 
-Judge = Callable[[ClaimChecker, Step, Claim], str]
+Judge = Callable[[ClaimedRecord, Step, Claim], str]
 """What is wrong with a claim of a step, in words; "" if nothing is."""
 
 

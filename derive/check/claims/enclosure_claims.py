@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...language import rational as q
 from ...language.quadratic import value_of
@@ -20,16 +20,14 @@ from ...record.claims import Claim
 from ...record.record import RecordError, Step
 from ..enclosure import DIGITS, Enclosure, enclosure_of, polynomial
 from ..entries_on_a_level import invertible
+from .claimed_record import ClaimedRecord
 from .equilibrium_claims import Judge, coordinates, not_from
 from .exact_spectra import characteristic, signature
-
-if TYPE_CHECKING:
-    from .claim_checker import ClaimChecker
 
 Numbers = Sequence[Fraction]
 
 
-def _near(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _near(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """The equations are in powers of the distance from the point, which is enclosed."""
     if not any(step.label in s.uses and _says_within(s) for s in c.record.steps):
         return "no step encloses it"
@@ -40,7 +38,7 @@ def _says_within(step: Step) -> bool:
     return any(x.kind == "enclosure.within" for x in step.claims)
 
 
-def enclosed(c: ClaimChecker, step: Step) -> Enclosure:
+def enclosed(c: ClaimedRecord, step: Step) -> Enclosure:
     """What a step encloses, about the decimals of a step that it uses; ``RecordError`` where it
     does not, or takes for a Casimir what is none."""
     steps = [c.record[x] for x in step.uses]
@@ -53,7 +51,7 @@ def enclosed(c: ClaimChecker, step: Step) -> Enclosure:
     return found
 
 
-def _within(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _within(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """One critical point is within the radius, which is not much larger than is needed."""
     found, told = enclosed(c, step), value_of(claim["radius"])
     assert isinstance(told, Fraction)
@@ -62,21 +60,21 @@ def _within(c: ClaimChecker, step: Step, claim: Claim) -> str:
     return "" if told <= max(2 * found.least, Fraction(1, DIGITS)) else "it is nearer"
 
 
-def _squares(c: ClaimChecker, step: Step) -> tuple[int, int]:
+def _squares(c: ClaimedRecord, step: Step) -> tuple[int, int]:
     """The signs on the level: those of J, less one of each for every Casimir."""
     several = len(step.equations) - 1
     positive, negative = signature(enclosed(c, step).second)
     return positive - several, negative - several
 
 
-def _signs(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _signs(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     found = _squares(c, step)
     if found == (claim["positive"], claim["negative"]):
         return ""
     return f"it has {found[0]} positive and {found[1]} negative squares"
 
 
-def _verdict(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     definite = 0 in _squares(c, step)
     found = "stable" if definite else "unstable" if grows(c, step) else "open"
     return "" if claim.kind == f"enclosure.{found}" else f"what follows is: {found}"
@@ -85,7 +83,7 @@ def _verdict(c: ClaimChecker, step: Step, claim: Claim) -> str:
 # -- instability ----------------------------------------------------------------------------------
 
 
-def grows(c: ClaimChecker, step: Step) -> bool:
+def grows(c: ClaimedRecord, step: Step) -> bool:
     """Have the linearised rates an eigenvalue with positive real part?  True is proved."""
     found, system = enclosed(c, step), c.reduced
     several, n = len(step.equations) - 1, len(system.variables)

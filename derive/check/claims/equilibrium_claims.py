@@ -7,21 +7,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...language import rational as q
 from ...language.quadratic import Number, tree, value_of
 from ...language.tree import Tree, add, neg, nodes, replaced, terms
 from ...record.claims import Claim
 from ...record.record import RecordError, Step
+from .claimed_record import ClaimedRecord
 from .equilibrium_facts import Equilibrium, equilibrium
 from .exact_spectra import distinct_roots, hermite, signature
 from .second_order import SecondOrder
 
-if TYPE_CHECKING:
-    from .claim_checker import ClaimChecker
-
-Judge = Callable[["ClaimChecker", Step, Claim], str]
+Judge = Callable[[ClaimedRecord, Step, Claim], str]
 
 Coordinates = tuple[tuple[Tree, Number], ...]
 POINTS = ("equilibrium.at", "equilibrium.origin")
@@ -38,7 +36,7 @@ def coordinates(claim: Claim) -> Coordinates:
     return (*found,)
 
 
-def point_of(c: ClaimChecker, step: Step) -> Equilibrium:
+def point_of(c: ClaimedRecord, step: Step) -> Equilibrium:
     """The point that a step speaks of; ``RecordError`` for none or several."""
     steps = (step, *(c.record[x] for x in step.uses))
     for s in steps[:1], steps[1:]:
@@ -50,7 +48,7 @@ def point_of(c: ClaimChecker, step: Step) -> Equilibrium:
     raise RecordError("no one point is told")
 
 
-def _at(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _at(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """Nothing moves at the point, which an element may have, and the equations are in powers of the
     distance from it."""
     here, told = point_of(c, step), coordinates(claim)
@@ -95,7 +93,7 @@ def _is_number(t: Tree) -> bool:
 # -- forms ----------------------------------------------------------------------------------------
 
 
-def kept(c: ClaimChecker, step: Step) -> Tree:
+def kept(c: ClaimedRecord, step: Step) -> Tree:
     """The left side of a step: h̃ and what is kept beside it; ``RecordError`` for another one."""
     (equation,) = step.equations
     h, *others = terms(equation.lhs)
@@ -110,7 +108,7 @@ def kept(c: ClaimChecker, step: Step) -> Tree:
     return equation.lhs
 
 
-def form_of(c: ClaimChecker, step: Step) -> q.Matrix | None:
+def form_of(c: ClaimedRecord, step: Step) -> q.Matrix | None:
     """The second derivatives of what a step takes for the form; ``None`` where it has none."""
     if all(x.kind != "equilibrium.form" for x in step.claims):
         return None
@@ -121,7 +119,7 @@ def form_of(c: ClaimChecker, step: Step) -> q.Matrix | None:
     return q.matrix(found.matrix(here.n))
 
 
-def _form(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _form(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """The squares on the leaf are as many as are claimed, and are those that are written."""
     here, form = point_of(c, step), form_of(c, step)
     found = here.squares(form)
@@ -145,7 +143,7 @@ def _square(here: Equilibrium, term: SecondOrder) -> int:
     return 1 if q.trace(on_the_leaf) > 0 else -1
 
 
-def _none(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _none(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """The derivative of the energy is no combination of those of what is kept."""
     here = point_of(c, step)
     known = (*c.reduced.casimirs, *c.reduced.integrals[1:])
@@ -155,7 +153,7 @@ def _none(c: ClaimChecker, step: Step, claim: Claim) -> str:
     return "" if more > fewer else "there are such multiples"
 
 
-def _orbit(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _orbit(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     found = point_of(c, step).squares(None)
     if found == (claim["positive"], claim["negative"]):
         return ""
@@ -165,7 +163,7 @@ def _orbit(c: ClaimChecker, step: Step, claim: Claim) -> str:
 # -- verdicts -------------------------------------------------------------------------------------
 
 
-def _verdict(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """It is what the form, the ranks and the roots imply."""
     here, form = point_of(c, step), form_of(c, step)
     found, told = here.verdict(form), claim.kind.partition(".")[2]
@@ -181,7 +179,7 @@ def _listed(t: Tree) -> tuple[Tree, ...]:
     return t[1:] if isinstance(t, tuple) and t[0] == "row" else (t,)
 
 
-def _exact_squares(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _exact_squares(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """They are all roots of q, for the characteristic polynomial q(λ²)."""
     f = point_of(c, step).characteristic[::2]
     told = [_complex(t) for t in _listed(claim["squares"])]
@@ -190,7 +188,7 @@ def _exact_squares(c: ClaimChecker, step: Step, claim: Claim) -> str:
     return "" if len({*told}) == len(told) == distinct_roots(f) else "they are not all, each once"
 
 
-def _eigenvalues(c: ClaimChecker, step: Step, claim: Claim) -> str:
+def _eigenvalues(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """Their squares s are roots of q, for the characteristic polynomial q(λ²), up to the fourth
     digit: |q(s)| ≤ s q′(s)/500, so that a root is near; and they are as many as q has, of each
     kind."""

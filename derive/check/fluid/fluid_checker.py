@@ -14,13 +14,14 @@ from ...algebra.samplers import Source
 from ...language.tree import Tree, names
 from ...record.hypotheses import Hypothesis
 from ...record.record import Derivation, Equation, RecordError, Step
+from ...record.rules import OFF_MOTION
 from ..arithmetic import EvaluationError
 from ..equation_sides import as_text
 from ..grades import DegreeSource, common_degree, with_slots
 from ..necessary_hypotheses import denominators
 from ..residue import ResidueSource, random_prime
 from ..trial_points import SIZE
-from ..verdict import IMPOSSIBLE, MOST_BITS, RefusedError, Verdict, bit_count, refusal
+from ..verdict import IMPOSSIBLE, MOST_BITS, RefusedError, Verdict, bit_count, no_sense, refusal
 from . import fluid_symbols
 from .ball import Ball
 from .field_values import FluidValues
@@ -132,9 +133,12 @@ class FluidChecker:
     def degree(self, equation: Equation, at: Locus, reach: Reach) -> int:
         """The degree of an equation in all that is drawn, of numerators and denominators."""
         return max(
-            common_degree(pair).total_degree
-            for name in self.spaces(equation, at)
-            for pair in pairs(equation, self.place(name, at, 0, reach).values)
+            (
+                common_degree(pair).total_degree
+                for name in self.spaces(equation, at)
+                for pair in pairs(equation, self.place(name, at, 0, reach).values)
+            ),
+            default=0,
         )
 
     # -- verdicts ------------------------------------------------------------------------------
@@ -145,9 +149,10 @@ class FluidChecker:
             degree = self.degree_if_true(step)
         except RefusedError as error:
             return error.verdict
-        except (EvaluationError, RecordError, *IMPOSSIBLE) as error:
-            reason = str(error).splitlines() or [type(error).__name__]
-            return Verdict(step.label, False, reason[0] or type(error).__name__, 1.0)
+        except (EvaluationError, RecordError) as error:
+            return Verdict(step.label, False, str(error), 1.0)
+        except IMPOSSIBLE as error:
+            return Verdict(step.label, False, no_sense(error), 1.0)
         tried = dict.fromkeys(x for e in step.equations for x in self.spaces(e, locus_of(step, e)))
         return Verdict(step.label, True, "", degree / SIZE, (len(step.equations), (*tried,)))
 
@@ -191,8 +196,10 @@ class FluidChecker:
         label = f"{d.name}.symbols"
         try:
             reason = fluid_symbols.first_fault(d, self.kinds_at)
-        except (EvaluationError, RecordError, *IMPOSSIBLE) as error:
-            reason = str(error) or type(error).__name__
+        except (EvaluationError, RecordError) as error:
+            reason = str(error)
+        except IMPOSSIBLE as error:
+            reason = no_sense(error)
         if reason:
             return Verdict(label, False, reason, 1.0, of="symbol")
         return Verdict(label, True, "", 0.0, (len(d.symbols), (*SPACES,)), "symbol")
@@ -219,7 +226,8 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
         lift="lift" in told,
         level="level" in told,
         one_level="one_level" in told,
-        free=equation is not None and not ACCELERATIONS.isdisjoint(equation.for_all),
+        free=step.kind in OFF_MOTION
+        or (equation is not None and not ACCELERATIONS.isdisjoint(equation.for_all)),
     )
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from operator import add, mul
+from itertools import repeat
+from operator import add, mul, neg
 from typing import Any
 
 from ..residue import Residue, _inverse, _residue
@@ -13,36 +14,37 @@ NUMBERS = (int, Fraction, Residue)
 
 
 class Residues:
-    """Residues ``a`` modulo p, one for each point."""
+    """Residues ``a`` modulo p, one for each point, of which products alone are reduced."""
 
     __slots__ = ("a", "p")
 
     def __init__(self, a: Sequence[int], p: int):
         self.a, self.p = a, p
 
-    def _with(self, f: Callable[[int, int], int], other: Any) -> Any:
-        p = self.p
+    def _each(self, other: Any) -> Iterable[int] | None:
+        """Another number at each point."""
         if isinstance(other, Multiples):
             other = other.residues
         if isinstance(other, Residues):
-            return Residues([x % p for x in map(f, self.a, other.a)], p)
-        if not isinstance(other, NUMBERS):
-            return NotImplemented
-        n = _residue(other, p)
-        return Residues([f(x, n) % p for x in self.a], p)
+            return other.a
+        return repeat(_residue(other, self.p)) if isinstance(other, NUMBERS) else None
 
     def __mul__(self, other: Any) -> Any:
-        return self._with(mul, other)
+        p, each = self.p, self._each(other)
+        return (
+            NotImplemented if each is None else Residues([x % p for x in map(mul, self.a, each)], p)
+        )
 
     __rmul__ = __mul__
 
     def __add__(self, other: Any) -> Any:
-        return self._with(add, other)
+        each = self._each(other)
+        return NotImplemented if each is None else Residues([*map(add, self.a, each)], self.p)
 
     __radd__ = __add__
 
     def __neg__(self) -> Any:
-        return self * -1
+        return Residues([*map(neg, self.a)], self.p)
 
     def __sub__(self, other: Any) -> Any:
         return self + -other
@@ -65,7 +67,7 @@ class Residues:
     def __eq__(self, other: object) -> bool:
         """The same at all points?"""
         rest = self - other
-        return rest is not NotImplemented and not any(rest.a)
+        return rest is not NotImplemented and not any(x % self.p for x in rest.a)
 
     __hash__ = None  # type: ignore[assignment]
 

@@ -36,9 +36,10 @@ value at s."""
 
 
 class TorusModel:
-    """One point: ζ(n) at random, and with it W, P, Z and Π."""
+    """One point: ζ(n) at random, and with it W, P, Z and Π; ``free``: is Ẇ any, not that of the
+    motion?"""
 
-    def __init__(self, torus: Torus, source: Source, size: int):
+    def __init__(self, torus: Torus, source: Source, size: int, *, free: bool = False):
         graded = isinstance(source, DegreeSource)
         self.torus = torus = Torus(LEAST) if graded else torus
         assert graded or isinstance(source, Random)
@@ -55,6 +56,8 @@ class TorusModel:
         self.W = self.matrix(self.grid(self.vorticity))
         self.P = q.scaled(-1 / self.scale, self.Z)
         self.rate = q.minus(q.times(self.Z, self.W), q.times(self.W, self.Z))
+        if free:
+            self.rate = self.matrix(self.grid({n: self.draw() for n in torus.places}))
 
     @property
     def all_places(self) -> Matrix:

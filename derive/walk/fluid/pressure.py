@@ -165,7 +165,7 @@ def _poisson(
 
 def _boundary(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) -> Step:
     """The equation of motion paired with n, to which u̇ and with it ρu̇ is orthogonal."""
-    draft = c.draft("boundary", "restriction")
+    draft = c.draft("boundary", "elimination")
     n = word(Letter("n", a.n))
     still = a.volume * word(a.w.acceleration)
     push = by_gradient(word(a.D).bar * word(a.p), a)

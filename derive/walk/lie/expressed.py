@@ -126,7 +126,7 @@ def balance(
     c: Chapter,
 ) -> tuple[Step, ...]:
     """Π̇ in the basis, then M, β and the motion."""
-    turning, weighing = c.draft("coadjoint", "kernel"), c.draft("mass", "coordinates")
+    turning, weighing = c.draft("coadjoint", "kernel"), c.draft("mass", "components")
     turning.depends_on(general["coadjoint"], *basis.brackets)
     coadjoint = coadjoint_terms(group, general.epsilon)
     driven = [("entry", "u", a + 1) for a in range(group.dimension)] if problem.inputs else []
