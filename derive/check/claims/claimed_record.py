@@ -1,5 +1,4 @@
-"""What the claims of a record speak of, read once: its reduced equations, its
-symmetries."""
+"""What the claims of a record speak of, read once: its reduced equations, its symmetries."""
 
 from __future__ import annotations
 
