@@ -28,6 +28,7 @@ KINDS = {
     "condition": "one several complete",
     "reduction": "flat curved elementary elliptic hyperelliptic",
     "relation": "left_invariant",
+    "symmetries": "algebra algebra_modulo none open",
     "equilibrium": (
         "at origin none orbit form stable stable_beyond stable_compact on_the_leaf indefinite "
         "point unstable open undecided eigenvalues squares near"

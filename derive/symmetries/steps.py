@@ -55,18 +55,18 @@ def shown(record: Derivation) -> list[Step]:
 
 def _summary(found: Found, c: Chapter) -> Step:
     """How many symmetries there are, of which kind; and why the motion keeps something by each."""
-    count = phrase("symmetries.algebra", dimension=str(found.dimension))
-    if not found.dimension:
-        count = phrase("symmetries.none")
+    draft = c.draft("symmetries", "kernel")
     modulo = bool(found.lagrangian.held)
-    if modulo:
-        count = phrase("symmetries.algebra_modulo", dimension=str(found.dimension))
+    if not found.dimension:
+        (count,) = draft.claim("symmetries.none")
+    else:
+        key = f"symmetries.algebra{'_modulo' if modulo else ''}"
+        (count,) = draft.claim(key, dimension=found.dimension)
     prose = say("symmetries.all", count=count) + (say("symmetries.modulo") if modulo else ())
     if found.integrand:
         prose += say("symmetries.integrand", **vars(found.integrand))
     if found.functions:
-        prose += say("symmetries.open", functions=", ".join(found.functions))
-    draft = c.draft("symmetries", "kernel")
+        prose += draft.claim("symmetries.open", functions=("row", *found.functions))
     return draft.step(stated("dϖ(δy, X) = 0"), prose + say("symmetries.kernel"))
 
 

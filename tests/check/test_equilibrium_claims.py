@@ -1,5 +1,6 @@
 """What is said of equilibria is computed again: no other value, verdict or point passes."""
 
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -9,9 +10,13 @@ import numpy as np
 import pytest
 
 from derive import derive
-from derive.check.checker import check
 from derive.check.claims.claim_checker import ClaimChecker
-from derive.check.claims.enclosure_claims import changes_of_coefficients, not_real_and_not_positive
+from derive.check.claims.enclosure_claims import (
+    changes_of_coefficients,
+    has_rank,
+    not_real_and_not_positive,
+    slopes,
+)
 from derive.check.claims.exact_spectra import (
     characteristic,
     distinct_roots,
@@ -19,6 +24,8 @@ from derive.check.claims.exact_spectra import (
     real_and_not_positive,
     signature,
 )
+from derive.check.enclosure import Enclosure
+from derive.check.verdict import IMPOSSIBLE
 from derive.equilibria import stability
 from derive.language.quadratic import root
 from derive.language.tree import add, mul, neg, nodes, replaced
@@ -127,7 +134,8 @@ def test_a_point_that_no_element_has(name, monkeypatch):
     monkeypatch.setattr("derive.equilibria.equilibrium_points.off_the_group", lambda *_: "")
     monkeypatch.setattr(stability, "attained", lambda *_: True)
     record = derive(problem).equilibria(at).record
-    assert ["no element of the group has these" in x.reason for x in check(record)].count(True) == 1
+    reasons = [*map(ClaimChecker(record, SEED).fault, record.steps)]
+    assert ["no element of the group has these" in x for x in reasons].count(True) == 1
 
 
 def form_step():
@@ -286,6 +294,48 @@ def test_what_coefficients_prove():
         assert not_real_and_not_positive([(Fraction(x), Fraction(1, 1000)) for x in f])
 
 
+def test_a_contraction():
+    """Of y²/2 + cy³/6 + gy: a = |g|, and the second derivative changes by cρ."""
+    tenth = Fraction(1, 10)
+    for g, c, radius, expected in (
+        *((0, 1, 4.9, True), (0, 1, 5.1, False), (0, 2, 2.4, True), (0, 2, 2.6, False)),
+        *((1, 1, 2, True), (1, 1, 1.9, False), (-1, 1, 2, True), (3, 1, 6, False)),
+    ):
+        above = [({0: 3}, Fraction(c, 6))]
+        found = Enclosure({}, ["x"], [g * tenth], [[Fraction(1)]], above)
+        assert found.contracts(Fraction(radius) * tenth) == expected
+        assert found.least == 2 * abs(g) * tenth
+
+
+def test_how_much_slopes_change():
+    x, y, tenth = ("at", "Π", 1), ("at", "Π", 2), Fraction(1, 10)
+    at = {x: Fraction(2), y: Fraction(-1)}
+    here, most = Fraction(2), Fraction(2) + tenth
+    assert slopes(("mul", ("pow", x, 3), y), at, tenth) == [
+        (-3 * here**2, 3 * (most**2 * (1 + tenth) - here**2)),
+        (here**3, most**3 - here**3),
+    ]
+    forms = {(0, 1): {2: Fraction(1)}, (1, 0): {2: Fraction(-1)}}
+    for value, rank, expected in ((3, 2, True), (1, 2, False), (3, 1, False)):
+        assert has_rank(forms, [Fraction(0), Fraction(0), value * tenth], tenth, rank) == expected
+
+
 def test_a_claim_is_rendered():
     values = (("eigenvalues", ("matrix", ("row", Fraction(1, 4), Fraction(1, 2)), ("row", 0, 0))),)
     assert "about ±0.25 ±0.5i, 0." in str(rendered(Claim("equilibrium.eigenvalues", values)))
+
+
+SENSELESS = (1, "x", ("matrix", 1), ("matrix", ("row", 1)), ("row", "x"), ("par", "x"))
+SENSELESS += (("pow", ("pow", ("pow", 10, 64), 64), 64), ("div", 1, 0), ("matrix", ("row", 1, "x")))
+
+
+def test_what_makes_no_sense_is_refused():
+    for judge, step, claim in made():
+        for name, own in claim.values:
+            for x in SENSELESS:
+                values = tuple((k, x if k == name else y) for k, y in claim.values)
+                claims = tuple(replace(y, values=values) if y == claim else y for y in step.claims)
+                assert x == own or judge(replace(step, claims=claims)), values
+                with suppress(*IMPOSSIBLE):  # of which there is no sentence
+                    false = said(step, claim, Claim(claim.kind, values))
+                    assert x == own or judge(false), values

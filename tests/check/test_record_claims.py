@@ -1,16 +1,20 @@
 """Claims are judged: what a sentence says beside the equations is data that a checker computes
 again, and neither a changed value nor a sentence without its claim passes."""
 
+import re
 import tomllib
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from random import Random
 
 import pytest
 
 from derive import derive, first_integrals
 from derive.check.claims import no_more
 from derive.check.claims.claim_checker import JUDGES, ClaimChecker
+from derive.check.claims.symmetry_count import SymmetryCount
+from derive.check.problem_group import group_of
 from derive.integrals import told
 from derive.language.tree import add
 from derive.pipeline import walk
@@ -42,6 +46,10 @@ RECORDS = {
     "hyperelliptic": lambda: reduced("A_33^4"),
     "curved": lambda: derive("euler_top").reduction().record,
     "a flat body": lambda: walk(problem_of(tomllib.loads(PROBLEMS["a flat body"]))),
+    "symmetries": lambda: derive("lagrange_top").symmetries().record,
+    "a rod": lambda: derive("rod").symmetries().record,
+    "a function": lambda: derive("gas_cloud").symmetries().record,
+    "no symmetries": lambda: derive(heavy("123", "t*A_11 + A_22 + A_12^2", "")).symmetries().record,
     "large": lambda: large("euler_top"),
     "large at defaults": lambda: large("euler_top", at_defaults=True),
 }
@@ -187,3 +195,19 @@ def test_no_curvature_is_told_that_is_not_there(name, other):
     wrong = Claim(f"reduction.{other}")
     prose = (Sentence(english(wrong.kind)),)
     assert "vanishes, or does not" in judged(name, replace(step, prose=prose, claims=(wrong,)))
+
+
+COUNTED = ("so3", "spherical_pendulum", "comet", "screw", "su2", "gl3", "right", "roots")
+
+
+@pytest.mark.parametrize("name", COUNTED)
+def test_symmetries_are_counted_anew(name):
+    """In points, held coordinates, roots, products, on the right, of parameters."""
+    problem = {
+        "right": lambda: lagrangian(f"{squares(1, 1, 3)} + A_11*A_12", side="right"),
+        "roots": lambda: lagrangian(f"{squares(1, 1, 3)} - sqrt(2)*sqrt(k)*A_33", parameters="k"),
+    }.get(name, lambda: name)
+    d = derive(problem()).symmetries().record
+    count = SymmetryCount(d.problem, group_of(d.problem), Random(SEED))
+    found = [x.label for x in d.steps if re.search(r"\.conserved_[0-9]+$", x.label)]
+    assert count.dimension == len(found) > 0

@@ -8,7 +8,13 @@ from collections.abc import Callable
 from ...record.claims import Claim, fault
 from ...record.record import RecordError, Step
 from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
-from . import enclosure_claims, equilibrium_claims, integral_claims, reduction_claims
+from . import (
+    enclosure_claims,
+    equilibrium_claims,
+    integral_claims,
+    reduction_claims,
+    symmetry_claims,
+)
 from .claimed_record import ClaimedRecord
 
 
@@ -46,9 +52,9 @@ def _of_reduced(judge: integral_claims.Judge) -> Judge:
     return lambda c, step, x: c.reduced.fault or judge(c.reduced, step, x)
 
 
-def _of_point(judge: Judge) -> Judge:
-    """The judge of a claim about an equilibrium of reduced equations, which must be Hamiltonian."""
-    return lambda c, step, x: c.reduced.fault or judge(c, step, x)
+def _of_symmetries(judge: symmetry_claims.Judge) -> Judge:
+    """The judge of a claim about the symmetries of a Lagrangian."""
+    return lambda c, step, x: judge(c.symmetries, c.record, step, x)
 
 
 def _of_group(judge: reduction_claims.Judge) -> Judge:
@@ -58,8 +64,9 @@ def _of_group(judge: reduction_claims.Judge) -> Judge:
 
 JUDGES: dict[str, Judge] = {
     **{kind: _of_group(judge) for kind, judge in reduction_claims.JUDGES.items()},
+    **{kind: _of_symmetries(judge) for kind, judge in symmetry_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
-    **{kind: _of_point(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
-    **{kind: _of_point(judge) for kind, judge in enclosure_claims.JUDGES.items()},
+    **{kind: _of_reduced(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
+    **{kind: _of_reduced(judge) for kind, judge in enclosure_claims.JUDGES.items()},
 }
 """How each kind of claim is judged."""

@@ -1,4 +1,5 @@
-"""What the claims of a record speak of, read once: its reduced equations."""
+"""What the claims of a record speak of, read once: its reduced equations, its
+symmetries."""
 
 from __future__ import annotations
 
@@ -9,6 +10,7 @@ from ...algebra.groups import Group
 from ...record.record import Derivation, RecordError
 from ..problem_group import group_of
 from .reduced_system import ReducedSystem
+from .symmetry_count import SymmetryCount
 
 
 class ClaimedRecord:
@@ -29,3 +31,8 @@ class ClaimedRecord:
         if group is None:
             raise RecordError("the claim is of a group")
         return group
+
+    @cached_property
+    def symmetries(self) -> SymmetryCount:
+        """The symmetries of its Lagrangian; ``KeyError`` where it has none of its own."""
+        return SymmetryCount(self.record.problem, self.group, self.random)

@@ -20,16 +20,17 @@ from ...record.claims import Claim
 from ...record.record import RecordError, Step
 from ..enclosure import DIGITS, Enclosure, enclosure_of, polynomial
 from ..entries_on_a_level import invertible
-from .claimed_record import ClaimedRecord
-from .equilibrium_claims import Judge, coordinates, not_from
+from .equilibrium_claims import coordinates, not_from
 from .exact_spectra import characteristic, signature
+from .integral_claims import Judge
+from .reduced_system import ReducedSystem
 
 Numbers = Sequence[Fraction]
 
 
-def _near(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+def _near(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The equations are in powers of the distance from the point, which is enclosed."""
-    if not any(step.label in s.uses and _says_within(s) for s in c.record.steps):
+    if not any(step.label in s.uses and _says_within(s) for s in system.record.steps):
         return "no step encloses it"
     return not_from(step, coordinates(claim), constants=True)
 
@@ -38,65 +39,65 @@ def _says_within(step: Step) -> bool:
     return any(x.kind == "enclosure.within" for x in step.claims)
 
 
-def enclosed(c: ClaimedRecord, step: Step) -> Enclosure:
+def enclosed(system: ReducedSystem, step: Step) -> Enclosure:
     """What a step encloses, about the decimals of a step that it uses; ``RecordError`` where it
     does not, or takes for a Casimir what is none."""
-    steps = [c.record[x] for x in step.uses]
+    steps = [system.record[x] for x in step.uses]
     (told,) = (x for s in steps for x in s.claims if x.kind == "equilibrium.near")
     found, decimals = enclosure_of(step), dict(coordinates(told))
     if any(y != decimals.get(x, 0) for x, y in found.centre.items()):
         raise RecordError("these are not the decimals")
-    if any(any(c.reduced.anywhere.field(e.lhs)) for e in step.equations[:-1]):
+    if any(any(system.anywhere.field(e.lhs)) for e in step.equations[:-1]):
         raise RecordError("what has values on the level is no Casimir")
     return found
 
 
-def _within(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+def _within(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """One critical point is within the radius, which is not much larger than is needed."""
-    found, told = enclosed(c, step), value_of(claim["radius"])
+    found, told = enclosed(system, step), value_of(claim["radius"])
     assert isinstance(told, Fraction)
     if not found.contracts(told):
         return "Newton's step is not proved to contract"
     return "" if told <= max(2 * found.least, Fraction(1, DIGITS)) else "it is nearer"
 
 
-def _squares(c: ClaimedRecord, step: Step) -> tuple[int, int]:
+def _squares(system: ReducedSystem, step: Step) -> tuple[int, int]:
     """The signs on the level: those of J, less one of each for every Casimir."""
     several = len(step.equations) - 1
-    positive, negative = signature(enclosed(c, step).second)
+    positive, negative = signature(enclosed(system, step).second)
     return positive - several, negative - several
 
 
-def _signs(c: ClaimedRecord, step: Step, claim: Claim) -> str:
-    found = _squares(c, step)
+def _signs(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    found = _squares(system, step)
     if found == (claim["positive"], claim["negative"]):
         return ""
     return f"it has {found[0]} positive and {found[1]} negative squares"
 
 
-def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
-    definite = 0 in _squares(c, step)
-    found = "stable" if definite else "unstable" if grows(c, step) else "open"
+def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    definite = 0 in _squares(system, step)
+    found = "stable" if definite else "unstable" if grows(system, step) else "open"
     return "" if claim.kind == f"enclosure.{found}" else f"what follows is: {found}"
 
 
 # -- instability ----------------------------------------------------------------------------------
 
 
-def grows(c: ClaimedRecord, step: Step) -> bool:
+def grows(system: ReducedSystem, step: Step) -> bool:
     """Have the linearised rates an eigenvalue with positive real part?  True is proved."""
-    found, system = enclosed(c, step), c.reduced
+    found = enclosed(system, step)
     several, n = len(step.equations) - 1, len(system.variables)
     centre, radius = {x: found.centre.get(x, Fraction(0)) for x in system.variables}, found.least
-    if not _has_rank(system.tensor.forms, [*centre.values()], radius, n - several):
+    if not has_rank(system.tensor.forms, [*centre.values()], radius, n - several):
         return False
-    slopes = [_slopes(t, centre, radius) for t in system.rates]
-    mid, off = ([[x[k] for x in row] for row in slopes] for k in (0, 1))
+    rows = [slopes(t, centre, radius) for t in system.rates]
+    mid, off = ([[x[k] for x in row] for row in rows] for k in (0, 1))
     pairs: Any = zip(characteristic(mid), changes_of_coefficients(mid, off), strict=True)
     return not_real_and_not_positive([*pairs][: n - several + 1 : 2])
 
 
-def _has_rank(forms: Any, at: Numbers, radius: Fraction, rank: int) -> bool:
+def has_rank(forms: Any, at: Numbers, radius: Fraction, rank: int) -> bool:
     """Has Λ this rank everywhere within the radius?"""
     n = len(at)
     mid, off = ([[Fraction(0)] * n for _ in at] for _ in range(2))
@@ -108,7 +109,7 @@ def _has_rank(forms: Any, at: Numbers, radius: Fraction, rank: int) -> bool:
     return len(rows) == rank and invertible(q.matrix(chosen), change)
 
 
-def _slopes(
+def slopes(
     t: Tree, centre: dict[Tree, Fraction], radius: Fraction
 ) -> list[tuple[Fraction, Fraction]]:
     """The first derivatives of a polynomial, and how much they change within the radius."""

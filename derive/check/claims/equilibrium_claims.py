@@ -5,7 +5,7 @@ The point is that which a step says, or the one step among those it uses that sa
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -14,12 +14,11 @@ from ...language.quadratic import Number, tree, value_of
 from ...language.tree import Tree, add, neg, nodes, replaced, terms
 from ...record.claims import Claim
 from ...record.record import RecordError, Step
-from .claimed_record import ClaimedRecord
 from .equilibrium_facts import Equilibrium, equilibrium
 from .exact_spectra import distinct_roots, hermite, signature
+from .integral_claims import Judge
+from .reduced_system import Place, ReducedSystem
 from .second_order import SecondOrder
-
-Judge = Callable[[ClaimedRecord, Step, Claim], str]
 
 Coordinates = tuple[tuple[Tree, Number], ...]
 POINTS = ("equilibrium.at", "equilibrium.origin")
@@ -36,22 +35,22 @@ def coordinates(claim: Claim) -> Coordinates:
     return (*found,)
 
 
-def point_of(c: ClaimedRecord, step: Step) -> Equilibrium:
+def point_of(system: ReducedSystem, step: Step) -> Equilibrium:
     """The point that a step speaks of; ``RecordError`` for none or several."""
-    steps = (step, *(c.record[x] for x in step.uses))
+    steps = (step, *(system.record[x] for x in step.uses))
     for s in steps[:1], steps[1:]:
         found = [x for y in s for x in y.claims if x.kind in POINTS]
         if len(found) == 1:
-            return equilibrium(c.reduced, coordinates(found[0]))
+            return equilibrium(system, coordinates(found[0]))
         if found:
             break
     raise RecordError("no one point is told")
 
 
-def _at(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+def _at(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """Nothing moves at the point, which an element may have, and the equations are in powers of the
     distance from it."""
-    here, told = point_of(c, step), coordinates(claim)
+    here, told = point_of(system, step), coordinates(claim)
     if unknown := [x for x, _ in told if x not in here.variables]:
         raise RecordError(f"{unknown[0]} is no variable")
     if any(x.value != 0 for x in here.rates):
@@ -93,35 +92,35 @@ def _is_number(t: Tree) -> bool:
 # -- forms ----------------------------------------------------------------------------------------
 
 
-def kept(c: ClaimedRecord, step: Step) -> Tree:
+def kept(system: ReducedSystem, step: Step) -> Tree:
     """The left side of a step: h̃ and what is kept beside it; ``RecordError`` for another one."""
     (equation,) = step.equations
     h, *others = terms(equation.lhs)
     if h != "h̃" or any("h̃" in nodes(x) for x in others):
         raise RecordError("the left side is not the energy and what is kept beside it")
-    system, here = c.reduced, c.reduced.anywhere
+    here = system.anywhere
     roots = {x for t in others for x in nodes(t) if isinstance(x, tuple) and x[0] == "fun"}
     # it has rational coefficients in place of roots: kept for any of them, if for a random one
     at = {**here.at} | {x: system.random.randrange(system.prime) for x in roots}
-    if others and type(here)(system, at).bracket(add(*others), system.energy):
+    if others and Place(system, at).bracket(add(*others), system.energy):
         raise RecordError("the left side is not kept")
     return equation.lhs
 
 
-def form_of(c: ClaimedRecord, step: Step) -> q.Matrix | None:
+def form_of(system: ReducedSystem, step: Step) -> q.Matrix | None:
     """The second derivatives of what a step takes for the form; ``None`` where it has none."""
     if all(x.kind != "equilibrium.form" for x in step.claims):
         return None
-    here = point_of(c, step)
-    found = here.expansion(kept(c, step))
+    here = point_of(system, step)
+    found = here.expansion(kept(system, step))
     if any(found.slopes(here.n)):
         raise RecordError("the derivative does not vanish at the equilibrium")
     return q.matrix(found.matrix(here.n))
 
 
-def _form(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+def _form(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The squares on the leaf are as many as are claimed, and are those that are written."""
-    here, form = point_of(c, step), form_of(c, step)
+    here, form = point_of(system, step), form_of(system, step)
     found = here.squares(form)
     if found != (claim["positive"], claim["negative"]):
         return f"it has {found[0]} positive and {found[1]} negative squares"
@@ -143,18 +142,18 @@ def _square(here: Equilibrium, term: SecondOrder) -> int:
     return 1 if q.trace(on_the_leaf) > 0 else -1
 
 
-def _none(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+def _none(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The derivative of the energy is no combination of those of what is kept."""
-    here = point_of(c, step)
-    known = (*c.reduced.casimirs, *c.reduced.integrals[1:])
+    here = point_of(system, step)
+    known = (*system.casimirs, *system.integrals[1:])
     rows = [here.expansion(f).slopes(here.n) for f in known]
     whole = [*rows, here.energy.slopes(here.n)]
     more, fewer = (q.rank(q.matrix(x)) if x else 0 for x in (whole, rows))
     return "" if more > fewer else "there are such multiples"
 
 
-def _orbit(c: ClaimedRecord, step: Step, claim: Claim) -> str:
-    found = point_of(c, step).squares(None)
+def _orbit(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    found = point_of(system, step).squares(None)
     if found == (claim["positive"], claim["negative"]):
         return ""
     return f"it has {found[0]} positive and {found[1]} negative squares"
@@ -163,9 +162,9 @@ def _orbit(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 # -- verdicts -------------------------------------------------------------------------------------
 
 
-def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """It is what the form, the ranks and the roots imply."""
-    here, form = point_of(c, step), form_of(c, step)
+    here, form = point_of(system, step), form_of(system, step)
     found, told = here.verdict(form), claim.kind.partition(".")[2]
     if told != found and (told != "indefinite" or found not in ("unstable", "open")):
         return f"what follows is: {found}"
@@ -179,20 +178,20 @@ def _listed(t: Tree) -> tuple[Tree, ...]:
     return t[1:] if isinstance(t, tuple) and t[0] == "row" else (t,)
 
 
-def _exact_squares(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+def _exact_squares(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """They are all roots of q, for the characteristic polynomial q(λ²)."""
-    f = point_of(c, step).characteristic[::2]
+    f = point_of(system, step).characteristic[::2]
     told = [_complex(t) for t in _listed(claim["squares"])]
     if any(any(_at_complex(f, s)) for s in told):
         return "one is no square of an eigenvalue"
     return "" if len({*told}) == len(told) == distinct_roots(f) else "they are not all, each once"
 
 
-def _eigenvalues(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """Their squares s are roots of q, for the characteristic polynomial q(λ²), up to the fourth
     digit: |q(s)| ≤ s q′(s)/500, so that a root is near; and they are as many as q has, of each
     kind."""
-    f, told = point_of(c, step).characteristic[::2], claim["eigenvalues"]
+    f, told = point_of(system, step).characteristic[::2], claim["eigenvalues"]
     assert isinstance(told, tuple)
     d, squares = len(f) - 1, [(re * re - im * im, 2 * re * im) for _, re, im in told[1:]]
     for s in squares:

@@ -18,12 +18,11 @@ from ...algebra.groups import Group
 from ...algebra.residue_vectors import residue_of
 from ...language.tree import Tree
 from ...record.record import RecordError
+from .constant_entries import constant_entries
 from .rational_values import Value
 
 Linear = dict[int | None, Fraction]
 """A linear form by the numbers of the variables in it, ``None`` for the constant."""
-SAMPLES = 3
-"""An entry that so many random elements of the group have in common is a constant."""
 
 
 class PoissonTensor:
@@ -73,16 +72,16 @@ class PoissonTensor:
             form[self.place[x]] = c
             return
         _, letter, *place = x
-        values = {g[place[0] - 1][place[1] - 1] for g in self.elements} if letter == "A" else ()
-        if len(values) != 1:
+        i, j = (k - 1 for k in place) if letter == "A" else (-1, -1)
+        constant = self.constants.get((i, j))
+        if constant is None:
             raise RecordError("the variables do not move among themselves")
-        form[None] = form.get(None, Fraction(0)) + c * next(iter(values))
+        form[None] = form.get(None, Fraction(0)) + c * constant
 
     @cached_property
-    def elements(self) -> list[Any]:
-        """Some elements of the group."""
-        random = Random(self.group.name)
-        return [self.group.sample(random) for _ in range(SAMPLES)]
+    def constants(self) -> dict[tuple[int, int], Fraction]:
+        """The entries that are the same for all elements of the group."""
+        return constant_entries(self.group, Random(self.group.name))
 
     def at(self, x: Sequence[Value], p: int) -> dict[tuple[int, int], Value]:
         """The entries Λ_ij = {x_i, x_j}, those that do not vanish for all x, modulo p at values of

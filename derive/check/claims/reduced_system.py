@@ -29,7 +29,7 @@ class ReducedSystem:
             energy, *rates = d["poisson"].equations
         except (KeyError, ValueError):
             raise RecordError("no reduced equations: the step poisson is missing") from None
-        self.group, self.random = group, random
+        self.record, self.group, self.random = d, group, random
         self.energy = energy.rhs
         self.variables: tuple[Tree, ...] = tuple(_variable(e.lhs) for e in rates)
         self.rates = tuple(e.rhs for e in rates)

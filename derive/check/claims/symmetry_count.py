@@ -1,0 +1,279 @@
+"""How many symmetries a Lagrangian has among the fields that are searched.
+
+A field δt = τ, δg = V₀ + tV₁ with V = Yg − gX moves g by η = g⁻¹V, or Vg⁻¹, and so
+
+    left:  η = g⁻¹Yg − X,  δZ = [X, Z] + η₁        right:  η = Y − gXg⁻¹,  δZ = [Y, Z] + η₁
+
+δL̃ = ⟨Π, δZ⟩ + ∂L̃/∂g · δg + τ ∂ₜL̃ = dF/dt is linear in Y, X, τ and F, of degree two in t and the
+entries of g: at random points modulo a prime it has no fewer solutions than everywhere.  Solutions
+with the same ⟨Π, η⟩ − τh̃ − F up to a constant are one symmetry, and none where that is constant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations_with_replacement
+from math import prod
+from operator import mul
+from random import Random
+from typing import Any
+
+from ...algebra.exact_kernel import kernel, pivots
+from ...algebra.groups import Group
+from ...algebra.residue_vectors import Residues, ResidueSource, primes_from, residue_of
+from ...language import rational as q
+from ...language.tree import Tree, nodes
+from ...record.record import RecordError
+from ...record.tree_data import decode
+from ..residue import Residue
+from .constant_entries import constant_entries
+from .rational_values import Jet, value
+from .sampled_functions import Functions, UnluckyError
+
+Square = list[list[int]]
+"""A square matrix of residues."""
+Field = tuple[Square, Square]
+"""Y and X."""
+SPARE = 8
+"""So many more points than unknowns."""
+ROOTS = 6
+"""So many square roots are true at each point, which half of the points have of each; where there
+are more, each may be any number."""
+TRIES = 200
+"""So many primes and values of the parameters are tried, where roots of them are to be true."""
+
+
+class SymmetryCount:
+    """The symmetries of the Lagrangian of a problem on a group."""
+
+    def __init__(self, problem: Mapping[str, Any], group: Group, random: Random):
+        given = problem["lagrangian"]
+        self.group, self.random = group, random
+        self.left = given["trivialisation"] == "left"
+        self.tree = decode(given["L"], "problem, L")
+        seen = [*dict.fromkeys(nodes(self.tree))]
+        self.parameters: list[Tree] = [x for x in seen if x == "π" or _is(x, "par")]
+        roots = sum(_is(x, "fun", "sqrt") and _of_state(x) for x in seen)
+        self.true_roots = roots <= ROOTS
+        self.oversampling = 2**roots if self.true_roots else 1
+        functions = {x[1] for x in seen if isinstance(x, tuple) and x[0] == "fun"}
+        self.open_functions = sorted(functions - ({"sqrt"} if self.true_roots else set()))
+
+    @cached_property
+    def dimension(self) -> int:
+        """How many there are, for generic parameters."""
+        for _ in range(TRIES):
+            p = next(primes_from(self.random.randrange(2**30, 2**31) | 3))
+            try:
+                return self._counted(p)
+            except UnluckyError:
+                continue
+        raise RecordError("no points are known at which the roots of the Lagrangian are numbers")
+
+    def _counted(self, p: int) -> int:
+        """The dimension modulo a prime."""
+        parameters = {x: self.random.randrange(1, p) for x in self.parameters}
+        fields = self._tangent_fields(p)
+        columns = len(self.monomials) + 2 * len(fields) + 1
+        points = self._points(columns + SPARE, parameters, p)
+        found = kernel((x.row(fields) for x in points), columns, p)[0]
+        tried = self._points(len(found) + SPARE, parameters, p)
+        values = [x.kept(fields) for x in tried]
+        kept = [[sum(map(mul, v, row)) % p for row in values] for v in found]
+        one = [1] * len(tried)
+        return len(pivots([one, *kept], len(one), p)) - 1
+
+    @cached_property
+    def entries(self) -> list[tuple[int, int]]:
+        """The places of g that are not the same for all elements."""
+        constant, span = constant_entries(self.group, self.random), range(self.group.size)
+        return [(i, j) for i in span for j in span if (i, j) not in constant]
+
+    @cached_property
+    def monomials(self) -> list[tuple[int, ...]]:
+        """The factors of the monomials of F: 0 is t, k the k-th entry."""
+        letters = range(len(self.entries) + 1)
+        return [(k,) for k in letters] + [*combinations_with_replacement(letters, 2)]
+
+    def _tangent_fields(self, p: int) -> list[Field]:
+        """A basis of the pairs (Y, X) with g⁻¹Yg − X in 𝔤 for all g."""
+        size, rows = self.group.size, list[list[int]]()
+        normal = [_residues(m, p) for m in self.group.normal_space]
+        source = ResidueSource(p, 2 * size**2 // max(1, len(normal)) + SPARE, self._seed())
+        for g, back in zip(*self._sampled(source), strict=True):
+            for m in normal:
+                pulled = _times(_times(_transposed(back), m, p), _transposed(g), p)
+                rows.append([*_flat(pulled), *(-x % p for x in _flat(m))])
+        found = kernel(rows, 2 * size**2, p)[0]
+        return [(_square(v[: size**2], size), _square(v[size**2 :], size)) for v in found]
+
+    def _seed(self) -> int:
+        return self.random.getrandbits(64)
+
+    def _sampled(self, source: ResidueSource) -> tuple[list[Square], list[Square]]:
+        """Random elements with their inverses."""
+        zero = source.constant(0)
+        g = [[(zero + x).values for x in row] for row in self.group.sample_inside(source, 1)]
+        each = [[[x[k] for x in row] for row in g] for k in range(source.points)]
+        return each, [_inverse(x, source.p) for x in each]
+
+    def _points(self, several: int, parameters: Mapping[Tree, int], p: int) -> list[Point]:
+        """So many points of R × G × 𝔤; ``UnluckyError`` for fewer."""
+        count = several if self.oversampling == 1 else self.oversampling * several * 5 // 4 + SPARE
+        source = ResidueSource(p, count, self._seed())
+        g, back = self._sampled(source)
+        t, *zeta = (source.randint(1, p) for _ in range(self.group.dimension + 1))
+        leaves: dict[Tree, Residues] = {"t": t}
+        for i, j in self.entries:
+            leaves["entry", "A", i + 1, j + 1] = Residues([x[i][j] for x in g], p)
+        leaves |= {("entry", "ζ", a): x for a, x in enumerate(zeta, 1)}
+        at: dict[Tree, Any] = {**parameters}
+        at |= {
+            ("entry", "A", i + 1, j + 1): g[0][i][j]
+            for i, row in enumerate(g[0])
+            for j, _ in enumerate(row)
+        }
+        at |= {x: Jet(y, {k: 1}, p) for k, (x, y) in enumerate(leaves.items())}
+        functions = Functions(source, roots=self.true_roots)
+        L = Jet(source.constant(0), {}, p) + value(self.tree, at, p, functions)
+        slopes = [_spread(L.slopes.get(k, 0), count) for k, _ in enumerate(leaves)]
+        values, drawn = _spread(L.n, count), [x.values for x in leaves.values()]
+        valid = [k for k, holds in enumerate(functions.valid) if holds][:several]
+        if len(valid) < several:
+            raise UnluckyError
+
+        def at_point(k: int) -> Point:
+            own, derived = ([x[k] for x in y] for y in (drawn, slopes))
+            return Point(self, p, g[k], back[k], own, derived, values[k])
+
+        return [*map(at_point, valid)]
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point modulo p: g, g⁻¹, the values of t, the entries of g and ζ, the slopes of L̃ by these,
+    and L̃."""
+
+    of: SymmetryCount
+    p: int
+    g: Square
+    back: Square
+    leaves: Sequence[int]
+    slopes: Sequence[int]
+    value: int
+
+    @cached_property
+    def Z(self) -> Square:
+        """The velocity in 𝔤."""
+        zeta = self.leaves[1 + len(self.of.entries) :]
+        return _residues(q.combine(zeta, self.of.group.basis), self.p)
+
+    @property
+    def momenta(self) -> Sequence[int]:
+        """∂L̃/∂ζ."""
+        return self.slopes[1 + len(self.of.entries) :]
+
+    def moved(self, eta: Square) -> Square:
+        """The tangent vector gη, or ηg."""
+        return _times(*((self.g, eta) if self.of.left else (eta, self.g)), self.p)
+
+    def carried(self, field: Field) -> Square:
+        """η of V."""
+        Y, X = field
+        if self.of.left:
+            return _minus(_times(_times(self.back, Y, self.p), self.g, self.p), X, self.p)
+        return _minus(Y, _times(_times(self.g, X, self.p), self.back, self.p), self.p)
+
+    def paired(self, z: Square) -> int:
+        """⟨Π, z⟩ for z in 𝔤."""
+        total = 0
+        for a, pi in enumerate(self.momenta):
+            terms = self.of.group.coordinate_terms(a)
+            total += pi * sum(residue_of(c, self.p) * z[i][j] for c, i, j in terms)
+        return total % self.p
+
+    def row(self, fields: Sequence[Field]) -> list[int]:
+        """δL̃ − dF/dt for each monomial of F, V₁, V₀ and τ."""
+        t, p = self.leaves[0], self.p
+        turning, still = [], []
+        for field in fields:
+            eta = self.carried(field)
+            turn = field[1] if self.of.left else field[0]
+            along = self.moved(eta)
+            pairs = zip(self.slopes[1:], self.of.entries, strict=False)
+            pushed = sum(x * along[i][j] for x, (i, j) in pairs)
+            own = self.paired(_minus(_times(turn, self.Z, p), _times(self.Z, turn, p), p)) + pushed
+            still.append(own % p)
+            turning.append((t * own + self.paired(eta)) % p)
+        return [*(-x % p for x in self.rates), *turning, *still, self.slopes[0] % p]
+
+    @property
+    def rates(self) -> Iterator[int]:
+        """The rates of the monomials of F."""
+        velocity = self.moved(self.Z)
+        rate = [1, *(velocity[i][j] for i, j in self.of.entries)]
+        for first, *second in self.of.monomials:
+            if second:
+                k = second[0]
+                yield self.leaves[first] * rate[k] + rate[first] * self.leaves[k]
+            else:
+                yield rate[first]
+
+    def kept(self, fields: Sequence[Field]) -> list[int]:
+        """⟨Π, η⟩ − τh̃ − F for each of the same."""
+        t, p = self.leaves[0], self.p
+        still = [self.paired(self.carried(field)) for field in fields]
+        minus_f = (-prod(self.leaves[k] for k in m) % p for m in self.of.monomials)
+        energy = self.paired(self.Z) - self.value
+        return [*minus_f, *(t * x % p for x in still), *still, -energy % p]
+
+
+def _is(x: Tree, *head: str) -> bool:
+    return isinstance(x, tuple) and x[: len(head)] == head
+
+
+def _of_state(x: Tree) -> bool:
+    """Does it depend on the time, g or ζ?"""
+    return any(y == "t" or _is(y, "entry") for y in nodes(x))
+
+
+# -- matrices of residues -------------------------------------------------------------------------
+
+
+def _residues(m: q.Matrix, p: int) -> Square:
+    return [[residue_of(x, p) for x in row] for row in m]
+
+
+def _times(a: Square, b: Square, p: int) -> Square:
+    columns = _transposed(b)
+    return [[sum(map(mul, row, c)) % p for c in columns] for row in a]
+
+
+def _minus(a: Square, b: Square, p: int) -> Square:
+    return [[(x - y) % p for x, y in zip(r, s, strict=True)] for r, s in zip(a, b, strict=True)]
+
+
+def _transposed(a: Square) -> Square:
+    return [[*x] for x in zip(*a, strict=True)]
+
+
+def _inverse(a: Square, p: int) -> Square:
+    found = q.inverse(tuple(tuple(Residue(x, p) for x in row) for row in a))
+    if found is None:
+        raise UnluckyError
+    return [[x.n if isinstance(x, Residue) else residue_of(x, p) for x in row] for row in found]
+
+
+def _flat(a: Square) -> list[int]:
+    return [x for row in a for x in row]
+
+
+def _square(v: Sequence[int], size: int) -> Square:
+    return [[*v[i * size : (i + 1) * size]] for i in range(size)]
+
+
+def _spread(x: Any, count: int) -> list[int]:
+    """A number at each of so many points."""
+    return [x] * count if isinstance(x, int) else x.values
