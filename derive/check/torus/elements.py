@@ -56,7 +56,7 @@ class Term:
 
 
 class Elements(Many):
-    """A sum of terms."""
+    """A sum of terms, of the basis of a ``model`` of the torus."""
 
     def __init__(self, model: Lattice, terms: Sequence[Term]):
         self.model, self.terms = model, terms
