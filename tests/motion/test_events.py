@@ -234,7 +234,7 @@ def test_more_than_their_limit_are_refused(tmp_path):
     ("when", "words"),
     [
         ("A_44 - 1", "event e: no 'A_44' in the state, the parameters or the inputs"),
-        ("zeta_4", "did you mean 'zeta_1'?"),
+        ("zeta_4", "did you mean 'zeta_3'?"),
         ("A_11/(w - 2)", "event e: no finite value at the start"),
         ("sqrt(A_12 - 1)", "event e: no finite value at the start"),
     ],

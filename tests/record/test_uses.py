@@ -79,6 +79,9 @@ NOMINAL = {
     ("tensor", "body"): "the numbers are those of the problem",
     ("components", "body"): "the same",
     ("components", "tensor"): "that it is diagonal",
+    ("unaligned", "action"): "places in space are told by their names, rᵢ(t)",
+    ("tetrahedron", "volumes"): "Tr ξ, by which the volume varies, is 0",
+    ("tetrahedron", "relation"): "det A, by which the volume is multiplied, is 1",
     ("conserved", "motion"): "along which the rates are",
     ("conserved", "potential"): "which the displacements keep",
 }
@@ -152,7 +155,7 @@ def test_an_emptied_list_is_refused_by_the_command(name):
     assert {short(x) for x in passed} <= BY_ITSELF, passed
 
 
-BY_ITSELF = {"velocity", "force", "potential", "rigid"}
+BY_ITSELF = {"velocity", "force", "potential", "rigid", "unaligned", "tetrahedron"}
 """Steps that have no name from others but those that all begins with."""
 
 
