@@ -67,8 +67,16 @@ class Laurent:
         return Laurent.of(other) - self
 
     def __mul__(self, other: Laurent | Fraction | int) -> Laurent:
-        right = Laurent.of(other).terms.items()
-        return _summed((_product(m, n), p * q) for m, p in self.terms.items() for n, q in right)
+        right = Laurent.of(other).terms
+        if not self.terms or not right:
+            return Laurent({})
+        if right.keys() == {()}:
+            return Laurent({m: p * right[()] for m, p in self.terms.items()})
+        pairs = ((m, p, n, q) for m, p in self.terms.items() for n, q in right.items())
+        return _summed(
+            (_product(m, n) if m else n, q if p is ONE else p if q is ONE else p * q)
+            for m, p, n, q in pairs
+        )
 
     __rmul__ = __mul__
 
@@ -97,7 +105,7 @@ class Laurent:
 def _summed(terms: Iterable[tuple[Monomial, Fraction]]) -> Laurent:
     total: dict[Monomial, Fraction] = {}
     for m, q in terms:
-        total[m] = total.get(m, Fraction(0)) + q
+        total[m] = total[m] + q if m in total else q
     return Laurent(total)
 
 
@@ -105,7 +113,7 @@ def _product(m: Monomial, n: Iterable[tuple[Tree, int]]) -> Monomial:
     exponents = dict(m)
     for symbol, e in n:
         exponents[symbol] = exponents.get(symbol, 0) + e
-    return tuple(sorted(((s, e) for s, e in exponents.items() if e), key=_written))
+    return tuple(sorted([(s, e) for s, e in exponents.items() if e], key=_written))
 
 
 def _written(factor: tuple[Tree, int]) -> tuple[str, int]:

@@ -24,7 +24,7 @@ from ..record.record import Equation
 
 MOST = 200
 """As many terms has a value at most."""
-PAIRS = 200_000
+PAIRS = 60_000
 """As many products of a term with a term are formed at most, in all."""
 KEPT = ("σ", "P", "Q", "r_c")
 """What keeps its name, or its members theirs, where it is no polynomial or one longer than

@@ -288,7 +288,12 @@ def test_options_say_what_they_do(fresh, site, lang):
         assert (about.inner_text() == data["about"][name]) == (lang == "en")
     for name, (first, *_) in data["choices"].items():
         shown = fresh.locator(f"select[aria-describedby~=about-{name}]").locator("option").first
-        words = {"form": ".h", "frame": {"en": "as in", "fr": "comme dans"}[lang], "velocity": "Z"}
+        words = {
+            "form": ".h",
+            "frame": {"en": "as in", "fr": "comme dans"}[lang],
+            "velocity": "Z",
+            "state": {"en": "all entries", "fr": "tous les coefficients"}[lang],
+        }
         begin = f"{first} – {words[name]}" if name in words else f"{first} ("
         assert shown.inner_text().startswith(begin)
 

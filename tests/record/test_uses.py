@@ -79,6 +79,7 @@ NOMINAL = {
     ("tensor", "body"): "the numbers are those of the problem",
     ("components", "body"): "the same",
     ("components", "tensor"): "that it is diagonal",
+    ("unaligned", "relation"): "det A and ĀA, by which vector products are multiplied, are 1",
     ("unaligned", "action"): "places in space are told by their names, rᵢ(t)",
     ("tetrahedron", "volumes"): "Tr ξ, by which the volume varies, is 0",
     ("tetrahedron", "relation"): "det A, by which the volume is multiplied, is 1",

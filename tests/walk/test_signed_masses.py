@@ -106,6 +106,8 @@ def said(d):
 def test_no_hypothesis_that_does_not_hold(name):
     d = walked(name, signed=True)
     words = " ".join(text(d).split())
+    for places, _ in prose.STEPS["unaligned"].values():  # nothing of masses, but of places
+        words = words.replace(places, "")
     assert not CLAIMS.search(words)
     assert "wherever" in words.lower()
     assert not said(d) & POSITIVE
