@@ -5,6 +5,9 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed$(if $(LOCKED),-locked)
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
+# what Python has compiled is kept: each test that starts a process would compile the program again
+export PYTHONDONTWRITEBYTECODE :=
+
 .PHONY: help derive test coverage thorough mutants dist docs playground site play notes pictures bench accuracy fuzz lint lock clean
 
 help:            ## this list
@@ -18,15 +21,15 @@ test: $(STAMP)   ## lint, types, and the tests that take minutes
 	  { echo "make test: no C compiler on the path: install gcc or clang" >&2; exit 2; }
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/python -m pytest -n 2 $(if $(SEED),--seed=$(SEED))
+	$(BIN)/python -m pytest -n 2 --dist worksteal $(if $(SEED),--seed=$(SEED))
 
 # branches that only those cases take which a quick run leaves out, and which are not measured, count as not taken
 coverage: $(STAMP) ## more tests, and the lines and branches of derive/ that none runs; fails below 95 % of lines
-	$(BIN)/python -m pytest --half -n 2 --cov --cov-report= --cov-report=json
+	$(BIN)/python -m pytest --half -n 2 --dist worksteal --cov --cov-report= --cov-report=json
 	$(BIN)/python -m tests.support.covered 95 92
 
 thorough: $(STAMP) ## all tests, an hour
-	$(BIN)/python -m pytest --thorough -n 2
+	$(BIN)/python -m pytest --thorough -n 2 --dist worksteal
 
 mutants: $(STAMP) ## hours: every record, emitted program, rule of the engine made wrong; faults by hand
 	$(BIN)/python -m tests.support.mutants

@@ -9,6 +9,7 @@ computed (:mod:`derive.check.grades`).  Nothing is imported from the walk.
 from __future__ import annotations
 
 import hashlib
+import json
 import secrets
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
@@ -17,8 +18,9 @@ from typing import TYPE_CHECKING, Any
 
 from ..algebra.groups import Group
 from ..language.show import show
+from ..record import mass_signs
 from ..record.contract import ANY_GROUP
-from ..record.json_writer import to_json
+from ..record.json_writer import step_data, to_json
 from ..record.record import Derivation, Equation, RecordError, Step
 from . import symbols, well_formedness
 from .arithmetic import EvaluationError
@@ -84,6 +86,14 @@ class Checker(TrialPoints):
         least = LEAST_BY_MOMENTA if side_of(self.problem) else LEAST
         _, grade = self.grade(free(action, least), step, equation)
         return (*found, *(free(action, n) for n in sizes(grade, least)))
+
+    def universal_key(self, step: Step) -> str:
+        """All on which the verdict on a step about any group depends but the random points;
+        ``RecordError`` for a problem that is none."""
+        self.groups(step.scope, driven=step.driven)
+        of_masses = [mass_signs.any_sign(self.problem), false_by_default(step, self.problem)]
+        kind = [action_of(self.problem), self._kind, *(of_masses if step.hypotheses else ())]
+        return json.dumps([kind, step_data(step)])
 
     def bound(self, step: Step) -> int:
         """The Schwartz–Zippel degree of a step's claims; ``RecordError`` if it is too large."""
@@ -230,6 +240,26 @@ def check(d: Derivation, seed: int | None = None) -> list[Verdict]:
     return list(verdicts(d, seed))
 
 
+_UNIVERSAL: dict[str, Verdict] = {}
+"""What held for any group in this process, by all that it depends on."""
+
+
+def _verdict(checker: Checker | FluidChecker, step: Step) -> Verdict:
+    """The verdict on a step.  One about any group that held is not tried again: it stands in many
+    records, letter by letter, and nothing of their problems but what is in the key is used."""
+    if step.scope != ANY_GROUP or not isinstance(checker, Checker):
+        return checker.check(step)
+    try:
+        key = checker.universal_key(step)
+    except IMPOSSIBLE:
+        return checker.check(step)  # which says what is wrong
+    if (known := _UNIVERSAL.get(key)) is None:
+        known = checker.check(step)
+        if known.holds:
+            _UNIVERSAL[key] = known
+    return known
+
+
 def checker_of(problem: Mapping[str, Any], seed: int | str | None = None) -> Checker | FluidChecker:
     """The checker of a record with this problem."""
     if "fluid" in problem:
@@ -256,7 +286,7 @@ def verdicts(d: Derivation, seed: int | None = None) -> Iterator[Verdict]:
         strict=True,
     )
     for step, (new, old, other) in zip(d.steps, faults, strict=True):
-        verdict = checker.check(step)
+        verdict = _verdict(checker, step)
         reason = UNEXPLAINED.format(new) if new else UNUSED.format(old) if old else other
         if verdict.holds:
             reason = reason or claims.fault(step)

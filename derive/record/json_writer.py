@@ -28,7 +28,7 @@ def to_data(d: Derivation) -> dict[str, Any]:
         "problem": dict(d.problem),
         "symbols": [_symbol_data(s) for s in d.symbols],
         "steps": [
-            _step_data(s) | ({"remark": True} if s.label in d.remarks else {}) for s in d.steps
+            step_data(s) | ({"remark": True} if s.label in d.remarks else {}) for s in d.steps
         ],
     }
 
@@ -46,7 +46,8 @@ def _use_data(use: Use) -> dict[str, Any]:
     return data | ({"defined": use.defined} if use.defined else {})
 
 
-def _step_data(s: Step) -> dict[str, Any]:
+def step_data(s: Step) -> dict[str, Any]:
+    """A step as it stands in the JSON of its record."""
     data: dict[str, Any] = {
         "label": s.label,
         "rule": s.rule,

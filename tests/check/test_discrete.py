@@ -17,6 +17,7 @@ from derive.problem.toml import problem_of
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.views.rendering import render
+from tests.support.cached import on_disk
 from tests.support.record_mutations import TWINS, tried, twin
 from tests.support.walks import SEED
 
@@ -42,7 +43,7 @@ input = [
 """A problem of points on which inputs and damping act, without its group."""
 
 
-@cache
+@on_disk
 def record(name):
     if name in DRIVEN_ON:
         return discrete(problem_of(tomllib.loads(DRIVEN.replace("GROUP", name))))

@@ -769,8 +769,8 @@ def test_a_component_along_no_direction_is_not_shown(pages, opened):
     row = "[...document.querySelectorAll('[data-name=angular_momentum]')].map((x) => x.innerText)"
     (shown,) = page.evaluate(row)
     assert "kg m²/s" in shown
-    page.locator('[data-name="g_3"] input[type=number]').fill("0")
-    page.locator('[data-name="g_3"] input[type=number]').press("Enter")
+    page.locator('[data-name="g_3"] input[inputmode]').fill("0")
+    page.locator('[data-name="g_3"] input[inputmode]').press("Enter")
     page.wait_for_timeout(100)
     assert page.evaluate(row) == []
 

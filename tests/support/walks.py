@@ -1,12 +1,13 @@
-"""The records of the ready-made problems, derived once for each test process."""
+"""The records of the ready-made problems, derived once for each state of the sources."""
 
 from functools import cache
 
 import pytest
 
 from derive.check.checker import Checker
-from derive.command.loading import derive, ready_made
+from derive.command.loading import derive, load_problem, ready_made
 from derive.record.contract import ANY_GROUP
+from tests.support.cached import on_disk
 
 NAMES = ("linear", "affine", "so3", "se3", "sl3")
 FLUIDS = ("ideal_fluid", "inhomogeneous_fluid", "stratified_fluid")
@@ -25,14 +26,14 @@ def repeated(cases, first=1):
     return cases[:first] + [pytest.param(x, marks=pytest.mark.no_cover) for x in cases[first:]]
 
 
-@cache
+@on_disk
 def record(name):
     return derive(name)[1]
 
 
 @cache
 def problem(name):
-    return derive(name)[0]
+    return load_problem(name)
 
 
 def own_verdicts(found, seed=SEED):

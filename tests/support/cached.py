@@ -1,0 +1,49 @@
+"""What the engine makes, once for each state of its sources: kept on the disk."""
+
+import os
+import pickle
+import shutil
+from collections.abc import Callable
+from functools import cache, wraps
+from hashlib import sha256
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+PLACE = ROOT / "build" / "tests"
+READ = ("derive", "templates", "tests/problems", "tests/support")
+"""What the results depend on: programs, templates, problems."""
+
+
+@cache
+def folder() -> Path:
+    """The folder of results of these sources; those of others are removed."""
+    digest = sha256()
+    files = (x for top in READ for x in (ROOT / top).rglob("*") if x.suffix != ".pyc")
+    for path in sorted(x for x in files if x.is_file()):
+        digest.update(f"{path.relative_to(ROOT)}\0".encode() + path.read_bytes())
+    found = PLACE / digest.hexdigest()[:32]
+    if not found.is_dir():
+        shutil.rmtree(PLACE, ignore_errors=True)
+        found.mkdir(parents=True, exist_ok=True)
+    return found
+
+
+def on_disk(make: Callable) -> Callable:
+    """A function of names whose results are plain data: those of its file, of these sources."""
+    own = sha256(Path(make.__code__.co_filename).read_bytes()).hexdigest()
+
+    @cache
+    @wraps(make)
+    def found(*names: str):
+        name = sha256(repr((own, make.__qualname__, names)).encode()).hexdigest()
+        path = folder() / name[:32]
+        if path.is_file():
+            return pickle.loads(path.read_bytes())
+        made = make(*names)
+        unfinished = path.with_suffix(f".{os.getpid()}")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        unfinished.write_bytes(pickle.dumps(made))
+        unfinished.replace(path)
+        return made
+
+    return found
