@@ -1,8 +1,16 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+# what deriving needs; what the tests need beside; what no newcomer's tests need
+CORE := $(VENV)/.installed
+STAMP := $(VENV)/.installed-test
+ALL := $(VENV)/.installed-ci
 # LOCKED=1: the very files whose hashes are in requirements-dev.lock, and no others
-STAMP := $(VENV)/.installed$(if $(LOCKED),-locked)
+ifdef LOCKED
+CORE := $(VENV)/.installed-locked
+STAMP := $(CORE)
+ALL := $(CORE)
+endif
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 # what Python has compiled is kept: each test that starts a process would compile the program again
@@ -13,7 +21,7 @@ export PYTHONDONTWRITEBYTECODE :=
 help:            ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1  \t/p' Makefile
 
-derive: $(STAMP) ## walk SO(3), SE(3), SL(3): print every equation, regenerate generated/
+derive: $(CORE) ## walk SO(3), SE(3), SL(3): print every equation, regenerate generated/
 	$(BIN)/derive build --print
 
 test: $(STAMP)   ## lint, types, and the tests that take minutes
@@ -24,28 +32,28 @@ test: $(STAMP)   ## lint, types, and the tests that take minutes
 	$(BIN)/python -m pytest -n 2 --dist worksteal $(if $(SEED),--seed=$(SEED))
 
 # branches that only those cases take which a quick run leaves out, and which are not measured, count as not taken
-coverage: $(STAMP) ## more tests, and the lines and branches of derive/ that none runs; fails below 95 % of lines
+coverage: $(ALL) ## more tests, and the lines and branches of derive/ that none runs; fails below 95 % of lines
 	$(BIN)/python -m pytest --half -n 2 --dist worksteal --cov --cov-report= --cov-report=json
 	$(BIN)/python -m tests.support.covered 95 92
 
-thorough: $(STAMP) ## all tests, an hour
+thorough: $(ALL) ## all tests, an hour
 	$(BIN)/python -m pytest --thorough -n 2 --dist worksteal
 
-mutants: $(STAMP) ## hours: every record, emitted program, rule of the engine made wrong; faults by hand
+mutants: $(ALL) ## hours: every record, emitted program, rule of the engine made wrong; faults by hand
 	$(BIN)/python -m tests.support.mutants
 
 lint: $(STAMP)   ## ruff and mypy alone
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
-notes: $(STAMP)  ## lecture notes of SO(3), SE(3), SL(3): notes.pdf and notes.html
+notes: $(CORE)  ## lecture notes of SO(3), SE(3), SL(3): notes.pdf and notes.html
 	$(BIN)/derive notes so3 se3 sl3 --out notes.html
 	$(BIN)/derive notes so3 se3 sl3 --out notes.pdf
 
-dist: $(STAMP)   ## minutes more of tests: wheels, old and new versions, every build of the C
+dist: $(ALL)   ## minutes more of tests: wheels, old and new versions, every build of the C
 	$(BIN)/python -m pytest -m dist -n 2 --dist loadfile -rP
 
-docs: $(STAMP)   ## the site of docs/ and of the docstrings, in build/docs; a dead link is an error
+docs: $(CORE)   ## the site of docs/ and of the docstrings, in build/docs; a dead link is an error
 	$(INSTALL) --editable ".[docs]"
 	rm -rf build/docs
 	$(BIN)/sphinx-build -q -E -W --keep-going $(if $(filter site,$(MAKECMDGOALS)),-t play) -c docs . build/docs
@@ -72,15 +80,15 @@ lock:            ## the versions that are newest now, and the hashes of their fi
 	$(PYTHON) -m venv build/lock
 	build/lock/bin/python -m pip install --quiet --disable-pip-version-check uv
 	printf 'hatchling\neditables\n' | build/lock/bin/uv pip compile --quiet --upgrade --universal \
-	  --generate-hashes --extra test --no-annotate --no-emit-find-links \
+	  --generate-hashes --extra ci --no-annotate --no-emit-find-links \
 	  --custom-compile-command "make lock; to have these versions: make test LOCKED=1" \
 	  --output-file requirements-dev.lock pyproject.toml -
 	rm -rf build/lock
 
-pictures: $(STAMP) ## the pictures of docs/plot.md, from the runs in examples/runs
+pictures: $(ALL) ## the pictures of docs/plot.md, from the runs in examples/runs
 	$(BIN)/python -m tests.support.motion_pictures
 
-bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside its peers
+bench: $(ALL)  ## cost of deriving, growth with the group, emitted code beside its peers
 	$(BIN)/python -m benchmarks.road
 	$(BIN)/python -m benchmarks.sizes
 	$(BIN)/python -m benchmarks.symmetries
@@ -91,22 +99,23 @@ bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside
 	$(BIN)/python -m benchmarks.discrete
 	$(BIN)/python -m benchmarks.playground
 
-accuracy: $(STAMP) ## worst error of each output against 50 digits, over 100000 states of each problem: an hour
+accuracy: $(ALL) ## worst error of each output against 50 digits, over 100000 states of each problem: an hour
 	$(BIN)/python -m benchmarks.accuracy
 
-fuzz: $(STAMP)   ## random problems and 100000 changed files of every kind: half an hour; faults go to fuzz-faults/
+fuzz: $(ALL)   ## random problems and 100000 changed files of every kind: half an hour; faults go to fuzz-faults/
 	EXAMPLES=300 $(BIN)/python -m pytest tests/walk/test_random_problems.py
 	$(BIN)/python -m tests.fuzz 100000
 
 clean:           ## remove the virtual environment and caches
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache
 
-$(STAMP): pyproject.toml $(if $(LOCKED),requirements-dev.lock)
+$(VENV)/.installed $(VENV)/.installed-test $(VENV)/.installed-ci: pyproject.toml
 	@$(BIN)/python -m pip --version >/dev/null 2>&1 || $(PYTHON) -m venv $(VENV)
-ifdef LOCKED
+	$(INSTALL) --editable ".$(patsubst -%,[%],$(@:$(VENV)/.installed%=%))"
+	touch $@
+
+$(VENV)/.installed-locked: pyproject.toml requirements-dev.lock
+	@$(BIN)/python -m pip --version >/dev/null 2>&1 || $(PYTHON) -m venv $(VENV)
 	$(INSTALL) --require-hashes --requirement requirements-dev.lock
 	$(INSTALL) --no-deps --no-build-isolation --editable .
-else
-	$(INSTALL) --editable ".[test]"
-endif
-	touch $(STAMP)
+	touch $@

@@ -83,7 +83,10 @@ def test_the_lock_holds_exact_versions_and_hashes_and_nothing_else():
 
 def test_the_lock_has_all_that_tests_need():
     """For every version of Python that there may be, and what builds the package as well."""
-    wanted = [*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["test"]]
+    extras = PROJECT["optional-dependencies"]
+    own, *others = extras["ci"]
+    assert own == f"{PROJECT['name']}[test]"
+    wanted = [*PROJECT["dependencies"], *extras["test"], *others]
     wanted += [*PYPROJECT["build-system"]["requires"], "editables"]
     for each in map(Requirement, wanted):
         name = each.name.lower().replace("_", "-")
