@@ -52,6 +52,10 @@ allowed."""
 SMALL = 3
 """The largest random integer at the point that serves as a counterexample in a message."""
 
+READABLE = 1000
+"""The largest degree of an equation that has a counterexample: of 3²⁰⁰⁰⁰⁰⁰⁰ nobody reads the
+digits, and they take a minute."""
+
 ORDERED = range(2**16, 2**16 + 6)
 """The sizes of the points in rational numbers at which inequalities are tried: residues have no
 order."""
@@ -155,7 +159,7 @@ class Checker(TrialPoints):
         for e in step.equations:
             for g in self.groups_for(step, e):
                 if reason := difference(e, self.environment(g, step, SIZE, e)):
-                    reason = self.example(g, step, e) or reason
+                    reason = (bound <= READABLE and self.example(g, step, e)) or reason
                     raise RefusedError(refusal(step, e, reason, f" on {g.name}"))
         if step.rule == ENCLOSURE and (reason := self.enclosure_fault(step)):
             raise RefusedError(Verdict(step.label, False, reason, 1.0))
