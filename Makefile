@@ -16,7 +16,7 @@ INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 # what Python has compiled is kept: each test that starts a process would compile the program again
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help derive test coverage thorough mutants dist docs playground site play notes pictures bench accuracy fuzz lint lock clean
+.PHONY: help derive test text coverage thorough mutants dist docs playground site play notes pictures bench accuracy fuzz lint lock clean
 
 help:            ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1  \t/p' Makefile
@@ -29,15 +29,28 @@ test: $(STAMP)   ## lint, types, and the tests that take minutes
 	  { echo "make test: no C compiler on the path: install gcc or clang" >&2; exit 2; }
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/python -m pytest -n 2 --dist worksteal $(if $(SEED),--seed=$(SEED))
+	$(BIN)/python -m pytest $(ON) $(if $(SEED),--seed=$(SEED)) $(MEASURED)
+
+# for continuous integration: coverage begins with what make test ran, and leaves that out
+PASSED := build/coverage/passed.json
+MEASURED = $(if $(MEASURE),--passed $(PASSED) --cov --cov-report=)
+ON := -n 2 --dist worksteal
+
+text: $(STAMP)   ## lint, sentences in both languages, links, layers: what is soon seen
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check --quiet derive tests
+	$(BIN)/python -m pytest --quick $(ON) $(TEXT)
+
+TEXT := tests/prose tests/project/test_docs.py tests/project/test_faults.py tests/project/test_layers.py \
+  tests/record/test_keys.py tests/record/test_uses.py tests/views/test_language.py
 
 # branches that only those cases take which a quick run leaves out, and which are not measured, count as not taken
 coverage: $(ALL) ## more tests, and the lines and branches of derive/ that none runs; fails below 95 % of lines
-	$(BIN)/python -m pytest --half -n 2 --dist worksteal --cov --cov-report= --cov-report=json
+	$(BIN)/python -m pytest --half $(ON) $(if $(MEASURE),--without $(PASSED) --cov-append) --cov --cov-report= --cov-report=json
 	$(BIN)/python -m tests.support.covered 95 92
 
 thorough: $(ALL) ## all tests, an hour
-	$(BIN)/python -m pytest --thorough -n 2 --dist worksteal
+	$(BIN)/python -m pytest --thorough $(ON)
 
 mutants: $(ALL) ## hours: every record, emitted program, rule of the engine made wrong; faults by hand
 	$(BIN)/python -m tests.support.mutants

@@ -1,7 +1,9 @@
 """How the tests are run."""
 
+import json
 import os
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -16,13 +18,16 @@ def pytest_addoption(parser):
     """``--half``, ``--thorough``: half or all of what a quick run leaves out, as well.
 
     ``--quick``: of what is named on the command line, too, no more than in a quick run.
-    ``--seed``: of the choice of cases.
+    ``--seed``: of the choice of cases.  ``--passed``: a file for the names of those that passed;
+    ``--without``: such a file, of tests that are left out.
     """
     told = "of the tests that a quick run leaves out"
     parser.addoption("--half", action="store_true", help=f"half {told}, too, as make coverage")
     parser.addoption("--thorough", action="store_true", help=f"all {told}, too, as make thorough")
     parser.addoption("--quick", action="store_true", help="of what is named, too, as make test")
     parser.addoption("--seed", default=thorough.SEED, help="of the choice of cases (%(default)s)")
+    parser.addoption("--passed", metavar="FILE", help="the names of tests that passed, into a file")
+    parser.addoption("--without", metavar="FILE", help="leave out what passed before")
 
 
 def pytest_configure(config):
@@ -44,17 +49,29 @@ def pytest_configure(config):
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config, items):
     """Leave out what takes long, where nothing is named; of all tests it is not measured."""
-    wanted = os.environ.get(ALL)
-    if wanted == "named":
-        return
-    run, left = thorough.split(items, config.getoption("--seed"))
-    more, left = {"thorough": (left, []), "half": thorough.half(left)}.get(wanted, ([], left))
-    for item in more:
-        item.add_marker("no_cover")
-    if left:
-        kept = {*run, *more}
-        items[:] = [item for item in items if item in kept]
+    wanted, kept = os.environ.get(ALL), {*items}
+    if wanted != "named":
+        _, left = thorough.split(items, config.getoption("--seed"))
+        more, left = {"thorough": (left, []), "half": thorough.half(left)}.get(wanted, ([], left))
+        for item in more:
+            item.add_marker("no_cover")
+        kept -= {*left}
+    if before := config.getoption("--without"):
+        passed = {*json.loads(Path(before).read_text(encoding="utf-8"))}
+        kept = {x for x in kept if x.nodeid not in passed}
+    if left := [x for x in items if x not in kept]:
+        items[:] = [x for x in items if x in kept]
         config.hook.pytest_deselected(items=left)
+
+
+def pytest_sessionfinish(session):
+    """The names of what passed, for ``--without``."""
+    config = session.config
+    if (path := config.getoption("--passed")) and not hasattr(config, "workerinput"):
+        stats = config.pluginmanager.get_plugin("terminalreporter").stats
+        passed = [x.nodeid for x in stats.get("passed", ()) if x.when == "call"]
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        Path(path).write_text(json.dumps(passed), encoding="utf-8")
 
 
 @pytest.hookimpl(wrapper=True, trylast=True)

@@ -1,12 +1,17 @@
 """What the quick run leaves out: each entry is a test that there is; coverage runs half of it, and
 what is run is chosen by a seed, of each kind one."""
 
+import json
 import re
+import subprocess
+import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 from tests.support.thorough import KEPT, half, kinds, split
+from tests.support.unmeasured import environment
 
 TESTS = Path(__file__).parents[1]
 
@@ -68,3 +73,16 @@ def test_the_build_server_has_some_cases_of_every_test():
     coverage = makefile[makefile.index("coverage:") :]
     assert "--half" in coverage[: coverage.index("thorough:")]
     assert "make coverage" in (TESTS.parent / ".ci/run").read_text(encoding="utf-8")
+
+
+def test_what_passed_is_left_out(tmp_path):
+    """By the file that another run wrote."""
+    passed, name = tmp_path / "passed.json", "tests/project/test_thorough.py"
+    own = f"{name}::{test_half_of_the_cases_are_of_every_test.__name__}"
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"]
+    run = partial(subprocess.run, cwd=TESTS.parent, env=environment(), capture_output=True)
+    run([*command, "--passed", passed, own], check=True)
+    assert json.loads(passed.read_text(encoding="utf-8")) == [own]
+    assert (
+        run([*command, "--without", passed, own]).returncode == pytest.ExitCode.NO_TESTS_COLLECTED
+    )
