@@ -101,6 +101,7 @@ KEPT = {
     "code/test_momenta_of_points.py::test_beside_sums_over_the_points": 6,
     "code/test_momenta_of_points.py::test_every_language_says_the_same": 4,
     "code/test_momenta_of_points.py::test_validated": 1,
+    "code/test_moving_state.py::test_it_is_the_whole_state_without_what_never_varies": 8,
     "code/test_name_collisions.py::test_in_a_language": 1,
     "code/test_name_collisions.py::test_in_c_and_in_python": 1,
     "code/test_names_true.py::test_no_name_lies": 4,
