@@ -1,6 +1,7 @@
 """Motions of derive simulate: known solutions, order, what is kept, what is refused."""
 
 import json
+import tomllib
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +18,8 @@ from derive.motion.run import Column, Run
 from derive.motion.run_files import read
 from derive.motion.start import MotionError
 from derive.motion.stated_inertia import inertia_of
+from derive.pipeline import motion_of, walk
+from derive.problem.toml import problem_of
 from tests.oracles import free_top, lagrange_top
 
 MOMENTS = (1.25, 2.0, 2.75)
@@ -425,6 +428,32 @@ def test_motions_of_other_states():
 def test_a_lagrangian_has_units_where_its_parameters_have(name, units):
     run = derive.derive(name).simulate(0.01, points=1)
     assert units == {x.name: x.unit for x in run.columns if x.name in units}
+
+
+@pytest.mark.parametrize(
+    ("m", "length", "g", "units"),
+    [
+        ("kg", "m", "m/s^2", {"t": "s", "zeta_1": "1/s", "energy": "J"}),
+        ("kg", "m", "N kg⁻¹", {"t": "s", "zeta_1": "1/s", "energy": "J"}),
+        ("g", "mm", "mm/s^2", {"t": "s", "zeta_1": "1/s", "energy": ""}),
+        ("slug", "ft", "ft/s^2", {"t": "s", "zeta_1": "1/s", "energy": ""}),
+        ("kg", "mm", "m/s^2", {"t": "s", "zeta_1": "1/s", "energy": ""}),
+        ("kg", "m", "m/ms^2", {"t": "", "zeta_1": "", "energy": ""}),
+        ("kg", "m", "km/h/s", {"t": "", "zeta_1": "", "energy": ""}),
+        ("kg", "m", "1000 m/s^2", {"t": "", "zeta_1": "", "energy": ""}),
+        ("kg", "m", "some", {"t": "", "zeta_1": "", "energy": ""}),
+        ("", "", "", {"t": "", "zeta_1": "", "energy": ""}),
+    ],
+)
+def test_no_unit_is_told_that_those_of_the_parameters_do_not_give(m, length, g, units):
+    text = f'''name = "hung"\ngroup = "SO(2)"\n[parameters]
+m = {{ default = 50, unit = "{m}" }}
+l = {{ default = 120, unit = "{length}" }}
+g = {{ default = 9810, unit = "{g}" }}
+[[point]]\nmass = "m"\nat = [0, "-l"]\n[[potential]]\nkind = "gravity"\ng = [0, "-g"]\n'''
+    problem = problem_of(tomllib.loads(text))
+    columns = motion_of(problem, walk(problem), "gauss").columns()
+    assert units == {x.name: x.unit for x in columns if x.name in units}
 
 
 AWAY = """
