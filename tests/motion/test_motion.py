@@ -11,6 +11,7 @@ import derive
 from derive.code.step.collocation import Collocation
 from derive.command.cli import main
 from derive.command.simulating import at_first, negative
+from derive.motion.component import taken_to_group
 from derive.motion.first_numbers import exponential
 from derive.motion.kept_words import in_order
 from derive.motion.method import Method, instants
@@ -525,6 +526,39 @@ def test_a_quadratic_lagrangian_has_a_tensor_of_inertia(L, inertia, tmp_path):
 def test_a_negative_mass_is_named(capsys):
     err = told(capsys, "sl3", "--t", "1", "--set", "m1=-1")[2]
     assert err.endswith("not positive: a mass is negative, m1 = -1\n")
+
+
+@pytest.mark.parametrize("name", ["so3", "se3", "two_tops", "sim3", "manakov"])
+def test_far_starts_are_taken_to_the_nearest_rotation(name):
+    """R of A = RP, P positive, whatever P is: with A = 1.8 a step of Newton's method overshoots."""
+    d, rng = derive.derive(name), np.random.default_rng(7)
+    code = motion_of(d.problem, d.record)
+    for size in (1.8, 0.03, 1.0, 40.0):
+        x, nearest = np.zeros((20, len(code.program.state))), []
+        for block in code.program.blocks:
+            n = round(len(block.places) ** 0.5)
+            A = size * (np.eye(n) + 0.9 * (size != 1.8) * rng.normal(size=(20, n, n)))
+            A[np.linalg.det(A) < 0, :, 0] *= -1
+            x[:, list(block.places)] = A.reshape(20, -1)
+            U, _, V = np.linalg.svd(A)
+            nearest.append((block.places, n, U @ V))
+        taken = taken_to_group(code.python.project, code.program.blocks, x)
+        assert (code.python.defect(taken) < 1e-12).all()
+        for places, n, R in nearest:
+            A = taken[:, list(places)].reshape(20, n, n)
+            scale = np.linalg.det(A)[:, None, None] ** (1 / n)
+            assert np.allclose(A / scale, R, rtol=0, atol=1e-12)
+
+
+def test_a_start_of_a_run_and_of_an_ensemble_is_the_nearest_rotation(free):
+    start = {"A_11": 1.8, "A_22": 1.8, "zeta_1": 1.0}
+    run = free.simulate(1.0, start=start, project=True, points=1)
+    assert np.allclose(run.states[0, :9], np.eye(3).ravel(), rtol=0, atol=1e-15)
+    fixed = {"A_22": 2.0, "zeta_1": 1.0}
+    many = free.simulate(
+        1e-9, start=fixed, ensemble=3, vary={"A_11": (1.7, 9)}, project=True, points=2
+    )
+    assert np.allclose(many.states[:, 0, :9], np.eye(3).ravel(), rtol=0, atol=1e-15)
 
 
 def test_a_reflection_is_no_rotation():
