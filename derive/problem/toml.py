@@ -34,6 +34,7 @@ from . import inertia
 from .bodies import body
 from .fields import LIKE_A_PLACE, used_at
 from .file_reader import FileReader
+from .followed_names import named_twice
 from .forces import forces, negative_stiffness_of
 from .group import group_of
 from .problem import Problem, ProblemError
@@ -158,6 +159,8 @@ def problem_of(
         signed=negative_mass,
         **stated_motion(data, reader),
     )
+    if fault := named_twice(problem):
+        raise ProblemError(fault)
     _affordable(problem)
     _declared(problem, data)
     _massive(problem, negative_mass)
@@ -211,6 +214,8 @@ def _without_points(
         advected=advected,
         **stated_motion(data, reader),
     )
+    if fault := named_twice(problem):
+        raise ProblemError(fault)
     _affordable(problem)
     _declared(problem, data)
     if inputs and problem.lagrangian and problem.lagrangian.held:
