@@ -188,7 +188,7 @@ def simulate(
         **code.facts,
         "parameters": dict(begin.parameters),
         "inputs": inputs,
-        "drives": drives(code.record.problem or {}, inputs),
+        "drives": drives(code.record.problem or {}, inputs, begin.parameters),
         "method": str(method),
         "language": "C" if isinstance(follow.motion, Motion) else "Python",
         "evaluations": follow.motion.evaluations,

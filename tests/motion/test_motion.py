@@ -12,6 +12,7 @@ from derive.code.step.collocation import Collocation
 from derive.command.cli import main
 from derive.command.simulating import at_first, negative
 from derive.motion.component import taken_to_group
+from derive.motion.driven import drives
 from derive.motion.first_numbers import exponential
 from derive.motion.kept_words import in_order
 from derive.motion.method import Method, instants
@@ -492,6 +493,18 @@ def test_a_held_input_is_named_beside_what_it_changes(capsys):
     (energy,) = (x for x in told if "energy" in x)
     assert energy.endswith(": by damping")
     assert not any(x.endswith("damping") for x in told if x != energy)
+    assert main(["simulate", "jelly", "--t", "1", "--set", "e=0"]) == 0
+    assert ": by" not in capsys.readouterr().out.splitlines()[1]
+
+
+def test_what_acts_at_the_numbers_of_the_parameters_changes_the_energy():
+    product = ["mul", ["par", "a"], ["fun", "cos", ["mul", ["par", "w"], "t"]]]
+    problem = {"potentials": [{"E": [product, 0]}], "damping": [{"coefficient": ["par", "c"]}]}
+    all_of_them = {"a": 1.0, "w": 1.0, "c": 1.0}
+    assert drives(problem, {}) == drives(problem, {}, all_of_them) == ["damping", "the time"]
+    assert drives(problem, {}, all_of_them | {"c": 0.0}) == ["the time"]
+    for name in "aw":
+        assert drives(problem, {}, all_of_them | {name: 0.0}) == ["damping"]
 
 
 TURNED = """
