@@ -159,8 +159,6 @@ def problem_of(
         signed=negative_mass,
         **stated_motion(data, reader),
     )
-    if fault := named_twice(problem):
-        raise ProblemError(fault)
     _affordable(problem)
     _declared(problem, data)
     _massive(problem, negative_mass)
@@ -214,8 +212,6 @@ def _without_points(
         advected=advected,
         **stated_motion(data, reader),
     )
-    if fault := named_twice(problem):
-        raise ProblemError(fault)
     _affordable(problem)
     _declared(problem, data)
     if inputs and problem.lagrangian and problem.lagrangian.held:
@@ -277,7 +273,9 @@ def _parameters(data: Any, reader: FileReader) -> dict[str, Parameter]:
 
 
 def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
-    """Every name that is used is a parameter, and every parameter is used."""
+    """Every name that is used is a parameter and nothing else, and every parameter is used."""
+    if fault := named_twice(problem):
+        raise ProblemError(fault)
     found = [*_trees(problem.points), *_moments(problem), *_forces(problem)]
     used = dict.fromkeys(x for t in found for x in names(t))
     for name in used:
