@@ -121,7 +121,7 @@ def command_notes(args: argparse.Namespace) -> int:
 def command_emit(args: argparse.Namespace) -> int:
     """Write the numeric code of a problem."""
     from ..code.emit import planned
-    from .emitting import checked, languages, made, options, validated, wanted
+    from .emitting import all_hold, checked, languages, made, options, validated, wanted
     from .writing import write
 
     if args.names:
@@ -136,7 +136,7 @@ def command_emit(args: argparse.Namespace) -> int:
     problem, record = derive(args.problem, followed=bool(args.step), **allowed(args))
     asked = wanted(args, problem)
     compiled, files = made(problem, record, asked)
-    if args.validate and not validated(files, files, record, compiled, asked):
+    if args.validate and not all_hold(validated(files, files, record, compiled, asked)):
         return 1  # and nothing is written
     for path in write(files, Path(args.out or ".")):
         print(path)

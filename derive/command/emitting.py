@@ -12,6 +12,7 @@ import sys
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import fields, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..code.emit import emit, included, planned
 from ..code.languages import LANGUAGES
@@ -24,6 +25,9 @@ from ..problem.problem import Problem
 from ..record.record import Derivation
 from .loading import allowed, derive
 from .writing import REMEDY, stale, text_on_disk
+
+if TYPE_CHECKING:
+    from ..validate.emission import Report
 
 HEAD = 10_000
 """In so many characters a file says what it was made by."""
@@ -75,7 +79,7 @@ def checked(args: argparse.Namespace) -> int:
         for file, e in stated.items()
         if e.problem == p.name and args.prefix in (None, e.prefix)
     }
-    right = True
+    right, reports = True, []
     for e, now in emissions(args, p, own.values()):
         compiled, files = made(p, record, now)
         places = planned(now.languages, now.prefix, now.options)
@@ -92,7 +96,8 @@ def checked(args: argparse.Namespace) -> int:
         right = right and not old
         if args.validate:
             kept = {x: text_on_disk(folder / x) for x in files}
-            right = validated(kept, files, record, compiled, now) and right
+            reports += validated(kept, files, record, compiled, now)
+    right = (all_hold(reports) or not args.validate) and right
     return 0 if right else 1
 
 
@@ -138,11 +143,11 @@ def validated(
     d: Derivation,
     program: Program,
     e: EmissionRequest,
-) -> bool:
-    """Do the files that can be read back equal the record?  A line on stderr for each of them.
+) -> list[Report]:
+    """Whether the files that can be read back equal the record, a line on stderr for each.
 
-    ``fresh``: what is emitted now.  False as well where none of the files can be read back.
-    ``MissingParserError`` when there is C among them and no parser of it.
+    ``fresh``: what is emitted now.  ``MissingParserError`` when there is C among them and no parser
+    of it.
     """
     from ..validate import emission
     from ..validate.chart import Chart
@@ -154,6 +159,11 @@ def validated(
     ).reports(d)
     for report in reports:
         print(f"{', '.join(report.files)}: {report.text}", file=sys.stderr)
+    return reports
+
+
+def all_hold(reports: Collection[Report]) -> bool:
+    """Do all files equal the record?  False, with a line on stderr, where none can be read back."""
     if not any(report.read for report in reports):
         print("derive: nothing of this can be validated", file=sys.stderr)
         return False

@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
+
+from ..language.values import approximate
+from ..record.tree_data import decode
 
 DAMPING, TIME, INPUTS = "damping", "the time", "inputs"
 
 
-def drives(problem: Mapping[str, Any], inputs: Mapping[str, float]) -> list[str]:
-    """What changes it, in the problem of a record and by held inputs: damping, the time where it
-    stands in U or ℓ by itself, inputs that are not 0."""
-    timed = _timed([problem.get(x) for x in ("potentials", "lagrangian")])
-    there = {DAMPING: problem.get("damping"), TIME: timed, INPUTS: any(inputs.values())}
+def drives(
+    problem: Mapping[str, Any],
+    inputs: Mapping[str, float],
+    parameters: Mapping[str, float] | None = None,
+) -> list[str]:
+    """What changes it, in the problem of a record, by held inputs and for some numbers of the
+    ``parameters``, any where there are none: damping, the time where it stands in U or ℓ by itself,
+    inputs that are not 0."""
+    numbers = parameters or {}
+    forces = (decode(x["coefficient"], "problem") for x in problem.get("damping") or ())
+    damped = any(approximate(t, numbers, float) != 0 for t in forces)
+    zero = [["par", name] for name, x in numbers.items() if x == 0]
+    timed = _timed([problem.get(x) for x in ("potentials", "lagrangian")], zero)
+    there = {DAMPING: damped, TIME: timed, INPUTS: any(inputs.values())}
     return [what for what, is_there in there.items() if is_there]
 
 
@@ -31,10 +43,12 @@ def _placed(data: Any) -> bool:
     return ([*data[:1]] == ["entry"] and data[1] != "ζ") or any(map(_placed, data))
 
 
-def _timed(data: Any) -> bool:
-    """Does the time stand in data of a record, but as what a place r(t) depends on?"""
+def _timed(data: Any, zero: Sequence[Any]) -> bool:
+    """Does the time stand in data of a record, but as what a place r(t) depends on, and in products
+    with a parameter that is ``zero``?"""
     if isinstance(data, dict):
-        return any(map(_timed, data.values()))
+        return any(_timed(x, zero) for x in data.values())
     if isinstance(data, list | tuple):
-        return [*data[:1]] != ["call"] and any(map(_timed, data))
+        vanishes = [*data[:1]] == ["mul"] and any(x in zero for x in data)
+        return [*data[:1]] != ["call"] and not vanishes and any(_timed(x, zero) for x in data)
     return bool(data == "t")

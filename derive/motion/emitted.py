@@ -25,7 +25,7 @@ from ..schema.lagrangian_kinds import Lagrangian
 from .body_outline import outline
 from .central_inertia import central_inertia
 from .effective_well import OneDegree
-from .emitted_code import EmittedCode, in_si
+from .emitted_code import EmittedCode, base_units
 from .motion_in_python import MotionInPython
 from .run import Array
 from .start import MotionError
@@ -71,8 +71,8 @@ class Emitted(EmittedCode):
             "unsought": unsought,
             "filled": isinstance(problem.body, GivenBody) and bool(problem.body.solids),
         }
-        si, events, stated = in_si(problem), problem.events, problem.lagrangian
-        return cls(program, record, si, step, facts, events, left, order, stated, problem.body)
+        base, events, stated = base_units(problem), problem.events, problem.lagrangian
+        return cls(program, record, base, step, facts, events, left, order, stated, problem.body)
 
     @property
     def options(self) -> Options:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from ..code.naming import own_prefix
@@ -18,6 +19,17 @@ UNITS |= dict.fromkeys(("momentum", "body_momentum"), "kg m/s")
 UNITS |= dict.fromkeys(("angular_momentum", "body_angular_momentum"), "kg m^2/s")
 """Those of columns of a kind, and of the components of what is kept."""
 
+SI = re.compile("kg|m|s|A|K|mol|cd|rad|sr|Hz|N|Pa|J|W|C|V|F|Ω|ohm|S|Wb|T|H|lm|lx|Bq|Gy|Sv|kat")
+"""The units of SI, which go together without factors."""
+
+IN_SECONDS = re.compile(
+    "[fpnuµμmcdhkMGTP]?(g|m|rad|A|K|mol|N|Pa|J|W|C|V|F|T)|deg|°|t|in|ft|yd|mi|lbm?|lbf|slug|oz|kgf|L|%"
+)
+"""Other units, of which none has a time that is not in seconds."""
+
+FACTOR = re.compile(r"[^\W\d_⁰¹²³⁴-⁹]+|[°%]|\d[.\d]*\d")
+"""A unit in a product of powers, or a number that is none of their exponents."""
+
 
 @dataclass(frozen=True)
 class Column:
@@ -28,18 +40,24 @@ class Column:
     unit: str = ""
 
 
-def in_si(problem: Problem) -> bool:
-    """Are the numbers of a problem in SI?"""
-    return any(x.unit for x in problem.parameters.values())
+def base_units(problem: Problem) -> frozenset[str]:
+    """The base units in which the numbers of a problem are by those of its parameters: all of SI's
+    mechanics, the second alone where others stand beside SI, none where a time may be in
+    others."""
+    stated = [x.unit for x in problem.parameters.values() if x.unit]
+    factors = [x for unit in stated for x in FACTOR.findall(unit)]
+    if not stated or not all(SI.fullmatch(x) or IN_SECONDS.fullmatch(x) for x in factors):
+        return frozenset()
+    return frozenset(["kg", "m", "s"] if all(map(SI.fullmatch, factors)) else ["s"])
 
 
 @dataclass(frozen=True)
 class EmittedCode:
-    """A program and its record; are the numbers of the problem in SI?"""
+    """A program and its record; the :func:`base_units` of the problem."""
 
     program: Program
     record: Derivation
-    in_si: bool
+    base: frozenset[str]
 
     @property
     def name(self) -> str:
@@ -67,11 +85,11 @@ class EmittedCode:
         return tuple(Column(x, kind, self._unit(x, kind)) for x, kind in names)
 
     def _unit(self, name: str, kind: str) -> str:
-        if not self.in_si:
-            return ""
         if kind == "state":
-            return self._unit_of_state(name)
-        return UNITS.get(parts(name)[0] if kind == "conserved" else kind, "")
+            unit = self._unit_of_state(name)
+        else:
+            unit = UNITS.get(parts(name)[0] if kind == "conserved" else kind, "")
+        return unit if {*FACTOR.findall(unit.replace("J", "kg m s"))} <= self.base else ""
 
     def _unit_of_state(self, name: str) -> str:
         """That of a place, of a velocity, and of ζ on an element of the basis: of one that does no

@@ -15,7 +15,7 @@ from ..language.expression import names
 from ..native.library import CompileError
 from ..native.motion_in_c import AT_EVENT, Integers, constants, ensemble
 from ..problem.problem import Problem
-from .component import reflection, unreached
+from .component import reflection, taken_to_group, unreached
 from .emitted import Emitted
 from .method import TOLERANCE, Method, instants
 from .run import Array
@@ -289,8 +289,8 @@ class Many:
         if fault := reflection(code.program.blocks, x):
             raise MotionError(f"{code.name}: a motion starts off the group: {fault}")
         begun = x
-        for _ in range(20 if self.plan.project else 0):  # Newton's method
-            x = np.asarray(code.python.project(x), dtype=float)
+        if self.plan.project:
+            x = taken_to_group(code.python.project, code.program.blocks, x)
         off = np.asarray(code.python.defect(x))
         if not (off <= OFF_THE_GROUP).all():
             worst = int(np.flatnonzero(~(off <= OFF_THE_GROUP))[0])

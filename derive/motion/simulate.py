@@ -17,7 +17,7 @@ from ..native.library import CompileError
 from ..native.motion_in_c import Motion
 from ..problem.inertia import fault_of_quadrics
 from ..problem.problem import Problem, points_of
-from .component import not_near, reflection, unreached
+from .component import not_near, reflection, taken_to_group, unreached
 from .driven import drives
 from .emitted import Emitted
 from .method import Method, instants
@@ -140,9 +140,9 @@ def on_the_group(code: Emitted, begin: Start, *, project: bool) -> Start:
     x, blocks = begin.x, code.program.blocks
     if fault := reflection(blocks, x):
         raise MotionError(f"{code.name}: the start is not on the group: {fault}")
+    if project:
+        x = taken_to_group(code.python.project, blocks, x)
     with np.errstate(all="ignore"):
-        for _ in range(20 if project else 0):  # Newton's method
-            x = np.asarray(code.python.project(x), dtype=float)
         off = float(code.python.defect(x))
     if not off <= OFF_THE_GROUP:
         told = f"not taken to the group: {unreached(blocks, begin.x)}"
@@ -188,7 +188,7 @@ def simulate(
         **code.facts,
         "parameters": dict(begin.parameters),
         "inputs": inputs,
-        "drives": drives(code.record.problem or {}, inputs),
+        "drives": drives(code.record.problem or {}, inputs, begin.parameters),
         "method": str(method),
         "language": "C" if isinstance(follow.motion, Motion) else "Python",
         "evaluations": follow.motion.evaluations,

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from ..algebra.groups import Group
 from ..language.expression import names
 from ..language.suffixed import suffixed
+from ..schema.outside import Input
 from ..schema.table import hint
 from .problem import Problem
 from .state_names import entries, known_in_lagrangian, state_names
@@ -32,11 +33,30 @@ def faults(problem: Problem) -> Iterator[str]:
 
 def numbers_followed(problem: Problem, group: Group) -> list[str]:
     """The numbers of the state, those of g that never change among them, and of the inputs."""
+    inputs = (name for x in problem.inputs for name in _of_input(x, group))
+    return [*numbers_of_state(problem, group), *inputs]
+
+
+def named_twice(problem: Problem) -> str:
+    """That a number of the state is a parameter, or one of an input, in words; "" where none is."""
+    if problem.group is None:
+        return ""
+    state = {*numbers_of_state(problem, problem.group)}
+    if clash := next(filter(state.__contains__, problem.parameters), ""):
+        return f"parameter {clash!r}: a number of the state; choose another name"
+    for k, x in enumerate(problem.inputs, 1):
+        if clash := next(filter(state.__contains__, _of_input(x, problem.group)), ""):
+            told = f"{clash!r} is one of its numbers, and of the state as well"
+            return f"input {k}, {x.name!r}: {told}; choose another name"
+    return ""
+
+
+def numbers_of_state(problem: Problem, group: Group) -> list[str]:
+    """The numbers of the state, those of g that never change among them."""
     if problem.lagrangian is None:
-        return [*of_points(group), *_inputs(problem, group)]
+        return of_points(group)
     held = {"t"} | {suffixed("zeta", a) for a in problem.lagrangian.held}
-    known = known_in_lagrangian(group, problem.advected)
-    return [*(x for x in known if x not in held), *_inputs(problem, group)]
+    return [x for x in known_in_lagrangian(group, problem.advected) if x not in held]
 
 
 def of_points(group: Group) -> list[str]:
@@ -55,8 +75,7 @@ def of_other_forms(group: Group) -> set[str]:
     return found | ({f"q_{k}" for k in range(4)} if group.rotates else set())
 
 
-def _inputs(problem: Problem, group: Group) -> Iterator[str]:
-    """Those of the inputs: one for each coordinate of 𝔤, or of the space of a force."""
-    for x in problem.inputs:
-        count = group.dimension if x.kind == "covector" else group.n
-        yield from (suffixed(x.name, i) for i in range(1, count + 1))
+def _of_input(x: Input, group: Group) -> list[str]:
+    """Those of an input: one for each coordinate of 𝔤, or of the space of a force."""
+    count = group.dimension if x.kind == "covector" else group.n
+    return [suffixed(x.name, i) for i in range(1, count + 1)]

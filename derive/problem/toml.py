@@ -34,6 +34,7 @@ from . import inertia
 from .bodies import body
 from .fields import LIKE_A_PLACE, used_at
 from .file_reader import FileReader
+from .followed_names import named_twice
 from .forces import forces, negative_stiffness_of
 from .group import group_of
 from .problem import Problem, ProblemError
@@ -272,7 +273,9 @@ def _parameters(data: Any, reader: FileReader) -> dict[str, Parameter]:
 
 
 def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
-    """Every name that is used is a parameter, and every parameter is used."""
+    """Every name that is used is a parameter and nothing else, and every parameter is used."""
+    if fault := named_twice(problem):
+        raise ProblemError(fault)
     found = [*_trees(problem.points), *_moments(problem), *_forces(problem)]
     used = dict.fromkeys(x for t in found for x in names(t))
     for name in used:

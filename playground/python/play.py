@@ -188,7 +188,7 @@ class Play:
         motion keeps?"""
         from derive.code.emit import emit
         from derive.code.options import Options
-        from derive.motion.emitted_code import EmittedCode, in_si
+        from derive.motion.emitted_code import EmittedCode, base_units
         from derive.motion.first_numbers import first_numbers
         from derive.page.motion_page import data
         from derive.pipeline import moving_program
@@ -196,7 +196,7 @@ class Play:
 
         self.read(text)
         made, _ = moving_program(self.problem, self.record, sought=sought)
-        code = EmittedCode(made, self.record, in_si(self.problem))
+        code = EmittedCode(made, self.record, base_units(self.problem))
         begin = first_numbers(with_numbers(made), self.problem, {})
         chosen = Options(step=("gauss",))
         (source,) = emit(made, self.record, ("javascript",), made.name, chosen).values()

@@ -42,7 +42,7 @@ def words(language, *, framed=False):
 def refusal(name):
     """Why it may not be a parameter."""
     try:
-        problem([name])
+        problem([name]), of_springs([name])
     except ProblemError as error:
         return str(error)
     return None

@@ -1,6 +1,7 @@
 """Motions of derive simulate: known solutions, order, what is kept, what is refused."""
 
 import json
+import tomllib
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,8 @@ import derive
 from derive.code.step.collocation import Collocation
 from derive.command.cli import main
 from derive.command.simulating import at_first, negative
+from derive.motion.component import taken_to_group
+from derive.motion.driven import drives
 from derive.motion.first_numbers import exponential
 from derive.motion.kept_words import in_order
 from derive.motion.method import Method, instants
@@ -17,6 +20,8 @@ from derive.motion.run import Column, Run
 from derive.motion.run_files import read
 from derive.motion.start import MotionError
 from derive.motion.stated_inertia import inertia_of
+from derive.pipeline import motion_of, walk
+from derive.problem.toml import problem_of
 from tests.oracles import free_top, lagrange_top
 
 MOMENTS = (1.25, 2.0, 2.75)
@@ -427,6 +432,32 @@ def test_a_lagrangian_has_units_where_its_parameters_have(name, units):
     assert units == {x.name: x.unit for x in run.columns if x.name in units}
 
 
+@pytest.mark.parametrize(
+    ("m", "length", "g", "units"),
+    [
+        ("kg", "m", "m/s^2", {"t": "s", "zeta_1": "1/s", "energy": "J"}),
+        ("kg", "m", "N kg⁻¹", {"t": "s", "zeta_1": "1/s", "energy": "J"}),
+        ("g", "mm", "mm/s^2", {"t": "s", "zeta_1": "1/s", "energy": ""}),
+        ("slug", "ft", "ft/s^2", {"t": "s", "zeta_1": "1/s", "energy": ""}),
+        ("kg", "mm", "m/s^2", {"t": "s", "zeta_1": "1/s", "energy": ""}),
+        ("kg", "m", "m/ms^2", {"t": "", "zeta_1": "", "energy": ""}),
+        ("kg", "m", "km/h/s", {"t": "", "zeta_1": "", "energy": ""}),
+        ("kg", "m", "1000 m/s^2", {"t": "", "zeta_1": "", "energy": ""}),
+        ("kg", "m", "some", {"t": "", "zeta_1": "", "energy": ""}),
+        ("", "", "", {"t": "", "zeta_1": "", "energy": ""}),
+    ],
+)
+def test_no_unit_is_told_that_those_of_the_parameters_do_not_give(m, length, g, units):
+    text = f'''name = "hung"\ngroup = "SO(2)"\n[parameters]
+m = {{ default = 50, unit = "{m}" }}
+l = {{ default = 120, unit = "{length}" }}
+g = {{ default = 9810, unit = "{g}" }}
+[[point]]\nmass = "m"\nat = [0, "-l"]\n[[potential]]\nkind = "gravity"\ng = [0, "-g"]\n'''
+    problem = problem_of(tomllib.loads(text))
+    columns = motion_of(problem, walk(problem), "gauss").columns()
+    assert units == {x.name: x.unit for x in columns if x.name in units}
+
+
 AWAY = """
 name = "away"
 group = "SE(3)"
@@ -462,6 +493,18 @@ def test_a_held_input_is_named_beside_what_it_changes(capsys):
     (energy,) = (x for x in told if "energy" in x)
     assert energy.endswith(": by damping")
     assert not any(x.endswith("damping") for x in told if x != energy)
+    assert main(["simulate", "jelly", "--t", "1", "--set", "e=0"]) == 0
+    assert ": by" not in capsys.readouterr().out.splitlines()[1]
+
+
+def test_what_acts_at_the_numbers_of_the_parameters_changes_the_energy():
+    product = ["mul", ["par", "a"], ["fun", "cos", ["mul", ["par", "w"], "t"]]]
+    problem = {"potentials": [{"E": [product, 0]}], "damping": [{"coefficient": ["par", "c"]}]}
+    all_of_them = {"a": 1.0, "w": 1.0, "c": 1.0}
+    assert drives(problem, {}) == drives(problem, {}, all_of_them) == ["damping", "the time"]
+    assert drives(problem, {}, all_of_them | {"c": 0.0}) == ["the time"]
+    for name in "aw":
+        assert drives(problem, {}, all_of_them | {name: 0.0}) == ["damping"]
 
 
 TURNED = """
@@ -496,6 +539,39 @@ def test_a_quadratic_lagrangian_has_a_tensor_of_inertia(L, inertia, tmp_path):
 def test_a_negative_mass_is_named(capsys):
     err = told(capsys, "sl3", "--t", "1", "--set", "m1=-1")[2]
     assert err.endswith("not positive: a mass is negative, m1 = -1\n")
+
+
+@pytest.mark.parametrize("name", ["so3", "se3", "two_tops", "sim3", "manakov"])
+def test_far_starts_are_taken_to_the_nearest_rotation(name):
+    """R of A = RP, P positive, whatever P is: with A = 1.8 a step of Newton's method overshoots."""
+    d, rng = derive.derive(name), np.random.default_rng(7)
+    code = motion_of(d.problem, d.record)
+    for size in (1.8, 0.03, 1.0, 40.0):
+        x, nearest = np.zeros((20, len(code.program.state))), []
+        for block in code.program.blocks:
+            n = round(len(block.places) ** 0.5)
+            A = size * (np.eye(n) + 0.9 * (size != 1.8) * rng.normal(size=(20, n, n)))
+            A[np.linalg.det(A) < 0, :, 0] *= -1
+            x[:, list(block.places)] = A.reshape(20, -1)
+            U, _, V = np.linalg.svd(A)
+            nearest.append((block.places, n, U @ V))
+        taken = taken_to_group(code.python.project, code.program.blocks, x)
+        assert (code.python.defect(taken) < 1e-12).all()
+        for places, n, R in nearest:
+            A = taken[:, list(places)].reshape(20, n, n)
+            scale = np.linalg.det(A)[:, None, None] ** (1 / n)
+            assert np.allclose(A / scale, R, rtol=0, atol=1e-12)
+
+
+def test_a_start_of_a_run_and_of_an_ensemble_is_the_nearest_rotation(free):
+    start = {"A_11": 1.8, "A_22": 1.8, "zeta_1": 1.0}
+    run = free.simulate(1.0, start=start, project=True, points=1)
+    assert np.allclose(run.states[0, :9], np.eye(3).ravel(), rtol=0, atol=1e-15)
+    fixed = {"A_22": 2.0, "zeta_1": 1.0}
+    many = free.simulate(
+        1e-9, start=fixed, ensemble=3, vary={"A_11": (1.7, 9)}, project=True, points=2
+    )
+    assert np.allclose(many.states[:, 0, :9], np.eye(3).ravel(), rtol=0, atol=1e-15)
 
 
 def test_a_reflection_is_no_rotation():

@@ -83,6 +83,19 @@ FILES = {
         TWO + '[parameters]\nF_2 = 1\n[[input]]\nname = "F"\nkind = "force"\non = 1',
         "'F_2' is one of its numbers, and a parameter as well",
     ),
+    "a number of the state named as a parameter": (
+        TWO + '[parameters]\nzeta_3 = 1\n[[damping]]\ncoefficient = "zeta_3"',
+        "parameter 'zeta_3': a number of the state; choose another name",
+    ),
+    "a number of an input named as one of the state": (
+        TWO.replace("SO", "SE") + '[[input]]\nname = "w"\nkind = "force"\non = 1',
+        "input 1, 'w': 'w_1' is one of its numbers, and of the state as well; choose another name",
+    ),
+    "a number of an input named as one of the state in a Lagrangian": (
+        TOP + "[inertia]\noperator = [[1, 0, 0], [0, 2, 0], [0, 0, 3]]\n"
+        '[[input]]\nname = "zeta"\nkind = "covector"',
+        "'zeta_1' is one of its numbers, and of the state as well",
+    ),
     "parameter t": (TWO + "[parameters]\nt = 1", "this is the time"),
     "parameter r1_x": (TWO + "[parameters]\nr1_x = 1", "a place of a point"),
     "time in a mass": (

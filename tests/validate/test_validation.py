@@ -527,6 +527,16 @@ def test_nothing_validated_is_no_success(tmp_path, capsys):
     assert not (tmp_path / "new").exists()
 
 
+def test_what_is_not_read_back_is_told_and_the_other_files_decide(tmp_path, capsys):
+    """Also where it is an emission of its own."""
+    emit = ["emit", "so3", "--out", str(tmp_path)]
+    assert main([*emit, "--lang", "julia"]) == main([*emit, "--lang", "python"]) == 0
+    assert main([*emit, "--check", "--validate"]) == 0
+    told = capsys.readouterr().err
+    assert "so3.jl: not validated: only C and Python are read back" in told
+    assert "nothing of this" not in told
+
+
 def test_a_header_in_the_place_of_the_library_is_told(tmp_path, capsys):
     command = ["emit", "so3", "--out", str(tmp_path)]
     assert main(command) == 0
