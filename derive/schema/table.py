@@ -223,13 +223,15 @@ class Table:
     """A table of a problem; each class of it is a dataclass.
 
     ``kind``: its name, where there are several kinds; ``needs``: what the problem must be;
-    ``section``: the key of a file under which such tables stand; ``called``: its word in Python.
+    ``section``: the key of a file under which such tables stand; ``called``: its word in Python;
+    ``word``: what that makes of arguments, a table or a list of them, where they are not its keys.
     """
 
     kind: ClassVar[str] = ""
     needs: ClassVar[tuple[str, ...]] = ()
     section: ClassVar[str] = ""
     called: ClassVar[str] = ""
+    word: ClassVar[Any] = None
 
     def __init_subclass__(cls) -> None:
         dataclass(frozen=True, kw_only=True)(cls)
@@ -255,14 +257,6 @@ class Table:
         """
         del table, last
         return tuple(cls.keys())
-
-    @classmethod
-    def word(cls, *given: Any, **named: Any) -> Any:
-        """The table, or the list of tables, that its word of Python makes of arguments."""
-        names = cls.names()
-        if len(given) > len(names):
-            raise TypeError(f"{cls.called or cls.__name__} takes {', '.join(names)}, and no more")
-        return dict(zip(names, given, strict=False)) | named
 
     @classmethod
     def read(cls, table: Mapping[str, Any], where: str, reader: Any) -> Self:
