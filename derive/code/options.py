@@ -15,7 +15,10 @@ CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
     "attitude": (("matrix", "quaternion"), "A as a matrix, or a unit quaternion (SO(3), SE(3))"),
     "frame": (("given", "principal"), "the body as given, or in its principal frame"),
     "velocity": (("body", "tangent"), "the state ends in Z = g^-1 dg/dt, or in dg/dt"),
-    "state": (("whole", "moving"), "all entries of g, or without those that never vary"),
+    "state": (
+        ("whole", "moving"),
+        "all entries of g in the code's state, or without those that never vary",
+    ),
 }
 """Option → its values, the first one the default, and what they choose."""
 

@@ -167,15 +167,28 @@ OTHER_WORDS = {
     **dict.fromkeys(("gas", "pressure", "determinant", "det"), "volume"),
     **dict.fromkeys(("torque", "moment"), "covector"),
     **dict.fromkeys(("world", "inertial"), "space"),
+    **dict.fromkeys(("value", "initial", "number"), "default"),
+    **dict.fromkeys(("mass", "M"), "m"),
+    **dict.fromkeys(("cm", "cog", "center_of_gravity"), "centre"),
+    **dict.fromkeys(("I_com", "I_cm", "I_cog", "I_c", "I_G"), "I_centre"),
+    **{"c++": "cpp", "cxx": "cpp", "js": "javascript", "py": "python", "rs": "rust", "jl": "julia"},
 }
 """What others call it."""
+MOMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
+"""The entries of a tensor, as others write them."""
+
 ELSEWHERE = {
     **dict.fromkeys(
         ("com", "center_of_mass", "centre_of_mass"),
         "the centre of mass is 'centre' in [body] given = { m, centre, I_centre }",
     ),
     **dict.fromkeys(
-        ("inertia", "moment_of_inertia", "inertia_tensor"),
+        (
+            *("inertia", "moment_of_inertia", "inertia_tensor"),
+            *(f"I{x}" for x in MOMENTS),
+            *(f"I{x.upper()}" for x in MOMENTS),
+            *(f"I_{x}" for x in MOMENTS),
+        ),
         "a tensor of inertia is 'I' or 'I_centre' in [body] given = { m, centre, I_centre }",
     ),
     **dict.fromkeys(
@@ -202,7 +215,10 @@ ELSEWHERE = {
         "would touch, [[damping]] is viscous",
     ),
 }
-"""Where a word stands that is often tried, or that it is outside of all this."""
+"""Where a word stands that is often tried, or that it is outside of all this; of no parameter."""
+
+OF_FORCES = ("direction", "axis", "magnitude", "value")
+"""Those that are tried of inputs and of gravity."""
 
 
 def nearest(word: str, known: Collection[str]) -> str:
@@ -213,7 +229,8 @@ def nearest(word: str, known: Collection[str]) -> str:
 
 def hint(word: str, known: Collection[str]) -> str:
     """Where a word stands that means nothing here, as of :data:`ELSEWHERE`; or else the nearest."""
-    away = word in ELSEWHERE and OTHER_WORDS.get(word) not in known
+    away = word in ELSEWHERE and OTHER_WORDS.get(word) not in known and "default" not in known
+    away = away and (word not in OF_FORCES or not {"frame", "g"}.isdisjoint(known))
     return f"; {ELSEWHERE[word]}" if away else nearest(word, known)
 
 
