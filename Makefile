@@ -33,7 +33,7 @@ test: $(STAMP)   ## lint, types, and the tests that take minutes
 
 # for continuous integration: coverage begins with what make test ran, and leaves that out
 PASSED := build/coverage/passed.json
-MEASURED = $(if $(MEASURE),--passed $(PASSED) --cov --cov-report=)
+MEASURED = $(if $(MEASURE),--passed=$(PASSED) --cov --cov-report=)
 ON := -n 2 --dist worksteal
 
 text: $(STAMP)   ## lint, sentences in both languages, links, layers: what is soon seen
@@ -46,7 +46,7 @@ TEXT := tests/prose tests/project/test_docs.py tests/project/test_faults.py test
 
 # branches that only those cases take which a quick run leaves out, and which are not measured, count as not taken
 coverage: $(ALL) ## more tests, and the lines and branches of derive/ that none runs; fails below 95 % of lines
-	$(BIN)/python -m pytest --half $(ON) $(if $(MEASURE),--without $(PASSED) --cov-append) --cov --cov-report= --cov-report=json
+	$(BIN)/python -m pytest --half $(ON) $(if $(MEASURE),--without=$(PASSED) --cov-append) --cov --cov-report= --cov-report=json
 	$(BIN)/python -m tests.support.covered 95 92
 
 thorough: $(ALL) ## all tests, an hour

@@ -54,7 +54,7 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *PLACES, *_words()})
+    return sorted({*(x for x in globals() if x.startswith("__")), *PLACES, *_words()})
 
 
 def _words() -> Any:

@@ -11,6 +11,7 @@ from fractions import Fraction
 from typing import Any
 
 from .. import __version__
+from ..language.near_names import did_you_mean, near_name
 from ..language.refused import Refused
 from ..language.templating import environment
 from ..record.record import Derivation
@@ -65,9 +66,12 @@ def emit(
 
 
 def planned(languages: Sequence[str], prefix: str, chosen: Options) -> dict[str, tuple[str, str]]:
-    """File name → its language and template; ``EmitError`` for a prefix that is no name, a form, a
-    frame or a step that a language does not have."""
+    """File name → its language and template; ``EmitError`` for a prefix that is no name, a
+    language that there is not, a form, a frame or a step that one does not have."""
     form = chosen.form
+    if unknown := next((x for x in languages if x not in LANGUAGES), ""):
+        near = did_you_mean(near_name(unknown.lower(), LANGUAGES), "; ")
+        raise EmitError(f"no language {unknown[:40]!r}{near}; there are {', '.join(LANGUAGES)}")
     needed = [x for x in (LANGUAGES[name].needs for name in languages) if x]
     well_formed = re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,63}", prefix)
     if what := taken_prefix(prefix, [*languages, *needed]) if well_formed else "no name":

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
+
+from ..language.near_names import did_you_mean, near_name
 
 CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
     "real": (("double", "float"), "the numbers of the code"),
@@ -11,7 +15,10 @@ CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
     "attitude": (("matrix", "quaternion"), "A as a matrix, or a unit quaternion (SO(3), SE(3))"),
     "frame": (("given", "principal"), "the body as given, or in its principal frame"),
     "velocity": (("body", "tangent"), "the state ends in Z = g^-1 dg/dt, or in dg/dt"),
-    "state": (("whole", "moving"), "all entries of g, or without those that never vary"),
+    "state": (
+        ("whole", "moving"),
+        "all entries of g in the code's state, or without those that never vary",
+    ),
 }
 """Option → its values, the first one the default, and what they choose."""
 
@@ -85,3 +92,13 @@ class Options:
             object.__setattr__(self, name, str(getattr(self, name)))
             if getattr(self, name) not in ("", *allowed):
                 raise ValueError(f"{name} must be one of {', '.join(allowed)}")
+
+
+def options_of(choices: Mapping[str, Any], *others: str) -> Options:
+    """The options of these choices by name; ``ValueError`` for a name that is none, with the
+    nearest of them and of ``others`` that are known there."""
+    known = (*CHOICES, *REPEATED, *DEPENDENT, *ADDED)
+    if wrong := next((x for x in choices if x not in known), ""):
+        near = did_you_mean(near_name(wrong, (*known, *others)), after=" ")
+        raise ValueError(f"no choice {wrong}; {near}there are {', '.join((*others, *known))}")
+    return Options(**choices)

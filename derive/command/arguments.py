@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from .. import __version__
 from ..language.near_names import did_you_mean, near_name
 from ..plot.kinds_told import told_kinds
+from ..schema.table import nearest
 from ..views.rendering import FORMATS
 from .guard import one_line
 
@@ -67,6 +68,12 @@ def both(words: str) -> str:
     return words
 
 
+OTHER_OPTIONS = {"page": "html", "web": "html", "language": "lang", "output": "out"}
+"""What others call an option."""
+
+PICTURES = ("plot", "picture", "figure")
+"""What is tried for a picture of a run."""
+
 Command = Callable[[argparse.Namespace], int]
 
 
@@ -83,8 +90,7 @@ class Parser(argparse.ArgumentParser):
         if left:
             option = next((x for x in left if x.startswith("-")), "")
             what = f"unknown option {option!r}" if option else f"unexpected {left[0]!r}"
-            near = near_name(option.partition("=")[0], self._known())
-            self.error(one_line(what + did_you_mean(near, "; ")))
+            self.error(one_line(what + self._hint(option.partition("=")[0])))
         return found, left
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
@@ -92,15 +98,26 @@ class Parser(argparse.ArgumentParser):
         try:
             super()._check_value(action, value)
         except argparse.ArgumentError as error:
-            near = did_you_mean(near_name(str(value), map(str, action.choices or ())), "; ")
+            choices, listed = [*map(str, action.choices or ())], str(value).split(",")
+            near = nearest(str(value), choices)
+            if "repeated" in (action.help or "") and len(listed) > 1 and {*listed} <= {*choices}:
+                option = action.option_strings[0]
+                near = f"; one at a time: {' '.join(f'{option} {x}' for x in listed)}"
             raise argparse.ArgumentError(action, f"{error.message}{near}") from None
 
     def error(self, message: str) -> NoReturn:
         """What is wrong in one line, and exit 2; --help has the usage."""
         self.exit(2, f"{self.prog}: error: {one_line(message)}\n")
 
-    def _known(self) -> list[str]:
-        return [x for action in self._actions for x in action.option_strings]
+    def _hint(self, option: str) -> str:
+        """Where an option stands, or the nearest that there is."""
+        known = {x.lstrip("-"): x for action in self._actions for x in action.option_strings}
+        name = option.lstrip("-")
+        if name in PICTURES and self.prog.endswith("simulate"):
+            return "; derive plot draws the file of --out"
+        near = OTHER_OPTIONS.get(name, "")
+        near = near if near in known else near_name(name, known, 0.65)
+        return did_you_mean(known.get(near, ""), "; ")
 
 
 def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
@@ -192,7 +209,7 @@ def add_motion_options(simulated: argparse.ArgumentParser) -> None:
     simulated.add_argument("--order", choices=values, help=about)
     about = "a number of the state, a parameter or an input, as zeta_3=2; repeated"
     simulated.add_argument("--set", action="append", type=number, metavar="NAME=NUMBER", help=about)
-    about = "such numbers from a .toml file, or the end of a run"
+    about = "such numbers from a .toml file, or the end of a run (whole|moving is of derive emit)"
     simulated.add_argument("--state", metavar="FILE", help=about)
     about = "start at exp of these coordinates in the basis of the Lie algebra, as 0.3,0,0"
     simulated.add_argument("--exp", type=reals, metavar="NUMBERS", help=about)

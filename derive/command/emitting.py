@@ -19,9 +19,9 @@ from ..code.languages import LANGUAGES
 from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 from ..code.program import Program
 from ..code.request import EmissionRequest, request_of
-from ..pipeline import program
+from ..pipeline import program, require_program
 from ..problem.forces import negative_stiffness_of
-from ..problem.problem import Problem
+from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
 from .loading import allowed, derive
 from .writing import REMEDY, stale, text_on_disk
@@ -61,7 +61,13 @@ def wanted(args: argparse.Namespace, p: Problem) -> EmissionRequest:
 
 def made(p: Problem, record: Derivation, e: EmissionRequest) -> tuple[Program, dict[str, str]]:
     """The program of an emission, and its files by name."""
-    compiled = program(p, record, e.options)
+    try:
+        compiled = program(p, record, e.options)
+    except ProblemError as error:
+        if not e.options.conserved:
+            raise
+        require_program(p, record, e.options)  # what has no code at all says so itself
+        raise ProblemError(f"{error}; without --conserved the rest is written") from None
     return compiled, emit(compiled, record, e.languages, e.prefix, e.options, e.allowed)
 
 

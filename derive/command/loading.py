@@ -28,7 +28,7 @@ def ready_made() -> list[str]:
 
 def load_problem(name: str, **allowances: bool) -> Problem:
     """A ready-made problem by name, or a TOML file by path; ``allowances``: what may be negative,
-    as in ``problem.toml.load``. ``UsageError`` where there is neither."""
+    as in ``problem.toml.load``. ``ProblemError`` where there is neither."""
     from ..problem.toml import load
 
     if name in ready_made():
@@ -37,12 +37,12 @@ def load_problem(name: str, **allowances: bool) -> Problem:
     if path.suffix == ".toml" or path.exists():
         return load(path, **allowances)
     if "\n" in name:
-        raise UsageError("a problem is a name or a .toml file, not its text: write it to a file")
+        raise ProblemError("a problem is a name or a .toml file, not its text: write it to a file")
     near = near_name(name.lower(), ready_made())
     if path.with_name(f"{path.name}.toml").is_file():
         near = f"{name}.toml"
     hint = did_you_mean(near[:60], after=" ")
-    raise UsageError(
+    raise ProblemError(
         f"unknown problem {name[:60]!r}; {hint}ready-made: {', '.join(ready_made())}; "
         "or give a .toml file"
     )

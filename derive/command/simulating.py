@@ -150,7 +150,9 @@ def summary(run: Run) -> list[str]:
                 continue
             change = float(np.abs(column - column[0]).max())
             first = at_first(run, label)
-            lines.append(f"  {label}: {first:.9g} at first, changed by at most {change:.1e}{why}")
+            place = " (derive integrals shows it)" * (parts(label)[0] == "integral")
+            said = f"{first:.9g} at first, changed by at most {change:.1e}{why}"
+            lines.append(f"  {label}: {said}{place}")
     for label, column in run.of_kind("defect").items():
         lines.append(f"  {label}: at most {float(column.max()):.1e}")
     lines += events(run)

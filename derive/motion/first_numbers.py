@@ -8,9 +8,9 @@ given.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from operator import add, mul
-from typing import NamedTuple
+from typing import Any, NamedTuple, SupportsFloat
 
 from ..code.program import Program
 from ..code.torus.lattice_state import turned
@@ -78,6 +78,19 @@ def first_numbers(
         [found[name] for name in listed] for listed in (program.state, emitted, program.inputs)
     )
     return FirstNumbers(x, p, u, {name: found[name] for name in defaults})
+
+
+def require_numbers(given: Any, exponent: Any, **single: Any) -> None:
+    """``MotionError`` for what is no number by name, no list of numbers, or no number or ``None``,
+    as Python may give them."""
+    if not isinstance(given, Mapping | None):
+        raise MotionError('start: expected numbers by name, as {"zeta_1": 0.5}')
+    if isinstance(exponent, str) or not isinstance(exponent, Iterable):
+        raise MotionError("exp: expected a list of numbers")
+    named = [*single.items(), *(given or {}).items(), *(("exp", x) for x in exponent)]
+    for name, x in named:
+        if not (isinstance(x, SupportsFloat) or (x is None and name in single)):
+            raise MotionError(f"{name}: expected a number, not {x!r:.40}")
 
 
 def _known(values: Collection[str], given: Mapping[str, float], where: str) -> None:

@@ -48,6 +48,8 @@ class Varied:
 
 def laws(given: Mapping[str, Any]) -> tuple[Varied, ...]:
     """Name → (low, high) or ("normal", mean, deviation), as Python gives it."""
+    if not isinstance(given, Mapping):
+        raise MotionError('vary: expected laws by name, as {"zeta_1": (0, 0.5)}')
     return tuple(_law(name, x) for name, x in given.items())
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,12 @@ from .plot_sheet import COLOURS, label
 
 MOST = 12
 """So many curves a panel: of more, the first are drawn."""
+
+LONG = 14
+"""Longer names, which are words and no letters, stand one a line; those of letters four."""
+
+LINE = 30
+"""So many letters a line of what stands beside an axis: as much as a panel is high."""
 
 OFTEN, EVEN = 0.25, 1e-6
 """A column that turns back at more than this part of the instants has fewer than eight of them a
@@ -60,7 +67,8 @@ def _is_too_fast(y: Array, size: float) -> bool:
 
 def _named(why: str, names: Sequence[str]) -> str:
     """Why some curves are not drawn, and which; empty where all are."""
-    lines = [", ".join(names[k : k + 4]) for k in range(0, len(names), 4)]
+    each = 1 if max(map(len, names), default=0) > LONG else 4
+    lines = [", ".join(names[k : k + each]) for k in range(0, len(names), each)]
     return why + ",\n".join(lines) if names else ""
 
 
@@ -120,7 +128,7 @@ def energy(figure: Any, run: Run, word: Any) -> None:
     vectors = any(abs(run[x][0]) < scale for x, (_, scale) in found.items())
     told = word("components relative to the length of their vector") if vectors else ""
     error = word("relative change" if run.facts.get("drives") else "relative error")
-    panel.set_ylabel(f"{error}\n{told}".strip())
+    panel.set_ylabel("\n".join((error, *wrap(told, LINE))))
     _beside(panel, run, _named(f"{word('exact:')} ", exact))
 
 

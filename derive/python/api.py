@@ -16,15 +16,16 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from inspect import getmodule, signature
+from inspect import Parameter, Signature, getmodule, signature
 from typing import Any, TypeVar
 
 from ..algebra.families import FAMILIES
 from ..problem import problem as mechanics
 from ..problem.toml import problem_of
+from ..schema import table as schema
 from ..schema.lagrangian_kinds import SECTIONS
 from ..schema.python_words import words
-from ..schema.table import Number
+from ..schema.table import Number, hint
 from . import quoted
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -59,6 +60,10 @@ class Table:
         self.key = key
         self.fields = {k: _plain(x, f"{key}, {k}") for k, x in fields.items() if x is not None}
 
+    def __repr__(self) -> str:
+        shown = f"<{self.key}: {', '.join(f'{k}={x!r}' for k, x in self.fields.items())}"
+        return f"{shown}>" if len(shown) < 79 else f"{shown[:77]}…>"
+
 
 def __getattr__(name: str) -> Any:
     """The word of a table, and that of a family of groups."""
@@ -79,30 +84,67 @@ def _family(name: str) -> Callable[[int], Group]:
 
 @cache
 def _word(name: str) -> Callable[..., Table | list[Table]]:
-    """What builds a table from arguments, as its description has it (:meth:`Table.word`)."""
+    """What builds a table from arguments: those of its ``word``, or the keys of a file."""
     own = words()[name]
     kind = {"kind": own.kind} if own.kind else {}
+    taken = _arguments(own)
 
     def build(*given: Any, **named: Any) -> Table | list[Table]:
-        keys = _keys(own)
-        where = [f"{name}, {keys[min(k, len(keys) - 1)]}" for k, _ in enumerate(given)]
-        said = own.word(
-            *map(_plain, given, where),
-            **{k: _plain(x, f"{name}, {k}") for k, x in named.items()},
+        keys = [*taken.parameters]
+        where = [
+            f"{name}, {keys[min(k, len(keys) - 1)]}" if keys else name for k in range(len(given))
+        ]
+        said = _said(
+            name,
+            own,
+            [*map(_plain, given, where)],
+            {k: _plain(x, f"{name}, {k}") for k, x in named.items()},
         )
         if isinstance(said, list):
             return [Table(own.section, **x) for x in said]
-        return Table(own.section, **kind, **said)
+        return Table(own.section, **kind | said)
 
-    vars(build)["__signature__"] = signature(own.word)
-    stated = "word" in vars(own)
-    return _called(build, name, (own.word if stated else getmodule(own) or own).__doc__)
+    vars(build)["__signature__"] = taken
+    return _called(build, name, (own.word or getmodule(own) or own).__doc__)
 
 
-def _keys(own: type[Any]) -> list[str]:
-    """The arguments of a word by their names, the last of which may be any number of them."""
-    found = [*signature(own.word).parameters]
-    return [*own.names()] if found[:1] == ["given"] else found
+def _arguments(own: type[schema.Table]) -> Signature:
+    """Those of a word: its own, or else the keys of its table."""
+    if own.word:
+        return signature(own.word)
+    kind = Parameter.POSITIONAL_OR_KEYWORD
+    return Signature([Parameter(x, kind, default=None) for x in own.names()])
+
+
+def _said(name: str, own: type[schema.Table], given: list[Any], named: dict[str, Any]) -> Any:
+    """The keys that the arguments of a word say; ``ProblemError`` for what is none of them."""
+    taken, keys = _arguments(own), (*own.names(), "kind")
+    mine = {k: p for k, p in taken.parameters.items() if p.kind is p.POSITIONAL_OR_KEYWORD}
+    known = ", ".join(dict.fromkeys((*mine, *keys[:-1])))
+    is_open = any(p.kind is p.VAR_KEYWORD for p in taken.parameters.values())
+    others = {k: x for k, x in named.items() if k not in mine and not is_open}
+    if strange := next((k for k in others if k not in keys[:-1]), ""):
+        told = hint(strange, known.split(", "))
+        raise mechanics.ProblemError(f"{name}: unknown {strange!r}{told}; it takes {known}")
+    try:
+        bound = taken.bind_partial(*given, **{k: x for k, x in named.items() if k not in others})
+    except TypeError:
+        raise mechanics.ProblemError(f"{name}: it takes {known}, each of them once") from None
+    said = bound.arguments
+    missing = [k for k, p in mine.items() if p.default is p.empty and k not in said]
+    if own.word and not others and not missing:
+        return own.word(*bound.args, **bound.kwargs)
+    if others and any(k not in keys or k in others for k in said):
+        file = ", ".join(keys[:-1])
+        why = f"{next(iter(others))!r} goes with the keys of a file: give all by those, {file}"
+        raise mechanics.ProblemError(f"{name}: {why}")
+    if any(k not in keys for k in said):
+        raise mechanics.ProblemError(f"{name}: {missing[0]!r} is missing; it takes {known}")
+    return [said | others] if own.section in OF_A_BODY else said | others
+
+
+OF_A_BODY = ("point", "body", "solid")
+"""The sections of what a body is a sum of: their words make lists."""
 
 
 def _called(function: F, name: str, doc: str | None) -> F:

@@ -20,7 +20,7 @@ import numpy as np
 from ..code.emit import emit
 from ..code.languages import LANGUAGES
 from ..code.naming import own_prefix
-from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
+from ..code.options import ADDED, options_of
 from ..code.program import Block, Program
 from ..code.step.step_numbers import FIXED
 from ..language.near_names import did_you_mean, near_name
@@ -131,6 +131,9 @@ class Compiled(InMomenta):
         self._run = ctypes.PyDLL(None, handle=self._library._handle).derive_rhs
         self._run.restype = None
         self._idle: list[Buffers] = []  # its pop and append are atomic
+
+    def __repr__(self) -> str:
+        return f"<compiled {self._source.name}: a state of {len(self.STATE)} numbers>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Compiled, (self._names, self._source, self._values)
@@ -461,11 +464,7 @@ def compile(
     if not {*((steps,) if isinstance(steps, str) else steps)} <= {*written}:
         raise ProblemError(f"compile: step must be among {', '.join(written)}")
     try:
-        options = Options(**choices)
-    except TypeError:
-        known = (*CHOICES, *REPEATED, *DEPENDENT, *ADDED)
-        wrong = ", ".join(x for x in choices if x not in known)
-        raise ProblemError(f"compile: no choice {wrong}; there are {', '.join(known)}") from None
+        options = options_of(choices)
     except ValueError as error:
         raise ProblemError(f"compile: {error}") from None
     if options.real != "double" or options.form != "source":

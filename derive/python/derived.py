@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, overload
 from ..check.verdict import Verdict
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
+from .keywords import in_keywords
 from .shown import Shown
 
 if TYPE_CHECKING:
@@ -156,7 +157,8 @@ class Derived:
     @overload
     def simulate(self, t: float, *, ensemble: int, **chosen: Any) -> SimulatedEnsemble: ...
 
-    def simulate(  # type: ignore[misc]  # the choices are those that are listed here
+    @in_keywords()  # type: ignore[misc]  # the choices are those that are listed here
+    def simulate(
         self,
         t: float,
         *,
@@ -186,11 +188,15 @@ class Derived:
         the end, or ``points`` instants.  ``MotionError``, a ``ValueError``, says what is wrong.
         """
         from ..motion.ensemble import require_an_ensemble
+        from ..motion.first_numbers import require_numbers
         from ..motion.method import STEPS, Method
         from ..motion.simulate import run
         from ..pipeline import motion_of
         from .simulated import Simulated
 
+        require_numbers(
+            start, exp, t=t, tol=tol, dt=dt, points=points, ensemble=ensemble, seed=seed
+        )
         begin: dict[str, Any] = {"given": start or {}, "exponent": exp, "project": project}
         if ensemble is not None:
             how = {"step": step, "dt": dt, "order": order, "compiled": compiled}
@@ -222,6 +228,7 @@ class Derived:
         many = Many(motion_of_many(self.problem, self.record), self.problem, plan)
         return SimulatedEnsemble.of(many.whole([*many.parts()]))
 
+    @in_keywords()
     def motion_page(
         self,
         t: float,
@@ -234,12 +241,14 @@ class Derived:
     ) -> str:
         """A page of HTML in which the body moves from 0 to t, from a start as of ``simulate``; in
         English or in French (``fr``)."""
+        from ..motion.first_numbers import require_numbers
         from ..motion.method import Method, instants
         from ..motion.simulate import beginning
         from ..page.motion_page import motion_page
         from ..pipeline import motion_of
         from ..views.language import language as named
 
+        require_numbers(start, exp, t=t, tol=tol)
         code = motion_of(replace(self.problem, events=()), self.record)
         begin = beginning(code, self.problem, given=start or {}, exponent=exp, project=project)
         instants(Method(tol=tol), t, 1)
@@ -270,25 +279,32 @@ class Derived:
             )
         return expressions(found)
 
+    @in_keywords()
     def emit(
         self,
         out: str | Path | None = None,
-        languages: Sequence[str] = ("c", "python"),
+        languages: Sequence[str] | str = ("c", "python"),
         prefix: str | None = None,
         **choices: Any,
     ) -> dict[str, str]:
         """The emitted files by name, written to the folder ``out`` if there is one.
 
         ``choices``: those of :class:`derive.code.options.Options`, as ``real="float"``.
+        ``EmitError`` says what is wrong.
         """
-        from ..code.options import Options
+        from ..code.emit import EmitError
+        from ..code.options import options_of
         from ..code.request import EmissionRequest
         from ..command.emitting import allowances, made
         from ..command.writing import write
 
         own = self.problem
-        allowed, options = allowances(own), Options(**choices)
-        asked = EmissionRequest(own.name, prefix or own.name, tuple(languages), options, allowed)
+        try:
+            options = options_of(choices, "languages", "prefix")
+        except ValueError as error:
+            raise EmitError(f"emit: {error}") from None
+        named = (languages,) if isinstance(languages, str) else tuple(languages)
+        asked = EmissionRequest(own.name, prefix or own.name, named, options, allowances(own))
         files = made(own, self.record, asked)[1]
         if out is not None:
             write(files, Path(out))

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ..motion.ensemble import Ensemble, Part
 from ..motion.run import Run
+from .keywords import in_keywords
 
 
 def _drawn(
@@ -16,7 +17,8 @@ def _drawn(
     from ..views.language import language
 
     words = language(lang)
-    path.write_bytes(plot(run, path.name, kind, words.word, columns, words.mark))
+    with in_keywords():
+        path.write_bytes(plot(run, path.name, kind, words.word, columns, words.mark))
     return path
 
 

@@ -29,7 +29,8 @@ class Point(Table):
     @classmethod
     def word(cls, *points: tuple[Any, ...]) -> Any:
         """A body of points: (mass, place) for each, and in a product the block that moves it."""
-        return [dict(zip(("mass", "at", "block"), p, strict=False)) for p in points]
+        said = (p if isinstance(p, list) else [p] for p in points)
+        return [dict(zip(("mass", "at", "block"), p, strict=False)) for p in said]
 
 
 class Moments(Table):

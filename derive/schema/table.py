@@ -167,15 +167,28 @@ OTHER_WORDS = {
     **dict.fromkeys(("gas", "pressure", "determinant", "det"), "volume"),
     **dict.fromkeys(("torque", "moment"), "covector"),
     **dict.fromkeys(("world", "inertial"), "space"),
+    **dict.fromkeys(("value", "initial", "number"), "default"),
+    **dict.fromkeys(("mass", "M"), "m"),
+    **dict.fromkeys(("cm", "cog", "center_of_gravity"), "centre"),
+    **dict.fromkeys(("I_com", "I_cm", "I_cog", "I_c", "I_G"), "I_centre"),
+    **{"c++": "cpp", "cxx": "cpp", "js": "javascript", "py": "python", "rs": "rust", "jl": "julia"},
 }
 """What others call it."""
+MOMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
+"""The entries of a tensor, as others write them."""
+
 ELSEWHERE = {
     **dict.fromkeys(
         ("com", "center_of_mass", "centre_of_mass"),
         "the centre of mass is 'centre' in [body] given = { m, centre, I_centre }",
     ),
     **dict.fromkeys(
-        ("inertia", "moment_of_inertia", "inertia_tensor"),
+        (
+            *("inertia", "moment_of_inertia", "inertia_tensor"),
+            *(f"I{x}" for x in MOMENTS),
+            *(f"I{x.upper()}" for x in MOMENTS),
+            *(f"I_{x}" for x in MOMENTS),
+        ),
         "a tensor of inertia is 'I' or 'I_centre' in [body] given = { m, centre, I_centre }",
     ),
     **dict.fromkeys(
@@ -202,7 +215,10 @@ ELSEWHERE = {
         "would touch, [[damping]] is viscous",
     ),
 }
-"""Where a word stands that is often tried, or that it is outside of all this."""
+"""Where a word stands that is often tried, or that it is outside of all this; of no parameter."""
+
+OF_FORCES = ("direction", "axis", "magnitude", "value")
+"""Those that are tried of inputs and of gravity."""
 
 
 def nearest(word: str, known: Collection[str]) -> str:
@@ -213,7 +229,8 @@ def nearest(word: str, known: Collection[str]) -> str:
 
 def hint(word: str, known: Collection[str]) -> str:
     """Where a word stands that means nothing here, as of :data:`ELSEWHERE`; or else the nearest."""
-    away = word in ELSEWHERE and OTHER_WORDS.get(word) not in known
+    away = word in ELSEWHERE and OTHER_WORDS.get(word) not in known and "default" not in known
+    away = away and (word not in OF_FORCES or not {"frame", "g"}.isdisjoint(known))
     return f"; {ELSEWHERE[word]}" if away else nearest(word, known)
 
 
@@ -223,13 +240,15 @@ class Table:
     """A table of a problem; each class of it is a dataclass.
 
     ``kind``: its name, where there are several kinds; ``needs``: what the problem must be;
-    ``section``: the key of a file under which such tables stand; ``called``: its word in Python.
+    ``section``: the key of a file under which such tables stand; ``called``: its word in Python;
+    ``word``: what that makes of arguments, a table or a list of them, where they are not its keys.
     """
 
     kind: ClassVar[str] = ""
     needs: ClassVar[tuple[str, ...]] = ()
     section: ClassVar[str] = ""
     called: ClassVar[str] = ""
+    word: ClassVar[Any] = None
 
     def __init_subclass__(cls) -> None:
         dataclass(frozen=True, kw_only=True)(cls)
@@ -255,14 +274,6 @@ class Table:
         """
         del table, last
         return tuple(cls.keys())
-
-    @classmethod
-    def word(cls, *given: Any, **named: Any) -> Any:
-        """The table, or the list of tables, that its word of Python makes of arguments."""
-        names = cls.names()
-        if len(given) > len(names):
-            raise TypeError(f"{cls.called or cls.__name__} takes {', '.join(names)}, and no more")
-        return dict(zip(names, given, strict=False)) | named
 
     @classmethod
     def read(cls, table: Mapping[str, Any], where: str, reader: Any) -> Self:

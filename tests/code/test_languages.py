@@ -1,6 +1,7 @@
 """Every language says the same as the emitted C: compiled or read back, run and compared."""
 
 import shutil
+import subprocess
 
 import numpy as np
 import pytest
@@ -124,6 +125,44 @@ COMPILED = {
     "rust2024": (RUSTC, "--edition=2024", *RUST_LIBRARY, "words.rs"),
     "node": ("node", "--check", "words.mjs"),
 }
+
+
+LENGTHS = """\
+import * as m from "./test.mjs";
+const p = new Float64Array(m.PARAMETERS.length).fill(1), x = new Float64Array(m.STATE.length);
+const k = new Float64Array(m.CONSTANTS.length), u = new Float64Array(m.INPUTS.length);
+const calls = {
+    constants: [p], rhs: [0, x, k, u], energy: [0, x, k], project: [x], conserved: [0, x, k],
+    jacobian: [0, x, k, u], jacobian_parameters: [0, x, p, u], momentum_rhs: [0, x, k, u],
+    from_matrix: [new Float64Array(x.length + 5)],
+};
+for (const [name, given] of Object.entries(calls)) {
+    given.forEach((own, i) => {
+        for (const more of own.length === undefined ? [] : [-1, 1]) {
+            const others = given.map((x, j) => (j === i ? new Float64Array(own.length + more) : x));
+            try {
+                m[name](...others);
+                console.log(name, i, "takes", own.length + more);
+            } catch (e) {
+                if (!/^test: [xkpuyz] has [0-9]+ numbers/.test(e.message)) console.log(name, i, e);
+            }
+        }
+    });
+}
+m.rhs(0, x, k);
+"""
+
+
+def test_javascript_refuses_arrays_of_another_length(tmp_path):
+    need("node")
+    chosen = {"attitude": "quaternion", "momenta": True, "conserved": True}
+    found = derive("se3").emit(
+        tmp_path, "javascript", "test", jacobian=["state", "parameters"], **chosen
+    )
+    assert [*found] == ["test.mjs"]
+    (tmp_path / "main.mjs").write_text(LENGTHS, encoding="utf-8")
+    done = subprocess.run(["node", "main.mjs"], cwd=tmp_path, capture_output=True, text=True)
+    assert done.stdout + done.stderr == ""
 
 
 @pytest.fixture(scope="module")

@@ -233,6 +233,7 @@ body = { given = { m = 1, c = [0, 0, 1], J = [[2, 0, 0], [0, 3, 0], [0, 0, 4]] }
         ("sl3", ["--jacobian", "inputs"], "no inputs to linearise in"),
         ("numbers.toml", ["--jacobian", "parameters"], "no parameters to linearise in"),
         ("so3", ["--frame", "principal", "--lang", "julia"], "not in julia"),
+        ("jelly", ["--conserved"], "damped points; without --conserved the rest is written"),
     ],
 )
 def test_choices_that_exclude_each_other(problem, options, words, refused, tmp_path):

@@ -5,7 +5,6 @@ import pytest
 
 from derive import derive
 from derive.command.cli import main
-from derive.command.loading import UsageError
 from derive.command.simulating import summary
 from derive.problem.problem import ProblemError
 
@@ -59,7 +58,7 @@ def test_another_surface_is_told_that_there_is_none(tmp_path, capsys):
 
 
 def test_text_is_told_from_a_name():
-    with pytest.raises(UsageError, match="not its text"):
+    with pytest.raises(ProblemError, match="not its text"):
         derive(FILE)
 
 

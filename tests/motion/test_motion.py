@@ -255,6 +255,12 @@ def test_what_vanishes_for_these_parameters_is_not_told(capsys):
     assert "  angular_momentum_3: 0 at first" in still
 
 
+def test_where_an_integral_is_shown_is_told(capsys):
+    said = told(capsys, "kovalevskaya_top", "--t", "0.1", "--set", "zeta_1=1")[1]
+    lines = [x for x in said.splitlines() if x.endswith(" (derive integrals shows it)")]
+    assert [x.partition(":")[0] for x in lines] == ["  integral_1"]
+
+
 def test_what_is_amiss_is_told(capsys):
     err = told(capsys, "jelly", "--t", "1")[2]
     assert "nothing moves" in err

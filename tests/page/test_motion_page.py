@@ -489,8 +489,9 @@ def test_bad_input_is_one_line(arguments, words, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main(["simulate", "so3", "--t", "1", *arguments]) == 2
     out, err = capsys.readouterr()
-    assert (out, err.count("\n")) == ("", 1)
-    assert words in err
+    (line,) = [x for x in err.splitlines() if not x.startswith("derive: warning: ")]
+    assert out == ""
+    assert words in line
     assert not [*tmp_path.iterdir()]
 
 

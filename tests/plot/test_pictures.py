@@ -18,7 +18,7 @@ from derive.plot import kinds_told
 from derive.plot.body_pictures import hull
 from derive.plot.kinds_told import OVERVIEW, PRECISION
 from derive.plot.pictures import ENSEMBLE_KINDS, KINDS, plot, plot_energies
-from derive.plot.plot_sheet import FORMATS, PlotError, label, settled, sheet, with_mark
+from derive.plot.plot_sheet import FORMATS, PlotError, label, look, settled, sheet, with_mark
 from derive.plot.polhode_picture import levels, unstable
 from derive.plot.precision import of_runs, table
 from derive.plot.spheroid_pictures import followed, maps, section
@@ -87,6 +87,40 @@ def test_every_kind_has_the_same_bytes_twice(kind):
 def test_the_labels_speak_french():
     found = [plot(run_of("euler_top"), "a.svg", "energy", language(x).word) for x in ("en", "fr")]
     assert found[0] != found[1]
+
+
+def cut_off(figure):
+    """The texts of a figure that leave the sheet, and the labels longer than their axis; ticks
+    outside of the view are not drawn."""
+    figure.draw_without_rendering()
+    sheet_, pen = figure.bbox, figure.canvas.get_renderer()
+    ticks, found = set(), []
+    for panel in figure.get_axes():
+        box = panel.get_window_extent(pen)
+        for axis, size in ((panel.xaxis, box.width), (panel.yaxis, box.height)):
+            ticks |= {*axis.get_ticklabels(), *axis.get_ticklabels(minor=True)}
+            ticks |= {x for t in axis.get_major_ticks() for x in (t.label1, t.label2)}
+            own = axis.label.get_window_extent(pen)
+            if max(own.width, own.height) > size and axis.label.get_text():
+                found.append(axis.label.get_text())
+    for x in figure.findobj(lambda x: hasattr(x, "get_text") and x not in ticks):
+        box = x.get_window_extent(pen)
+        inside = box.x0 >= 0 and box.y0 >= 0 and box.x1 <= sheet_.x1 and box.y1 <= sheet_.y1
+        if x.get_visible() and x.get_text().strip() and not inside:
+            found.append(x.get_text())
+    return found
+
+
+@pytest.mark.parametrize("spoken", ["en", "fr"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_text_leaves_its_sheet(kind, spoken):
+    run_a, run_b = fitting(kind), simulated("riemann_ellipsoid", 1.0)
+    for run in (run_a, run_b) if not KINDS[kind].lacks(run_b) else (run_a,):
+        with look():
+            figure = sheet(*KINDS[kind].size(run))
+            KINDS[kind].draw(figure, run, language(spoken).word)
+            settled(figure)
+            assert cut_off(figure) == []
 
 
 def words_of(run, kind, word=str):
@@ -211,7 +245,7 @@ def test_a_component_is_held_against_its_vector():
 
 def test_the_picture_says_what_components_are_held_against():
     said = "components relative to the length of their vector"
-    assert said in words_of(simulated("euler_top", 1.0), "energy")
+    assert said in words_of(simulated("euler_top", 1.0), "energy").replace("\n", " ")
     assert said not in words_of(simulated("top", 0.5), "energy")  # one component alone
 
 

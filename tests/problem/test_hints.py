@@ -98,6 +98,9 @@ def test_a_file_beside(tmp_path, monkeypatch, capsys):
         (["walk", "so3", "--formt", "text"], "unknown option '--formt'", "'--format'"),
         (["emit", "so3", "--jacobain=state"], "unknown option '--jacobain=state'", "'--jacobian'"),
         (["check", "so3", "--second", "3", "--notaton"], "unknown option '--notaton'", ""),
+        (["simulate", "so3", "--t", "1", "--page", "x"], "unknown option '--page'", "'--html'"),
+        (["simulate", "so3", "--t", "1", "--plot", "x"], "draws the file of --out", ""),
+        (["emit", "so3", "--plot", "x"], "unknown option '--plot'", ""),
         (["paper", "so3"], "unexpected 'so3'", ""),
     ],
 )
@@ -122,6 +125,9 @@ def test_an_unknown_option(words, named, meant, capsys):
         (["check", "so3", "--seed", "-1"], "expected an integer, 0 or more, not '-1'"),
         (["emit", "so3", "--lang", "cobol"], "invalid choice: 'cobol' (choose from 'c', "),
         (["emit", "so3", "--lang", "rst"], "; did you mean 'rust'?"),
+        (["emit", "so3", "--lang", "c++"], "; did you mean 'cpp'?"),
+        (["emit", "so3", "--lang", "c,rust"], "; one at a time: --lang c --lang rust"),
+        (["emit", "so3", "--jacobian", "raw,state"], ": --jacobian raw --jacobian state"),
     ],
 )
 def test_a_wrong_value(words, said, capsys):
@@ -505,6 +511,31 @@ ALMOST = [
 def test_what_is_almost_right(given, told):
     key, fields = given
     assert told in table(key, **fields)
+
+
+@pytest.mark.parametrize(
+    ("key", "told"),
+    [
+        ("mass", "did you mean 'm'?"),
+        ("I_com", "did you mean 'I_centre'?"),
+        ("I_cm", "did you mean 'I_centre'?"),
+        ("cm", "did you mean 'centre'?"),
+        ("IZZ", "a tensor of inertia is 'I' or 'I_centre'"),
+        ("I_xy", "a tensor of inertia is 'I' or 'I_centre'"),
+    ],
+)
+def test_a_moment_in_other_letters(key, told):
+    with pytest.raises(ProblemError) as caught:
+        Problem("b", "SO(3)", Table("body", given={key: 1}))
+    assert f"body, given: unknown key {key!r}; {told}" in str(caught.value)
+
+
+def test_a_hint_is_of_the_table_that_has_the_key():
+    for key, told in (("value", "; did you mean 'default'?"), ("direction", ""), ("com", "")):
+        assert f"unknown key {key!r}{told} (known: default" in refused(
+            "SO(3)", parameters={"k": {key: 1}}
+        )
+    assert "unknown key 'value' (known" in table("damping", coefficient=1, value=2)
 
 
 @pytest.mark.parametrize("where", [[Solid("sphere", 1, radius=1)], [Table("body", solid="sphere")]])

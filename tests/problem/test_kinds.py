@@ -111,13 +111,32 @@ def test_one_alone(kind):
         problem_of(tomllib.loads(text + second))
 
 
+@pytest.mark.parametrize("word", sorted({*words()} - {"Moments", "Solid"}))
+def test_the_keys_of_a_file_are_keywords_of_a_word(word):
+    """Each alone builds a table with that key: what else it needs, its reader says."""
+    for key in words()[word].names():
+        built = getattr(api, word)(**{key: [1]})
+        (table,) = built if isinstance(built, list) else [built]
+        assert [1] in table.fields.values()
+    with pytest.raises(ProblemError, match=f"{word}: unknown 'nonsense'.*; it takes"):
+        getattr(api, word)(nonsense=1)
+    with pytest.raises(ProblemError, match=f"{word}: (it takes|.* goes with)"):
+        getattr(api, word)(*range(20), **{words()[word].names()[0]: 1})
+
+
 @pytest.mark.parametrize("word", words())
 def test_a_word_says_what_it_builds(word):
     """Its docstring and arguments are those of the table."""
     built = getattr(api, word)
     assert built.__doc__
     assert built.__name__ == word
-    assert inspect.signature(built) == inspect.signature(words()[word].word)
+    own = words()[word]
+    stated = inspect.signature(built)
+    assert (
+        stated == inspect.signature(own.word)
+        if own.word
+        else [*stated.parameters] == [*own.names()]
+    )
 
 
 @pytest.mark.parametrize(

@@ -93,6 +93,65 @@ def test_errors_are_those_of_files():
     assert derive.ProblemError is ProblemError
 
 
+def test_keys_of_a_file_are_keywords():
+    body = derive.Points((1, [1, 0, 0]), (2, [0, 1, 0]), (1, [0, 0, 1]))
+    for one, other in (
+        (derive.Force("F", at=[0.5, 0.4, 0]), derive.Force("F", on=[0.5, 0.4, 0], frame="space")),
+        (derive.Spring(between=[1, 2], stiffness=3), derive.Spring(1, 2, 3)),
+        (
+            derive.Spring(stiffness=2, at=[0, 0, 1], anchor=[0, 0, 0]),
+            derive.Spring([0, 0, 1], [0, 0, 0], 2),
+        ),
+        (derive.Gravity([0, 0, -9.81]), derive.Gravity(0, 0, -9.81)),
+        (derive.Gravity(g=[0, 0, -9.81]), derive.Gravity(0, 0, -9.81)),
+    ):
+        problems = (derive.Problem("p", "SO(3)", body, x) for x in (one, other))
+        first, second = (derive.derive(p).record for p in problems)
+        assert first == second
+    for build, told in (
+        (lambda: derive.Force("a", fram="body"), "did you mean 'frame'"),
+        (lambda: derive.Spring(2, at=[0, 0, 1]), "'at' goes with the keys of a file"),
+        (lambda: derive.Spring(1, 2), "'stiffness' is missing"),
+        (lambda: derive.Attraction(2, center=[0]), "did you mean 'centre'"),
+        (lambda: derive.Problem("p", "SO(3)", body, derive.Force("a")), "'on' or 'at' is missing"),
+        (lambda: derive.Problem("p", "SO(3)", derive.Points(1)), "'at' is missing"),
+    ):
+        with pytest.raises(ProblemError, match=told):
+            build()
+
+
+@pytest.mark.parametrize(
+    ("kind", "told", "call"),
+    [
+        (ProblemError, "unknown problem 'nosuch'", lambda d: derive.derive("nosuch")),
+        (ProblemError, "no choice lang;", lambda d: derive.compile(d, lang="c")),
+        (EmitError, "no language 'fortran'; there are c,", lambda d: d.emit(languages=["fortran"])),
+        (EmitError, "did you mean 'c'", lambda d: d.emit(languages=["C"])),
+        (EmitError, "did you mean 'languages'", lambda d: d.emit(lang=["c"])),
+        (EmitError, "real must be one of", lambda d: d.emit(real="half")),
+        (EmitError, "give prefix NAME", lambda d: d.emit(prefix="1")),
+        (MotionError, "start: expected numbers by name", lambda d: d.simulate(1, start=[1, 2])),
+        (MotionError, "start: expected numbers by name", lambda d: d.motion_page(1, start=[1])),
+        (MotionError, "zeta_1: expected a number", lambda d: d.simulate(1, start={"zeta_1": "a"})),
+        (MotionError, "exp: expected a list", lambda d: d.simulate(1, exp=1)),
+        (MotionError, "t: expected a number", lambda d: d.simulate("1")),
+        (MotionError, "give dt", lambda d: d.simulate(1, step="rk4")),
+        (MotionError, "project takes it there", lambda d: d.simulate(1, start={"A_11": 2})),
+        (MotionError, "vary: expected laws", lambda d: d.simulate(1, ensemble=2, vary=[1])),
+    ],
+)
+def test_what_is_wrong_with_a_call_is_one_line(kind, told, call):
+    """In the words of Python, without options of the command line."""
+    with pytest.raises(kind, match=told) as found:
+        call(derive.derive("top"))
+    assert "\n" not in str(found.value)
+    assert "--" not in str(found.value)
+
+
+def test_dir_has_public_names_alone():
+    assert {x for x in dir(derive) if not x.startswith("__")} == {*derive.__all__}
+
+
 def test_a_tensor_of_inertia_in_place_of_the_moments():
     """I = (Tr J)1 − J about the origin: the same record either way."""
     J = [[2, 1, 0], [1, 3, 0], [0, 0, 4]]
@@ -144,6 +203,8 @@ def test_every_word_is_a_public_name():
 
 def test_what_is_large_is_shown_in_one_line():
     d = derive.derive("two_tops")
-    for x in (d, d.problem, d.problem.group, d.record, d.symmetries()):
+    (point,) = derive.Points((1, [10**100, 0, 0]))
+    for x in (d, d.problem, d.problem.group, d.record, d.symmetries(), derive.compile(d), point):
         assert len(repr(x)) < 80
+        assert " at 0x" not in repr(x)
     assert repr(d.problem) == "<problem two_tops: SO(3) x SO(3)>"

@@ -1,6 +1,6 @@
 """U = −Σ m_i ⟨g, r_i⟩."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from ...language.tree import Tree, add
@@ -17,9 +17,9 @@ class Gravity(Potential):
     g: Vector
 
     @classmethod
-    def word(cls, *g: Number) -> Any:
-        """Uniform gravity, U = −Σ m_i ⟨g, r_i⟩."""
-        return {"g": g}
+    def word(cls, *g: Number | Sequence[Number]) -> Any:
+        """Uniform gravity, U = −Σ m_i ⟨g, r_i⟩; the entries of g, or g as a list."""
+        return {"g": g[0] if len(g) == 1 and isinstance(g[0], list) else g}
 
 
 def gravity(potentials: Iterable[Potential]) -> tuple[Tree, ...] | None:
