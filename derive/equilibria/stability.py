@@ -87,7 +87,10 @@ def require_numbers(whole: Found) -> None:
     """``NotReducedError`` where parameters have no numbers."""
     if whole.system.parameters:
         names = ", ".join(whole.system.parameters)
-        raise NotReducedError(f"equilibria are told for numbers, and {names} has no default")
+        reason = f"{names} has no default"
+        if whole.system.parameters == ("π",):
+            reason = "π is none: of a density that is a mass over a volume, it cancels"
+        raise NotReducedError(f"equilibria are told for numbers, and {reason}")
 
 
 def equilibria_of(

@@ -111,7 +111,9 @@ def _ellipsoid(panel: Any, map_: Array, shift: Array) -> None:
     three circles, what is behind thin."""
     turn = np.linspace(0, 2 * np.pi, 121)
     circle = np.stack([np.cos(turn), np.sin(turn)])
-    seen = np.linalg.solve(map_, VIEW)
+    a, b, c = map_.T
+    seen = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)]) @ VIEW  # |map| map⁻¹ VIEW
+    seen = seen if np.linalg.det(map_) >= 0 else -seen  # 0 of a flat body
     frame = np.linalg.svd(seen[None])[2][1:]
     x, y = projected((map_ @ frame.T @ circle).T + shift).T
     panel.fill(x, y, facecolor="#f4f4f4", edgecolor="#333333", lw=0.8, zorder=0)

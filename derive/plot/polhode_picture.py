@@ -114,7 +114,7 @@ def _marks(panel: Any, root: Array, axes: Array, moments: Array, free: bool) -> 
     ]
     ends = [axes[:, k] * (1 if axes[:, k] @ seen >= 0 else -1) for k in marked]
     places = np.array([projected(root @ end) for end in ends]).reshape(-1, 2)
-    labels = [f"$I = {moments[k]:.3g}$" for k in marked]
+    labels = [f"$I = {in_math(moments[k])}$" for k in marked]
     offsets = beside(places, labels, root @ projected(np.eye(3)), SIZE / np.ptp(panel.get_xlim()))
     for k, place, text, (x, y) in zip(marked, places, labels, offsets, strict=True):
         style: dict[str, Any] = {"marker": "o", "label": STABLE if free else AXIS}
@@ -122,6 +122,12 @@ def _marks(panel: Any, root: Array, axes: Array, moments: Array, free: bool) -> 
             style = {"marker": "x", "mew": 1.4, "label": UNSTABLE}
         panel.plot(*place[:, None], c="#000000", ms=4.5, ls="", zorder=4, **style)
         panel.annotate(text, place, (x, y), textcoords="offset points", fontsize=FONT, zorder=5)
+
+
+def in_math(x: float) -> str:
+    """A number to three digits: of 1e-05 the e would be set as a letter."""
+    digits, _, power = f"{x:.3g}".partition("e")
+    return digits + (rf" \cdot 10^{{{int(power)}}}" if power else "")
 
 
 def _square(panel: Any, root: Array, along: Array) -> None:

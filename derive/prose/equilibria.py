@@ -34,7 +34,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "and {negative} negative squares.",
             "La dérivée seconde de l’énergie le long de la feuille symplectique, modulo le "
             "stabilisateur, est ω(Mv, v), avec les dérivées linéarisées M et la forme symplectique "
-            "ω : {positive} carrés positifs et {negative} négatifs.",
+            "ω. Carrés positifs : {positive}, négatifs : {negative}.",
         ),
         "form": (
             "The energy, with multiples of what else is kept such that the derivative vanishes at "
@@ -42,9 +42,9 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "which are independent on the tangent space of the symplectic leaf, products that "
             "vanish there, and terms of higher order.",
             "L’énergie, avec des multiples de ce qui est conservé en outre tels que la dérivée "
-            "s’annule à l’équilibre : une constante, des carrés, {positive} positifs et {negative} "
-            "négatifs, indépendants sur l’espace tangent de la feuille symplectique, des produits "
-            "nuls sur cet espace, et des termes d’ordre supérieur.",
+            "s’annule à l’équilibre : une constante, des carrés indépendants sur l’espace tangent "
+            "de la feuille symplectique (positifs : {positive}, négatifs : {negative}), des "
+            "produits nuls sur cet espace, et des termes d’ordre supérieur.",
         ),
         "stable": (
             "On the leaf the squares are of one sign, and the Poisson tensor has its largest rank "
@@ -90,8 +90,8 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "some eigenvalue has a positive real part. The equilibrium is unstable (Lyapunov).",
             "Le polynôme caractéristique des dérivées linéarisées sur la feuille a pour "
             "coefficients {coefficients}, depuis la plus haute puissance : selon le décompte des "
-            "racines par Sturm, une valeur propre est de partie réelle positive. L’équilibre est "
-            "instable (Lyapunov).",
+            "racines par Sturm, une valeur propre est de partie réelle strictement positive. "
+            "L’équilibre est instable (Lyapunov).",
         ),
         "open": (
             "The characteristic polynomial of the linearised rates on the leaf has the "
@@ -141,9 +141,9 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "There the second derivative of the energy on the level has {positive} positive and "
             "{negative} negative squares, which is certified: with the derivatives of the Casimirs "
             "beside it, its matrix is invertible everywhere within this distance.",
-            "Là, la dérivée seconde de l’énergie sur le niveau a {positive} carrés positifs et "
-            "{negative} négatifs, ce qui est certifié : bordée des dérivées des Casimirs, sa "
-            "matrice est inversible partout à moins de cette distance.",
+            "Là, la dérivée seconde de l’énergie sur le niveau est une somme de carrés (positifs : "
+            "{positive}, négatifs : {negative}), ce qui est certifié : bordée des dérivées des "
+            "Casimirs, sa matrice est inversible partout à moins de cette distance.",
         ),
         "stable": (
             "It is definite: the equilibrium is stable (energy–Casimir method, Arnold).",
@@ -155,17 +155,18 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "have not the signs or do not satisfy Newton’s inequalities of a polynomial with real "
             "roots that are not positive: the equilibrium is unstable (Lyapunov).",
             "Elle est indéfinie, ce qui ne prouve rien. Le polynôme caractéristique q(λ²) des "
-            "dérivées linéarisées, encadré, a une racine λ de partie réelle positive, car ses "
-            "coefficients n’ont pas les signes, ou ne vérifient pas les inégalités de Newton, d’un "
-            "polynôme à racines réelles non positives : l’équilibre est instable (Lyapunov).",
+            "dérivées linéarisées, encadré, a une racine λ de partie réelle strictement positive, "
+            "car ses coefficients n’ont pas les signes, ou ne vérifient pas les inégalités de "
+            "Newton, d’un polynôme à racines réelles négatives ou nulles : l’équilibre est "
+            "instable (Lyapunov).",
         ),
         "open": (
             "It is indefinite, which proves nothing, and that an eigenvalue of the linearised "
             "rates has a positive real part is not proved. Whether the equilibrium is stable is "
             "left open.",
             "Elle est indéfinie, ce qui ne prouve rien, et il n’est pas prouvé qu’une valeur "
-            "propre des dérivées linéarisées soit de partie réelle positive. La stabilité de "
-            "l’équilibre reste ouverte.",
+            "propre des dérivées linéarisées soit de partie réelle strictement positive. La "
+            "stabilité de l’équilibre reste ouverte.",
         ),
         "eigenvalues": (
             "Its eigenvalues are about {eigenvalues}.",

@@ -148,18 +148,18 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "polynomials of degree at most {degree} that are integrals where one of these "
             "conditions holds: {conditions}. The search finds none elsewhere, and no check "
             "computes that again.",
-            "Les paramètres étant réels et l’énergie cinétique positive, d’autres polynômes de "
-            "degré au plus {degree} sont des intégrales premières là où l’une de ces conditions "
-            "est satisfaite : {conditions}. La recherche n’en trouve aucun ailleurs, et aucune "
-            "vérification ne le recalcule.",
+            "Les paramètres étant réels et l’énergie cinétique définie positive, d’autres "
+            "polynômes de degré au plus {degree} sont des intégrales premières là où l’une de ces "
+            "conditions est satisfaite : {conditions}. La recherche n’en trouve aucun ailleurs, et "
+            "aucune vérification ne le recalcule.",
         ),
         "no_further": (
             "The parameters being real and the kinetic energy positive, the search finds no "
             "further polynomials of degree at most {degree} that are integrals for special values, "
             "and no check computes that again.",
-            "Les paramètres étant réels et l’énergie cinétique positive, la recherche ne trouve "
-            "aucun autre polynôme de degré au plus {degree} qui soit une intégrale première pour "
-            "des valeurs particulières, et aucune vérification ne le recalcule.",
+            "Les paramètres étant réels et l’énergie cinétique définie positive, la recherche ne "
+            "trouve aucun autre polynôme de degré au plus {degree} qui soit une intégrale première "
+            "pour des valeurs particulières, et aucune vérification ne le recalcule.",
         ),
         "unsolved": (
             "It is not decided whether there are where {conditions}: no parameter is of first "

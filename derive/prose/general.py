@@ -562,7 +562,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The equations of motion of any Lagrangian on the group (Euler–Poincaré): the rate of "
             "the momentum is the force, {push}, and the coadjoint term of the momentum.",
             "Les équations du mouvement de tout lagrangien sur le groupe (Euler–Poincaré) : la "
-            "dérivée du moment est la force, {push}, et le terme coadjoint du moment.",
+            "dérivée de l’impulsion est la force, {push}, et le terme coadjoint de l’impulsion.",
         ),
         "kirchhoff": (
             "The equations of motion by the momenta (Kirchhoff): forces, and the coadjoint terms.",

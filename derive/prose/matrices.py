@@ -426,13 +426,13 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The equations of motion of this problem: {metric} is invertible where the masses "
             "span the space.",
             "Les équations du mouvement de ce problème : {metric} est inversible lorsque les "
-            "masses engendrent l’espace.",
+            "points engendrent l’espace.",
         ),
         "maps_of_a_volume": (
             "The equations of motion of this problem: {metric} is invertible where the masses "
             "span the space, and that Ż is in the Lie algebra gives θ.",
             "Les équations du mouvement de ce problème : {metric} est inversible lorsque les "
-            "masses engendrent l’espace, et l’appartenance de Ż à l’algèbre de Lie donne θ.",
+            "points engendrent l’espace, et l’appartenance de Ż à l’algèbre de Lie donne θ.",
         ),
         "affine_maps": (
             "The equations of motion of this problem: {metric} is invertible where the masses do "

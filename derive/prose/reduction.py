@@ -8,7 +8,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Symmetries of L̃ itself, without time, that commute: {count} of {listed}, taken in "
             "turn where they commute with those taken before.",
             "Symétries de L̃ lui-même, sans le temps, qui commutent : {count} sur {listed}, prises "
-            "tour à tour quand elles commutent avec les précédentes.",
+            "l’une après l’autre quand elles commutent avec les précédentes.",
         ),
         "momentum": (
             "A symmetry of L̃, {kind}, and its momentum, which the motion keeps. For every "
@@ -63,14 +63,14 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "the kinetic energy is positive a motion along the symmetries leaves the configuration "
             "as it is.",
             "Cela vaut là où {conditions} : ailleurs, l’inertie bloquée n’a pas d’inverse, et là "
-            "où l’énergie cinétique est positive, un mouvement le long des symétries laisse la "
-            "configuration comme elle est.",
+            "où l’énergie cinétique est définie positive, un mouvement le long des symétries "
+            "laisse la configuration comme elle est.",
         ),
         "free": (
             "No motion along the symmetries leaves a configuration as it is, so that the locked "
             "inertia has an inverse everywhere where the kinetic energy is positive.",
             "Aucun mouvement le long des symétries ne laisse une configuration comme elle est : "
-            "l’inertie bloquée a un inverse partout où l’énergie cinétique est positive.",
+            "l’inertie bloquée a un inverse partout où l’énergie cinétique est définie positive.",
         ),
         "curved": (
             "The curvature in coordinates, by the structure equation.",

@@ -47,8 +47,13 @@ class Language:
         return "," if self.name == "fr" else "."
 
     def numbers(self, text: str) -> str:
-        """A text that is the same in all languages, with the decimal mark of this one."""
-        return POINT.sub(self.mark, text)
+        """A text that is the same in all languages, with the marks of this one: in a list of
+        decimals with commas they are apart by semicolons."""
+        marked = POINT.sub(self.mark, text)
+        if self.name != "fr":
+            return marked
+        listed = marked.replace(", ", "; ") if marked != text else marked
+        return listed.replace("; ", f"{THIN}; ")
 
     def decimal(self, x: float) -> str:
         """A number with the decimal mark of the language."""

@@ -15,16 +15,17 @@ from derive.motion.effective_well import turning_points
 from derive.motion.run import Column, Run
 from derive.motion.run_files import written
 from derive.plot import kinds_told
-from derive.plot.body_pictures import hull
+from derive.plot.body_pictures import _ellipsoid, hull
 from derive.plot.kinds_told import OVERVIEW, PRECISION
 from derive.plot.pictures import ENSEMBLE_KINDS, KINDS, plot, plot_energies
 from derive.plot.plot_sheet import FORMATS, PlotError, label, look, settled, sheet, with_mark
-from derive.plot.polhode_picture import levels, unstable
+from derive.plot.polhode_picture import in_math, levels, unstable
 from derive.plot.precision import of_runs, table
 from derive.plot.spheroid_pictures import followed, maps, section
 from derive.plot.surfaces import VIEW, projected
 from derive.plot.time_series import energies
 from derive.plot.torus_pictures import vorticity
+from derive.problem.toml import problem_of
 from derive.views.language import language
 from tests.support.flows import emitted, flow
 from tests.support.needs import needs
@@ -509,6 +510,33 @@ def test_the_body_of_a_run_is_that_of_its_parameters():
     assert (len(handle), len(head)) == (2, 12)
     p = simulated("hammer", 0.1).facts["parameters"]
     assert {round(z, 9) for line in handle for *_, z in line} == {p["l"] / 2, -p["l"] / 2}
+
+
+@pytest.mark.parametrize("sizes", [(1, 2, 3), (2, 1, 0), (0, 1, 1)])
+def test_an_ellipsoid_also_flat_is_within_its_outline(sizes):
+    panel = importlib.import_module("matplotlib.figure").Figure().add_subplot()
+    turned = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
+    _ellipsoid(panel, turned @ np.diag(sizes), np.zeros(3))
+    (outline,) = panel.patches
+    for line in panel.lines:
+        points = np.column_stack(line.get_data())
+        inside = points[np.isfinite(points).all(axis=1)]
+        assert outline.get_path().contains_points(inside, radius=0.01).all()
+
+
+def test_a_flat_body_has_its_pictures(tmp_path):
+    given = {"m": 1, "centre": [0, 0, -1], "I_centre": [[1, 0, 0], [0, 2, 0], [0, 0, 1]]}
+    problem = problem_of({"name": "plate", "group": "SO(3)", "body": {"given": given}})
+    run = derive.derive(problem).simulate(1.0, start={"zeta_1": 1.0}, points=4)
+    assert all(plot(run, "a.svg", kind) for kind in ("body", "overview"))
+
+
+def test_small_moments_are_powers_of_ten():
+    assert [in_math(x) for x in (1.02e-5, 0.25, 1.5e7)] == [
+        r"1.02 \cdot 10^{-5}",
+        "0.25",
+        r"1.5 \cdot 10^{7}",
+    ]
 
 
 def test_the_section_and_the_axes_of_a_spheroid():

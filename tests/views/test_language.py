@@ -318,7 +318,7 @@ def test_sentences_in_a_language():
 
 def test_numbers_have_the_mark_of_the_language():
     told = phrase("The eigenvalues are about {eigenvalues}.", eigenvalues="±0.0962 ±12.5i, 3")
-    assert FRENCH.sentence(told) == "Les valeurs propres sont environ ±0,0962 ±12,5i, 3."
+    assert FRENCH.sentence(told) == "Les valeurs propres sont environ ±0,0962 ±12,5i\u202f; 3."
     assert r"$\pm0{,}0962 \pm12{,}5i$" in prose(FRENCH.sentence(told))
     assert "±0.0962 ±12.5i" in ENGLISH.sentence(told)
 
