@@ -99,6 +99,24 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Le membre de droite est un polynôme de degré {degree} : l’intégrale est "
             "hyperelliptique.",
         ),
+        "elementary_squared": (
+            "The right side is a polynomial of degree {degree}, a square times one of degree "
+            "{left}: its integral is elementary.",
+            "Le membre de droite est un polynôme de degré {degree}, un carré fois un polynôme de "
+            "degré {left} : l’intégrale est élémentaire.",
+        ),
+        "elliptic_squared": (
+            "The right side is a polynomial of degree {degree}, a square times one of degree "
+            "{left}: the integral is elliptic.",
+            "Le membre de droite est un polynôme de degré {degree}, un carré fois un polynôme de "
+            "degré {left} : l’intégrale est elliptique.",
+        ),
+        "hyperelliptic_squared": (
+            "The right side is a polynomial of degree {degree}, a square times one of degree "
+            "{left}: the integral is hyperelliptic.",
+            "Le membre de droite est un polynôme de degré {degree}, un carré fois un polynôme de "
+            "degré {left} : l’intégrale est hyperelliptique.",
+        ),
     },
 }
 """Step, then name of the sentence."""

@@ -26,7 +26,10 @@ KINDS = {
     ),
     "level": "multiple complete",
     "condition": "one several complete",
-    "reduction": "flat curved elementary elliptic hyperelliptic",
+    "reduction": (
+        "flat curved elementary elliptic hyperelliptic "
+        "elementary_squared elliptic_squared hyperelliptic_squared"
+    ),
     "relation": "left_invariant",
     "symmetries": "algebra algebra_modulo none open",
     "equilibrium": (

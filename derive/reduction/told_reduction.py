@@ -300,10 +300,13 @@ def _quadrature(r: Routhian, made_from: Iterable[Step], c: Chapter) -> tuple[Ste
     whole = add(tree(2 * found.slope, add(*inside)), *aside)
     prose = say("reduction.quadrature", entry=show(found.entry))
     if found.degree:
-        prose += draft.claim(f"reduction.{_integral(found.degree)}", degree=found.degree)
+        kind, degrees = _integral(found.left), {"degree": found.degree}
+        if found.left < found.degree:
+            kind, degrees = f"{kind}_squared", degrees | {"left": found.left}
+        prose += draft.claim(f"reduction.{kind}", **degrees)
     return (draft.step([Equation(("pow", rate, 2), whole)], prose),)
 
 
 def _integral(degree: int) -> str:
-    """What the integral of 1/√f is, f a polynomial of this degree: a key of the prose."""
+    """What the integral of 1/√f is, f of this degree but for squares: a key of the prose."""
     return "elementary" if degree < 3 else "elliptic" if degree < 5 else "hyperelliptic"

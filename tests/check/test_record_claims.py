@@ -44,6 +44,9 @@ RECORDS = {
     "quadrature": lambda: reduced("0"),
     "elliptic": lambda: reduced("A_33"),
     "hyperelliptic": lambda: reduced("A_33^4"),
+    "a square": lambda: scaled("b*A_11^2"),
+    "a square, elliptic": lambda: scaled("b*A_11^4"),
+    "a square, hyperelliptic": lambda: scaled("b*A_11^6 + A_11"),
     "curved": lambda: derive("euler_top").reduction().record,
     "a flat body": lambda: walk(problem_of(tomllib.loads(PROBLEMS["a flat body"]))),
     "symmetries": lambda: derive("lagrange_top").symmetries().record,
@@ -69,6 +72,14 @@ MONOMIALS = 4
 def reduced(potential):
     """The record of Routh's reduction of a solid with an axis."""
     return derive(heavy(("1", "1", "2"), potential, "")).reduction().record
+
+
+def scaled(potential):
+    """The record of Routh's reduction on a group of scalings and shifts, u̇² = 2u²(h̃ − …)."""
+    basis = [[[1, 0, 0], [0, 0, 0], [0, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 0, 0]]]
+    L = f"(zeta_1^2 + zeta_2^2)/2 - ({potential})"
+    own = {"name": "own", "group": {"name": "Scaled", "basis": basis}, "parameters": {"b": {}}}
+    return derive(problem_of({**own, "lagrangian": {"L": L}})).reduction().record
 
 
 def large(name, **how):

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from itertools import pairwise
 from random import Random
 
 from ...algebra.groups import Group
@@ -38,19 +39,35 @@ def _head(t: Tree) -> str:
 
 
 def _quadrature(group: Group, random: Random, step: Step, claim: Claim) -> str:
-    """The right side is a polynomial of the degree in the coordinate, without double roots."""
+    """The right side is a polynomial of the degree in the coordinate, and the kind is that of its
+    factors of odd multiplicity."""
     rate, f = step.equations[0].lhs, step.equations[0].rhs
     if not isinstance(rate, tuple) or rate[0] != "pow" or rate[2] != 2:
         raise RecordError("the left side is no square of a rate")
     entry: Tree = ("entry", "A", *rate[1][2:])
     p = random_prime(random)
     c = _interpolated(f, entry, random, p)
-    several = len(c) - 1
-    kind = "elementary" if several < 3 else "elliptic" if several < 5 else "hyperelliptic"
-    if claim["degree"] != several or claim.kind != f"reduction.{kind}":
-        return f"its degree is {several}"
-    slope = [k * x % p for k, x in enumerate(c)][1:]
-    return "it has a double root" if several > 2 and len(_divisor(c, slope, p)) > 1 else ""
+    degree, left = len(c) - 1, _odd_degree(c, p)
+    kind = "elementary" if left < 3 else "elliptic" if left < 5 else "hyperelliptic"
+    told = {"degree": degree}
+    if left < degree:
+        kind, told = f"{kind}_squared", told | {"left": left}
+    true = claim.kind == f"reduction.{kind}" and dict(claim.values) == told
+    return "" if true else f"its degree is {degree}, and {left} without squares"
+
+
+def _odd_degree(c: Sequence[int], p: int) -> int:
+    """The degree of the factors of odd multiplicity, each once.
+
+    Divisors with the derivative lower all multiplicities by 1: of these steps every second adds the
+    degree of the factors that are left.
+    """
+    degrees = [len(c) - 1]
+    while len(c) > 1:
+        c = _divisor(c, [k * x % p for k, x in enumerate(c)][1:], p)
+        degrees.append(len(c) - 1)
+    steps = (a - b for a, b in pairwise(degrees))
+    return sum(x * (-1) ** k for k, x in enumerate(steps))
 
 
 def _interpolated(f: Tree, x: Tree, random: Random, p: int) -> list[int]:
@@ -111,7 +128,12 @@ JUDGES: dict[str, Judge] = {
     "reduction.flat": _curvature,
     "reduction.curved": _curvature,
     **dict.fromkeys(
-        ("reduction.elementary", "reduction.elliptic", "reduction.hyperelliptic"), _quadrature
+        (
+            f"reduction.{kind}{squared}"
+            for kind in ("elementary", "elliptic", "hyperelliptic")
+            for squared in ("", "_squared")
+        ),
+        _quadrature,
     ),
     "relation.left_invariant": _left_invariant,
 }
