@@ -66,6 +66,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "où l’énergie cinétique est positive, un mouvement le long des symétries laisse la "
             "configuration comme elle est.",
         ),
+        "divided": (
+            "This holds where {conditions}, by which the equations divide.",
+            "Cela vaut là où {conditions} : les équations divisent par ces expressions.",
+        ),
         "free": (
             "No motion along the symmetries leaves a configuration as it is, so that the locked "
             "inertia has an inverse everywhere where the kinetic energy is positive.",

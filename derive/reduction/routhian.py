@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from itertools import product
+from operator import truediv
 from typing import Any
 
 from ..language.tree import Tree, add, neg, nodes, plain, terms
@@ -44,6 +45,12 @@ class Square:
     rest: Element
     pivot: Element
     later: Mapping[int, Element]
+
+    @property
+    def scale(self) -> Any:
+        """The common denominator of what is squared."""
+        parts = (*self.factors.values(), self.rest)
+        return reduce(lambda x, y: x.lcm(y), (x.denom for x in parts))
 
 
 @dataclass(frozen=True)
@@ -174,6 +181,37 @@ class Routhian:
         names = {self.functions.leaves.index(x) for row in self.names for x in row}
         pivots = (self.functions.depends_on(x.pivot) for x in self.squares)
         return any(used & names for used in pivots)
+
+    @cached_property
+    def conditions(self) -> tuple[Element, ...]:
+        """What the squares divide by, as it varies with g: the numerators of the pivots, and what
+        else there is."""
+        found, field = dict[Any, None](), self.functions.field
+        for s in reversed(self.squares):
+            found[s.pivot.numer] = None
+        for s in self.squares:
+            rest = (s.weight / field(s.scale) ** 2).denom
+            for p in (*found,):
+                while self.functions.depends_on(field(common := rest.gcd(p))):
+                    rest = rest.quo(common)
+            found[rest] = None
+        return tuple(field(p) for p in found if self._varies(field(p)))
+
+    def _varies(self, x: Element) -> bool:
+        """Does a function depend on entries of g, or of 𝕀 by their names?"""
+        names = {self.functions.leaves.index(y) for row in self.names for y in row}
+        used = self.functions.depends_on(x)
+        return bool(used & names) or max(used, default=-1) >= self.functions.first_entry
+
+    @property
+    def singular_elsewhere(self) -> bool:
+        """Is det 𝕀 the product of the conditions, but for what does not vary with g?"""
+        from sympy.polys.matrices import DomainMatrix
+
+        rows = self._by_names() if self.named else self.locked
+        size, field = len(rows), self.functions.field
+        det = DomainMatrix(rows, (size, size), field.to_domain()).det()
+        return not self._varies(reduce(truediv, self.conditions, self.functions.simplified(det)))
 
     def _by_names(self) -> list[Vector]:
         """𝕀 by names of its entries that are not 0."""
