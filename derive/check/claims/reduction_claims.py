@@ -141,16 +141,20 @@ def missing(step: Step) -> str:
     if curvatures and all(curvatures) and not kinds & {"reduction.flat", "reduction.curved"}:
         return "it gives curvatures, and no claim says whether they vanish"
     told = kinds & {"reduction.isotropy", "reduction.divided"}
-    found = () if told else _divisors(step)
+    found = () if told else [*filter(_varies, _divisors(step))]
     return f"it divides by {show(found[0])[:80]}, which no claim says" if found else ""
 
 
 def _divisors(step: Step) -> tuple[Tree, ...]:
-    """What the terms of 𝒱 with momenta divide by, as it varies with g."""
+    """What the terms of 𝒱 with momenta divide by."""
     summed = (x for e in step.equations if e.lhs == "𝒱" for x in terms(e.rhs))
     squares = (x for x in summed if any(_is(y, "at", "𝒥") for y in nodes(x)))
-    below = dict.fromkeys(t for x in squares for t in denominators(x))
-    return tuple(t for t in below if any(_is(y, "entry") for y in _leaves(t)))
+    return tuple(dict.fromkeys(t for x in squares for t in denominators(x)))
+
+
+def _varies(t: Tree) -> bool:
+    """Has a function entries of g, or of 𝕀?"""
+    return any(_is(x, "entry") for x in _leaves(t))
 
 
 def _is(t: Tree, *head: str) -> bool:
@@ -158,8 +162,8 @@ def _is(t: Tree, *head: str) -> bool:
 
 
 def _conditions(c: ClaimedRecord, step: Step, claim: Claim) -> str:
-    """The conditions vanish where 𝒱 divides by 0, and there alone, on a random line; of isotropy:
-    det 𝕀 is their product, but for a factor that is the same at all g."""
+    """The conditions vanish, on a random line, only where 𝒱 divides by 0, and one does wherever
+    that varies with g; of isotropy: det 𝕀 is their product, but for what is the same at all g."""
     stated = operands(claim["conditions"])
     below, p = _divisors(step), random_prime(c.random)
     at, along = ({} | _random(_every_leaf([*stated, *below]), c.random, p) for _ in range(2))
@@ -170,9 +174,13 @@ def _conditions(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 
         return _interpolated(at_time, p, LARGEST_ON_LINE)
 
-    one, other = ([*map(on_line, x)] for x in (stated, below))
+    every = {t: on_line(t) for t in (*stated, *below)}
+    fixed = [t for t in below if not _varies(t)]
+    pairs = [(stated, below), ([t for t in below if _varies(t)], [*stated, *fixed])]
     if len({*stated}) < len(stated) or not all(
-        _vanishes(x, every, p) for listed, every in ((one, other), (other, one)) for x in listed
+        _varies(x) and _vanishes(every[x], [every[y] for y in others], p)
+        for listed, others in pairs
+        for x in listed
     ):
         return "the conditions are not what its equations divide by"
     if claim.kind == "reduction.divided" or _determined(c, stated):
