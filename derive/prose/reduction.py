@@ -66,6 +66,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "où l’énergie cinétique est définie positive, un mouvement le long des symétries "
             "laisse la configuration comme elle est.",
         ),
+        "divided": (
+            "This holds where {conditions}, by which the equations divide.",
+            "Cela vaut là où {conditions} : les équations divisent par ces expressions.",
+        ),
         "free": (
             "No motion along the symmetries leaves a configuration as it is, so that the locked "
             "inertia has an inverse everywhere where the kinetic energy is positive.",
@@ -98,6 +102,24 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The right side is a polynomial of degree {degree}: the integral is hyperelliptic.",
             "Le membre de droite est un polynôme de degré {degree} : l’intégrale est "
             "hyperelliptique.",
+        ),
+        "elementary_squared": (
+            "The right side is a polynomial of degree {degree}, a square times one of degree "
+            "{left}: its integral is elementary.",
+            "Le membre de droite est un polynôme de degré {degree}, un carré fois un polynôme de "
+            "degré {left} : l’intégrale est élémentaire.",
+        ),
+        "elliptic_squared": (
+            "The right side is a polynomial of degree {degree}, a square times one of degree "
+            "{left}: the integral is elliptic.",
+            "Le membre de droite est un polynôme de degré {degree}, un carré fois un polynôme de "
+            "degré {left} : l’intégrale est elliptique.",
+        ),
+        "hyperelliptic_squared": (
+            "The right side is a polynomial of degree {degree}, a square times one of degree "
+            "{left}: the integral is hyperelliptic.",
+            "Le membre de droite est un polynôme de degré {degree}, un carré fois un polynôme de "
+            "degré {left} : l’intégrale est hyperelliptique.",
         ),
     },
 }

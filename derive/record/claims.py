@@ -26,7 +26,10 @@ KINDS = {
     ),
     "level": "multiple complete",
     "condition": "one several complete",
-    "reduction": "flat curved elementary elliptic hyperelliptic",
+    "reduction": (
+        "flat curved isotropy divided quadrature elementary elliptic hyperelliptic "
+        "elementary_squared elliptic_squared hyperelliptic_squared"
+    ),
     "relation": "left_invariant",
     "symmetries": "algebra algebra_modulo none open",
     "equilibrium": (
@@ -93,7 +96,18 @@ def _eigenvalues(x: Tree) -> str:
     return ", ".join(" ".join(x) or "0" for x in parts)
 
 
-TEXTS = {"equilibrium.near": _coordinates, "equilibrium.eigenvalues": _eigenvalues}
+def _nonzero(x: Tree) -> str:
+    """Several expressions that must not vanish."""
+    assert isinstance(x, tuple)
+    return ", ".join(f"{in_sentence(y)} ≠ 0" for y in x[1:])
+
+
+TEXTS = {
+    "equilibrium.near": _coordinates,
+    "equilibrium.eigenvalues": _eigenvalues,
+    "reduction.isotropy": _nonzero,
+    "reduction.divided": _nonzero,
+}
 """How the values of some kinds stand in their sentences, those of others as :func:`text` has it."""
 
 

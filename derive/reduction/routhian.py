@@ -11,7 +11,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
+from itertools import product
+from operator import truediv
 from typing import Any
 
 from ..language.tree import Tree, add, neg, nodes, plain, terms
@@ -44,17 +46,25 @@ class Square:
     pivot: Element
     later: Mapping[int, Element]
 
+    @property
+    def scale(self) -> Any:
+        """The common denominator of what is squared."""
+        parts = (*self.factors.values(), self.rest)
+        return reduce(lambda x, y: x.lcm(y), (x.denom for x in parts))
+
 
 @dataclass(frozen=True)
 class Quadrature:
     """One degree of freedom is left: u̇² = 2 ``slope`` (h̃ − V), u the ``entry`` of g.
 
-    ``degree``: of the right side in u, where it is a polynomial, else 0.
+    ``degree``: of the right side in u, where it is a polynomial, else 0; ``left``: of its factors
+    of odd multiplicity, which say what kind of integral 1/√ of it has.
     """
 
     entry: Tree
     slope: Element
     degree: int
+    left: int
 
 
 class Routhian:
@@ -171,6 +181,37 @@ class Routhian:
         names = {self.functions.leaves.index(x) for row in self.names for x in row}
         pivots = (self.functions.depends_on(x.pivot) for x in self.squares)
         return any(used & names for used in pivots)
+
+    @cached_property
+    def conditions(self) -> tuple[Element, ...]:
+        """What the squares divide by, as it varies with g: the numerators of the pivots, and what
+        else there is."""
+        found, field = dict[Any, None](), self.functions.field
+        for s in reversed(self.squares):
+            found[s.pivot.numer] = None
+        for s in self.squares:
+            rest = (s.weight / field(s.scale) ** 2).denom
+            for p in (*found,):
+                while self.functions.depends_on(field(common := rest.gcd(p))):
+                    rest = rest.quo(common)
+            found[rest] = None
+        return tuple(field(p) for p in found if self._varies(field(p)))
+
+    def _varies(self, x: Element) -> bool:
+        """Does a function depend on entries of g, or of 𝕀 by their names?"""
+        names = {self.functions.leaves.index(y) for row in self.names for y in row}
+        used = self.functions.depends_on(x)
+        return bool(used & names) or max(used, default=-1) >= self.functions.first_entry
+
+    @property
+    def singular_elsewhere(self) -> bool:
+        """Is det 𝕀 the product of the conditions, but for what does not vary with g?"""
+        from sympy.polys.matrices import DomainMatrix
+
+        rows = self._by_names() if self.named else self.locked
+        size, field = len(rows), self.functions.field
+        det = DomainMatrix(rows, (size, size), field.to_domain()).det()
+        return not self._varies(reduce(truediv, self.conditions, self.functions.simplified(det)))
 
     def _by_names(self) -> list[Vector]:
         """𝕀 by names of its entries that are not 0."""
@@ -334,7 +375,7 @@ class Routhian:
             entry = self.functions.leaves[k]
             slope = self._slope(self.slopes(entry))
             if slope and all(self._told_by(k, x) for x in self._all(slope)):
-                return Quadrature(entry, slope, self._degree(k, slope))
+                return Quadrature(entry, slope, *self._degrees(k, slope))
         return None
 
     def _all(self, slope: Element) -> Vector:
@@ -367,21 +408,38 @@ class Routhian:
                 left[i] = [x - ratio * y for x, y in zip(left[i], left[p], strict=True)]
         return self.functions.simplified(total)
 
-    def _degree(self, k: int, slope: Element) -> int:
-        """The degree in u of 2 ``slope`` (h̃ − V), 0 where it is no polynomial in u."""
+    def _degrees(self, k: int, slope: Element) -> tuple[int, int]:
+        """The degree in u of f = 2 ``slope`` (h̃ − V), and that of its factors of odd multiplicity;
+        0, 0 where it is no polynomial in u.
+
+        f is linear in h̃: what has no h̃ in it divides all coefficients, and the rest is a factor
+        alone.
+        """
         U = self.functions.simplified(self.potential)
-        degrees = [_degree_in(k, slope)]
         if any(
             i < self.functions.first_entry and [*_entries(self.functions.leaves[i])]
             for i in self.functions.depends_on(U)
         ):
-            return 0
-        degrees.append(_degree_in(k, slope * U) if U else 0)
+            return 0, 0
+        found = [slope * x for x in (self.functions.field(1), *self._by_momenta(U)) if x]
+        if any(e[k] for x in found for e in x.denom):
+            return 0, 0
+        whole = reduce(lambda x, y: x.lcm(y), (x.denom for x in found))
+        parts = [(x * self.functions.field(whole)).numer for x in found]
+        common = reduce(lambda x, y: x.gcd(y), parts)
+        degree = max(_degree_in(k, x) for x in parts)
+        squared = (_degree_in(k, x) * (n - n % 2) for x, n in common.sqf_list()[1])
+        return degree, degree - sum(squared)
+
+    def _by_momenta(self, U: Element) -> Vector:
+        """The coefficients of V, a polynomial in the 𝒥_i."""
+        found: dict[tuple[int, ...], Element] = {(): U}
         for s in self.squares:
-            weight = self.functions.simplified(slope * s.weight)
-            parts = [*s.factors.values(), s.rest]
-            degrees += [_degree_in(k, weight * x * x) for x in parts if x]
-        return 0 if None in degrees else max(degrees)  # type: ignore[type-var, return-value]
+            row = [*s.factors.items(), (None, -s.rest)]
+            for (i, x), (j, y) in product(row, row):
+                key = tuple(sorted(n for n in (i, j) if n is not None))
+                found[key] = found.get(key, 0) + s.weight * x * y
+        return [*found.values()]
 
 
 def inertia(i: int, j: int) -> Tree:
@@ -437,8 +495,6 @@ def _entries(t: Tree) -> list[Tree]:
     return [x for y in t[1:] for x in _entries(y)]
 
 
-def _degree_in(k: int, x: Element) -> int | None:
-    """The degree of a function in one leaf; ``None`` where it is no polynomial in it."""
-    if any(e[k] for e in x.denom):
-        return None
-    return max((int(e[k]) for e in x.numer), default=0)
+def _degree_in(k: int, p: Any) -> int:
+    """The degree of a polynomial in one leaf."""
+    return max((int(e[k]) for e in p), default=0)

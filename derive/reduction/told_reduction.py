@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.show import in_sentence, show
 from ..language.tree import Tree, add, mul, neg, plain, terms
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
@@ -102,11 +101,7 @@ def _locked(r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
 
 def _cleared(square: Square, r: Routhian) -> tuple[Element, Tree]:
     """What a square of V is of, times its common denominator, and that."""
-    parts, field = (*square.factors.values(), square.rest), r.functions.field
-    scale = parts[0].denom
-    for x in parts[1:]:
-        scale = scale.lcm(x.denom)
-    times, tree = field(scale), r.functions.tree
+    times, tree = r.functions.field(square.scale), r.functions.tree
     factors = (tree(square.factors[i] * times, momentum(i)) for i in sorted(square.factors))
     return times, add(*factors, neg_all(terms(tree(square.rest * times))))
 
@@ -243,14 +238,17 @@ def _effective(r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     ]
     prose = say("reduction.effective")
     prose += say("reduction.named") if r.named else ()
-    varying = (x.pivot for x in reversed(r.squares) if r.named or r.functions.used(x.pivot.numer))
-    pivots = dict.fromkeys(r.functions.tree(r.functions.field(x.numer)) for x in varying)
-    conditions = ", ".join(f"{in_sentence(x)} ≠ 0" for x in pivots)
-    if pivots and r.leaves_none:
-        prose += say("reduction.free")
-    elif pivots:
-        prose += say("reduction.isotropy", conditions=conditions)
+    if r.conditions:
+        kind = "isotropy" if r.singular_elsewhere and not r.leaves_none else "divided"
+        trees = dict.fromkeys(_unsigned(r.functions.tree(x)) for x in r.conditions)
+        prose += draft.claim(f"reduction.{kind}", conditions=("row", *trees))
+        prose += say("reduction.free") if r.leaves_none else ()
     return draft.step(equations, prose)
+
+
+def _unsigned(t: Tree) -> Tree:
+    """A product without the minus that it begins with."""
+    return mul(-1, t) if isinstance(t, tuple) and t[:2] == ("mul", -1) else t
 
 
 def _square(square: Square, r: Routhian) -> Tree:
@@ -298,12 +296,15 @@ def _quadrature(r: Routhian, made_from: Iterable[Step], c: Chapter) -> tuple[Ste
         else:
             inside.append(neg(_square(square, r)))
     whole = add(tree(2 * found.slope, add(*inside)), *aside)
-    prose = say("reduction.quadrature", entry=show(found.entry))
+    prose = draft.claim("reduction.quadrature", entry=found.entry)
     if found.degree:
-        prose += draft.claim(f"reduction.{_integral(found.degree)}", degree=found.degree)
+        kind, degrees = _integral(found.left), {"degree": found.degree}
+        if found.left < found.degree:
+            kind, degrees = f"{kind}_squared", degrees | {"left": found.left}
+        prose += draft.claim(f"reduction.{kind}", **degrees)
     return (draft.step([Equation(("pow", rate, 2), whole)], prose),)
 
 
 def _integral(degree: int) -> str:
-    """What the integral of 1/√f is, f a polynomial of this degree: a key of the prose."""
+    """What the integral of 1/√f is, f of this degree but for squares: a key of the prose."""
     return "elementary" if degree < 3 else "elliptic" if degree < 5 else "hyperelliptic"

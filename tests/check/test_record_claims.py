@@ -28,6 +28,15 @@ from tests.problems import PROBLEMS
 from tests.support.lagrangians import APART, LINE, LINES, heavy, lagrangian, squares
 from tests.support.walks import SEED
 
+DIVIDED = {
+    "name": "divided",
+    "group": "SE(3)",
+    "lagrangian": {
+        "L": "(zeta_1^2 + zeta_2^2 + 2*zeta_3^2 + zeta_4^2 + zeta_5^2 - zeta_6^2)/2 - A_33"
+    },
+}
+"""Whose locked inertia has an inverse also where a pivot of its elimination vanishes."""
+
 RECORDS = {
     "euler_top": lambda: first_integrals("euler_top", 2).record,
     "lagrange_top": lambda: first_integrals("lagrange_top", 2).record,
@@ -44,7 +53,11 @@ RECORDS = {
     "quadrature": lambda: reduced("0"),
     "elliptic": lambda: reduced("A_33"),
     "hyperelliptic": lambda: reduced("A_33^4"),
+    "a square": lambda: scaled("b*A_11^2"),
+    "a square, elliptic": lambda: scaled("b*A_11^4"),
+    "a square, hyperelliptic": lambda: scaled("b*A_11^6 + A_11"),
     "curved": lambda: derive("euler_top").reduction().record,
+    "divided": lambda: derive(problem_of(DIVIDED)).reduction().record,
     "a flat body": lambda: walk(problem_of(tomllib.loads(PROBLEMS["a flat body"]))),
     "symmetries": lambda: derive("lagrange_top").symmetries().record,
     "a rod": lambda: derive("rod").symmetries().record,
@@ -69,6 +82,14 @@ MONOMIALS = 4
 def reduced(potential):
     """The record of Routh's reduction of a solid with an axis."""
     return derive(heavy(("1", "1", "2"), potential, "")).reduction().record
+
+
+def scaled(potential):
+    """The record of Routh's reduction on a group of scalings and shifts, u̇² = 2u²(h̃ − …)."""
+    basis = [[[1, 0, 0], [0, 0, 0], [0, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 0, 0]]]
+    L = f"(zeta_1^2 + zeta_2^2)/2 - ({potential})"
+    own = {"name": "own", "group": {"name": "Scaled", "basis": basis}, "parameters": {"b": {}}}
+    return derive(problem_of({**own, "lagrangian": {"L": L}})).reduction().record
 
 
 def large(name, **how):
@@ -195,6 +216,40 @@ def test_no_curvature_is_told_that_is_not_there(name, other):
     wrong = Claim(f"reduction.{other}")
     prose = (Sentence(english(wrong.kind)),)
     assert "vanishes, or does not" in judged(name, replace(step, prose=prose, claims=(wrong,)))
+
+
+@pytest.mark.parametrize("name", ["elliptic", "divided"])
+def test_what_is_divided_by_is_said(name):
+    """By the step itself; and that det 𝕀 is 0 elsewhere only where it is the product."""
+    step = record(name)["effective"]
+    (own,) = step.claims
+    silent = tuple(x for x in step.prose if x.message != english(own.kind))
+    assert "which no claim says" in judged(name, replace(step, prose=silent, claims=()))
+    for text in (own.texts["conditions"].replace("≠", ">"), "‘I1’ ≠ 0"):
+        places = (("conditions", text),)
+        prose = tuple(
+            Sentence(x.message, places) if x.message == english(own.kind) else x for x in step.prose
+        )
+        assert "not what the sentences say" in judged(name, replace(step, prose=prose))
+    other = {"isotropy": "divided", "divided": "isotropy"}[own.kind.split(".")[1]]
+    found = judged(name, said_as(step, own, f"reduction.{other}"))
+    assert ("not the product" in found) == (other == "isotropy")
+
+
+def said_as(step, old, kind):
+    """A step that says the same values by another sentence."""
+    new = Claim(kind, old.values)
+    prose = tuple(
+        Sentence(english(kind), x.places) if x.message == english(old.kind) else x
+        for x in step.prose
+    )
+    return replace(step, prose=prose, claims=(new,))
+
+
+def test_whether_there_is_curvature_is_said():
+    step = record("elliptic")["curvature"]
+    silent = replace(step, prose=(Sentence("The connection has curvature."),), claims=())
+    assert "no claim says" in judged("elliptic", silent)
 
 
 COUNTED = ("so3", "spherical_pendulum", "comet", "screw", "su2", "gl3", "right", "roots")

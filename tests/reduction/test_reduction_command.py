@@ -9,6 +9,7 @@ from derive.command.cli import main
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.python.derived import derive
+from derive.record.sentence import english
 from tests.support.reduced import reduced
 
 
@@ -149,3 +150,21 @@ def test_a_null_field_is_not_said_to_vanish(capsys, tmp_path):
     assert "𝒥₁ = Π₁ A₂₃ + Π₂ A₁₃" in words
     assert "where the kinetic energy is positive a motion along the symmetries leaves" in words
     assert "elsewhere a motion" not in words
+
+
+@pytest.mark.parametrize(
+    ("L", "group", "condition"),
+    [
+        ("(zeta_1^2 + zeta_2^2 - zeta_3^2)/2", "SE(2)", "A₁₁² − A₁₂² ≠ 0, by which"),
+        (
+            "(zeta_1^2 + zeta_2^2 + 2*zeta_3^2 + zeta_4^2 + zeta_5^2 - zeta_6^2)/2 - A_33 - T_3^2",
+            "SE(3)",
+            "where 1 − 2 A₁₃² − 2 A₂₃² ≠ 0, 1 − 2 A₁₃² ≠ 0, by which",
+        ),
+    ],
+)
+def test_a_pivot_is_not_said_to_be_the_determinant(L, group, condition):
+    """At the third column (1/√2, ½, ½) of a rotation 𝕀 has an inverse, and 1 − 2A₁₃² is 0."""
+    words = english(stated(L, group).reduction().record["effective"].prose)
+    assert condition in words
+    assert "elsewhere the locked inertia" not in words

@@ -28,7 +28,8 @@ class ClaimChecker(ClaimedRecord):
             if any(bit_count(x) > MOST_BITS for c in step.claims for _, x in c.values):
                 return "a claim of powers of numbers that are too large"
             reasons = (self._fault(step, claim) for claim in step.claims)
-            return fault(step.prose, step.claims) or next(filter(None, reasons), "")
+            found = fault(step.prose, step.claims) or next(filter(None, reasons), "")
+            return found or reduction_claims.missing(step)
         except IMPOSSIBLE as error:
             return f"a claim makes no sense: {type(error).__name__}"
 
@@ -57,13 +58,8 @@ def _of_symmetries(judge: symmetry_claims.Judge) -> Judge:
     return lambda c, step, x: judge(c.symmetries, c.record, step, x)
 
 
-def _of_group(judge: reduction_claims.Judge) -> Judge:
-    """The judge of a claim that needs no more than its step and the group."""
-    return lambda c, step, x: judge(c.group, c.random, step, x)
-
-
 JUDGES: dict[str, Judge] = {
-    **{kind: _of_group(judge) for kind, judge in reduction_claims.JUDGES.items()},
+    **reduction_claims.JUDGES,
     **{kind: _of_symmetries(judge) for kind, judge in symmetry_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in equilibrium_claims.JUDGES.items()},

@@ -3,25 +3,33 @@ which kind the quadrature is."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
+from itertools import pairwise
+from math import prod
 from random import Random
 
-from ...algebra.groups import Group
-from ...language.tree import Tree, operands
+from ...algebra.residue_vectors import PRIMES, ResidueSource
+from ...language import rational as q
+from ...language.show import show
+from ...language.tree import Tree, nodes, operands, terms
 from ...record.claims import Claim
 from ...record.formulas import stated
 from ...record.record import RecordError, Step
-from ..residue import random_prime
+from ..necessary_hypotheses import denominators
+from ..residue import Residue, random_prime
+from .claimed_record import ClaimedRecord
 from .rational_values import value
 
-Judge = Callable[[Group, Random, Step, Claim], str]
+Judge = Callable[[ClaimedRecord, Step, Claim], str]
 LARGEST = 24
 """The largest degree of a right side."""
+LARGEST_ON_LINE = 96
+"""The largest degree of what the effective potential divides by."""
 CURVATURE = "d𝒜"
 
 
-def _curvature(group: Group, random: Random, step: Step, claim: Claim) -> str:
+def _curvature(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """Does the curvature vanish in all equations that give it, or not?"""
     values = [e.rhs for e in step.equations if _head(e.lhs) == CURVATURE]
     if not values or len(values) < len(step.equations):
@@ -37,35 +45,56 @@ def _head(t: Tree) -> str:
     return ""
 
 
-def _quadrature(group: Group, random: Random, step: Step, claim: Claim) -> str:
-    """The right side is a polynomial of the degree in the coordinate, without double roots."""
+def _quadrature(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+    """The right side is a polynomial of the degree in the coordinate, and the kind is that of its
+    factors of odd multiplicity."""
     rate, f = step.equations[0].lhs, step.equations[0].rhs
     if not isinstance(rate, tuple) or rate[0] != "pow" or rate[2] != 2:
         raise RecordError("the left side is no square of a rate")
     entry: Tree = ("entry", "A", *rate[1][2:])
-    p = random_prime(random)
-    c = _interpolated(f, entry, random, p)
-    several = len(c) - 1
-    kind = "elementary" if several < 3 else "elliptic" if several < 5 else "hyperelliptic"
-    if claim["degree"] != several or claim.kind != f"reduction.{kind}":
-        return f"its degree is {several}"
-    slope = [k * x % p for k, x in enumerate(c)][1:]
-    return "it has a double root" if several > 2 and len(_divisor(c, slope, p)) > 1 else ""
+    p = random_prime(c.random)
+    at = _random(_leaves(f), c.random, p)
+    found = _interpolated(lambda x: value(f, {**at, entry: x}, p), p, LARGEST)
+    degree, left = len(found) - 1, _odd_degree(found, p)
+    kind = "elementary" if left < 3 else "elliptic" if left < 5 else "hyperelliptic"
+    told = {"degree": degree}
+    if left < degree:
+        kind, told = f"{kind}_squared", told | {"left": left}
+    true = claim.kind == f"reduction.{kind}" and dict(claim.values) == told
+    return "" if true else f"its degree is {degree}, and {left} without squares"
 
 
-def _interpolated(f: Tree, x: Tree, random: Random, p: int) -> list[int]:
-    """The coefficients of a polynomial in one variable, others being random; ``RecordError`` for
-    more than the largest degree, or what is no polynomial."""
-    at = {t: random.randrange(1, p) for t in _leaves(f)}
+def _odd_degree(c: Sequence[int], p: int) -> int:
+    """The degree of the factors of odd multiplicity, each once.
+
+    Divisors with the derivative lower all multiplicities by 1: of these steps every second adds the
+    degree of the factors that are left.
+    """
+    degrees = [len(c) - 1]
+    while len(c) > 1:
+        c = _divisor(c, [k * x % p for k, x in enumerate(c)][1:], p)
+        degrees.append(len(c) - 1)
+    steps = (a - b for a, b in pairwise(degrees))
+    return sum(x * (-1) ** k for k, x in enumerate(steps))
+
+
+def _random(leaves: Iterable[Tree], random: Random, p: int) -> dict[Tree, int]:
+    """A random value of each."""
+    return {t: random.randrange(1, p) for t in leaves}
+
+
+def _interpolated(f: Callable[[int], int], p: int, largest: int) -> list[int]:
+    """The coefficients of a polynomial, by its values; ``RecordError`` for more than the largest
+    degree, or what is no polynomial."""
     found: list[int] = []
     base = [1]  # ∏ (x − j), j < k
-    for k in range(LARGEST + 3):
-        left = value(f, {**at, x: k}, p) - sum(c * k**i for i, c in enumerate(found))
+    for k in range(largest + 3):
+        left = f(k) - sum(c * k**i for i, c in enumerate(found))
         step = left * pow(sum(c * k**i for i, c in enumerate(base)), -1, p) % p
         found = [(a + step * b) % p for a, b in zip([*found, 0][: k + 1], base, strict=True)]
         base = [(a - k * b) % p for a, b in zip([0, *base], [*base, 0], strict=True)]
     found = _trimmed(found)
-    if len(found) > LARGEST + 1:
+    if len(found) > largest + 1:
         raise RecordError("the right side is no polynomial in the coordinate")
     return found
 
@@ -87,31 +116,158 @@ def _divisor(a: Sequence[int], b: Sequence[int], p: int) -> list[int]:
     """The greatest common divisor of two polynomials."""
     a, b = _trimmed(a), _trimmed(b)
     while b:
-        rest = [*a]
-        lead = pow(b[-1], -1, p)
-        while len(rest) >= len(b):
-            factor, shift = rest[-1] * lead, len(rest) - len(b)
-            rest = [
-                (x - factor * b[k - shift]) % p if k >= shift else x for k, x in enumerate(rest)
-            ]
-            rest = _trimmed(rest[:-1])
-        a, b = b, rest
+        a, b = b, _remainder(a, b, p)
     return [*a]
 
 
-def _left_invariant(group: Group, random: Random, step: Step, claim: Claim) -> str:
+def _remainder(a: Sequence[int], b: Sequence[int], p: int) -> list[int]:
+    """What is left of a polynomial after division by another one."""
+    rest, lead = [*a], pow(b[-1], -1, p)
+    while len(rest) >= len(b):
+        factor, shift = rest[-1] * lead, len(rest) - len(b)
+        rest = [(x - factor * b[k - shift]) % p if k >= shift else x for k, x in enumerate(rest)]
+        rest = _trimmed(rest[:-1])
+    return rest
+
+
+# -- where the effective potential is defined ----------------------------------------------------
+
+
+def missing(step: Step) -> str:
+    """What a step must claim and does not: whether there is curvature, or what the effective
+    potential divides by; "" for nothing."""
+    kinds = {x.kind for x in step.claims}
+    curvatures = [_head(e.lhs) == CURVATURE for e in step.equations]
+    if curvatures and all(curvatures) and not kinds & {"reduction.flat", "reduction.curved"}:
+        return "it gives curvatures, and no claim says whether they vanish"
+    told = kinds & {"reduction.isotropy", "reduction.divided"}
+    found = () if told else [*filter(_varies, _divisors(step))]
+    return f"it divides by {show(found[0])[:80]}, which no claim says" if found else ""
+
+
+def _divisors(step: Step) -> tuple[Tree, ...]:
+    """What the terms of 𝒱 with momenta divide by."""
+    summed = (x for e in step.equations if e.lhs == "𝒱" for x in terms(e.rhs))
+    squares = (x for x in summed if any(_is(y, "at", "𝒥") for y in nodes(x)))
+    return tuple(dict.fromkeys(t for x in squares for t in denominators(x)))
+
+
+def _varies(t: Tree) -> bool:
+    """Has a function entries of g, or of 𝕀?"""
+    return any(_is(x, "entry") for x in _leaves(t))
+
+
+def _is(t: Tree, *head: str) -> bool:
+    return isinstance(t, tuple) and t[: len(head)] == head
+
+
+def _conditions(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+    """The conditions vanish, on a random line, only where 𝒱 divides by 0, and one does wherever
+    that varies with g; of isotropy: det 𝕀 is their product, but for what is the same at all g."""
+    stated = operands(claim["conditions"])
+    below, p = _divisors(step), random_prime(c.random)
+    at, along = ({} | _random(_every_leaf([*stated, *below]), c.random, p) for _ in range(2))
+
+    def on_line(t: Tree) -> list[int]:
+        def at_time(s: int) -> int:
+            return int(value(t, {x: (y + s * along[x]) % p for x, y in at.items()}, p))
+
+        return _interpolated(at_time, p, LARGEST_ON_LINE)
+
+    every = {t: on_line(t) for t in (*stated, *below)}
+    fixed = [t for t in below if not _varies(t)]
+    pairs = [(stated, below), ([t for t in below if _varies(t)], [*stated, *fixed])]
+    if len({*stated}) < len(stated) or not all(
+        _varies(x) and _vanishes(every[x], [every[y] for y in others], p)
+        for listed, others in pairs
+        for x in listed
+    ):
+        return "the conditions are not what its equations divide by"
+    if claim.kind == "reduction.divided" or _determined(c, stated):
+        return ""
+    return "the determinant of the locked inertia is not the product of the conditions"
+
+
+def _every_leaf(trees: Iterable[Tree]) -> list[Tree]:
+    return [*dict.fromkeys(x for t in trees for x in _leaves(t))]
+
+
+def _vanishes(x: Sequence[int], others: Sequence[Sequence[int]], p: int) -> bool:
+    """Is one of some polynomials 0 wherever one is?  Then it divides a power of their product."""
+    if len(x) < 2:
+        return bool(x)
+    power = [1]
+    for y in others:
+        power = _remainder(_product(power, y, p), x, p)
+    for _ in range(LARGEST_ON_LINE.bit_length()):
+        power = _remainder(_product(power, power, p), x, p)
+    return not power
+
+
+def _product(a: Sequence[int], b: Sequence[int], p: int) -> list[int]:
+    found = [0] * (len(a) + len(b))
+    for i, x in enumerate(a):
+        for j, y in enumerate(b):
+            found[i + j] = (found[i + j] + x * y) % p
+    return _trimmed(found)
+
+
+def _determined(c: ClaimedRecord, stated: Sequence[Tree]) -> bool:
+    """Is det 𝕀 over the product of the conditions the same at random elements of the group?"""
+    (locked,) = (e.rhs for e in c.record["locked"].equations)
+    rows = [operands(row) for row in operands(locked)]
+    p, ratios = PRIMES[0], set()
+    letters = _every_leaf([*stated, *(x for row in rows for x in row)])
+    at = _random((x for x in letters if not _is(x, "entry")), c.random, p)
+    for _ in range(3):
+        source = ResidueSource(p, 1, c.random.getrandbits(64))
+        g = c.group.sample_inside(source, 1)
+        for i, row in enumerate(g, 1):
+            for j, x in enumerate(row, 1):
+                at["entry", "A", i, j] = (source.constant(0) + x).values[0]
+        for x in letters:
+            if _is(x, "fun") and any(_is(y, "entry") for y in nodes(x)):
+                at[x] = c.random.randrange(1, p)
+        values = tuple(tuple(Residue(value(x, at, p), p) for x in row) for row in rows)
+        at |= {
+            ("entry", "𝕀", i, j): x.n
+            for i, row in enumerate(values, 1)
+            for j, x in enumerate(row, 1)
+        }
+        product = prod((Residue(value(x, at, p), p) for x in stated), start=Residue(1, p))
+        ratios.add((q.determinant(values) / product).n)
+    return len(ratios) == 1
+
+
+def _entry(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+    """The coordinate is the one whose rate the equation gives."""
+    rate = step.equations[0].lhs
+    given = isinstance(rate, tuple) and rate[0] == "pow" and _is(rate[1], "entry", "Ȧ")
+    own = ("entry", "A", *rate[1][2:]) if given else None  # type: ignore[index]
+    return "" if own == claim["entry"] else "the equation is of another coordinate"
+
+
+def _left_invariant(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """C drops out of the metric of this body, which the equation says, and is not 1."""
     (wanted,) = stated("Tr ξJZ̄C = Tr ξJZ̄")
     if wanted not in step.equations:
         return "the equation that says so is missing"
-    return "C is 1" if "orthogonal" in group.relations else ""
+    return "C is 1" if "orthogonal" in c.group.relations else ""
 
 
 JUDGES: dict[str, Judge] = {
     "reduction.flat": _curvature,
     "reduction.curved": _curvature,
+    "reduction.isotropy": _conditions,
+    "reduction.divided": _conditions,
+    "reduction.quadrature": _entry,
     **dict.fromkeys(
-        ("reduction.elementary", "reduction.elliptic", "reduction.hyperelliptic"), _quadrature
+        (
+            f"reduction.{kind}{squared}"
+            for kind in ("elementary", "elliptic", "hyperelliptic")
+            for squared in ("", "_squared")
+        ),
+        _quadrature,
     ),
     "relation.left_invariant": _left_invariant,
 }
