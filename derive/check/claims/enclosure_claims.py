@@ -53,8 +53,11 @@ def enclosed(system: ReducedSystem, step: Step) -> Enclosure:
 
 
 def _within(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    """One critical point is within the radius, which is not much larger than is needed."""
+    """One critical point is within the radius, which is not much larger than is needed, and what
+    is proved of its stability is said."""
     found, told = enclosed(system, step), value_of(claim["radius"])
+    if not any(x.kind in PROVED for x in step.claims):
+        return f"the step does not say what follows of the stability: {_proved(system, step)}"
     assert isinstance(told, Fraction)
     if not found.contracts(told):
         return "Newton's step is not proved to contract"
@@ -75,9 +78,18 @@ def _signs(system: ReducedSystem, step: Step, claim: Claim) -> str:
     return f"it has {found[0]} positive and {found[1]} negative squares"
 
 
-def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
+PROVED = ("enclosure.stable", "enclosure.unstable", "enclosure.open")
+"""The claims of which each enclosure has one."""
+
+
+def _proved(system: ReducedSystem, step: Step) -> str:
+    """What is proved of the stability: the name of the sentence."""
     definite = 0 in _squares(system, step)
-    found = "stable" if definite else "unstable" if grows(system, step) else "open"
+    return "stable" if definite else "unstable" if grows(system, step) else "open"
+
+
+def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    found = _proved(system, step)
     return "" if claim.kind == f"enclosure.{found}" else f"what follows is: {found}"
 
 
@@ -163,8 +175,6 @@ JUDGES: dict[str, Judge] = {
     "equilibrium.near": _near,
     "enclosure.within": _within,
     "enclosure.signs": _signs,
-    "enclosure.stable": _verdict,
-    "enclosure.unstable": _verdict,
-    "enclosure.open": _verdict,
+    **dict.fromkeys(PROVED, _verdict),
 }
 """How claims about enclosed equilibria are judged, of equations that are Hamiltonian."""
