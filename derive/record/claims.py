@@ -34,7 +34,7 @@ KINDS = {
         "at origin none orbit form stable stable_beyond stable_compact on_the_leaf indefinite "
         "point unstable open undecided eigenvalues squares near"
     ),
-    "enclosure": "within signs stable unstable open",
+    "enclosure": "within signs stable unstable open eigenvalues",
 }
 CLAIMS = frozenset(
     f"{subject}.{name}" for subject, names in KINDS.items() for name in names.split()
@@ -99,7 +99,11 @@ def _eigenvalues(x: Tree) -> str:
     return ", ".join(" ".join(x) or "0" for x in parts)
 
 
-TEXTS = {"equilibrium.near": _coordinates, "equilibrium.eigenvalues": _eigenvalues}
+TEXTS = {
+    "equilibrium.near": _coordinates,
+    "equilibrium.eigenvalues": _eigenvalues,
+    "enclosure.eigenvalues": _eigenvalues,
+}
 """How the values of some kinds stand in their sentences, those of others as :func:`text` has it."""
 
 

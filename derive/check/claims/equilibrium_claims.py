@@ -191,7 +191,7 @@ def _exact_squares(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """They are all roots of q, for the characteristic polynomial q(λ²)."""
     f = point_of(system, step).characteristic[::2]
     told = [_complex(t) for t in _listed(claim["squares"])]
-    if any(any(_at_complex(f, s)) for s in told):
+    if any(any(at_complex(f, s)) for s in told):
         return "one is no square of an eigenvalue"
     return "" if len({*told}) == len(told) == distinct_roots(f) else "they are not all, each once"
 
@@ -222,7 +222,7 @@ def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
     return "" if rounded else "one is not rounded to the nearest decimal"
 
 
-def _at_complex(f: Sequence[Number], s: tuple[Any, Any]) -> tuple[Any, Any]:
+def at_complex(f: Sequence[Number], s: tuple[Any, Any]) -> tuple[Any, Any]:
     """The value of a polynomial, given from the highest power, at a complex number."""
     re, im = Fraction(0), Fraction(0)
     for x in f:
