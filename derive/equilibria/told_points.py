@@ -84,7 +84,7 @@ def _enclosure(whole: Found, x: Enclosed, made_from: Iterable[Step], c: Chapter)
     prose += draft.claim("enclosure.signs", positive=positive, negative=negative)
     prose += draft.claim(f"enclosure.{x.verdict}")
     if x.verdict != "stable":
-        prose += say("enclosure.eigenvalues", eigenvalues=_about(x.eigenvalues))
+        prose += draft.claim("enclosure.eigenvalues", eigenvalues=_about(x.eigenvalues))
     return draft.step(equations, prose)
 
 
@@ -229,15 +229,12 @@ def _verdict(draft: Draft, x: Equilibrium) -> Prose:
     return prose + (say_so("equilibrium.squares", squares=("row", *squares)) if squares else ())
 
 
-def _about(values: Iterable[complex]) -> str:
-    """Numbers that come with their opposites and conjugates, rounded, each once."""
-    pairs = {(abs(round(x.real, 9)), abs(round(x.imag, 9))) for x in values}
-
-    def text(real: float, imaginary: float) -> str:
-        parts = [f"{real:.4g}" if real else "", f"{imaginary:.4g}i" if imaginary else ""]
-        return " ".join(f"±{x}" for x in parts if x) or "0"
-
-    return ", ".join(text(*x) for x in sorted(pairs, reverse=True))
+def _about(values: Iterable[complex]) -> Tree:
+    """Numbers that come with their opposites and conjugates, as decimals of four digits, each
+    once."""
+    pairs = ((abs(round(x.real, 9)), abs(round(x.imag, 9))) for x in values)
+    rows = {tuple(Fraction(f"{y:.4g}") for y in pair) for pair in pairs}
+    return ("matrix", *(("row", *map(plain, row)) for row in sorted(rows, reverse=True)))
 
 
 def nearly(characteristic: Sequence[Number]) -> Tree:

@@ -32,6 +32,10 @@ for road in ROADS:
     for label, sentences in road.items():
         STEPS.setdefault(label, {}).update(sentences)
 """Label → name → the sentence in each of ``LANGUAGES``."""
+LISTS = ("{first}, {second}", "{first}; {second}", "{first} and {second}")
+"""How parts of a sentence are strung together; in French in the catalogue of the views."""
+MESSAGES = frozenset(("", *LISTS, *(en for named in STEPS.values() for en, _ in named.values())))
+"""All that steps of a record say, in English: nothing else is a sentence of a step."""
 LANGUAGES = ("en", "fr")
 """The languages of the prose, in the order of the texts of a sentence."""
 

@@ -7,13 +7,14 @@ is filled by one; ``("row", …)`` lists several.  The sentence is its rendering
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
 from ..language.show import in_sentence
 from ..language.tree import Tree
-from ..prose import english
+from ..prose import MESSAGES, english
 from . import sentence
 from .sentence import Prose, Sentence
 
@@ -36,7 +37,7 @@ KINDS = {
         "at origin none orbit form stable stable_beyond stable_compact on_the_leaf indefinite "
         "point unstable open undecided eigenvalues squares near"
     ),
-    "enclosure": "within signs stable unstable open",
+    "enclosure": "within signs stable unstable open eigenvalues",
 }
 CLAIMS = frozenset(
     f"{subject}.{name}" for subject, names in KINDS.items() for name in names.split()
@@ -46,6 +47,11 @@ CLAIMS = frozenset(
 MONOMIALS = 10_000
 """That there are no more polynomials up to a degree is computed again of so many monomials at most;
 of more, the sentence says that it is not."""
+
+WORDS = re.compile(r"[A-Za-z]{2}\s+[A-Za-z]{2}")
+"""Two words, as no text has that is the same in all languages: names are in quotes."""
+SHOWN = 80
+"""The most letters of a sentence that a message quotes."""
 
 
 @dataclass(frozen=True)
@@ -105,6 +111,7 @@ def _nonzero(x: Tree) -> str:
 TEXTS = {
     "equilibrium.near": _coordinates,
     "equilibrium.eigenvalues": _eigenvalues,
+    "enclosure.eigenvalues": _eigenvalues,
     "reduction.isotropy": _nonzero,
     "reduction.divided": _nonzero,
 }
@@ -117,10 +124,16 @@ def rendered(claim: Claim, **phrases: Sentence) -> Sentence:
 
 
 def fault(prose: Prose, claims: tuple[Claim, ...]) -> str:
-    """A sentence that is a claim and among none of these, or a claim that no sentence is; "" where
-    they agree."""
+    """A sentence that is no message of :mod:`derive.prose`, or has words in the place of a formula,
+    or is a claim and among none of these, or a claim that no sentence is; "" where they agree."""
+    parts = [*_parts(prose)]
+    if strange := next((x.message for x in parts if x.message not in MESSAGES), ""):
+        return f"a sentence that is none of derive's: {_quoted(strange)}"
+    texts = (y for x in parts for _, y in x.places if isinstance(y, str))
+    if words := next(filter(WORDS.search, texts), ""):
+        return f"words in the place of a formula: {_quoted(words)}"
     keys = {english(kind): kind for kind in CLAIMS}
-    said = [x for x in _parts(prose) if x.message in keys]
+    said = [x for x in parts if x.message in keys]
     for claim in claims:
         if not any(_says(x, claim) for x in said):
             return f"the claim {claim.kind} is not what the sentences say"
@@ -128,6 +141,11 @@ def fault(prose: Prose, claims: tuple[Claim, ...]) -> str:
         if not any(_says(x, claim) for claim in claims):
             return f"the sentence {keys[x.message]} is a claim, and the step has none such"
     return ""
+
+
+def _quoted(words: str) -> str:
+    """The first letters of words, on one line."""
+    return f"“{' '.join(words.split())[:SHOWN]}”"
 
 
 def _says(x: Sentence, claim: Claim) -> bool:

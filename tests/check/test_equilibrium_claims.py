@@ -2,6 +2,7 @@
 
 from contextlib import suppress
 from dataclasses import replace
+from decimal import Decimal
 from fractions import Fraction
 from functools import cache
 from random import Random
@@ -31,7 +32,7 @@ from derive.language.quadratic import root
 from derive.language.tree import add, mul, neg, nodes, replaced
 from derive.record.claims import CLAIMS, Claim, rendered
 from tests.check.test_record_claims import EQUILIBRIA, changes, said
-from tests.support.lagrangians import bent, disc, every_equilibrium, heavy, lagrangian
+from tests.support.lagrangians import bent, disc, every_equilibrium, heavy, lagrangian, squares
 from tests.support.walks import SEED
 
 EXACT = ("stable", "stable_beyond", "stable_compact", "on_the_leaf", "point", "undecided")
@@ -85,10 +86,11 @@ def test_claims_hold():
 def test_another_value_is_refused():
     seen = set()
     for judge, step, claim in made():
-        for wrong in changes(claim):
+        near = claim.kind == "enclosure.eigenvalues"  # of which some may be left out
+        for wrong in [*changes(claim)][near:]:
             assert refused(judge(said(step, claim, wrong))), wrong
             seen.add(claim.kind)
-    assert len(seen) == 10
+    assert len(seen) == 11
 
 
 def test_another_verdict_is_refused():
@@ -102,6 +104,59 @@ def test_another_verdict_is_refused():
 
 
 COUNTED = ("equilibrium.unstable", "equilibrium.open")
+
+
+def test_a_verdict_is_not_left_out():
+    left_out = 0
+    for judge, step, claim in made():
+        if claim.kind in VERDICTS:
+            few = tuple(x for x in step.claims if x.kind in SPOKEN)
+            found = judge(replace(step, prose=(*map(rendered, few),), claims=few))
+            assert "what follows of the stability" in found or "no step says" in found
+            left_out += 1
+    assert left_out > 10
+
+
+SPOKEN = (
+    *("equilibrium.at", "equilibrium.origin", "equilibrium.form", "equilibrium.none"),
+    *("equilibrium.orbit", "enclosure.within", "enclosure.signs"),
+)
+
+
+def test_eigenvalues_are_rounded_to_the_nearest():
+    """Complex ones, too, as ±0.4908 ±0.4224i."""
+    unitary = derive(lagrangian(squares(1, 2, 3, 4) + " - A_11", "U(2)")).equilibria().record
+    judge, seen = ClaimChecker(unitary, SEED).fault, 0
+    own = [(judge, step, claim) for step in unitary.steps for claim in step.claims]
+    for judge, step, claim in (*made(), *own):
+        if claim.kind == "equilibrium.eigenvalues":
+            assert not judge(step)
+            for wrong in shifted(claim):
+                assert "nearest" in judge(said(step, claim, wrong)), wrong
+                seen += 1
+    assert seen == 20
+
+
+def test_real_eigenvalues_near_a_point_are_not_imaginary():
+    for judge, step, claim in made():
+        if claim.kind == "enclosure.eigenvalues":
+            rows = [("row", im, re) for _, re, im in claim["eigenvalues"][1:]]
+            wrong = Claim(claim.kind, (("eigenvalues", ("matrix", *rows)),))
+            assert "one is no eigenvalue" in judge(said(step, claim, wrong))
+
+
+def shifted(claim):
+    """The claim with a part of an eigenvalue off by one in the last digit."""
+    rows = claim["eigenvalues"][1:]
+    told = (Decimal(str(float(x))).normalize() for row in rows for x in row[1:])
+    digits = max(4, *(len(x.as_tuple().digits) for x in told))
+    for k, row in enumerate(rows):
+        for j in (1, 2):
+            unit = Fraction(10) ** (Decimal(str(float(row[j]))).adjusted() - digits + 1)
+            for off in (unit, -unit) if row[j] else ():
+                other = (*row[:j], row[j] + off, *row[j + 1 :])
+                changed = ("matrix", *rows[:k], other, *rows[k + 1 :])
+                yield Claim(claim.kind, (("eigenvalues", changed),))
 
 
 def test_a_sentence_without_its_claim_is_refused():

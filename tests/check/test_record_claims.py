@@ -266,3 +266,30 @@ def test_symmetries_are_counted_anew(name):
     count = SymmetryCount(d.problem, group_of(d.problem), Random(SEED))
     found = [x.label for x in d.steps if re.search(r"\.conserved_[0-9]+$", x.label)]
     assert count.dimension == len(found) > 0
+
+
+FREE = {
+    "beside": lambda x: (*x, Sentence("They are nevertheless all there are.")),
+    "the outer text": lambda x: (replace(x[0], message=OUTER), *x[1:]),
+    "nested": lambda x: (replace(x[0], places=(("count", both(x[0], Sentence("more"))),)), *x[1:]),
+    "open": lambda x: (*x, Sentence("Whether the equilibrium is stable stays open.")),
+}
+OUTER = "There are no symmetries of any kind whatever beside these: {count}."
+
+
+def both(x, other):
+    return Sentence("{first} and {second}", (("first", dict(x.places)["count"]), ("second", other)))
+
+
+@pytest.mark.parametrize("name", FREE)
+def test_sentences_are_messages_of_the_program(name):
+    step = record("symmetries")["symmetries"]
+    false = replace(step, prose=FREE[name](step.prose))
+    assert "none of derive's: “" in judged("symmetries", false)
+
+
+def test_no_words_are_in_the_place_of_a_formula():
+    step = record("symmetries")["symmetries"]
+    first, *others = step.prose
+    words = replace(first, places=(("count", both(first, "no others at all")),))
+    assert "“no others at all”" in judged("symmetries", replace(step, prose=(words, *others)))

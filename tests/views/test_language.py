@@ -196,6 +196,8 @@ def test_both_sides_have_the_same_places(entry):
 def test_every_sentence_is_in_the_catalogue(records):
     used = set().union(*map(said, records))
     assert used <= set(FRENCH.messages)
+    steps = {x for d in records for step in d.steps for y in step.prose for x in messages(y)}
+    assert steps <= texts.MESSAGES  # no others are accepted in a record
 
 
 def test_every_message_of_the_walk_is_reached(records):

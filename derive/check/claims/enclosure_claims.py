@@ -20,7 +20,7 @@ from ...record.claims import Claim
 from ...record.record import RecordError, Step
 from ..enclosure import DIGITS, Enclosure, enclosure_of, polynomial
 from ..entries_on_a_level import invertible
-from .equilibrium_claims import coordinates, not_from
+from .equilibrium_claims import at_complex, coordinates, not_from
 from .exact_spectra import characteristic, signature
 from .integral_claims import Judge
 from .reduced_system import ReducedSystem
@@ -53,8 +53,11 @@ def enclosed(system: ReducedSystem, step: Step) -> Enclosure:
 
 
 def _within(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    """One critical point is within the radius, which is not much larger than is needed."""
+    """One critical point is within the radius, which is not much larger than is needed, and what
+    is proved of its stability is said."""
     found, told = enclosed(system, step), value_of(claim["radius"])
+    if not any(x.kind in PROVED for x in step.claims):
+        return f"the step does not say what follows of the stability: {_proved(system, step)}"
     assert isinstance(told, Fraction)
     if not found.contracts(told):
         return "Newton's step is not proved to contract"
@@ -75,10 +78,41 @@ def _signs(system: ReducedSystem, step: Step, claim: Claim) -> str:
     return f"it has {found[0]} positive and {found[1]} negative squares"
 
 
-def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
+NEAR_0 = Fraction(1, 1000)
+"""Of eigenvalues up to this size nothing is computed again."""
+PROVED = ("enclosure.stable", "enclosure.unstable", "enclosure.open")
+"""The claims of which each enclosure has one."""
+
+
+def _proved(system: ReducedSystem, step: Step) -> str:
+    """What is proved of the stability: the name of the sentence."""
     definite = 0 in _squares(system, step)
-    found = "stable" if definite else "unstable" if grows(system, step) else "open"
+    return "stable" if definite else "unstable" if grows(system, step) else "open"
+
+
+def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    found = _proved(system, step)
     return "" if claim.kind == f"enclosure.{found}" else f"what follows is: {found}"
+
+
+def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """Each number λ is different, and near a root of the characteristic polynomial p of the rates
+    at the decimals: |p(λ)| ≤ |λp′(λ)|/500; but for those near 0, which are known less well."""
+    centre = enclosed(system, step).centre
+    at, told = {x: centre.get(x, Fraction(0)) for x in system.variables}, claim["eigenvalues"]
+    p = characteristic([[x for x, _ in slopes(t, at, Fraction(0))] for t in system.rates])
+    slope = [(len(p) - 1 - k) * x for k, x in enumerate(p[:-1])]
+    assert isinstance(told, tuple)
+    numbers = [(Fraction(re), Fraction(im)) for _, re, im in told[1:]]
+    if len({*numbers}) < len(numbers):
+        return "one is told twice"
+    for z in numbers:
+        size, value, change = (
+            re * re + im * im for re, im in (z, at_complex(p, z), at_complex(slope, z))
+        )
+        if size > NEAR_0**2 and 500**2 * value > size * change:
+            return "one is no eigenvalue"
+    return ""
 
 
 # -- instability ----------------------------------------------------------------------------------
@@ -163,8 +197,7 @@ JUDGES: dict[str, Judge] = {
     "equilibrium.near": _near,
     "enclosure.within": _within,
     "enclosure.signs": _signs,
-    "enclosure.stable": _verdict,
-    "enclosure.unstable": _verdict,
-    "enclosure.open": _verdict,
+    "enclosure.eigenvalues": _eigenvalues,
+    **dict.fromkeys(PROVED, _verdict),
 }
 """How claims about enclosed equilibria are judged, of equations that are Hamiltonian."""

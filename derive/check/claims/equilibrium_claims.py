@@ -6,18 +6,21 @@ The point is that which a step says, or the one step among those it uses that sa
 from __future__ import annotations
 
 from collections.abc import Sequence
+from decimal import Context, localcontext
 from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
 from ...language.quadratic import Number, tree, value_of
 from ...language.tree import Tree, add, neg, nodes, replaced, terms
+from ...language.univariate import square_free
 from ...record.claims import Claim
 from ...record.record import RecordError, Step
 from .equilibrium_facts import Equilibrium, equilibrium
 from .exact_spectra import distinct_roots, hermite, signature
 from .integral_claims import Judge
 from .reduced_system import Place, ReducedSystem
+from .rounded_roots import DIGITS, are_roots_rounded, decimal, roots_near
 from .second_order import SecondOrder
 
 Coordinates = tuple[tuple[Tree, Number], ...]
@@ -48,13 +51,16 @@ def point_of(system: ReducedSystem, step: Step) -> Equilibrium:
 
 
 def _at(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    """Nothing moves at the point, which an element may have, and the equations are in powers of the
-    distance from it."""
+    """Nothing moves at the point, which an element may have, the equations are in powers of the
+    distance from it, and what is proved of its stability is said."""
     here, told = point_of(system, step), coordinates(claim)
     if unknown := [x for x, _ in told if x not in here.variables]:
         raise RecordError(f"{unknown[0]} is no variable")
     if any(x.value != 0 for x in here.rates):
         return "something moves there"
+    using = (s for s in system.record.steps if step.label in s.uses)
+    if not any(x.kind in PROVED for s in (step, *using) for x in s.claims):
+        return "no step says what is proved of its stability"
     if here.entries == "no":
         return "no element of the group has these entries"
     return not_from(step, told)
@@ -119,8 +125,11 @@ def form_of(system: ReducedSystem, step: Step) -> q.Matrix | None:
 
 
 def _form(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    """The squares on the leaf are as many as are claimed, and are those that are written."""
+    """The squares on the leaf are as many as are claimed, and are those that are written; what
+    follows from them is said."""
     here, form = point_of(system, step), form_of(system, step)
+    if not any(x.kind in PROVED for x in step.claims):
+        return f"the step does not say what follows of the stability: {here.verdict(form)}"
     found = here.squares(form)
     if found != (claim["positive"], claim["negative"]):
         return f"it has {found[0]} positive and {found[1]} negative squares"
@@ -182,25 +191,17 @@ def _exact_squares(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """They are all roots of q, for the characteristic polynomial q(λ²)."""
     f = point_of(system, step).characteristic[::2]
     told = [_complex(t) for t in _listed(claim["squares"])]
-    if any(any(_at_complex(f, s)) for s in told):
+    if any(any(at_complex(f, s)) for s in told):
         return "one is no square of an eigenvalue"
     return "" if len({*told}) == len(told) == distinct_roots(f) else "they are not all, each once"
 
 
 def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    """Their squares s are roots of q, for the characteristic polynomial q(λ²), up to the fourth
-    digit: |q(s)| ≤ s q′(s)/500, so that a root is near; and they are as many as q has, of each
-    kind."""
+    """Their squares are all roots of q, for the characteristic polynomial q(λ²), as many of each
+    kind, and they are rounded to the nearest decimals."""
     f, told = point_of(system, step).characteristic[::2], claim["eigenvalues"]
     assert isinstance(told, tuple)
-    d, squares = len(f) - 1, [(re * re - im * im, 2 * re * im) for _, re, im in told[1:]]
-    for s in squares:
-        above, slope = (
-            _at_complex(f, s),
-            _at_complex([(d - k) * x for k, x in enumerate(f[:-1])], s),
-        )
-        if _size(above) * 500**2 > _size(s) * _size(slope):
-            return "one is no eigenvalue"
+    squares = [(re * re - im * im, 2 * re * im) for _, re, im in told[1:]]
     reals = [s for s, im in squares if not im]
     found = (
         sum(2 if im else 1 for _, im in squares),
@@ -209,20 +210,24 @@ def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
     )
     (more, fewer), (positive, negative) = (signature(hermite(f, k)) for k in (0, 1))
     known = (more + fewer, more - fewer, positive - negative)
-    return "" if found == known and len({*squares}) == len(squares) else "they are not all"
+    if found != known or len({*squares}) < len(squares):
+        return "they are not all"
+    with localcontext(Context(prec=DIGITS)):
+        near = [(decimal(re), decimal(im)) for re, im in squares]
+        others = [(re, -im) for re, im in near if im]
+        simple = square_free((*f[::-1],))[::-1]
+        roots = roots_near([decimal(x / simple[0]) for x in simple], [*near, *others])
+        numbers = [(decimal(re), decimal(im)) for _, re, im in told[1:]]
+        rounded = are_roots_rounded(numbers, roots[: len(near)])
+    return "" if rounded else "one is not rounded to the nearest decimal"
 
 
-def _at_complex(f: Sequence[Number], s: tuple[Any, Any]) -> tuple[Any, Any]:
+def at_complex(f: Sequence[Number], s: tuple[Any, Any]) -> tuple[Any, Any]:
     """The value of a polynomial, given from the highest power, at a complex number."""
     re, im = Fraction(0), Fraction(0)
     for x in f:
         re, im = re * s[0] - im * s[1] + x, re * s[1] + im * s[0]
     return re, im
-
-
-def _size(z: tuple[Any, Any]) -> Any:
-    """|z|²."""
-    return z[0] * z[0] + z[1] * z[1]
 
 
 def _complex(t: Tree) -> tuple[Number, Number]:
@@ -237,6 +242,8 @@ VERDICTS = (
     *("stable", "stable_beyond", "stable_compact", "on_the_leaf", "point", "indefinite"),
     *("unstable", "open", "undecided"),
 )
+PROVED = {f"equilibrium.{x}" for x in VERDICTS} - {"equilibrium.indefinite"}
+"""The claims of which each equilibrium has one."""
 
 JUDGES: dict[str, Judge] = {
     "equilibrium.at": _at,
