@@ -10,7 +10,7 @@ from derive.command.cli import main
 from derive.equilibria.energy_casimir import between_roots, diagonalised
 from derive.equilibria.stability import polynomial, roots_of_squares
 from derive.record.sentence import english
-from tests.support.lagrangians import heavy, lagrangian, nilpotent
+from tests.support.lagrangians import heavy, heisenberg, lagrangian, nilpotent
 from tests.support.walks import repeated
 
 
@@ -31,6 +31,13 @@ def test_a_leaf_that_is_a_point_says_nothing():
     said = english(step.prose)
     assert "is this point alone" in said
     assert not any(x in said for x in ("characteristic", "not definite"))
+
+
+def test_rest_at_one_where_other_entries_never_vary():
+    found = derive(heisenberg()).equilibria()
+    assert [x.verdict for x in found] == ["stable", "stable"]
+    assert not any(found[0].at)
+    assert all(v.holds for v in found.check(1))
 
 
 def sleeping(spin):
