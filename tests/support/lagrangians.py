@@ -128,6 +128,7 @@ def every_equilibrium():
         derive("euler_top").equilibria({"Pi_1": 0}),
         derive(disc()).equilibria({"Pi_4": 1}),
         nilpotent().equilibria({"Pi_1": 1}),
+        derive(lagrangian(squares(1, 1), LINE)).equilibria({"Pi_1": 1}),
         derive(heavy("132", "A_33/2", "")).equilibria(exact),
         derive("lagrange_top").equilibria({"A_33": -1}),
         derive("kirchhoff").equilibria({"Pi_1": 1}),
