@@ -14,6 +14,7 @@ from ..algebra.families import LARGEST_PRODUCT
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.tree import Tree
+from .claims.constant_entries import constant_entries
 
 Terms = Mapping[tuple[tuple[Tree, int], ...], Fraction]
 Place = tuple[int, int]
@@ -32,7 +33,7 @@ class Entries:
         """Variables into which these move and that are not among them."""
         pairs = [(place, e) for place in self.places for e in self.group.basis]
         moved = {x for place, e in pairs for x in self._terms(place, e)}
-        away = sorted(x for x in moved - {*self.places} if not self._fixed(*x))
+        away = sorted(moved - {*self.places} - {*constant_entries(self.group)})
         return [("entry", "A", i + 1, j + 1) for i, j in away]
 
     def _terms(self, place: Place, e: q.Matrix) -> dict[Place, Fraction]:
@@ -41,22 +42,6 @@ class Entries:
         if self.left:
             return {(i, k): e[k][j] for k in span if e[k][j]}
         return {(k, j): e[i][k] for k in span if e[i][k]}
-
-    def _fixed(self, i: int, j: int) -> bool:
-        """Is an entry the same for every g, as products of matrices of the algebra have 0 there?"""
-        return not any(v[j] for v in self._rows(i))
-
-    def _rows(self, i: int) -> list[tuple[Fraction, ...]]:
-        """A basis of the rows i of these products."""
-        found: list[tuple[Fraction, ...]] = []
-        waiting = [q.identity(self.group.size)[i]]
-        while waiting:
-            row = (waiting.pop(),)
-            for (x,) in (q.times(row, e) for e in self.group.basis):
-                if q.rank((*found, x)) > len(found):
-                    found.append(x)
-                    waiting.append(x)
-        return found
 
     def rates(self, at: Mapping[Place, Fraction]) -> q.Matrix:
         """What gE_b is at the places, by b, for these entries of g."""

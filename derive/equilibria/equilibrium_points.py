@@ -169,14 +169,18 @@ def attained(about: About, on: Elements) -> bool:
 
 def group_value(system: LiePoisson, f: Polynomial, else_: Number) -> Number:
     """The value of a Casimir at the elements of the group, where it is of their entries alone."""
-    entries = any(isinstance(x, tuple) and x[1] == "A" for x in system.variables)
-    if not entries or any(any(e[: system.momenta]) for e in f):
+    if not _has_entries(system) or any(any(e[: system.momenta]) for e in f):
         return else_
     one = tuple(
         Fraction(int(x[2] == x[3])) if isinstance(x, tuple) and x[1] == "A" else Fraction(0)
         for x in system.variables
     )
     return About(system, one).expansion(f).value
+
+
+def _has_entries(system: LiePoisson) -> bool:
+    """Are entries of g among the variables?"""
+    return any(isinstance(x, tuple) and x[1] == "A" for x in system.variables)
 
 
 def casimir_text(about: About, f: Polynomial) -> str:
@@ -188,13 +192,14 @@ def casimir_text(about: About, f: Polynomial) -> str:
 
 def tried(system: LiePoisson, kept: Sequence[Polynomial], on: Elements) -> Iterator[About]:
     """The equilibria among the points with at most one momentum that is not 0, it being 1, and at
-    most one other coordinate that is not 0, it being 1 or −1; not the origin."""
-    n, momenta = len(system.variables), system.momenta
+    most one other coordinate that is not 0, it being 1 or −1; the origin only
+    where entries of g are variables, as it is trivial otherwise."""
+    n, momenta, entries = len(system.variables), system.momenta, _has_entries(system)
     for b, sign in ((None, 0), *((b, s) for b in range(momenta, n) for s in (1, -1))):
         for a in (None, *range(momenta)):
             chosen = {a: 1, b: sign}
             at = tuple(Fraction(chosen.get(i, 0)) for i in range(n))
             about = About(system, at)
             moving = any(e.value for e in about.rates)
-            if any(at) and not moving and not off_the_group(about, kept, on):
+            if (any(at) or entries) and not moving and not off_the_group(about, kept, on):
                 yield about

@@ -4,7 +4,8 @@ Definite on the leaf, the energy–Casimir form proves stability there (Lagrange
 where Λ has its largest rank, or the form is definite beyond the leaf, or the stabiliser is compact
 (Montaldi), also off it.  Elsewhere the linearisation on the leaf is a Hamiltonian matrix: its
 characteristic polynomial is q(λ²), and one root of q that is not real and at most 0, counted by
-Sturm, proves instability (Lyapunov).
+Sturm, proves instability (Lyapunov).  Where all variables are momenta, so does a positive root of
+that of all rates.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 from ..integrals.all_integrals import Found
 from ..integrals.lie_poisson import ONE, LiePoisson
@@ -63,7 +65,25 @@ class Equilibrium:
             return "stable"
         if self.leaf.free and definite:
             return "stable on the leaf"
-        return "unstable" if self.squares.negative < self.squares.distinct else "open"
+        return "unstable" if self._grows or self._leaves else "open"
+
+    @property
+    def _grows(self) -> bool:
+        """Has an eigenvalue on the leaf a positive real part?"""
+        return self.squares.negative < self.squares.distinct
+
+    @property
+    def _leaves(self) -> bool:
+        """Are all variables momenta, so that motions start anywhere, and has the linearisation off
+        the leaf, too, a positive eigenvalue?"""
+        system, f = self.about.system, self.characteristic_of_all[::-1]
+        opposite = [(-1) ** k * x for k, x in enumerate(f)]
+        return system.momenta == len(system.variables) and real_roots(opposite).negative > 0
+
+    @cached_property
+    def characteristic_of_all(self) -> tuple[Number, ...]:
+        """That of the linearised rates of all variables."""
+        return polynomial([e.slope for e in self.about.rates])
 
     @property
     def sentence(self) -> str:
@@ -75,12 +95,16 @@ class Equilibrium:
             return "stable_beyond" if beyond else "stable_compact" if self.compact else "stable"
         if self.verdict == "stable on the leaf":
             return "on_the_leaf"
-        return self.verdict if self.leaf.free else "point"
+        if self.verdict == "unstable":
+            return "unstable" if self._grows else "unstable_beyond"
+        return "open" if self.leaf.free else "point"
 
     @property
     def growth(self) -> float:
         """About the largest real part of an eigenvalue."""
-        return max((x.real for x in self.eigenvalues), default=0.0)
+        beyond = self.sentence == "unstable_beyond"
+        found = eigenvalues([e.slope for e in self.about.rates]) if beyond else self.eigenvalues
+        return max((x.real for x in found), default=0.0)
 
 
 def require_numbers(whole: Found) -> None:

@@ -219,6 +219,9 @@ def _product(n: Sequence[Number], m: Sequence[Number], away: Sequence[Tree]) -> 
 def _verdict(draft: Draft, x: Equilibrium) -> Prose:
     """What is proved of its stability."""
     kind, say_so = x.sentence, draft.claim
+    if kind == "unstable_beyond":
+        coefficients = ("row", *map(plain, x.characteristic_of_all))
+        return say_so("equilibrium.unstable_beyond", coefficients=coefficients)
     if kind not in ("unstable", "open"):
         return say_so(f"equilibrium.{kind}")
     coefficients = ("row", *map(plain, x.characteristic))

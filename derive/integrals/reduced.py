@@ -20,6 +20,7 @@ from functools import reduce
 from typing import Any, NoReturn
 
 from ..algebra.groups import Group
+from ..algebra.told_entries import constant_entries
 from ..language.refused import Refused
 from ..language.tree import Tree, add, mul, nodes, replaced
 from ..problem.problem import Problem
@@ -172,15 +173,8 @@ def _carried(
 
 
 def entry(group: Group, i: int, j: int) -> Place | int:
-    """The entry of g at a place: itself, or the number that it is in the last row of an affine
-    factor and between blocks."""
-    for offset, factor in group.places:
-        inside = range(offset, offset + factor.size)
-        if i in inside and j in inside and factor.affine and i == offset + factor.n:
-            return int(i == j)
-        if (i in inside) != (j in inside):
-            return 0
-    return i, j
+    """The entry of g at a place: itself, or the number, 1 or 0, that it is in all of the group."""
+    return int(i == j) if (i, j) in constant_entries(group) else (i, j)
 
 
 # -- the Hamiltonian ----------------------------------------------------------------------------

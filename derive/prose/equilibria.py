@@ -93,6 +93,15 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "racines par Sturm, une valeur propre est de partie réelle strictement positive. "
             "L’équilibre est instable (Lyapunov).",
         ),
+        "unstable_beyond": (
+            "The characteristic polynomial of the linearised rates, not on the leaf alone, has the "
+            "coefficients {coefficients}, from the highest power: by Sturm’s count of the roots, "
+            "some eigenvalue is positive. The equilibrium is unstable (Lyapunov).",
+            "Le polynôme caractéristique des dérivées linéarisées, et pas seulement sur la "
+            "feuille, a pour coefficients {coefficients}, depuis la plus haute puissance : selon "
+            "le décompte des racines par Sturm, une valeur propre est positive. L’équilibre est "
+            "instable (Lyapunov).",
+        ),
         "open": (
             "The characteristic polynomial of the linearised rates on the leaf has the "
             "coefficients {coefficients}, from the highest power: by Sturm’s count of the roots, "

@@ -35,7 +35,7 @@ KINDS = {
     "symmetries": "algebra algebra_modulo none open",
     "equilibrium": (
         "at origin none orbit form stable stable_beyond stable_compact on_the_leaf indefinite "
-        "point unstable open undecided eigenvalues squares near"
+        "point unstable unstable_beyond open undecided eigenvalues squares near"
     ),
     "enclosure": "within signs stable unstable open eigenvalues",
 }

@@ -21,6 +21,7 @@ from derive.check.claims.enclosure_claims import (
 from derive.check.claims.exact_spectra import (
     characteristic,
     distinct_roots,
+    has_positive,
     negative_or_zero,
     real_and_not_positive,
     signature,
@@ -37,7 +38,7 @@ from tests.support.walks import SEED
 
 EXACT = ("stable", "stable_beyond", "stable_compact", "on_the_leaf", "point", "undecided")
 VERDICTS = {
-    *(f"equilibrium.{x}" for x in (*EXACT, "unstable", "open")),
+    *(f"equilibrium.{x}" for x in (*EXACT, "unstable", "unstable_beyond", "open")),
     *(f"enclosure.{x}" for x in ("stable", "unstable", "open")),
 }
 
@@ -103,7 +104,7 @@ def test_another_verdict_is_refused():
                 assert refused(judge(exchanged(step, claim, Claim(kind, values)))), kind
 
 
-COUNTED = ("equilibrium.unstable", "equilibrium.open")
+COUNTED = ("equilibrium.unstable", "equilibrium.unstable_beyond", "equilibrium.open")
 
 
 def test_a_verdict_is_not_left_out():
@@ -320,6 +321,7 @@ def test_roots_are_counted():
         assert distinct_roots(f) == len({*roots}) + 2 * len({*pairs})
         assert real_and_not_positive(f) == (not pairs and all(x <= 0 for x in roots))
         assert negative_or_zero(f) == any(x <= 0 for x in roots)
+        assert has_positive(f) == any(x > 0 for x in roots)
         seen.add((real_and_not_positive(f), negative_or_zero(f)))
     assert len(seen) == 4
 

@@ -10,7 +10,7 @@ from derive.command.cli import main
 from derive.equilibria.energy_casimir import between_roots, diagonalised
 from derive.equilibria.stability import polynomial, roots_of_squares
 from derive.record.sentence import english
-from tests.support.lagrangians import heavy, lagrangian, nilpotent
+from tests.support.lagrangians import LINE, heavy, heisenberg, lagrangian, nilpotent
 from tests.support.walks import repeated
 
 
@@ -31,6 +31,25 @@ def test_a_leaf_that_is_a_point_says_nothing():
     said = english(step.prose)
     assert "is this point alone" in said
     assert not any(x in said for x in ("characteristic", "not definite"))
+
+
+def test_momenta_leave_a_leaf_that_is_a_point():
+    """On the affine maps of a line Π̇₁ = −Π₂², Π̇₂ = Π₁Π₂: by hand 1 and 0 at Π₁ = 1."""
+    found = derive(lagrangian("(zeta_1^2 + zeta_2^2)/2", LINE)).equilibria({"Pi_1": 1})
+    (x,) = found
+    assert (x.verdict, x.growth) == ("unstable", pytest.approx(1))
+    assert "is unstable (Lyapunov)" in english(found.record.steps[-1].prose)
+    assert all(v.holds for v in found.check(1))
+    resting = derive(lagrangian("(zeta_1^2 + zeta_2^2)/2", LINE)).equilibria({"Pi_1": -1})
+    assert resting[0].verdict == "open"
+    assert all(v.holds for v in resting.check(1))
+
+
+def test_rest_at_one_where_other_entries_never_vary():
+    found = derive(heisenberg()).equilibria()
+    assert [x.verdict for x in found] == ["stable", "stable"]
+    assert not any(found[0].at)
+    assert all(v.holds for v in found.check(1))
 
 
 def sleeping(spin):

@@ -4,7 +4,7 @@ import pytest
 import sympy
 
 from derive import SO, Lagrangian, Problem, ProblemError, derive, first_integrals
-from tests.support.lagrangians import heavy, lagrangian, manakov
+from tests.support.lagrangians import LADDER, heavy, heisenberg, lagrangian, manakov
 
 PI = sympy.symbols("Pi_1:4", real=True)
 GAMMA = sympy.symbols("A_31 A_32 A_33", real=True)
@@ -189,6 +189,23 @@ def test_a_product_of_groups():
     found = first_integrals(lagrangian(L, "SO(3) x SO(3)"), 2)
     assert (len(found.casimirs), len(found.integrals)) == (2, 2)
     assert found.integrable
+
+
+def test_entries_that_no_element_varies_are_no_variables():
+    """In a magnetic field Π₂ along the centre of Heisenberg's group, by springs."""
+    found = first_integrals(heisenberg())
+    assert [str(x) for x in found.x] == ["Pi_1", "Pi_2", "Pi_3", "A_12", "A_23"]
+    p, field, q, x, y = found.x
+    second = p**2 + x**2 + field**2 * (x**2 + 2 * y**2) + 4 * field * p * y - 2 * field * q * x
+    with_others = second - 2 * field**2 * found.energy.sympy() + field**4
+    assert sympy.expand(found.integrals[1].sympy() + with_others) == 0
+    assert [c.sympy() for c in found.casimirs] == [field]
+    assert found.integrable
+    scaled = first_integrals(
+        lagrangian("zeta_1^2 + zeta_2^2 + zeta_3^2 - A_13^2", LADDER, side="right")
+    )
+    assert [str(x) for x in scaled.x[3:]] == ["A_13"]
+    assert all(v.holds for x in (found, scaled) for v in x.check(1))
 
 
 def test_a_degree_of_halves():

@@ -40,6 +40,17 @@ LINE = {"name": "Line", "basis": [[[1, 0], [0, 0]], [[0, 1], [0, 0]]]}
 """The affine maps of a line, as matrices of the plane: no Casimirs."""
 
 
+LADDER = {
+    "name": "Ladder",
+    "basis": [
+        [[1, 0, 0], [0, 2, 0], [0, 0, 0]],
+        [[0, 0, 1], [0, 0, 0], [0, 0, 0]],
+        [[0, 0, 0], [0, 0, 1], [0, 0, 0]],
+    ],
+}
+"""Translations of a plane and a scaling by s and s², as linear maps."""
+
+
 def unit(i, j):
     return [[int((i, j) == (k, m)) for m in range(4)] for k in range(4)]
 
@@ -50,6 +61,11 @@ LORENTZ = {"name": "Lorentz", "basis": [TURN, *BOOSTS]}
 """Those of a plane and a time that runs forwards, which is not what a form tells."""
 
 LINES = {"name": "Lines", "basis": [unit(0, 0), unit(0, 1), unit(2, 2), unit(2, 3)]}
+
+
+def heisenberg():
+    """A particle in a magnetic field Π₂, along the centre of the group, by springs."""
+    return lagrangian("(zeta_1^2 + zeta_2^2 + zeta_3^2)/2 - A_12^2/2 - A_23^2", "UT(3)")
 
 
 def squares(*factors):
@@ -112,6 +128,7 @@ def every_equilibrium():
         derive("euler_top").equilibria({"Pi_1": 0}),
         derive(disc()).equilibria({"Pi_4": 1}),
         nilpotent().equilibria({"Pi_1": 1}),
+        derive(lagrangian(squares(1, 1), LINE)).equilibria({"Pi_1": 1}),
         derive(heavy("132", "A_33/2", "")).equilibria(exact),
         derive("lagrange_top").equilibria({"A_33": -1}),
         derive("kirchhoff").equilibria({"Pi_1": 1}),

@@ -1,21 +1,29 @@
 """The entries that are the same for all elements of a group, as 1 and 0 in the last row of affine
-maps."""
+maps: g is 1 and a sum of products of elements of 𝔤, all of which are 0 there."""
 
 from __future__ import annotations
 
 from fractions import Fraction
-from random import Random
 
 from ...algebra.groups import Group
-
-SAMPLES = 3
-SIZE = 2**64
-"""Random integers of this size in random elements differ where entries do."""
+from ...language import rational as q
 
 
-def constant_entries(group: Group, random: Random) -> dict[tuple[int, int], Fraction]:
-    """Row and column, from 0 → the number that some random elements have in common there."""
-    seen = [group.sample(random, SIZE) for _ in range(SAMPLES)]
+def constant_entries(group: Group) -> dict[tuple[int, int], Fraction]:
+    """Row and column, from 0 → the number that all elements have in common there."""
     span = range(group.size)
-    values = {(i, j): {g[i][j] for g in seen} for i in span for j in span}
-    return {place: x.pop() for place, x in values.items() if len(x) == 1}
+    rows = [_rows(group, i) for i in span]
+    return {(i, j): Fraction(i == j) for i in span for j in span if not any(v[j] for v in rows[i])}
+
+
+def _rows(group: Group, i: int) -> list[tuple[Fraction, ...]]:
+    """A basis of the rows i of the products."""
+    found: list[tuple[Fraction, ...]] = []
+    waiting = [q.identity(group.size)[i]]
+    while waiting:
+        row = (waiting.pop(),)
+        for (x,) in (q.times(row, e) for e in group.basis):
+            if q.rank((*found, x)) > len(found):
+                found.append(x)
+                waiting.append(x)
+    return found

@@ -178,7 +178,8 @@ def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
     if told != found and (told != "indefinite" or found not in ("unstable", "open")):
         return f"what follows is: {found}"
     row = dict(claim.values).get("coefficients")
-    if row is not None and [*map(value_of, _listed(row))] != here.characteristic:
+    known = here.characteristic_of_all if told == "unstable_beyond" else here.characteristic
+    if row is not None and [*map(value_of, _listed(row))] != known:
         return "the characteristic polynomial has other coefficients"
     return ""
 
@@ -240,7 +241,7 @@ def _complex(t: Tree) -> tuple[Number, Number]:
 
 VERDICTS = (
     *("stable", "stable_beyond", "stable_compact", "on_the_leaf", "point", "indefinite"),
-    *("unstable", "open", "undecided"),
+    *("unstable", "unstable_beyond", "open", "undecided"),
 )
 PROVED = {f"equilibrium.{x}" for x in VERDICTS} - {"equilibrium.indefinite"}
 """The claims of which each equilibrium has one."""

@@ -15,7 +15,7 @@ from ...language import rational as q
 from ...language.quadratic import Number
 from ...language.tree import Tree, nodes
 from ..entries_of_an_element import Decision, decided
-from .exact_spectra import characteristic, real_and_not_positive, signature
+from .exact_spectra import characteristic, has_positive, real_and_not_positive, signature
 from .reduced_system import ReducedSystem
 from .second_order import SecondOrder, about, expansion
 
@@ -76,6 +76,11 @@ class Equilibrium:
         if on_the_leaf is None:
             raise ValueError("the linearised rates leave the tangent space of the leaf")
         return characteristic(on_the_leaf)
+
+    @cached_property
+    def characteristic_of_all(self) -> list[Number]:
+        """det(μ − M), not on the leaf alone."""
+        return characteristic(self.linear)
 
     @cached_property
     def grows(self) -> bool:
@@ -144,8 +149,13 @@ class Equilibrium:
                 return "stable"
             if self.compact:
                 return "stable_compact"
-            return "on_the_leaf" if self.dimension else "point"
-        return "unstable" if self.grows else "open"
+            if self.dimension:
+                return "on_the_leaf"
+        elif self.grows:
+            return "unstable"
+        if self.n == self.system.momenta and has_positive(self.characteristic_of_all):
+            return "unstable_beyond"
+        return "open" if self.dimension else "point"
 
 
 @lru_cache(maxsize=8)

@@ -94,6 +94,12 @@ def real_and_not_positive(f: Sequence[Number]) -> bool:
     return not signature(hermite(f, 1))[0]
 
 
+def has_positive(f: Sequence[Number]) -> bool:
+    """Is a root real and positive?"""
+    (more, fewer), (positive, negative) = (signature(hermite(f, k)) for k in (2, 1))
+    return more - fewer > negative - positive  # real ones but 0, and so many more negative ones
+
+
 def negative_or_zero(f: Sequence[Number]) -> bool:
     """Is a root real and at most 0?"""
     (more, fewer), (positive, negative) = (signature(hermite(f, k)) for k in (0, 1))

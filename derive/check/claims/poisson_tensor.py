@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
-from random import Random
 from typing import Any
 
 from ...algebra.groups import Group
@@ -81,7 +80,7 @@ class PoissonTensor:
     @cached_property
     def constants(self) -> dict[tuple[int, int], Fraction]:
         """The entries that are the same for all elements of the group."""
-        return constant_entries(self.group, Random(self.group.name))
+        return constant_entries(self.group)
 
     def at(self, x: Sequence[Value], p: int) -> dict[tuple[int, int], Value]:
         """The entries Λ_ij = {x_i, x_j}, those that do not vanish for all x, modulo p at values of

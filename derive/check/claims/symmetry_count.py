@@ -88,7 +88,7 @@ class SymmetryCount:
     @cached_property
     def entries(self) -> list[tuple[int, int]]:
         """The places of g that are not the same for all elements."""
-        constant, span = constant_entries(self.group, self.random), range(self.group.size)
+        constant, span = constant_entries(self.group), range(self.group.size)
         return [(i, j) for i in span for j in span if (i, j) not in constant]
 
     @cached_property
