@@ -50,7 +50,7 @@ of more, the sentence says that it is not."""
 
 WORDS = re.compile(r"[A-Za-z]{2}\s+[A-Za-z]{2}")
 """Two words, as no text has that is the same in all languages: names are in quotes."""
-SHOWN = 80
+SHOWN = 120
 """The most letters of a sentence that a message quotes."""
 
 
@@ -145,7 +145,8 @@ def fault(prose: Prose, claims: tuple[Claim, ...]) -> str:
 
 def _quoted(words: str) -> str:
     """The first letters of words, on one line."""
-    return f"“{' '.join(words.split())[:SHOWN]}”"
+    line = " ".join(words.split())
+    return f"“{line if len(line) <= SHOWN else line[:SHOWN] + ' …'}”"
 
 
 def _says(x: Sentence, claim: Claim) -> bool:
