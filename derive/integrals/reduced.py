@@ -23,6 +23,7 @@ from ..algebra.groups import Group
 from ..algebra.told_entries import constant_entries
 from ..language.refused import Refused
 from ..language.tree import Tree, add, mul, nodes, replaced
+from ..problem.moved_entries import settled
 from ..problem.problem import Problem
 from .lie_poisson import ONE, Exponents, LiePoisson, plain, powers, sorted_terms
 
@@ -71,7 +72,7 @@ def reduced(problem: Problem) -> LiePoisson:
     group, given = problem.group, problem.lagrangian
     assert group is not None
     assert given is not None
-    L = given.L
+    L = settled(given.L, group)
     parameters = _letters(L, problem)
     symbolic = _Symbolic(problem.name, L, group, parameters)
     system, entries = _without_energy(problem)
@@ -90,7 +91,7 @@ def _without_energy(problem: Problem) -> tuple[LiePoisson, list[Place]]:
     assert given is not None
     epsilon = 1 if given.trivialisation == "left" else -1
     carried = sum(x.size for x in problem.advected or ())
-    brackets, entries = _brackets(group, epsilon, _entries(given.L), carried)
+    brackets, entries = _brackets(group, epsilon, _entries(settled(given.L, group)), carried)
     size = group.dimension + len(entries)
     if size > VARIABLES:
         raise NotReducedError(

@@ -205,7 +205,9 @@ def test_entries_that_no_element_varies_are_no_variables():
         lagrangian("zeta_1^2 + zeta_2^2 + zeta_3^2 - A_13^2", LADDER, side="right")
     )
     assert [str(x) for x in scaled.x[3:]] == ["A_13"]
-    assert all(v.holds for x in (found, scaled) for v in x.check(1))
+    nut = first_integrals("screw")
+    assert [str(x) for x in nut.x] == ["Pi_1", "A_34"]
+    assert all(v.holds for x in (found, scaled, nut) for v in x.check(1))
 
 
 def test_a_degree_of_halves():

@@ -214,8 +214,8 @@ def along_the_motion(system: ReducedSystem) -> tuple[Images, Rates]:
     images = {k: support(t, place) for k, t in enumerate(system.rates) if t != 0}
 
     def rates(at: Mapping[Tree, Value], p: int) -> Mapping[int, Residues]:
-        found = {k: value(t, at, p) for k, t in enumerate(system.rates)}
-        return {k: x for k, x in found.items() if isinstance(x, Residues)}
+        nothing = Residues([0] * len(at[system.variables[0]].values), p)
+        return {k: nothing + value(t, at, p) for k, t in enumerate(system.rates) if t != 0}
 
     return [images], rates
 
