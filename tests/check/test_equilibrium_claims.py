@@ -91,7 +91,7 @@ def test_another_value_is_refused():
         for wrong in [*changes(claim)][near:]:
             assert refused(judge(said(step, claim, wrong))), wrong
             seen.add(claim.kind)
-    assert len(seen) == 11
+    assert len(seen) == 12
 
 
 def test_another_verdict_is_refused():

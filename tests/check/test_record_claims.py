@@ -248,7 +248,7 @@ def said_as(step, old, kind):
 
 def test_whether_there_is_curvature_is_said():
     step = record("elliptic")["curvature"]
-    silent = replace(step, prose=(Sentence("The connection has curvature."),), claims=())
+    silent = replace(step, prose=(), claims=())
     assert "no claim says" in judged("elliptic", silent)
 
 
