@@ -320,7 +320,7 @@ def test_other_forms_of_the_state_are_refused(choice, tmp_path):
 
 
 def test_an_order_belongs_to_the_discrete_step(tmp_path):
-    with pytest.raises(ValueError, match="--order is that of --step discrete"):
+    with pytest.raises(ValueError, match="order is that of step discrete"):
         derive.derive("so3").emit(tmp_path, ("c",), step="rk4", order=4)
 
 

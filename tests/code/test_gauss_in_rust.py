@@ -142,5 +142,5 @@ def test_steps_in_turn(tmp_path):
 
 
 def test_it_is_of_doubles(tmp_path):
-    with pytest.raises(EmitError, match="leave out --real float"):
+    with pytest.raises(EmitError, match="leave out real float"):
         walked("so3").emit(None, ("rust",), step="gauss", real="float")

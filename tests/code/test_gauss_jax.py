@@ -267,12 +267,12 @@ def test_what_is_refused(top, tmp_path):
     with pytest.raises(ValueError, match="so3: x has 11 numbers, not 12"):
         m.begin_jax(0.0, heavy()[1:])
     so3 = derive.derive("so3")
-    with pytest.raises(EmitError, match="--step gauss_jax is written for python, not for c"):
+    with pytest.raises(EmitError, match="step gauss_jax is written for python, not for c"):
         so3.emit(tmp_path, ("c", "python"), step="gauss_jax")
     with pytest.raises(EmitError, match="not for c; emit c apart, without it"):
         so3.emit(tmp_path, ("c", "python"), step="gauss_jax")
     with pytest.raises(EmitError, match=r"not for c$"):
         so3.emit(tmp_path, ("c",), step="gauss_jax")
-    with pytest.raises(EmitError, match="--step gauss_jax is of doubles: leave out --real float"):
+    with pytest.raises(EmitError, match="step gauss_jax is of doubles: leave out real float"):
         so3.emit(tmp_path, ("python",), step="gauss_jax", real="float")
     assert not [*tmp_path.iterdir()]

@@ -32,6 +32,6 @@ def test_too_many_operands_are_refused(monkeypatch):
 
 
 def test_a_large_matrix_by_parameters_is_refused_at_once():
-    with pytest.raises(LoweringError, match="--jacobian parameters is a matrix of 6480"):
+    with pytest.raises(LoweringError, match="jacobian parameters is a matrix of 6480"):
         of("Aff(8)").emit(None, ("c",), jacobian="parameters")
     assert of("SE(3)").emit(None, ("c",), jacobian="parameters")

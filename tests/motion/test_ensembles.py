@@ -315,8 +315,8 @@ def test_an_ensemble_needs_a_compiler(monkeypatch, capsys):
         ({"vary": {"zeta_1": 1}}, "is varied by"),
         ({"vary": {"zeta_1": ("uniform", 0, 1)}}, "is varied by"),
         ({"vary": VARY, "dt": 0.1}, "steps of their own"),
-        ({"vary": VARY, "ensemble": None}, "for many motions: give --ensemble"),
-        ({"seed": 0, "ensemble": None}, "for many motions: give --ensemble"),
+        ({"vary": VARY, "ensemble": None}, "for many motions: give ensemble"),
+        ({"seed": 0, "ensemble": None}, "for many motions: give ensemble"),
         ({"vary": VARY, "compiled": False}, "by the emitted C alone"),
     ],
 )

@@ -270,7 +270,7 @@ def test_other_keys():
         )
     with pytest.raises(ProblemError, match=r"harmonic is for one group.*not for SO\(3\)"):
         Problem("b", "SO(3)", Solid("ball", 1, radius=1), [Harmonic(np.eye(3).tolist())])
-    with pytest.raises(ValueError, match="--multiplier is for a group with one relation"):
+    with pytest.raises(ValueError, match="multiplier is for a group with one relation"):
         derive.derive("gl3").emit(multiplier=True)
 
 
