@@ -192,8 +192,8 @@ def casimir_text(about: About, f: Polynomial) -> str:
 
 def tried(system: LiePoisson, kept: Sequence[Polynomial], on: Elements) -> Iterator[About]:
     """The equilibria among the points with at most one momentum that is not 0, it being 1, and at
-    most one other coordinate that is not 0, it being 1 or −1; the origin only
-    where entries of g are variables, as it is trivial otherwise."""
+    most one other coordinate that is not 0, it being 1 or −1; the origin, which is trivial
+    otherwise, where entries of g are variables."""
     n, momenta, entries = len(system.variables), system.momenta, _has_entries(system)
     for b, sign in ((None, 0), *((b, s) for b in range(momenta, n) for s in (1, -1))):
         for a in (None, *range(momenta)):

@@ -22,9 +22,9 @@ def folder() -> Path:
     for path in sorted(x for x in files if x.is_file()):
         digest.update(f"{path.relative_to(ROOT)}\0".encode() + path.read_bytes())
     found = PLACE / digest.hexdigest()[:32]
-    if not found.is_dir():
-        shutil.rmtree(PLACE, ignore_errors=True)
-        found.mkdir(parents=True, exist_ok=True)
+    found.mkdir(parents=True, exist_ok=True)
+    for other in {*PLACE.iterdir()} - {found}:
+        shutil.rmtree(other, ignore_errors=True)
     return found
 
 
@@ -41,7 +41,6 @@ def on_disk(make: Callable) -> Callable:
             return pickle.loads(path.read_bytes())
         made = make(*names)
         unfinished = path.with_suffix(f".{os.getpid()}")
-        path.parent.mkdir(parents=True, exist_ok=True)
         unfinished.write_bytes(pickle.dumps(made))
         unfinished.replace(path)
         return made

@@ -20,7 +20,7 @@ from ...record.claims import Claim
 from ...record.record import RecordError, Step
 from ..enclosure import DIGITS, Enclosure, enclosure_of, polynomial
 from ..entries_on_a_level import invertible
-from .equilibrium_claims import at_complex, coordinates, not_from
+from .equilibrium_claims import at_complex, coordinates, not_from, silent
 from .exact_spectra import characteristic, signature
 from .integral_claims import Judge
 from .reduced_system import ReducedSystem
@@ -56,8 +56,8 @@ def _within(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """One critical point is within the radius, which is not much larger than is needed, and what
     is proved of its stability is said."""
     found, told = enclosed(system, step), value_of(claim["radius"])
-    if not any(x.kind in PROVED for x in step.claims):
-        return f"the step does not say what follows of the stability: {_proved(system, step)}"
+    if fault := silent(step, PROVED, _proved(system, step)):
+        return fault
     assert isinstance(told, Fraction)
     if not found.contracts(told):
         return "Newton's step is not proved to contract"

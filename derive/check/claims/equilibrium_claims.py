@@ -5,7 +5,7 @@ The point is that which a step says, or the one step among those it uses that sa
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from decimal import Context, localcontext
 from fractions import Fraction
 from typing import Any
@@ -128,8 +128,8 @@ def _form(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The squares on the leaf are as many as are claimed, and are those that are written; what
     follows from them is said."""
     here, form = point_of(system, step), form_of(system, step)
-    if not any(x.kind in PROVED for x in step.claims):
-        return f"the step does not say what follows of the stability: {here.verdict(form)}"
+    if fault := silent(step, PROVED, here.verdict(form)):
+        return fault
     found = here.squares(form)
     if found != (claim["positive"], claim["negative"]):
         return f"it has {found[0]} positive and {found[1]} negative squares"
@@ -221,6 +221,12 @@ def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
         numbers = [(decimal(re), decimal(im)) for _, re, im in told[1:]]
         rounded = are_roots_rounded(numbers, roots[: len(near)])
     return "" if rounded else "one is not rounded to the nearest decimal"
+
+
+def silent(step: Step, verdicts: Collection[str], found: str) -> str:
+    """That a step has none of the verdicts, of which one is found; "" where it has."""
+    said = any(x.kind in verdicts for x in step.claims)
+    return "" if said else f"the step does not say what follows of the stability: {found}"
 
 
 def at_complex(f: Sequence[Number], s: tuple[Any, Any]) -> tuple[Any, Any]:
