@@ -6,11 +6,16 @@ t1 h`` … move; ``dense t 0`` asks for the state at time t.
 """
 
 import subprocess
+import tempfile
+import tomllib
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 
+import derive
+from derive.problem.toml import problem_of
 from tests.support.emitted import import_python
 from tests.support.needs import CC, need
 
@@ -22,6 +27,24 @@ FLAGS = [
     ("-O3", "-march=native", "-mprefer-vector-width=512", "-ffp-contract=fast"),
 ]
 FIXED, ADAPTIVE = ("gauss", "rk4", "vern9", "discrete"), ("gauss_to", "vern9_to")
+
+PLACE = tempfile.TemporaryDirectory(prefix="derive-steps-")
+"""Of what is emitted, until the tests are over."""
+
+
+@cache
+def walked(problem):
+    """A ready-made problem, or the text of a file, derived once."""
+    return derive.derive(problem_of(tomllib.loads(problem)) if "\n" in problem else problem)
+
+
+@cache
+def emitted(problem, languages=LANGUAGES, **options):
+    """The folder with the code of a problem, made once, and its name."""
+    folder, d = Path(tempfile.mkdtemp(dir=PLACE.name)), walked(problem)
+    d.emit(folder, languages, **options)
+    return folder, d.problem.name
+
 
 C = """\
 #include "{name}_steps.h"
