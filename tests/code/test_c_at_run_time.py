@@ -93,10 +93,16 @@ def told(tool, folder, prefixes):
 
 
 @pytest.mark.parametrize("tool", TOOLS)
-def test_nothing_to_remark(tool, exercise, tmp_path):
+def test_nothing_to_remark(tool, request, tmp_path):
     need(tool)
-    folder, prefixes = exercise
-    assert not told(tool, folder, prefixes if tool == "clang-tidy" else SOME)
+    if tool == "clang-tidy":
+        folder, prefixes = request.getfixturevalue("exercise")
+    else:
+        folder, prefixes = tmp_path, SOME
+        for prefix in SOME:
+            name, _, form = prefix.rpartition("_")
+            emit_forms(folder, (name,), (form,))
+    assert not told(tool, folder, prefixes)
     (tmp_path / "wrong.c").write_text(WRONG)
     assert told(tool, tmp_path, ["wrong"]), "the tool is blind"
 

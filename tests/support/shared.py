@@ -51,6 +51,7 @@ def once(make, *, on_disk):
             else:
                 MADE[key] = make(*given, **chosen)
                 if on_disk:
+                    path.parent.mkdir(parents=True, exist_ok=True)
                     unfinished = path.with_suffix(f".{os.getpid()}")
                     unfinished.write_bytes(pickle.dumps(MADE[key]))
                     unfinished.replace(path)
