@@ -45,7 +45,9 @@ def walked(name):
 @cache
 def compiled(name, order=2, **further):
     need("cc")
-    f = derive.compile(walked(name), step=("discrete", "gauss"), order=order, **further)
+    flags = ("-std=c99", "-O1", "-fPIC", "-shared")
+    both = {"step": ("discrete", "gauss"), "order": order, "flags": flags}
+    f = derive.compile(walked(name), **both, **further)
     known = walked(name).problem.parameters
     values = {x: 1.0 if known[x].default is None else known[x].default for x in f.PARAMETERS}
     f.use(values | {x: y for x, y in BODY.items() if x in values and known[x].default is None})

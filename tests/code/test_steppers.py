@@ -130,7 +130,7 @@ BUILDS |= {f"flags {k}": x for k, x in enumerate(FLAGS)}
 def test_the_compiler_changes_nothing(build):
     """In lanes of each width and in loops; vector registers as wide as there are: an SLP pass once
     made errors of a pair wrong."""
-    found, plain = (moved("c", ALIKE, flags=x) for x in (BUILDS[build], ("-O2",)))
+    found, plain = (moved("c", ALIKE, flags=x) for x in (BUILDS[build], ("-O1",)))
     for a, b, (word, *_) in zip(found, plain, ALIKE, strict=True):
         assert (a.status, a.t) == (b.status, pytest.approx(b.t, abs=1e-15))
         assert word == "gauss_to" or abs(a.h - b.h) <= 1e-2 * abs(b.h)
