@@ -30,6 +30,7 @@ FORMS += [(name, "principal") for name in ("so3", "se3", "sl3")]
 SAMPLED = [(name, "C") for name in PROBLEMS if name not in ("gl3", "heisenberg", "su2")] + FORMS
 
 pytestmark = needs("cc")
+CHANGES_THE_ENGINE = True
 
 
 @pytest.mark.parametrize(("problem", "form"), SAMPLED)

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.support.forms import FORMS, PROBLEMS, emit_forms, some_parameters
+from tests.support.forms import FORMS, emit_forms, some_parameters
 from tests.support.needs import need, needs
 from tests.support.rounding import built, sized
 
@@ -23,7 +23,12 @@ SAME = ("-std=c99", "-ffp-contract=off")
 UNPACKED = {"gcc": ["-fno-tree-slp-vectorize"], "clang": []}
 FUSED = {"default": ("-std=gnu99",), "fast": ("-std=c99", "-ffp-contract=fast")}
 LEVELS = ("-O0", "-O1", "-O2", "-O3")
-SOME = {"plain": PROBLEMS, "quaternion": ("so3",), "tangent": ("sl3",), "principal": ("so3",)}
+SOME = {
+    "plain": ("so3", "sl3", "comet", "two_tops"),
+    "quaternion": ("so3",),
+    "tangent": ("sl3",),
+    "principal": ("so3",),
+}
 
 
 def multiply_add():

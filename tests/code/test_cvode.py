@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derive import compile, derive
+from tests.support.emitted import import_python
 from tests.support.needs import CC, needs
 
 MAIN = """\
@@ -77,6 +78,12 @@ int main(int argc, char **argv)
         if (CVodeSetProjErrEst(memory, SUNFALSE)) return 6;
     }
     if (CVodeSetMaxNumSteps(memory, 100000) || CVodeSetStopTime(memory, 1)) return 7;
+    if (argc > 1 && argv[1][0] == 'D') { /* the Jacobian at the start, by rows */
+        top_jacobian_of_field(0, x, NULL, A, &data, NULL, NULL, NULL);
+        for (int i = 0; i < top_N_STATE; ++i)
+            for (int j = 0; j < top_N_STATE; ++j) printf("%.17g ", SM_ELEMENT_D(A, i, j));
+        return 0;
+    }
     long differences = 0; /* evaluations of the field for difference quotients */
     if (argc > 2 && CVodeSetJacFn(memory, top_jacobian_of_field)) return 8;
     if (CVode(memory, 1, x, &t, CV_NORMAL) < 0) return 9; /* at the end of a step */
@@ -90,7 +97,7 @@ int main(int argc, char **argv)
 @needs("cc", "SUNDIALS")
 def test_cvode_projects_each_step(tmp_path):
     made = derive("top")
-    made.emit(tmp_path, ["cvode"], jacobian=["raw"])
+    made.emit(tmp_path, ["cvode", "python"], jacobian=["raw"])
     (tmp_path / "main.c").write_text(KEPT)
     strict = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-O2"]
     kinds = ("cvode", "nvecserial", "sunlinsoldense", "sunmatrixdense")
@@ -107,6 +114,12 @@ def test_cvode_projects_each_step(tmp_path):
     f = compile("top")
     exact = solve_ivp(f, (0, 1), start, method="DOP853", rtol=1e-11, atol=1e-11).y[9, -1]
     assert abs(float(solved.stdout) - exact) < 1e-3
+    entries = subprocess.run(["./main", "D"], cwd=tmp_path, capture_output=True, check=True).stdout
+    code = import_python("top", tmp_path)
+    expected = code.jacobian_raw(0.0, start, code.constants([800, 0.03, 0.05, 9.81]))
+    found = np.array(entries.split(), float).reshape(expected.shape)
+    assert np.abs(found - expected).max() < 1e-12 * np.abs(expected).max()
+    assert np.abs(found - found.T).max() > 1
 
 
 @needs("cc", "SUNDIALS")

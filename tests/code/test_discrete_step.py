@@ -2,7 +2,6 @@
 tells."""
 
 import tomllib
-from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from math import log2
@@ -18,28 +17,19 @@ from derive.pipeline import discrete
 from derive.problem.toml import problem_of
 from tests.check.test_discrete import DRIVEN
 from tests.support.discrete_maps import DiscreteMap
-from tests.support.emitted import import_python
-from tests.support.motions import follow
 from tests.support.needs import need
 
-BALL = """
-group = "SO(3)"
-[body]
-given = { m = 1, c = [0, 0, 0], J = [["1/2", 0, 0], [0, "1/2", 0], [0, 0, "1/2"]] }
-"""
 PUSHED = DRIVEN.replace('"driven"', '"pushed"').replace("length = 1 ", "length = 0 ")
 SLOW = pytest.mark.dist
+DRIVEN_ON = ("SO(3)", "SL(3)", "GL(3)", "SE(3)")
 BODY = {"m": 2, "J_11": 1.3, "J_12": 0.1, "J_13": 0, "J_22": 0.9, "J_23": 0.05, "J_33": 0.4}
 BODY |= {"c_1": 0.1, "c_2": 0.2, "c_3": 0.3, "g_1": 0.5, "g_2": 1, "g_3": -2}
-NO_SOLUTION = 5
 
 
 @cache
 def walked(name):
-    """A problem by its name, the ball, or on a group one with inputs and damping."""
-    if name == "ball":
-        text = f'name = "ball"\n{BALL}'
-    elif name == "tied":
+    """A problem by its name, or on a group one with inputs and damping."""
+    if name == "tied":
         text = PUSHED.replace("GROUP", "SE(3)").partition("damping")[0]
     elif "(" in name:
         text = PUSHED.replace("GROUP", name.removeprefix("free "))
@@ -55,7 +45,9 @@ def walked(name):
 @cache
 def compiled(name, order=2, **further):
     need("cc")
-    f = derive.compile(walked(name), step=("discrete", "gauss"), order=order, **further)
+    flags = ("-std=c99", "-O1", "-fPIC", "-shared")
+    both = {"step": ("discrete", "gauss"), "order": order, "flags": flags}
+    f = derive.compile(walked(name), **both, **further)
     known = walked(name).problem.parameters
     values = {x: 1.0 if known[x].default is None else known[x].default for x in f.PARAMETERS}
     f.use(values | {x: y for x, y in BODY.items() if x in values and known[x].default is None})
@@ -120,64 +112,27 @@ def test_it_is_the_motion_that_the_record_tells(name):
         assert max(off) < 1e-14
 
 
-KINDS = ("so3", "se3", "sl3", "saff3", "gl3", "so4", "heisenberg", "screw", "sim3", "sp4")
-
-
-@pytest.mark.parametrize("name", [*KINDS, "SO(3)", "SL(3)", "GL(3)", "SE(3)"])
-def test_python_moves_as_c(name, tmp_path):
-    """Where C solves for few numbers, as well as on any basis; and within a step."""
-    f, own = compiled(name, 4), walked(name).problem.name
-    walked(name).emit(tmp_path, ("python",), own, step="discrete", order=4)
-    code = import_python(own, tmp_path)
-    x = start(f)
-    k, m, c = code.constants(f._in_use().p), code.begin(0.0, x), f.begin(x)
-    for h in (0.02, -0.01):
-        assert code.discrete(m, k, f.u if len(f.u) else None, h, 10) == code.OK
-        c.move(h, 10)
-        size = np.abs(c.x).max()
-        assert np.abs(m.x - c.x).max() < 1e-13 * size
-        assert m.t == c.t
-        for part in (0.3, 1.0):
-            t = m.t - part * h
-            assert np.abs(code.dense(m, t) - c.dense(t)).max() < 1e-13 * size
-
-
 # ---------------------------------------------------------------- order
 
 
 @pytest.mark.parametrize("order", [2, 4, 6, 8])
-@pytest.mark.parametrize("name", ["so3", "sl3", "heisenberg", "se3"])
+@pytest.mark.parametrize("name", ["so3", "sl3", "heisenberg", "se3", *DRIVEN_ON])
 def test_it_has_its_order(name, order):
-    """By halving, against Gauss's collocation; and the middle of a step."""
+    """By halving, against Gauss's collocation, with inputs and damping too; and within a step."""
     f = compiled(name, order)
-    x, T, n = start(f, 0.9), 1.2, {2: 40, 4: 16, 6: 6, 8: 3}[order]
+    driven = name in DRIVEN_ON
+    T, n = (0.5, 8) if driven else (1.2, {2: 40, 4: 16, 6: 6, 8: 3}[order])
+    x = start(f, 0.3 if driven else 0.9)
     errors = []
     end = f.begin(x).move_to(T, 1e-14, "gauss").x
     for count in (n, 2 * n):
         m = f.begin(x).move(T / count, count)
         errors.append(np.abs(m.x - end).max())
-    assert errors[1] > 3e-15 or order == 8
-    if errors[1] > 1e-13:
+    assert errors[1] > 3e-15 or order == 8 or driven
+    if errors[1] > 1e-12:
         assert order - 0.35 < log2(errors[0] / errors[1]) < order + 0.8, errors
     within = f.begin(x).move_to(T - T / count / 3, 1e-14, "gauss").x
     assert np.abs(m.dense(T - T / count / 3) - within).max() < 4 * errors[1] + 1e-13
-
-
-@pytest.mark.parametrize("name", ["SO(3)", "SL(3)", "GL(3)", "SE(3)"])
-def test_inputs_and_damping_leave_the_order(name):
-    f = compiled(name, 4)
-    x = start(f, 0.3)
-    end = f.begin(x).move_to(0.5, 1e-14, "gauss").x
-    errors = [np.abs(f.begin(x).move(0.5 / n, n).x - end).max() for n in (8, 16)]
-    assert 3.6 < log2(errors[0] / errors[1]) < 4.6, errors
-
-
-@pytest.mark.parametrize("name", ["so3", "se3", "sl3", "so4"])
-def test_back_again(name):
-    """A symmetric step undoes itself."""
-    f = compiled(name, 4)
-    x = start(f)
-    assert np.abs(f.begin(x).move(0.05, 100).move(-0.05, 100).x - x).max() < 1e-12
 
 
 # ---------------------------------------------------------------- what is kept
@@ -229,62 +184,14 @@ def test_momenta_are_kept_to_rounding(name, order):
         assert errors.max() < 1e-12 * max(np.abs(before).max(), 1)
 
 
-def test_the_group_is_kept():
-    for name in ("so3", "se3", "sl3", "sp4"):
-        f = compiled(name)
-        x = f.begin(start(f)).move(0.02, 10_000).x
-        assert f.defect(x) < 1e-15 * len(x) * np.abs(x).max() ** 2
+@pytest.mark.parametrize("name", ["so3", "se3", "sl3", "sp4"])
+def test_the_group_is_kept(name):
+    f = compiled(name)
+    x = f.begin(start(f)).move(0.02, 10_000).x
+    assert f.defect(x) < 1e-15 * len(x) * np.abs(x).max() ** 2
 
 
 # ---------------------------------------------------------------- what is told
-
-
-@pytest.mark.parametrize("language", ["javascript", "rust"])
-@pytest.mark.parametrize("name", [*KINDS, "SO(3)", "SL(3)", "GL(3)", "SE(3)"])
-def test_other_languages_move_as_c(name, language, tmp_path):
-    """Of each kind, there and back, and within a step."""
-    f, own = compiled(name, 4), walked(name).problem.name
-    walked(name).emit(tmp_path, ("c", language), own, step="discrete", order=4)
-    commands = [("discrete", 0.02, 10), ("dense", 0.194, 0), ("discrete", -0.01, 10)]
-    commands += [("dense", 0.11, 0)]
-    given = commands, start(f), f._in_use().p, f.u
-    for x, y in zip(*(follow(z, tmp_path, own, *given) for z in (language, "c")), strict=True):
-        assert (x.status, y.status) == (0, 0)
-        assert (x.t, x.h) == (y.t, y.h)
-        assert np.abs(x.x - y.x).max() < 1e-13 * np.abs(y.x).max()
-
-
-@pytest.mark.parametrize("language", ["c", "python", "javascript", "rust"])
-def test_beside_other_steps_it_moves_as_alone(language, tmp_path):
-    """Names of one method do not hide those of another; and so of gauss."""
-    x = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0.6, 0, 0.8]
-    places = {}
-    for chosen in (("discrete",), ("gauss",), ("discrete", "gauss", "vern9", "rk4")):
-        folder = tmp_path / "".join(chosen)
-        walked("ball").emit(folder, (language,), "ball", step=chosen)
-        for step in chosen:
-            places[step, len(chosen)] = follow(language, folder, "ball", [(step, 0.1, 9)], x)
-    for step in ("discrete", "gauss"):
-        (alone,), (beside,) = places[step, 1], places[step, 4]
-        assert (beside.status, beside.t) == (0, alone.t)
-        assert np.abs(beside.x - alone.x).max() < 1e-15
-
-
-@pytest.mark.parametrize("language", ["c", "cpp", "python", "javascript", "rust"])
-def test_a_step_without_solution_is_told(language, tmp_path):
-    """A ball turns by at most 1 rad h |zeta|: a longer step leaves the motion as it was."""
-    languages = {"cpp": ("c", "cpp")}.get(language, (language,))
-    walked("ball").emit(tmp_path, languages, "ball", step="discrete", order=2)
-    x = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0.6, 0, 0.8]
-    commands = [("discrete", 0.99, 1), ("discrete", 1.01, 1), ("discrete", 1e3, 3)]
-    commands += [("discrete", float("nan"), 1), ("discrete", -0.5, 2)]
-    good, *bad, back = follow(language, tmp_path, "ball", commands, x)
-    assert good.status == 0
-    for place in bad:
-        assert place.status == NO_SOLUTION
-        assert (place.t, place.h) == (good.t, good.h)
-        assert np.array_equal(place.x, good.x)
-    assert (back.status, back.h) == (0, -0.5)
 
 
 @pytest.mark.parametrize(("name", "h"), [("so4", 10.0), ("sl3", 1.0), ("sp4", 10.0)])
@@ -322,32 +229,3 @@ def test_other_forms_of_the_state_are_refused(choice, tmp_path):
 def test_an_order_belongs_to_the_discrete_step(tmp_path):
     with pytest.raises(ValueError, match="order is that of step discrete"):
         derive.derive("so3").emit(tmp_path, ("c",), step="rk4", order=4)
-
-
-# ---------------------------------------------------------------- builds
-
-
-@pytest.mark.parametrize(
-    "name", ["so3", "gl3", *(pytest.param(x, marks=SLOW) for x in ("SL(3)", "saff3", "SE(3)"))]
-)
-def test_sanitizers_find_nothing(name, tmp_path):
-    need("sanitizers of gcc")
-    own = walked(name).problem.name
-    walked(name).emit(tmp_path, ("c",), own, step="discrete", order=4, layout="col")
-    f = compiled(name)
-    flags = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
-    commands = [("dense", 0, 0), ("discrete", 0.05, 5), ("dense", 0.23, 0)]
-    commands += [("discrete", 1e4, 1), ("begin", 0, 0), ("discrete", -0.01, 1), ("dense", 0, 0)]
-    places = follow("c", tmp_path, own, commands, start(f), f._in_use().p, f.u, flags=flags)
-    told = [place.status for place in places]
-    assert all(x == 0 for i, x in enumerate(told) if i != 3)
-
-
-def test_a_problem_with_no_inputs_has_them_nowhere():
-    """The step of a problem is the same where inputs are 0."""
-    given = replace(walked("so3").problem, inputs=())
-    f = derive.compile(given, step="discrete").use(compiled("so3")._in_use().p)
-    x = start(f)
-    held = compiled("so3")
-    held.u = np.zeros(3)
-    assert np.abs(f.begin(x).move(0.1, 10).x - held.begin(x).move(0.1, 10).x).max() < 1e-15

@@ -63,6 +63,8 @@ int main(void)
         for (int j = 0; j < {name}_N_STATE; ++j) x[i][j] = given();
         if ({name}_constants(p, k[i])) return 1;
     }}
+    static int status[N];
+    double off = 0;
     for (int each = 0; each < 2; ++each) {{
         static double many[N][{name}_N_STATE];
         memcpy(many, x, sizeof x);
@@ -76,17 +78,30 @@ int main(void)
                 printf("%.17g %.17g %.17g\\n", x[i][j], m.x[j], many[i][j]);
             }}
         }}
+        memcpy(many, x, sizeof x);
+        if ({name}_ensemble(N, many[0], k[0], each*{name}_SIZE_K, u[0], each*{name}_SIZE_U, 0.5,
+            0.1, 1e-13, 0, status)) return 3;
+        for (int i = 0; i < N; ++i) {{
+            {name}_motion m;
+            {name}_begin(&m, 0.5, x[i]);
+            if ({name}_vern9_to(&m, k[i*each], u[i*each], 0.1, 1e-14)) return 4;
+            for (int j = 0; j < {name}_N_STATE; ++j) {{
+                off = fmax(off, fabs(m.x[j] - many[i][j]));
+            }}
+        }}
     }}
+    printf("%.17g\\n", off);
     return 0;
 }}
 """
 
 
 @pytest.mark.parametrize("problem", ["so3", "se3", "sl3"])
-def test_steps_of_one_size_are_those_of_one_by_one(problem, tmp_path):
-    """Kutta's, backwards: of one body under one force, then each of its own."""
+def test_all_are_those_of_one_by_one(problem, tmp_path):
+    """Backwards, of one body under one force, then each of its own: by Kutta's steps of one size,
+    and by Verner's of their own size, one by one with another tolerance."""
     need("cc")
-    derive.derive(problem).emit(tmp_path, ("c",), step=("rk4",), ensemble=True)
+    derive.derive(problem).emit(tmp_path, ("c",), step=("rk4", "vern9"), ensemble=True)
     f, rng, n = derive.compile(problem), np.random.default_rng(7), 21
     p = f.p * rng.uniform(0.95, 1.05, size=(n, len(f.p)))
     x = many(f, n) * np.array([1.0] * 9 + [0.1] * (len(f.STATE) - 9))
@@ -98,7 +113,9 @@ def test_steps_of_one_size_are_those_of_one_by_one(problem, tmp_path):
     done = subprocess.run(
         [str(tmp_path / "main")], input=given, capture_output=True, text=True, check=True
     )
-    start, one, found = np.array(done.stdout.split(), float).reshape(2, n, len(f.STATE), 3).T
+    *printed, off = np.array(done.stdout.split(), float)
+    start, one, found = np.array(printed).reshape(2, n, len(f.STATE), 3).T
+    assert off < 1e-10 * np.abs(one).max()
     assert np.abs(found - one).max() < 1e-13 * np.abs(one).max()
     assert (np.abs(one - start).max(0) > 1e-2).all()
     assert np.abs(one[..., 0] - one[..., 1])[:, 1:].max(0).min() > 1e-4

@@ -9,8 +9,6 @@ import derive
 from derive.command.cli import main
 from derive.problem.toml import problem_of
 from tests.support.emitted import import_python
-from tests.support.languages import OTHERS, REFERENCE, Emitted, agree, built
-from tests.support.needs import need
 
 DEFAULTS = {"p": 0.7, "q": -1.3, "r": 2.1}
 ALGEBRAS = {"SL(2)": 3, "SO(4)": 6}
@@ -100,16 +98,3 @@ def test_the_emission_is_held_by_the_validator(tmp_path, capsys):
     arguments = [str(tmp_path / "plane.toml"), "--momenta", "--validate", "--out", str(tmp_path)]
     assert main(["emit", *arguments]) == 0
     assert "plane.py: constants, rhs" in capsys.readouterr().err
-
-
-@pytest.fixture(scope="module")
-def emitted(tmp_path_factory):
-    need("cc")
-    folder = tmp_path_factory.mktemp("indefinite")
-    p, languages = typed(REGULAR[0], "many"), (*REFERENCE, *OTHERS)
-    return folder, [Emitted("many", p, folder, languages, {"momenta": True}, tolerance=1e-11)]
-
-
-@pytest.mark.parametrize("build", built())
-def test_every_language_says_the_same(build, emitted):
-    agree(build, *emitted)

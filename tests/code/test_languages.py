@@ -8,6 +8,8 @@ import pytest
 
 from derive import SE, Points, Potential, Problem, derive
 from derive.code.languages import LANGUAGES
+from derive.problem.toml import problem_of
+from tests.code.test_indefinite import REGULAR, typed
 from tests.support.calls import T
 from tests.support.languages import (
     BUILDS,
@@ -47,6 +49,24 @@ PROBLEMS = {
 }
 """Which are linearised in what; three in the state alone, for the sake of time."""
 
+TURNING = {
+    "name": "test",
+    "group": "SE(2)",
+    "lagrangian": {
+        "L": "zeta_1^2 + zeta_2^2 + zeta_3^2 + A_11*zeta_1^2/2 + t*zeta_3^2 + T_1*zeta_2"
+    },
+    "input": [{"name": "u", "kind": "covector"}],
+}
+MOMENTA = {
+    "kirchhoff": "kirchhoff",
+    "euler_poisson": "euler_poisson",
+    "of_points": "se3",
+    "of_volume": "saff3",
+    "turning_momenta": problem_of(TURNING),
+    "indefinite": typed(REGULAR[0]),
+}
+"""Those with the motion in momenta."""
+
 KEPT = ("so3", "saff3")
 """Those that say what their motion keeps."""
 PRESSED = ("sl3", "saff3")
@@ -70,6 +90,12 @@ def emitted(tmp_path_factory):
     )
     moving = {"state": "moving", "jacobian": ALL[:1], "conserved": True}
     plain.append(Emitted("moving", "screw", folder, (*REFERENCE, *OTHERS), moving))
+    formed = {"layout": "col", "velocity": "tangent", "jacobian": ALL}
+    plain.append(Emitted("formed", "so3", folder, (*REFERENCE, *OTHERS), formed))
+    for name, problem in MOMENTA.items():
+        given = Emitted(name, problem, folder, (*REFERENCE, *OTHERS), {"momenta": True})
+        given.tolerance = 1e-11
+        plain.append(given)
     framed = {"frame": "principal", "jacobian": ALL[:2]}
     able = tuple(x for x in (*REFERENCE, *OTHERS) if LANGUAGES[x].framed)
     turned = Emitted("turned", "se3", folder, able, framed, tolerance=1e-12)
@@ -90,15 +116,21 @@ def test_every_language_says_the_same(build, emitted):
     agree(build, folder, [*plain, turned] if LANGUAGES[BUILDS[build][0]].framed else plain)
 
 
-@pytest.mark.parametrize("build", built(but=REFERENCE))
-def test_floats_agree_to_their_accuracy(build, tmp_path):
+@pytest.fixture(scope="module")
+def floats(tmp_path_factory):
     need("cc")
+    folder = tmp_path_factory.mktemp("floats")
     problems = {"se3": ("se3", ALL), "bare": (BARE, ALL[:1])}
-    chosen = [
-        Emitted(name, problem, tmp_path, (*REFERENCE, *OTHERS), {"jacobian": x}, "float")
+    return folder, [
+        Emitted(name, problem, folder, (*REFERENCE, *OTHERS), {"jacobian": x}, "float")
         for name, (problem, x) in problems.items()
     ]
-    agree(build, tmp_path, chosen, "float", 2e-6)
+
+
+@pytest.mark.parametrize("build", built(but=REFERENCE))
+def test_floats_agree_to_their_accuracy(build, floats):
+    folder, chosen = floats
+    agree(build, folder, chosen, "float", 2e-6)
 
 
 def test_cpp_on_one_header_of_c(emitted, tmp_path):

@@ -19,7 +19,7 @@ from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from tests.oracles.euler_lagrange import acceleration
 from tests.support.emitted import import_python
-from tests.support.languages import OTHERS, REFERENCE, Emitted, agree, built, command, known
+from tests.support.languages import command, known
 from tests.support.needs import need
 from tests.support.read_julia import REALS, Module, Numbers
 
@@ -165,27 +165,6 @@ def test_momenta_that_no_velocity_has():
 
 
 # -- every language ------------------------------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def emitted(tmp_path_factory):
-    need("cc")
-    folder = tmp_path_factory.mktemp("momenta")
-    chosen = {"momenta": True}
-    cases = {
-        "kirchhoff": "kirchhoff",
-        "euler_poisson": "euler_poisson",
-        "turning": typed("turning"),
-    }
-    return folder, [
-        Emitted(name, p, folder, (*REFERENCE, *OTHERS), chosen, tolerance=1e-13)
-        for name, p in cases.items()
-    ]
-
-
-@pytest.mark.parametrize("build", built())
-def test_every_language_says_the_same(build, emitted):
-    agree(build, *emitted)
 
 
 NODE = """\

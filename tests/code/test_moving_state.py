@@ -9,6 +9,7 @@ from derive.problem.toml import problem_of
 from tests.oracles.general import expm
 from tests.support.needs import need
 
+QUICK = ("-std=c99", "-O1", "-fPIC", "-shared")
 SHIFTS = [[[0] * 3 + [int(k == i)] for k in range(4)] for i in range(3)]
 TURN = [[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]]
 PLANE = [[0, -1, 0], [1, 0, 0], [0, 0, 0]]
@@ -110,7 +111,7 @@ def test_it_is_the_whole_state_without_what_never_varies(name, form):
     need("cc")
     d, options = (
         derive.derive(problem(name)),
-        {"conserved": True, "jacobian": ("raw",), **FORMS[form]},
+        {"conserved": True, "jacobian": ("raw",), "flags": QUICK, **FORMS[form]},
     )
     whole, moving = (derive.compile(d, state=x, **options) for x in ("whole", "moving"))
     group = d.problem.group

@@ -11,7 +11,7 @@ from derive import derive
 from derive.code.languages import LANGUAGES
 from derive.code.program import LoweringError
 from derive.command.cli import main
-from tests.support.emitted import compile_c, import_python, some_body
+from tests.support.emitted import import_python, some_body
 from tests.support.needs import need, needs
 
 GROUPS = ("so3", "se3", "sl3", "saff3", "two_tops", "screw", "jelly", "heisenberg", "so4")
@@ -235,51 +235,6 @@ def test_derivatives_by_inputs_and_parameters(name, emitted):
             ]
             slope = (ends[0] - ends[1]) / (2 * step)
             assert np.allclose(D[d:, i], slope, rtol=1e-5, atol=1e-5 * np.abs(D).max())
-
-
-PLAIN, FORMED = {}, {"layout": "col", "velocity": "tangent"}
-
-
-FORMS = [("cc", PLAIN), ("clang", FORMED), ("g++", PLAIN), ("cc", FORMED)]
-COMPILED = ["so3", "se3", "sl3", "saff3"]
-PAIRS = [
-    pytest.param(name, *form, marks=() if (k - j) % 4 < 2 else pytest.mark.dist)
-    for j, name in enumerate(COMPILED)
-    for k, form in enumerate(FORMS)
-]
-"""Each problem in two forms, each form of two problems; ``make dist`` has them all."""
-
-
-@pytest.mark.no_cover
-@pytest.mark.parametrize(("name", "build", "options"), PAIRS)
-def test_c_in_every_form(name, build, options, emitted, tmp_path):
-    """A header of inline functions, batches and the jacobian in C equal the same in Python."""
-    source = emitted(name, ("c", "python"), jacobian=ALL, **options)
-    header = emitted(name, ("c",), jacobian=ALL, form="header", **options)
-    (header / f"{name}.c").write_text(WRAPPED.format(name=name))
-    module = import_python(name, source)
-    p, x, u, rng = drawn(module)
-    x, k = np.array(list(x.values())), module.constants(p)
-    many, given = rng.normal(size=(9, len(x))), rng.normal(size=(9, len(u)))
-    dx, D = module.jacobian(0.1, x, k, u)
-    for folder in (source, header):
-        library = compile_c(build, name, tmp_path, folder)
-        status, k_c = library.constants(p)
-        assert status == 0
-        assert np.allclose(k_c, k, rtol=1e-13)
-        found, D_c = library.jacobian(0.1, x, k_c, u)
-        assert np.allclose(found, dx, rtol=1e-11, atol=1e-12)
-        assert np.allclose(D_c, D, rtol=1e-11, atol=1e-11 * np.abs(D).max())
-        batch = library.rhs_batch(0.1, many.T.copy(), k_c, given.T.copy())
-        single = np.array([library.rhs(0.1, *z) for z in zip(many, [k_c] * 9, given, strict=True)])
-        assert np.allclose(batch.T, single, rtol=1e-13, atol=1e-14)
-        (tmp_path / f"{name}-{build}.so").unlink()
-
-
-WRAPPED = """\
-#define {name}_FUNCTION
-#include "{name}.h"
-"""
 
 
 @needs("objdump")

@@ -303,7 +303,7 @@ def test_bad_input_is_one_line(arguments, words, capsys):
 
 def test_an_ensemble_needs_a_compiler(monkeypatch, capsys):
     monkeypatch.setenv("CC", "no-such-compiler")
-    assert main(["simulate", "so3", "--t", "1", "--ensemble", "9", *OPTIONS]) == 2
+    assert main(["simulate", "hammer", "--t", "1", "--ensemble", "9", *OPTIONS[:2]]) == 2
     err = capsys.readouterr().err
     assert err.count("\n") == 1
     assert "an ensemble is run by the emitted C: 'no-such-compiler' is not on the path" in err

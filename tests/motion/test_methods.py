@@ -119,11 +119,13 @@ def test_what_is_long_is_compiled():
     d = derive.derive("so3")
     assert d.simulate(1.0, points=2).facts["language"] == "Python"
     assert d.simulate(1.0, points=2, step="rk4", dt=1e-4).facts["language"] == "C"
+    fast = {"zeta_3": 1000.0, "c_1": 0.0, "c_3": 0.0}  # where A changes, and ζ hardly
+    assert d.simulate(2.0, points=2, start=fast).facts["language"] == "C"
 
 
 def test_without_a_compiler_it_is_the_python(monkeypatch):
     monkeypatch.setenv("CC", "no-such-compiler")
-    d = derive.derive("so3")
+    d = derive.derive("hammer")  # that no other test compiles
     run = d.simulate(0.2, points=2, step="rk4", dt=1e-4)
     assert run.facts["language"] == "Python"
     with pytest.raises(CompileError, match="not on the path"):

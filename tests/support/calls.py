@@ -49,7 +49,8 @@ class Call:
 
 
 def calls(header, prefix, sizes):
-    """The calls of a header, but for ``constants``, and for ``rhs_batch`` of many states."""
+    """The calls of a header, but for ``constants``, for ``rhs_batch`` of many states, and for those
+    that a discrete step is made of."""
     reduced = re.search(rf"{prefix}_N_REDUCED = (\d+)", header)
     sizes = {**sizes, "REDUCED": int(reduced[1]) if reduced else 0}
     real = "float" if re.search(r"\bfloat \*", header) else "double"
@@ -58,7 +59,7 @@ def calls(header, prefix, sizes):
     for kind, name, listed in re.findall(
         DECLARED.format(real=real, prefix=prefix), header, re.MULTILINE
     ):
-        if name != "rhs_batch":
+        if name != "rhs_batch" and not name.startswith("step_"):
             found = [ARGUMENT.fullmatch(x.strip()) for x in re.split(r",\s*", listed)]
             outs = [m["name"] for m in found if m["array"] and not m["kept"]]
             assert bool(outs) == (kind == "void"), name

@@ -6,11 +6,16 @@ t1 h`` … move; ``dense t 0`` asks for the state at time t.
 """
 
 import subprocess
+import tempfile
+import tomllib
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 
+import derive
+from derive.problem.toml import problem_of
 from tests.support.emitted import import_python
 from tests.support.needs import CC, need
 
@@ -21,7 +26,27 @@ FLAGS = [
     ("-O3", "-march=native"),
     ("-O3", "-march=native", "-mprefer-vector-width=512", "-ffp-contract=fast"),
 ]
+QUICK = ("-C", "opt-level=1", "-C", "codegen-units=1")
+"""Of Rust: to compile takes longer than to run."""
 FIXED, ADAPTIVE = ("gauss", "rk4", "vern9", "discrete"), ("gauss_to", "vern9_to")
+
+PLACE = tempfile.TemporaryDirectory(prefix="derive-steps-")
+"""Of what is emitted, until the tests are over."""
+
+
+@cache
+def walked(problem):
+    """A ready-made problem, or the text of a file, derived once."""
+    return derive.derive(problem_of(tomllib.loads(problem)) if "\n" in problem else problem)
+
+
+@cache
+def emitted(problem, languages=LANGUAGES, **options):
+    """The folder with the code of a problem, made once, and its name."""
+    folder, d = Path(tempfile.mkdtemp(dir=PLACE.name)), walked(problem)
+    d.emit(folder, languages, **options)
+    return folder, d.problem.name
+
 
 C = """\
 #include "{name}_steps.h"
@@ -92,7 +117,7 @@ class Place:
     x: np.ndarray
 
 
-def follow(language, folder, name, commands, x, p=(), u=(), *, flags=("-O2",), real="double"):
+def follow(language, folder, name, commands, x, p=(), u=(), *, flags=("-O1",), real="double"):
     """The places (len(commands)) of a motion, by the code with steps that is in ``folder``."""
     if language == "python":
         return by_python(folder, name, commands, (p, u, x))
@@ -239,7 +264,7 @@ def in_rust(folder, name, flags, real):
         more = {"at_event": at_event, "event": event, "rising": rising}
         source = RUST.format(name=name, real=numbers, calls="\n".join(calls), **more)
         (folder / "drive.rs").write_text(source)
-        command = ["rustc", "--edition", "2021", "-O", "-Dwarnings", "-o", str(program)]
+        command = ["rustc", "--edition", "2021", *QUICK, "-Dwarnings", "-o", str(program)]
         subprocess.run([*command, str(folder / "drive.rs")], check=True)
     return [str(program)]
 
@@ -307,7 +332,7 @@ def in_cpp(folder, name, flags, real):
         subprocess.run(
             [CC, "-O2", "-c", str(folder / f"{name}.c"), "-o", str(compiled)], check=True
         )
-        command = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O2"]
+        command = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O0"]
         subprocess.run([*command, str(source), str(compiled), "-o", str(program)], check=True)
     return [str(program)]
 

@@ -155,6 +155,14 @@ def test_python_with_steps_in_time_equals_the_record(name, step):
         )
 
 
+def test_what_is_wrong_only_where_a_parameter_is_0_is_refused():
+    text = text_of("two_tops", "c")
+    assert "k_l/sqrt(" in text
+    changed = text.replace("k_l/sqrt(", "(k_l + slack_l)/sqrt(")  # slack_l: 0 but for l = 0
+    (c, _) = reports("two_tops", {"two_tops.c": changed})
+    assert c.text.startswith("DIFFERS: rhs: the rate of ")
+
+
 def test_the_principal_frame_is_said_not_to_be_validated():
     assert all("not validated" in r.text and r.holds for r in reports("so3", frame="principal"))
 

@@ -1,0 +1,80 @@
+"""What the engine makes of a problem, made once for the tests of a room: its record, and, on the
+disk, its programs and what its motion keeps; all else is made of these."""
+
+import os
+import pickle
+import sys
+from hashlib import sha256
+
+import pytest
+
+import derive.command.emitting
+import derive.command.ensembles
+import derive.command.refused_options
+import derive.command.simulating
+import derive.python.compiled  # noqa: F401  (all that name a function of the pipeline, before it is another)
+from derive import pipeline
+from derive.problem.problem import Problem
+from derive.record.json_writer import to_json
+from derive.record.record import Derivation
+from derive.walk.head import problem_data
+from tests.support.cached import folder
+
+RECORDS = {}
+"""id → a record and its text, that no other record has its id."""
+MADE = {}
+
+
+def text(x):
+    """All of an argument that what is made depends on."""
+    if isinstance(x, Problem):
+        followed = x.parameters, x.title, x.events, x.initial, x.signed, x.frame
+        return repr((problem_data(x), followed))
+    if isinstance(x, Derivation):
+        if id(x) not in RECORDS:
+            RECORDS[id(x)] = x, to_json(x)
+        return RECORDS[id(x)][1]
+    return repr(x)
+
+
+def once(make, *, on_disk):
+    """A function of the pipeline whose results for equal arguments are made once; what is refused
+    is refused again."""
+
+    def found(*given, **chosen):
+        told = repr((make.__name__, [*map(text, given)], sorted(chosen.items())))
+        key = sha256(told.encode()).hexdigest()[:32]
+        if key not in MADE:
+            path = folder() / key
+            if on_disk and path.is_file():
+                MADE[key] = pickle.loads(path.read_bytes())
+            else:
+                MADE[key] = make(*given, **chosen)
+                if on_disk:
+                    path.parent.mkdir(parents=True, exist_ok=True)
+                    unfinished = path.with_suffix(f".{os.getpid()}")
+                    unfinished.write_bytes(pickle.dumps(MADE[key]))
+                    unfinished.replace(path)
+        return MADE[key]
+
+    return found
+
+
+KEPT_ON_DISK = {"walk": False, "motion_of": False, "discrete": True, "one_degree": True}
+KEPT_ON_DISK |= {"program": True, "conserved_quantities": True}
+ONCE = {name: once(getattr(pipeline, name), on_disk=x) for name, x in KEPT_ON_DISK.items()}
+OWN = {name: getattr(pipeline, name) for name in ONCE}
+
+
+@pytest.fixture(autouse=True, scope="module")
+def made_once(request):
+    """Wherever the engine has a name of the pipeline, what it makes is shared; not in a file of
+    tests that change the engine, which says so by ``CHANGES_THE_ENGINE``."""
+    with pytest.MonkeyPatch.context() as patch:
+        if not hasattr(request.module, "CHANGES_THE_ENGINE"):
+            modules = [x for name, x in sys.modules.items() if name.startswith("derive.")]
+            for module in (*modules, request.module):
+                for name, shared in ONCE.items():
+                    if vars(module).get(name) is OWN[name]:
+                        patch.setattr(module, name, shared)
+        yield
