@@ -163,9 +163,9 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
         "unsolved": (
             "It is not decided whether there are where {conditions}: no parameter is of first "
-            "order there.",
+            "order there. That these cases are all is what the search says.",
             "Il n’est pas décidé s’il en existe là où {conditions} : aucun paramètre n’est là du "
-            "premier ordre.",
+            "premier ordre. Que ce soient tous les cas, c’est la recherche qui le dit.",
         ),
     },
     "level": {
