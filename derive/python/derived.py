@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, overload
 from ..check.verdict import Verdict
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
+from .doubted import loaded
 from .keywords import in_keywords
 from .shown import Shown
 
@@ -315,8 +316,6 @@ def derive(problem: Problem | str | Path, *, discrete: bool = False) -> Derived:
     """The derivation of a problem, of a problem file, or of a ready-made problem; ``ProblemError``
     says in one line what is wrong.  ``discrete``: its motion in steps of time h, without inputs."""
     from .. import pipeline
-    from ..command.loading import load_problem
 
-    if not isinstance(problem, Problem):
-        problem = load_problem(str(problem))
+    problem = loaded(problem)
     return Derived(problem, pipeline.discrete(problem) if discrete else pipeline.walk(problem))
