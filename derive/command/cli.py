@@ -78,9 +78,9 @@ def command_equilibria(args: argparse.Namespace) -> int:
             raise UsageError(f"{option} {twice[0]}: given more than once; leave out all but one")
     found: object
     if args.near:
-        found, record = equilibrium_near(doubted(args.problem), dict(args.near))
+        found, record = equilibrium_near(doubted(args.problem), dict(args.near), args.degree)
     else:
-        found, record = equilibria(doubted(args.problem), dict(args.at or ()))
+        found, record = equilibria(doubted(args.problem), dict(args.at or ()), args.degree)
     if not found:
         raise UsageError(
             f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "

@@ -20,14 +20,16 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Lie–Poisson sur le dual d’un produit semi-direct, de dimension {dimension}.",
         ),
         "weighted": (
-            "In what follows the other variables than momenta count as of degree {weight}.",
-            "Dans la suite, les variables autres que les moments comptent pour le degré {weight}.",
+            "In what follows degrees are weighted: the other variables than momenta count as of "
+            "degree {weight}.",
+            "Dans la suite, les degrés sont pondérés : les variables autres que les moments "
+            "comptent pour le degré {weight}.",
         ),
         "weights": (
-            "In what follows the degrees of the other variables than momenta are, in order, "
-            "{weights}.",
-            "Dans la suite, les degrés des variables autres que les moments sont, dans l’ordre, "
-            "{weights}.",
+            "In what follows degrees are weighted: those of the other variables than momenta are, "
+            "in order, {weights}.",
+            "Dans la suite, les degrés sont pondérés : ceux des variables autres que les moments "
+            "sont, dans l’ordre, {weights}.",
         ),
         "undriven": (
             "The inputs are left out: they vanish here.",
