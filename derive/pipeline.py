@@ -322,14 +322,16 @@ def integrals(
     return whole, Derivation(record.problem, symbols(steps, problem), steps)
 
 
-def equilibrium_near(problem: Problem, values: Mapping[str, Number]) -> tuple[Enclosed, Derivation]:
-    """The equilibrium of a problem near a point, enclosed, and the record of its integrals with the
-    steps that tell it; parameters have their defaults."""
+def equilibrium_near(
+    problem: Problem, values: Mapping[str, Number], degree: int = 4
+) -> tuple[Enclosed, Derivation]:
+    """The equilibrium of a problem near a point, enclosed, and the record of its integrals up to a
+    degree with the steps that tell it; parameters have their defaults."""
     from .equilibria.enclosed_points import enclosed
     from .equilibria.stability import require_numbers
     from .equilibria.told_points import told_enclosed
 
-    whole, record = integrals(problem, at_defaults=True)
+    whole, record = integrals(problem, degree, at_defaults=True)
     try:
         require_numbers(whole)
         found = enclosed(whole, values, _elements(problem, whole))
@@ -351,15 +353,15 @@ def _elements(problem: Problem, whole: Found) -> tuple[Conditions, ...]:
 
 
 def equilibria(
-    problem: Problem, values: Mapping[str, Number]
+    problem: Problem, values: Mapping[str, Number], degree: int = 4
 ) -> tuple[tuple[Equilibrium, ...], Derivation]:
     """The relative equilibrium of a problem at a point, or those among some points where no values
-    are given, and the record of its integrals with the steps that tell them; parameters have their
-    defaults."""
+    are given, and the record of its integrals up to a degree with the steps that tell them;
+    parameters have their defaults."""
     from .equilibria.stability import equilibria_of
     from .equilibria.told_points import told
 
-    whole, record = integrals(problem, at_defaults=True)
+    whole, record = integrals(problem, degree, at_defaults=True)
     try:
         found = equilibria_of(whole, values, _elements(problem, whole))
     except Refused as error:

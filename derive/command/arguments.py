@@ -14,6 +14,7 @@ from ..plot.kinds_told import told_kinds
 from ..schema.table import nearest
 from ..views.rendering import FORMATS
 from .guard import one_line
+from .writing import STDOUT
 
 if TYPE_CHECKING:
     from ..language.quadratic import Number
@@ -38,6 +39,23 @@ def add_emission_options(emit: argparse.ArgumentParser) -> None:
         emit.add_argument(f"--{name}", choices=values, help=about)
     for name, about in ADDED.items():
         emit.add_argument(f"--{name}", action="store_true", help=about)
+
+
+FILE = f"default, and {STDOUT}: standard output"
+
+
+def text_file(words: str) -> str | None:
+    """Where one text goes: the file of a name, ``None`` for standard output."""
+    return None if words == STDOUT else words
+
+
+def named_file(words: str) -> str:
+    """A file, or a folder, by its name; ``ArgumentTypeError`` for standard output."""
+    if words == STDOUT:
+        raise argparse.ArgumentTypeError(
+            f"{STDOUT} is standard output, which takes one text: give a name (a file is ./{STDOUT})"
+        )
+    return words
 
 
 def positive(words: str) -> float:
@@ -147,6 +165,12 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     about = "the discrete motion, a time step h apart"
     for one in (walk, made):
         one.add_argument("--discrete", action="store_true", help=about)
+    for one in (searched, steady):
+        about = (
+            "the highest degree of integrals that is searched, momenta being of degree 1, other "
+        )
+        about += "variables of what makes the energy homogeneous (default: 4)"
+        one.add_argument("--degree", type=degree, default=4, metavar="N", help=about)
     add_search_options(searched)
     about = "a coordinate of an equilibrium, as Pi_3=2 or sqrt(3)/2; repeated, others are 0"
     steady.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)
@@ -170,9 +194,9 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     paper = command("paper")
     paper.add_argument("--format", choices=("text", "json"), default="text")
     paper.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
-    paper.add_argument("--out", metavar="FILE")
+    paper.add_argument("--out", type=text_file, metavar="FILE", help=FILE)
     build = command("build")
-    build.add_argument("--out", metavar="DIR", default="generated")
+    build.add_argument("--out", type=named_file, metavar="DIR", default="generated")
     build.add_argument("--print", action="store_true", help="print the walks as well")
     return top
 
@@ -188,7 +212,8 @@ def add_picture_options(plot: argparse.ArgumentParser) -> None:
     about = "a column of an ensemble that is drawn; repeated"
     plot.add_argument("--column", metavar="NAME", action="append", default=[], help=about)
     plot.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
-    plot.add_argument("--out", metavar="FILE", required=True, help="FILE.svg, .pdf or .png")
+    about = "FILE.svg, .pdf or .png"
+    plot.add_argument("--out", type=named_file, metavar="FILE", required=True, help=about)
 
 
 def add_motion_options(simulated: argparse.ArgumentParser) -> None:
@@ -223,9 +248,10 @@ def add_motion_options(simulated: argparse.ArgumentParser) -> None:
     simulated.add_argument("--vary", action="append", type=law, metavar="NAME=LOW:HIGH", help=about)
     about = "the seed of what is drawn (default: 0)"
     simulated.add_argument("--seed", type=natural, metavar="N", help=about)
-    simulated.add_argument("--out", metavar="FILE", help="FILE.npz, .csv or .parquet")
+    about = "FILE.npz, .csv or .parquet"
+    simulated.add_argument("--out", type=named_file, metavar="FILE", help=about)
     about = "a page FILE.html in which the body moves, with sliders; alone, instead of a run"
-    simulated.add_argument("--html", metavar="FILE", help=about)
+    simulated.add_argument("--html", type=named_file, metavar="FILE", help=about)
     about = "English or French, of the page"
     simulated.add_argument("--lang", choices=LANGUAGES, default="en", help=about)
 
@@ -291,9 +317,7 @@ def degree(words: str) -> int:
 
 
 def add_search_options(searched: argparse.ArgumentParser) -> None:
-    """Add the options of ``integrals``: how far is searched, for which parameters."""
-    about = "the highest degree that is searched, momenta being of degree 1 (default: 4)"
-    searched.add_argument("--degree", type=degree, default=4, metavar="N", help=about)
+    """Add the options of ``integrals``: for which parameters."""
     about = "put the default values of parameters in their place (default: they stay letters)"
     searched.add_argument("--at-defaults", action="store_true", help=about)
     about = "also find the conditions on the parameters under which there are more integrals"
@@ -313,12 +337,13 @@ def add_reading_options(
     for one in (*walks, *searched):
         one.add_argument("problem", help="a ready-made name or a .toml file")
         one.add_argument("--format", choices=FORMATS, default="text")
-        one.add_argument("--out", metavar="FILE")
+        one.add_argument("--out", type=text_file, metavar="FILE", help=FILE)
     for one in walks:
         about = "steps to print alone, as kernel or linear.kernel"
         one.add_argument("labels", nargs="*", metavar="step", help=about)
     notes.add_argument("problem", nargs="*", help="ready-made names or .toml files")
-    notes.add_argument("--out", metavar="FILE", required=True, help="FILE.tex, .pdf, .html or .sty")
+    about = "FILE.tex, .pdf, .html or .sty"
+    notes.add_argument("--out", type=named_file, metavar="FILE", required=True, help=about)
     about = "beside FILE.html a page for each problem, linked from it, in which the body moves"
     notes.add_argument("--motion", metavar="T", type=float, help=f"{about} for a time T")
     about = "a picture of the motion of each problem for a time T, beside FILE and shown in it"
@@ -336,7 +361,8 @@ def add_reading_options(
 
 def add_writing_options(emit: argparse.ArgumentParser) -> None:
     """Add the options of ``emit``: where code goes, and what is done instead."""
-    emit.add_argument("--out", metavar="DIR", help="default: the current directory")
+    about = f"default: the current directory; {STDOUT}: standard output, of one file"
+    emit.add_argument("--out", metavar="DIR", help=about)
     emit.add_argument("--prefix", metavar="NAME", help="default: the problem's name")
     current = "write nothing; exit 1 if a file on disk is not what would be written, "
     current += "with the options that it states where none are given"

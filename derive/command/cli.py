@@ -78,9 +78,9 @@ def command_equilibria(args: argparse.Namespace) -> int:
             raise UsageError(f"{option} {twice[0]}: given more than once; leave out all but one")
     found: object
     if args.near:
-        found, record = equilibrium_near(doubted(args.problem), dict(args.near))
+        found, record = equilibrium_near(doubted(args.problem), dict(args.near), args.degree)
     else:
-        found, record = equilibria(doubted(args.problem), dict(args.at or ()))
+        found, record = equilibria(doubted(args.problem), dict(args.at or ()), args.degree)
     if not found:
         raise UsageError(
             f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "
@@ -121,8 +121,17 @@ def command_notes(args: argparse.Namespace) -> int:
 def command_emit(args: argparse.Namespace) -> int:
     """Write the numeric code of a problem."""
     from ..code.emit import planned
-    from .emitting import all_hold, checked, languages, made, options, validated, wanted
-    from .writing import write
+    from .emitting import (
+        all_hold,
+        checked,
+        languages,
+        made,
+        options,
+        require_one_text,
+        validated,
+        wanted,
+    )
+    from .writing import STDOUT, write
 
     if args.names:
         prefix = args.prefix  # with one, the problem need not be there
@@ -130,6 +139,7 @@ def command_emit(args: argparse.Namespace) -> int:
             prefix = load_problem(args.problem, **allowed(args)).name
         print(*planned(languages(args), prefix, options(args)), sep="\n")
         return 0
+    require_one_text(args)
     if args.check:
         return checked(args)
     # steps refuse an event by a name that the state has not
@@ -138,6 +148,9 @@ def command_emit(args: argparse.Namespace) -> int:
     compiled, files = made(problem, record, asked)
     if args.validate and not all_hold(validated(files, files, record, compiled, asked)):
         return 1  # and nothing is written
+    if args.out == STDOUT:
+        save("".join(files.values()), None, "code")
+        return 0
     for path in write(files, Path(args.out or ".")):
         print(path)
     return 0
@@ -184,7 +197,8 @@ def command_check(args: argparse.Namespace) -> int:
     from ..check.checker import verdicts as check
     from ..record.json_reader import read
 
-    failed, refused, seed = 0, 0, fresh_seed() if args.seed is None else args.seed
+    steps, failed, refused = 0, 0, 0
+    seed = fresh_seed() if args.seed is None else args.seed
     for name in args.problem:
         try:
             record = (
@@ -197,8 +211,12 @@ def command_check(args: argparse.Namespace) -> int:
             print(f"derive: {one_line(error)}", file=sys.stderr)
             refused += 1
             continue
+        steps += sum(v.of == "equation" for v in verdicts)
         failed += told(name, verdicts)
     print(f"seed {seed} (--seed repeats this run)")
+    if (several := len(args.problem)) > 1:
+        unread = f"; not checked: {refused}" if refused else ""
+        print(f"records: {several - refused}; steps: {steps}; failed: {failed}{unread}")
     return 2 if refused else 1 if failed else 0
 
 

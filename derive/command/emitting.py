@@ -23,8 +23,8 @@ from ..pipeline import program, require_program
 from ..problem.forces import negative_stiffness_of
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
-from .loading import allowed, derive
-from .writing import REMEDY, stale, text_on_disk
+from .loading import UsageError, allowed, derive
+from .writing import REMEDY, STDOUT, stale, text_on_disk
 
 if TYPE_CHECKING:
     from ..validate.emission import Report
@@ -51,6 +51,19 @@ def allowances(p: Problem) -> tuple[str, ...]:
     """What may be negative in a problem, as the flags of the command line call it."""
     stiffness = negative_stiffness_of(p.potentials, p.damping, p.parameters)
     return ("mass",) * p.signed + ("stiffness",) * bool(stiffness)
+
+
+def require_one_text(args: argparse.Namespace) -> None:
+    """``UsageError`` where several files are to go to standard output, or some are looked for
+    there."""
+    if args.out != STDOUT:
+        return
+    files = planned(languages(args), args.prefix or "NAME", options(args))
+    if args.check or len(files) > 1:
+        raise UsageError(
+            f"--out {STDOUT}: standard output takes one text, and these are files of a folder: "
+            f"{', '.join(files)}; name the folder"
+        )
 
 
 def wanted(args: argparse.Namespace, p: Problem) -> EmissionRequest:

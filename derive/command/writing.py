@@ -23,6 +23,9 @@ try:
 except ImportError:  # Windows: no lock
     fcntl = None  # type: ignore[assignment]
 
+STDOUT = "-"
+"""The name of standard output among files, as programs of Unix have it; a file is ``./-``."""
+
 PREFIX, SUFFIX = ".derive-", ".part"
 """The first and the last letters of the names of temporary files."""
 

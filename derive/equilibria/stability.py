@@ -4,8 +4,8 @@ Definite on the leaf, the energy–Casimir form proves stability there (Lagrange
 where Λ has its largest rank, or the form is definite beyond the leaf, or the stabiliser is compact
 (Montaldi), also off it.  Elsewhere the linearisation on the leaf is a Hamiltonian matrix: its
 characteristic polynomial is q(λ²), and one root of q that is not real and at most 0, counted by
-Sturm, proves instability (Lyapunov).  Where all variables are momenta, so does a positive root of
-that of all rates.
+Sturm, proves instability (Lyapunov).  Where all variables are momenta, so does a root with positive
+real part, by Routh's scheme, of that of all rates.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from ..integrals.all_integrals import Found
 from ..integrals.lie_poisson import ONE, LiePoisson
 from ..integrals.reduced import NotReducedError
 from ..language.quadratic import Number
-from ..language.univariate import RealRoots, real_roots
+from ..language.univariate import RealRoots, grows, real_roots
 from .energy_casimir import (
     Form,
     Leaf,
@@ -75,10 +75,9 @@ class Equilibrium:
     @property
     def _leaves(self) -> bool:
         """Are all variables momenta, so that motions start anywhere, and has the linearisation off
-        the leaf, too, a positive eigenvalue?"""
-        system, f = self.about.system, self.characteristic_of_all[::-1]
-        opposite = [(-1) ** k * x for k, x in enumerate(f)]
-        return system.momenta == len(system.variables) and real_roots(opposite).negative > 0
+        the leaf, too, an eigenvalue with positive real part?"""
+        system = self.about.system
+        return system.momenta == len(system.variables) and grows(self.characteristic_of_all[::-1])
 
     @cached_property
     def characteristic_of_all(self) -> tuple[Number, ...]:

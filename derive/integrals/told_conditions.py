@@ -8,13 +8,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..language.show import in_sentence
 from ..language.tree import Tree, add, mul, neg
-from ..record.claims import text
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from ..walk.chapter import Chapter, Draft
-from ..walk.wording import say
 from .all_integrals import Condition, Conditions, Found
 from .lie_poisson import Algebra
 from .parameter_cases import Case
@@ -71,9 +68,11 @@ def solved_letter(algebra: Algebra, j: int, value: Any) -> tuple[Tree, Tree]:
     return name if name == "π" else ("par", name), algebra.number_tree(value)
 
 
-def case_tree(algebra: Algebra, case: Case) -> Tree:
-    """The equations of a case: letters, each with its value."""
-    return ("matrix", *(("row", *solved_letter(algebra, j, value)) for j, value in case.solved))
+def case_tree(algebra: Algebra, case: Case, *beside: Any) -> Tree:
+    """The equations of a case: letters, each with its value; and others ``beside``, that vanish."""
+    rows = [solved_letter(algebra, j, value) for j, value in case.solved]
+    rows += [(algebra.number_tree(algebra.field(f)), 0) for f in beside]
+    return ("matrix", *(("row", *x) for x in rows))
 
 
 def all_conditions(whole: Found, found: Conditions, draft: Draft) -> Prose:
@@ -83,16 +82,8 @@ def all_conditions(whole: Found, found: Conditions, draft: Draft) -> Prose:
     if cases:
         prose = draft.claim("first_integrals.further", degree=degree, conditions=("row", *cases))
     else:
-        prose = say("first_integrals.no_further", degree=str(degree))
+        prose = draft.claim("first_integrals.no_further", degree=degree)
     if not found.unsolved:
         return prose
-    places = "; ".join(
-        (f"{where}, " if (where := text(case_tree(algebra, case))) else "")
-        + f"{_polynomial(algebra, f)} = 0"
-        for case, f in found.unsolved
-    )
-    return prose + say("first_integrals.unsolved", conditions=places)
-
-
-def _polynomial(algebra: Algebra, f: Any) -> str:
-    return in_sentence(algebra.number_tree(algebra.field(f)))
+    unsolved = (case_tree(algebra, case, f) for case, f in found.unsolved)
+    return prose + draft.claim("first_integrals.unsolved", conditions=("row", *unsolved))

@@ -50,13 +50,44 @@ def _changes(values: Iterable[Any]) -> int:
     return sum(x != y for x, y in pairwise(signs))
 
 
+def grows(f: Sequence[Any]) -> bool:
+    """Has a polynomial a root with positive real part?
+
+    The roots that come with their opposites are those of the common divisor of f(x) and f(−x),
+    xᵃq(x²), where all must be imaginary or 0: q has real roots alone, and none is positive.  Of
+    the others Routh's scheme says whether all have negative real parts.
+    """
+    own = trimmed(f)
+    opposite = tuple((-1) ** k * x for k, x in enumerate(own))
+    both = common_divisor(own, opposite)
+    at_zero = next(k for k, x in enumerate(both) if x != 0)
+    squares = real_roots(both[at_zero::2])
+    return squares.negative < squares.distinct or not _routh(division(own, both)[0][::-1])
+
+
+def _routh(f: Coefficients) -> bool:
+    """Have all roots of a polynomial, given from the highest power, negative real parts?"""
+    first, second = [*f[::2]], [*f[1::2]]
+    while second:
+        if second[0] * f[0] <= 0:
+            return False
+        ratio, after = first[0] / second[0], [*second[1:], 0 * f[0]]
+        both = zip(first[1:], after, strict=False)
+        first, second = second, [x - ratio * y for x, y in both]
+    return True
+
+
 def square_free(f: Coefficients) -> Coefficients:
     """A polynomial without its multiple roots: divided by its common divisor with its
     derivative."""
-    a, b = f, derivative(f)
-    while any(b):
-        a, b = b, division(a, b)[1]
-    return division(f, a)[0]
+    return division(f, common_divisor(f, derivative(f)))[0]
+
+
+def common_divisor(f: Coefficients, g: Coefficients) -> Coefficients:
+    """The greatest common divisor of two polynomials."""
+    while any(g):
+        f, g = g, division(f, g)[1]
+    return f
 
 
 def derivative(f: Coefficients) -> Coefficients:

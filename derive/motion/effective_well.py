@@ -14,14 +14,19 @@ from ..language.tree import Tree, replaced
 from ..language.values import value
 from .run import Array
 
-SAMPLES = 201
-"""At so many places V is kept."""
+FIRST = 32
+"""In so many parts the window is cut before V is known to bend."""
+PIXEL = 5e-4
+"""The part of a picture's width, and of its height, by which what is drawn may be off."""
 
 EDGE = 1 - 1e-9
 """An entry of a rotation lies between −1 and 1, where V may have poles."""
 
 Bounds = tuple[float, float]
 ROTATION: Bounds = (-EDGE, EDGE)
+
+SHOWN = 2.0
+"""So many depths of the well a picture is high."""
 
 BEYOND, STEADY = 0.4, 0.05
 """So much of the well is shown on each side of it; and so far about a motion that stays where it
@@ -57,11 +62,8 @@ class OneDegree:
             low, high = float(at.min()), float(at.max())
             bounds = ROTATION if self.turns else beside(low, high)
             well = turning_points(lambda u: self._value(u, first), energy, low, high, bounds)
-            u = window(*well, bounds)
-            V = np.broadcast_to(self._value(u, first), u.shape)
+            u, V = curve(lambda u: self._value(u, first), energy, *window(*well, bounds))
         except (ArithmeticError, ValueError):
-            return {}
-        if not np.isfinite(V).all():
             return {}
         return {"entry": self.name, "u": u.tolist(), "V": V.tolist()}
 
@@ -108,8 +110,44 @@ def _end(
     return inside
 
 
-def window(low: float, high: float, bounds: Bounds = ROTATION) -> Array:
-    """Places from a little below a well to a little above it, (SAMPLES,)."""
+def window(low: float, high: float, bounds: Bounds = ROTATION) -> Bounds:
+    """From a little below a well to a little above it."""
     wide = high - low
     more = BEYOND * wide if wide > 1e-7 else STEADY
-    return np.linspace(max(bounds[0], low - more), min(bounds[1], high + more), SAMPLES)
+    return max(bounds[0], low - more), min(bounds[1], high + more)
+
+
+def curve(V: Callable[[Any], Any], energy: float, low: float, high: float) -> tuple[Array, Array]:
+    """Places and the values of V there, the nearer to one another the more it bends: intervals are
+    halved until the middle of the curve is within a pixel of the chord, or their ends are;
+    ``ArithmeticError`` where V has no value."""
+
+    def at(u: Array) -> Array:
+        found = np.array(np.broadcast_to(V(u), u.shape), float)
+        if not np.isfinite(found).all():
+            raise ArithmeticError
+        return found
+
+    u = np.linspace(low, high, FIRST + 1)
+    values = at(u)
+    left = np.arange(FIRST)  # the places where intervals begin that are to be halved
+    while left.size:
+        middles = (u[left] + u[left + 1]) / 2
+        found = at(middles)
+        least = float(values.min())
+        deep = (energy - least) or float(np.ptp(values)) or 1.0
+
+        def scaled(u: Array, V: Array, least: float = least, deep: float = deep) -> Array:
+            """Places in a picture of width and height 1; what is far above it ends there."""
+            return np.array([u / (high - low), np.minimum((V - least) / deep, SHOWN) / SHOWN])
+
+        start, end = scaled(u[left], values[left]), scaled(u[left + 1], values[left + 1])
+        chord, bent = end - start, scaled(middles, found) - start
+        long = np.hypot(*chord)
+        away = np.abs(chord[0] * bent[1] - chord[1] * bent[0]) / long
+        halved = (away > PIXEL) & (long > PIXEL)
+        places = np.searchsorted(u, middles)
+        u, values = np.insert(u, places, middles), np.insert(values, places, found)
+        new = np.searchsorted(u, middles[halved])
+        left = np.sort(np.concatenate([new - 1, new]))
+    return u, values

@@ -95,12 +95,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
         "unstable_beyond": (
             "The characteristic polynomial of the linearised rates, not on the leaf alone, has the "
-            "coefficients {coefficients}, from the highest power: by Sturm’s count of the roots, "
-            "some eigenvalue is positive. The equilibrium is unstable (Lyapunov).",
+            "coefficients {coefficients}, from the highest power: by Routh’s scheme some "
+            "eigenvalue has a positive real part. The equilibrium is unstable (Lyapunov).",
             "Le polynôme caractéristique des dérivées linéarisées, et pas seulement sur la "
             "feuille, a pour coefficients {coefficients}, depuis la plus haute puissance : selon "
-            "le décompte des racines par Sturm, une valeur propre est positive. L’équilibre est "
-            "instable (Lyapunov).",
+            "le schéma de Routh, une valeur propre est de partie réelle strictement positive. "
+            "L’équilibre est instable (Lyapunov).",
         ),
         "open": (
             "The characteristic polynomial of the linearised rates on the leaf has the "

@@ -20,14 +20,16 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Lie–Poisson sur le dual d’un produit semi-direct, de dimension {dimension}.",
         ),
         "weighted": (
-            "In what follows the other variables than momenta count as of degree {weight}.",
-            "Dans la suite, les variables autres que les moments comptent pour le degré {weight}.",
+            "In what follows degrees are weighted: the other variables than momenta count as of "
+            "degree {weight}.",
+            "Dans la suite, les degrés sont pondérés : les variables autres que les moments "
+            "comptent pour le degré {weight}.",
         ),
         "weights": (
-            "In what follows the degrees of the other variables than momenta are, in order, "
-            "{weights}.",
-            "Dans la suite, les degrés des variables autres que les moments sont, dans l’ordre, "
-            "{weights}.",
+            "In what follows degrees are weighted: those of the other variables than momenta are, "
+            "in order, {weights}.",
+            "Dans la suite, les degrés sont pondérés : ceux des variables autres que les moments "
+            "sont, dans l’ordre, {weights}.",
         ),
         "undriven": (
             "The inputs are left out: they vanish here.",
@@ -163,9 +165,9 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
         "unsolved": (
             "It is not decided whether there are where {conditions}: no parameter is of first "
-            "order there.",
+            "order there. That these cases are all is what the search says.",
             "Il n’est pas décidé s’il en existe là où {conditions} : aucun paramètre n’est là du "
-            "premier ordre.",
+            "premier ordre. Que ce soient tous les cas, c’est la recherche qui le dit.",
         ),
     },
     "level": {

@@ -5,10 +5,10 @@ from __future__ import annotations
 STEPS: dict[str, dict[str, tuple[str, str]]] = {
     "reduction": {
         "taken": (
-            "Symmetries of L̃ itself, without time, that commute: {count} of {listed}, taken in "
-            "turn where they commute with those taken before.",
-            "Symétries de L̃ lui-même, sans le temps, qui commutent : {count} sur {listed}, prises "
-            "l’une après l’autre quand elles commutent avec les précédentes.",
+            "The reduction is by symmetries of L̃ itself, without time, that commute; their number "
+            "is {count}.",
+            "La réduction se fait par des symétries de L̃ lui-même, sans le temps, qui commutent ; "
+            "leur nombre est {count}.",
         ),
         "momentum": (
             "A symmetry of L̃, {kind}, and its momentum, which the motion keeps. For every "

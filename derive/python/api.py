@@ -27,6 +27,7 @@ from ..schema.lagrangian_kinds import SECTIONS
 from ..schema.python_words import words
 from ..schema.table import Number, hint
 from . import quoted
+from .doubted import warned
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -164,7 +165,8 @@ def Problem(
     negative_stiffness: bool = False,
     initial: Mapping[str, Any] | None = None,
 ) -> mechanics.Problem:
-    """A problem from its tables; ``ProblemError`` says what is wrong.
+    """A problem from its tables; ``ProblemError`` says what is wrong, and a warning what may be
+    meant otherwise, as moments by default that no masses have.
 
     ``group``: or an algebra that moves no points, or a fluid, which has nothing else. ``body``:
     points, moments, solids; or a Lagrangian that no points give, with what an algebra carries
@@ -189,7 +191,8 @@ def Problem(
             data[table.key] = table.fields
         else:
             data.setdefault(table.key, []).append(table.fields)
-    return problem_of(data, negative_mass=negative_mass, negative_stiffness=negative_stiffness)
+    read = problem_of(data, negative_mass=negative_mass, negative_stiffness=negative_stiffness)
+    return warned(read)
 
 
 def _tables(parts: Any) -> list[Table]:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, overload
 from ..check.verdict import Verdict
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
+from .doubted import loaded
 from .keywords import in_keywords
 from .shown import Shown
 
@@ -112,26 +113,29 @@ class Derived:
         chosen = {"at_defaults": at_defaults, "conditions": conditions}
         return first_integrals(self.problem, degree, **chosen)
 
-    def equilibria(self, at: Mapping[str, Fraction | int | str] | None = None) -> Equilibria:
+    def equilibria(
+        self, at: Mapping[str, Fraction | int | str] | None = None, *, degree: int = 4
+    ) -> Equilibria:
         """The relative equilibrium with these coordinates, the others 0, as ``{"Pi_3": 2}`` or
         ``{"Pi_1": "sqrt(3)/2"}``, or those among some points; parameters have their defaults.
-        ``ValueError`` where it is none, or for what is no such number."""
+        ``degree``: of the integrals that are searched.  ``ValueError`` where it is none, or for
+        what is no such number."""
         from ..equilibria.equilibrium_points import number_from
         from ..pipeline import equilibria
         from .equilibria_found import Equilibria
 
         values = {x: number_from(str(v)) for x, v in (at or {}).items()}
-        return Equilibria(*equilibria(self.problem, values))
+        return Equilibria(*equilibria(self.problem, values, degree))
 
-    def equilibrium_near(self, at: Mapping[str, Fraction | int | str]) -> Near:
+    def equilibrium_near(self, at: Mapping[str, Fraction | int | str], *, degree: int = 4) -> Near:
         """The relative equilibrium near a point with these coordinates, on its level of the
-        Casimirs, enclosed; ``ValueError`` where none is."""
+        Casimirs up to a ``degree``, enclosed; ``ValueError`` where none is."""
         from ..equilibria.equilibrium_points import number_from
         from ..pipeline import equilibrium_near
         from .equilibria_found import Near
 
         values = {x: number_from(str(v)) for x, v in at.items()}
-        return Near(*equilibrium_near(self.problem, values))
+        return Near(*equilibrium_near(self.problem, values, degree))
 
     def symmetries(self) -> SymmetriesOf:
         """All symmetries of L̃ of a kind, and what the motion keeps by each; ``ProblemError`` where
@@ -315,8 +319,6 @@ def derive(problem: Problem | str | Path, *, discrete: bool = False) -> Derived:
     """The derivation of a problem, of a problem file, or of a ready-made problem; ``ProblemError``
     says in one line what is wrong.  ``discrete``: its motion in steps of time h, without inputs."""
     from .. import pipeline
-    from ..command.loading import load_problem
 
-    if not isinstance(problem, Problem):
-        problem = load_problem(str(problem))
+    problem = loaded(problem)
     return Derived(problem, pipeline.discrete(problem) if discrete else pipeline.walk(problem))

@@ -16,6 +16,7 @@ from ..language.suffixed import suffixed
 from ..language.tree import Tree
 from ..problem.problem import Problem
 from ..record.record import Derivation
+from .doubted import loaded
 
 
 @dataclass(frozen=True)
@@ -194,11 +195,9 @@ def first_integrals(
     is for generic values of them; ``conditions``: special values with more are found, too.
     ``ProblemError``, ``NotReducedError`` say what is wrong.
     """
-    from ..command.loading import load_problem
     from ..pipeline import integrals
 
-    if not isinstance(problem, Problem):
-        problem = load_problem(str(problem))
+    problem = loaded(problem)
     chosen = {"at_defaults": at_defaults, "conditions": conditions}
     return FirstIntegrals(*integrals(problem, degree, **chosen))
 

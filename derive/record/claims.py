@@ -23,12 +23,13 @@ KINDS = {
     "casimirs": "kept all all_large",
     "first_integrals": (
         "all all_large all_generic all_generic_large it it_and_casimirs these these_and_casimirs "
-        "dependent complete complete_by_one complete_by_energy undecided still unknown_rank further"
+        "dependent complete complete_by_one complete_by_energy undecided still unknown_rank "
+        "further no_further unsolved"
     ),
     "level": "multiple complete",
     "condition": "one several complete",
     "reduction": (
-        "flat curved isotropy divided quadrature elementary elliptic hyperelliptic "
+        "taken flat curved isotropy divided free quadrature elementary elliptic hyperelliptic "
         "elementary_squared elliptic_squared hyperelliptic_squared"
     ),
     "relation": "left_invariant",

@@ -5,17 +5,14 @@ from __future__ import annotations
 from itertools import groupby
 
 from ..problem.problem import ProblemError
-from ..record.sentence import Prose
 from ..symmetries.found import Found
 from ..symmetries.quantity_names import axis
 from ..symmetries.symmetry import Symmetry
 from ..symmetries.tree_matrices import full
-from ..walk.wording import say
 
 
-def chosen(found: Found) -> tuple[tuple[Symmetry, ...], Prose]:
-    """The symmetries that are taken, and what is said of the choice; ``ProblemError`` where there
-    is none.
+def chosen(found: Found) -> tuple[Symmetry, ...]:
+    """The symmetries that are taken; ``ProblemError`` where there is none.
 
     They are taken in turn, kind by kind, of several axes the last first; listed in their order.
     """
@@ -27,8 +24,7 @@ def chosen(found: Found) -> tuple[tuple[Symmetry, ...], Prose]:
         for k in sorted(group, key=lambda k: axis(found.symmetries[k]), reverse=True):
             if all({k, j} in found.commuting for j in taken):
                 taken.append(k)
-    prose = say("reduction.taken", count=str(len(taken)), listed=str(len(fit)))
-    return tuple(found.symmetries[k] for k in sorted(taken)), prose
+    return tuple(found.symmetries[k] for k in sorted(taken))
 
 
 def _fits(x: Symmetry) -> bool:

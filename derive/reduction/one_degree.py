@@ -12,11 +12,11 @@ def leaves_one(found: Found) -> bool:
     problem = found.problem
     assert problem.group is not None
     assert problem.lagrangian is not None
-    left = problem.group.dimension - len(problem.lagrangian.held) - len(chosen(found)[0])
+    left = problem.group.dimension - len(problem.lagrangian.held) - len(chosen(found))
     return left == 1
 
 
 def momenta_of(found: Found) -> tuple[str, ...]:
     """The names of 𝒥_1, 𝒥_2, … of the symmetries that a reduction takes."""
     names = dict(zip(map(id, found.symmetries), named(found), strict=True))
-    return tuple(names[id(x)] for x in chosen(found)[0])
+    return tuple(names[id(x)] for x in chosen(found))

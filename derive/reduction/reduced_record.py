@@ -33,13 +33,13 @@ def record_of(found: Found, general: Values) -> Reduction:
     there is nothing to reduce by."""
     problem, group = found.problem, found.problem.group
     assert group is not None
-    taken, prose = chosen(found)
+    taken = chosen(found)
     routhian = Routhian(found, taken)
     c = Chapter(problem.name, group.name)
     road: AnyLagrangian = general["lagrangian"]
     basis = of_element(problem, group, road, c)
     own = expressed.expressed(problem, group, road, basis, c)
-    last = told(routhian, prose, (*own.steps, basis.last), c)
+    last = told(routhian, (*own.steps, basis.last), c)
     steps = supposing_all(traced((*general["steps"], *basis.steps, *own.steps, *last)))
     data = problem_data(problem) | {"symmetries": [encode(x.displacement) for x in taken]}
     names = symbols(steps, problem, fields=len(taken))

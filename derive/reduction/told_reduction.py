@@ -8,7 +8,6 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import Tree, add, mul, neg, plain, terms
 from ..record.record import Equation, Step
-from ..record.sentence import Prose
 from ..symmetries.symmetry import Symmetry
 from ..walk.chapter import Chapter
 from ..walk.wording import phrase, say
@@ -29,14 +28,11 @@ def connection(i: int, xi: Tree) -> Tree:
     return ("call", ("at", "𝒜", i + 1), xi)
 
 
-def told(r: Routhian, chosen: Prose, made_from: Sequence[Step], c: Chapter) -> tuple[Step, ...]:
+def told(r: Routhian, made_from: Sequence[Step], c: Chapter) -> tuple[Step, ...]:
     """The steps of a reduction; ``made_from``: those of L̃, of its momenta, of its energy and of the
-    basis; ``chosen``: what is said of the symmetries that are taken."""
+    basis."""
     lagrangian, momenta, energy, basis = made_from
-    told_momenta = [
-        _momentum(x, i, r, (lagrangian, momenta), c, () if i else chosen)
-        for i, x in enumerate(r.chosen)
-    ]
+    told_momenta = [_momentum(x, i, r, (lagrangian, momenta), c) for i, x in enumerate(r.chosen)]
     pairs = [
         _commuting(i, j, r, (told_momenta[i], told_momenta[j]), c)
         for j, _ in enumerate(r.chosen)
@@ -58,9 +54,7 @@ def _fields(x: Symmetry, prime: str = "") -> list[Equation]:
     return [Equation(f"δ{prime}t", 0), Equation(f"δ{prime}A", x.displacement)]
 
 
-def _momentum(
-    x: Symmetry, i: int, r: Routhian, made_from: Iterable[Step], c: Chapter, chosen: Prose
-) -> Step:
+def _momentum(x: Symmetry, i: int, r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     """A symmetry, its momentum, and what dϖ has of its field: nothing on a level."""
     draft = c.draft(f"momentum_{i + 1}", "conservation")
     draft.depends_on(*made_from)
@@ -74,7 +68,8 @@ def _momentum(
         Equation(("call", "dϖ", *BOTH), neg(("call", "δ′", own))),
         Equation(("call", "d/dt", ON_FORM), 0),
     ]
-    prose = chosen + say("reduction.momentum", kind=phrase(f"symmetries.{x.kind}"))
+    prose = () if i else draft.claim("reduction.taken", count=len(r.chosen))
+    prose += say("reduction.momentum", kind=phrase(f"symmetries.{x.kind}"))
     return draft.step(equations, prose, where=field)
 
 
@@ -242,7 +237,7 @@ def _effective(r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
         kind = "isotropy" if r.singular_elsewhere and not r.leaves_none else "divided"
         trees = dict.fromkeys(_unsigned(r.functions.tree(x)) for x in r.conditions)
         prose += draft.claim(f"reduction.{kind}", conditions=("row", *trees))
-        prose += say("reduction.free") if r.leaves_none else ()
+        prose += draft.claim("reduction.free") if r.leaves_none else ()
     return draft.step(equations, prose)
 
 

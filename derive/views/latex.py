@@ -126,6 +126,9 @@ def fragment(
 WITHOUT_KEYS = r"\providecommand{\walkalso}[2]{}"
 """An empty definition of the one macro of a fragment that older preambles lack."""
 
+TOGETHER = 8
+"""Equations of so many lines, and one more, stay on one page."""
+
 ROOM = "0.4\\textheight"
 """The space that must be left on a page for a section and its figure to begin there."""
 
@@ -247,10 +250,13 @@ def _equations(
             label = rf"\label{{{anchor(here := next(listed))}}}"
             if here == step.label:
                 label += rf"\walkalso{{{anchor(step.keys[0])}}}{{{anchor(here)}}}"
-            rows += [*(rf"{row} \notag" for row in entry[:-1]), f"{entry[-1]} {label}"]
-        # no page breaks inside an equation
-        ends = (r" \\*" if row.endswith(r"\notag") else r" \\" for row in rows[:-1])
-        yield "\n".join([*map("".join, zip(rows, ends, strict=False)), rows[-1]])
+            shown = [rf"{row} \notag" for row in entry[:-1]]
+            # a page breaks inside a long equation alone, and leaves no line of it by itself
+            ends = [
+                r" \\" if 1 < k < len(shown) > TOGETHER else r" \\*" for k, _ in enumerate(shown, 1)
+            ]
+            rows += [*map("".join, zip(shown, ends, strict=True)), rf"{entry[-1]} {label} \\"]
+        yield "\n".join(rows).removesuffix(r" \\")
         yield r"\end{align}"
 
 

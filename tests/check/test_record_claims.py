@@ -16,7 +16,7 @@ from derive.check.claims.claim_checker import JUDGES, ClaimChecker
 from derive.check.claims.symmetry_count import SymmetryCount
 from derive.check.problem_group import group_of
 from derive.integrals import told
-from derive.language.tree import add
+from derive.language.tree import add, mul
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.prose import english
@@ -49,6 +49,7 @@ RECORDS = {
     "still": lambda: first_integrals(lagrangian(squares(1, 2), APART), 2).record,
     "a level": lambda: first_integrals(heavy("441", "m*A_31", "m"), 4).record,
     "conditions": lambda: first_integrals("euler_top", 2, conditions=True).record,
+    "unsolved": lambda: unsolved(),
     "a condition": lambda: first_integrals("top", 1, conditions=True).record,
     "quadrature": lambda: reduced("0"),
     "elliptic": lambda: reduced("A_33"),
@@ -74,6 +75,8 @@ EQUILIBRIA = ("equilibrium.", "enclosure.")
 OPEN = {"degree", "weight"}
 """What may be another number and stay true: a degree up to which there are no more, and by which
 variables count."""
+TOLD = {"first_integrals.further", "first_integrals.no_further"}
+"""Claims up to the degree that another one tells."""
 FALSE = {("first_integrals.complete_by_one", "number"): (1, 0)}
 """Numbers that make a claim false where another one does not: the energy of a ball is a Casimir."""
 MONOMIALS = 4
@@ -90,6 +93,12 @@ def scaled(potential):
     L = f"(zeta_1^2 + zeta_2^2)/2 - ({potential})"
     own = {"name": "own", "group": {"name": "Scaled", "basis": basis}, "parameters": {"b": {}}}
     return derive(problem_of({**own, "lagrangian": {"L": L}})).reduction().record
+
+
+def unsolved():
+    """The record of integrals on a condition that is of first order in no parameter."""
+    problem = heavy("123", "(k^2 - 2*q^2)*A_31", "k q")
+    return first_integrals(problem, 2, conditions=True).record
 
 
 def large(name, **how):
@@ -144,7 +153,9 @@ def changes(claim):
         others = [value[:-1], (*value, value[-1])] if several else [_more(value)]
         if head == "matrix":
             others += [(*value[:-1], (*value[-1][:-1], _more(value[-1][-1])))]
-        others = [] if name in OPEN else FALSE.get((claim.kind, name), others)
+        others = (
+            [] if name in OPEN and claim.kind not in TOLD else FALSE.get((claim.kind, name), others)
+        )
         for other in others:
             values = (*claim.values[:k], (name, other), *claim.values[k + 1 :])
             yield Claim(claim.kind, values)
@@ -244,6 +255,54 @@ def said_as(step, old, kind):
         for x in step.prose
     )
     return replace(step, prose=prose, claims=(new,))
+
+
+def test_symmetries_that_leave_a_configuration_are_not_free():
+    """Turns on both sides of the axis, an axis that is held."""
+    for name in ("elliptic", "spherical_pendulum"):
+        d = derive(name).reduction().record if name not in RECORDS else record(name)
+        step, free = d["effective"], Claim("reduction.free")
+        prose = (*step.prose, Sentence(english(free.kind)))
+        wrong = replace(step, prose=prose, claims=(*step.claims, free))
+        assert "reduction.free" in ClaimChecker(d, SEED).fault(wrong)
+
+
+def test_a_reduction_is_by_the_fields_of_its_problem():
+    d = record("elliptic")
+    step = d["momentum_1"]
+    fields = d.problem["symmetries"]
+    for listed in (fields[:1], [fields[0], fields[0]], fields[::-1]):
+        wrong = replace(d, problem={**d.problem, "symmetries": listed})
+        assert "reduction.taken" in ClaimChecker(wrong, SEED).fault(step)
+    left = tuple(x for x in d.steps if not x.label.endswith("momentum_1_and_2"))
+    assert "momentum_1_and_2" in ClaimChecker(replace(d, steps=left), SEED).fault(step)
+
+
+def test_a_condition_that_is_solved_is_not_undecided():
+    step = record("unsolved")["first_integrals"]
+    (old,) = (x for x in step.claims if x.kind == "first_integrals.unsolved")
+    for f in (("par", "k"), add(("par", "k"), ("par", "q")), 2):
+        case = ("row", ("matrix", ("row", f, 0)))
+        found = judged("unsolved", said(step, old, Claim(old.kind, (("conditions", case),))))
+        assert "of first order in a parameter, or in none" in found
+
+
+def test_symmetries_that_are_listed_are_independent():
+    """Neither one twice, nor a multiple of another."""
+    d = derive("lagrange_top").symmetries().record
+    summary = d["symmetries"]
+    for first, second in ((2, 3), (3, 2)):
+        one, two = (d[f"conserved_{k}"] for k in (first, second))
+        for other in (one.given, *multiples(one)):
+            same = replace(one, label=two.label, given=tuple(other))
+            wrong = replace(d, steps=tuple(same if x is two else x for x in d.steps))
+            assert "depend on one another" in ClaimChecker(wrong, SEED).fault(summary)
+
+
+def multiples(one):
+    """Twice the field of a symmetry, and its product with a root of a parameter."""
+    for factor in (2, ("fun", "sqrt", ("par", "I1"))):
+        yield [one.given[0], replace(one.given[1], rhs=mul(factor, one.given[1].rhs))]
 
 
 def test_whether_there_is_curvature_is_said():

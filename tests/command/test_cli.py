@@ -101,7 +101,14 @@ def test_check_a_problem_and_a_file(capsys, tmp_path):
     path = tmp_path / "so3.json"
     path.write_text(to_json(record("so3")), encoding="utf-8")
     assert main(["check", "linear", str(path)]) == 0
-    assert "steps hold exactly" in capsys.readouterr().out
+    *each, _, total = capsys.readouterr().out.splitlines()
+    counts = [re.search("([0-9]+) of ([0-9]+) steps hold exactly", x) for x in each]
+    steps = sum(int(x[2]) for x in counts if x)
+    assert total == f"records: 2; steps: {steps}; failed: 0"
+    assert main(["check", str(path), str(tmp_path / "none.json")]) == 2
+    assert capsys.readouterr().out.endswith("failed: 0; not checked: 1\n")
+    assert main(["check", str(path)]) == 0
+    assert "records" not in capsys.readouterr().out
 
 
 def test_check_fails_with_1(capsys, tmp_path):
@@ -153,6 +160,20 @@ def test_bad_prefixes(prefix, capsys, tmp_path):
             capsys, "emit", "so3", "--prefix", prefix, "--out", str(tmp_path)
         )
     assert os.listdir(tmp_path) == []
+
+
+def test_standard_output_by_its_name(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for words in (["walk", "so3"], ["emit", "so3", "--lang", "python"]):
+        assert main([*words, "--out", "-"]) == 0
+        assert "solid about a fixed point" in capsys.readouterr().out
+    assert "NAME.h, NAME.c" in refused(capsys, "emit", "so3", "--lang", "c", "--out", "-")
+    assert "one text" in refused(capsys, "emit", "so3", "--lang", "c", "--check", "--out", "-")
+    for words in (["simulate", "so3", "--t", "1"], ["notes", "so3"], ["plot", "a.npz"], ["build"]):
+        with pytest.raises(SystemExit):
+            main([*words, "--out", "-"])
+        assert "standard output, which takes one text" in capsys.readouterr().err
+    assert not [*tmp_path.iterdir()]
 
 
 def test_nothing_to_emit(capsys):

@@ -171,3 +171,12 @@ def test_a_leaf_of_lower_rank_is_said():
     """A free top at rest in space but for nothing: on so(3)* the origin is a leaf by itself."""
     found = derive(lagrangian("zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2")).equilibria({"Pi_1": 2})
     assert found[0].verdict == "stable"
+
+
+def test_the_degree_of_what_is_kept_is_an_option(capsys):
+    """The Casimir of a top is of degree 2: of degree 1 nothing is known but the energy."""
+    for degree, known in (("1", False), ("2", True)):
+        assert main(["equilibria", "euler_top", "--at", "Pi_3=1", "--degree", degree]) == 0
+        assert ("No multiples" not in capsys.readouterr().out) == known
+    weighted = derive("lagrange_top").equilibria({"A_33": 1}, degree=1).record
+    assert "degrees are weighted" in str(weighted["poisson"].prose)

@@ -204,7 +204,9 @@ def test_what_vanishes_for_no_real_parameters_is_none():
     assert point == {"k": "0", "q": "0"}
     found = conditions("123", "(k^2 - 2*q^2)*A_31", "k q", 2)
     assert not found.conditions
-    assert "It is not decided whether there are where k² − 2q² = 0" in " ".join(str(found).split())
+    assert "It is not decided whether there are where (1) k² − 2q² = 0" in " ".join(
+        str(found).split()
+    )
     none = conditions("123", "A_31 + k*A_32", "k", 2)
     assert "for special values" in str(none)
 

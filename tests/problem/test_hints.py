@@ -434,8 +434,13 @@ def test_impossible_moments_with_their_numbers(group, moments, told, tmp_path, c
     (first, c), (second, tensor) = moments.items()
     least = tensor[-1][-1] if tensor[0][0] > 0 else tensor[0][0]
     rows = [[("x" if x == least else float(x)) for x in row] for row in np.asarray(tensor)]
-    problem = Problem("b", group, Moments(m=2, **{first: c, second: rows}), parameters={"x": least})
+    with pytest.warns(UserWarning, match=IMPOSSIBLE) as warned:
+        problem = Problem(
+            "b", group, Moments(m=2, **{first: c, second: rows}), parameters={"x": least}
+        )
     (doubt,) = doubts(problem, {})
+    assert [str(x.message) for x in warned] == [f"b: {doubt}"]
+    assert warned[0].filename == __file__
     assert IMPOSSIBLE in doubt
     assert told in doubt
     assert not [*doubts(problem, {"x": 0.5})]

@@ -60,6 +60,16 @@ BOOSTS = ([[0, 0, 1], [0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 1, 0]])
 LORENTZ = {"name": "Lorentz", "basis": [TURN, *BOOSTS]}
 """Those of a plane and a time that runs forwards, which is not what a form tells."""
 
+SPIRAL = {
+    "name": "Spiral",
+    "basis": [
+        [[1, -2, 0], [2, 1, 0], [0, 0, 0]],
+        [[0, 0, 1], [0, 0, 0], [0, 0, 0]],
+        [[0, 0, 0], [0, 0, 1], [0, 0, 0]],
+    ],
+}
+"""Translations of a plane, and a turn that stretches."""
+
 LINES = {"name": "Lines", "basis": [unit(0, 0), unit(0, 1), unit(2, 2), unit(2, 3)]}
 
 
@@ -129,6 +139,7 @@ def every_equilibrium():
         derive(disc()).equilibria({"Pi_4": 1}),
         nilpotent().equilibria({"Pi_1": 1}),
         derive(lagrangian(squares(1, 1), LINE)).equilibria({"Pi_1": 1}),
+        *(derive(lagrangian(squares(1, 1, 1), SPIRAL)).equilibria({"Pi_1": x}) for x in (1, -1)),
         derive(heavy("132", "A_33/2", "")).equilibria(exact),
         derive("lagrange_top").equilibria({"A_33": -1}),
         derive("kirchhoff").equilibria({"Pi_1": 1}),

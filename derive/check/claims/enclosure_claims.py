@@ -10,11 +10,12 @@ rows.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from decimal import Context, Decimal, localcontext
 from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ...language.quadratic import value_of
+from ...language.quadratic import Number, value_of
 from ...language.tree import Tree
 from ...record.claims import Claim
 from ...record.record import RecordError, Step
@@ -24,6 +25,8 @@ from .equilibrium_claims import at_complex, coordinates, not_from, silent
 from .exact_spectra import characteristic, signature
 from .integral_claims import Judge
 from .reduced_system import ReducedSystem
+from .rounded_roots import DIGITS as PRECISION
+from .rounded_roots import Complex, all_roots, decimal, size
 
 Numbers = Sequence[Fraction]
 
@@ -97,7 +100,8 @@ def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """Each number λ is different, and near a root of the characteristic polynomial p of the rates
-    at the decimals: |p(λ)| ≤ |λp′(λ)|/500; but for those near 0, which are known less well."""
+    at the decimals: |p(λ)| ≤ |λp′(λ)|/500, and each root is near one; but for those near 0, which
+    are known less well."""
     centre = enclosed(system, step).centre
     at, told = {x: centre.get(x, Fraction(0)) for x in system.variables}, claim["eigenvalues"]
     p = characteristic([[x for x, _ in slopes(t, at, Fraction(0))] for t in system.rates])
@@ -107,12 +111,29 @@ def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
     if len({*numbers}) < len(numbers):
         return "one is told twice"
     for z in numbers:
-        size, value, change = (
+        squared, value, change = (
             re * re + im * im for re, im in (z, at_complex(p, z), at_complex(slope, z))
         )
-        if size > NEAR_0**2 and 500**2 * value > size * change:
+        if squared > NEAR_0**2 and 500**2 * value > squared * change:
             return "one is no eigenvalue"
-    return ""
+    return "" if _all_told(numbers, p) else "they are not all"
+
+
+def _all_told(told: Sequence[tuple[Fraction, Fraction]], p: Sequence[Number]) -> bool:
+    """Is each root of a polynomial near one of some numbers, their opposites or conjugates, all
+    that are near 0 taken for one?"""
+    with localcontext(Context(prec=PRECISION)):
+        numbers = [(decimal(re), decimal(im)) for re, im in told]
+
+        def away(z: Complex) -> Decimal:
+            parts = abs(z[0]), abs(z[1])
+            return min(size((parts[0] - re, parts[1] - im)) for re, im in numbers)
+
+        near, roots = decimal(NEAR_0), all_roots(p)
+        small = p[-1] == 0 or any(size(z) <= near for z in roots)
+        if small is not any(size(z) <= near for z in numbers):
+            return False
+        return all(500 * away(z) <= size(z) for z in roots if size(z) > near)
 
 
 # -- instability ----------------------------------------------------------------------------------

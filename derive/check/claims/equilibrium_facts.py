@@ -15,7 +15,7 @@ from ...language import rational as q
 from ...language.quadratic import Number
 from ...language.tree import Tree, nodes
 from ..entries_of_an_element import Decision, decided
-from .exact_spectra import characteristic, has_positive, real_and_not_positive, signature
+from .exact_spectra import characteristic, grows, real_and_not_positive, signature
 from .reduced_system import ReducedSystem
 from .second_order import SecondOrder, about, expansion
 
@@ -153,7 +153,7 @@ class Equilibrium:
                 return "on_the_leaf"
         elif self.grows:
             return "unstable"
-        if self.n == self.system.momenta and has_positive(self.characteristic_of_all):
+        if self.n == self.system.momenta and grows(self.characteristic_of_all):
             return "unstable_beyond"
         return "open" if self.dimension else "point"
 

@@ -94,10 +94,42 @@ def real_and_not_positive(f: Sequence[Number]) -> bool:
     return not signature(hermite(f, 1))[0]
 
 
-def has_positive(f: Sequence[Number]) -> bool:
-    """Is a root real and positive?"""
-    (more, fewer), (positive, negative) = (signature(hermite(f, k)) for k in (2, 1))
-    return more - fewer > negative - positive  # real ones but 0, and so many more negative ones
+def grows(f: Sequence[Number]) -> bool:
+    """Has a root a positive real part?
+
+    Hermite's form of the coefficients of (f(x)f(y) − f(−x)f(−y))/(x + y) has a negative square for
+    each such root, but for those whose opposites are roots: of these f(x) and f(−x) have the
+    divisor xᵃq(x²), and q has real roots alone, none positive, where all are imaginary or 0.
+    """
+    opposite = [(-1) ** k * x for k, x in enumerate(f)]
+    even = _monic_divisor(f, [opposite[0] * x for x in opposite])
+    while len(even) > 1 and not even[-1]:
+        even = even[:-1]
+    return not real_and_not_positive(even[::2]) or signature(_hermite_hurwitz(f))[1] > 0
+
+
+def _monic_divisor(f: Sequence[Number], g: Sequence[Number]) -> list[Number]:
+    """The greatest common divisor of two polynomials, from the highest coefficient, which is 1."""
+    f, g = [*f], [*g]
+    while g:
+        while len(f) >= len(g):
+            ratio = f[0] / g[0]
+            f = [x - ratio * y for x, y in zip(f, [*g, *[Fraction(0)] * len(f)], strict=False)][1:]
+        while f and not f[0]:
+            f = f[1:]
+        f, g = g, f
+    return [x / f[0] for x in f]
+
+
+def _hermite_hurwitz(f: Sequence[Number]) -> Matrix:
+    """The coefficients b_ij of xⁱyʲ, by (x + y) Σ b_ij xⁱyʲ."""
+    c, d = f[::-1], len(f) - 1
+    b: list[list[Number]] = [[Fraction(0)] * (d + 1) for _ in range(d)]
+    for i in range(d):
+        for j in range(d):
+            whole = c[i] * c[j + 1] * (1 - (-1) ** (i + j + 1))
+            b[i][j] = whole - (b[i - 1][j + 1] if i else 0)
+    return [row[:d] for row in b]
 
 
 def negative_or_zero(f: Sequence[Number]) -> bool:

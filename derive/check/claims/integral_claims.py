@@ -17,6 +17,7 @@ from .no_more import (
     degree,
     monomials,
 )
+from .rational_values import value
 from .reduced_system import Place, ReducedSystem, rates_of
 
 Judge = Callable[[ReducedSystem, Step, Claim], str]
@@ -211,11 +212,15 @@ def _complete_on_level(system: ReducedSystem, step: Step, claim: Claim) -> str:
     return _complete_there(system.place(level=_level_of(system, step)), step, claim)
 
 
-def _solved(t: Tree) -> list[tuple[Tree, Tree]]:
-    """The letters of a condition, each with its value in the others."""
+def _rows(t: Tree) -> tuple[Tree, ...]:
     if not isinstance(t, tuple) or t[0] != "matrix":
         raise RecordError("a condition is a matrix, its rows letters with their values")
-    pairs = [listed(x) for x in t[1:]]
+    return t[1:]
+
+
+def _solved(t: Tree) -> list[tuple[Tree, Tree]]:
+    """The letters of a condition, each with its value in the others."""
+    pairs = [listed(x) for x in _rows(t)]
     letters = {x[0] for x in pairs if len(x) == 2}
     if len(letters) < len(pairs) or letters & {x for _, y in pairs for x in nodes(y)}:
         raise RecordError("a condition gives letters their values in others")
@@ -246,12 +251,51 @@ def _further(system: ReducedSystem, step: Step, claim: Claim) -> str:
     own, most = weights(system), number(claim["degree"])
     degrees = dict(zip(system.variables, own, strict=True))
     cases = listed(claim["conditions"])
+    if not _same_degree(system, claim):
+        return "all integrals are told up to another degree"
     if len(cases) != len(system.conditions):
         return f"{len(system.conditions)} steps tell such polynomials"
     for case, there in zip(cases, system.conditions, strict=True):
         if _solved(case) != _condition_of(there) or _complement(system, there, degrees, most):
             return f"the step {there.label} has another condition, or nothing new up to the degree"
     return ""
+
+
+def _same_degree(system: ReducedSystem, claim: Claim) -> bool:
+    """Is the degree that up to which all integrals are told?"""
+    whole = (x for x in system.claims if x.kind.startswith("first_integrals.all"))
+    return [claim["degree"]] == [x["degree"] for x in whole]
+
+
+def _no_further(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    if system.conditions:
+        return f"{len(system.conditions)} steps tell such polynomials"
+    return "" if _same_degree(system, claim) else "all integrals are told up to another degree"
+
+
+def _unsolved(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """Each condition gives letters their values in others, and a polynomial, of first order in no
+    parameter, that vanishes."""
+    cases = listed(claim["conditions"])
+    for case in cases:
+        *solved, last = _rows(case)
+        _solved(("matrix", *solved))
+        f, zero = listed(last)
+        if zero != 0 or not _no_first_order(system, f):
+            return f"{show(f)} is of first order in a parameter, or in none"
+    return "" if cases and len({*cases}) == len(cases) else "they are none, or told twice"
+
+
+def _no_first_order(system: ReducedSystem, f: Tree) -> bool:
+    """Is a polynomial in parameters, and for none a first-order one?"""
+    p, random = system.prime, system.random
+    letters = [x for x in dict.fromkeys(nodes(f)) if x in system.parameters]
+    at = {x: random.randrange(1, p) for x in letters}
+    for x in letters:
+        first, second, third = (value(f, {**at, x: at[x] + k}, p) for k in range(3))
+        if first != second and (first - 2 * second + third) % p == 0:
+            return False
+    return bool(letters)
 
 
 def _complement(
@@ -292,6 +336,8 @@ JUDGES: dict[str, Judge] = {
     "first_integrals.still": _still,
     "first_integrals.unknown_rank": _unknown_rank,
     "first_integrals.further": _further,
+    "first_integrals.no_further": _no_further,
+    "first_integrals.unsolved": _unsolved,
     "level.multiple": _multiple,
     "level.complete": _complete_on_level,
     "condition.one": _under,

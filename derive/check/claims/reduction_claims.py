@@ -16,8 +16,13 @@ from ...language.tree import Tree, nodes, operands, terms
 from ...record.claims import Claim
 from ...record.formulas import stated
 from ...record.record import RecordError, Step
+from ...record.tree_data import decode
+from ..lagrangian.given_field import inverse
+from ..lagrangian.lagrangian_model import LagrangianModel
+from ..locus import Locus
 from ..necessary_hypotheses import denominators
 from ..residue import Residue, random_prime
+from ..trial_points import SIZE
 from .claimed_record import ClaimedRecord
 from .rational_values import value
 
@@ -239,6 +244,44 @@ def _determined(c: ClaimedRecord, stated: Sequence[Tree]) -> bool:
     return len(ratios) == 1
 
 
+# -- the symmetries -------------------------------------------------------------------------------
+
+
+def _taken(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+    """As many fields as are claimed, each with its momentum, and each two commute."""
+    fields = [decode(x, "problem, symmetries") for x in c.record.problem["symmetries"]]
+    if claim["count"] != len(fields):
+        return f"there are {len(fields)}"
+    wanted = {f"momentum_{k}": [x] for k, x in enumerate(fields, 1)}
+    wanted |= {
+        f"momentum_{j}_and_{k}": [fields[j - 1], fields[k - 1]]
+        for k, _ in enumerate(fields, 1)
+        for j in range(1, k)
+    }
+    for label, moved in wanted.items():
+        given = [e for s in c.record.steps if s.label.endswith(f".{label}") for e in s.given]
+        if [e.rhs for e in given if e.lhs in ("δA", "δ′A")] != moved:
+            return f"no step {label} is of these fields"
+    return ""
+
+
+def _free(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+    """Nothing is held, and all fields are Yg, or all gX, and independent: δA g⁻¹, or g⁻¹δA, is the
+    same at a random g and at g²."""
+    model = LagrangianModel(c.record.problem, c.group, c.random, SIZE, Locus())
+    if model.held:
+        return "coordinates are held"
+    elements = [(g, inverse(g)) for g in (model.g, q.times(model.g, model.g))]
+    moved = [[x.at(model, model.t, g)[1] for x in model.symmetries] for g, _ in elements]
+    pairs = [*zip(moved, elements, strict=True)]
+    right = [[q.times(x, back) for x in fields] for fields, (_, back) in pairs]
+    left = [[q.times(back, x) for x in fields] for fields, (_, back) in pairs]
+    if right[0] != right[1] and left[0] != left[1]:
+        return "the symmetries do not all act on one side"
+    rank = q.rank(tuple(map(q.flatten, moved[0])))
+    return "" if rank == len(model.symmetries) else "the fields depend on one another"
+
+
 def _entry(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """The coordinate is the one whose rate the equation gives."""
     rate = step.equations[0].lhs
@@ -256,6 +299,8 @@ def _left_invariant(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 
 
 JUDGES: dict[str, Judge] = {
+    "reduction.taken": _taken,
+    "reduction.free": _free,
     "reduction.flat": _curvature,
     "reduction.curved": _curvature,
     "reduction.isotropy": _conditions,

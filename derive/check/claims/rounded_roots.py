@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from decimal import Decimal
 
 from ...language.quadratic import Number, Quadratic
+from ...language.univariate import square_free
 
 DIGITS = 60
 """The digits of the arithmetic."""
@@ -17,6 +18,8 @@ STEPS = 200
 """The most steps of Weierstrass' method."""
 SMALL = Decimal("1e-30")
 """A step of this part of a root is none."""
+START = Decimal("0.4"), Decimal("0.9")
+"""Of which powers are the first numbers, where none are known near the roots."""
 LEAST = 4
 """Eigenvalues are told to so many digits at least."""
 FLOATS = Decimal("1e-12")
@@ -52,6 +55,17 @@ def roots_near(f: Sequence[Decimal], guesses: Sequence[Complex]) -> list[Complex
         if settled:
             return found
     raise ValueError("the roots are not found")
+
+
+def all_roots(f: Sequence[Number]) -> list[Complex]:
+    """The roots of a polynomial, given from the highest coefficient, that are not 0, each once."""
+    simple = [*square_free((*f[::-1],))]
+    while simple[0] == 0:
+        simple = simple[1:]
+    guesses = [(Decimal(1), Decimal(0))]
+    for _ in simple[1:]:
+        guesses.append(_product(guesses[-1], START))
+    return roots_near([decimal(x / simple[-1]) for x in simple[::-1]], guesses[1:])
 
 
 def size(z: Complex) -> Decimal:

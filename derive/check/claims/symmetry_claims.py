@@ -1,16 +1,18 @@
-"""The claims about the symmetries of a Lagrangian: how many there are, which functions in it were
-taken for any numbers."""
+"""The claims about the symmetries of a Lagrangian: how many there are, as many independent ones are
+listed, which functions in it were taken for any numbers."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable
 
+from ...language.tree import Tree, add, neg, terms
 from ...record.claims import Claim
-from ...record.record import Derivation, Step
-from .symmetry_count import SymmetryCount
+from ...record.record import Derivation, RecordError, Step
+from .symmetry_count import Listed, SymmetryCount
 
 Judge = Callable[[SymmetryCount, Derivation, Step, Claim], str]
+ON_FORM: Tree = ("call", "ϖ", "δy")
 LISTED = re.compile(r"\.conserved_[0-9]+$")
 
 
@@ -24,8 +26,20 @@ def _dimension(found: SymmetryCount, record: Derivation, step: Step, claim: Clai
         return "functions were taken for any numbers"
     if told != found.dimension:
         return f"the dimension is {found.dimension}"
-    listed = sum(bool(LISTED.search(x.label)) for x in record.steps)
-    return "" if told == listed else f"{listed} are listed"
+    listed = [_listed(x) for x in record.steps if LISTED.search(x.label)]
+    if told != len(listed):
+        return f"{len(listed)} are listed"
+    return "" if found.independent(listed) else "those that are listed depend on one another"
+
+
+def _listed(step: Step) -> Listed:
+    """The field of a step about a symmetry, and F, which is taken from ϖ of the field."""
+    field = {e.lhs: e.rhs for e in step.given}
+    forms = [terms(e.lhs) for e in step.equations if ON_FORM in terms(e.lhs)]
+    if {*field} != {"δt", "δA"} or len(forms) != 1:
+        raise RecordError(f"the step {step.label} lists no symmetry")
+    F = neg(add(*(x for x in forms[0] if x != ON_FORM)))
+    return Listed(field["δt"], field["δA"], F)
 
 
 def _open(found: SymmetryCount, record: Derivation, step: Step, claim: Claim) -> str:

@@ -11,20 +11,20 @@ with the same ⟨Π, η⟩ − τh̃ − F up to a constant are one symmetry, an
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations_with_replacement
 from math import prod
 from operator import mul
 from random import Random
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...algebra.exact_kernel import kernel, pivots
 from ...algebra.groups import Group
 from ...algebra.residue_vectors import Residues, ResidueSource, primes_from, residue_of
 from ...language import rational as q
-from ...language.tree import Tree, nodes
+from ...language.tree import Tree, nodes, operands
 from ...record.record import RecordError
 from ...record.tree_data import decode
 from ..residue import Residue
@@ -54,7 +54,7 @@ class SymmetryCount:
         self.left = given["trivialisation"] == "left"
         self.tree = decode(given["L"], "problem, L")
         seen = [*dict.fromkeys(nodes(self.tree))]
-        self.parameters: list[Tree] = [x for x in seen if x == "π" or _is(x, "par")]
+        self.parameters: list[Tree] = [x for x in seen if _is_parameter(x)]
         roots = sum(_is(x, "fun", "sqrt") and _of_state(x) for x in seen)
         self.true_roots = roots <= ROOTS
         self.oversampling = 2**roots if self.true_roots else 1
@@ -64,13 +64,33 @@ class SymmetryCount:
     @cached_property
     def dimension(self) -> int:
         """How many there are, for generic parameters."""
+        return self._modulo_a_prime(self._counted)
+
+    def independent(self, listed: Sequence[Listed]) -> bool:
+        """Is no combination of what the motion keeps by these symmetries constant, for generic
+        parameters?"""
+        return self._modulo_a_prime(lambda p: self._rank(listed, p)) == len(listed)
+
+    def _modulo_a_prime(self, found: Callable[[int], int]) -> int:
+        """What is found modulo a random prime with the roots that are needed."""
         for _ in range(TRIES):
             p = next(primes_from(self.random.randrange(2**30, 2**31) | 3))
             try:
-                return self._counted(p)
+                return found(p)
             except UnluckyError:
                 continue
         raise RecordError("no points are known at which the roots of the Lagrangian are numbers")
+
+    def _rank(self, listed: Sequence[Listed], p: int) -> int:
+        """The rank of ⟨Π, η⟩ − τh̃ − F modulo constants."""
+        seen = (x for field in listed for t in field for x in nodes(t))
+        letters = dict.fromkeys([*self.parameters, *(x for x in seen if _is_parameter(x))])
+        parameters = {x: self.random.randrange(1, p) for x in letters}
+        points = self._points(len(listed) + SPARE, parameters, p)
+        functions = Functions(ResidueSource(p, 1, self._seed()), roots=self.true_roots)
+        rows = [[x.kept_by(field, parameters, functions) for x in points] for field in listed]
+        one = [1] * len(points)
+        return len(pivots([one, *rows], len(one), p)) - 1
 
     def _counted(self, p: int) -> int:
         """The dimension modulo a prime."""
@@ -151,6 +171,14 @@ class SymmetryCount:
         return [*map(at_point, valid)]
 
 
+class Listed(NamedTuple):
+    """A symmetry as a record lists it: δt = τ, δA, and F."""
+
+    time: Tree
+    displacement: Tree
+    F: Tree
+
+
 @dataclass(frozen=True)
 class Point:
     """A point modulo p: g, g⁻¹, the values of t, the entries of g and ζ, the slopes of L̃ by these,
@@ -226,8 +254,57 @@ class Point:
         t, p = self.leaves[0], self.p
         still = [self.paired(self.carried(field)) for field in fields]
         minus_f = (-prod(self.leaves[k] for k in m) % p for m in self.of.monomials)
-        energy = self.paired(self.Z) - self.value
-        return [*minus_f, *(t * x % p for x in still), *still, -energy % p]
+        return [*minus_f, *(t * x % p for x in still), *still, -self.energy % p]
+
+    @property
+    def energy(self) -> int:
+        """h̃."""
+        return self.paired(self.Z) - self.value
+
+    def kept_by(self, listed: Listed, parameters: Mapping[Tree, int], functions: Functions) -> int:
+        """⟨Π, η⟩ − τh̃ − F for a field given by trees."""
+        at = {"t": self.leaves[0], **parameters}
+        at |= {
+            ("entry", "A", i, j): x for i, row in enumerate(self.g, 1) for j, x in enumerate(row, 1)
+        }
+
+        def scalar(t: Tree) -> int:
+            return int(value(t, at, self.p, functions))
+
+        moved = _matrix(listed.displacement, self.g, scalar, self.p)
+        eta = _times(*((self.back, moved) if self.of.left else (moved, self.back)), self.p)
+        rest = scalar(listed.time) * self.energy + scalar(listed.F)
+        return (self.paired(eta) - rest) % self.p
+
+
+def _matrix(t: Tree, g: Square, scalar: Callable[[Tree], int], p: int) -> Square:
+    """The value of δA, a sum of products of numbers, matrices and A."""
+    if t == "A":
+        return g
+    if t == 0:
+        return [[0 for _ in row] for row in g]
+    if not isinstance(t, tuple) or t[0] not in ("matrix", "add", "mul"):
+        raise RecordError("δA is no sum of products of matrices and A")
+    if t[0] == "matrix":
+        return [[scalar(x) for x in operands(row)] for row in operands(t)]
+    if t[0] == "add":
+        parts = [_matrix(x, g, scalar, p) for x in operands(t)]
+        return [
+            [sum(entries) % p for entries in zip(*rows, strict=True)]
+            for rows in zip(*parts, strict=True)
+        ]
+    found = [[int(i == j) for j, _ in enumerate(g)] for i, _ in enumerate(g)]
+    for x in operands(t):
+        if x == "A" or _is(x, "matrix") or _is(x, "add"):
+            found = _times(found, _matrix(x, g, scalar, p), p)
+        else:
+            factor = scalar(x)
+            found = [[factor * y % p for y in row] for row in found]
+    return found
+
+
+def _is_parameter(x: Tree) -> bool:
+    return x == "π" or _is(x, "par")
 
 
 def _is(x: Tree, *head: str) -> bool:
