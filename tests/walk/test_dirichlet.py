@@ -14,7 +14,6 @@ from derive import Harmonic, Problem, Solid, Spring
 from derive.check.checker import Checker
 from derive.problem.problem import ProblemError
 from tests.support.emitted import arrange, import_python
-from tests.support.record_mutations import tried
 from tests.support.walks import SEED
 
 FULL = np.array([[2.0, 0.5, 0.3], [0.5, 3.0, -0.2], [0.3, -0.2, 1.0]])
@@ -272,18 +271,6 @@ def test_other_keys():
         Problem("b", "SO(3)", Solid("ball", 1, radius=1), [Harmonic(np.eye(3).tolist())])
     with pytest.raises(ValueError, match="multiplier is for a group with one relation"):
         derive.derive("gl3").emit(multiplier=True)
-
-
-@pytest.mark.parametrize("problem", [ellipsoid(3, FULL), ellipsoid(2, FULL[:2, :2], WELL[:2, :2])])
-def test_every_corruption_is_refused(problem):
-    """Each sign, factor, term and bar of the steps of a fluid."""
-    record = derive.derive(problem).record
-    checker, told = Checker(record.problem, SEED), {"quadric", "pressure", "total", "circulation"}
-    for step in record.steps:
-        if step.label.split(".")[1] in told | {"no_rotation", "potential", "force"}:
-            for kind, wrong, verdict in tried(step, checker):
-                true = "N" in str(wrong.lhs) and wrong.rhs == 0  # without forces AN = 0, too
-                assert true or not verdict.holds, (kind, wrong)
 
 
 def test_a_star(tmp_path):
