@@ -199,3 +199,10 @@ def test_a_singular_metric_forces_nothing():
     checker, step = Checker(d.problem, SEED), d["explicit"]
     (group,) = checker.groups(step.scope)
     assert unforced_velocity(checker.point(group, step)[0])
+
+
+@pytest.mark.parametrize(("name", "held"), [("gyrostat", True), ("spherical_pendulum", False)])
+def test_a_degenerate_metric_is_seen(name, held):
+    """The pendulum's has no energy along a turn about itself."""
+    regular = Hypothesis("nondegenerate", ("call", "M̃", "ξ", "ξ′"), "𝔤")
+    assert told(name, f"{name}.coadjoint", hypotheses=(regular,)).holds == held
