@@ -31,7 +31,7 @@ from tests.support.walks import FLUIDS, SEED, record
 
 
 def checker(name):
-    return corpus.checker(f"ready {name}")
+    return corpus.checker(f"{'fluid' if name in FLUIDS else 'ready'} {name}")
 
 
 # -- fluids ---------------------------------------------------------------------------------------

@@ -6,10 +6,17 @@ import pytest
 
 from tests.support.corpus import record
 from tests.support.record_mutations import corruptions
-from tests.support.refusals import TABLE, givens, hypotheses, quantifiers
+from tests.support.refusals import (
+    TABLE,
+    givens,
+    hypotheses,
+    quantifiers,
+    symbols_listed,
+    uses_of_symbols,
+)
 
 pytestmark = pytest.mark.no_cover
-SHARES = {hypotheses: 2, givens: 2, quantifiers: 1}
+SHARES = {hypotheses: 2, givens: 2, quantifiers: 1, uses_of_symbols: 1, symbols_listed: 2}
 """Of how many cases each has its share of the changes of a record: of others, of ten."""
 
 

@@ -252,12 +252,17 @@ def walked(made):
     return {x: lambda make=make: walk(make()) for x, make in made.items()}
 
 
+STARS = ("riemann_ellipsoid",)
+"""Under their own gravity."""
 READ = {x: text for x, text in PROBLEMS.items() if x not in READY} | {"some damped": DAMPED}
 READ |= {f"solids on {x}": SOLIDS.replace("GROUP", x) for x in SOLIDS_ON}
 ROADS = {
-    "ready": {x: partial(ready_made_record, x) for x in READY} | {"well": in_a_field},
+    "ready": {x: partial(ready_made_record, x) for x in READY if x not in (*FLUIDS, *STARS)},
+    "star": {x: partial(ready_made_record, x) for x in STARS},
+    "fluid": {x: partial(ready_made_record, x) for x in FLUIDS} | {"well": in_a_field},
     "moved": {x: partial(twin, x) for x in TWINS},
-    "points": walked({x: partial(read, text) for x, text in READ.items()})
+    "forces": walked({x: partial(read, y) for x, y in READ.items() if x.endswith("forces")}),
+    "points": walked({x: partial(read, y) for x, y in READ.items() if not x.endswith("forces")})
     | walked({f"many on {x}": make for x, make in LARGE.items()}),
     "signed": walked({x: partial(of_masses, *y, negative_mass=True) for x, y in SIGNED.items()}),
     "ellipsoid": walked(ELLIPSOIDS),

@@ -29,7 +29,7 @@ from derive.record.vocabulary import VOCABULARY
 from derive.reduction import reduced_record
 from derive.symmetries import steps as of_symmetries
 from tests.support import record_forgeries, record_mutations
-from tests.support.corpus import DRIVEN_ON, READY, checker, record
+from tests.support.corpus import DRIVEN_ON, READY, STARS, checker, record
 from tests.support.record_mutations import TWINS
 from tests.support.walks import FLUIDS, SEED
 
@@ -386,7 +386,11 @@ SUPPOSING += ("signed SL(2)", "signed SAff(2)")
 SPECIAL = ("ready so3", "ready se3", "ready sl3")
 TABLE = {
     equations: (
-        *(f"ready {x}" for x in READY if x not in (*TWINS, "hung_bar")),  # it is in a plane
+        *(
+            f"ready {x}" for x in READY if x not in (*TWINS, *FLUIDS, *STARS, "hung_bar")
+        ),  # in a plane
+        *(f"fluid {x}" for x in FLUIDS),
+        *(f"star {x}" for x in STARS),
         *(f"moved {x}" for x in TWINS),
         *(f"discrete {x}" for x in ("so3", "se3", "sl3", "gl3", "saff3", *DRIVEN_ON)),
         *(f"ellipsoid {x}" for x in ("in space", "in a plane", "in layers", "turned")),
@@ -396,7 +400,7 @@ TABLE = {
     ),
     heads: ("ready so3", "ready affine", "ready screw"),
     headers: ("ready so3", "ready se3", "ready screw", "ready jelly"),
-    **dict.fromkeys((hypotheses, givens), (*SUPPOSING, *(f"ready {x}" for x in FLUIDS))),
+    **dict.fromkeys((hypotheses, givens), (*SUPPOSING, *(f"fluid {x}" for x in FLUIDS))),
     quantifiers: SUPPOSING,
     **dict.fromkeys((fields, left_out), ("ready so3", "ready sl3")),
     **dict.fromkeys((uses_of_symbols, symbols_listed), SPECIAL),

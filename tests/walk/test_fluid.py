@@ -93,7 +93,7 @@ WELL = {"name": "well", "fluid": {"forces": "potential"}}
 @cache
 def of(name):
     """The record of a ready-made problem, or of a homogeneous fluid in a field of force."""
-    return corpus.record(f"ready {name}")
+    return corpus.record(f"fluid {name}")
 
 
 STRATIFIED = {"ρ": 1 + x**2 + y**2, "p": (x**2 + y**2) / 2 + (x**2 + y**2) ** 2 / 4}
@@ -282,7 +282,7 @@ FORCE_AT_WORK = {
 
 def test_where_the_density_is_the_same_the_pressure_alone_sees_a_force():
     """There f is orthogonal to all that it is paired with: what is changed and holds is of f."""
-    passed = {label for (label, *_), held in equations("ready well") if held()}
+    passed = {label for (label, *_), held in equations("fluid well") if held()}
     for label in passed:
         said = of("well")[label].equations
         assert any("f" in (*names_in(e.lhs), *names_in(e.rhs)) for e in said)

@@ -122,6 +122,8 @@ def told(group, forces):
     step = next(s for s in derived.record.steps if s.label == "b.conserved")
     laws = [str(e.lhs) for e in step.equations if e.rhs == 0]
     turned, shifted = ([x for x in laws if rate in x] for rate in ("ℓ̇", "ṗ"))
+    across = "the momentum p across gravity" in english(step.prose)
+    assert across == any(x != "ṗ" for x in shifted)
     return (
         sum(3 if x == "ℓ̇" else 1 for x in turned),
         sum(3 if x == "ṗ" else 2 for x in shifted),
