@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from derive.check import checker
 from tests.support import thorough
+from tests.support.cached import DictOnDisk
 from tests.support.needs import left_out
 
 ALL = "DERIVE_ALL_TESTS"
@@ -59,6 +61,14 @@ def pytest_collection_modifyitems(config, items):
     if left := [x for x in items if x not in kept]:
         items[:] = [x for x in items if x in kept]
         config.hook.pytest_deselected(items=left)
+
+
+@pytest.fixture(autouse=True, scope="session")
+def known_of_any_group():
+    """What held for any group is tried once for these sources, not in each process again."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(checker, "_UNIVERSAL", DictOnDisk())
+        yield
 
 
 def pytest_sessionfinish(session):

@@ -12,7 +12,7 @@ from itertools import combinations_with_replacement, product
 
 import pytest
 
-from derive.check.checker import Checker, check, checker_of
+from derive.check.checker import Checker
 from derive.command.cli import main
 from derive.language.expression import parse
 from derive.language.show import show
@@ -26,12 +26,12 @@ from derive.record.json_writer import to_data
 from derive.record.mass_signs import SUPPOSED
 from derive.record.record import Equation
 from derive.record.rules import OFF_MOTION, RULES
+from tests.support import corpus
 from tests.support.walks import FLUIDS, SEED, record
 
 
-@cache
 def checker(name):
-    return checker_of(record(name).problem, SEED)
+    return corpus.checker(f"{'fluid' if name in FLUIDS else 'ready'} {name}")
 
 
 # -- fluids ---------------------------------------------------------------------------------------
@@ -121,18 +121,6 @@ SIZES = (7, 9)
 PLACE = ("add", "𝐦", "𝐧")
 
 
-@cache
-def vorticity(N):
-    algebra = {"of": "torus", "N": N}
-    problem = {"name": "fluid", "algebra": algebra, "inertia": {"operator": "laplacian"}}
-    return walk(problem_of(problem))
-
-
-@cache
-def of_torus(N):
-    return Checker(vorticity(N).problem, SEED)
-
-
 def squares(N):
     """‖𝐧‖² of the points of the lattice."""
     span = range(N // 2 + 1)
@@ -148,15 +136,15 @@ def only_where(n, square, N):
 def test_the_torus_wrong_at_some_points(N, square):
     """Every equation about any point, where ‖𝐧‖² is one number alone; of two points, of both."""
     tried = 0
-    for step in vorticity(N).steps:
+    for step in corpus.record(f"torus {N}").steps:
         for e in step.equations:
             letters = sorted({"𝐦", "𝐧"} & {*nodes(e.lhs)})
             if letters and step.scope != ANY_GROUP:
                 extra = ("call", "T", PLACE) if "𝐦" in letters else ("call", "ω̂", "𝐧")
                 where = (only_where(n, square, N) for n in letters)
                 wrong = Equation(e.lhs, ("add", e.rhs, mul(*where, extra)))
-                assert of_torus(N).check(replace(step, equations=(e,))).holds
-                found = of_torus(N).check(replace(step, equations=(wrong,)))
+                assert corpus.checker(f"torus {N}").check(replace(step, equations=(e,))).holds
+                found = corpus.checker(f"torus {N}").check(replace(step, equations=(wrong,)))
                 assert not found.holds
                 assert "the sides differ" in found.reason
                 tried += 1
@@ -242,12 +230,10 @@ def test_an_equation_of_motion_is_no_identity(name, rule):
     assert tried > 3
 
 
-def test_what_is_forged_is_true_before():
-    """The fluids' steps and the bodies hold with what is so."""
-    for name in FLUIDS:
-        assert checker(name).check(record(name)[f"{name}.boundary"]).holds
+def test_nothing_is_remarked_of_good_defaults():
     good = with_defaults(symbolic("SO(3)"), m=1.0, J_11=2.0)
-    assert all(v.holds and not v.note for v in check(good, SEED))
+    own = [s for s in good.steps if s.scope != ANY_GROUP]
+    assert all(v.holds and not v.note for v in map(Checker(good.problem, SEED).check, own))
 
 
 def test_what_defaults_do_not_meet_is_told_by_the_command(tmp_path, capsys):

@@ -4,7 +4,7 @@ import pytest
 import sympy
 
 from derive import SO, Lagrangian, Problem, ProblemError, derive, first_integrals
-from tests.support.lagrangians import LADDER, heavy, heisenberg, lagrangian, manakov
+from tests.support.lagrangians import LADDER, heavy, heisenberg, lagrangian, manakov, squares
 
 PI = sympy.symbols("Pi_1:4", real=True)
 GAMMA = sympy.symbols("A_31 A_32 A_33", real=True)
@@ -208,6 +208,18 @@ def test_entries_that_no_element_varies_are_no_variables():
     nut = first_integrals("screw")
     assert [str(x) for x in nut.x] == ["Pi_1", "A_34"]
     assert all(v.holds for x in (found, scaled, nut) for v in x.check(1))
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_the_rank_of_the_poisson_tensor(side):
+    """On se(3)* the Casimirs are |p|² and ⟨ℓ, p⟩; on so(5)* there are two, of degrees 2 and 4."""
+    found = first_integrals(lagrangian(squares(3, 5, 11, 13, 19, 29), "SE(3)", side=side), 2)
+    assert (len(found.casimirs), found.rank) == (2, 4)
+    short, whole = (
+        first_integrals(lagrangian(squares(*range(2, 12)), "SO(5)", side=side), n) for n in (3, 4)
+    )
+    assert (len(short.casimirs), short.found.proved.proved) == (1, False)
+    assert (len(whole.casimirs), whole.rank, whole.found.proved.proved) == (2, 8, True)
 
 
 def test_a_degree_of_halves():

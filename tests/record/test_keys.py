@@ -4,7 +4,6 @@ import json
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -12,12 +11,10 @@ from derive import derive
 from derive.check.checker import Checker
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
-from derive.record.record import RecordError, equation_key, step_of
+from derive.record.record import RecordError
 from derive.views.html import html
 from derive.views.latex import latex
 from tests.support.walks import SEED, SPECIAL, record
-
-ROOT = Path(__file__).parents[2]
 
 
 def keys(d):
@@ -54,15 +51,6 @@ def test_every_text_names_equations_by_their_keys(name):
     files = derive(name).emit()
     for end in ("c", "py"):
         assert named(rf"(?:/\*|#) ({own}):", files[f"{name}.{end}"]) <= keys(d)
-
-
-def test_a_key_is_made_in_one_place():
-    """And taken apart in one."""
-    assert step_of(equation_key("so3.kernel", 2)) == "so3.kernel"
-    made = r'(?:label|key)\}[#.]\{|(?:label|key) \+ "|partition\("#"\)'
-    there = [p for p in ROOT.glob("derive/**/*.py") if re.search(made, p.read_text("utf-8"))]
-    assert [p.name for p in there] == ["record.py"]
-    assert len(re.findall(made, there[0].read_text("utf-8"))) == 1
 
 
 def test_equations_that_are_the_same_have_keys_of_their_own():

@@ -13,25 +13,8 @@ from derive.record.record import RecordError
 from derive.reduction.reduced_record import shown
 from derive.views.rendering import FORMATS, render
 from tests.readers.read import PAGES, faults
-from tests.support.record_mutations import tried
-from tests.support.reduced import FILES, LONG, reduced
-from tests.support.walks import SEED, own_verdicts, repeated
-
-
-@pytest.mark.parametrize("name", FILES)
-def test_every_step_holds(name):
-    assert [v.reason for v in own_verdicts(reduced(name).record) if not v.holds] == []
-
-
-@pytest.mark.parametrize("name", repeated(LONG))
-def test_every_step_of_longer_ones_holds(name):
-    assert [v.reason for v in check(reduced(name).record, SEED) if not v.holds] == []
-
-
-@pytest.mark.parametrize("name", ["lagrange_top", "charged_body", "rod"])
-def test_a_record_is_read_back(name):
-    own = reduced(name).record
-    assert from_json(to_json(own)) == own
+from tests.support.reduced import reduced
+from tests.support.walks import SEED
 
 
 @pytest.mark.parametrize("kind", PAGES)
@@ -43,17 +26,6 @@ def test_every_page_says_what_its_record_says(name, kind):
 @pytest.mark.parametrize("form", FORMATS)
 def test_every_view_shows_it(form):
     assert "quadrature" in render(reduced("lagrange_top").record, form, "en")
-
-
-@pytest.mark.parametrize("name", repeated(["lagrange_top", "charged_body", "spatial"]))
-def test_every_corruption_is_refused(name):
-    own = reduced(name).record
-    checker, flat = Checker(own.problem, SEED), not any(reduced(name).routhian.curvature)
-    for step in shown(own):
-        if flat and step.label.endswith(".routh"):
-            continue  # there −d𝒜 is d𝒜, too
-        for kind, wrong, verdict in tried(step, checker):
-            assert not verdict.holds, (step.label, kind, wrong)
 
 
 def test_what_is_0_by_the_choice_of_horizontal_velocities_does_not_stand_in_the_routhian():

@@ -28,6 +28,18 @@ def folder() -> Path:
     return found
 
 
+def place(*names: str) -> Path:
+    """The file of what has these names."""
+    return folder() / sha256(repr(names).encode()).hexdigest()[:32]
+
+
+def write(path: Path, made: object) -> None:
+    """Into a file that other processes see whole or not at all."""
+    unfinished = path.with_suffix(f".{os.getpid()}")
+    unfinished.write_bytes(pickle.dumps(made))
+    unfinished.replace(path)
+
+
 def on_disk(make: Callable) -> Callable:
     """A function of names whose results are plain data: those of its file, of these sources."""
     own = sha256(Path(make.__code__.co_filename).read_bytes()).hexdigest()
@@ -35,14 +47,22 @@ def on_disk(make: Callable) -> Callable:
     @cache
     @wraps(make)
     def found(*names: str):
-        name = sha256(repr((own, make.__qualname__, names)).encode()).hexdigest()
-        path = folder() / name[:32]
-        if path.is_file():
-            return pickle.loads(path.read_bytes())
-        made = make(*names)
-        unfinished = path.with_suffix(f".{os.getpid()}")
-        unfinished.write_bytes(pickle.dumps(made))
-        unfinished.replace(path)
-        return made
+        path = place(own, make.__qualname__, *names)
+        if not path.is_file():
+            write(path, make(*names))
+        return pickle.loads(path.read_bytes())
 
     return found
+
+
+class DictOnDisk(dict):
+    """A dictionary from texts to plain data that all processes of these sources have in common."""
+
+    def get(self, key, default=None):
+        if key not in self and (path := place("entry", key)).is_file():
+            super().__setitem__(key, pickle.loads(path.read_bytes()))
+        return super().get(key, default)
+
+    def __setitem__(self, key, value):
+        super().__setitem__(key, value)
+        write(place("entry", key), value)

@@ -108,14 +108,6 @@ def headers(d):
             yield f"{key} of {symbol.name}", data
 
 
-def tried(step, checker):
-    """(kind, what, wrong equation, verdict) for every forgery of a step."""
-    for i, equation in enumerate(step.equations):
-        for kind, what, wrong in forged(equation):
-            equations = (*step.equations[:i], wrong, *step.equations[i + 1 :])
-            yield kind, what, wrong, checker.check(replace(step, equations=equations))
-
-
 def read_and_held(data):
     """Is a record read, and every step of it held?"""
     try:

@@ -68,11 +68,3 @@ def changes(t, side, path, equation):
             yield "term", without_term(k)
             yield "sign", lambda x, k=k: (*x[:k], neg(x[k]), *x[k + 1 :])
             yield "factor", lambda x, k=k: (*x[:k], mul(2, x[k]), *x[k + 1 :])
-
-
-def tried(step, checker):
-    """(kind, wrong equation, verdict of the checker) for every change of a step."""
-    for i, equation in enumerate(step.equations):
-        for kind, wrong in corruptions(equation):
-            equations = (*step.equations[:i], wrong, *step.equations[i + 1 :])
-            yield kind, wrong, checker.check(replace(step, equations=equations))

@@ -29,5 +29,11 @@ def table():
     return found
 
 
+def rows(found):
+    """The JSON of a table, a row on a line."""
+    shown = (f"{json.dumps(x)}: {json.dumps(row)}" for x, row in found.items())
+    return "{\n" + ",\n".join(shown) + "\n}\n"
+
+
 if __name__ == "__main__":
-    TABLE.write_text(json.dumps(table(), indent=1) + "\n", encoding="utf-8")
+    TABLE.write_text(rows(table()), encoding="utf-8")

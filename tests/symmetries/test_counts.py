@@ -116,6 +116,13 @@ def test_the_mass_is_the_cocycle_of_boosts_and_translations():
     ] * 3
 
 
+def test_so_it_is_of_what_relabels_a_body():
+    """On the right, where the fields are those of the body."""
+    result = found("spatial").found
+    central = [(result.symmetries[x.first].kind, show(x.number)) for x in result.central]
+    assert central == [("moving", "2")] * 3
+
+
 def test_a_magnetic_field_is_the_cocycle_of_translations():
     result = found("landau").found
     pairs = {(x.first, x.second): show(x.number) for x in result.central}

@@ -18,8 +18,8 @@ from derive.validate.exact_points import Claims
 from derive.validate.read_c import read_c
 from derive.validate.read_python import read_python
 from derive.validate.terms import CodeError
-from tests.check.test_discrete import DRIVEN
 from tests.support.code_mutations import mutants
+from tests.support.corpus import DRIVEN
 
 KINDS = {
     "so3": "step_force, step_guess, step_newton",

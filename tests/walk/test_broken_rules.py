@@ -6,11 +6,14 @@ import pytest
 
 from derive import pipeline
 from derive.algebra import calculus
+from derive.algebra.words import word
 from derive.command.loading import load_problem
-from derive.pipeline import walk
+from derive.pipeline import general_road, walk
 from derive.problem.problem import ProblemError
 from derive.walk import rotation, trivialisation
+from derive.walk.alphabet import Alphabet
 from derive.walk.failure import WalkError, naming_steps
+from derive.walk.restriction import restrict
 
 
 @pytest.fixture(autouse=True)
@@ -77,6 +80,15 @@ def test_what_is_wrong_with_a_problem_is_no_error_of_the_engine():
 @naming_steps()
 def failing(problem):
     raise ProblemError(problem.name)
+
+
+def test_a_momentum_that_moves_with_the_group_is_not_restricted_in_silence():
+    """Its variation would be lost: a gyroscopic term N̄A, say."""
+    a = Alphabet("n", affine=False)
+    form = general_road(affine=False)["momenta"].form
+    values = {a.Pi.momentum: word(a.N).bar * word(a.A.position), a.Pi.force: word(a.N_body)}
+    with pytest.raises(ValueError, match=r"Π has [AN], whose variation is not known"):
+        restrict(form, values, a)
 
 
 def told(name, where):

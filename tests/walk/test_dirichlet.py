@@ -14,7 +14,6 @@ from derive import Harmonic, Problem, Solid, Spring
 from derive.check.checker import Checker
 from derive.problem.problem import ProblemError
 from tests.support.emitted import arrange, import_python
-from tests.support.record_mutations import tried
 from tests.support.walks import SEED
 
 FULL = np.array([[2.0, 0.5, 0.3], [0.5, 3.0, -0.2], [0.3, -0.2, 1.0]])
@@ -193,7 +192,7 @@ def test_circulation_is_kept_without_springs(tmp_path):
 
 @pytest.mark.parametrize("forces", [[], [derive.SelfGravity(1)]], ids=["weight", "both"])
 def test_weight_does_not_change_the_circulation_of_a_centred_body(tmp_path, forces):
-    """As c = 0; about another point it does."""
+    """As c = 0."""
     forces = [*forces, derive.Gravity(0, 0, -5)]
     body = Solid("ellipsoid", "rho", quadric=FULL.tolist())
     heavy = Problem("heavy", "SL(3)", body, forces, parameters={"rho": RHO})
@@ -203,10 +202,12 @@ def test_weight_does_not_change_the_circulation_of_a_centred_body(tmp_path, forc
     m, k = emitted(heavy, tmp_path)
     kept = circulations(m, k, 3, [0, 0.3, 0.6])
     assert np.max(np.abs(kept - kept[0])) < 1e-9
-    if len(forces) == 1:
-        body = Solid("ellipsoid", "rho", semi_axes=[1, 2, 3], shift=[0, 0, 1])
-        hung = Problem("hung", "SL(3)", body, forces, parameters={"rho": RHO})
-        assert derive.derive(hung).record["hung.circulation"].rule == "solution"
+
+
+def test_weight_changes_the_circulation_of_a_body_that_hangs():
+    body = Solid("ellipsoid", "rho", semi_axes=[1, 2, 3], shift=[0, 0, 1])
+    hung = Problem("hung", "SL(3)", body, [derive.Gravity(0, 0, -5)], parameters={"rho": RHO})
+    assert derive.derive(hung).record["hung.circulation"].rule == "solution"
 
 
 def labels(problem):
@@ -272,18 +273,6 @@ def test_other_keys():
         Problem("b", "SO(3)", Solid("ball", 1, radius=1), [Harmonic(np.eye(3).tolist())])
     with pytest.raises(ValueError, match="multiplier is for a group with one relation"):
         derive.derive("gl3").emit(multiplier=True)
-
-
-@pytest.mark.parametrize("problem", [ellipsoid(3, FULL), ellipsoid(2, FULL[:2, :2], WELL[:2, :2])])
-def test_every_corruption_is_refused(problem):
-    """Each sign, factor, term and bar of the steps of a fluid."""
-    record = derive.derive(problem).record
-    checker, told = Checker(record.problem, SEED), {"quadric", "pressure", "total", "circulation"}
-    for step in record.steps:
-        if step.label.split(".")[1] in told | {"no_rotation", "potential", "force"}:
-            for kind, wrong, verdict in tried(step, checker):
-                true = "N" in str(wrong.lhs) and wrong.rhs == 0  # without forces AN = 0, too
-                assert true or not verdict.holds, (kind, wrong)
 
 
 def test_a_star(tmp_path):

@@ -13,7 +13,7 @@ import pytest
 from derive.language import rational as q
 from derive.pipeline import discrete
 from derive.problem.toml import problem_of
-from tests.check.test_discrete import DRIVEN
+from tests.support.corpus import DRIVEN
 from tests.support.discrete_maps import DiscreteMap
 from tests.support.walks import problem
 

@@ -93,13 +93,13 @@ def test_the_oracle_agrees_with_what_is_not_changed(survey):
             assert numbers(job, output.files[f"{job.data['name']}.py"]) == ""
 
 
-RULES = [
-    ("algebra/forms.py", "sign: delta_prime - delta  →  delta_prime + delta"),
-    ("algebra/words.py", "condition: not bar  →  bar"),
-    ("algebra/calculus.py", "term: total + term  →  total"),
-    ("walk/cartan.py", "transpose: covector.bar  →  covector"),
-    ("walk/multipliers.py", "factor: ('inv', x.name)  →  x.name"),
-    ("code/lower.py", "comparison: i == j  →  i != j"),
+RULES = [  # module, change, which of FIRST is tried
+    ("algebra/forms.py", "sign: delta_prime - delta  →  delta_prime + delta", 2),
+    ("algebra/words.py", "condition: not bar  →  bar", 2),
+    ("algebra/calculus.py", "term: total + term  →  total", 2),
+    ("walk/cartan.py", "transpose: covector.bar  →  covector", 1),
+    ("walk/multipliers.py", "factor: ('inv', x.name)  →  x.name", 2),
+    ("code/lower.py", "comparison: i == j  →  i != j", 3),
 ]
 
 
@@ -157,11 +157,11 @@ def test_what_was_judged_whole():
     assert {*kept} <= {*MODULES}
 
 
-@pytest.mark.parametrize(("module", "change"), RULES)
-def test_a_wrong_rule_is_caught(module, change, survey):
+@pytest.mark.parametrize(("module", "change", "job"), RULES)
+def test_a_wrong_rule_is_caught(module, change, job):
     """The structure equation, the transpose, the product rule, and others."""
     (one, *_) = [m for m in mutants(module, (ROOT / module).read_text()) if change in str(m)]
-    ((_, verdict),) = results([one], survey)
+    ((_, verdict),) = results([one], Survey([module], [FIRST[job]]))
     assert verdict.outcome in CAUGHT, verdict
 
 

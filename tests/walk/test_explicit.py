@@ -9,13 +9,12 @@ import pytest
 
 from derive.algebra.families import group
 from derive.algebra.told_entries import told_entries
-from derive.check.checker import Checker, check
 from derive.language.show import show
 from derive.language.tree import nodes
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from tests.support.record_mutations import tried
-from tests.support.walks import SEED, record, repeated
+from tests.support.corpus import record
+from tests.support.walks import record as ready
 
 TRANSLATIONS = """
 name = "shifted"
@@ -44,13 +43,6 @@ parameters = { m = 1.0, g = 9.81 }
 kind = "gravity"
 g = [0, 0, "-g"]
 """
-FREE = """
-name = "free"
-group = "SO(3)"
-[lagrangian]
-L = "zeta_1^2 + zeta_2^2 + zeta_3^2"
-trivialisation = "SIDE"
-"""
 
 
 def points(*places):
@@ -73,18 +65,14 @@ def walked(text):
     return walk(problem_of(tomllib.loads(text)))
 
 
-def holds(d):
-    return all(v.holds for v in check(d, 1))
-
-
 def test_a_nut_on_a_screw_falls_with_a_constant():
     """m(1 + h²) ζ̇ = −m g h for h = 1/10."""
-    assert told(record("screw")) == ["ζ̇₁ = −10/101 g"]
-    assert "affine functions of the time" in said(record("screw"))
+    assert told(ready("screw")) == ["ζ̇₁ = −10/101 g"]
+    assert "affine functions of the time" in said(ready("screw"))
 
 
 def test_a_spring_that_cannot_act():
-    d = record("su2")
+    d = ready("su2")
     assert told(d) == ["dŨ(Aξ′) = 0", "ζ̇₁ = 0", "ζ̇₂ = 0", "ζ̇₃ = 0"]
     assert "cannot act" in said(d)
     assert "g₀ exp(tZ)" in said(d)
@@ -92,28 +80,26 @@ def test_a_spring_that_cannot_act():
 
 @pytest.mark.parametrize(("side", "motion"), [("left", "g₀ exp(tZ)"), ("right", "exp(tZ) g₀")])
 def test_a_motion_by_a_one_parameter_group(side, motion):
-    d = walked(FREE.replace("SIDE", side))
+    d = record(f"lagrangian free {side}")
     assert told(d) == [f"ζ̇{x} = 0" for x in "₁₂₃"]
     assert motion in said(d)
-    assert holds(d)
 
 
 def test_springs_on_translations_are_linear():
     d = walked(TRANSLATIONS)
     assert told(d) == ["ζ̇₁ = 2k/m − k A₁₃/m", "ζ̇₂ = (3k − gm)/m − k A₂₃/m"]
     assert "linear" in said(d)
-    assert holds(d)
 
 
 @pytest.mark.parametrize("name", ["gyrostat", "heisenberg", "rod", "hammer", "charged_body"])
 def test_others_are_not_said_to_be(name):
-    assert "linear" not in said(record(name))
-    assert "constant" not in said(record(name))
+    assert "linear" not in said(ready(name))
+    assert "constant" not in said(ready(name))
 
 
 def test_the_top_has_m_g_l():
     """The centre of a cone on its apex is at three quarters of its height."""
-    d = record("top")
+    d = ready("top")
     shown = [show(e.rhs) for e in d["top.components"].equations]
     assert shown[0] == "3/4 m A₃₂ gh/I₁₁ + (I₁₁ − I₃₃)/I₁₁ ζ₂ ζ₃"
     assert shown[2] == "0"
@@ -122,7 +108,6 @@ def test_the_top_has_m_g_l():
 def test_a_body_without_a_first_moment_feels_no_gravity():
     d = walked(BALANCED + points((1, 0, 0), (0, 1, 1), (-1, -1, -1)))
     assert "cannot act" in said(d)
-    assert holds(d)
 
 
 PLACES = ((1, 0, 0), (0, 1, 1), (1, 0, 1))
@@ -131,7 +116,6 @@ PLACES = ((1, 0, 0), (0, 1, 1), (1, 0, 1))
 def test_a_solid_with_products_of_inertia_is_solved():
     """Beside Euler's equations in floating point, with the tensor from the points."""
     d = walked(BALANCED + points(*PLACES))
-    assert holds(d)
     random = np.random.default_rng(3)
     A, _ = np.linalg.qr(random.normal(size=(3, 3)))
     zeta, m, g = random.normal(size=3), 1.7, 9.81
@@ -162,27 +146,14 @@ def number(t, known):
 
 
 def test_what_is_long_is_left_out():
-    labels = {s.label for name in ("coupled", "two_tops", "so3", "se3") for s in record(name).steps}
+    labels = {s.label for name in ("coupled", "two_tops", "so3", "se3") for s in ready(name).steps}
     assert not any(x.endswith(".explicit") for x in labels)
 
 
 def test_no_answer_names_what_it_solves_for():
     for name in ("gyrostat", "heisenberg", "rod", "su2"):
-        for e in answer(record(name)).equations:
+        for e in answer(ready(name)).equations:
             assert "ζ̇" not in {x for x in nodes(e.rhs) if isinstance(x, str)}
-
-
-MUTATED = ("screw", "su2", "heisenberg", "so4", "gyrostat", "rod", "hammer", "ellipsoid")
-
-
-@pytest.mark.parametrize("name", repeated(MUTATED))
-def test_every_corruption_of_an_answer_is_refused(name):
-    d = record(name)
-    checker = Checker(d.problem, SEED)
-    for step in (s for s in d.steps if s.label.endswith((".explicit", ".kks", ".components"))):
-        found = [*tried(step, checker)]
-        assert found
-        assert [(kind, wrong) for kind, wrong, verdict in found if verdict.holds] == []
 
 
 @pytest.mark.parametrize("name", ["SO(2)", "SE(2)", "UT(3)", "SU(2)", "Sim(2)", "SO(3) x SE(2)"])

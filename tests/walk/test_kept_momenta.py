@@ -122,6 +122,8 @@ def told(group, forces):
     step = next(s for s in derived.record.steps if s.label == "b.conserved")
     laws = [str(e.lhs) for e in step.equations if e.rhs == 0]
     turned, shifted = ([x for x in laws if rate in x] for rate in ("ℓ̇", "ṗ"))
+    across = "the momentum p across gravity" in english(step.prose)
+    assert across == any(x != "ṗ" for x in shifted)
     return (
         sum(3 if x == "ℓ̇" else 1 for x in turned),
         sum(3 if x == "ṗ" else 2 for x in shifted),
@@ -182,6 +184,7 @@ def test_what_is_said_to_be_tried_was_tried(group, tried):
     text = english(said)
     assert re.findall("the (rotations|translations)[a-z ]* [(]all", text) == tried
     assert ("no displacement of space" in text) == (not tried)
+    assert "across gravity" not in text
     words = english(tuple(x for s in record.steps for x in s.prose))
     words += " ".join(str(x.meaning) for x in record.symbols)
     assert not re.search("is a product|its block|its factors", words)

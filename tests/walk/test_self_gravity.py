@@ -12,7 +12,6 @@ from scipy.integrate import solve_ivp
 
 import derive
 from derive import Problem, Solid, pipeline
-from derive.check.checker import Checker
 from derive.code.emit import emit
 from derive.problem.problem import ProblemError
 from derive.symmetries.scalar_lagrangian import Integrand
@@ -22,7 +21,6 @@ from tests.oracles import ellipsoids
 from tests.support.emitted import arrange, compile_c, import_python
 from tests.support.kinds import agrees
 from tests.support.needs import CC, need
-from tests.support.record_mutations import tried
 from tests.support.walks import SEED, problem, record
 
 NAME = "riemann_ellipsoid"
@@ -312,14 +310,6 @@ def test_the_jacobian_along_the_group_to_many_digits(axes, folder):
 # -- the record and what is refused --------------------------------------------------------------
 
 
-def test_every_change_of_its_step_is_refused():
-    checker = Checker(record(NAME).problem, SEED)
-    found = list(tried(record(NAME)[f"{NAME}.potential"], checker))
-    assert len(found) == 42
-    for kind, wrong, verdict in found:
-        assert not verdict.holds, (kind, wrong)
-
-
 def test_the_angular_momentum_is_said_to_be_kept():
     step = record(NAME)[f"{NAME}.conserved"]
     assert {"ḣ", "ℓ̇"} <= {e.lhs for e in step.equations}
@@ -387,31 +377,29 @@ def test_what_depends_on_the_place_of_the_integrand_is_refused():
         own.require_unused([0, ("mul", 2, ("par", "node"))])
 
 
-@pytest.mark.parametrize("end", ["c", "py"])
-def test_emitted_code_is_read_back_and_no_change_of_it_passes(end):
+ITEMS = {"c": "integrals.v[2]", "py": "integrals[2]"}
+CALLS = {"c": f"{NAME}_ellipsoid(I_1, I_2, I_3)", "py": "_ellipsoid(xp, I_1, I_2, I_3)"}
+CHANGES = {  # Ψ_0 is no case: on SL(3) the multiplier takes it up
+    "nothing": lambda end: ("", ""),
+    "another integral": lambda end: (ITEMS[end], ITEMS[end].replace("2", "3")),
+    "other arguments": lambda end: (CALLS[end], CALLS[end].replace("I_1, I_2", "I_2, I_1")),
+    "another loop": lambda end: ("ratio - 3", "ratio - 4"),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+@pytest.mark.parametrize("end", ITEMS)
+def test_emitted_code_is_read_back_and_no_change_of_it_passes(end, change):
     compiled = pipeline.program(problem(NAME), record(NAME))
     files = emit(compiled, record(NAME), ("c", "python"), NAME)
-    # Ψ_0 is no case: on SL(3) the multiplier takes it up
-    item, call = "integrals.v[2]", f"{NAME}_ellipsoid(I_1, I_2, I_3)"
-    if end == "py":
-        item, call = "integrals[2]", "_ellipsoid(xp, I_1, I_2, I_3)"
-    text = files[f"{NAME}.{end}"]
-
-    def report(changed):
-        given = EmittedFiles(
-            files | {f"{NAME}.{end}": changed}, NAME, Chart(), compiled.numbers(), fresh=files
-        )
-        return next(x for x in given.reports(record(NAME)) if f"{NAME}.{end}" in x.files)
-
-    assert report(text).holds
-    assert "not validated, for it is a loop: Carlson's duplication" in report(text).text
-    for old, new in (
-        (item, item.replace("2", "3")),
-        (call, call.replace("I_1, I_2", "I_2, I_1")),
-        ("ratio - 3", "ratio - 4"),
-    ):
-        assert old in text
-        assert not report(text.replace(old, new, 1)).holds, new
+    file, (old, new) = f"{NAME}.{end}", CHANGES[change](end)
+    assert old in files[file]
+    changed = files | {file: files[file].replace(old, new, 1)}
+    given = EmittedFiles(changed, NAME, Chart(), compiled.numbers(), fresh=files)
+    report = next(x for x in given.reports(record(NAME)) if file in x.files)
+    assert report.holds == (change == "nothing")
+    if change == "nothing":
+        assert "not validated, for it is a loop: Carlson's duplication" in report.text
 
 
 # -- the fluid of Dirichlet ------------------------------------------------------------------------
@@ -440,13 +428,3 @@ def test_eulers_equation_at_points_under_its_own_gravity(tmp_path):
         assert 1.7 * (moved + pull) == pytest.approx(2 * central * shape, abs=1e-10)
         turned.append(A.T @ A @ Z - Z.T @ A.T @ A)
     assert turned[1:] == pytest.approx(np.array([turned[0]] * 2), abs=1e-9)
-
-
-def test_the_circulation_is_said_to_be_kept():
-    """Whatever the semi-axes; each change of it, and of the steps of the pressure, is refused."""
-    assert record(NAME)[f"{NAME}.circulation"].equations[-1].rhs == 0
-    checker = Checker(record(NAME).problem, SEED)
-    for label in ("pressure", "total", "circulation"):
-        changes = list(tried(record(NAME)[f"{NAME}.{label}"], checker))
-        assert changes
-        assert [kind for kind, _, verdict in changes if verdict.holds] == []

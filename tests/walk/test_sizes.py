@@ -11,36 +11,8 @@ from derive.check.model import Model
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.language import rational as q
-from derive.pipeline import walk
-from derive.problem.toml import problem_of
 from derive.walk import solution
-from tests.support.walks import own_verdicts
-
-
-def points(n, count):
-    """Point tables with a parameter in every mass and some coordinates."""
-    names = {f"m{i}": {} for i in range(count)} | {f"x{i}": {} for i in range(count)}
-    tables = [
-        {"mass": f"m{i}^2" if i else "m0", "at": [f"x{i}", *((i - 1) ** j for j in range(1, n))]}
-        for i in range(count)
-    ]
-    return names, tables
-
-
-def problem(group, n, count, wrench=False):
-    parameters, tables = points(n, count)
-    parameters |= {"k": {}, "g": {}}
-    data = {
-        "name": "test",
-        "group": group,
-        "parameters": parameters,
-        "point": tables,
-        "potential": [{"kind": "gravity", "g": [0] * (n - 1) + ["-g"]}],
-    }
-    data["potential"].append({"kind": "spring", "between": [1, 2], "stiffness": "k/2"})
-    if wrench:
-        data["input"] = [{"name": "push", "kind": "covector"}]
-    return problem_of(data)
+from tests.support.corpus import LARGE, record
 
 
 def module(d, p):
@@ -50,25 +22,11 @@ def module(d, p):
     return space
 
 
-CASES = {
-    "SL(2)": problem("SL(2)", 2, 4),
-    "SL(3)": problem("SL(3)", 3, 5),
-    "SL(4)": problem("SL(4)", 4, 6),
-    "SO(3)": problem("SO(3)", 3, 4, wrench=True),
-    "SE(3)": problem("SE(3)", 3, 4, wrench=True),
-}
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_the_record_holds(name):
-    assert [v.reason for v in own_verdicts(walk(CASES[name])) if not v.holds] == []
-
-
 @pytest.mark.parametrize("seed", range(5))
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", LARGE)
 def test_code_against_points(name, seed):
-    p = CASES[name]
-    d, g = walk(p), p.group
+    p, d = LARGE[name](), record(f"points many on {name}")
+    g = p.group
     code = module(d, p)
     model = Model(d.problem, g, Random(seed), 2, Locus(driven=bool(p.inputs)))
     n = g.n

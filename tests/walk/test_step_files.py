@@ -26,20 +26,3 @@ def test_a_step_opens_with_its_formula(number, name):
     said, shown, *_ = head.split("\n\n")
     assert said.startswith(f"Step {number}.")
     assert {(e.lhs, e.rhs) for e in stated(shown)} <= {(e.lhs, e.rhs) for e in GENERAL}
-
-
-def builds(function):
-    """Does it write a step?"""
-    called = {getattr(x.func, "attr", "") for x in ast.walk(function) if isinstance(x, ast.Call)}
-    return bool(called & {"draft", "step"})
-
-
-@pytest.mark.parametrize("name", STEPS)
-def test_what_computes_it_stands_above_what_writes_steps(name):
-    functions = [x for x in parsed(name).body if isinstance(x, ast.FunctionDef)]
-    first, writer = functions[0], next(filter(builds, functions))
-    assert not builds(first)
-    assert first.end_lineno - first.lineno < 15
-    assert "=" in ast.get_docstring(first)
-    called = {getattr(x.func, "id", "") for x in ast.walk(writer) if isinstance(x, ast.Call)}
-    assert first.name in called

@@ -14,6 +14,7 @@ from tests.support.engine_mutations.engine import source
 from tests.support.engine_mutations.judge import Verdict
 from tests.support.engine_mutations.known import reason
 from tests.support.engine_mutations.operators import Mutant
+from tests.support.steps import rows as written
 
 FILE = Path(__file__).parent / "figures.json"
 
@@ -49,7 +50,7 @@ def save(module: str, found: Iterable[tuple[Mutant, Verdict]]) -> None:
         "outcomes": dict(sorted(Counter(v.outcome for _, v in own).items())),
         "told": sorted(filter(None, (remark(*x) for x in own))),
     }
-    FILE.write_text(json.dumps(dict(sorted(rows.items())), indent=1) + "\n", encoding="utf-8")
+    FILE.write_text(written(dict(sorted(rows.items()))), encoding="utf-8")
 
 
 def remark(m: Mutant, v: Verdict) -> str:

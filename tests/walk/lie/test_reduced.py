@@ -17,49 +17,14 @@ from derive.code.options import Options
 from derive.code.program import LoweringError
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
 from tests.oracles.euler_lagrange import acceleration
-from tests.support.walks import own_verdicts, problem, record
-
-
-def matrices(name):
-    """A basis of a known algebra, as the oracle has it: on (r, 1) where it is affine."""
-    found = group(name).stated
-    return np.array([[[float(x) for x in row] for row in e] for e in found.basis])
-
-
-def brackets(E):
-    """The rows of a table for these matrices, by least squares."""
-    flat = np.linalg.pinv(E.reshape(len(E), -1).T)
-    rows = []
-    for a in range(len(E)):
-        for b in range(a + 1, len(E)):
-            found = flat @ (E[a] @ E[b] - E[b] @ E[a]).reshape(-1)
-            rows += [[a + 1, b + 1, k + 1, round(x)] for k, x in enumerate(found) if abs(x) > 0.5]
-    return rows
-
-
-def square(d):
-    return " + ".join(f"{2 + k}*zeta_{k + 1}^2" for k in range(d)) + " + zeta_1*zeta_2"
-
-
-CASES = {  # group, the oracle's terms beside the square, by text and by jax
-    "heavy top": ("SO(3)", "left", "standard", "-3*x_3 + x_1*zeta_2"),
-    "on the right": ("SO(3)", "right", "standard", "-3*x_3 + x_1*zeta_2"),
-    "underwater": ("SE(3)", "left", "dual", "x_1^2 - x_2*x_4"),
-    "Heisenberg": ("UT(3)", "left", "standard", "x_1*x_2 + x_2*zeta_3"),
-    "Heisenberg on the right": ("UT(3)", "right", "dual", "sin(x_1)*zeta_1 + t*x_3"),
-    "plane": ("SL(2)", "right", "standard", "exp(x_1/3) + x_2^3"),
-    "displacements of the plane": ("SE(2)", "left", "standard", "x_1*x_2*zeta_3"),
-}
-BY_BRACKETS = {"heavy top": "adjoint", "Heisenberg": "coadjoint", "plane": "adjoint"}
-"""Given without matrices: the representation is then one that every algebra has."""
+from tests.support import advected, corpus
+from tests.support.walks import problem, record
 
 
 def oracle_representation(name, kind):
     """ρ(g) as a function of g by matrices alone, or of g and g⁻¹."""
-    E = matrices(name)
+    E = advected.matrices(name)
     flat = np.linalg.pinv(E.reshape(len(E), -1).T)
     if kind in ("standard", "dual"):
         return len(E[0]), lambda g: g if kind == "standard" else jnp.linalg.inv(g).T
@@ -71,38 +36,22 @@ def oracle_representation(name, kind):
     return len(E), adjoint if kind == "adjoint" else lambda g: jnp.linalg.inv(adjoint(g)).T
 
 
-def typed(case, kind, *, by_brackets):
-    name, side, _, terms = CASES[case]
-    E = matrices(name)
-    algebra = {"brackets": brackets(E), "dimension": len(E)} if by_brackets else {"of": name}
-    return {
-        "name": "test",
-        "algebra": algebra,
-        "advected": [{"name": "x", "representation": kind}],
-        "lagrangian": {"L": f"{square(len(E))} + {terms}", "trivialisation": side},
-        "input": [{"name": "u", "kind": "covector"}],
-    }
-
-
 def module(p, d):
     space = {}
     exec(compile(emit(assemble(d, p.group), d, ("python",), "test")["test.py"], "t", "exec"), space)
     return space
 
 
-LISTED = [(x, CASES[x][2], False) for x in CASES] + [(x, y, True) for x, y in BY_BRACKETS.items()]
+def record_of(*case):
+    return corpus.record(f"lagrangian {' '.join(map(str, case))}")
 
 
-@pytest.mark.parametrize(("case", "kind", "by_brackets"), LISTED)
-def test_holds_and_agrees(case, kind, by_brackets):
-    data = typed(case, kind, by_brackets=by_brackets)
-    p = problem_of(data)
-    d = walk(p)
-    assert from_json(to_json(d)) == d
-    assert [f"{v.label}: {v.reason}" for v in own_verdicts(d) if not v.holds] == []
-    found, (name, side, _, _) = module(p, d), CASES[case]
-    E, (m, rho) = matrices(name), oracle_representation(name, kind)
-    text, right = data["lagrangian"]["L"].replace("^", "**"), side == "right"
+@pytest.mark.parametrize(("case", "kind", "by_brackets"), advected.CASES)
+def test_the_code_agrees(case, kind, by_brackets):
+    p, d = advected.problem(case, kind, by_brackets), record_of(case, kind, by_brackets)
+    found, (name, side, *_) = module(p, d), advected.GIVEN[case]
+    E, (m, rho) = advected.matrices(name), oracle_representation(name, kind)
+    text, right = advected.lagrangian(case).replace("^", "**"), side == "right"
     rng = np.random.default_rng(5)
     functions = {x: getattr(jnp, x) for x in ("sin", "exp")}
     for _ in range(2):

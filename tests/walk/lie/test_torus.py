@@ -1,4 +1,4 @@
-"""Zeitlin's model: its steps hold modulo primes, every change of them is refused, and the files."""
+"""Zeitlin's model: the sums that its steps write out, what is false of them, and the files."""
 
 from dataclasses import replace
 from fractions import Fraction
@@ -15,34 +15,28 @@ from derive.command.cli import main
 from derive.language.read import read
 from derive.language.show import show
 from derive.language.tree import add, mul
-from derive.pipeline import walk
 from derive.problem.toml import ProblemError, problem_of
 from derive.record.contract import ANY_GROUP
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
 from derive.record.record import Equation
 from derive.walk.alphabet import Alphabet
 from derive.walk.lie import vorticity
 from derive.walk.lie.lattice import Unit
 from derive.walk.lie.lattice_forms import Coefficient, paired, traced
-from tests.support.record_mutations import tried
+from tests.support import corpus
 from tests.support.walks import SEED
 
 
-@cache
 def record(N):
-    algebra, inertia = {"of": "torus", "N": N}, {"operator": "laplacian"}
-    return walk(problem_of({"name": "fluid", "algebra": algebra, "inertia": inertia}))
+    return corpus.record(f"torus {N}")
+
+
+def checker(N):
+    return corpus.checker(f"torus {N}")
 
 
 @cache
 def own(N):
     return tuple(s for s in record(N).steps if s.scope != ANY_GROUP)
-
-
-@cache
-def checker(N):
-    return Checker(record(N).problem, SEED)
 
 
 def rates(N, values):
@@ -96,21 +90,6 @@ def test_larger_sums_are_not_written_out():
     assert "fluid.modes" not in {s.label for s in own(9)}
 
 
-@pytest.mark.parametrize("N", [3, 9, 13])
-def test_every_step_holds(N):
-    assert checker(N).symbols(record(N)).holds
-    for step in own(N):
-        verdict = checker(N).check(step)
-        assert verdict.holds, verdict
-        assert verdict.bound < 1e-30
-
-
-def test_the_whole_record_holds_and_is_read_back():
-    again = from_json(to_json(record(5)))
-    assert again.steps == record(5).steps
-    assert all(v.holds for v in check(again, SEED))
-
-
 def test_the_equations_are_those_of_any_size():
     summed = [s for s in own(3) if s.label != "fluid.modes"]
     for three, seven in zip(summed, own(7), strict=True):
@@ -122,15 +101,6 @@ def test_formulas_are_read_back():
     for step in (*own(3), *own(7)):
         for e in step.equations:
             assert [read(show(x)) for x in (e.lhs, e.rhs)] == [e.lhs, e.rhs]
-
-
-@pytest.mark.parametrize("k", range(len(own(3))))
-def test_every_change_is_refused(k):
-    found = list(tried(own(3)[k], checker(3)))
-    assert found
-    for kind, wrong, verdict in found:
-        assert not verdict.holds, (kind, wrong)
-        assert verdict.reason
 
 
 def changed(label, number, new):
