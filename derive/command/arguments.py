@@ -165,13 +165,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     about = "the discrete motion, a time step h apart"
     for one in (walk, made):
         one.add_argument("--discrete", action="store_true", help=about)
-    for one in (searched, steady):
-        about = (
-            "the highest degree of integrals that is searched, momenta being of degree 1, other "
-        )
-        about += "variables of what makes the energy homogeneous (default: 4)"
-        one.add_argument("--degree", type=degree, default=4, metavar="N", help=about)
-    add_search_options(searched)
+    add_search_options(searched, steady)
     about = "a coordinate of an equilibrium, as Pi_3=2 or sqrt(3)/2; repeated, others are 0"
     steady.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)
     about = "a coordinate near that of an equilibrium, which is enclosed; repeated, others are 0"
@@ -316,8 +310,13 @@ def degree(words: str) -> int:
     return number
 
 
-def add_search_options(searched: argparse.ArgumentParser) -> None:
-    """Add the options of ``integrals``: for which parameters."""
+def add_search_options(searched: argparse.ArgumentParser, steady: argparse.ArgumentParser) -> None:
+    """Add the options of searches, ``integrals`` and ``equilibria``: up to which degree; of the
+    first, for which parameters."""
+    about = "the highest degree of integrals that is searched, momenta being of degree 1, other "
+    about += "variables of what makes the energy homogeneous (default: 4)"
+    for one in (searched, steady):
+        one.add_argument("--degree", type=degree, default=4, metavar="N", help=about)
     about = "put the default values of parameters in their place (default: they stay letters)"
     searched.add_argument("--at-defaults", action="store_true", help=about)
     about = "also find the conditions on the parameters under which there are more integrals"
