@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 
 import derive
 from derive.code.emit import EmitError
-from tests.check.test_discrete import DRIVEN
 from tests.problems.line import FALLING
+from tests.support.corpus import DRIVEN
 from tests.support.emitted import import_python
 from tests.support.motions import emitted, follow
 from tests.support.needs import need
