@@ -188,7 +188,7 @@ KEPT = {
     "record/test_record.py::test_moments_that_are_not_those_of_the_solids_are_found": 1,
     "record/test_record.py::test_solids_and_points_together": 0,
     "record/test_record.py::test_the_tensor_of_solids_and_points_together": 0,
-    "record/test_refusals.py::test_none_is_held": 24,
+    "record/test_changed_records.py::test_none_is_held": 24,
     "record/test_uses.py::test_a_rule_misses_what_is_withdrawn": 0,
     "record/test_uses.py::test_an_emptied_list_is_refused_by_the_command": 1,
     "reduction/test_reduction_checked.py::test_other_fields_are_refused": 0,
