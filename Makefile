@@ -16,7 +16,7 @@ INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 # what Python has compiled is kept: each test that starts a process would compile the program again
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help derive test text coverage night thorough mutants dist docs playground site play notes pictures bench accuracy fuzz lint lock clean
+.PHONY: help derive test text rest coverage night thorough mutants dist docs playground site play notes pictures bench accuracy fuzz lint lock clean
 
 help:            ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1  \t/p' Makefile
@@ -29,12 +29,9 @@ test: $(STAMP)   ## lint, types, and the tests that take minutes
 	  { echo "make test: no C compiler on the path: install gcc or clang" >&2; exit 2; }
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/python $(if $(MEASURE),$(call MEASURED,test)) -m pytest $(ON) $(if $(SEED),--seed=$(SEED)) \
-	  $(if $(MEASURE),--passed=$(PASSED))
+	$(BIN)/python -m pytest $(ON) $(if $(SEED),--seed=$(SEED)) --passed=$(PASSED)
 
-# for continuous integration: coverage begins with what make test ran, and leaves that out
-PASSED := build/coverage/passed.json
-MEASURED = -m slipcover --branch --source derive --json --out build/coverage/$(1).json
+PASSED := build/passed.json
 ON := -n 2 --dist worksteal
 
 text: $(STAMP)   ## lint, sentences in both languages, links, layers: what is soon seen
@@ -44,15 +41,17 @@ text: $(STAMP)   ## lint, sentences in both languages, links, layers: what is so
 
 TEXT := tests/prose tests/project/test_docs.py tests/project/test_faults.py tests/project/test_layers.py \
   tests/record/test_keys.py tests/record/test_uses.py tests/views/test_language.py \
-  tests/views/test_claimed_formulas.py
+  tests/views/test_claimed_formulas.py tests/views/test_claims.py
 
-# what runs in processes of its own is not measured
+rest: $(ALL)     ## what make test has just left out here, and half of what it always leaves out
+	$(BIN)/python -m pytest --half $(ON) --without=$(PASSED)
+
+# branches that only those cases take which a quick run leaves out, and which are not measured, count as not taken
 coverage: $(ALL) ## more tests, and the lines and branches of derive/ that none runs; fails below 95 % of lines
-	@mkdir -p build/coverage
-	$(BIN)/python $(call MEASURED,more) -m pytest --half $(ON) $(if $(MEASURE),--without=$(PASSED))
-	$(BIN)/python -m tests.support.covered 95 92 $(if $(MEASURE),build/coverage/test.json) build/coverage/more.json
+	$(BIN)/python -m pytest --half $(ON) --cov --cov-report= --cov-report=json
+	$(BIN)/python -m tests.support.covered 95 92
 
-night: thorough mutants fuzz accuracy ## what continuous integration has no time for: hours
+night: coverage thorough mutants fuzz accuracy ## what continuous integration has no time for: hours
 
 thorough: $(ALL) ## all tests, an hour
 	$(BIN)/python -m pytest --thorough $(ON)

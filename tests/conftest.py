@@ -2,6 +2,7 @@
 
 import json
 import os
+import sys
 from pathlib import Path
 
 import pytest
@@ -49,11 +50,13 @@ def pytest_configure(config):
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config, items):
-    """Leave out what takes long, where nothing is named."""
+    """Leave out what takes long, where nothing is named; of all tests it is not measured."""
     wanted, kept = os.environ.get(ALL), {*items}
     if wanted != "named":
         _, left = thorough.split(items, config.getoption("--seed"))
-        _, left = {"thorough": ([], []), "half": thorough.half(left)}.get(wanted, ([], left))
+        more, left = {"thorough": (left, []), "half": thorough.half(left)}.get(wanted, ([], left))
+        for item in more:
+            item.add_marker("no_cover")
         kept -= {*left}
     if before := config.getoption("--without"):
         passed = {*json.loads(Path(before).read_text(encoding="utf-8"))}
@@ -79,6 +82,26 @@ def pytest_sessionfinish(session):
         passed = [x.nodeid for x in stats.get("passed", ()) if x.when == "call"]
         Path(path).parent.mkdir(parents=True, exist_ok=True)
         Path(path).write_text(json.dumps(passed), encoding="utf-8")
+
+
+@pytest.hookimpl(wrapper=True, trylast=True)
+def pytest_runtest_call(item):
+    """``no_cover`` in the processes of xdist too, where a second tracer of coverage waits.
+
+    For long tests that run again what others run: to measure them takes three times as long.  The
+    processes that they start are not measured either.
+    """
+    if item.get_closest_marker("no_cover") is None:
+        return (yield)
+    tracer = sys.gettrace()
+    sys.settrace(None)
+    measured = os.environ.pop("COVERAGE_PROCESS_CONFIG", None)
+    try:
+        return (yield)
+    finally:
+        sys.settrace(tracer)
+        if measured is not None:
+            os.environ["COVERAGE_PROCESS_CONFIG"] = measured
 
 
 @pytest.hookimpl(trylast=True)

@@ -162,11 +162,11 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "It is indefinite, which proves nothing. The characteristic polynomial q(λ²) of the "
             "linearised rates, enclosed, has a root λ with positive real part, as its coefficients "
             "have not the signs or do not satisfy Newton’s inequalities of a polynomial with "
-            "nonpositive real roots: the equilibrium is unstable (Lyapunov).",
+            "real roots that are negative or 0: the equilibrium is unstable (Lyapunov).",
             "Elle est indéfinie, ce qui ne prouve rien. Le polynôme caractéristique q(λ²) des "
             "dérivées linéarisées, encadré, a une racine λ de partie réelle strictement positive, "
             "car ses coefficients n’ont pas les signes, ou ne vérifient pas les inégalités de "
-            "Newton, d’un polynôme à racines réelles négatives ou nulles : l’équilibre est "
+            "Newton, d’un polynôme à racines réelles négatives ou égales à 0 : l’équilibre est "
             "instable (Lyapunov).",
         ),
         "open": (

@@ -1,13 +1,13 @@
-"""The coverage of derive/ that was measured: tests.support.covered LINES BRANCHES FILE ...
+"""The coverage of derive/ that was measured: python -m tests.support.covered LINES BRANCHES.
 
-Lists the lines and branches that no test runs in any of the runs whose figures are in the files of
-SlipCover; exit 1 when those that are run are fewer than so many percent.
+Lists the lines and branches that no test runs; exit 1 when they are fewer than so many percent.
 """
 
 import json
 import sys
-from collections import defaultdict
 from pathlib import Path
+
+FIGURES = Path("build/coverage/figures.json")
 
 
 def runs(lines):
@@ -21,44 +21,30 @@ def runs(lines):
     return " ".join(f"{a}-{b}" if b > a else f"{a}" for a, b in found)
 
 
-def together(measured):
-    """For each file what is run in one of the measured runs, and all that there is."""
-    run, every = defaultdict(set), defaultdict(set)
-    for name, found in (x for one in measured for x in one["files"].items()):
-        for kind in ("lines", "branches"):
-            executed = {*map(hashable, found[f"executed_{kind}"])}
-            run[name, kind] |= executed
-            every[name, kind] |= executed | {*map(hashable, found[f"missing_{kind}"])}
-    return run, every
-
-
-def hashable(place):
-    """A line, or a branch: from line, to line (0: the end of a function)."""
-    return tuple(place) if isinstance(place, list) else place
-
-
-def missing(run, every):
+def missing(files):
     """For each file its lines that no test runs, and the branches from lines that one does."""
-    for name in sorted({name for name, _ in every}):
-        lines = every[name, "lines"] - run[name, "lines"]
-        branches = sorted(every[name, "branches"] - run[name, "branches"])
-        jumps = " ".join(f"{a}→{b or 'exit'}" for a, b in branches if a not in lines)
-        if lines or jumps:
+    for name, found in sorted(files.items()):
+        lines = {*found["missing_lines"]}
+        branches = [(a, b) for a, b in found["missing_branches"] if a not in lines]
+        if lines or branches:
+            jumps = " ".join(f"{a}→{b if b > 0 else 'exit'}" for a, b in branches)
             yield f"{name}: {runs(sorted(lines))}{'  branches ' + jumps if jumps else ''}"
 
 
-def main(of_lines, of_branches, *paths):
+def main(of_lines, of_branches, path=FIGURES):
     """Print the figures; whether both are at least what is wanted."""
-    run, every = together([json.loads(Path(x).read_text(encoding="utf-8")) for x in paths])
-    print("Not run by any test:", *missing(run, every), sep="\n  ")
-    enough = True
-    for kind, wanted in (("lines", float(of_lines)), ("branches", float(of_branches))):
-        count = sum(len(x) for (_, of), x in run.items() if of == kind)
-        whole = sum(len(x) for (_, of), x in every.items() if of == kind)
-        print(f"{100 * count / whole:.2f} % of {whole} {kind}; at least {wanted:g} % are wanted")
-        enough &= 100 * count >= wanted * whole
-    return enough
+    measured = json.loads(path.read_text(encoding="utf-8"))
+    print("Not run by any test:", *missing(measured["files"]), sep="\n  ")
+    totals = measured["totals"]
+    lines = 100 * totals["covered_lines"] / totals["num_statements"]
+    branches = 100 * totals["covered_branches"] / totals["num_branches"]
+    print(
+        f"{lines:.2f} % of {totals['num_statements']} lines, "
+        f"{branches:.2f} % of {totals['num_branches']} branches; "
+        f"at least {of_lines:g} % and {of_branches:g} % are wanted"
+    )
+    return lines >= of_lines and branches >= of_branches
 
 
 if __name__ == "__main__":
-    sys.exit(not main(*sys.argv[1:]))
+    sys.exit(not main(*map(float, sys.argv[1:])))
