@@ -1,10 +1,8 @@
 """What the engine makes of a problem, made once for the tests of a room: its record, and, on the
 disk, its programs and what its motion keeps; all else is made of these."""
 
-import os
 import pickle
 import sys
-from hashlib import sha256
 
 import pytest
 
@@ -18,7 +16,7 @@ from derive.problem.problem import Problem
 from derive.record.json_writer import to_json
 from derive.record.record import Derivation
 from derive.walk.head import problem_data
-from tests.support.cached import folder
+from tests.support.cached import place, write
 
 RECORDS = {}
 """id → a record and its text, that no other record has its id."""
@@ -43,19 +41,15 @@ def once(make, *, on_disk):
 
     def found(*given, **chosen):
         told = repr((make.__name__, [*map(text, given)], sorted(chosen.items())))
-        key = sha256(told.encode()).hexdigest()[:32]
-        if key not in MADE:
-            path = folder() / key
+        path = place(told)
+        if path not in MADE:
             if on_disk and path.is_file():
-                MADE[key] = pickle.loads(path.read_bytes())
+                MADE[path] = pickle.loads(path.read_bytes())
             else:
-                MADE[key] = make(*given, **chosen)
+                MADE[path] = make(*given, **chosen)
                 if on_disk:
-                    path.parent.mkdir(parents=True, exist_ok=True)
-                    unfinished = path.with_suffix(f".{os.getpid()}")
-                    unfinished.write_bytes(pickle.dumps(MADE[key]))
-                    unfinished.replace(path)
-        return MADE[key]
+                    write(path, MADE[path])
+        return MADE[path]
 
     return found
 
