@@ -164,7 +164,7 @@ class Checker(TrialPoints):
         if step.rule == ENCLOSURE and (reason := self.enclosure_fault(step)):
             raise RefusedError(Verdict(step.label, False, reason, 1.0))
         self.refuse_hypotheses(step, groups, self.missing_hypothesis)
-        return self.checked_degree(bound + self.coincidence)
+        return self.checked_degree(bound + self.coincidence(step.scope))
 
     def enclosure_fault(self, step: Step) -> str:
         """Why a step encloses no critical point on a level of what motions keep; "" if it does."""

@@ -167,10 +167,11 @@ class TrialPoints:
             known[key] = claim_grade(equation, self.graded_point(g, step, equation)[1])
         return known[key]
 
-    @property
-    def coincidence(self) -> int:
+    def coincidence(self, scope: str) -> int:
         """The degree of two different arguments of elementary functions being equal by chance; of
-        what is compared at all points of a lattice."""
+        what is compared at all points of a lattice. About any group there are neither."""
+        if scope == ANY_GROUP:
+            return 0
         if "torus" in self.problem:
             return WEIGHTS
         largest = max((m.elementary.largest for m, _ in self._graded_points.values()), default=0)

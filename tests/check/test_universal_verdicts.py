@@ -9,6 +9,7 @@ from derive.check.checker import check
 from derive.check.verdict import Verdict
 from derive.record.contract import ANY_GROUP
 from derive.record.mass_signs import ANY_SIGN
+from tests.support import corpus
 from tests.support.walks import record
 
 
@@ -77,3 +78,13 @@ def test_of_masses_of_any_sign_it_is_tried_again(tried):
     supposing = {s.label for s in signed.steps if s.scope == ANY_GROUP and s.hypotheses}
     assert supposing
     assert supposing <= {*tried}
+
+
+def test_a_verdict_is_the_same_whichever_record_comes_first(monkeypatch):
+    """Its bound too: nothing is in it of what a problem alone has, such as a lattice."""
+    torus, other = corpus.record("torus 3"), corpus.record("lagrangian right")
+    monkeypatch.setattr(checker, "_UNIVERSAL", {})
+    alone = check(torus, seed=1)
+    monkeypatch.setattr(checker, "_UNIVERSAL", {})
+    check(other, seed=1)
+    assert check(torus, seed=1) == alone

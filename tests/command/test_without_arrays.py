@@ -2,6 +2,7 @@
 are the same, and what needs them says so in a line."""
 
 import json
+import os
 import re
 import subprocess
 import sys
@@ -45,6 +46,7 @@ def without(*commands, code=0, folder=None, hidden="numpy sympy"):
     done = subprocess.run(
         [sys.executable, "-c", WITHOUT, hidden, ";".join(commands)],
         cwd=folder,
+        env=dict(os.environ),  # without the COLUMNS that readline puts beside it
         capture_output=True,
         encoding="utf-8",
     )

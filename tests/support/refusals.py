@@ -75,6 +75,7 @@ TRUE = {
     "ready manakov": ("momenta",),
     "ready pendulum": ("exterior", "coadjoint", "kernel", "rigid", "poisson_tensor"),
     "ready rod": ("coadjoint", "null", "mass"),
+    "star riemann_ellipsoid": ("integrals", "body"),
     "ready screw": ("exterior", "contraction", "kernel", "mass", "poisson_tensor"),
     "ready spherical_pendulum": ("coadjoint", "null", "mass"),
     "moved su2": ("kernel", "poisson_tensor"),
