@@ -272,10 +272,13 @@ def test_where_an_integral_is_shown_is_told(capsys):
     assert [x.partition(":")[0] for x in lines] == ["  integral_1"]
 
 
-def test_what_is_amiss_is_told(capsys):
-    err = told(capsys, "jelly", "--t", "1")[2]
-    assert "nothing moves" in err
-    assert "note: jelly: damping changes the energy at the rate −Σ κ |v|², and no momentum" in err
+def test_what_is_amiss_is_told(capsys, tmp_path):
+    assert "nothing moves" in told(capsys, "jelly", "--t", "1")[2]
+    file = tmp_path / "own.toml"
+    points = "".join(f"[[point]]\nmass = 1\nat = {x}\n" for x in ([1, 0, 0], [0, 1, 0], [0, 0, 1]))
+    file.write_text(f'name = "own"\ngroup = "SO(3)"\n{points}[[damping]]\ncoefficient = 1\n')
+    err = told(capsys, str(file), "--t", "1")[2]
+    assert "note: own: damping changes the energy at the rate −Σ κ |v|², and no momentum" in err
     turning = [
         x for name in ("zeta_1=0", "zeta_5=0", "zeta_2=1", "zeta_4=-1") for x in ("--set", name)
     ]
