@@ -6,7 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.tree import Tree, add, mul, neg, plain, terms
+from ..language.tree import Tree, add, mul, neg, nodes, plain, terms
+from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..symmetries.symmetry import Symmetry
 from ..walk.chapter import Chapter
@@ -297,7 +298,16 @@ def _quadrature(r: Routhian, made_from: Iterable[Step], c: Chapter) -> tuple[Ste
         if found.left < found.degree:
             kind, degrees = f"{kind}_squared", degrees | {"left": found.left}
         prose += draft.claim(f"reduction.{kind}", **degrees)
-    return (draft.step([Equation(("pow", rate, 2), whole)], prose),)
+    letters = (("h̃",) if x is None else map(momentum, x) for x in found.leading)
+    pairs = zip(found.leading.values(), letters, strict=True)
+    leading = add(*(r.tree(x, *y) for x, y in pairs))
+    supposed = [Hypothesis("nonzero", leading)] if any(map(_open, nodes(leading))) else []
+    return (draft.step([Equation(("pow", rate, 2), whole)], prose, hypotheses=supposed),)
+
+
+def _open(t: Tree) -> bool:
+    """Is it a number that may be 0: a parameter, a momentum, the energy?"""
+    return t == "h̃" or (isinstance(t, tuple) and t[0] in ("par", "at"))
 
 
 def _integral(degree: int) -> str:
