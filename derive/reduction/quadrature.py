@@ -7,13 +7,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import reduce
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..language.tree import Tree
+from .routhian import Routhian
 from .state_functions import Element, entries_in
-
-if TYPE_CHECKING:
-    from .routhian import Routhian
 
 Vector = list[Element]
 
