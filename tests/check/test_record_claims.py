@@ -286,6 +286,23 @@ def test_a_reduction_is_by_the_fields_of_its_problem():
     assert "momentum_1_and_2" in ClaimChecker(replace(d, steps=left), SEED).fault(step)
 
 
+@pytest.mark.parametrize("left_out", [0, 1])
+def test_no_condition_is_left_out(left_out):
+    """Of a top's, I = J and without weight: at some numbers more is found."""
+    d = first_integrals(heavy(("I", "J", "K"), "m*A_33", "I J K m"), 2, conditions=True).record
+    step = d["first_integrals"]
+    (old,) = (x for x in step.claims if x.kind == "first_integrals.further")
+    cases = old["conditions"][1:]
+    assert not ClaimChecker(d, SEED).fault(step)
+    kept = tuple(x for x in cases if x != cases[left_out])
+    own = [x.label for x in d.steps if x.label.rpartition(".")[2].startswith("condition")]
+    steps = tuple(x for x in d.steps if x.label != own[left_out])
+    new = Claim(old.kind, (("degree", old["degree"]), ("conditions", ("row", *kept))))
+    wrong = said(step, old, new)
+    found = ClaimChecker(replace(d, steps=steps), SEED).fault(wrong)
+    assert "there are more where" in found
+
+
 def test_a_condition_that_is_solved_is_not_undecided():
     step = record("unsolved")["first_integrals"]
     (old,) = (x for x in step.claims if x.kind == "first_integrals.unsolved")

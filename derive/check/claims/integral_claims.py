@@ -6,9 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 
 from ...language.show import show
-from ...language.tree import Tree, nodes
+from ...language.tree import Tree, add, neg, nodes, replaced
+from ...language.values import approximate
 from ...record.claims import Claim
 from ...record.record import RecordError, Step
+from .exact_spectra import signature
 from .no_more import (
     Completeness,
     TooLargeError,
@@ -258,7 +260,7 @@ def _further(system: ReducedSystem, step: Step, claim: Claim) -> str:
     for case, there in zip(cases, system.conditions, strict=True):
         if _solved(case) != _condition_of(there) or _complement(system, there, degrees, most):
             return f"the step {there.label} has another condition, or nothing new up to the degree"
-    return ""
+    return _elsewhere(system, step, claim)
 
 
 def _same_degree(system: ReducedSystem, claim: Claim) -> bool:
@@ -270,7 +272,75 @@ def _same_degree(system: ReducedSystem, claim: Claim) -> bool:
 def _no_further(system: ReducedSystem, step: Step, claim: Claim) -> str:
     if system.conditions:
         return f"{len(system.conditions)} steps tell such polynomials"
-    return "" if _same_degree(system, claim) else "all integrals are told up to another degree"
+    if not _same_degree(system, claim):
+        return "all integrals are told up to another degree"
+    return _elsewhere(system, step, claim)
+
+
+POINTS, LARGEST = 8, 3
+"""Further integrals are sought at so many points, whose parameters are whole numbers from 1 to
+this, and at some where one of them is 0."""
+ROUNDING = 1e-9
+"""A number that is smaller is taken for 0: then the point is left out."""
+
+
+def _elsewhere(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """Where, at some points of small whole numbers at which none of the conditions that the step
+    lists holds and the kinetic energy is positive, there are more integrals; "" for nowhere."""
+    own, most = weights(system), number(claim["degree"])
+    rows = (x["conditions"] for x in step.claims if "conditions" in dict(x.values))
+    listed_cases = [_rows(case) for x in rows for case in listed(x)]
+    known, along = (*system.casimirs, *system.integrals), along_the_motion(system)
+    for at in _numbers(system):
+        if any(_holds(case, at) for case in listed_cases) or not _kinetic_is_positive(system, at):
+            continue
+        try:
+            more = Completeness(system, own, most, known, [*at.items()]).fault(*along)
+        except TooLargeError:
+            return ""
+        if more:
+            where = ", ".join(f"{show(x)} = {n}" for x, n in at.items())
+            return f"there are more where {where}"
+    return ""
+
+
+def _numbers(system: ReducedSystem) -> list[dict[Tree, int]]:
+    """Some numbers of the parameters."""
+    letters = [x for x in system.parameters if x != "π"]
+    still = [{}, *({x: 0} for x in letters)]
+    times = (POINTS, *(2 for _ in letters))
+    found = [
+        {x: system.random.randint(1, LARGEST) for x in letters} | none
+        for none, several in zip(still, times, strict=True)
+        for _ in range(several)
+    ]
+    return [x for k, x in enumerate(found) if x not in found[:k]]
+
+
+def _holds(case: Sequence[Tree], at: Mapping[Tree, int]) -> bool:
+    """Do the equations of a condition hold, or have no value, at numbers of the parameters?"""
+    left = (_at(add(x, neg(y)), at) for x, y in map(listed, case))
+    return all(x is None or abs(x) < ROUNDING for x in left)
+
+
+def _kinetic_is_positive(system: ReducedSystem, at: Mapping[Tree, int]) -> bool:
+    """Is h̃ positive definite in the momenta, at numbers of the parameters?"""
+    momenta = system.variables[: system.momenta]
+
+    def energy(*moved: Tree) -> Fraction:
+        there = {x: moved.count(x) for x in system.variables}
+        return Fraction(_at(system.energy, {**at, **there}) or 0)
+
+    single, still = {x: energy(x) for x in momenta}, energy()
+    metric = [[energy(x, y) - single[x] - single[y] + still for y in momenta] for x in momenta]
+    return signature(metric) == (len(momenta), 0)
+
+
+def _at(t: Tree, numbers: Mapping[Tree, int]) -> float | None:
+    """The value of a tree at whole numbers; ``None`` where it has none."""
+    for x, n in numbers.items():
+        t = replaced(t, x, n)
+    return approximate(t, {}, Fraction)
 
 
 def _unsolved(system: ReducedSystem, step: Step, claim: Claim) -> str:
