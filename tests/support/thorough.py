@@ -10,6 +10,7 @@ in a quick run.
 import re
 from collections import Counter, defaultdict
 from hashlib import sha256
+from random import Random
 
 SEED = "1"
 """Of the choice, unless ``--seed`` has another: the same tree is tested alike."""
@@ -310,3 +311,12 @@ def split(items, seed=SEED):
         cases[item.nodeid.removeprefix("tests/").partition("[")[0]].append(item)
     run = {x for name, own in cases.items() for x in chosen(own, KEPT.get(name, len(own)), seed)}
     return [x for x in items if x in run], [x for x in items if x not in run]
+
+
+def shuffled(items, seed):
+    """The items in an order by chance, those of one file one after the other."""
+    order = Random(seed)
+    files = defaultdict(list)
+    for item in order.sample(items, len(items)):
+        files[item.path].append(item)
+    return [x for path in order.sample(sorted(files), len(files)) for x in files[path]]
