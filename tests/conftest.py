@@ -21,8 +21,8 @@ def pytest_addoption(parser):
 
     ``--quick``: of what is named on the command line, too, no more than in a quick run.
     ``--seed``: of the choice of cases.  ``--passed``: a file for the names of those that passed;
-    ``--without``: such a file, of tests that are left out.  ``--order``: files in an order by chance,
-    and the tests of each.
+    ``--without``: such a file, of tests that are left out.  ``--order``: files in an order by
+    chance, and the tests of each.
     """
     told = "of the tests that a quick run leaves out"
     parser.addoption("--half", action="store_true", help=f"half {told}, too, as make coverage")
