@@ -411,14 +411,34 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
     return named(found) | first_integrals(found.problem, beside_symmetries=True)
 
 
+def kept_without_gravity(problem: Problem) -> dict[str, Tree]:
+    """Name → what the motion keeps where gravity is 0; nothing of a problem without gravity."""
+    from .schema.kinds.gravity import Gravity
+
+    left = tuple(x for x in problem.potentials if not isinstance(x, Gravity))
+    if len(left) == len(problem.potentials):
+        return {}
+    bare = replace(problem, potentials=left)
+    try:
+        return conserved_quantities(bare, walk(bare))
+    except Refused:  # damping leaves nothing
+        return {}
+
+
 def motion_of(
-    problem: Problem, record: Derivation, step: str = "gauss", order: str = ""
+    problem: Problem,
+    record: Derivation,
+    step: str = "gauss",
+    order: str = "",
+    *,
+    weightless: bool = False,
 ) -> Emitted:
     """The emitted code of a problem with a step, of an ``order`` if it is the discrete one, which
-    stops at its events, and all that its motion keeps, for runs."""
+    stops at its events, and all that its motion keeps, for runs; with what it keeps if it is
+    ``weightless``."""
     from .motion.emitted import Emitted
 
-    made, why = moving_program(problem, record, step, order)
+    made, why = moving_program(problem, record, step, order, weightless=weightless)
     return Emitted.of(made, problem, record, step, one_degree(problem, record), why, order)
 
 
@@ -429,10 +449,11 @@ def moving_program(
     order: str = "",
     *,
     sought: bool = True,
+    weightless: bool = False,
 ) -> tuple[Program, str]:
     """The program of a problem with all that its motion keeps, and why it has none of that but the
     energy: none is found, or it is not looked for where SymPy is not there.  ``sought``: is it
-    looked for?"""
+    looked for?  ``weightless``: also what is kept where gravity is 0?"""
     from .code.options import Options
 
     has, why = record.definition("θ") is not None, ""
@@ -440,7 +461,7 @@ def moving_program(
     told = replace(plain, multiplier=has)
     for chosen in (*([replace(told, conserved=True)] * sought), told, plain):
         try:
-            return program(problem, record, chosen), why
+            return program(problem, record, chosen, weightless=weightless), why
         except (Refused, ImportError) as error:  # or none is written for this state
             why = why or str(error)
             if chosen == plain:
@@ -481,8 +502,15 @@ def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
     return OneDegree((left.entry[2], left.entry[3]), V, momenta_of(found), turns)
 
 
-def program(problem: Problem, record: Derivation, options: Options | None = None) -> Program:
-    """The program of a problem; in its principal frame that is the program of another problem."""
+def program(
+    problem: Problem,
+    record: Derivation,
+    options: Options | None = None,
+    *,
+    weightless: bool = False,
+) -> Program:
+    """The program of a problem; in its principal frame that is the program of another problem.
+    ``weightless``: with what is conserved, also that which is where gravity is 0."""
     from .code.assemble import assemble
     from .code.events import watched
 
@@ -495,8 +523,12 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
     assert problem.group
     if options is None or options.frame == "given":
         kept = conserved_quantities(problem, record) if options and options.conserved else None
+        more = kept_without_gravity(problem) if kept is not None and weightless else {}
+        more = {name: t for name, t in more.items() if name not in (kept or {})}
+        every = None if kept is None else kept | more
         stepped = discrete(problem) if options and "discrete" in options.step else None
-        return assemble(record, problem.group, options, kept=kept, events=events, discrete=stepped)
+        made = assemble(record, problem.group, options, kept=every, events=events, discrete=stepped)
+        return replace(made, weightless=(*more,))
     return assemble(record, problem.group, options, walk(principal(problem)))
 
 

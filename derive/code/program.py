@@ -227,6 +227,8 @@ class Program:
     """The matrices in the state of the factors whose ``project`` there is."""
     matrix_state: tuple[str, ...] = ()
     """The names of the state with a matrix in place of its quaternion, where there is one."""
+    weightless: tuple[str, ...] = ()
+    """The names of what is conserved where gravity is 0, and not elsewhere."""
 
     @property
     def momentum_range(self) -> tuple[int, int]:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..motion.driven import DAMPING, INPUTS
+from ..motion.driven import DAMPING, INPUTS, is_weightless
 from ..motion.ensemble import require_an_ensemble
 from ..motion.kept_words import parts
 from ..motion.method import STEPS, Method, instants
@@ -55,7 +55,7 @@ def moving_page(
     problem: Problem, record: Derivation, t: float, method: Method, lang: str, **start: Any
 ) -> str:
     """The page of a motion from 0 to t, from a start as ``beginning`` takes it; ``Refused``."""
-    code = motion_of(replace(problem, events=()), record)
+    code = motion_of(replace(problem, events=()), record, weightless=True)
     begin = beginning(code, problem, **start)
     instants(method, t, 1)  # refuses a time that is none
     return motion_page(code, problem, record, begin, t, method.tol, language(lang))
@@ -94,8 +94,9 @@ def run_of(
 ) -> Run:
     """The run that a command asks for; ``Refused`` where there is none."""
     method = method_of(args)
+    light = is_weightless(record.problem or {}, start["given"])
     return run(
-        motion_of(problem, record, method.step, method.order),
+        motion_of(problem, record, method.step, method.order, weightless=light),
         problem,
         method,
         args.t,

@@ -28,6 +28,21 @@ def drives(
     return [what for what, is_there in there.items() if is_there]
 
 
+def weight(problem: Mapping[str, Any]) -> list[Any]:
+    """The entries of all accelerations of gravity in the problem of a record, as JSON has them."""
+    given = (p["g"] for p in problem.get("potentials") or () if p["kind"] == "gravity")
+    return [x for g in given for x in g]
+
+
+def is_weightless(problem: Mapping[str, Any], given: Mapping[str, float]) -> bool:
+    """Has the problem of a record gravity, which is 0 for some numbers of the parameters, the
+    others at their defaults?"""
+    numbers = {name: x.get("default") for name, x in problem.get("parameters", {}).items()}
+    known = {name: x for name, x in {**numbers, **given}.items() if x is not None}
+    entries = [decode(x, "problem") for x in weight(problem)]
+    return bool(entries) and all(approximate(t, known, float) == 0 for t in entries)
+
+
 def is_free(problem: Mapping[str, Any]) -> bool:
     """Does a motion keep the kinetic energy, as nothing can act on the body?"""
     acting = any(problem.get(x) for x in ("potentials", "inputs", "damping"))

@@ -14,7 +14,7 @@ from ..code.emit import emit
 from ..code.options import Options
 from ..language.greek import GREEK
 from ..language.templating import environment, folder
-from ..motion.driven import drives, is_free
+from ..motion.driven import drives, is_free, weight
 from ..motion.emitted_code import EmittedCode
 from ..motion.first_numbers import FirstNumbers
 from ..motion.kept_words import in_words
@@ -198,7 +198,7 @@ def data(
     largest = sorted(range(len(made.state)), key=lambda s: -abs(float(begin.x[s])))[:CURVES]
     body = moving_body(record.problem, group, made.state)
     adjusted, curves = velocity[:MOST], [] if body["parts"] else sorted(largest)
-    basis = made.basis if entries else ()
+    basis, heavy = made.basis if entries else (), weight(record.problem or {})
     lost = bool(drives(record.problem, {}))
     unsaid = {"ellipsoid", "now", "velocities" if body["polhode"] else "polhode"}
     unsaid |= {x for x in ("defect", "multiplier") if x not in made.functions}
@@ -236,6 +236,7 @@ def data(
         "kept": {
             x: (in_words(x, language.word), units[x]) for x in made.conserved if x != "energy"
         },
+        **({"weightless": made.weightless, "weight": heavy} if made.weightless else {}),
         "units": {x: units.get(x, "") for x in ("t", "energy")},
         "words": words,
         "comma": language.name == "fr",

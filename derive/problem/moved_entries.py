@@ -10,9 +10,12 @@ from functools import cache
 from typing import Any, ClassVar
 
 from ..algebra.groups import Group
+from ..algebra.residue_vectors import PRIMES, ResidueSource
 from ..algebra.told_entries import constant_entries
 from ..language.derivatives import derivative, product, quotient
+from ..language.divisors import residue
 from ..language.tree import Tree, add, fold, mul, nodes, plain
+from .null_directions import vanishes
 
 Entry = tuple[Any, ...]
 """An entry of a letter, as a tree."""
@@ -80,7 +83,30 @@ def element(group: Group) -> Rows:
 def settled(t: Tree, group: Group) -> Tree:
     """An expression with numbers for the entries of g that are the same in all of the group;
     ``ZeroDivisionError`` where it divides by one that is 0."""
-    g = element(group)
+    still = {("entry", "A", i + 1, j + 1) for i, j in constant_entries(group)}
+    return _with_entries(t, element(group)) if still & {*nodes(t)} else t
+
+
+def vanishes_on(group: Group, t: Tree) -> bool:
+    """Is an expression 0 at all elements of a group, whatever its other names are?
+
+    It is evaluated modulo primes at random elements, so that whatever relations the entries of g
+    have are used; where none are known, those alone that never vary are.
+    """
+    named = any(isinstance(x, tuple) and x[:2] == ("entry", "A") for x in nodes(t))
+    if not named or not group.has_inner_samples:
+        return vanishes(settled(t, group))
+    for k, p in enumerate(PRIMES):
+        source = ResidueSource(p, 1, k)
+        g = group.sample_inside(source, 1)
+        rows = tuple(tuple((source.constant(0) + x).values[0] for x in row) for row in g)
+        if residue(_with_entries(t, rows), p):
+            return False
+    return True
+
+
+def _with_entries(t: Tree, g: Rows) -> Tree:
+    """An expression with those of a matrix for the entries of g."""
 
     @fold
     def at(x: Tree, *parts: Tree) -> Tree:
@@ -99,8 +125,7 @@ def settled(t: Tree, group: Group) -> Tree:
                 return ("fun", name, parts[0])
         return x
 
-    still = {("entry", "A", i + 1, j + 1) for i, j in constant_entries(group)}
-    return at(t) if still & {*nodes(t)} else t
+    return at(t)
 
 
 def rational(rows: Sequence[Sequence[Fraction]]) -> list[list[Tree]]:

@@ -20,7 +20,7 @@ from ..language.tree import Tree, add, mul, neg, nodes, plain
 from ..schema.lagrangian_kinds import SECTIONS, Inertia, Lagrangian
 from .fields import used_at
 from .file_reader import FileReader
-from .moved_entries import EntriesOfElement, settled
+from .moved_entries import EntriesOfElement, settled, vanishes_on
 from .null_directions import Direction, along, held, hessian, null_directions, vanishes
 from .problem import ProblemError
 from .state_names import coordinates, no_entry, undeclared
@@ -95,7 +95,7 @@ def _with_null_directions(
                 f"{where}: ∂²L/∂Z² is singular along {name}, and L is linear there, so that no "
                 "equation tells this acceleration; add its kinetic energy"
             )
-        if reader.advected is not None or not vanishes(varied(found, group, direction)):
+        if reader.advected is not None or not vanishes_on(group, varied(found, group, direction)):
             raise ProblemError(
                 f"{where}: ∂²L/∂Z² is singular along {name}, and that is no symmetry of L: the "
                 "equations leave this velocity open; add its kinetic energy"
@@ -118,4 +118,4 @@ def varied(found: Lagrangian, group: Group, direction: Direction) -> Tree:
         for k in span
         if x and table[b][a][k]
     ]
-    return settled(add(turned, *terms), group)
+    return add(turned, *terms)

@@ -191,6 +191,7 @@ class Derived:
         ``vary``, drawn by (low, high) or ("normal", mean, deviation) from a ``seed`` (0); kept is
         the end, or ``points`` instants.  ``MotionError``, a ``ValueError``, says what is wrong.
         """
+        from ..motion.driven import is_weightless
         from ..motion.ensemble import require_an_ensemble
         from ..motion.first_numbers import require_numbers
         from ..motion.method import STEPS, Method
@@ -207,7 +208,8 @@ class Derived:
             return self._many(ensemble, vary or {}, t, points or 1, tol, seed or 0, begin, how)
         require_an_ensemble(vary, seed)
         method = Method(step or STEPS[0], dt, tol, str(order))
-        code = motion_of(self.problem, self.record, method.step, method.order)
+        light = is_weightless(self.record.problem or {}, begin["given"])
+        code = motion_of(self.problem, self.record, method.step, method.order, weightless=light)
         kept = 500 if points is None else points
         return Simulated.of(run(code, self.problem, method, t, kept, **begin, compiled=compiled))
 
@@ -253,7 +255,7 @@ class Derived:
         from ..views.language import language as named
 
         require_numbers(start, exp, t=t, tol=tol)
-        code = motion_of(replace(self.problem, events=()), self.record)
+        code = motion_of(replace(self.problem, events=()), self.record, weightless=True)
         begin = beginning(code, self.problem, given=start or {}, exponent=exp, project=project)
         instants(Method(tol=tol), t, 1)
         return motion_page(code, self.problem, self.record, begin, t, tol, named(language))

@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
-from itertools import product
 from operator import truediv
 from typing import Any
 
@@ -23,7 +22,8 @@ from ..problem.state_names import coordinates
 from ..symmetries.found import Found
 from ..symmetries.symmetry import Symmetry
 from ..symmetries.tree_matrices import full
-from .state_functions import Element, StateFunctions
+from .quadrature import Quadrature, quadrature_of
+from .state_functions import Element, StateFunctions, entries_in
 
 Vector = list[Element]
 
@@ -51,20 +51,6 @@ class Square:
         """The common denominator of what is squared."""
         parts = (*self.factors.values(), self.rest)
         return reduce(lambda x, y: x.lcm(y), (x.denom for x in parts))
-
-
-@dataclass(frozen=True)
-class Quadrature:
-    """One degree of freedom is left: u̇² = 2 ``slope`` (h̃ − V), u the ``entry`` of g.
-
-    ``degree``: of the right side in u, where it is a polynomial, else 0; ``left``: of its factors
-    of odd multiplicity, which say what kind of integral 1/√ of it has.
-    """
-
-    entry: Tree
-    slope: Element
-    degree: int
-    left: int
 
 
 class Routhian:
@@ -229,7 +215,7 @@ class Routhian:
         forms: list[dict[int, Element]] = [{i: one} for i, _ in enumerate(left)]
         open_ = [*range(len(left))]
         while open_:
-            p = min(open_, key=lambda i: self._size(left[i][i]))
+            p = min(open_, key=lambda i: self.size(left[i][i]))
             open_.remove(p)
             pivot = left[p][p]
             self._require(pivot)
@@ -255,7 +241,7 @@ class Routhian:
                 "anywhere: their fields depend on one another, or the metric is not definite"
             )
 
-    def _size(self, x: Element) -> tuple[bool, int, int]:
+    def size(self, x: Element) -> tuple[bool, int, int]:
         """How simple a pivot is: without entries of g, then the shortest."""
         return not x, len(self.functions.used(x.numer)), len(x.numer)
 
@@ -363,83 +349,12 @@ class Routhian:
         tree, own = self.functions.tree, add(*map(neg, still))
         found = [tree(self.functions.simplified(self.potential)), tree(self.potential)]
         found += [own] if self.functions.of(own) == self.potential else []
-        return min(found, key=lambda t: (len({*_entries(t)}), len(nodes(t))))
+        return min(found, key=lambda t: (len({*entries_in(t)}), len(nodes(t))))
 
     @cached_property
     def quadrature(self) -> Quadrature | None:
-        """The square of the rate of an invariant entry of g by the energy, where that is all that
-        is left."""
-        if self.freedom != 1 or self.named:
-            return None
-        for k in self.functions.invariant:
-            entry = self.functions.leaves[k]
-            slope = self._slope(self.slopes(entry))
-            if slope and all(self._told_by(k, x) for x in self._all(slope)):
-                return Quadrature(entry, slope, *self._degrees(k, slope))
-        return None
-
-    def _all(self, slope: Element) -> Vector:
-        """The functions of which the right side is made."""
-        parts = [y for s in self.squares for y in (s.weight, s.rest, *s.factors.values())]
-        return [slope, self.functions.simplified(self.potential), *parts]
-
-    def _told_by(self, k: int, x: Element) -> bool:
-        """Has a function no entry of g but one, also in the functions that it has?"""
-        own, first = self.functions.leaves, self.functions.first_entry
-        places = self.functions.depends_on(x)
-        inside = (y for i in places if i < first for y in _entries(own[i]))
-        return {i for i in places if i >= first} <= {k} and {*inside} <= {own[k]}
-
-    def _slope(self, rates: Vector) -> Element:
-        """⟨du, M⁻¹du⟩, by completing squares."""
-        kept = [a for a, _ in enumerate(self.zeta) if a not in self.held]
-        left = [[self.metric[a][b] for b in kept] for a in kept]
-        form, total = [rates[a] for a in kept], self.functions.field(0)
-        open_ = [*range(len(kept))]
-        while open_:
-            p = min(open_, key=lambda i: self._size(left[i][i]))
-            open_.remove(p)
-            if not left[p][p]:
-                return self.functions.field(0)
-            total = total + form[p] ** 2 / left[p][p]
-            for i in open_:
-                ratio = left[i][p] / left[p][p]
-                form[i] = form[i] - ratio * form[p]
-                left[i] = [x - ratio * y for x, y in zip(left[i], left[p], strict=True)]
-        return self.functions.simplified(total)
-
-    def _degrees(self, k: int, slope: Element) -> tuple[int, int]:
-        """The degree in u of f = 2 ``slope`` (h̃ − V), and that of its factors of odd multiplicity;
-        0, 0 where it is no polynomial in u.
-
-        f is linear in h̃: what has no h̃ in it divides all coefficients, and the rest is a factor
-        alone.
-        """
-        U = self.functions.simplified(self.potential)
-        if any(
-            i < self.functions.first_entry and [*_entries(self.functions.leaves[i])]
-            for i in self.functions.depends_on(U)
-        ):
-            return 0, 0
-        found = [slope * x for x in (self.functions.field(1), *self._by_momenta(U)) if x]
-        if any(e[k] for x in found for e in x.denom):
-            return 0, 0
-        whole = reduce(lambda x, y: x.lcm(y), (x.denom for x in found))
-        parts = [(x * self.functions.field(whole)).numer for x in found]
-        common = reduce(lambda x, y: x.gcd(y), parts)
-        degree = max(_degree_in(k, x) for x in parts)
-        squared = (_degree_in(k, x) * (n - n % 2) for x, n in common.sqf_list()[1])
-        return degree, degree - sum(squared)
-
-    def _by_momenta(self, U: Element) -> Vector:
-        """The coefficients of V, a polynomial in the 𝒥_i."""
-        found: dict[tuple[int, ...], Element] = {(): U}
-        for s in self.squares:
-            row = [*s.factors.items(), (None, -s.rest)]
-            for (i, x), (j, y) in product(row, row):
-                key = tuple(sorted(n for n in (i, j) if n is not None))
-                found[key] = found.get(key, 0) + s.weight * x * y
-        return [*found.values()]
+        """That of the one degree of freedom, where that is all that is left."""
+        return quadrature_of(self)
 
 
 def inertia(i: int, j: int) -> Tree:
@@ -484,17 +399,3 @@ def _paired(a: Sequence[Element], b: Sequence[Element]) -> Element:
         if x and y:
             total = total + x * y
     return total
-
-
-def _entries(t: Tree) -> list[Tree]:
-    """The entries of g in an expression."""
-    if not isinstance(t, tuple):
-        return []
-    if t[:2] == ("entry", "A"):
-        return [t]
-    return [x for y in t[1:] for x in _entries(y)]
-
-
-def _degree_in(k: int, p: Any) -> int:
-    """The degree of a polynomial in one leaf."""
-    return max((int(e[k]) for e in p), default=0)

@@ -38,6 +38,15 @@ def leaves(t: Tree) -> Iterator[Tree]:
             yield from leaves(x)
 
 
+def entries_in(t: Tree) -> list[Tree]:
+    """The entries of g in an expression."""
+    if not isinstance(t, tuple):
+        return []
+    if t[:2] == ("entry", "A"):
+        return [t]
+    return [x for y in t[1:] for x in entries_in(y)]
+
+
 class StateFunctions:
     """The field of rational functions over Q in the leaves of some trees.
 

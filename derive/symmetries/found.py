@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from ..algebra.groups import Group
 from ..code.graph import Graph
 from ..code.options import Options
 from ..code.state import StateSpace
-from ..language.tree import Tree, coefficient, neg, terms
+from ..language.tree import Tree, coefficient, mul, neg, nodes, terms
 from ..problem.moved_entries import element
 from ..problem.null_directions import along, hessian, null_directions
 from ..problem.problem import Problem, ProblemError
@@ -23,7 +24,7 @@ from .field_brackets import Brackets, cocycle
 from .scalar_lagrangian import Integrand, by_state, with_scalar_lagrangian
 from .search import Search
 from .symmetry import Symmetry, of_solution
-from .tree_matrices import full, negative, plus, times
+from .tree_matrices import negative, plus, times
 
 ORDER: tuple[str, ...] = (
     *("time", "translation_space", "rotation_space", "displacement_space", "deformation_space"),
@@ -113,29 +114,44 @@ def symmetries_of(problem: Problem, record: Derivation, *, of_integrand: bool = 
 
 def kept_with_damping(problem: Problem, record: Derivation) -> Found:
     """The symmetries of L̃ whose quantities the motion of a damped problem keeps: they shift no
-    instant and move no damped point, so that −κ_i v_i does no work along them; ``ProblemError``
-    where none is so."""
+    instant and move damped points r_i by constants w_i, 0 or not.  The forces −κ_i v_i change what
+    is kept by the symmetry at the rate −Σ κ_i ⟨v_i, w_i⟩, so that with Σ κ_i ⟨r_i, w_i⟩ it is kept
+    again.  ``ProblemError`` where none is so."""
     found = symmetries_of(replace(problem, damping=()), record, of_integrand=True)
     group = found.problem.group
     assert group is not None
     assert problem.group is not None
     points: tuple[Point | Place, ...] = (*problem.points, *problem.places)
-    listed = [points[i - 1] for x in problem.damping for i in x.on]
-    places = [(*problem.group.in_block(x.block, x.at, 1), 1)[: group.size] for x in listed]
-    g = element(group)
-
-    def moves(x: Symmetry, place: Sequence[Tree]) -> bool:
-        """Is (YA − AX)(r, 1) not 0?"""
-        (Y, X), r = x.matrices, [[y] for y in place]
-        return full(plus(times(Y, times(g, r)), negative(times(g, times(X, r)))))
-
-    still = [x for x in found.symmetries if x.tau == 0 and not any(moves(x, r) for r in places)]
+    listed = [(x.coefficient, points[i - 1]) for x in problem.damping for i in x.on]
+    damped = [
+        (kappa, (*problem.group.in_block(p.block, p.at, 1), 1)[: group.size]) for kappa, p in listed
+    ]
+    still = [y for x in found.symmetries if x.tau == 0 and (y := _damped(x, damped, group))]
     if not still:
         raise ProblemError(
             f"{problem.name}: damping changes the energy at the rate −Σ κ |v|², and no momentum is "
-            "known to be kept: all symmetries of L̃ move damped points"
+            "known to be kept: no symmetry of L̃ moves the damped points by constants alone"
         )
     return replace(found, symmetries=tuple(still), central=(), commuting=())
+
+
+def _damped(
+    x: Symmetry, damped: Iterable[tuple[Tree, Sequence[Tree]]], group: Group
+) -> Symmetry | None:
+    """A symmetry with F − Σ κ_i ⟨r_i, w_i⟩ in the place of F, w_i = (YA − AX)(r, 1); ``None`` where
+    these are not constant."""
+    g, (Y, X), more = element(group), x.matrices, []
+    for kappa, place in damped:
+        r = [[y] for y in place]
+        moved = plus(times(Y, times(g, r)), negative(times(g, times(X, r))))
+        for row, (entry,) in zip(g, moved, strict=True):
+            w = by_state(entry)
+            if any(y == "t" or (isinstance(y, tuple) and y[0] == "entry") for y in nodes(w)):
+                return None
+            for y, r_k in zip(row, place, strict=True):
+                weight = mul(-1, kappa, w, r_k)
+                more.append((weight, (y,)) if isinstance(y, tuple) else (mul(y, weight), ()))
+    return replace(x, terms=(*x.terms, *((c, m) for c, m in more if c != 0)))
 
 
 def says_nothing(x: Symmetry, problem: Problem) -> bool:

@@ -88,7 +88,8 @@ def with_scalar_lagrangian(
     if problem.damping:
         raise ProblemError(
             f"{problem.name}: damping is no part of L̃, and this is of L̃ alone: damping changes the "
-            "energy at the rate −Σ κ |v|², and keeps momenta whose symmetry moves no damped point"
+            "energy at the rate −Σ κ |v|², and keeps momenta whose symmetry moves no damped point, "
+            "and those of translations with Σ κ r"
         )
     if problem.lagrangian is not None:
         return replace(problem, inputs=())

@@ -154,6 +154,30 @@ def test_real_eigenvalues_near_a_point_are_not_imaginary():
             assert "one is no eigenvalue" in judge(said(step, claim, wrong))
 
 
+def test_no_eigenvalue_near_another_is_left_out():
+    """Upright a body of moments 1 and 1.003 has ±1 and ±0.9985, of which neither stands for both,
+    nor for what lies between."""
+    record = derive(heavy(("1", "1.003", "2"), "A_33", "")).equilibrium_near({"A_33": 1}).record
+    judge, step = ClaimChecker(record, SEED).fault, record["enclosure_1"]
+    (claim,) = (x for x in step.claims if x.kind == "enclosure.eigenvalues")
+    one, other, *zero = claim["eigenvalues"][1:]
+    assert not judge(step)
+    assert (one, other, *zero) == (real(1), real(Fraction(1997, 2000)), real(0))
+    between = real(Fraction(9993, 10**4))
+    for rows, reason in (
+        *(((x, *zero), "not all") for x in (one, other)),
+        *(((x, between, *zero), "no eigenvalue") for x in (one, other)),
+        *(((one, other), "not all"), ((one, other, *zero, between), "no eigenvalue")),
+    ):
+        wrong = Claim(claim.kind, (("eigenvalues", ("matrix", *rows)),))
+        assert reason in judge(said(step, claim, wrong)), rows
+
+
+def real(x):
+    """A real eigenvalue, and its opposite."""
+    return ("row", x, 0)
+
+
 def shifted(claim):
     """The claim with a part of an eigenvalue off by one in the last digit."""
     rows = claim["eigenvalues"][1:]

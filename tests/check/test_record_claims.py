@@ -12,7 +12,7 @@ import pytest
 
 from derive import derive, first_integrals
 from derive.check.claims import no_more
-from derive.check.claims.claim_checker import JUDGES, ClaimChecker
+from derive.check.claims.claim_checker import JUDGES, OBLIGATORY, ClaimChecker
 from derive.check.claims.symmetry_count import SymmetryCount
 from derive.check.problem_group import group_of
 from derive.integrals import told
@@ -25,7 +25,15 @@ from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.sentence import Sentence
 from tests.problems import PROBLEMS
-from tests.support.lagrangians import APART, LINE, LINES, heavy, lagrangian, squares
+from tests.support.lagrangians import (
+    APART,
+    LINE,
+    LINES,
+    every_equilibrium,
+    heavy,
+    lagrangian,
+    squares,
+)
 from tests.support.walks import SEED
 
 DIVIDED = {
@@ -309,6 +317,20 @@ def test_whether_there_is_curvature_is_said():
     step = record("elliptic")["curvature"]
     silent = replace(step, prose=(), claims=())
     assert "no claim says" in judged("elliptic", silent)
+
+
+def test_no_step_is_without_the_claims_of_its_rule():
+    """All sentences of a step and all claims left out: no judge would be asked."""
+    seen = set()
+    for d in (*map(record, RECORDS), *(x.record for x in every_equilibrium())):
+        judge = ClaimChecker(d, SEED).fault
+        for step in d.steps:
+            if step.rule in OBLIGATORY or step.label.endswith(".momentum_1"):
+                found = judge(replace(step, prose=(), claims=()))
+                assert "makes no claim of its rule" in found
+                seen.add(step.label.rpartition(".")[2].rstrip("_123456789"))
+    assert seen > {"poisson", "casimirs", "first_integrals", "level", "condition", "quadrature"}
+    assert seen > {"momentum", "energy_casimir", "enclosure"}
 
 
 COUNTED = ("so3", "spherical_pendulum", "comet", "screw", "su2", "gl3", "right", "roots")

@@ -238,9 +238,19 @@ def test_components_are_along_unit_vectors_and_have_their_units(g):
 
 
 def test_without_gravity_there_is_no_component_along_it():
-    run = derive.derive("so3").simulate(0.1, points=1, start={"zeta_1": 1.0, "g_3": 0.0})
-    assert [x.name for x in run.columns if x.kind == "conserved"] == []
-    assert np.isfinite(run.table).all()
+    """There are those along the axes of space, which are kept then, in their unit."""
+    for name, start in (("so3", {"g_3": 0.0}), ("se3", {"g_3": 0.0}), ("top", {"g": 0.0})):
+        d = derive.derive(name)
+        run = d.simulate(0.5, points=3, start={"zeta_1": 1.0, "zeta_3": 2.0} | start)
+        columns = {x.name: x.unit for x in run.columns if x.kind == "conserved"}
+        assert "angular_momentum" not in columns
+        for k in (1, 2, 3):
+            assert columns[f"angular_momentum_{k}"] == "kg m^2/s"
+            column = run[f"angular_momentum_{k}"]
+            assert np.ptp(column) < 1e-9 * max(abs(run["energy"][0]), 1)
+        assert np.isfinite(run.table).all()
+        known = {x.name for x in d.simulate(0.1, points=1).columns}
+        assert not {"angular_momentum_1", "angular_momentum_2"} & known
 
 
 def test_what_vanishes_for_these_parameters_is_not_told(capsys):
@@ -250,6 +260,7 @@ def test_what_vanishes_for_these_parameters_is_not_told(capsys):
     with_it, without = told(capsys, *start)[1], told(capsys, *start, *no_gravity)[1]
     assert "  angular_momentum: " in with_it
     assert "  angular_momentum: " not in without
+    assert "  angular_momentum_2: " in without
     assert "  energy: " in without
     still = told(capsys, "top", "--t", "0.1", "--exp", "1,0,0", "--set", "zeta_3=0")[1]
     assert "  angular_momentum_3: 0 at first" in still
@@ -261,10 +272,13 @@ def test_where_an_integral_is_shown_is_told(capsys):
     assert [x.partition(":")[0] for x in lines] == ["  integral_1"]
 
 
-def test_what_is_amiss_is_told(capsys):
-    err = told(capsys, "jelly", "--t", "1")[2]
-    assert "nothing moves" in err
-    assert "note: jelly: damping changes the energy at the rate −Σ κ |v|², and no momentum" in err
+def test_what_is_amiss_is_told(capsys, tmp_path):
+    assert "nothing moves" in told(capsys, "jelly", "--t", "1")[2]
+    file = tmp_path / "own.toml"
+    points = "".join(f"[[point]]\nmass = 1\nat = {x}\n" for x in ([1, 0, 0], [0, 1, 0], [0, 0, 1]))
+    file.write_text(f'name = "own"\ngroup = "SO(3)"\n{points}[[damping]]\ncoefficient = 1\n')
+    err = told(capsys, str(file), "--t", "1")[2]
+    assert "note: own: damping changes the energy at the rate −Σ κ |v|², and no momentum" in err
     turning = [
         x for name in ("zeta_1=0", "zeta_5=0", "zeta_2=1", "zeta_4=-1") for x in ("--set", name)
     ]

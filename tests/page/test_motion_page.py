@@ -765,7 +765,7 @@ def test_what_is_not_kept_stands_apart(opened):
 
 @pytest.mark.dist
 def test_a_component_along_no_direction_is_not_shown(pages, opened):
-    """Along gravity, in its unit; without gravity none, beside a body that turns."""
+    """Along gravity, in its unit; without gravity those along the axes, which are kept then."""
     page = opened(pages("so3"))
     row = "[...document.querySelectorAll('[data-name=angular_momentum]')].map((x) => x.innerText)"
     (shown,) = page.evaluate(row)
@@ -774,6 +774,14 @@ def test_a_component_along_no_direction_is_not_shown(pages, opened):
     page.locator('[data-name="g_3"] input[inputmode]').press("Enter")
     page.wait_for_timeout(100)
     assert page.evaluate(row) == []
+    along = row.replace("name=", "name^=")
+    assert [x.split()[:3] for x in page.evaluate(along)] == [
+        ["angular", "momentum", str(k)] for k in (1, 2, 3)
+    ]
+    page.locator('[data-name="g_1"] input[inputmode]').fill("1")
+    page.locator('[data-name="g_1"] input[inputmode]').press("Enter")
+    page.wait_for_timeout(100)
+    assert len(page.evaluate(row)) == len(page.evaluate(along)) == 1
 
 
 def test_the_energy_is_kept_where_nothing_moves_it(pages):

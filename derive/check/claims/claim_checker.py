@@ -29,7 +29,7 @@ class ClaimChecker(ClaimedRecord):
                 return "a claim of powers of numbers that are too large"
             reasons = (self._fault(step, claim) for claim in step.claims)
             found = fault(step.prose, step.claims) or next(filter(None, reasons), "")
-            return found or reduction_claims.missing(step)
+            return found or silent(step) or reduction_claims.missing(step)
         except IMPOSSIBLE as error:
             return f"a claim makes no sense: {type(error).__name__}"
 
@@ -42,6 +42,29 @@ class ClaimChecker(ClaimedRecord):
         except IMPOSSIBLE as error:
             reason = no_sense(error)
         return reason and f"the claim {claim.kind}: {reason}"
+
+
+OBLIGATORY = {
+    "reduction": ("poisson.group", "poisson.advected", "reduction.quadrature"),
+    "Poisson bracket": (
+        *("casimirs.kept", "level.multiple", "condition.one", "condition.several"),
+        *(f"first_integrals.all{x}" for x in ("", "_large", "_generic", "_generic_large")),
+    ),
+    "expansion": ("equilibrium.form",),
+    "enclosure": ("enclosure.within",),
+}
+"""Rule → the claims of which each of its steps makes one: without it no claim is judged there."""
+
+
+def silent(step: Step) -> str:
+    """That a step makes none of the claims of its rule, or that the first momentum of a reduction
+    stands without the number of these; "" where all is claimed."""
+    wanted = OBLIGATORY.get(step.rule, ())
+    if any(e.lhs == ("at", "𝒥", 1) for e in step.equations):
+        wanted = ("reduction.taken",)
+    if not wanted or any(x.kind in wanted for x in step.claims):
+        return ""
+    return f"the step makes no claim of its rule: {', '.join(wanted)}"
 
 
 Judge = Callable[[ClaimedRecord, Step, Claim], str]

@@ -15,18 +15,18 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ...language.quadratic import Number, value_of
+from ...language.quadratic import value_of
 from ...language.tree import Tree
 from ...record.claims import Claim
 from ...record.record import RecordError, Step
 from ..enclosure import DIGITS, Enclosure, enclosure_of, polynomial
 from ..entries_on_a_level import invertible
-from .equilibrium_claims import at_complex, coordinates, not_from, silent
+from .equilibrium_claims import coordinates, not_from, silent
 from .exact_spectra import characteristic, signature
 from .integral_claims import Judge
 from .reduced_system import ReducedSystem
 from .rounded_roots import DIGITS as PRECISION
-from .rounded_roots import Complex, all_roots, decimal, size
+from .rounded_roots import all_roots, decimal, digits_told, is_rounded, size
 
 Numbers = Sequence[Fraction]
 
@@ -83,6 +83,8 @@ def _signs(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 NEAR_0 = Fraction(1, 1000)
 """Of eigenvalues up to this size nothing is computed again."""
+UNKNOWN = Decimal("1e-6")
+"""The part of an eigenvalue that is not known: the decimals have so many digits."""
 PROVED = ("enclosure.stable", "enclosure.unstable", "enclosure.open")
 """The claims of which each enclosure has one."""
 
@@ -99,41 +101,25 @@ def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 
 def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    """Each number λ is different, and near a root of the characteristic polynomial p of the rates
-    at the decimals: |p(λ)| ≤ |λp′(λ)|/500, and each root is near one; but for those near 0, which
-    are known less well."""
+    """Each number is a root of the characteristic polynomial p of the rates at the decimals,
+    rounded, and each root, but for its sign, is one of the numbers; all that are near 0, and known
+    less well, are taken for one."""
     centre = enclosed(system, step).centre
     at, told = {x: centre.get(x, Fraction(0)) for x in system.variables}, claim["eigenvalues"]
     p = characteristic([[x for x, _ in slopes(t, at, Fraction(0))] for t in system.rates])
-    slope = [(len(p) - 1 - k) * x for k, x in enumerate(p[:-1])]
     assert isinstance(told, tuple)
-    numbers = [(Fraction(re), Fraction(im)) for _, re, im in told[1:]]
-    if len({*numbers}) < len(numbers):
-        return "one is told twice"
-    for z in numbers:
-        squared, value, change = (
-            re * re + im * im for re, im in (z, at_complex(p, z), at_complex(slope, z))
-        )
-        if squared > NEAR_0**2 and 500**2 * value > squared * change:
-            return "one is no eigenvalue"
-    return "" if _all_told(numbers, p) else "they are not all"
-
-
-def _all_told(told: Sequence[tuple[Fraction, Fraction]], p: Sequence[Number]) -> bool:
-    """Is each root of a polynomial near one of some numbers, their opposites or conjugates, all
-    that are near 0 taken for one?"""
     with localcontext(Context(prec=PRECISION)):
-        numbers = [(decimal(re), decimal(im)) for re, im in told]
-
-        def away(z: Complex) -> Decimal:
-            parts = abs(z[0]), abs(z[1])
-            return min(size((parts[0] - re, parts[1] - im)) for re, im in numbers)
-
-        near, roots = decimal(NEAR_0), all_roots(p)
-        small = p[-1] == 0 or any(size(z) <= near for z in roots)
-        if small is not any(size(z) <= near for z in numbers):
-            return False
-        return all(500 * away(z) <= size(z) for z in roots if size(z) > near)
+        numbers = [(decimal(re), decimal(im)) for _, re, im in told[1:]]
+        roots, digits = [(abs(re), abs(im)) for re, im in all_roots(p)], digits_told(numbers)
+        if len({*numbers}) < len(numbers):
+            return "one is told twice"
+        large, known = ([z for z in x if size(z) > decimal(NEAR_0)] for x in (numbers, roots))
+        pairs = {(z, x) for z in large for x in known if is_rounded(z, x, digits, UNKNOWN)}
+        if {z for z, _ in pairs} < {*large}:
+            return "one is no eigenvalue"
+        small = p[-1] == 0 or len(known) < len(roots)
+        all_told = {x for _, x in pairs} == {*known} and small is (len(large) < len(numbers))
+        return "" if all_told else "they are not all"
 
 
 # -- instability ----------------------------------------------------------------------------------

@@ -275,7 +275,7 @@ def _no_further(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 def _unsolved(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """Each condition gives letters their values in others, and a polynomial, of first order in no
-    parameter, that vanishes."""
+    parameter, that vanishes.  That it is not decided states nothing that is computed again."""
     cases = listed(claim["conditions"])
     for case in cases:
         *solved, last = _rows(case)

@@ -83,19 +83,30 @@ def _ratio(x: Complex, y: Complex) -> Complex:
     return re / by, im / by
 
 
+def digits_told(told: Sequence[Complex]) -> int:
+    """To how many digits numbers are told."""
+    return max(LEAST, *(len(x.normalize().as_tuple().digits) for pair in told for x in pair))
+
+
 def are_roots_rounded(told: Sequence[Complex], squares: Sequence[Complex]) -> bool:
     """Are numbers, their parts not negative, the square roots of others, rounded all to as many
     digits as are told?"""
-    digits = max(LEAST, *(len(x.normalize().as_tuple().digits) for pair in told for x in pair))
-    return all(_is_rounded(x, s, digits) for x, s in zip(told, squares, strict=True))
+    digits, pairs = digits_told(told), zip(told, map(_root, squares), strict=True)
+    return all(is_rounded(x, true, digits, FLOATS) for x, true in pairs)
 
 
-def _is_rounded(told: Complex, square: Complex, digits: int) -> bool:
-    """Are the parts of a number those of the square root of another, to so many digits?"""
+def _root(square: Complex) -> Complex:
+    """The square root, but for the signs of its parts."""
     long = size(square)
-    parts = (max((long + x) / 2, Decimal(0)).sqrt() for x in (square[0], -square[0]))
-    for x, true in zip(told, parts, strict=True):
-        half = Decimal(5).scaleb(true.adjusted() - digits) if true else Decimal(0)
-        if abs(x - true) > half + FLOATS * long.sqrt():
+    re, im = (max((long + x) / 2, Decimal(0)).sqrt() for x in (square[0], -square[0]))
+    return re, im
+
+
+def is_rounded(told: Complex, true: Complex, digits: int, off: Decimal) -> bool:
+    """Are the parts of a number those of another to so many digits, when this part of its size is
+    unknown?"""
+    for x, y in zip(told, true, strict=True):
+        half = Decimal(5).scaleb(y.adjusted() - digits) if y else Decimal(0)
+        if abs(x - y) > half + off * size(true):
             return False
     return True

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from ...algebra.groups import Group
 from ...language.tree import names
+from ...problem.moved_entries import vanishes_on
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ...record.sentence import Prose
@@ -37,7 +38,8 @@ def kept(
         draft.depends_on(expression, energy)
         equations.append(Equation("ḣ", 0))
         laws += say("conserved.energy")
-    whole = not any(stage.forces) and group.has_inner_samples  # else no exact element is known
+    forced = not all(vanishes_on(group, x) for x in stage.forces)
+    whole = not forced and group.has_inner_samples  # else no exact element is known
     if whole:
         draft.depends_on(momenta)
         equations.append(Equation("Π̇_o", 0))
@@ -45,7 +47,7 @@ def kept(
     if not equations:
         return ()
     prose = say("conserved.kept_by_any", kept=enumerated(laws))
-    if any(stage.forces):
+    if forced:
         prose += say("conserved.components")
     elif whole and problem.advected is not None:
         prose += say("conserved.no_element")

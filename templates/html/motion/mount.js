@@ -6,8 +6,8 @@
  * order × order matrices have the basis, [row, column, entry] of each; names: { place: name } of what is
  * shown of x, adjusted: the places that have sliders, curves: those drawn where no body is;
  * reach: how far the slider of each goes at least; lost: is the energy not kept?
- * labels: { name: [meaning, unit] }; kept: { name: [words, unit] }; units: { t, energy }; body: see
- * moving_body.py; words, comma }.
+ * labels: { name: [meaning, unit] }; kept: { name: [words, unit] }; weightless: the names of what is kept
+ * only where all of weight, trees, are 0; units: { t, energy }; body: see moving_body.py; words, comma }.
  * pieces: { stage, side: what draws there; turned_start; flattened, where a group stretches; the shapes of
  * the body, and what makes them }.
  * Texts of a problem come in as text, never as markup. */
@@ -32,6 +32,7 @@ function mount(element, page, pieces) {
   const scene = { page, p, velocity, energy, ask, run: null, trail: [], redraw: () => scene.run && show(scene.run.at(time), before) };
   let run, time = 0, wanted = null, playing = false, trail = [], first = {}, told = 0;
   let keeping = module, k = null;  // what gives the numbers that are kept, and its constants
+  let moved = [];  // what gravity moves
 
   const message = make("p", { class: "message", role: "status" });
   const tell = (text, where = home) => {
@@ -63,6 +64,7 @@ function mount(element, page, pieces) {
 
   function begin_to_keep() {
     k = keeping === module ? run.k : keeping.constants(p);
+    moved = page.weight?.some((t) => valued(module, p).number(t)) ? page.weightless : [];
     first = invariants(0, run.at(0));
   }
 
@@ -70,7 +72,10 @@ function mount(element, page, pieces) {
     const found = {};
     if (module.energy) found.energy = module.energy(t, x, run.k);
     const values = keeping.conserved?.(t, x, k);
-    values?.forEach((v, i) => v === v && (found[keeping.CONSERVED[i]] = v));  // a component along what is 0 is none
+    values?.forEach((v, i) => {  // a component along what is 0 is none
+      const name = keeping.CONSERVED[i];
+      if (v === v && !moved.includes(name)) found[name] = v;
+    });
     if (module.defect) found.defect = module.defect(x);
     if (module.multiplier) found.multiplier = module.multiplier(t, x, run.k, u);
     return found;

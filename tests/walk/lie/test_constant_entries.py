@@ -95,6 +95,35 @@ def test_what_does_not_change_is_no_force():
     assert all(v.holds for v in derive.derive(problem_of(still)).check(seed=1))
 
 
+TWICE = {"name": "Twice", "basis": [np.diag([1, 0, 1]).tolist(), np.diag([0, 1, 0]).tolist()]}
+RELATED = {
+    "the same factor twice": (TWICE, "zeta_2^2/2 + sin(A_33) - sin(A_11) - A_22", (1,)),
+    "a turn": ("SE(2)", "(zeta_2^2 + zeta_3^2)/2 - (A_11 - A_22)", (1,)),
+    "a column": ("SO(3)", "(zeta_2^2 + zeta_3^2)/2 - A_11^2 - A_21^2 - A_31^2", (1,)),
+}
+
+
+@pytest.mark.parametrize("name", RELATED)
+def test_what_the_group_relates_is_no_force(name):
+    """A symmetry where entries tell each other: A_33 = A_11, A_22 = A_11, or a column is a unit."""
+    group, L, held = RELATED[name]
+    d = derive.derive(problem_of({"name": "test", "group": group, "lagrangian": {"L": L}}))
+    assert d.problem.lagrangian.held == held
+    assert all(v.holds for v in d.check(seed=1))
+
+
+def test_the_other_momentum_is_kept_by_what_the_group_relates():
+    for group, L, kept in (
+        ("SE(2)", "(zeta_1^2 + zeta_2^2 + 2*zeta_3^2)/2 - (A_11 - A_22)", True),
+        ("SE(2)", "(zeta_1^2 + zeta_2^2 + 2*zeta_3^2)/2 - (A_11 + A_22)", False),
+        ("SO(3)", "(zeta_1^2 + zeta_2^2 + 2*zeta_3^2)/2 - A_11^2 - A_21^2 - A_31^2", True),
+    ):
+        d = derive.derive(problem_of({"name": "test", "group": group, "lagrangian": {"L": L}}))
+        step = next(s for s in d.record.steps if s.label == "test.conserved")
+        assert ("Π̇_o" in [e.lhs for e in step.equations]) is kept
+        assert all(v.holds for v in d.check(seed=1))
+
+
 def test_division_by_an_entry_that_is_0_is_told():
     with pytest.raises(ProblemError, match="divides by an entry of g that is 0 on UT"):
         derived("UT(3)", "{} - 1/A_21")
