@@ -75,17 +75,17 @@ def spelt(formula: str, notation: Notation = BARS, names: Mapping[str, str] = NA
     """A formula of a sentence, j as any letter; what stands in ‘quotes’ is a parameter, whose own
     LaTeX is in ``names``."""
     if integral := INTEGRAL.fullmatch(formula):
-        sign, factor, differential, below = (
+        sign, factor, differential, under_it = (
             spelt(part or "", notation, names) for part in integral.groups()
         )
-        above = factor + literal(r"\,") + differential if factor.tex else differential
-        return sign + fraction(above, below)
+        over_it = factor + literal(r"\,") + differential if factor.tex else differential
+        return sign + fraction(over_it, under_it)
     found = Formula("")
     tight = re.sub(rf"(^|[{SCRIPTS}\s])[\u0300-\u036f]+", r"\1", formula)
     tight = re.sub(rf"\s+(?=[{SCRIPTS}])", "", tight)
     for match in TOKEN.finditer(unicodedata.normalize("NFC", tight)):
-        known, own, inside, called, number, *others = match.groups()
-        below, above, under, letters, letter, marks = others
+        known, own, inside, called, number, below, above, under = match.groups()[:8]
+        letters, letter, marks = match.groups()[8:]
         if own:
             found += quoted(own, names)
         elif inside or called:
