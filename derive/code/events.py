@@ -26,7 +26,7 @@ UNWATCHED = "gauss_jax"
 
 
 class Event(Protocol):
-    """An instant at which the expression ``when`` becomes 0; ``direction``: of DIRECTIONS."""
+    """An instant at which the expression ``when`` changes its sign; ``direction``: of DIRECTIONS."""
 
     @property
     def name(self) -> str:
