@@ -261,7 +261,7 @@ def discrete(problem: Problem) -> Derivation:
         acting = here.with_input() if acts(problem) else here
         start |= own | {"here": here, "driven": acting}
     steps = follow(DISCRETE, start, {"affine" if affine else "linear"})["steps"]
-    steps = supposing_all(traced(by_name(problem, steps) if group else steps))
+    steps = supposing_all(traced(by_name(problem, steps, discrete=True) if group else steps))
     data = problem_data(problem) | {"discrete": True}
     return Derivation(data, symbols(steps, problem, discrete=True), steps)
 

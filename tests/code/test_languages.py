@@ -25,7 +25,7 @@ from tests.support.languages import (
     known,
 )
 from tests.support.needs import CC, need
-from tests.support.read_julia import Module, Numbers
+from tests.support.read_julia import DimensionMismatchError, Module, Numbers
 
 ALL = ("state", "inputs", "parameters", "raw")
 RUST_LIBRARY = ("--crate-type=lib", "--emit=metadata", "-Dwarnings")
@@ -128,7 +128,7 @@ WORDS = (
     "super trait type unsafe use where Some Ok Err begin end function module local quote isa "
     "elseif nothing undef eltype Vector Float64 arguments debugger eval extends instanceof null "
     "package var Math Float64Array Number RangeError char8_t N_STATE N_CONSTANTS ZERO_INPUTS "
-    "Singular DEFAULTS D STATE rhs energy constants jacobian project defect out "
+    "Singular DEFAULTS length D STATE rhs energy constants jacobian project defect out "
     "conserved CONSERVED N_CONSERVED Conserved"
 )
 COMPILED = {
@@ -176,6 +176,26 @@ def test_javascript_refuses_arrays_of_another_length(tmp_path):
     (tmp_path / "main.mjs").write_text(LENGTHS, encoding="utf-8")
     done = subprocess.run(["node", "main.mjs"], cwd=tmp_path, capture_output=True, text=True)
     assert done.stdout + done.stderr == ""
+
+
+def test_julia_refuses_arrays_of_another_length(tmp_path):
+    """One that is too long was read in part."""
+    files = derive("se3").emit(tmp_path, "julia", "test", attitude="quaternion", momenta=True)
+    module = Module(files["test.jl"])
+    sizes = (module.names[f"N_{x}"] for x in ("STATE", "CONSTANTS", "PARAMETERS"))
+    x, k, p = (Numbers(n, values=np.ones(n)) for n in sizes)
+    takes = {"constants": [p], "energy": [np.float64(T), x, k], "defect": [x]}
+    takes["rhs!"] = [Numbers(*x.shape), x, k, np.float64(T)]
+    for name, given in takes.items():
+        for i, own in enumerate(given):
+            if own not in (x, k, p):
+                continue
+            for more in (-1, 1):
+                other = Numbers(own.shape[0] + more, values=np.ones(own.shape[0] + more))
+                with pytest.raises(
+                    DimensionMismatchError, match=r"^test: [xkp] has [0-9]+ numbers"
+                ):
+                    module.call(name, *given[:i], other, *given[i + 1 :])
 
 
 @pytest.fixture(scope="module")

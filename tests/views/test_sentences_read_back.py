@@ -21,6 +21,7 @@ from tests.support.lagrangians import every_case, every_equilibrium
 from tests.support.walks import FLUIDS, NAMES, OTHERS, problem, record, repeated
 
 LANGUAGES = ("en", "fr")
+D = r"\mathrm{d}"
 WALKS = tuple(dict.fromkeys((*NAMES, *FLUIDS, *OTHERS)))
 
 
@@ -73,3 +74,14 @@ def test_a_condition_on_every_page():
     )
     assert "<mo>≠</mo>" in html([lagrange])
     assert "πR²h·rho·(R² + 4h²)(1 − A₃₃²) ≠ 0" in " ".join(text(top).split())
+
+
+def test_an_integral_of_a_sentence_is_set_as_in_an_equation():
+    """Limits, fraction and root of self-gravity's integrals; the words around them stay words."""
+    d = record("riemann_ellipsoid")
+    root, power = r"\frac{\mathrm{d}u}{\sqrt{P(u)}}", r"\frac{u^{2}\,\mathrm{d}u}{P(u)^{3/2}}"
+    for integrand in (root, power):
+        assert rf"$\int_{{0}}^{{\infty}}{integrand}$, with $P(u)" in latex(d).replace(r"\dd ", D)
+    assert r"by $\hat r$ : $(t, g, \nu) \mapsto (t," in latex(d)
+    assert "</msubsup><mfrac>" in html([d])
+    assert "∫₀^∞ du / √P(u), with" in " ".join(text(d).split())
