@@ -15,10 +15,13 @@ from derive.code.emit import emit
 from derive.code.options import Options
 from derive.command.cli import main
 from derive.command.loading import load_problem, ready_made
+from derive.figure.drawn_body import Numbers
+from derive.language.values import approximate
 from derive.page.moving_body import moving_body
 from derive.page.shortened import called, shortened
 from derive.pipeline import motion_of, program
 from derive.problem.state_names import state_names
+from derive.problem.toml import problem_of
 from derive.walk.head import problem_data
 from tests.support.needs import BROWSERS, need
 
@@ -396,6 +399,42 @@ def test_what_is_in_front_is_drawn_over_what_is_behind(shape, tmp_path):
             last = np.where(here > 0, here, last)
         assert (nearest > 0).sum() > 20
         assert np.abs(last - nearest).max() < 1e-9
+
+
+SOLIDS = {
+    "ball": ({"radius": 2}, 4 * np.pi / 3, [0, 0, 0]),
+    "hollow_ball": ({"outer": 2, "inner": 0}, 4 * np.pi / 3, [0, 0, 0]),
+    "ellipsoid": ({"semi_axes": [1, 2, 3]}, 4 * np.pi / 3, [0, 0, 0]),
+    "box": ({"sides": [1, 2, 3]}, 8, [0, 0, 0]),
+    "cylinder": ({"radius": 2, "height": 3}, 2 * np.pi, [0, 0, 0]),
+    "cone": ({"radius": 2, "height": 3}, np.pi / 3, [0, 0, 1 / 4]),
+    "tetrahedron": ({"vertices": [[1, 0, 0], [2, 0, 1], [1, 3, 0], [0, 0, 4]]}, 1 / 6, [1 / 4] * 3),
+}
+"""Sizes of each kind; volume and centre of the shape that is drawn as its image."""
+
+
+@pytest.mark.parametrize("kind", SOLIDS)
+def test_a_solid_is_drawn_with_its_volume_and_its_centre(kind):
+    sizes, volume, centre = SOLIDS[kind]
+    placed = {"shift": [1, 2, -1], "rotation": {"axis": [1, 2, 2], "angle": "pi/2"}}
+    solid = {"kind": kind, "density": 3} | sizes | placed
+    problem = problem_of({"name": "x", "group": "SO(3)", "solid": [solid]})
+    data, state = problem_data(problem), [*state_names(problem.group)]
+    (drawn,) = moving_body(data, problem.group, state)["parts"][0]["solids"]
+    number = Numbers(data)
+    columns = np.array([number.vector(x) for x in drawn["columns"]])
+    moments = problem.body.moments()
+    m, *c = (approximate(x, {}) for x in (moments.m, *moments.c))
+    assert 3 * volume * abs(np.linalg.det(columns)) == pytest.approx(m)
+    assert centre @ columns + number.vector(drawn["shift"]) == pytest.approx(np.array(c) / m)
+
+
+def test_a_turn_has_the_slider_of_turns(pages):
+    """A velocity that is no turn but a shear, or a stretch, has one to 1."""
+    for name in ("so3", "sl3", "two_tops"):
+        E = np.array(load_problem(name).group.basis, float)
+        turns = (-E.transpose(0, 2, 1) == E).all(axis=(1, 2))
+        assert told(pages(name))["reach"] == np.where(turns, 60, 1).tolist()
 
 
 def test_every_ready_made_body_has_a_shape():
