@@ -15,7 +15,7 @@ from derive.motion.effective_well import curve, turning_points
 from derive.motion.run import Column, Run
 from derive.motion.run_files import written
 from derive.plot import kinds_told
-from derive.plot.body_pictures import _ellipsoid, hull
+from derive.plot.body_pictures import _ellipsoid, drawn, hull
 from derive.plot.kinds_told import OVERVIEW, PRECISION
 from derive.plot.pictures import ENSEMBLE_KINDS, KINDS, plot, plot_energies
 from derive.plot.plot_sheet import FORMATS, PlotError, label, look, settled, sheet, with_mark
@@ -515,6 +515,26 @@ def test_a_spectrum_ends_where_rounding_begins():
     (line,) = figure.axes[1].lines
     assert line.get_xdata().tolist() == [1, 2]
     assert np.allclose(line.get_ydata(), [2 * 25, 2e-30], rtol=1e-12)
+
+
+def test_a_wave_along_x_is_the_same_along_y():
+    run = Run(
+        (Column("t", "time"), Column("re_1_0", "state"), Column("im_1_0", "state")),
+        np.array([[0.0, 0.5, 0.0]]),
+    )
+    figure = sheet(7, 3.4)
+    vorticity(figure, run, str)
+    field = figure.get_axes()[0].collections[0].get_array().reshape(129, 129)
+    assert np.allclose(field, np.cos(np.linspace(0, 2 * np.pi, 129))[None, :])
+
+
+def test_a_body_of_an_inertia_alone_is_the_ellipsoid_that_has_it():
+    a, b, c = 1.0, 2.0, 3.0
+    inertia = np.diag([b**2 + c**2, c**2 + a**2, a**2 + b**2]) / 5
+    run = Run((Column("t", "time"),), np.zeros((1, 1)), {"body": {"inertia": inertia.tolist()}})
+    ((root, centre),) = drawn(run)["ellipsoids"]
+    assert np.allclose(root, np.diag([a, b, c]) / c)
+    assert centre == [0, 0, 0]
 
 
 def test_the_body_of_a_run_is_that_of_its_parameters():
