@@ -129,6 +129,20 @@ def test_numbers_are_needed():
         derive(heavy("123", "m*A_31", "m")).equilibria()
 
 
+@pytest.mark.parametrize(
+    ("potential", "said"),
+    [
+        ("pi*A_33", "and π is none"),
+        ("b*pi*A_33", "and b has no default"),
+        ("cos(pi/3)*A_33", "has cos of π or parameters"),
+    ],
+)
+def test_pi_is_no_number_here(potential, said):
+    """“b, π has no default”; “cos of its parameters” where there is none."""
+    with pytest.raises(ValueError, match=said):
+        derive(heavy("123", potential, "b" if "b" in potential else "")).equilibria()
+
+
 @pytest.mark.parametrize("words", ["q", "Pi_1=", "Pi_1=x", "Pi_1=1/0"])
 def test_what_is_no_coordinate(words, capsys):
     with pytest.raises(SystemExit) as error:
