@@ -342,8 +342,9 @@ def test_the_ellipsoid_of_an_inertia_that_the_energy_tells(name, tmp_path):
 
 TRACED = """
     {drawing}
-    const page = {{ body: {body}, module: {{ PARAMETERS: {names} }} }}, none = () => [];
-    const {{ parts }} = built({{ page, p: {values} }}, [], {{ of_inertia: none, of_moments: none }});
+    const none = () => [], page = {{ body: {body}, module: {{ PARAMETERS: {names} }} }};
+    const pieces = {{ of_inertia: none, of_moments: none }};
+    const {{ parts }} = built({{ page, p: {values} }}, [], pieces);
     console.log(JSON.stringify(parts.map((part) => [part.traced, part.tips.at(-1)])));
 """
 
