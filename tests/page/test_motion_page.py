@@ -345,6 +345,36 @@ def test_the_ellipsoid_of_an_inertia_that_the_energy_tells(name, tmp_path):
     assert len(found) == len(parts)
 
 
+TRACED = """
+    {drawing}
+    const none = () => [], page = {{ body: {body}, module: {{ PARAMETERS: {names} }} }};
+    const pieces = {{ of_inertia: none, of_moments: none }};
+    const {{ parts }} = built({{ page, p: {values} }}, [], pieces);
+    console.log(JSON.stringify(parts.map((part) => [part.traced, part.tips.at(-1)])));
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "traced"), [("pendulum", [0, -0.8, 0]), ("so3", [1, 1, 0.2]), ("euler_top", None)]
+)
+def test_what_leaves_a_trail(name, traced, tmp_path):
+    """The bob of a pendulum hangs on the other side of where the second axis is drawn to; about a
+    fixed centre of mass, and where the last axis goes through it, its tip does (``None``)."""
+    need("node")
+    d = derive.derive(name)
+    made = motion_of(d.problem, d.record).program
+    scripts = Path(derive.__file__).parents[1] / "templates" / "html" / "motion"
+    known = d.problem.parameters
+    text = TRACED.format(
+        drawing="".join((scripts / f"{x}.js").read_text() for x in ("vectors", "shapes", "body")),
+        body=json.dumps(moving_body(d.record.problem, d.problem.group, made.state)),
+        names=json.dumps([*known]),
+        values=json.dumps([float(x.default or 1) for x in known.values()]),
+    )
+    ((places, tip),) = json.loads(run_in_node(tmp_path, text))
+    assert places == [traced or tip]
+
+
 PAINTED = """
     {drawing}
     const eye = {{ look() {{}}, right: {right}, up: {up}, towards: {towards} }};

@@ -137,6 +137,11 @@ def test_keys_of_a_file_are_keywords():
         (MotionError, "t: expected a number", lambda d: d.simulate("1")),
         (MotionError, "give dt", lambda d: d.simulate(1, step="rk4")),
         (MotionError, "project takes it there", lambda d: d.simulate(1, start={"A_11": 2})),
+        (
+            ValueError,
+            "without at_defaults parameters stay letters",
+            lambda _: derive.first_integrals("so3", at_defaults=True, conditions=True),
+        ),
         (MotionError, "vary: expected laws", lambda d: d.simulate(1, ensemble=2, vary=[1])),
     ],
 )
