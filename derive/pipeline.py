@@ -506,7 +506,7 @@ def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
         reduced = record_of(found, general)
     except Refused:
         return None
-    left = reduced.routhian.quadrature
+    left = reduced.quadrature
     if left is None or not isinstance(left.entry, tuple) or reduced.routhian.named:
         return None
     told = reduced.record[f"{problem.name}.effective"].equations

@@ -91,35 +91,43 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "dérivée, et le mouvement s’obtient par une quadrature.",
         ),
         "elementary": (
-            "The right side is a polynomial of degree {degree}: its integral is elementary.",
-            "Le membre de droite est un polynôme de degré {degree} : l’intégrale est élémentaire.",
+            "For generic parameters, momenta and energy the right side is a polynomial of degree "
+            "{degree}: its integral is elementary.",
+            "Pour des paramètres, des moments et une énergie génériques, le membre de droite est "
+            "un polynôme de degré {degree} : l’intégrale est élémentaire.",
         ),
         "elliptic": (
-            "The right side is a polynomial of degree {degree}: the integral is elliptic.",
-            "Le membre de droite est un polynôme de degré {degree} : l’intégrale est elliptique.",
+            "For generic parameters, momenta and energy the right side is a polynomial of degree "
+            "{degree}: the integral is elliptic.",
+            "Pour des paramètres, des moments et une énergie génériques, le membre de droite est "
+            "un polynôme de degré {degree} : l’intégrale est elliptique.",
         ),
         "hyperelliptic": (
-            "The right side is a polynomial of degree {degree}: the integral is hyperelliptic.",
-            "Le membre de droite est un polynôme de degré {degree} : l’intégrale est "
-            "hyperelliptique.",
+            "For generic parameters, momenta and energy the right side is a polynomial of degree "
+            "{degree}: the integral is hyperelliptic.",
+            "Pour des paramètres, des moments et une énergie génériques, le membre de droite est "
+            "un polynôme de degré {degree} : l’intégrale est hyperelliptique.",
         ),
         "elementary_squared": (
-            "The right side is a polynomial of degree {degree}, a square times one of degree "
-            "{left}: its integral is elementary.",
-            "Le membre de droite est un polynôme de degré {degree}, un carré fois un polynôme de "
-            "degré {left} : l’intégrale est élémentaire.",
+            "For generic parameters, momenta and energy the right side is a polynomial of degree "
+            "{degree}, a square times one of degree {left}: its integral is elementary.",
+            "Pour des paramètres, des moments et une énergie génériques, le membre de droite est "
+            "un polynôme de degré {degree}, un carré fois un polynôme de degré {left} : "
+            "l’intégrale est élémentaire.",
         ),
         "elliptic_squared": (
-            "The right side is a polynomial of degree {degree}, a square times one of degree "
-            "{left}: the integral is elliptic.",
-            "Le membre de droite est un polynôme de degré {degree}, un carré fois un polynôme de "
-            "degré {left} : l’intégrale est elliptique.",
+            "For generic parameters, momenta and energy the right side is a polynomial of degree "
+            "{degree}, a square times one of degree {left}: the integral is elliptic.",
+            "Pour des paramètres, des moments et une énergie génériques, le membre de droite est "
+            "un polynôme de degré {degree}, un carré fois un polynôme de degré {left} : "
+            "l’intégrale est elliptique.",
         ),
         "hyperelliptic_squared": (
-            "The right side is a polynomial of degree {degree}, a square times one of degree "
-            "{left}: the integral is hyperelliptic.",
-            "Le membre de droite est un polynôme de degré {degree}, un carré fois un polynôme de "
-            "degré {left} : l’intégrale est hyperelliptique.",
+            "For generic parameters, momenta and energy the right side is a polynomial of degree "
+            "{degree}, a square times one of degree {left}: the integral is hyperelliptic.",
+            "Pour des paramètres, des moments et une énergie génériques, le membre de droite est "
+            "un polynôme de degré {degree}, un carré fois un polynôme de degré {left} : "
+            "l’intégrale est hyperelliptique.",
         ),
     },
 }

@@ -52,11 +52,8 @@ class Reduced(Checked):
     def quadrature(self) -> ShownEquation | None:
         """The square of the rate of the coordinate that is left, by the energy and the momenta;
         ``None`` where more than one is left, or one that is no entry of g."""
-        found = self.found.quadrature
-        if found is None:
-            return None
-        assert isinstance(found.entry, tuple)
-        return self._equation("quadrature", ("pow", ("entry", "Ȧ", *found.entry[2:]), 2))
+        told = [s for s in self.record.steps if s.label.endswith(".quadrature")]
+        return self._equation("quadrature", told[0].equations[0].lhs) if told else None
 
     def __str__(self) -> str:
         from ..reduction.reduced_record import shown

@@ -3,16 +3,15 @@ momenta, and of which kind that integral is."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import reduce
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..language.tree import Tree
+from .routhian import Routhian
 from .state_functions import Element, entries_in
-
-if TYPE_CHECKING:
-    from .routhian import Routhian
 
 Vector = list[Element]
 
@@ -22,13 +21,16 @@ class Quadrature:
     """One degree of freedom is left: u̇² = 2 ``slope`` (h̃ − V), u the ``entry`` of g.
 
     ``degree``: of the right side in u, where it is a polynomial, else 0; ``left``: of its factors
-    of odd multiplicity, which say what kind of integral 1/√ of it has.
+    of odd multiplicity, which say what kind of integral 1/√ of it has; ``leading``: what its
+    leading coefficient vanishes with, by monomials in the 𝒥_i, the places of these, but for h̃,
+    ``None``.
     """
 
     entry: Tree
     slope: Element
-    degree: int
-    left: int
+    degree: int = 0
+    left: int = 0
+    leading: Mapping[tuple[int, ...] | None, Element] = field(default_factory=dict)
 
 
 def quadrature_of(r: Routhian) -> Quadrature | None:
@@ -40,7 +42,7 @@ def quadrature_of(r: Routhian) -> Quadrature | None:
         entry = r.functions.leaves[k]
         slope = _slope(r, r.slopes(entry))
         if slope and all(_told_by(r, k, x) for x in _all(r, slope)):
-            return Quadrature(entry, slope, *_degrees(r, k, slope))
+            return Quadrature(entry, slope, *_degrees(r, k, slope) or ())
     return None
 
 
@@ -77,9 +79,11 @@ def _slope(r: Routhian, rates: Vector) -> Element:
     return r.functions.simplified(total)
 
 
-def _degrees(r: Routhian, k: int, slope: Element) -> tuple[int, int]:
-    """The degree in u of f = 2 ``slope`` (h̃ − V), and that of its factors of odd multiplicity;
-    0, 0 where it is no polynomial in u.
+def _degrees(
+    r: Routhian, k: int, slope: Element
+) -> tuple[int, int, Mapping[tuple[int, ...] | None, Element]] | None:
+    """The degree in u of f = 2 ``slope`` (h̃ − V), that of its factors of odd multiplicity, and its
+    leading coefficient; ``None`` where it is no polynomial in u.
 
     f is linear in h̃: what has no h̃ in it divides all coefficients, and the rest is a factor
     alone.
@@ -89,27 +93,37 @@ def _degrees(r: Routhian, k: int, slope: Element) -> tuple[int, int]:
         i < r.functions.first_entry and [*entries_in(r.functions.leaves[i])]
         for i in r.functions.depends_on(U)
     ):
-        return 0, 0
-    found = [slope * x for x in (r.functions.field(1), *_by_momenta(r, U)) if x]
-    if any(e[k] for x in found for e in x.denom):
-        return 0, 0
-    whole = reduce(lambda x, y: x.lcm(y), (x.denom for x in found))
-    parts = [(x * r.functions.field(whole)).numer for x in found]
+        return None
+    by_letters = {None: r.functions.field(1)} | {x: -y for x, y in _by_momenta(r, U).items()}
+    found = {x: slope * y for x, y in by_letters.items() if y}
+    if any(e[k] for x in found.values() for e in x.denom):
+        return None
+    of = r.functions.field
+    whole = of(reduce(lambda x, y: x.lcm(y), (x.denom for x in found.values())))
+    cleared = {x: y * whole for x, y in found.items()}  # over numbers, which lcm leaves out
+    parts = [y.numer for y in cleared.values()]
     common = reduce(lambda x, y: x.gcd(y), parts)
     degree = max(_degree_in(k, x) for x in parts)
     squared = (_degree_in(k, x) * (n - n % 2) for x, n in common.sqf_list()[1])
-    return degree, degree - sum(squared)
+    leading = {x: of(_coefficient(k, degree, y.numer)) / y.denom for x, y in cleared.items()}
+    return degree, degree - sum(squared), {x: y for x, y in leading.items() if y}
 
 
-def _by_momenta(r: Routhian, U: Element) -> Vector:
-    """The coefficients of V, a polynomial in the 𝒥_i."""
+def _by_momenta(r: Routhian, U: Element) -> dict[tuple[int, ...], Element]:
+    """The coefficients of V, a polynomial in the 𝒥_i, by the places of these."""
     found: dict[tuple[int, ...], Element] = {(): U}
     for s in r.squares:
         row = [*s.factors.items(), (None, -s.rest)]
         for (i, x), (j, y) in product(row, row):
             key = tuple(sorted(n for n in (i, j) if n is not None))
             found[key] = found.get(key, 0) + s.weight * x * y
-    return [*found.values()]
+    return found
+
+
+def _coefficient(k: int, degree: int, p: Any) -> Any:
+    """The coefficient of a power of one leaf in a polynomial."""
+    terms = {(*e[:k], 0, *e[k + 1 :]): c for e, c in p.items() if e[k] == degree}
+    return p.ring.from_dict(terms)
 
 
 def _degree_in(k: int, p: Any) -> int:

@@ -16,15 +16,17 @@ from ..walk.lineage import traced
 from ..walk.regularity import supposing_all
 from ..walk.stages import Values
 from .commuting import chosen
+from .quadrature import Quadrature, quadrature_of
 from .routhian import Routhian
 from .told_reduction import told
 
 
 @dataclass(frozen=True)
 class Reduction:
-    """The reduction of a problem, and its record."""
+    """The reduction of a problem, the quadrature that is left, if one is, and its record."""
 
     routhian: Routhian
+    quadrature: Quadrature | None
     record: Derivation
 
 
@@ -39,11 +41,12 @@ def record_of(found: Found, general: Values) -> Reduction:
     road: AnyLagrangian = general["lagrangian"]
     basis = of_element(problem, group, road, c)
     own = expressed.expressed(problem, group, road, basis, c)
-    last = told(routhian, (*own.steps, basis.last), c)
+    left = quadrature_of(routhian)
+    last = told(routhian, left, (*own.steps, basis.last), c)
     steps = supposing_all(traced((*general["steps"], *basis.steps, *own.steps, *last)))
     data = problem_data(problem) | {"symmetries": [encode(x.displacement) for x in taken]}
     names = symbols(steps, problem, fields=len(taken))
-    return Reduction(routhian, Derivation(data, names, steps))
+    return Reduction(routhian, left, Derivation(data, names, steps))
 
 
 def shown(record: Derivation) -> list[Step]:

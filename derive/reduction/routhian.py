@@ -22,7 +22,6 @@ from ..problem.state_names import coordinates
 from ..symmetries.found import Found
 from ..symmetries.symmetry import Symmetry
 from ..symmetries.tree_matrices import full
-from .quadrature import Quadrature, quadrature_of
 from .state_functions import Element, StateFunctions, entries_in
 
 Vector = list[Element]
@@ -350,11 +349,6 @@ class Routhian:
         found = [tree(self.functions.simplified(self.potential)), tree(self.potential)]
         found += [own] if self.functions.of(own) == self.potential else []
         return min(found, key=lambda t: (len({*entries_in(t)}), len(nodes(t))))
-
-    @cached_property
-    def quadrature(self) -> Quadrature | None:
-        """That of the one degree of freedom, where that is all that is left."""
-        return quadrature_of(self)
 
 
 def inertia(i: int, j: int) -> Tree:

@@ -6,11 +6,13 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.tree import Tree, add, mul, neg, plain, terms
+from ..language.tree import Tree, add, mul, neg, nodes, plain, terms
+from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..symmetries.symmetry import Symmetry
 from ..walk.chapter import Chapter
 from ..walk.wording import phrase, say
+from .quadrature import Quadrature
 from .routhian import Routhian, Square
 from .state_functions import Element
 
@@ -28,9 +30,11 @@ def connection(i: int, xi: Tree) -> Tree:
     return ("call", ("at", "𝒜", i + 1), xi)
 
 
-def told(r: Routhian, made_from: Sequence[Step], c: Chapter) -> tuple[Step, ...]:
-    """The steps of a reduction; ``made_from``: those of L̃, of its momenta, of its energy and of the
-    basis."""
+def told(
+    r: Routhian, left: Quadrature | None, made_from: Sequence[Step], c: Chapter
+) -> tuple[Step, ...]:
+    """The steps of a reduction, with the quadrature that is ``left``; ``made_from``: those of L̃, of
+    its momenta, of its energy and of the basis."""
     lagrangian, momenta, energy, basis = made_from
     told_momenta = [_momentum(x, i, r, (lagrangian, momenta), c) for i, x in enumerate(r.chosen)]
     pairs = [
@@ -44,7 +48,8 @@ def told(r: Routhian, made_from: Sequence[Step], c: Chapter) -> tuple[Step, ...]
     effective = _effective(r, (*told_momenta, velocities, locked, lagrangian, energy), c)
     bent = _curvature(r, (form, velocities, basis), c)
     steps = (*told_momenta, *pairs, locked, velocities, form, *bent, effective)
-    return (*steps, *_quadrature(r, (effective, basis), c))
+    last = [_quadrature(r, left, (effective, basis), c)] if left else []
+    return (*steps, *last)
 
 
 # -- the momenta --------------------------------------------------------------------------------
@@ -271,11 +276,8 @@ def _linear(r: Routhian) -> Tree:
     return add(*(r.tree(r.linear[a], horizontal(a)) for a in r.free))
 
 
-def _quadrature(r: Routhian, made_from: Iterable[Step], c: Chapter) -> tuple[Step, ...]:
-    """u̇² by the energy and the momenta, where one degree of freedom is left."""
-    found = r.quadrature
-    if found is None:
-        return ()
+def _quadrature(r: Routhian, found: Quadrature, made_from: Iterable[Step], c: Chapter) -> Step:
+    """u̇² by the energy and the momenta."""
     draft = c.draft("quadrature", "reduction")
     draft.depends_on(*made_from)
     assert isinstance(found.entry, tuple)
@@ -297,7 +299,16 @@ def _quadrature(r: Routhian, made_from: Iterable[Step], c: Chapter) -> tuple[Ste
         if found.left < found.degree:
             kind, degrees = f"{kind}_squared", degrees | {"left": found.left}
         prose += draft.claim(f"reduction.{kind}", **degrees)
-    return (draft.step([Equation(("pow", rate, 2), whole)], prose),)
+    letters = (("h̃",) if x is None else map(momentum, x) for x in found.leading)
+    pairs = zip(found.leading.values(), letters, strict=True)
+    leading = add(*(r.tree(x, *y) for x, y in pairs))
+    supposed = [Hypothesis("nonzero", leading)] if any(map(_open, nodes(leading))) else []
+    return draft.step([Equation(("pow", rate, 2), whole)], prose, hypotheses=supposed)
+
+
+def _open(t: Tree) -> bool:
+    """Is it a number that may be 0: a parameter, a momentum, the energy?"""
+    return t == "h̃" or (isinstance(t, tuple) and t[0] in ("par", "at"))
 
 
 def _integral(degree: int) -> str:

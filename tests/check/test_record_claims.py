@@ -322,6 +322,18 @@ def test_whether_there_is_curvature_is_said():
     assert "no claim says" in judged("elliptic", silent)
 
 
+@pytest.mark.parametrize("name", ["lagrange_top", "spherical_pendulum", "top"])
+def test_that_the_leading_coefficient_is_not_0_is_supposed(name):
+    """Of degree 3 the right side is where there is weight; what it divides by is not enough."""
+    d = derive(name).reduction().record
+    step, judge = d["quadrature"], ClaimChecker(d, SEED).fault
+    first, *others = step.hypotheses
+    assert not judge(step)
+    for supposed in (others, [replace(first, of=add(first.of, 1)), *others]):
+        assert "leading coefficient" in judge(replace(step, hypotheses=tuple(supposed)))
+    assert judge(replace(step, hypotheses=()))
+
+
 def test_no_step_is_without_the_claims_of_its_rule():
     """All sentences of a step and all claims left out: no judge would be asked."""
     seen = set()

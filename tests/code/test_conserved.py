@@ -24,8 +24,8 @@ from derive.validate.emission import EmittedFiles
 from tests.support.walks import FLUIDS, problem, record, repeated
 from tests.symmetries.test_trajectories import NAMES, SHORT, start
 
-WITHOUT = ("jelly", "linear", "affine", "zeitlin", *FLUIDS)
-"""With damping, about any group, or without matrices; on the torus see test_torus."""
+WITHOUT = ("linear", "affine", "zeitlin", *FLUIDS)
+"""About any group, or without matrices; on the torus see test_torus."""
 FORMS = {
     "plain": {},
     "by_columns": {"layout": "col"},
@@ -155,11 +155,7 @@ def test_nothing_else_changes():
     assert rhs in kept
 
 
-def test_what_is_refused(capsys):
-    assert main(["emit", "jelly", "--conserved", "--names"]) in (0, 2)
-    capsys.readouterr()
-    assert main(["emit", "jelly", "--conserved", "--out", "nowhere"]) == 2
-    assert "damping" in capsys.readouterr().err
+def test_what_is_refused():
     with pytest.raises(LoweringError, match="leave out frame"):
         derive("se3").emit(conserved=True, frame="principal")
 

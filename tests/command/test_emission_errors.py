@@ -224,6 +224,12 @@ group = "SO(3)"
 body = { given = { m = 1, c = [0, 0, 1], J = [[2, 0, 0], [0, 3, 0], [0, 0, 4]] } }
 """
 
+DAMPED = (
+    'name = "top"\ngroup = "SO(3)"\n'
+    + "".join(f"[[point]]\nmass = 1\nat = {x}\n" for x in ([1, 0, 0], [0, 1, 0], [0, 0, 1]))
+    + "[[damping]]\ncoefficient = 1\n"
+)
+
 
 @pytest.mark.parametrize(
     ("problem", "options", "words"),
@@ -233,11 +239,16 @@ body = { given = { m = 1, c = [0, 0, 1], J = [[2, 0, 0], [0, 3, 0], [0, 0, 4]] }
         ("sl3", ["--jacobian", "inputs"], "no inputs to linearise in"),
         ("numbers.toml", ["--jacobian", "parameters"], "no parameters to linearise in"),
         ("so3", ["--frame", "principal", "--lang", "julia"], "not in julia"),
-        ("jelly", ["--conserved"], "damped points; without --conserved the rest is written"),
+        (
+            "damped.toml",
+            ["--conserved"],
+            "alone; without --conserved the rest is written",
+        ),
     ],
 )
 def test_choices_that_exclude_each_other(problem, options, words, refused, tmp_path):
     (tmp_path / "numbers.toml").write_text(NUMBERS)
+    (tmp_path / "damped.toml").write_text(DAMPED)
     path = tmp_path / problem if problem.endswith(".toml") else problem
     assert words in refused(path, *options, "--out", tmp_path / "new")
     assert not (tmp_path / "new").exists()

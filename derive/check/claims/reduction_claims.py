@@ -52,7 +52,7 @@ def _head(t: Tree) -> str:
 
 def _quadrature(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """The right side is a polynomial of the degree in the coordinate, and the kind is that of its
-    factors of odd multiplicity."""
+    factors of odd multiplicity; that its leading coefficient is not 0 is supposed."""
     rate, f = step.equations[0].lhs, step.equations[0].rhs
     if not isinstance(rate, tuple) or rate[0] != "pow" or rate[2] != 2:
         raise RecordError("the left side is no square of a rate")
@@ -65,8 +65,33 @@ def _quadrature(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     told = {"degree": degree}
     if left < degree:
         kind, told = f"{kind}_squared", told | {"left": left}
-    true = claim.kind == f"reduction.{kind}" and dict(claim.values) == told
-    return "" if true else f"its degree is {degree}, and {left} without squares"
+    if claim.kind != f"reduction.{kind}" or dict(claim.values) != told:
+        return f"its degree is {degree}, and {left} without squares"
+    return "" if _supposed(c, step, entry, degree) else "its leading coefficient may vanish"
+
+
+def _supposed(c: ClaimedRecord, step: Step, entry: Tree, degree: int) -> bool:
+    """Does the leading coefficient of the right side vanish, on a random line, only where what the
+    step supposes not to be 0 does?"""
+    f, p = step.equations[0].rhs, random_prime(c.random)
+    supposed = [x.of for x in step.hypotheses if x.property == "nonzero"]
+    at, along = (_random(_every_leaf([f, *supposed]), c.random, p) for _ in range(2))
+
+    def there(s: int) -> dict[Tree, int]:
+        return {x: (y + s * along[x]) % p for x, y in at.items()}
+
+    def leading(s: int) -> int:
+        """The coefficient times all that is supposed, so that nothing is divided by."""
+        here = there(s)
+        whole = _interpolated(lambda x: int(value(f, {**here, entry: x}, p)), p, LARGEST)
+        below = prod(int(value(t, here, p)) for t in supposed)
+        return whole[degree] * below % p if degree < len(whole) else 0
+
+    def on_line(t: Tree) -> list[int]:
+        return _interpolated(lambda s: int(value(t, there(s), p)), p, LARGEST_ON_LINE)
+
+    first = _interpolated(leading, p, LARGEST_ON_LINE)
+    return _vanishes(first, [on_line(t) for t in supposed], p)
 
 
 def _odd_degree(c: Sequence[int], p: int) -> int:
