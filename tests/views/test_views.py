@@ -359,3 +359,13 @@ def test_a_height_h_is_told_from_the_step_of_time(name, shown):
     top = load(PROBLEMS / "top.toml")
     assert shown in " ".join(render(discrete(top), name).split())
     assert "(radius R, height h)" in " ".join(render(walk(top), "text").split())
+
+
+def test_three_numbers_of_the_paper_are_a_run_and_two_are_not():
+    step = Step("a.b", "definition", (), (), (), ())
+    for paper, shown in {
+        (11, 12, 13): "(11)–(13)",
+        (11, 12): "(11), (12)",
+        (11, 13): "(11), (13)",
+    }.items():
+        assert printed(replace(step, paper=paper)) == shown
