@@ -308,6 +308,12 @@ def test_long_formulas_break_at_shallow_operators_first() -> None:
     ]  # fmt: skip
 
 
+def test_an_inner_line_has_room_for_its_indent() -> None:
+    pieces = [Piece("a", 0), Piece(" + ⟨bbbbb", 0.25), Piece(" cccc", 1.0), Piece(" dddd⟩", 1.0)]
+    lines = fill(pieces, 10, display_width, 2)
+    assert [display_width(x.text) + 2 * x.inside for x in lines if x.inside] == [6, 7]
+
+
 def test_a_term_longer_than_a_line_is_broken_inside() -> None:
     sides = [("add", *[f"{letter}_{k}" for k in range(40)]) for letter in "xy"]
     long = ("inner", *sides)
@@ -393,3 +399,13 @@ def test_what_is_nested_is_printed_once(operator, monkeypatch):
 
 def budget(shown):
     assert len(shown) < 30 * 20, "printed again and again"
+
+
+def test_three_numbers_of_the_paper_are_a_run_and_two_are_not():
+    step = Step("a.b", "definition", (), (), (), ())
+    for paper, shown in {
+        (11, 12, 13): "(11)–(13)",
+        (11, 12): "(11), (12)",
+        (11, 13): "(11), (13)",
+    }.items():
+        assert printed(replace(step, paper=paper)) == shown
