@@ -53,8 +53,8 @@ coverage: $(ALL) ## more tests, and the lines and branches of derive/ that none 
 
 night: coverage thorough mutants fuzz accuracy ## what continuous integration has no time for: hours
 
-thorough: $(ALL) ## all tests, an hour
-	$(BIN)/python -m pytest --thorough $(ON)
+thorough: $(ALL) ## all tests, an hour, in an order by chance
+	$(BIN)/python -m pytest --thorough --order=$(or $(SEED),1) $(ON)
 
 mutants: $(ALL) ## hours: every record, emitted program, rule of the engine made wrong; faults by hand
 	$(BIN)/python -m tests.support.mutants

@@ -261,7 +261,7 @@ def discrete(problem: Problem) -> Derivation:
         acting = here.with_input() if acts(problem) else here
         start |= own | {"here": here, "driven": acting}
     steps = follow(DISCRETE, start, {"affine" if affine else "linear"})["steps"]
-    steps = supposing_all(traced(by_name(problem, steps) if group else steps))
+    steps = supposing_all(traced(by_name(problem, steps, discrete=True) if group else steps))
     data = problem_data(problem) | {"discrete": True}
     return Derivation(data, symbols(steps, problem, discrete=True), steps)
 
@@ -334,13 +334,25 @@ def equilibrium_near(
     whole, record = integrals(problem, degree, at_defaults=True)
     try:
         require_numbers(whole)
-        found = enclosed(whole, values, _elements(problem, whole))
+        found = enclosed(whole, _of_variables(problem, values), _elements(problem, whole))
     except Refused as error:
         raise ProblemError(f"{problem.name}: {error}") from None
     assert problem.group is not None
     c = Chapter(problem.name, problem.group.name)
     steps = (*record.steps, *told_enclosed(whole, found, record.steps, c))
     return found, replace(record, steps=supposing_all(traced(steps)))
+
+
+def _of_variables(problem: Problem, values: Mapping[str, Number]) -> dict[str, Number]:
+    """The coordinates of a point by the names of the reduced variables: A_44 is A2_11 in the
+    problem, where its group is a product."""
+    from .equilibria.equilibrium_points import coordinate
+    from .problem.state_names import state_names
+
+    assert problem.group is not None
+    own = state_names(problem.group)
+    entries = {x for x, t in own.items() if isinstance(t, tuple) and t[1] == "A"}
+    return {coordinate(own[x]) if x in entries else x: v for x, v in values.items()}
 
 
 def _elements(problem: Problem, whole: Found) -> tuple[Conditions, ...]:
@@ -363,7 +375,8 @@ def equilibria(
 
     whole, record = integrals(problem, degree, at_defaults=True)
     try:
-        found = equilibria_of(whole, values, _elements(problem, whole))
+        point = _of_variables(problem, values)
+        found = equilibria_of(whole, point, _elements(problem, whole))
     except Refused as error:
         raise ProblemError(f"{problem.name}: {error}") from None
     assert problem.group is not None

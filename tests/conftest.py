@@ -21,7 +21,8 @@ def pytest_addoption(parser):
 
     ``--quick``: of what is named on the command line, too, no more than in a quick run.
     ``--seed``: of the choice of cases.  ``--passed``: a file for the names of those that passed;
-    ``--without``: such a file, of tests that are left out.
+    ``--without``: such a file, of tests that are left out.  ``--order``: files in an order by
+    chance, and the tests of each.
     """
     told = "of the tests that a quick run leaves out"
     parser.addoption("--half", action="store_true", help=f"half {told}, too, as make coverage")
@@ -30,6 +31,7 @@ def pytest_addoption(parser):
     parser.addoption("--seed", default=thorough.SEED, help="of the choice of cases (%(default)s)")
     parser.addoption("--passed", metavar="FILE", help="the names of tests that passed, into a file")
     parser.addoption("--without", metavar="FILE", help="leave out what passed before")
+    parser.addoption("--order", metavar="SEED", help="files and their tests in an order by chance")
 
 
 def pytest_configure(config):
@@ -64,6 +66,8 @@ def pytest_collection_modifyitems(config, items):
     if left := [x for x in items if x not in kept]:
         items[:] = [x for x in items if x in kept]
         config.hook.pytest_deselected(items=left)
+    if order := config.getoption("--order"):
+        items[:] = thorough.shuffled(items, order)
 
 
 @pytest.fixture(autouse=True, scope="session")

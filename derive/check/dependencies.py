@@ -12,7 +12,7 @@ from ..language.tree import Tree
 from ..record.record import Step
 from .definitions import PRIMITIVE
 
-MEMBERS = frozenset(f"{x}_" for x in ("m", "r", "r̂", "v", "F", "E", "f_u"))
+MEMBERS = frozenset(f"{x}_" for x in ("m", "r", "r̂", "v", "F", "E"))
 """The families that the walk starts from: a member m_i is another name than the sum m."""
 
 

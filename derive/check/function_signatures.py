@@ -137,7 +137,6 @@ INDEX_SETS: dict[str, str] = {
     **dict.fromkeys(("m", "r", "r̂", "v", "F", "Q", "P", "κ"), POINT),
     **dict.fromkeys(("k", "s"), "springs"),
     **dict.fromkeys(("d", "χ", "σ"), "forces along a distance"),
-    "f_u": "inputs",
     **dict.fromkeys(("E", "Π", "Π̇", "Φ"), AXIS),
     **dict.fromkeys(("𝒥", "𝒜", "d𝒜"), "symmetries"),
 }

@@ -69,7 +69,7 @@ def _in_body(model: Model, vector: Sequence[Any]) -> Matrix:
 
 
 def force_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
-    """k, s, d, σ, Q, κ and f_u by their indices."""
+    """k, s, d, σ, Q and κ by their indices."""
     families: dict[str, dict[tuple[int, ...], Any]] = {}
     for account, members in model.applied.members():
         if hasattr(account, "families"):
@@ -85,9 +85,4 @@ def force_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
         families["P"] = {(i,): _in_body(model, f) for i, f in enumerate(forces, 1)}
     if damped := damping_members(model):
         families["κ"] = {(i,): damped.get(i, Fraction(0)) for i in range(1, len(places) + 1)}
-    for e, (force, data) in enumerate(
-        zip(model.input_forces, model.inputs_of("force"), strict=True), 1
-    ):
-        here = model.group.of_block(model.blocks[data["on"] - 1])
-        families.setdefault("f_u", {})[e,] = q.column(force[here])
     return families

@@ -77,15 +77,14 @@ def _inputs(frame: PrincipalFrame, there: _Map, scale: Node) -> list[Node]:
     covectors u″ with ⟨u″, h ξ h⁻¹⟩ = ⟨u, ξ⟩."""
     old, g, n = frame.old, frame.graph, frame.n
     found: list[Node] = []
-    forces = 0
+    forces = iter(old.forces)
     for entry in old.record.problem["inputs"]:
         if entry["kind"] == "covector":
             found += _coadjoint(old.space, there, old.covector)
             continue
-        forces += 1
         turn = there.h if entry["frame"] == "body" else there.S
         linear = tuple(row[:n] for row in turn[:n])
-        found += q.flatten(q.times(linear, old.force(forces)))
+        found += q.flatten(q.times(linear, next(forces)))
     return [g.product((scale, x)) for x in found]
 
 

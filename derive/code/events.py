@@ -26,7 +26,8 @@ UNWATCHED = "gauss_jax"
 
 
 class Event(Protocol):
-    """An instant at which the expression ``when`` becomes 0; ``direction``: of DIRECTIONS."""
+    """An instant at which the expression ``when`` changes its sign, in a ``direction`` of
+    DIRECTIONS."""
 
     @property
     def name(self) -> str:

@@ -65,13 +65,11 @@ class RecordReader:
         self.state: dict[str, Value] = dict(self.space.values)
         self.state["t"] = self.leaf("t", "time")
         self.inputs: list[str] = []
-        forces = 0
+        self.forces: list[Matrix] = []
         for entry in self.record.problem.get("inputs", []):
             name = entry["name"]
             if entry["kind"] == "force":
-                forces += 1
-                block = self._block(entry["on"])
-                self.memo["at", "f_u", forces] = self._input_column(name, block.n)
+                self.forces.append(self._input_column(name, self._block(entry["on"]).n))
                 continue
             moved = self.group.turns_space and self.group.affine
             self.state["u"] = self._input_column(name, d - n if moved else d)
@@ -94,10 +92,6 @@ class RecordReader:
     def in_space(self) -> bool:
         """Does the state hold ġ, and the record have the accelerations α̇, τ̇ in space?"""
         return self.space.tangent and self.record.definition("α̇") is not None
-
-    def force(self, i: int) -> Matrix:
-        """Force input i, counted from 1, as a column."""
-        return matrix(self.memo["at", "f_u", i])
 
     def _input_column(self, name: str, size: int, after: int = 0) -> Matrix:
         """A column of new inputs of the program, ``name_1`` …, counted from ``after`` + 1."""

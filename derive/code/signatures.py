@@ -99,7 +99,7 @@ SIGNATURES = (
         "events",
         (T, X, K, U),
         (Argument("out", ("EVENTS",)),),
-        "what becomes 0 at each event",
+        "what changes its sign at each event; what only touches 0 is one by rounding alone",
     ),
     Signature(
         "project", (X,), (OUT,), "the state x taken back to the group by one Newton step", True

@@ -109,10 +109,9 @@ class Equilibrium:
 def require_numbers(whole: Found) -> None:
     """``NotReducedError`` where parameters have no numbers."""
     if whole.system.parameters:
-        names = ", ".join(whole.system.parameters)
-        reason = f"{names} has no default"
-        if whole.system.parameters == ("π",):
-            reason = "π is none: of a density that is a mass over a volume, it cancels"
+        reason = "π is none: of a density that is a mass over a volume, it cancels"
+        if names := ", ".join(x for x in whole.system.parameters if x != "π"):
+            reason = f"{names} has no default"
         raise NotReducedError(f"equilibria are told for numbers, and {reason}")
 
 

@@ -267,8 +267,9 @@ class _Symbolic:
                 return own[t[1:] if t[1] == "ζ" else _place(t)]
             if t[0] == "fun" and not any(x[0] == "entry" for x in nodes(t) if isinstance(x, tuple)):
                 self.refuse(
-                    f"has {t[1]} of its parameters, and integrals are sought in fractions of them; "
-                    "give the body by its moments, [body] given, with letters for such numbers"
+                    f"has {t[1]} of π or parameters, and integrals are sought in fractions of "
+                    "them; give the body by its moments, [body] given, with letters for such "
+                    "numbers"
                 )
             if t[0] == "fun":
                 self.refuse(f"has a function, {t[1]}, of which no polynomial is one")

@@ -28,7 +28,7 @@ TEXT = {
     "⅓": "1/3", "⅔": "2/3", "µ": r"\ensuremath{\mu}",
     "⋅": r"\ensuremath{\cdot}", "∑": r"\ensuremath{\sum}",
     "∆": r"\ensuremath{\Delta}", "ħ": r"\ensuremath{\hbar}", "⊥": r"\ensuremath{\perp}",
-    "⋉": r"\ensuremath{\ltimes}", "↦": r"\ensuremath{\mapsto}", "⊗": r"\ensuremath{\otimes}",
+    "⋉": r"\ensuremath{\ltimes}", "⊗": r"\ensuremath{\otimes}",
     "€": r"\texteuro{}", "†": r"\textdagger{}", "‰": r"\textperthousand{}",
 }  # fmt: skip
 """Characters outside formulas → LaTeX; a fraction of mathematics in a title would end TeX."""

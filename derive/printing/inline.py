@@ -37,7 +37,7 @@ INDICES = "".join(c for c in SYMBOLS if c.isalpha() and c.islower())
 TOKEN = re.compile(
     "("
     + "|".join(re.escape(name) for name in sorted(KNOWN, key=len, reverse=True) if len(name) > 1)
-    + r")(?![\u0300-\u036f])|‘([^’]*)’|√\(([^()]*)\)|([0-9]+(?:[.,][0-9]+)?)"
+    + r")(?![\u0300-\u036f])|‘([^’]*)’|√(?:\(([^()]*)\)|([A-Z]\([^()]*\)))|([0-9]+(?:[.,][0-9]+)?)"
     rf"|_([A-Za-z0-9]+|[{INDICES}]′*)"
     r"|([⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]+|\^(?:∞|\([^()]*\)))|([₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ]+)"
     r"|([A-Za-z]{2,})(?![\u0300-\u036f])|(.)([\u0300-\u036f]*)"
@@ -56,6 +56,8 @@ BELOW_STROKE = re.compile(r"/∂\S+$")
 """What ends in the denominator of a partial derivative, which a space parts from a factor."""
 SKEW = re.compile(r"(?<![A-Za-z_])j\(([^()]*)\)")
 """The skew matrix of a vector, j(…), as a sentence has it."""
+INTEGRAL = re.compile(r"(∫\S*) (?:(\S+) )?(d\w) / (\S+)")
+"""The integral of a quotient, whose differential stands above, perhaps after a factor."""
 
 
 def inline(formula: str, notation: Notation, names: Mapping[str, str] = NAMES) -> Formula:
@@ -72,15 +74,22 @@ def inline(formula: str, notation: Notation, names: Mapping[str, str] = NAMES) -
 def spelt(formula: str, notation: Notation = BARS, names: Mapping[str, str] = NAMES) -> Formula:
     """A formula of a sentence, j as any letter; what stands in ‘quotes’ is a parameter, whose own
     LaTeX is in ``names``."""
+    if integral := INTEGRAL.fullmatch(formula):
+        sign, factor, differential, under_it = (
+            spelt(part or "", notation, names) for part in integral.groups()
+        )
+        over_it = factor + literal(r"\,") + differential if factor.tex else differential
+        return sign + fraction(over_it, under_it)
     found = Formula("")
     tight = re.sub(rf"(^|[{SCRIPTS}\s])[\u0300-\u036f]+", r"\1", formula)
     tight = re.sub(rf"\s+(?=[{SCRIPTS}])", "", tight)
     for match in TOKEN.finditer(unicodedata.normalize("NFC", tight)):
-        known, own, under_root, number, below, above, under, letters, letter, marks = match.groups()
+        known, own, inside, called, number, below, above, under = match.groups()[:8]
+        letters, letter, marks = match.groups()[8:]
         if own:
             found += quoted(own, names)
-        elif under_root:
-            found += root(spelt(under_root, notation, names))
+        elif inside or called:
+            found += root(spelt(inside or called, notation, names))
         elif number:
             found += Formula(number.replace(",", "{,}"), (f"<mn>{number}</mn>",))
         elif below or under:

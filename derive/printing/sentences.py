@@ -12,7 +12,7 @@ from .letters import NAMES as KNOWN
 from .signs import LOWERED, MATH_ACCENTS, RAISED, SYMBOLS, decomposed
 
 PLAIN = "+=<>/(),[].:0123456789 "
-OPERATORS = "=<>+−±∧≅≠≈≤≥∈→×"
+OPERATORS = "=<>+−±∧≅≠≈≤≥∈→↦×/"
 PAIRED = (("(", ")"), ("⟨", "⟩"))
 """Brackets, between which a comma ends no formula."""
 ELIDED = re.compile("(?:[cdjlmnst]|qu|jusqu|lorsqu|puisqu)’", re.I)
@@ -131,7 +131,7 @@ def _is_formula(word: str, first: bool) -> bool:
     if called or re.fullmatch(small, word):
         return True
     signs = decomposed(word)
-    if len(word) > 1:
+    if len(signs) > 2:
         signs = signs.replace("\u0302", "")
     return any(
         c in SYMBOLS or c in RAISED or c in LOWERED or c in MATH_ACCENTS or c in "_=^"

@@ -15,6 +15,7 @@ MATH_ACCENTS = {"\u0304": r"\bar", "\u0303": r"\tilde", "\u0307": r"\dot", "\u03
 SYMBOLS = {letter: rf"\{name}" for name, letter in LETTERS.items()} | {
     "Σ": r"\sum", "−": "-", "∧": r"\wedge", "⟨": r"\langle", "⟩": r"\rangle",
     "‖": r"\Vert", "≅": r"\cong", "≠": r"\neq", "≤": r"\le", "≥": r"\ge", "∈": r"\in", "→": r"\to",
+    "↦": r"\mapsto",
     "≈": r"\approx", "·": r"\cdot", "±": r"\pm", "√": r"\surd", "ℝ": r"\mathbb{R}",
     "×": r"\times", "𝔤": r"\mathfrak{g}", "′": "'", "½": r"\tfrac12", "⅓": r"\tfrac13",
     "¼": r"\tfrac14", "⅔": r"\tfrac23", "∘": r"\circ", "⊤": r"\top", "∫": r"\int",

@@ -116,6 +116,12 @@ def joined(parts: list[Formula], between: Formula) -> Formula:
     return reduce(lambda a, b: a + between + b, parts)
 
 
+def as_factor(shown: Shown) -> Formula:
+    """A formula as a factor, in parentheses where it is a sum or a product."""
+    f, level = shown
+    return f if level == ATOM else paren(f)
+
+
 COMMA_SPACE = literal(f",{AFTER_COMMA} ")
 
 
@@ -149,8 +155,7 @@ class FormulaPrinter:
 
     def atom(self, t: Tree) -> Formula:
         """The formula of a tree as a factor, in parentheses where it is a sum or a product."""
-        f, level = self.show(t)
-        return f if level == ATOM else paren(f)
+        return as_factor(self.show(t))
 
     def base(self, t: Tree) -> Formula:
         """The formula of a tree that is to bear an exponent."""
@@ -235,10 +240,11 @@ class FormulaPrinter:
 
     def op_div(self, a: Tree, b: Tree) -> Shown | Formula:
         """A fraction; one too wide for its line is written with a stroke."""
-        above, below = self.bare(a).plain(), self.bare(b).plain()
+        shown = self.show(a), self.show(b)
+        above, below = (f.plain() for f, _ in shown)
         if max(measure(above.tex), measure(below.tex)) > ENTRY_WIDTH:
             stroke = literal(f"{BEFORE_FACTOR} / ")
-            return self.atom(a) + stroke + self.atom(b), PRODUCT
+            return joined([as_factor(x) for x in shown], stroke), PRODUCT
         return fraction(above, below)
 
     def op_inner(self, a: Tree, b: Tree) -> Formula:

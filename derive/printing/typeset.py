@@ -24,7 +24,7 @@ BREAKS = {"\x01": COMMA, "\x02": TERM, "\x03": WEDGE, "\x04": FACTOR}
 AFTER_COMMA, BEFORE_TERM, BEFORE_WEDGE, BEFORE_FACTOR = BREAKS
 MARKS = "".join(BREAKS)
 UNMARKED = dict.fromkeys(map(ord, MARKS))
-OPERATORS = {SYMBOLS[c]: c for c in "∧×→∈≤≥≅≠≈±∘⊤−√"} | {c: c for c in "+=<>,/.:;|"}
+OPERATORS = {SYMBOLS[c]: c for c in "∧×→↦∈≤≥≅≠≈±∘⊤−√"} | {c: c for c in "+=<>,/.:;|"}
 OPERATORS |= {r"\cdot": "·", r"\int": "∫"}
 FENCES = {SYMBOLS[c]: c for c in "⟨⟩‖"} | {r"\lVert": "‖", r"\rVert": "‖"}
 FENCES |= {c: c for c in "()[]"}

@@ -232,17 +232,13 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "En voici les moments et les résultantes dans le corps ; leur travail s’ajoute à "
             "celui du potentiel dans les équations du mouvement.",
         ),
-        "meaning": (
-            "input: {forces}",
-            "entrée : {forces}",
+        "given": (
+            "Inputs: {forces}.",
+            "Entrées : {forces}.",
         ),
         "numbers": (
             "{meaning}, {numbers}",
             "{meaning}, {numbers}",
-        ),
-        "covector_force": (
-            "{name}, a force on the body's origin, in the body frame",
-            "{name}, une force à l’origine du corps, dans le repère du corps",
         ),
         "space_force": (
             "{name}, a force at {point}, in the space frame",

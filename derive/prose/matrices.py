@@ -319,18 +319,18 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "det A = 1, et sa variation s’annule si et seulement si Tr ξ = 0.",
         ),
         "affine": (
-            "The configurations of the same volume are one orbit of this group, of dimension 11: "
-            "four points have 12 coordinates, and this is one condition.",
-            "Les configurations de même volume forment une orbite de ce groupe, de dimension 11 : "
-            "quatre points ont 12 coordonnées, et ceci est une condition.",
+            "The configurations of the same volume are one orbit of this group, of dimension "
+            "{orbit}: four points have 12 coordinates, and this is one condition.",
+            "Les configurations de même volume forment une orbite de ce groupe, de dimension "
+            "{orbit} : quatre points ont 12 coordonnées, et ceci est une condition.",
         ),
         "linear": (
             "In space the configurations of the same volume are one orbit of the affine maps that "
-            "keep it, of dimension 11; of these dimensions the linear maps here are 8, without the "
-            "translations.",
+            "keep it, of dimension {orbit}; of these dimensions the linear maps here are {linear}, "
+            "without the translations.",
             "Dans l’espace, les configurations de même volume forment une orbite des applications "
-            "affines qui le conservent, de dimension 11 ; les applications linéaires, ici, en sont "
-            "8 dimensions, sans les translations.",
+            "affines qui le conservent, de dimension {orbit} ; les applications linéaires, ici, en "
+            "sont {linear} dimensions, sans les translations.",
         ),
     },
     "no_rotation": {

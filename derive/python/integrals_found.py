@@ -17,6 +17,7 @@ from ..language.tree import Tree
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from .doubted import loaded
+from .keywords import in_keywords
 
 
 @dataclass(frozen=True)
@@ -181,6 +182,7 @@ class FirstIntegrals:
         return render(self.record, form, lang, steps=told_steps(self.record))
 
 
+@in_keywords()
 def first_integrals(
     problem: Problem | str | Path,
     degree: int = 4,

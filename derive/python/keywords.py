@@ -14,9 +14,15 @@ KEYWORDS = {"set": "start", "lang": "languages", "column": "columns"}
 
 @contextmanager
 def in_keywords() -> Iterator[None]:
-    """What is refused inside is told with ``dt`` for ``--dt``."""
+    """What is refused inside is told with ``dt`` for ``--dt``, ``at_defaults`` for
+    ``--at-defaults``."""
     try:
         yield
     except Refused as error:
-        told = re.sub(r"(?<![\w-])--([a-z]+)", lambda x: KEYWORDS.get(x[1], x[1]), str(error))
+        told = re.sub(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)", _keyword, str(error))
         raise type(error)(told) from None
+
+
+def _keyword(option: re.Match[str]) -> str:
+    """What an option of the command line is called in Python."""
+    return KEYWORDS.get(option[1], option[1].replace("-", "_"))

@@ -33,6 +33,7 @@ KINDS = {
         "elementary_squared elliptic_squared hyperelliptic_squared"
     ),
     "relation": "left_invariant",
+    "tetrahedron": "affine linear",
     "symmetries": "algebra algebra_modulo none open",
     "equilibrium": (
         "at origin none orbit form stable stable_beyond stable_compact on_the_leaf indefinite "

@@ -298,7 +298,7 @@ VOCABULARY: dict[str, Name] = {
         "entrée : un covecteur de l’algèbre de Lie", "u", letter(("vector", "dim"))),
     "f_u": name("input: the force part of a body wrench",
         "entrée : la résultante d’un torseur, dans le repère du corps",
-        "f_u", letter(VECTOR), letter(family("inputs", PLACE))),
+        "f_u", letter(VECTOR)),
     "δ": name("first variation",
         "première variation",
         r"\delta", function(VECTOR, VECTOR), function(ALGEBRA, ALGEBRA),

@@ -14,7 +14,6 @@ from ..record.discrete_names import DISCRETE
 from ..record.fluid_names import FLUID
 from ..record.name_types import Name
 from ..record.record import Step, Symbol
-from ..record.sentence import Prose, Sentence, listed
 from ..record.tree_data import encode
 from ..record.uses import of_steps
 from ..record.vocabulary import (
@@ -26,9 +25,8 @@ from ..record.vocabulary import (
     ROTATIONS,
     VOCABULARY,
 )
-from ..schema.outside import ForceInput
 from .inputs import numbers
-from .wording import phrase, say
+from .wording import say
 
 SHOWN = 3
 """So many numbers of an input are told one by one."""
@@ -68,9 +66,8 @@ def symbols(
     meanings = {x: sentence.say(about.meaning) for x, about in meant.items()}
     if problem.covector and group:
         for x in ("u", "f_u"):
-            meanings[x] = say("input.numbers", meaning=meanings[x][0], numbers=_given(problem, x))
-    if problem.force_inputs:
-        meanings["f_u"] = _inputs(problem, vectors=not discrete)
+            given = _given(problem, x, discrete)
+            meanings[x] = say("input.numbers", meaning=meanings[x][0], numbers=given)
     used = of_steps(steps, meant, sizes)
     return tuple(Symbol(x, meanings[x], meant[x].latex, uses) for x, uses in used.items())
 
@@ -99,23 +96,8 @@ def _meant(problem: Problem) -> dict[str, Name]:
     return VOCABULARY | turned | blocks
 
 
-def _inputs(problem: Problem, *, vectors: bool) -> Prose:
-    """The meaning of f_u in words: the forces that the user gives, one by one; ``vectors``: f_u is
-    also the force of a covector, where there is one."""
-    forces, group = [_force(x) for x in problem.force_inputs], problem.group
-    if vectors and problem.covector and group and group.turns_space and group.affine:
-        at_origin = "input.covector_force"
-        forces.insert(0, phrase(at_origin, name=_given(problem, "f_u")))
-    return say("input.meaning", forces=listed("{first}; {second}", forces))
-
-
-def _given(problem: Problem, letter: str) -> str:
+def _given(problem: Problem, letter: str, discrete: bool) -> str:
     """The numbers of the covector that are the entries of u or of f_u, by the user's names."""
-    given = numbers(problem).items()
+    given = numbers(problem, discrete=discrete).items()
     told = [in_sentence(x) for t, x in given if isinstance(t, tuple) and t[1] == letter]
     return ", ".join(told if len(told) <= SHOWN else (told[0], "…", told[-1]))
-
-
-def _force(given: ForceInput) -> Sentence:
-    """A force that is given at every call, in words."""
-    return phrase(f"input.{given.frame}_force", name=f"‘{given.name}’", point=f"r_{given.on}")

@@ -6,7 +6,7 @@ on points, from Rayleigh's function ½ κ ‖v‖²; its sums over the points ar
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from ..algebra.calculus import gradient, reduce, substitute
@@ -55,13 +55,27 @@ def acts(problem: Problem) -> bool:
 def prose(problem: Problem) -> Prose:
     """The sentences that say what acts from outside dϖ."""
     acting = [INPUTS] * bool(problem.inputs) + [DRAG] * bool(problem.damping)
-    return say("input.outside", forces=listed(AND, acting)) + say("input.moments")
+    outside = say("input.outside", forces=listed(AND, acting))
+    return outside + say("input.moments") + where_given(problem)
 
 
-def by_name(problem: Problem, steps: Iterable[Step]) -> tuple[Step, ...]:
+def where_given(problem: Problem) -> Prose:
+    """The sentence that says where each force acts, and in which frame it is given."""
+    forces = [
+        phrase(f"input.{x.frame}_force", name=f"‘{x.name}’", point=f"r_{x.on}")
+        for x in problem.force_inputs
+    ]
+    return say("input.given", forces=listed("{first}; {second}", forces)) if forces else ()
+
+
+def by_name(problem: Problem, steps: Iterable[Step], *, discrete: bool = False) -> tuple[Step, ...]:
     """The steps with the numbers of the inputs by the names of the problem: ``thrust_3`` for an
-    entry of the member of f_u that the force ``thrust`` is, or of the covector u, f_u."""
-    given = numbers(problem)
+    entry of the member of f_u that the force ``thrust`` is, or of the covector u, f_u; the whole
+    force is the column of its numbers.  ``discrete``: as in numbers."""
+    given = numbers(problem, discrete=discrete)
+    for e, (force, size) in enumerate(_sized(problem), 1):
+        rows = (("row", ("par", suffixed(force.name, k))) for k in range(1, size + 1))
+        given["at", "f_u", e] = ("matrix", *rows)
 
     def named(t: Tree) -> Tree:
         if t in given or not isinstance(t, tuple):
@@ -75,24 +89,32 @@ def by_name(problem: Problem, steps: Iterable[Step]) -> tuple[Step, ...]:
     return tuple(map(told, steps) if given else steps)
 
 
-def numbers(problem: Problem) -> dict[Tree, Tree]:
+def numbers(problem: Problem, *, discrete: bool = False) -> dict[Tree, Tree]:
     """Entries of f_u and u → the numbers that are given, of a covector in the basis that the
-    problem states."""
+    problem states; in the ``discrete`` motion u is the whole covector of a displacement."""
     found: dict[Tree, Tree] = {}
     group = problem.group
     assert group is not None
-    for e, given in enumerate(problem.force_inputs, 1):
-        _, moved = group.places[problem.block(given.on) - 1]
-        for k in range(1, moved.n + 1):
-            found["entry", ("at", "f_u", e), k] = ("par", suffixed(given.name, k))
+    for e, (force, size) in enumerate(_sized(problem), 1):
+        for k in range(1, size + 1):
+            found["entry", ("at", "f_u", e), k] = ("par", suffixed(force.name, k))
     if covector := problem.covector:
         own = [("par", suffixed(covector.name, a)) for a in range(1, group.dimension + 1)]
-        turns = group.dimension - (group.n if group.turns_space and group.affine else 0)
+        apart = group.turns_space and group.affine and not discrete
+        turns = group.dimension - (group.n if apart else 0)
         for a, element in enumerate(group.basis, 1):
             parts = zip(group.stated.nearest(element), own, strict=True)
             letter, k = ("u", a) if a <= turns else ("f_u", a - turns)
             found["entry", letter, k] = add(*(mul(plain(x), u) for x, u in parts if x))
     return found
+
+
+def _sized(problem: Problem) -> Iterator[tuple[ForceInput, int]]:
+    """The forces that are given, each with the dimension of the space of its point."""
+    for force in problem.force_inputs:
+        assert problem.group is not None
+        _, moved = problem.group.places[problem.block(force.on) - 1]
+        yield force, moved.n
 
 
 def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> External | None:

@@ -175,7 +175,11 @@ def tetrahedron(problem: Problem, group: Group, c: Chapter) -> tuple[Step, ...]:
         Equation(_triple_product(*moved), _triple_product(*still)),
         Equation(add(*changes), 0),
     )
-    return (draft.step(equations, say("tetrahedron.kept") + say(f"tetrahedron.{road}")),)
+    told: dict[str, Tree] = {"orbit": 3 * len(problem.points) - 1}
+    if not group.affine:
+        told["linear"] = group.dimension
+    orbit = draft.claim(f"tetrahedron.{road}", **told)
+    return (draft.step(equations, say("tetrahedron.kept") + orbit),)
 
 
 def _in_space(k: int) -> Tree:

@@ -34,8 +34,8 @@ from derive.record.record import Derivation
 
 Tell = Callable[[str, str], None]
 FOLDER = Path("/problem")
-STORED = "amendments.pickle"
-"""Where the problem file is written; a file of this site beside this module."""
+STORED = Path(__file__).with_name("amendments.pickle")
+"""Where the problem file is written; what was found of the print when the site was built."""
 LATER = ("mpmath", "sympy")
 """Libraries that are loaded when something asks for them."""
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,60}")
@@ -227,8 +227,7 @@ def corrections(record: Derivation) -> list[Finding]:
     """Those of the print, which are the same for every problem, and were found when this was
     built."""
     numbers = {n for step in record.steps for n in step.paper} & AMENDED
-    stored = Path(__file__).with_name(STORED)
-    return [x for x in pickle.loads(stored.read_bytes()) if x.number in numbers] if numbers else []
+    return [x for x in pickle.loads(STORED.read_bytes()) if x.number in numbers] if numbers else []
 
 
 def with_numbers(made: Any) -> Any:

@@ -25,6 +25,7 @@ from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.sentence import Sentence
 from tests.problems import PROBLEMS
+from tests.support import walks
 from tests.support.lagrangians import (
     APART,
     LINE,
@@ -72,6 +73,8 @@ RECORDS = {
     "a rod": lambda: derive("rod").symmetries().record,
     "a function": lambda: derive("gas_cloud").symmetries().record,
     "no symmetries": lambda: derive(heavy("123", "t*A_11 + A_22 + A_12^2", "")).symmetries().record,
+    "a tetrahedron": lambda: walks.record("sl3"),
+    "a tetrahedron, displaced": lambda: walks.record("saff3"),
     "large": lambda: large("euler_top"),
     "large at defaults": lambda: large("euler_top", at_defaults=True),
 }

@@ -102,11 +102,8 @@ def test_it_is_the_motion_that_the_record_tells(name):
         known = DiscreteMap(discrete(problem), problem.group, values, h, real, mpmath.mpf("1e-10"))
         u = iter(map(real, f.u))
         for given in problem.inputs:
-            if hasattr(given, "on"):
-                known.given["f_u_1"] = tuple((next(u),) for _ in range(problem.group.n))
-            else:
-                size = range(1, problem.group.dimension + 1)
-                known.parameters |= {f"{given.name}_{i}": next(u) for i in size}
+            size = problem.group.n if hasattr(given, "on") else problem.group.dimension
+            known.parameters |= {f"{given.name}_{i}": next(u) for i in range(1, size + 1)}
         found, _ = known.next(*states[:2])
         off = (abs(x) for row in q.minus(found, states[2]) for x in row)
         assert max(off) < 1e-14

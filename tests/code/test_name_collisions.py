@@ -42,7 +42,8 @@ def words(language, *, framed=False):
 def refusal(name):
     """Why it may not be a parameter."""
     try:
-        problem([name]), of_springs([name])
+        points, value = Points((name, [1, 0]), (1, [0, 1])), {name: 1}
+        Problem("named", SE(2), points, Potential(f"{name}*r1_x"), value)
     except ProblemError as error:
         return str(error)
     return None

@@ -255,3 +255,12 @@ def test_what_is_refused(tmp_path, capsys, when, more, words):
     assert err.count("\n") == 1
     assert not out.exists() or not [*out.iterdir()]
     assert main(["emit", str(path), "--out", str(out)]) == 0
+
+
+def test_every_emitted_text_says_what_an_event_is():
+    """“never” of these problems, a square, is none by any step; files said “what becomes 0”."""
+    folder, name = emitted(TEXT, step=STEPS, order=2)
+    files = [folder / f"{name}.{x}" for x in ("h", "py", "mjs", "rs", "hpp")]
+    said = "changes its sign at each "
+    assert [x.name for x in files if said not in x.read_text()] == []
+    assert [x.name for x in files if "only touches 0 is one by rounding" not in x.read_text()] == []

@@ -73,9 +73,9 @@ def test_a_text_is_as_wide_as_what_shows_it(words, capsys, tmp_path, monkeypatch
         monkeypatch.setenv("COLUMNS", columns)
         assert main([*words]) == 0
         said[columns] = capsys.readouterr().out
-        file = tmp_path / "said.txt"
-        assert main([*words, "--out", str(file)]) == 0
-        assert file.read_text(encoding="utf-8") == said[""]
+    file = tmp_path / "said.txt"
+    assert main([*words, "--out", str(file)]) == 0
+    assert file.read_text(encoding="utf-8") == said[""]
     assert 72 < widest(said[""]) <= 100 < widest(said["160"]) <= 160
     assert 60 < widest(said["72"]) <= 72
     assert len({x.replace("\n", " ").replace(" ", "") for x in said.values()}) == 1
@@ -98,8 +98,8 @@ def test_a_text_is_as_wide_as_the_terminal():
 
 
 def test_check_a_problem_and_a_file(capsys, tmp_path):
-    path = tmp_path / "so3.json"
-    path.write_text(to_json(record("so3")), encoding="utf-8")
+    path = tmp_path / "linear.json"  # whose steps are of any group, each tried once
+    path.write_text(to_json(record("linear")), encoding="utf-8")
     assert main(["check", "linear", str(path)]) == 0
     *each, _, total = capsys.readouterr().out.splitlines()
     counts = [re.search("([0-9]+) of ([0-9]+) steps hold exactly", x) for x in each]
@@ -109,17 +109,6 @@ def test_check_a_problem_and_a_file(capsys, tmp_path):
     assert capsys.readouterr().out.endswith("failed: 0; not checked: 1\n")
     assert main(["check", str(path)]) == 0
     assert "records" not in capsys.readouterr().out
-
-
-def test_check_fails_with_1(capsys, tmp_path):
-    import json
-
-    data = json.loads(json.dumps(to_data(record("so3"))))
-    data["steps"][-1]["equations"][0]["rhs"] = ["mul", 2, data["steps"][-1]["equations"][0]["rhs"]]
-    path = tmp_path / "wrong.json"
-    path.write_text(json.dumps(data), encoding="utf-8")
-    assert main(["check", str(path)]) == 1
-    assert "FAILS" in capsys.readouterr().out
 
 
 def test_unknown_problem(capsys):
@@ -227,37 +216,6 @@ stiffness = "k"
 kind = "gravity"
 g = [0, "-9.81"]
 """
-BAD = {
-    "unknown key": ('name = "four"', 'name = "four"\nnme = 1', "nme"),
-    "name": ('name = "four"', 'name = "4"', "name"),
-    "keyword": ('name = "four"', 'name = "class"', "name"),
-    "group": ('"SL(2)"', '"Spin(3)"', "group"),
-    "group number": ('"SL(2)"', '"SL(1)"', "group"),
-    "undeclared": ("a = 1.5", "", "'a'"),
-    "vector length": ('["1", "a"]', '["1"]', "point 1"),
-    "character": ('"a^2"', '"a?"', "point 2"),
-    "exponent": ('"a^2"', '"a^9^9"', "point 2"),
-    "code": ('"a^2"', "\"__import__('os')\"", "point 2"),
-    "nested": ('"a^2"', '"' + "(" * 10_000 + '"', "point 2"),
-    "long": ('"a^2"', '"' + "1+" * 100_000 + '1"', "point 2"),
-    "spring ends": ("between = [1, 2]", "between = [1, 3]", "between"),
-    "same ends": ("between = [1, 2]", "between = [1, 1]", "between"),
-    "kind": ('kind = "spring"', 'kind = "magnet"', "kind"),
-    "mass": ('mass = "2"', "", "mass"),
-    "bool": ("mass = 1", "mass = true", "point 2"),
-}
-
-
-@pytest.mark.parametrize("case", BAD)
-def test_bad_problem_files(case, capsys, tmp_path):
-    old, new, named = BAD[case]
-    path = tmp_path / "problem.toml"
-    assert old in PROBLEM
-    path.write_text(PROBLEM.replace(old, new), encoding="utf-8")
-    message = refused(capsys, "walk", str(path))
-    assert str(path) in message
-    assert named in message
-    assert len(message) < 400
 
 
 def test_a_good_problem_file(capsys, tmp_path):

@@ -183,7 +183,7 @@ def test_an_interruption_is_quiet(command, tmp_path):
     start = time.monotonic()
     where = ["--out", tmp_path] if command[0] == "emit" else []
     python(INTERRUPTED, 100, *command, *where, env=environment())
-    takes, moments = time.monotonic() - start, 10
+    takes, moments = time.monotonic() - start, 6
     statuses = []
     for i in range(moments):
         after = max(takes * i / moments, 1e-3)

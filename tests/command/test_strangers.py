@@ -70,9 +70,15 @@ def test_in_a_process_of_its_own(name, tmp_path):
 @needs("cc")
 def test_comments_of_strangers_compile(tmp_path):
     """A title, a unit and a meaning that close comments, strings, lines."""
-    for k, words in enumerate(STRINGS):
+    told = [*map(quoted, STRINGS)]
+    declared = "".join(
+        f"k{i} = {{ default = 1, unit = {x}, meaning = {x} }}\n" for i, x in enumerate(told)
+    )
+    mass = "+".join(["k", *(f"k{i}" for i in range(len(told)))])
+    for k, title in enumerate(told[::6]):
         path = tmp_path / "top.toml"
-        path.write_text(TURNED.format(quoted(words)), encoding="utf-8")
+        text = TURNED.format(title).replace('"k"', f'"{mass}"')
+        path.write_text(text.replace("[[point]]", f"{declared}[[point]]"), encoding="utf-8")
         choices = ["--lang", "c", "--lang", "python", "--prefix", f"top{k}", "--out", str(tmp_path)]
         assert main(["emit", str(path), *choices]) == 0
         compile((tmp_path / f"top{k}.py").read_text(encoding="utf-8"), "top.py", "exec")

@@ -9,6 +9,7 @@ from derive import ProblemError, derive
 from derive.command.cli import main
 from derive.equilibria.energy_casimir import between_roots, diagonalised
 from derive.equilibria.stability import polynomial, roots_of_squares
+from derive.problem.toml import problem_of
 from derive.record.sentence import english
 from tests.support.lagrangians import LINE, heavy, heisenberg, lagrangian, nilpotent
 from tests.support.walks import repeated
@@ -129,6 +130,20 @@ def test_numbers_are_needed():
         derive(heavy("123", "m*A_31", "m")).equilibria()
 
 
+@pytest.mark.parametrize(
+    ("potential", "said"),
+    [
+        ("pi*A_33", "and π is none"),
+        ("b*pi*A_33", "and b has no default"),
+        ("cos(pi/3)*A_33", "has cos of π or parameters"),
+    ],
+)
+def test_pi_is_no_number_here(potential, said):
+    """“b, π has no default”; “cos of its parameters” where there is none."""
+    with pytest.raises(ValueError, match=said):
+        derive(heavy("123", potential, "b" if "b" in potential else "")).equilibria()
+
+
 @pytest.mark.parametrize("words", ["q", "Pi_1=", "Pi_1=x", "Pi_1=1/0"])
 def test_what_is_no_coordinate(words, capsys):
     with pytest.raises(SystemExit) as error:
@@ -180,3 +195,12 @@ def test_the_degree_of_what_is_kept_is_an_option(capsys):
         assert ("No multiples" not in capsys.readouterr().out) == known
     weighted = derive("lagrange_top").equilibria({"A_33": 1}, degree=1).record
     assert "degrees are weighted" in str(weighted["poisson"].prose)
+
+
+def test_entries_of_a_product_have_the_names_of_the_file():
+    """A2_33 was no coordinate: the text has the one matrix A, whose entry that is A_66."""
+    L = f"({' + '.join(f'{1 + a % 3}*zeta_{a}^2' for a in range(1, 7))})/2 - A1_33 - A2_33"
+    own = {"name": "own", "group": "SO(3) x SO(3)", "lagrangian": {"L": L}}
+    d = derive(problem_of(own))
+    (x,), (y,) = (d.equilibria(at) for at in ({"A1_33": 1, "A2_33": 1}, {"A_33": 1, "A_66": 1}))
+    assert x.at == y.at == {"A_33": 1, "A_66": 1}

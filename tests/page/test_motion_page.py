@@ -14,10 +14,15 @@ import derive
 from derive.code.emit import emit
 from derive.code.options import Options
 from derive.command.cli import main
-from derive.command.loading import ready_made
+from derive.command.loading import load_problem, ready_made
+from derive.figure.drawn_body import Numbers
+from derive.language.values import approximate
 from derive.page.moving_body import moving_body
 from derive.page.shortened import called, shortened
-from derive.pipeline import motion_of
+from derive.pipeline import motion_of, program
+from derive.problem.state_names import state_names
+from derive.problem.toml import problem_of
+from derive.walk.head import problem_data
 from tests.support.needs import BROWSERS, need
 
 FAST = {"start": {"zeta_3": 300.0}, "exp": (0.3, 0, 0)}
@@ -86,7 +91,7 @@ def test_it_says_where_its_script_is_from(pages):
 def test_what_a_body_has_not_is_not_in_its_page(pages):
     """An ellipsoid of the velocity, a spring, a mouse that turns."""
     marks = {"polhode": "ζ${", "spring": ".14+.72*", "camera": "pointerdown", "ball": "32,16,"}
-    for name in STARTS:
+    for name in ("top", "so3", "sl3", "two_tops", "euler_poisson"):
         page = pages(name)
         body = told(page)["body"]
         anchored = any(part["anchors"] for part in body["parts"])
@@ -158,14 +163,13 @@ def run_in_node(folder, text):
     return done.stdout
 
 
-def test_a_shortened_module_does_the_same(tmp_path):
+def test_a_shortened_module_does_the_same(pages, tmp_path):
     need("node")
-    d = derive.derive("sl3")
+    d, page = derive.derive("sl3"), told(pages("sl3"))
     code, names = motion_of(d.problem, d.record), ["begin", "gauss_to", "constants", "conserved"]
     chosen = Options(step="gauss", conserved=True)
     (source,) = emit(code.program, d.record, ("javascript",), "sl3", chosen).values()
-    run = d.simulate(1e-3, start={"zeta_1": 1.0}, points=1)
-    p, x = [*run.facts["parameters"].values()], run.states[0].tolist()
+    p, x = page["p"], page["x"]
     needed = called(source.replace("\nexport ", "\n"), names)
     whole = f"""
         const module = (() => {{ {needed} return {{ {", ".join(names)} }}; }})();
@@ -272,27 +276,28 @@ def test_scopes_as_the_language_has_them(tmp_path):
 # ---------------------------------------------------------------- the body
 
 
-def test_what_is_drawn():
-    def body(name):
-        d = derive.derive(name)
-        return moving_body(
-            d.record.problem, d.problem.group, motion_of(d.problem, d.record).program.state
-        )
+def body_of(name):
+    """What is drawn of a problem, by the names of the state that its code has."""
+    d = derive.derive(name)
+    group = d.problem.group if d.problem.advected is None else None
+    return moving_body(d.record.problem, group, program(d.problem, d.record).state)
 
-    top = body("top")
+
+def test_what_is_drawn():
+    top = body_of("top")
     assert top["parts"][0]["solids"][0]["shape"] == "cone"
     assert top["parts"][0]["fixed"]
     assert top["polhode"] == [9, 10, 11]
     assert top["turns"]
-    assert [row[3] for row in body("hammer")["parts"][0]["map"]] == [9, 10, 11]
-    assert len(body("two_tops")["parts"]) == 2
-    assert body("two_tops")["springs"] == [[0, 1, 1, 3]]
-    assert body("sl3")["parts"][0]["deforms"]
-    assert body("sl3")["polhode"] == []
-    assert body("so4")["parts"] == body("zeitlin")["parts"] == []
-    assert body("rod")["parts"][0]["turning"] == [12, 13, -1]
-    assert body("kirchhoff")["parts"][0]["sliding"] == [15, 16, 17]
-    assert "turning" not in body("so3")["parts"][0]
+    assert [row[3] for row in body_of("hammer")["parts"][0]["map"]] == [9, 10, 11]
+    assert len(body_of("two_tops")["parts"]) == 2
+    assert body_of("two_tops")["springs"] == [[0, 1, 1, 3]]
+    assert body_of("sl3")["parts"][0]["deforms"]
+    assert body_of("sl3")["polhode"] == []
+    assert body_of("so4")["parts"] == body_of("zeitlin")["parts"] == []
+    assert body_of("rod")["parts"][0]["turning"] == [12, 13, -1]
+    assert body_of("kirchhoff")["parts"][0]["sliding"] == [15, 16, 17]
+    assert "turning" not in body_of("so3")["parts"][0]
 
 
 SIDES = (0.5, 1.2, 0.9)
@@ -338,6 +343,36 @@ def test_the_ellipsoid_of_an_inertia_that_the_energy_tells(name, tmp_path):
     found = json.loads(run_in_node(tmp_path, text))
     assert np.abs(np.array(found) - np.outer(stretched, SIDES)).max() < 1e-9
     assert len(found) == len(parts)
+
+
+TRACED = """
+    {drawing}
+    const none = () => [], page = {{ body: {body}, module: {{ PARAMETERS: {names} }} }};
+    const pieces = {{ of_inertia: none, of_moments: none }};
+    const {{ parts }} = built({{ page, p: {values} }}, [], pieces);
+    console.log(JSON.stringify(parts.map((part) => [part.traced, part.tips.at(-1)])));
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "traced"), [("pendulum", [0, -0.8, 0]), ("so3", [1, 1, 0.2]), ("euler_top", None)]
+)
+def test_what_leaves_a_trail(name, traced, tmp_path):
+    """The bob of a pendulum hangs on the other side of where the second axis is drawn to; about a
+    fixed centre of mass, and where the last axis goes through it, its tip does (``None``)."""
+    need("node")
+    d = derive.derive(name)
+    made = motion_of(d.problem, d.record).program
+    scripts = Path(derive.__file__).parents[1] / "templates" / "html" / "motion"
+    known = d.problem.parameters
+    text = TRACED.format(
+        drawing="".join((scripts / f"{x}.js").read_text() for x in ("vectors", "shapes", "body")),
+        body=json.dumps(moving_body(d.record.problem, d.problem.group, made.state)),
+        names=json.dumps([*known]),
+        values=json.dumps([float(x.default or 1) for x in known.values()]),
+    )
+    ((places, tip),) = json.loads(run_in_node(tmp_path, text))
+    assert places == [traced or tip]
 
 
 PAINTED = """
@@ -396,16 +431,49 @@ def test_what_is_in_front_is_drawn_over_what_is_behind(shape, tmp_path):
         assert np.abs(last - nearest).max() < 1e-9
 
 
+SOLIDS = {
+    "ball": ({"radius": 2}, 4 * np.pi / 3, [0, 0, 0]),
+    "hollow_ball": ({"outer": 2, "inner": 0}, 4 * np.pi / 3, [0, 0, 0]),
+    "ellipsoid": ({"semi_axes": [1, 2, 3]}, 4 * np.pi / 3, [0, 0, 0]),
+    "box": ({"sides": [1, 2, 3]}, 8, [0, 0, 0]),
+    "cylinder": ({"radius": 2, "height": 3}, 2 * np.pi, [0, 0, 0]),
+    "cone": ({"radius": 2, "height": 3}, np.pi / 3, [0, 0, 1 / 4]),
+    "tetrahedron": ({"vertices": [[1, 0, 0], [2, 0, 1], [1, 3, 0], [0, 0, 4]]}, 1 / 6, [1 / 4] * 3),
+}
+"""Sizes of each kind; volume and centre of the shape that is drawn as its image."""
+
+
+@pytest.mark.parametrize("kind", SOLIDS)
+def test_a_solid_is_drawn_with_its_volume_and_its_centre(kind):
+    sizes, volume, centre = SOLIDS[kind]
+    placed = {"shift": [1, 2, -1], "rotation": {"axis": [1, 2, 2], "angle": "pi/2"}}
+    solid = {"kind": kind, "density": 3} | sizes | placed
+    problem = problem_of({"name": "x", "group": "SO(3)", "solid": [solid]})
+    data, state = problem_data(problem), [*state_names(problem.group)]
+    (drawn,) = moving_body(data, problem.group, state)["parts"][0]["solids"]
+    number = Numbers(data)
+    columns = np.array([number.vector(x) for x in drawn["columns"]])
+    moments = problem.body.moments()
+    m, *c = (approximate(x, {}) for x in (moments.m, *moments.c))
+    assert 3 * volume * abs(np.linalg.det(columns)) == pytest.approx(m)
+    assert centre @ columns + number.vector(drawn["shift"]) == pytest.approx(np.array(c) / m)
+
+
+def test_a_turn_has_the_slider_of_turns(pages):
+    """A velocity that is no turn but a shear, or a stretch, has one to 1."""
+    for name in ("so3", "sl3", "two_tops"):
+        E = np.array(load_problem(name).group.basis, float)
+        turns = (-E.transpose(0, 2, 1) == E).all(axis=(1, 2))
+        assert told(pages(name))["reach"] == np.where(turns, 60, 1).tolist()
+
+
 def test_every_ready_made_body_has_a_shape():
     for name in ready_made():
-        if name in PAGELESS:
-            continue
-        d = derive.derive(name)
-        state = motion_of(d.problem, d.record).program.state
-        group = d.problem.group if d.problem.advected is None else None
-        for part in moving_body(d.record.problem, group, state)["parts"]:
-            told = [part.get(x) for x in ("points", "solids", "moments", "turning")]
-            assert any(told), name
+        problem = load_problem(name)
+        group = problem.group if problem.advected is None else None
+        state = [x for x in state_names(group) if x != "t"] if group else []
+        for part in moving_body(problem_data(problem), group, state)["parts"]:
+            assert any(part.get(x) for x in ("points", "solids", "moments", "turning")), name
 
 
 def test_a_mesh_is_drawn_as_it_is(tmp_path):
@@ -417,8 +485,7 @@ def test_a_mesh_is_drawn_as_it_is(tmp_path):
     path = tmp_path / "wedge.toml"
     body = '[body]\nsolid = "mesh"\ndensity = 1\nfile = "wedge.obj"\n'
     path.write_text(f'name = "wedge"\ngroup = "SO(3)"\n{body}')
-    page = derive.derive(path).motion_page(1.0, start={"zeta_1": 1.0})
-    (solid,) = told(page)["body"]["parts"][0]["solids"]
+    (solid,) = body_of(path)["parts"][0]["solids"]
     drawn = [[solid["vertices"][i] for i in face] for face in solid["faces"]]
     expected = [[corners[i] for i in face] for face in faces]
     assert sorted(map(sorted, drawn)) == sorted(map(sorted, expected))
@@ -439,12 +506,12 @@ def test_the_command_writes_it_with_a_run_or_alone(tmp_path, capsys):
 
 def test_notes_link_to_the_page_of_each_problem(tmp_path, capsys):
     out = tmp_path / "notes.html"
-    assert main(["notes", "so3", "jelly", "--motion", "5", "--lang", "fr", "--out", str(out)]) == 0
-    names = ["notes_so3_motion.html", "notes_jelly_motion.html"]
+    assert main(["notes", "so3", "top", "--motion", "5", "--lang", "fr", "--out", str(out)]) == 0
+    names = ["notes_so3_motion.html", "notes_top_motion.html"]
     assert capsys.readouterr().out.split() == [str(out), *(str(tmp_path / x) for x in names)]
     links = re.findall('<a href="([^#"]*)">En mouvement', out.read_text(encoding="utf-8"))
     assert links == names
-    for name, text in zip(("so3", "jelly"), names, strict=True):
+    for name, text in zip(("so3", "top"), names, strict=True):
         page = derive.derive(name).motion_page(5.0, language="fr")
         assert (tmp_path / text).read_text(encoding="utf-8") == page
 
@@ -785,8 +852,7 @@ def test_a_component_along_no_direction_is_not_shown(pages, opened):
 
 
 def test_the_energy_is_kept_where_nothing_moves_it(pages):
-    lost = {x: told(derive.derive(x).motion_page(1.0)) for x in ("jelly", "gl3", "so3")}
-    assert [x.get("lost", False) for x in lost.values()] == [True, False, False]
+    assert not told(pages("so3")).get("lost", False)
     pushed = told(derive.derive("so3").motion_page(1.0, start={"u_1": 0.5}))
     assert not pushed.get("lost", False)
     assert pushed["words"]["kept"] == "What is kept without inputs"

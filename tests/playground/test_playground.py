@@ -1,168 +1,15 @@
-"""The playground in Chromium: what it derives, checks, moves and gives is what the command line
-does; what is typed wrong is told at its line; nothing leaves the machine."""
+"""The playground in Chromium: its problem, its body, its files; what works without a network, and
+nothing leaves the machine."""
 
-import base64
-import io
 import json
 import tomllib
-import zipfile
 from xml.etree import ElementTree
 
-import pytest
-
 from derive import derive as derived
-from derive.code.emit import emit
-from derive.code.options import Options
-from derive.command.cli import main
-from derive.command.loading import READY, ready_made
-from derive.motion.simulate import beginning
-from derive.page.motion_page import data
-from derive.pipeline import motion_of
-from derive.views.language import language
+from derive.command.loading import READY
 from tests.support.needs import need
-from tests.support.playground_site import asked, built, served, walked
-
-PENDULUM = """name = "mine"
-group = "SO(3)"
-[parameters]
-m = { default = 1 }
-l = { default = 2 }
-g = { default = 9.81 }
-[[point]]
-mass = "m"
-at = ["l", 0, 0]
-[[point]]
-mass = "m"
-at = [0, "l", 0]
-[[point]]
-mass = "m"
-at = [0, 0, "l"]
-[[potential]]
-kind = "gravity"
-g = [0, 0, "-g"]
-"""
-SLOW = ("inhomogeneous_fluid", "stratified_fluid", "riemann_ellipsoid")
-CHECKED = [pytest.param(x, marks=pytest.mark.dist) if x in SLOW else x for x in ready_made()]
-MESH = '\n[body]\nsolid = "mesh"\nfile = "cube.off"\ndensity = 1\n'
-BAD = [
-    (PENDULUM.replace('at = [0, "l", 0]', "at = [0, 1]"), 12, "point 2, at"),
-    (PENDULUM.replace('g = [0, 0, "-g"]', 'h = [0, 0, "-g"]'), 18, "unknown key 'h'"),
-    (PENDULUM.replace("SO(3)", "SOO(3)"), 2, "unknown group 'SOO(3)'"),
-    (PENDULUM.replace('group = "SO(3)"', 'group = "SO(3)'), 2, "not TOML"),
-    (PENDULUM.replace("l = { default = 2 }", 'l = { default = "x" }'), 5, "parameter 'l'"),
-    (PENDULUM.replace("g = { default = 9.81 }\n", ""), 17, "potential 1, key 'g'"),
-    ('name = "cube"\ngroup = "SO(3)"\n' + MESH, 1, "NumPy"),
-    ("", 1, "key 'group' is missing"),
-]
-
-
-def typed(opened, text):
-    opened.evaluate("delete document.body.dataset.walked")
-    opened.evaluate("(text) => { play.text.text = text; }", text)
-
-
-def said(capsys, *words):
-    assert main([*words]) == 0
-    return capsys.readouterr().out
-
-
-def fragment(page, text, lang="en"):
-    how, heard = asked(page, "walk", text=text, lang=lang)
-    assert how == "end", (how, heard)
-    assert not [news for kind, news in heard if kind == "error"]
-    return "".join(news for kind, news in heard if kind == "piece")
-
-
-@pytest.mark.parametrize("name", ready_made())
-def test_a_ready_made_problem_is_walked_as_by_the_command(page, capsys, name):
-    text = (READY / f"{name}.toml").read_text(encoding="utf-8")
-    lang = "fr" if len(name) % 2 else "en"
-    command = ("walk", name, "--format", "html", "--fragment", "--lang", lang)
-    assert fragment(page, text, lang) == said(capsys, *command)
-
-
-@pytest.mark.parametrize("name", CHECKED)
-def test_a_ready_made_problem_is_checked(page, name):
-    text = (READY / f"{name}.toml").read_text(encoding="utf-8")
-    how, heard = asked(page, "check", text=text)
-    verdicts = [news for kind, news in heard if kind == "verdict"]
-    assert how == "end"
-    assert ("checked", {}) in heard
-    assert len(verdicts) > 10
-    assert all(x["holds"] and float(x["bound"]) < 1e-30 for x in verdicts)
-
-
-def test_a_typed_problem_gives_the_bytes_of_the_command(page, capsys, tmp_path):
-    file = tmp_path / "mine.toml"
-    file.write_text(PENDULUM)
-    command = ("walk", str(file), "--format", "html", "--fragment")
-    assert fragment(page, PENDULUM) == said(capsys, *command)
-    words = "emit FILE --lang c --lang javascript --lang rust --real float --out out"
-    _, heard = asked(page, "files", text=PENDULUM, words=words)
-    (zipped,) = [news for kind, news in heard if kind == "files"]
-    with zipfile.ZipFile(io.BytesIO(base64.b64decode(zipped))) as archive:
-        files = {x: archive.read(x) for x in archive.namelist()}
-    said(capsys, *words.replace("FILE", str(file)).split()[:-1], str(tmp_path / "out"))
-    assert files == {x.name: x.read_bytes() for x in (tmp_path / "out").iterdir()}
-    for words, end in (
-        ("notes FILE --out out/mine.tex", "tex"),
-        ("walk FILE --format json --out out/mine.json", "json"),
-    ):
-        _, heard = asked(page, "files", text=PENDULUM, words=words)
-        (zipped,) = [news for kind, news in heard if kind == "files"]
-        with zipfile.ZipFile(io.BytesIO(base64.b64decode(zipped))) as archive:
-            shown = archive.read(f"mine.{end}")
-        made = tmp_path / f"mine.{end}"
-        said(
-            capsys,
-            *words.replace("FILE", str(file)).replace("out/mine", str(tmp_path / "mine")).split(),
-        )
-        assert shown == made.read_bytes()
-
-
-@pytest.mark.parametrize(
-    ("text", "chosen"),
-    [
-        (PENDULUM, "--step gauss"),
-        (PENDULUM, "--step gauss --conserved"),
-        ("kovalevskaya_top", "--conserved"),
-        ("se3", "--step gauss --conserved"),
-        ("gas_cloud", "--step gauss --conserved"),
-    ],
-    ids=range(5),
-)
-def test_what_is_kept_is_in_the_code_of_the_page(page, capsys, tmp_path, text, chosen):
-    file = tmp_path / "mine.toml"
-    file.write_text(text if "\n" in text else (READY / f"{text}.toml").read_text())
-    words = f"emit FILE --lang c --lang javascript --lang python {chosen} --out out"
-    _, heard = asked(page, "files", text=file.read_text(), words=words)
-    assert [kind for kind, _ in heard] == ["files"]
-    with zipfile.ZipFile(io.BytesIO(base64.b64decode(heard[0][1]))) as archive:
-        files = {x: archive.read(x) for x in archive.namelist()}
-    said(capsys, *words.replace("FILE", str(file)).split()[:-1], str(tmp_path / "out"))
-    assert files == {x.name: x.read_bytes() for x in (tmp_path / "out").iterdir()}
-
-
-@pytest.mark.parametrize("name", ["so3", "kovalevskaya_top", "sl3", "riemann_ellipsoid"])
-def test_a_motion_has_what_the_page_of_the_command_has(page, name):
-    text = (READY / f"{name}.toml").read_text(encoding="utf-8")
-    (how, first), (_, heard) = (
-        asked(page, ask, text=text, lang="fr") for ask in ("motion", "kept")
-    )
-    assert how == "end"
-    ((_, shown),) = [x for x in first if x[0] == "motion"]
-    ((_, told),) = [x for x in heard if x[0] == "kept"]
-    own = derived(name)
-    code = motion_of(own.problem, own.record)
-    begin = beginning(code, own.problem, given={})
-    there = json.loads(json.dumps(data(code, own.problem, own.record, begin, language("fr"))))
-    assert told["kept"] == there["kept"] != {}
-    assert shown["page"]["kept"] == {}
-    different = {x for x in shown["page"] if shown["page"][x] != there.get(x)}
-    assert different <= {"kept", "x", "t", "tol", "names", "pushed"}
-    chosen = Options(step=("gauss",))
-    (source,) = emit(code.program, own.record, ("javascript",), name, chosen).values()
-    assert told["source"] == source
+from tests.support.played import PENDULUM, UNKNOWN_KEY
+from tests.support.playground_site import built, served, typed, walked
 
 
 def test_what_is_kept_comes_behind_the_motion(fresh, site):
@@ -190,21 +37,10 @@ def test_what_is_kept_comes_behind_the_motion(fresh, site):
     assert not fresh.told
 
 
-@pytest.mark.parametrize(("text", "line", "message"), BAD, ids=range(len(BAD)))
-def test_what_is_wrong_is_told_at_its_line(page, text, line, message):
-    how, heard = asked(page, "walk", text=text, lang="en")
-    errors = [news for kind, news in heard if kind == "error"]
-    assert how == "end"
-    assert len(errors) == 1
-    assert message in errors[0]["message"]
-    assert errors[0]["message"].startswith("derive: ")
-    assert errors[0]["line"] == line
-
-
 def test_the_page_shows_a_fault_and_recovers(fresh, site):
     fresh.goto(f"{site}#so3")
     walked(fresh)
-    typed(fresh, BAD[1][0])
+    typed(fresh, UNKNOWN_KEY)
     walked(fresh, "fault")
     assert "unknown key 'h'" in fresh.inner_text("#errors")
     assert fresh.locator(".cm-lint-marker-error").count() == 1

@@ -8,9 +8,9 @@ import pytest
 
 from derive.code.options import CHOICES, REPEATED
 from derive.command.loading import READY
-from tests.playground.test_playground import BAD, PENDULUM, typed
 from tests.support.needs import need
-from tests.support.playground_site import OWN, built, walked
+from tests.support.played import PENDULUM, UNKNOWN_KEY
+from tests.support.playground_site import OWN, built, typed, walked
 
 BELOW = """(id) => play.equations.root.getElementById(id).getBoundingClientRect().top
     - document.querySelector(".read .bar").getBoundingClientRect().bottom"""
@@ -73,7 +73,7 @@ def test_a_check_asked_for_while_it_derives_follows_the_walk(fresh, site):
     fresh.wait_for_selector("body[data-checked=holds]", timeout=90_000)
     assert "la probabilité" in fresh.inner_text("#state")
     fresh.click("[data-lang=en]")
-    typed(fresh, BAD[1][0])
+    typed(fresh, UNKNOWN_KEY)
     walked(fresh, "fault")
     fresh.click("#check")
     assert "first mend" in fresh.inner_text("#state")
@@ -252,7 +252,7 @@ def test_what_is_wrong_refuses_no_option(fresh, site):
     fresh.click("#tab-take")
     fresh.click("#take summary")
     told(fresh, "multiplier")
-    typed(fresh, BAD[1][0])
+    typed(fresh, UNKNOWN_KEY)
     walked(fresh, "fault")
     assert fresh.evaluate(REFUSED) == 0
 

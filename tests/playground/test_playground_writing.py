@@ -10,10 +10,10 @@ import pytest
 from derive.command.loading import READY, ready_made
 from derive.problem.toml import load
 from playground.stage import schema
-from tests.playground.test_playground import PENDULUM, typed
 from tests.support.flows import emitted
 from tests.support.needs import need
-from tests.support.playground_site import OWN, asked, walked
+from tests.support.played import PENDULUM
+from tests.support.playground_site import OWN, typed, walked
 
 TRACED = """# a first line
 name = "mine"  # its name
@@ -298,42 +298,6 @@ def test_what_is_taken_is_whole(page, begin, key, made, never):
     page.wait_for_timeout(150)
     page.keyboard.press("Enter")
     assert page.evaluate("play.text.text") == made
-
-
-# ---- what is told with the walk
-
-
-def told(page, text, kind):
-    how, heard = asked(page, "walk", text=text, lang="en")
-    assert how == "end"
-    return [news for k, news in heard if k == kind]
-
-
-def test_a_name_that_the_state_has_not_is_a_warning_at_its_line(page):
-    text = PENDULUM + "[initial]\nzeta_1 = 1\nomega_3 = 2\n"
-    (warning,) = told(page, text, "warning")
-    assert warning["line"] == 21
-    assert "omega_3: the state has no such number" in warning["message"]
-    assert "zeta_1 … zeta_3" in warning["message"]
-    assert not told(page, PENDULUM + "[initial]\nzeta_1 = 1\nA_33 = 1\n", "warning")
-    (error,) = told(page, PENDULUM + "[initial]\nzeta = [1, 2, 3]\n", "error")
-    assert "zeta_1 = …, zeta_2 = …" in error["message"]
-    assert error["line"] == 20
-
-
-@pytest.mark.parametrize(
-    ("text", "line", "message"),
-    [
-        (PENDULUM.replace('"mine"', "mine"), 1, 'stands in quotes: "mine"'),
-        (PENDULUM.replace("default = 2 ", "default = 2,5 "), 5, "not a comma: 2.5"),
-        (PENDULUM + "\n[ini", 20, "a table is written [name]"),
-        (PENDULUM.replace("l =", f"{'q' * 70} ="), 5, "parameter 'qqq"),
-    ],
-)
-def test_a_fault_of_toml_is_at_its_line(page, text, line, message):
-    (error,) = told(page, text, "error")
-    assert message in error["message"]
-    assert error["line"] == line
 
 
 # ---- the names of the state

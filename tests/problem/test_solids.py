@@ -541,3 +541,13 @@ def test_without_the_library(tmp_path, monkeypatch):
     path = written(tmp_path, off(CUBE, QUADS))
     with pytest.raises(MeshError, match=r"pip install 'derive-mechanics\[mesh\]'"):
         moments(made("mesh", RHO, {"file": str(path)}))
+
+
+def test_an_ellipsoid_by_its_matrix_has_its_inverse_as_moments():
+    """J = m/5 Q⁻¹, also off the diagonal."""
+    Q = ((4, 1, 0), (1, 2, Fraction(-1, 2)), (0, Fraction(-1, 2), 1))
+    found = moments(made("ellipsoid", 3, {"quadric": Q}))
+    m, *J = (value(x, {"π": math.pi}) for x in (found.m, *(x for row in found.J for x in row)))
+    matrix = np.array(Q, float)
+    assert m == pytest.approx(3 * 4 / 3 * math.pi / math.sqrt(np.linalg.det(matrix)))
+    assert np.reshape(J, (3, 3)) == pytest.approx(m / 5 * np.linalg.inv(matrix))

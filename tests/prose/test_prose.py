@@ -8,7 +8,7 @@ import pytest
 
 from derive import prose
 from derive.record.sentence import Sentence
-from tests.support.lagrangians import every_case, every_equilibrium
+from tests.support.lagrangians import every_record
 from tests.support.walks import FLUIDS, NAMES, OTHERS, record
 
 ROOT = Path(prose.__file__).parents[1]
@@ -53,8 +53,8 @@ def test_a_step_says_what_stands_under_its_label(name):
 
 
 def test_a_step_of_integrals_says_what_stands_under_its_label():
-    for found in (*every_case(), *every_equilibrium()):
-        says_what_stands_under_its_label(found.record)
+    for found in every_record():
+        says_what_stands_under_its_label(found)
 
 
 def says_what_stands_under_its_label(found):

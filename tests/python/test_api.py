@@ -2,14 +2,17 @@
 
 import doctest
 
+import numpy as np
 import pytest
 
 import derive
 from derive.code.emit import EmitError
 from derive.motion.start import MotionError
 from derive.problem.problem import ProblemError
+from derive.problem.toml import problem_of
 from derive.python import api
 from derive.schema.python_words import words
+from tests.support.walks import own_verdicts
 
 
 def pair(**more):
@@ -137,6 +140,11 @@ def test_keys_of_a_file_are_keywords():
         (MotionError, "t: expected a number", lambda d: d.simulate("1")),
         (MotionError, "give dt", lambda d: d.simulate(1, step="rk4")),
         (MotionError, "project takes it there", lambda d: d.simulate(1, start={"A_11": 2})),
+        (
+            ValueError,
+            "without at_defaults parameters stay letters",
+            lambda _: derive.first_integrals("so3", at_defaults=True, conditions=True),
+        ),
         (MotionError, "vary: expected laws", lambda d: d.simulate(1, ensemble=2, vary=[1])),
     ],
 )
@@ -168,8 +176,21 @@ def test_damping_at_a_place_of_a_solid():
     body = derive.Points((2, [1, 0, 0]), (1, [0, 2, 0]), (3, [0, 0, 1]), (0, [1, 1, 1]))
     on = derive.derive(derive.Problem("a", "SE(3)", body, derive.Damping(2, on=[4])))
     at = derive.derive(derive.Problem("a", "SE(3)", body[:3], derive.Damping(2, at=[1, 1, 1])))
-    assert all(v.holds for v in at.check())
+    assert all(v.holds for v in own_verdicts(at.record))
     assert on["motion"].equations == at["motion"].equations
+
+
+def test_a_momentum_in_the_body_is_kept_where_the_velocity_is_that_in_space():
+    """The symmetries are on the right; their values along a motion that turns and moves."""
+    L = "zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2 + zeta_1*zeta_2"
+    data = {"name": "spatial", "group": "SO(3)", "lagrangian": {"L": L, "trivialisation": "right"}}
+    d = derive.derive(problem_of(data))
+    kept = d.symmetries()
+    assert "right" in {x.symmetry.side for x in kept}
+    run = d.simulate(2.0, start={"zeta_1": 1.0, "zeta_3": 0.4}, exp=(0.3, 0.2, 0.5), points=8)
+    values = kept.values(run.t, run.states)
+    assert np.ptp(run.states, axis=0).min() > 0.01
+    assert np.ptp(values, axis=0).max() < 1e-7
 
 
 def test_a_place_of_a_block():

@@ -200,9 +200,8 @@ def test_pickle():
     """Another process computes the same, with the parameters and inputs of this one."""
     f = derive.compile("so3", {"c_3": 0.4})
     f.u = [1, 2, 3]
-    for method in {"spawn", "forkserver"} & {*multiprocessing.get_all_start_methods()}:
-        with multiprocessing.get_context(method).Pool(1) as pool:
-            assert np.array_equal(pool.apply(f, (0.0, START)), f(0, START))
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        assert np.array_equal(pool.apply(f, (0.0, START)), f(0, START))
     other = copy.deepcopy(f)
     other.u = [0, 0, 0]
     assert not np.array_equal(other(0, START), f(0, START))

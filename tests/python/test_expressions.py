@@ -10,7 +10,7 @@ import derive
 from derive.python import expressions as module
 from tests.support.emitted import import_python
 
-PROBLEMS = ("so3", "se3", "sl3", "top", "gl3", "saff3", "comet", "two_tops")
+PROBLEMS = ("so3", "se3", "top", "gl3", "saff3", "comet", "two_tops")
 
 
 def test_docstring():

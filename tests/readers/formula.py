@@ -5,8 +5,8 @@ parameter.  Tr and Σ reach to the end of their product, / divides the product b
 factor, ∧ joins products.  The readers of the formats make the tokens:
 
     ("name", letter) ("number", q) ("par", text) ("prime", n) ("bar", tokens)
-    ("sub", tokens) ("sup", tokens) ("open" or "close", mark) ("norm", "") ("op", mark)
-    ("word", Tr det Σ ∫ dm d ∂ or a function) ("tree", already read)
+    ("sub", tokens) ("sup", tokens) ("root", tokens) ("open" or "close", mark) ("norm", "")
+    ("op", mark) ("word", Tr det Σ ∫ dm d ∂ or a function) ("tree", already read)
 """
 
 import re
@@ -347,6 +347,9 @@ class _Reader:
         return tree
 
     of_tree = of_number = of_barred
+
+    def of_root(self, tokens):
+        return ("fun", "sqrt", parsed(tokens, self.known))
 
     def of_par(self, text):
         """One that is shown as such; its index may follow."""

@@ -134,7 +134,7 @@ class _Lexer:
         if token == r"\hatmap":
             return [("tree", ("hat", self.tree()))]
         if token == r"\sqrt":
-            return [("tree", ("fun", "sqrt", self.tree()))]
+            return [("root", self.inside())]
         if token == r"\operatorname":
             word = self.words()
             return [("word", {"arctan": "atan"}.get(word, word))]
@@ -162,6 +162,8 @@ class _Lexer:
         above, below = (_Lexer(x, self.known).all() for x in (above, below))
         if [x[0][0] for x in (above, below)] == ["number"] * 2 and len(above) == len(below) == 1:
             return [("number", Fraction(above[0][1], below[0][1]))]
+        if above[-2:] == [("word", "d"), ("name", "u")]:  # under an integral
+            return [*above, ("op", "/"), *below]
         return [("tree", ("div", parsed(above, self.known), parsed(below, self.known)))]
 
     def cells(self):

@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 from tests.readers.formula import UnreadableError, accented, equation, parsed
 
-OPERATORS = {"−": "-", "∧": "∧", "·": "·", "⊤": "⊤"} | {c: c for c in "+=/,;<>:.|≠≤≥≅≈±∈→×∘√"}
+OPERATORS = {"−": "-", "∧": "∧", "·": "·", "⊤": "⊤"} | {c: c for c in "+=/,;<>:.|≠≤≥≅≈±∈→↦×∘√"}
 ACCENTS = "˙~^"
 BRACKETS = "([⟨)]⟩"
 WORDS = {"∑": "Σ", "∫": "∫"}
@@ -79,8 +79,7 @@ def _layout(tag, inside, known):
     if tag == "mfrac":
         return _fraction(*inside, known)
     if tag == "msqrt":
-        flat = [token for x in inside for token in x]
-        return [("tree", ("fun", "sqrt", parsed(flat, known)))]
+        return [("root", [token for x in inside for token in x])]
     raise UnreadableError(f"<{tag}>")
 
 
@@ -89,6 +88,8 @@ def _fraction(above, below, known):
         return [("name", "d/dt")]
     if [x[0][0] for x in (above, below)] == ["number"] * 2 and len(above) == len(below) == 1:
         return [("number", Fraction(above[0][1], below[0][1]))]
+    if above[-2:] == [("word", "d"), ("name", "u")]:  # under an integral
+        return [*above, ("op", "/"), *below]
     return [("tree", ("div", parsed(above, known), parsed(below, known)))]
 
 

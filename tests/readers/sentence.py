@@ -27,7 +27,7 @@ COMMANDS = {
 
 def plain(words, known):
     """What a sentence says, as the record has it: parameters in ‘quotes’."""
-    parts = re.split("‘([^’]+)’", words)
+    parts = re.split("‘([^’]+)’", re.sub(r"√([A-Z]\(.*?\))", r"√(\1)", words))
     parts[::2] = map(_signs, parts[::2])
     parts[1::2] = (_parameter(x, known) for x in parts[1::2])
     return _joined("".join(parts))
@@ -120,6 +120,8 @@ def _flat(kind, value):
         return "′" * value
     if kind == "norm":
         return "‖"
+    if kind == "root":
+        return f"√({flat(value)})"
     if kind == "par":
         return f"⟦{value.replace('_', '')}⟧"
     return _tree(value) if kind in ("tree", "number") else value
@@ -135,6 +137,4 @@ def _tree(t):
         return t
     if t[0] == "hat":
         return f"j({_tree(t[1])})"
-    if t[:2] == ("fun", "sqrt"):
-        return f"√({_tree(t[2])})"
     raise UnreadableError(t)

@@ -1,13 +1,10 @@
 """Sentences as data: written beside their English, and what is refused on reading."""
 
 import json
-import tomllib
 
 import pytest
 
 from derive.language.limits import SENTENCE
-from derive.pipeline import walk
-from derive.problem.toml import problem_of
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_data, to_json
 from derive.record.record import RecordError
@@ -15,7 +12,6 @@ from derive.record.sentence import english, listed, phrase, say
 from derive.views.language import language
 from derive.views.text import text
 from tests.support import walks
-from tests.support.engine_mutations.jobs import GIVEN
 
 
 def test_many_as_one():
@@ -37,22 +33,13 @@ def test_old_records_are_one_sentence_a_step():
     assert text(read) == text(walks.record("so3"))
 
 
-def test_meanings_with_places_are_written():
-    symbols = {s["name"]: s for s in to_data(walks.record("ellipsoid"))["symbols"]}
-    assert symbols["f_u"]["meaning"].startswith("input: ‘thrust’, a force at r_2")
-    assert symbols["f_u"]["sentences"][0]["message"] == "input: {forces}"
-    assert "sentences" not in symbols["m"]
-
-
-def test_a_wrench_beside_forces():
-    """Both are called f_u: the one of the wrench has no index."""
-    forces = '[[input]]\nname = "F"\nkind = "force"\nat = [1, 0, 0]\nframe = "body"\n'
-    d = walk(problem_of(tomllib.loads(GIVEN + forces)))
-    (meaning,) = (s.meaning for s in d.symbols if s.name == "f_u")
-    assert english(meaning) == (
-        "input: ‘u₄’, ‘u₅’, ‘u₆’, a force on the body's origin, in the body frame; "
-        "‘F’, a force at r_1, in the body frame"
-    )
+def test_sentences_with_places_are_written():
+    d = to_data(walks.record("ellipsoid"))
+    steps = {s["label"]: s for s in d["steps"]}
+    told = steps["ellipsoid.input"]["sentences"][-1]
+    assert told["message"] == "Inputs: {forces}."
+    assert told["places"]["forces"]["places"]["name"] == "‘thrust’"
+    assert not [s for s in d["symbols"] if s["name"] == "m" and "sentences" in s]
 
 
 def nested(depth):

@@ -4,6 +4,7 @@ from derive.algebra.families import group as named
 from derive.problem.toml import problem_of
 from derive.python.derived import derive
 from derive.python.integrals_found import first_integrals
+from tests.support.cached import on_disk
 
 
 def lagrangian(L, group="SO(3)", parameters="", side="left", **more):
@@ -149,3 +150,9 @@ def every_equilibrium():
         derive(lagrangian(squares(*range(2, 8)), "SO(4)")).equilibria({"Pi_1": 1, "Pi_6": 1}),
         derive(lagrangian(squares(1, 1, 3) + " - A_33", LORENTZ)).equilibria({"A_33": -1}),
     ]
+
+
+@on_disk
+def every_record():
+    """Those of all cases and equilibria."""
+    return [x.record for x in (*every_case(), *every_equilibrium())]

@@ -95,6 +95,12 @@ def asked(page, ask, **more):
     return how, [(kind, news) for kind, news in heard]
 
 
+def typed(opened, text):
+    """Another text in the place of what stands there."""
+    opened.evaluate("delete document.body.dataset.walked")
+    opened.evaluate("(text) => { play.text.text = text; }", text)
+
+
 def walked(opened, what="so3"):
     """Wait until a problem is walked."""
     opened.wait_for_selector(f'body[data-walked="{what}"]', timeout=90_000)

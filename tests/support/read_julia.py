@@ -28,6 +28,10 @@ class DomainError(Exception):
     """What Julia throws for a number that a function does not take."""
 
 
+class DimensionMismatchError(Exception):
+    """What Julia throws for an array of another length."""
+
+
 class Numbers:
     """An array of a shape, whose numbers are undefined until they are written."""
 
@@ -146,7 +150,9 @@ BUILT_IN = {
     "view": lambda x, places: [(x, i) for i in places],
     "copyto!": copied,
     "fill!": filled,
+    "length": lambda x: int(np.prod(x.shape)) if isinstance(x, Numbers) else len(x),
     "DomainError": lambda given, why: DomainError(why),
+    "DimensionMismatch": lambda why: DimensionMismatchError(why),
 }  # fmt: skip
 
 
@@ -165,6 +171,7 @@ BINARY = {
     "*": arithmetic(operator.mul),
     "/": arithmetic(operator.truediv),
     "<=": operator.le,
+    "==": operator.eq,
     "===": operator.is_,
 }
 
@@ -268,7 +275,7 @@ class Module:
                 condition, op, (value,) = *named(node)[:2], named(named(node)[2])
                 if self._condition(condition, scope) == (text(op) == "&&"):
                     return True, self._value(value, scope)
-            elif text(node).startswith(("throw(", "all(")) or (
+            elif text(node).startswith(("throw(", "all(", "length(")) or (
                 node.type == "call_expression" and text(named(node)[0]).endswith("!")
             ):
                 self._value(node, scope)

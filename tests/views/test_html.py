@@ -8,7 +8,6 @@ from html.parser import HTMLParser
 
 import pytest
 
-from derive import derive
 from derive.paper.findings import amendments
 from derive.printing.inline import inline, spelt
 from derive.printing.notation import Notation
@@ -17,8 +16,10 @@ from derive.record.contract import AMENDED
 from derive.views.html import html
 from derive.views.language import language
 from tests.support.needs import BROWSERS, need
+from tests.support.walks import record
 
 NAMES = ("so3", "se3", "sl3", "saff3", "hammer", "two_tops", "jelly", "comet", "so4")
+SOME = ("so3", "se3", "two_tops", "comet")
 VOID = {"meta", "link", "br", "circle", "line", "path", "ellipse", "rect", "polyline", "polygon"}
 FITTED = """() => {
     const width = document.documentElement.clientWidth;
@@ -59,12 +60,6 @@ class Structure(HTMLParser):
 
 
 @pytest.fixture(scope="module")
-def records():
-    kept = {}
-    return lambda name: kept.setdefault(name, derive(name).record)
-
-
-@pytest.fixture(scope="module")
 def browser():
     need("the module playwright", "chromium")
     from playwright.sync_api import sync_playwright
@@ -78,9 +73,9 @@ def browser():
 
 @pytest.mark.parametrize("lang", ["en", "fr"])
 @pytest.mark.parametrize("width", [390, 1280])
-def test_in_a_browser(width, lang, browser, records, tmp_path):
+def test_in_a_browser(width, lang, browser, tmp_path):
     file = tmp_path / "page.html"
-    shown = html([records(x) for x in NAMES], language=language(lang), findings=amendments(AMENDED))
+    shown = html([record(x) for x in NAMES], language=language(lang), findings=amendments(AMENDED))
     file.write_text(shown, encoding="utf-8")
     page = browser.new_page(viewport={"width": width, "height": 900})
     said = []
@@ -97,28 +92,28 @@ def test_in_a_browser(width, lang, browser, records, tmp_path):
     page.close()
 
 
-def test_anchors_are_there_and_single(records):
-    page = html([records(x) for x in NAMES])
+def test_anchors_are_there_and_single():
+    page = html([record(x) for x in SOME])
     ids = Structure(page).ids
     assert len(ids) == len(set(ids))
     assert set(re.findall(r'href="#([^"]*)"', page)) <= set(ids)
-    for name in NAMES:
-        assert {step.label for step in records(name).steps} <= set(ids)
+    for name in SOME:
+        assert {step.label for step in record(name).steps} <= set(ids)
 
 
-def test_it_stands_alone(records):
-    page = html([records("so3")]).replace("http://www.w3.org/2000/svg", "")
+def test_it_stands_alone():
+    page = html([record("so3")]).replace("http://www.w3.org/2000/svg", "")
     assert not re.search(r"https?://|@import|url\(|src=|<link", page)
 
 
-def test_what_holds_for_any_group_comes_once(records):
-    page = html([records("so3"), records("sl3"), records("so4")])
+def test_what_holds_for_any_group_comes_once():
+    page = html([record("so3"), record("sl3"), record("so4")])
     assert page.count('id="linear.kernel"') == 1
 
 
 @pytest.mark.parametrize("bad", ["<script>alert(1)</script>", '"><img src=x onerror=alert(1)>'])
-def test_nothing_of_a_stranger_is_markup(bad, records):
-    d = records("so3")
+def test_nothing_of_a_stranger_is_markup(bad):
+    d = record("so3")
     hostile = {**d.problem, "title": bad, "name": bad}
     hostile["parameters"] = {bad: {"default": 1.0, "unit": bad, "meaning": bad}}
     symbols = tuple(replace(s, latex=bad) for s in d.symbols)

@@ -7,6 +7,7 @@ from collections import Counter
 from functools import cache
 from importlib import resources
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
@@ -14,7 +15,7 @@ from derive import prose as texts
 from derive.command.cli import main
 from derive.command.loading import ready_made
 from derive.paper.printed import PAPER
-from derive.pipeline import discrete, symmetries, walk
+from derive.pipeline import symmetries, walk
 from derive.printing.escape import markdown_text, tex_text
 from derive.printing.sentences import prose
 from derive.problem.toml import load, problem_of
@@ -34,11 +35,10 @@ from derive.views.language import ENGLISH, LANGUAGES, THIN, WIDE, Language, entr
 from derive.views.latex import latex
 from derive.views.markdown import markdown, step_markdown
 from derive.views.text import step_text, text
-from tests.problems import PROBLEMS
-from tests.support import symmetric, walks
+from tests.support import corpus, symmetric, walks
+from tests.support.cached import on_disk
 from tests.support.kinds import examples
-from tests.support.lagrangians import every_case, every_equilibrium
-from tests.support.reduced import reduced
+from tests.support.lagrangians import every_record
 from tests.views.test_views import compiled
 
 ROOT = Path(__file__).parents[2] / "derive"
@@ -79,7 +79,7 @@ stiffness = 1
 """
 CHOSEN = (
     *("SL(3) forces", "SE(3) forces", "Sim(3) forces", "SO(3) x SO(3)", "SO(3) forces"),
-    *("a cylinder", "SL(4)", "Aff(2)", "SAff(2)", "weighted", "screw"),
+    *("a cylinder", "SL(4)", "Aff(2)", "SAff(2)", "weighted"),
     *("SE(3) x SE(3)", "a flat body", "so(3) skewed"),
 )
 
@@ -103,41 +103,46 @@ def own_problems(folder):
     ]
 
 
-REACHING = ("gl3", "heisenberg", "riemann_ellipsoid", "screw", "spherical_pendulum")
-"""Problems with symmetries that no other has."""
-TOLD = ("lagrange_top", "charged_body", "flat", "steep", "rod", "so3")
-"""Reductions that together have all sentences."""
 TWO = " + ".join(f"zeta_{k}^2" for k in range(1, 7))
 ON_THE_RIGHT = {"L": "zeta_1^2 + zeta_2^2 + zeta_3^2", "trivialisation": "right"}
 
 
-@pytest.fixture(scope="module")
-def records(tmp_path_factory):
+OF_THE_CORPUS = [
+    *(f"{'forces' if x.endswith('forces') else 'points'} {x}" for x in CHOSEN),
+    *(f"symmetries {x}" for x in symmetric.FILES),
+    *(f"symmetries {x}" for x in ("heisenberg", "riemann_ellipsoid", "screw")),
+    "symmetries spherical_pendulum",
+    *(f"reduced {x}" for x in ("lagrange_top", "charged_body", "flat", "steep", "rod", "so3")),
+    *(f"discrete {x}" for x in ("so3", "se3", "sl3", "gl3", "sp4", "GL(3)", "SE(3)")),
+    *("torus 3", "fluid well"),
+]
+"""Records that together have all sentences with the ready-made ones and these:"""
+WHOLE = {"group": "SL(3)", "body": {"solid": "ellipsoid", "density": 1, "semi_axes": [3, 2, 1]}}
+WEIGHT = {"kind": "gravity", "g": [0, 0, "-9.81"]}
+OWN = [
+    {"group": "SO(3)", "lagrangian": ON_THE_RIGHT},
+    {"algebra": {"of": "SO(3)"}, "advected": [{"name": "x"}], "lagrangian": ON_THE_RIGHT},
+    {"group": "SO(3) x SE(2)", "lagrangian": {"L": TWO}},
+    WHOLE | {"potential": [WEIGHT]},
+    WHOLE | {"potential": [WEIGHT, {"kind": "self_gravity", "G": 1}]},
+    WHOLE | {"body": WHOLE["body"] | {"density": "2 - s"}},
+]
+
+
+@on_disk
+def all_records():
     """The ready-made problems, some with all kinds of forces, and the own ones."""
-    found = [walks.record(name) for name in ready_made()]
-    found += [walk(problem_of(tomllib.loads(PROBLEMS[name]))) for name in CHOSEN]
-    found += [walk(p) for p in examples().values()]
-    for moved in ({"group": "SO(3)"}, {"algebra": {"of": "SO(3)"}, "advected": [{"name": "x"}]}):
-        found.append(walk(problem_of({"name": "own", "lagrangian": ON_THE_RIGHT} | moved)))
-    two = {"name": "two", "group": "SO(3) x SE(2)", "lagrangian": {"L": TWO}}
-    found.append(walk(problem_of(two)))
-    found += [x.record for x in (*every_case(), *every_equilibrium())]
-    found += [symmetric.found(name).record for name in symmetric.FILES]
-    found += [reduced(name).record for name in TOLD]
-    weight = {"kind": "gravity", "g": [0, 0, "-9.81"]}
-    whole = {"solid": "ellipsoid", "density": 1, "semi_axes": [3, 2, 1]}
-    for forces in ([weight], [weight, {"kind": "self_gravity", "G": 1}]):
-        own = {"name": "drop", "group": "SL(3)", "body": whole, "potential": forces}
-        found.append(walk(problem_of(own)))
-    layers = {"solid": "ellipsoid", "density": "2 - s", "semi_axes": [3, 2, 1]}
-    found.append(walk(problem_of({"name": "layers", "group": "SL(3)", "body": layers})))
-    small = {"algebra": {"of": "torus", "N": 3}, "inertia": {"operator": "laplacian"}}
-    found.append(walk(problem_of({"name": "small"} | small)))
-    found.append(walk(problem_of({"name": "well", "fluid": {"forces": "potential"}})))
-    in_steps = ("so3", "se3", "sl3", "gl3", "sp4", "jelly")
-    found += [discrete(walks.problem(name)) for name in in_steps]
-    found += [symmetries(walks.problem(x), walks.record(x)).record for x in REACHING]
-    return found + [walk(p) for p in own_problems(tmp_path_factory.mktemp("mesh"))]
+    with TemporaryDirectory() as folder:
+        problems = [*examples().values(), *own_problems(Path(folder))]
+    problems += [problem_of({"name": "own"} | x) for x in OWN]
+    told = [*map(walks.record, ready_made()), *map(corpus.record, OF_THE_CORPUS)]
+    told.append(symmetries(walks.problem("gl3"), walks.record("gl3")).record)
+    return [*told, *every_record(), *map(walk, problems)]
+
+
+@pytest.fixture(scope="module")
+def records():
+    return all_records()
 
 
 def messages(sentence):
@@ -184,13 +189,13 @@ def test_the_english_of_an_entry_stands_once():
     assert all(set(x) == set(LANGUAGES) and all(x.values()) for x in ENTRIES)
 
 
-@pytest.mark.parametrize("entry", ENTRIES, ids=lambda x: x["en"][:40])
-def test_both_sides_have_the_same_places(entry):
-    if "\\" in entry["en"]:
-        return  # formulas with braces of their own
-    here, there = (Counter(PLACE.findall(entry[name])) for name in LANGUAGES)
-    assert here == there
-    assert set(here.values()) <= {1}
+def test_both_sides_have_the_same_places():
+    for entry in ENTRIES:
+        if "\\" in entry["en"]:
+            continue  # formulas with braces of their own
+        here, there = (Counter(PLACE.findall(entry[name])) for name in LANGUAGES)
+        assert here == there, entry
+        assert set(here.values()) <= {1}, entry
 
 
 def test_every_sentence_is_in_the_catalogue(records):
@@ -226,9 +231,15 @@ ROOMS = ("views", "figure", "plot", "page", "walk", "walk/kinds")
 SPEAKING = sorted([*(p for x in ROOMS for p in ROOT.glob(f"{x}/*.py"))])
 
 
-@pytest.mark.parametrize("path", SPEAKING, ids=lambda p: str(p.relative_to(ROOT)))
-def test_every_word_said_is_in_the_catalogue(path):
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+def calls():
+    """The paths of what speaks, and its calls."""
+    for path in SPEAKING:
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        yield from ((path, x) for x in ast.walk(tree) if isinstance(x, ast.Call))
+
+
+def test_every_word_said_is_in_the_catalogue():
+    for path, node in calls():
         called = getattr(node, "func", None)
         name = getattr(called, "attr", getattr(called, "id", ""))
         if name in ("say", "phrase", "word") and node.args:
@@ -236,9 +247,10 @@ def test_every_word_said_is_in_the_catalogue(path):
             if isinstance(message, ast.Constant):
                 text = message.value
                 of_walk = "walk" in path.parts[-3:] and isinstance(called, ast.Name)
-                assert (texts.english(text) if of_walk else text) in FRENCH.messages
+                assert (texts.english(text) if of_walk else text) in FRENCH.messages, path
             else:
-                assert "walk" in path.parts[-3:] or not isinstance(message, ast.JoinedStr)
+                in_walk = "walk" in path.parts[-3:]
+                assert in_walk or not isinstance(message, ast.JoinedStr), path
 
 
 def test_every_entry_is_used():

@@ -6,7 +6,6 @@ from functools import cache
 import pytest
 
 from derive.language.show import show_name
-from derive.pipeline import discrete
 from derive.printing.sentences import QUOTED
 from derive.record.sentence import Sentence
 from derive.views.html import html
@@ -16,21 +15,28 @@ from derive.views.markdown import markdown
 from derive.views.text import text
 from tests.readers.formula import letters_of
 from tests.readers.read import misread_sentences
-from tests.support import reduced, symmetric
-from tests.support.lagrangians import every_case, every_equilibrium
-from tests.support.walks import FLUIDS, NAMES, OTHERS, problem, record, repeated
+from tests.support import corpus, reduced, symmetric
+from tests.support.lagrangians import every_record
+from tests.support.walks import FLUIDS, NAMES, OTHERS, record, repeated
 
 LANGUAGES = ("en", "fr")
+D = r"\mathrm{d}"
 WALKS = tuple(dict.fromkeys((*NAMES, *FLUIDS, *OTHERS)))
+
+
+BESIDE = [
+    *(f"reduced {x}" for x in reduced.FILES),
+    *(f"symmetries {x}" for x in symmetric.FILES),
+    *("discrete so3", "discrete se3", "discrete top"),
+]
+COUNT = 33
+"""Integrals and equilibria of :func:`.every_record`."""
 
 
 @cache
 def found():
     """What is told of problems beside their walks."""
-    told = [reduced.reduced(x).record for x in reduced.FILES]
-    told += [symmetric.found(x).record for x in symmetric.FILES]
-    told += [x.record for x in (*every_case(), *every_equilibrium())]
-    return [*told, *(discrete(problem(x)) for x in ("so3", "se3", "comet"))]
+    return dict(enumerate(every_record())) | {x: corpus.record(x) for x in BESIDE}
 
 
 @pytest.mark.parametrize("name", repeated(WALKS))
@@ -39,9 +45,14 @@ def test_every_sentence_of_a_walk_is_read_back(name, lang):
     assert [*misread_sentences(record(name), language(lang))] == []
 
 
+@pytest.mark.parametrize("name", [*range(COUNT), *BESIDE])
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_every_sentence_of_what_is_found_is_read_back(lang):
-    assert [x for d in found() for x in misread_sentences(d, language(lang))] == []
+def test_every_sentence_of_what_is_found_is_read_back(name, lang):
+    assert [*misread_sentences(found()[name], language(lang))] == []
+
+
+def test_they_are_as_many():
+    assert {*found()} == {*range(COUNT), *BESIDE}
 
 
 def places(x):
@@ -60,12 +71,12 @@ def unmarked(d):
 
 
 def test_parameters_of_a_sentence_are_told_from_its_letters():
-    assert [x for d in (*map(record, WALKS), *found()) for x in unmarked(d)] == []
+    assert [x for d in (*map(record, WALKS), *found().values()) for x in unmarked(d)] == []
 
 
 def test_a_condition_on_every_page():
     """The radius R, the moment I1 and mgl are parameters, in the letters of the equations."""
-    top, lagrange = (reduced.reduced(x).record for x in ("top", "lagrange_top"))
+    top, lagrange = (corpus.record(f"reduced {x}") for x in ("top", "lagrange_top"))
     assert r"\parameter{R}^{2}\parameter{h}\cdot\rho\cdot(" in latex(top)
     assert r"\neq 0$: elsewhere" in latex(top)
     assert r"where $\mathsf{I}_{\mathsf{1}}(1 - A_{33}^{2}) \neq 0$: elsewhere" in markdown(
@@ -73,3 +84,14 @@ def test_a_condition_on_every_page():
     )
     assert "<mo>≠</mo>" in html([lagrange])
     assert "πR²h·rho·(R² + 4h²)(1 − A₃₃²) ≠ 0" in " ".join(text(top).split())
+
+
+def test_an_integral_of_a_sentence_is_set_as_in_an_equation():
+    """Limits, fraction and root of self-gravity's integrals; the words around them stay words."""
+    d = record("riemann_ellipsoid")
+    root, power = r"\frac{\mathrm{d}u}{\sqrt{P(u)}}", r"\frac{u^{2}\,\mathrm{d}u}{P(u)^{3/2}}"
+    for integrand in (root, power):
+        assert rf"$\int_{{0}}^{{\infty}}{integrand}$, with $P(u)" in latex(d).replace(r"\dd ", D)
+    assert r"by $\hat r$ : $(t, g, \nu) \mapsto (t," in latex(d)
+    assert "</msubsup><mfrac>" in html([d])
+    assert "∫₀^∞ du / √P(u), with" in " ".join(text(d).split())

@@ -20,7 +20,7 @@ from derive.printing.line_breaking import Piece, display_width, fill
 from derive.printing.notation import Notation
 from derive.printing.sentences import prose
 from derive.printing.spelling import transposed
-from derive.printing.tex import latex_tree
+from derive.printing.tex import FormulaPrinter, latex_tree
 from derive.problem.toml import load
 from derive.record.record import Derivation, Equation, Step, Symbol
 from derive.record.sentence import say
@@ -308,6 +308,12 @@ def test_long_formulas_break_at_shallow_operators_first() -> None:
     ]  # fmt: skip
 
 
+def test_an_inner_line_has_room_for_its_indent() -> None:
+    pieces = [Piece("a", 0), Piece(" + ⟨bbbbb", 0.25), Piece(" cccc", 1.0), Piece(" dddd⟩", 1.0)]
+    lines = fill(pieces, 10, display_width, 2)
+    assert [display_width(x.text) + 2 * x.inside for x in lines if x.inside] == [6, 7]
+
+
 def test_a_term_longer_than_a_line_is_broken_inside() -> None:
     sides = [("add", *[f"{letter}_{k}" for k in range(40)]) for letter in "xy"]
     long = ("inner", *sides)
@@ -359,3 +365,47 @@ def test_a_height_h_is_told_from_the_step_of_time(name, shown):
     top = load(PROBLEMS / "top.toml")
     assert shown in " ".join(render(discrete(top), name).split())
     assert "(radius R, height h)" in " ".join(render(walk(top), "text").split())
+
+
+NESTED = {
+    "quotient": lambda t, k: ("div", ("add", 1, t), ("add", ("par", f"k_{k}"), 2)),
+    "below": lambda t, k: ("div", ("mul", 3, ("par", f"k_{k}")), ("add", 1, t)),
+    "power": lambda t, k: ("pow", ("add", ("par", f"k_{k}"), t), 2),
+    "root": lambda t, k: ("fun", "sqrt", ("add", ("par", f"k_{k}"), t)),
+    "scalar product": lambda t, _: ("inner", ("mul", t, "c"), "w"),
+    "norm": lambda t, _: ("norm2", ("mul", t, "c")),
+    "trace": lambda t, _: ("tr", ("mul", t, "Z")),
+    "determinant": lambda t, _: ("det", ("mul", t, "Z")),
+    "inverse": lambda t, _: ("inv", ("add", 1, t)),
+    "transpose": lambda t, _: ("T", ("mul", t, "Z")),
+    "sum": lambda t, _: ("sum", "i", ("mul", ("at", "m", "i"), ("add", 1, t))),
+}
+
+
+@pytest.mark.parametrize("operator", NESTED)
+def test_what_is_nested_is_printed_once(operator, monkeypatch):
+    """Thirty deep; a printer that printed an operand twice would take 2³⁰ times as long."""
+    shown = []
+    once = FormulaPrinter.show
+    monkeypatch.setattr(
+        FormulaPrinter, "show", lambda self, t: shown.append(t) or budget(shown) or once(self, t)
+    )
+    tree = "t"
+    for k in range(30):
+        tree = NESTED[operator](tree, k)
+    show(tree)
+    latex_tree(tree, {})
+
+
+def budget(shown):
+    assert len(shown) < 30 * 20, "printed again and again"
+
+
+def test_three_numbers_of_the_paper_are_a_run_and_two_are_not():
+    step = Step("a.b", "definition", (), (), (), ())
+    for paper, shown in {
+        (11, 12, 13): "(11)–(13)",
+        (11, 12): "(11), (12)",
+        (11, 13): "(11), (13)",
+    }.items():
+        assert printed(replace(step, paper=paper)) == shown

@@ -5,7 +5,7 @@ import tomllib
 import pytest
 
 from derive.language.tree import nodes
-from derive.pipeline import program, walk
+from derive.pipeline import discrete, program, walk
 from derive.problem.toml import problem_of
 from derive.record.sentence import english
 from derive.views.language import language
@@ -163,16 +163,19 @@ basis = [
 
 
 def driven(group):
-    return walked(f'name = "driven"\n{group}\n{POINTS}{INPUTS}')
+    return problem_of(tomllib.loads(f'name = "driven"\n{group}\n{POINTS}{INPUTS}'))
 
 
 @pytest.mark.parametrize("group", ['group = "SE(3)"', 'group = "SO(3)"', 'group = "SL(3)"', TURNED])
-def test_the_numbers_of_inputs_have_the_names_of_the_file(group):
-    """f_u₁ was force 1, and the first component of the force of a covector as well."""
-    d = driven(group)
+@pytest.mark.parametrize("road", [walk, discrete])
+def test_the_numbers_of_inputs_have_the_names_of_the_file(road, group):
+    """f_u₁ was force 1, and the first component of the force of a covector as well; u₄ stood in
+    the discrete motion for the latter."""
+    d = road(driven(group))
     parts = {x for s in d.steps for e in s.equations for t in (e.lhs, e.rhs) for x in nodes(t)}
     entries = [x for x in parts if isinstance(x, tuple) and x[0] == "entry" and x[2] != "a"]
-    assert not [x for x in entries if x[1] in ("u", "f_u") or x[1][:2] == ("at", "f_u")]
+    assert not [x for x in entries if x[1] in ("u", "f_u")]
+    assert not [x for x in parts if isinstance(x, tuple) and x[:2] == ("at", "f_u")]
     size = {"SE(3)": 6, "SL(3)": 8}.get(d.problem["group"], 3)
     given = {f"thrust_{k}" for k in (1, 2, 3)} | {f"F_{k}" for k in range(1, size + 1)}
     named = {x[1] for x in parts if isinstance(x, tuple) and x[0] == "par"}
@@ -180,9 +183,17 @@ def test_the_numbers_of_inputs_have_the_names_of_the_file(group):
     assert named <= given
 
 
+def test_where_a_force_acts_is_told_where_it_enters():
+    d = walk(driven('group = "SE(3)"'))
+    (step,) = (s for s in d.steps if s.label == "driven.input")
+    assert english(step.prose).endswith("Inputs: ‘thrust’, a force at r_1, in the body frame.")
+    (wrench,) = (english(s.meaning) for s in d.symbols if s.name == "f_u")
+    assert wrench.endswith("in the body frame, ‘F₄’, ‘F₅’, ‘F₆’")
+
+
 def test_text_and_code_call_an_input_alike():
     """F are the forces on the points as well: in quotes."""
-    p = problem_of(tomllib.loads(f'name = "driven"\ngroup = "SE(3)"\n{POINTS}{INPUTS}'))
+    p = driven('group = "SE(3)"')
     d = walk(p)
     (solved,) = (x for x in text(d).split("\n\n") if x.startswith("driven.explicit"))
     assert "thrust₂" in solved

@@ -356,6 +356,13 @@ def test_a_degenerate_metric_is_not_said_to_move_nothing():
         problem_of({"name": "pair", "group": "SO(3)", **pair}, negative_mass=True)
 
 
+def test_a_metric_may_be_degenerate_where_no_moment_is_0():
+    """A boost of (1, 0) and of (0, 1), whose kinetic energies are opposite."""
+    pair = points((1, [1, 0]), (-1, [0, 1]))
+    with pytest.raises(ProblemError, match="degenerate"):
+        problem_of({"name": "pair", "group": BOOST, **pair}, negative_mass=True)
+
+
 @pytest.mark.parametrize("mass", [["mul", -1, 2], ["div", -4, 2], ["mul", -1, ["par", "a"]]])
 def test_masses_that_are_expressions_are_seen_to_be_negative(mass):
     data = json.loads(to_json(walked("SL(2)", signed=True)))

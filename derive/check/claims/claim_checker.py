@@ -12,6 +12,7 @@ from . import (
     enclosure_claims,
     equilibrium_claims,
     integral_claims,
+    orbit_claims,
     reduction_claims,
     symmetry_claims,
 )
@@ -83,6 +84,7 @@ def _of_symmetries(judge: symmetry_claims.Judge) -> Judge:
 
 JUDGES: dict[str, Judge] = {
     **reduction_claims.JUDGES,
+    **orbit_claims.JUDGES,
     **{kind: _of_symmetries(judge) for kind, judge in symmetry_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in equilibrium_claims.JUDGES.items()},

@@ -17,7 +17,7 @@ from ...language.tree import replaced
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ..chapter import Chapter
-from ..inputs import acts, damping_coefficients, external_matrices
+from ..inputs import acts, damping_coefficients, external_matrices, where_given
 from ..inverse import cancel_scalar, inverse_letter
 from ..pullback import sum_over
 from ..wording import say
@@ -98,7 +98,7 @@ def _inputs(problem: Problem, group: Group, forces: DiscreteForces, c: Chapter) 
     (step,) = found.steps
     stretched = ("mul", ("T", "A"), "A")
     told = tuple(Equation(e.lhs, replaced(e.rhs, "C", stretched)) for e in step.equations)
-    return replace(step, equations=told, prose=say("input.discrete"))
+    return replace(step, equations=told, prose=say("input.discrete") + where_given(problem))
 
 
 def drag(D: Letter, a: DiscreteAlphabet) -> Expr:

@@ -75,7 +75,9 @@ function built(scene, x, pieces) {
       return e;
     });
     const heavy = max(...matter.map((x) => x.mass), 0) || 1;
-    const traced = part.deforms ? matter.slice(0, 4).map((x) => x.at) : part.fixed ? [tips.at(-1)] : [centre];
+    /* about a fixed place the centre of mass, or the tip of the last axis where that goes through it */
+    const pole = part.fixed && centre[part.n - 1] >= 0.999 * size(centre) ? tips.at(-1) : centre;
+    const traced = part.deforms ? matter.slice(0, 4).map((x) => x.at) : [pole];
     const centres = part.attractions.map((a) => ({ at: vector(a.centre), on: a.on }));
     const anchors = part.anchors.map((a) => ({ on: a.on, at: vector(a.at) }));
     return { ...part, points, faces, edges, centre, reach, tips, heavy, traced, centres, anchors };

@@ -7,26 +7,11 @@ from tests.code.test_frame import FREE, pushed_data
 from tests.oracles import solids
 from tests.problem.test_bad_problems import FILES, SINGULAR
 from tests.problems import PROBLEMS, READY
+from tests.support import corpus
 
-SOLIDS = """
-name = "test"
-group = "SE(3)"
-[parameters]
-a = 1.1
-b = 0.7
-rho = 2.0
-[[solid]]
-kind = "ellipsoid"
-density = "rho"
-semi_axes = ["a", "b", 0.5]
-rotation = { axis = [1, 2, 2], angle = "pi/3" }
-shift = [0.1, 0, "b"]
-[[solid]]
-kind = "cone"
-density = 3
-radius = 0.4
-height = "a"
-shift = [0.5, 0, 0]
+SOLIDS = (
+    corpus.SOLIDS.replace("GROUP", "SE(3)")
+    + """
 [[solid]]
 kind = "box"
 density = 2
@@ -52,15 +37,13 @@ kind = "tetrahedron"
 density = 4
 vertices = [[0, 0, 0], [1, 0, 0.5], [0, 1, 0], [0.2, 0.1, 1]]
 [[potential]]
-kind = "gravity"
-g = [1, 2, "-9.81"]
-[[potential]]
 kind = "spring"
 at = ["a", 0, 0]
 anchor = [3, 0, 1]
 stiffness = 5
 length = "b"
 """
+)
 MIXED = """
 name = "test"
 group = "Sim(3)"
