@@ -183,7 +183,7 @@ class FormulaPrinter:
         for k, x in enumerate(factors):
             f, level = self.show(x)
             last = k == len(factors) - 1
-            reaches = isinstance(x, tuple) and x[0] in ("tr", "sum", "wedge")
+            reaches = isinstance(x, tuple) and x[0] in ("tr", "det", "sum", "wedge")
             inside = level == PRODUCT and not last and (k > 0 or reaches)
             wedge = k > 0 and isinstance(x, tuple) and x[0] == "wedge"
             if level == SUM or inside or wedge:

@@ -443,8 +443,8 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         "complete": (
             "Where every motion lasts for all times, each has one point at a given t, and this "
             "manifold is the tangent bundle of the group with the symplectic form ω.",
-            "Si tout mouvement dure toujours, chacun a un point à t donné, et cette variété est "
-            "le fibré tangent du groupe, muni de la forme symplectique ω.",
+            "Si tout mouvement est défini à tout instant, chacun a un point à t donné, et cette "
+            "variété est le fibré tangent du groupe, muni de la forme symplectique ω.",
         ),
     },
     "second_order_trivialised": {
@@ -471,6 +471,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         "brackets": (
             "The brackets of the basis; those that are not listed vanish.",
             "Les crochets de la base ; ceux qui ne figurent pas sont nuls.",
+        ),
+        "abelian": (
+            "All brackets of the basis vanish.",
+            "Tous les crochets de la base sont nuls.",
         ),
     },
     "advected": {

@@ -236,9 +236,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "unité de masse sont linéaires en la position.",
         ),
         "gravity": (
-            "The gravity of a homogeneous ellipsoid on its own points is (Newton, Maclaurin).",
-            "L’attraction d’un ellipsoïde homogène sur ses propres points l’est (Newton, "
-            "Maclaurin).",
+            "The gravity of a homogeneous ellipsoid on its own points is linear in the place, too "
+            "(Newton, Maclaurin).",
+            "L’attraction d’un ellipsoïde homogène sur ses propres points est linéaire, elle "
+            "aussi, en la position (Newton, Maclaurin).",
         ),
     },
     "total": {
@@ -314,9 +315,9 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The volume of the tetrahedron, here six times, is det A times that in the body, and "
             "its variation Tr ξ times it. If it is not 0, it is kept if and only if det A = 1, and "
             "its variation vanishes if and only if Tr ξ = 0.",
-            "Le volume du tétraèdre, ici six fois, est celui dans le corps fois det A, et sa "
-            "variation Tr ξ fois lui-même. S’il n’est pas 0, il est conservé si et seulement si "
-            "det A = 1, et sa variation s’annule si et seulement si Tr ξ = 0.",
+            "Le volume du tétraèdre, ici multiplié par six, est det A fois celui dans le corps, et "
+            "sa variation est Tr ξ fois ce volume. S’il n’est pas 0, il est conservé si et "
+            "seulement si det A = 1, et sa variation s’annule si et seulement si Tr ξ = 0.",
         ),
         "affine": (
             "The configurations of the same volume are one orbit of this group, of dimension "

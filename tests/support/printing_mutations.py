@@ -82,14 +82,14 @@ MUTATIONS = {
         TREES, "return lead + (paren(f) if level == SUM else f), PRODUCT",
         "return lead + f, PRODUCT"),
     "trees: a wide fraction upside down": (
-        TREES, "return self.atom(a) + stroke + self.atom(b), PRODUCT",
-        "return self.atom(b) + stroke + self.atom(a), PRODUCT"),
+        TREES, "joined([as_factor(x) for x in shown], stroke)",
+        "joined([as_factor(x) for x in shown[::-1]], stroke)"),
     "trees: a minus lost": (
         TREES, 'mark = "-" if sign == "−" else "+"', 'mark = "+"'),
     "trees: a sum as a factor without brackets": (
         TREES, "if level == SUM or inside or wedge:", "if inside or wedge:"),
     "trees: a trace that takes in the next factor": (
-        TREES, 'reaches = isinstance(x, tuple) and x[0] in ("tr", "sum", "wedge")',
+        TREES, 'reaches = isinstance(x, tuple) and x[0] in ("tr", "det", "sum", "wedge")',
         "reaches = False"),
     "trees: the bar over the first factor alone": (
         TREES, "inside = self.bare(a).plain()\n        return barred(",

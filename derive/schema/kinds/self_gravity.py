@@ -25,9 +25,9 @@ class SelfGravity(Potential):
             "K_G",
         ),
         Own("X_G", "matrix", "K_GĀA", "K_GĀA", "X_G"),
-        Own("A_a", "matrix", "adjugate matrix of A", "matrice adjointe de A", "A_a"),
-        Own("C_a", "matrix", "adjugate matrix of ĀA", "matrice adjointe de ĀA", "C_a"),
-        Own("K_a", "matrix", "adjugate matrix of K_G", "matrice adjointe de K_G", "K_a"),
+        Own("A_a", "matrix", "adjugate matrix of A", "matrice complémentaire de A", "A_a"),
+        Own("C_a", "matrix", "adjugate matrix of ĀA", "matrice complémentaire de ĀA", "C_a"),
+        Own("K_a", "matrix", "adjugate matrix of K_G", "matrice complémentaire de K_G", "K_a"),
         Own(
             "I_1",
             "scalar",

@@ -71,7 +71,8 @@ def brackets(group: Group, c: Chapter, *, shown: bool = True) -> tuple[Step, ...
     basis = _matrices(group) if few else []
     if not basis and not listed:
         return ()
-    prose = (say("algebra.matrices") if basis else ()) + say("algebra.brackets")
+    about = say("algebra.brackets" if listed else "algebra.abelian")
+    prose = (say("algebra.matrices") if basis else ()) + about
     return (c.draft("algebra", "relation").step([*basis, *listed], prose),)
 
 
