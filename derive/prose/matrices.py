@@ -315,7 +315,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The volume of the tetrahedron, here six times, is det A times that in the body, and "
             "its variation Tr ξ times it. If it is not 0, it is kept if and only if det A = 1, and "
             "its variation vanishes if and only if Tr ξ = 0.",
-            "Le volume du tétraèdre, ici multiplié par six, est det A fois celui dans le corps, et "
+            "Le volume du tétraèdre, ici multiplié par six, est celui dans le corps fois det A, et "
             "sa variation est Tr ξ fois ce volume. S’il n’est pas 0, il est conservé si et "
             "seulement si det A = 1, et sa variation s’annule si et seulement si Tr ξ = 0.",
         ),
