@@ -39,7 +39,7 @@ POINTS = {
     "jelly": "damping",
     "sl3": "depends on g",
     "comet": "a function, sqrt",
-    "dirichlet": "has sqrt of its parameters",
+    "dirichlet": "has sqrt of π or parameters",
     "se3": "couples 6 velocities by",
     "hammer": "couples 2 velocities by",
 }
