@@ -17,7 +17,7 @@ ALL = "DERIVE_ALL_TESTS"
 
 
 def pytest_addoption(parser):
-    """``--half``, ``--thorough``: half or all of what a quick run leaves out, as well.
+    """``--share=N``: every N-th of what a quick run leaves out, as well; ``--thorough``: all.
 
     ``--quick``: of what is named on the command line, too, no more than in a quick run.
     ``--seed``: of the choice of cases.  ``--passed``: a file for the names of those that passed;
@@ -25,7 +25,7 @@ def pytest_addoption(parser):
     chance, and the tests of each.
     """
     told = "of the tests that a quick run leaves out"
-    parser.addoption("--half", action="store_true", help=f"half {told}, too, as make coverage")
+    parser.addoption("--share", metavar="N", type=int, help=f"every N-th {told}, too")
     parser.addoption("--thorough", action="store_true", help=f"all {told}, too, as make thorough")
     parser.addoption("--quick", action="store_true", help="of what is named, too, as make test")
     parser.addoption("--seed", default=thorough.SEED, help="of the choice of cases (%(default)s)")
@@ -46,8 +46,8 @@ def pytest_configure(config):
         os.environ[ALL] = "named"
     elif config.getoption("--thorough"):
         os.environ[ALL] = "thorough"
-    elif config.getoption("--half"):
-        os.environ[ALL] = "half"
+    elif share := config.getoption("--share"):
+        os.environ[ALL] = str(share)
 
 
 @pytest.hookimpl(trylast=True)
@@ -56,7 +56,8 @@ def pytest_collection_modifyitems(config, items):
     wanted, kept = os.environ.get(ALL), {*items}
     if wanted != "named":
         _, left = thorough.split(items, config.getoption("--seed"))
-        more, left = {"thorough": (left, []), "half": thorough.half(left)}.get(wanted, ([], left))
+        each = 1 if wanted == "thorough" else int(wanted or 0)
+        more, left = thorough.share(left, each)
         for item in more:
             item.add_marker("no_cover")
         kept -= {*left}
@@ -112,7 +113,7 @@ def pytest_runtest_call(item):
 def pytest_terminal_summary(terminalreporter):
     """The seed of the choice of cases, where one was made; what was left out and what brings it, in
     the line before the last."""
-    if os.environ.get(ALL) in (None, "half"):
+    if os.environ.get(ALL) not in ("named", "thorough"):
         seed = terminalreporter.config.getoption("--seed")
         terminalreporter.write_line(f"of long tests some cases, chosen by --seed={seed}")
     skipped = terminalreporter.stats.get("skipped", [])

@@ -1,5 +1,5 @@
-"""What the quick run leaves out: each entry is a test that there is; coverage runs half of it, and
-what is run is chosen by a seed, of each kind one."""
+"""What the quick run leaves out: each entry is a test that there is; other commands run a
+share of it, and what is run is chosen by a seed, of each kind one."""
 
 import json
 import re
@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.thorough import KEPT, half, kinds, split
+from tests.support.thorough import KEPT, kinds, share, split
 from tests.support.unmeasured import environment
 
 TESTS = Path(__file__).parents[1]
@@ -61,24 +61,26 @@ def test_a_case_of_each_kind_is_run(seed):
     assert split(items_of(none, cases), seed)[0] == []
 
 
-def test_half_of_the_cases_are_of_every_test():
+def test_a_share_of_the_cases_is_of_every_test():
     names = ["a[0]", "b", "a[1]", "c[x]", "a[2]", "c[y]"]
-    run, rest = map(ids, half([type("item", (), {"nodeid": x}) for x in names]))
+    items = [type("item", (), {"nodeid": x}) for x in names]
+    run, rest = map(ids, share(items, 2))
     assert run == ["a[0]", "b", "c[x]", "a[2]"]
     assert rest == ["a[1]", "c[y]"]
+    assert [ids(share(items, n)[0]) for n in (0, 1, 4)] == [[], names, ["a[0]", "b", "c[x]"]]
 
 
 def test_the_build_server_has_some_cases_of_every_test():
     makefile = (TESTS.parent / "Makefile").read_text(encoding="utf-8")
     rest = makefile[makefile.index("rest:") :]
-    assert "--half" in rest[: rest.index("coverage:")]
+    assert "--share=4" in rest[: rest.index("coverage:")]
     assert "make rest" in (TESTS.parent / ".ci/run").read_text(encoding="utf-8")
 
 
 def test_what_passed_is_left_out(tmp_path):
     """By the file that another run wrote."""
     passed, name = tmp_path / "passed.json", "tests/project/test_thorough.py"
-    own = f"{name}::{test_half_of_the_cases_are_of_every_test.__name__}"
+    own = f"{name}::{test_a_share_of_the_cases_is_of_every_test.__name__}"
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"]
     run = partial(subprocess.run, cwd=TESTS.parent, env=environment(), capture_output=True)
     run([*command, "--passed", passed, own], check=True)

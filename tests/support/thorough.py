@@ -1,7 +1,7 @@
 """What a quick run leaves out: the long ones that try the tests themselves (mutations, forgeries),
-random problems, and most cases of what has many.  ``make coverage`` has half of these, every other
-case, ``make thorough`` all.  Which cases are run with the others, a hash of their names and of a
-seed says: at least one of each language and of each other kind.
+random problems, and most cases of what has many.  ``make rest`` has a quarter of these, every
+fourth case, ``make coverage`` half, ``make thorough`` all.  Which cases are run with the others, a
+hash of their names and of a seed says: at least one of each language and of each other kind.
 
 A test that is named on the command line, by its file or folder, is run whole, or by ``--quick`` as
 in a quick run.
@@ -312,12 +312,12 @@ def chosen(cases, count, seed):
     return [*first, *rest][: count and max(count, len(first))]
 
 
-def half(items):
-    """Every other one of some items, of each test the first, and the rest."""
+def share(items, n):
+    """Every n-th one of some items, of each test the first, and the rest; for 0 none."""
     seen, run, rest = Counter(), [], []
     for item in items:
         name = item.nodeid.partition("[")[0]
-        (rest if seen[name] % 2 else run).append(item)
+        (rest if n == 0 or seen[name] % n else run).append(item)
         seen[name] += 1
     return run, rest
 
