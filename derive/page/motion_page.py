@@ -123,9 +123,10 @@ def motion_page(
 
 
 def _whole(data: Any) -> Any:
-    """The same data with whole numbers as such: 1 for 1.0."""
+    """The same data with whole numbers as such, 1 for 1.0, and without what is false, which a
+    script takes for what is not there."""
     if isinstance(data, dict):
-        return {name: _whole(x) for name, x in data.items()}
+        return {name: _whole(x) for name, x in data.items() if x is not False}
     if isinstance(data, list | tuple):
         return [_whole(x) for x in data]
     whole = isinstance(data, float) and data.is_integer() and abs(data) < 1e6

@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from derive import SE, SL, Gravity, Points, Potential, Problem, Spring, derive
+from derive import SE, SL, Gravity, Moments, Points, Potential, Problem, Spring, derive
 from derive.code.collisions import identifiers, without_collisions
 from derive.code.languages import LANGUAGES
 from derive.code.statements import Statements
@@ -44,6 +44,8 @@ def refusal(name):
     try:
         points, value = Points((name, [1, 0]), (1, [0, 1])), {name: 1}
         Problem("named", SE(2), points, Potential(f"{name}*r1_x"), value)
+        spring = Spring([1, 0, 0], [1, 2, 0], name)
+        Problem("named", SL(3), Moments(), spring, value)
     except ProblemError as error:
         return str(error)
     return None

@@ -15,6 +15,7 @@ from functools import cache
 
 from derive.check import symbols
 from derive.check.checker import Checker
+from derive.check.claims.claim_checker import ClaimChecker
 from derive.check.definitions import unexplained
 from derive.check.dependencies import unused
 from derive.check.function_signatures import RATES
@@ -270,7 +271,10 @@ def held_with_field(name, path, value):
     own = checker(name)
     if path[0] == "steps" and (any(unexplained(d.steps)) or any(unused(d.steps))):
         return False
-    return own.symbols(d).holds and (path[0] != "steps" or own.check(d.steps[path[1]]).holds)
+    if not own.symbols(d).holds or path[0] != "steps":
+        return own.symbols(d).holds
+    step = d.steps[path[1]]
+    return own.check(step).holds and not ClaimChecker(d, str(SEED)).fault(step)
 
 
 def fields(name) -> Changes:

@@ -32,7 +32,7 @@ function mount(element, page, pieces) {
   const scene = { page, p, velocity, energy, ask, run: null, trail: [], redraw: () => scene.run && show(scene.run.at(time), before) };
   let run, time = 0, wanted = null, playing = false, trail = [], first = {}, told = 0;
   let keeping = module, k = null;  // what gives the numbers that are kept, and its constants
-  let moved = [];  // what gravity moves
+  let moved;  // what gravity moves
 
   const message = make("p", { class: "message", role: "status" });
   const tell = (text, where = home) => {
@@ -64,7 +64,7 @@ function mount(element, page, pieces) {
 
   function begin_to_keep() {
     k = keeping === module ? run.k : keeping.constants(p);
-    moved = page.weight?.some((t) => valued(module, p).number(t)) ? page.weightless : [];
+    moved = page.weight?.some((t) => valued(module, p).number(t)) && page.weightless;
     first = invariants(0, run.at(0));
   }
 
@@ -72,9 +72,9 @@ function mount(element, page, pieces) {
     const found = {};
     if (module.energy) found.energy = module.energy(t, x, run.k);
     const values = keeping.conserved?.(t, x, k);
-    values?.forEach((v, i) => {  // a component along what is 0 is none
+    values?.forEach((v, i) => {
       const name = keeping.CONSERVED[i];
-      if (v === v && !moved.includes(name)) found[name] = v;
+      if (v === v && !(moved && moved.includes(name))) found[name] = v;  // a component along what is 0 is none
     });
     if (module.defect) found.defect = module.defect(x);
     if (module.multiplier) found.multiplier = module.multiplier(t, x, run.k, u);
