@@ -148,20 +148,20 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         "further": (
             "The parameters being real and the kinetic energy positive, there are further "
             "polynomials of degree at most {degree} that are integrals where one of these "
-            "conditions holds: {conditions}. The search finds none elsewhere; that is computed "
-            "again at a few numbers alone.",
+            "conditions holds: {conditions}. The search finds none elsewhere; at best, that is "
+            "computed again at a few numbers.",
             "Les paramètres étant réels et l’énergie cinétique définie positive, d’autres "
             "polynômes de degré au plus {degree} sont des intégrales premières là où l’une de ces "
             "conditions est satisfaite : {conditions}. La recherche n’en trouve aucun ailleurs ; "
-            "ce n’est recalculé que pour quelques nombres.",
+            "au mieux, cela est recalculé pour quelques nombres.",
         ),
         "no_further": (
             "The parameters being real and the kinetic energy positive, the search finds no "
             "further polynomials of degree at most {degree} that are integrals for special values; "
-            "that is computed again at a few numbers alone.",
+            "at best, that is computed again at a few numbers.",
             "Les paramètres étant réels et l’énergie cinétique définie positive, la recherche ne "
             "trouve aucun autre polynôme de degré au plus {degree} qui soit une intégrale première "
-            "pour des valeurs particulières ; ce n’est recalculé que pour quelques nombres.",
+            "pour des valeurs particulières ; au mieux, cela est recalculé pour quelques nombres.",
         ),
         "unsolved": (
             "It is not decided whether there are where {conditions}: no parameter is of first "

@@ -16,7 +16,7 @@ from typing import Any
 from ..algebra.exact_kernel import kernel, rational
 from ..algebra.groups import Group
 from ..algebra.residue_vectors import PRIMES, ResidueSource
-from ..language.tree import Tree, add, mul
+from ..language.tree import Tree, add, mul, nodes
 from ..symmetries.group_entries import entries
 from ..symmetries.tangent_fields import EXTRA
 
@@ -40,11 +40,7 @@ def leaves(t: Tree) -> Iterator[Tree]:
 
 def entries_in(t: Tree) -> list[Tree]:
     """The entries of g in an expression."""
-    if not isinstance(t, tuple):
-        return []
-    if t[:2] == ("entry", "A"):
-        return [t]
-    return [x for y in t[1:] for x in entries_in(y)]
+    return [x for x in nodes(t) if isinstance(x, tuple) and x[:2] == ("entry", "A")]
 
 
 class StateFunctions:

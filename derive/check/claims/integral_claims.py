@@ -297,7 +297,7 @@ def _elsewhere(system: ReducedSystem, step: Step, claim: Claim) -> str:
         try:
             more = Completeness(system, own, most, known, [*at.items()]).fault(*along)
         except TooLargeError:
-            return ""
+            return ""  # the sentence says "at best"
         if more:
             where = ", ".join(f"{show(x)} = {n}" for x, n in at.items())
             return f"there are more where {where}"
