@@ -150,6 +150,7 @@ _LANGUAGES = (
         "const {name} = {text};",
         SLASH,
         {"double": "Float64Array", "float": "Float32Array"},
+        batch="{array}[8*{index} + s]",
         steps=("gauss", "rk4", "vern9", "discrete"),
     ),
 )

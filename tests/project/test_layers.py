@@ -22,7 +22,8 @@ ALLOWED = {
     "printing": {"printing", "record", "language"},
     "figure": {"figure", "printing", "record", "schema", "language"},
     "views": {"views", "prose", "figure", "printing", "paper", "record", "schema", "language"},
-    "code": {"code", "record", "algebra", "language", "__init__"},
+    "routines": {"routines"},
+    "code": {"code", "routines", "record", "algebra", "language", "__init__"},
     "symmetries": {
         *("symmetries", "code", "walk", "record", "problem", "schema", "algebra", "language"),
     },
@@ -84,9 +85,11 @@ def test_imports_go_one_way():
 def test_functions_are_small():
     """The length of a file is left to judgement: a cap splits files in odd places."""
     for path in FILES:
+        # an iteration that is printed in every language is not cut: its parts would share all arrays
+        most = 80 if path.parent.name == "algorithms" else 60
         for node in parts(path):
             if isinstance(node, ast.FunctionDef):
-                assert node.end_lineno - node.lineno < 60, (path, node.name)
+                assert node.end_lineno - node.lineno < most, (path, node.name)
 
 
 @cache

@@ -28,12 +28,14 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         "parts": parts(p),
         "split": split_of(p),
         "lanes": in_lanes(p.functions["rhs"], written) if in_lanes_too else None,
-        "turns": turns(p, written) if in_lanes_too else [],
+        "turns": turns(p, written, compiled)
+        if {*COLLOCATED} & {*options.step} and not p.loops
+        else [],
         "adaptive": {*options.step} - {*FIXED},
         "explicit": (told := explicit(options.step, written.printer.number)),
         "discrete": discrete(p, written, options),
         "held": "discrete" in options.step or "vern9" in options.step,
-        "memory": memory(p, options, told["stages"] if told else 0),
+        "memory": memory(p, options, told["rows"] if told else 0),
         "names": options.step,
         "least": LEAST,
         "watch": WATCH[options.real] if p.events else None,
@@ -69,8 +71,9 @@ def memory(p: Program, options: Options, stages: int) -> dict[str, int] | None:
     implicit, size = "gauss" in options.step, len(p.state) * (4 if options.real == "float" else 8)
     if len(p.state) <= LARGE:
         return None
-    motion = 3 + 8 * implicit + 2 * stages
-    within = 38 if implicit else 5  # as measured without optimisation, which takes most
+    motion = 3 + 8 * implicit + stages
+    # as measured without optimisation, which takes most
+    within = max(38 * implicit, 5 + stages)
     return {name: -(-size * x // 1024) for name, x in (("motion", motion), ("stack", within))}
 
 
@@ -78,20 +81,21 @@ LARGE = 200
 """The largest state of which the memory of a step is not said."""
 
 
-def turns(p: Program, written: Statements) -> list[dict[str, Any]]:
+def turns(p: Program, written: Statements, compiled: bool) -> list[dict[str, Any]]:
     """The parts of the state that an iteration takes one after the other, each by what is new of
-    the others: the first index, that after the last, the rates in lanes.
+    the others: the first index, that after the last, the rates in lanes, of C or as a function.
 
     Places, then velocities: fewer iterations, of which each waits longer, which does not pay where
     the state is small.
     """
     split, f = split_of(p), p.functions["rhs"]
-    if len(p.state) <= SMALL or not split:
-        return [{"start": 0, "end": len(p.state), "lanes": in_lanes(f, written)}]
-    return [
-        {"start": a, "end": b, "lanes": in_lanes(part_of(f, a, b), written)}
-        for a, b in ((0, split), (split, len(p.state)))
-    ]
+    halves = len(p.state) > SMALL and split
+    found = []
+    for a, b in ((0, split), (split, len(p.state))) if halves else ((0, len(p.state)),):
+        half = part_of(f, a, b) if halves else f
+        lanes = in_lanes(half, written) if compiled else written.function(half)
+        found.append({"start": a, "end": b, "lanes": lanes})
+    return found
 
 
 def split_of(p: Program) -> int:

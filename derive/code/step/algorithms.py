@@ -1,0 +1,304 @@
+"""The algorithms of the steps in time, for one file: what is known of it, and their text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from ... import routines
+from ...routines.c import C
+from ...routines.javascript import JavaScript
+from ...routines.python import Python
+from ...routines.rust import Rust
+from ...routines.source import Source
+from ..program import Program
+from .explicit_fields import GROWTH, METHODS, SAFETY
+from .tableaux import Tableau
+
+FOLDER = Path(routines.__file__).parent / "algorithms"
+
+
+@cache
+def text_of(name: str) -> str:
+    """An algorithm, as it is written."""
+    return (FOLDER / f"{name}.py").read_text(encoding="utf-8")
+
+
+def known(p: Program, steps: Mapping[str, Any]) -> dict[str, Any]:
+    """What the algorithms know of a file, whatever its language: see ``source``."""
+    gauss, explicit, discrete = steps["gauss"], steps["explicit"], steps["discrete"]
+    methods = {x["name"]: i for i, x in enumerate(explicit["methods"], 1)} if explicit else {}
+    two = len(steps["turns"]) == 2
+    parts = steps["parts"]
+    return {
+        "EVENTS": bool(p.events),
+        "INPUTS": bool(p.inputs),
+        "INPUT_FUNCTIONS": bool(p.inputs),
+        "PROJECTS": "project" in p.functions,
+        "ADAPTIVE": bool(steps["adaptive"]),
+        "GAUSS": bool(gauss),
+        "COARSE": "solved by Newton's method, or " * bool(gauss and gauss["modes"])
+        + "made in halves",
+        "KEEPS": " ".join(steps["keeps"]),
+        "MODES": bool(gauss and gauss["modes"]),
+        "EXPLICIT": bool(explicit),
+        "EXTRA": bool(explicit and explicit["extra"]),
+        "HELD": steps["held"],
+        "METHODS": bool(explicit or discrete),
+        "RK4": methods.get("rk4", 0),
+        "VERN9": methods.get("vern9", 0),
+        "DISCRETE": discrete["number"] if discrete else 0,
+        "MOST_ROWS": explicit["rows"] if explicit else 0,
+        "N_PARTS": len(parts),
+        "PARTS": [*(start for start, _ in parts), len(p.state)],
+        "DIRECTION": [x.direction for x in p.events],
+        "SPLIT": steps["turns"][1]["start"] if two else 0,
+        "HALF": len(parts) // 2 if two else 0,
+        "LEAST": steps["least"],
+        "EXPLICIT_GROWTH": GROWTH,
+        "EXPLICIT_SAFETY": SAFETY,
+        **_of_events(steps["watch"]),
+        **_of_gauss(gauss),
+    }
+
+
+def _of_events(watch: Mapping[str, Any] | None) -> dict[str, Any]:
+    """The numbers of the search for events."""
+    if watch is None:
+        return {}
+    return {
+        "INTERVALS": watch["parts"],
+        "WIDTH": 1 / watch["parts"],
+        "HALVINGS": watch["halvings"],
+        "NEWTON": watch["newton"],
+        "EXACT": watch["exact"],
+        "SLIVER": watch["sliver"],
+    }
+
+
+def _of_gauss(gauss: Mapping[str, Any] | None) -> dict[str, Any]:
+    """The numbers and tables of Gauss's collocation."""
+    if gauss is None:
+        return {}
+    numbers = ("error", "sweeps", "rounding", "growth", "safety", "kept", "newton_steps")
+    modes = gauss["modes"]
+    return {
+        **{name.upper(): gauss[name] for name in (*numbers, "stalled_newton")},
+        "STILL": gauss["stalled"],
+        "CONTINUES": float(gauss["continues"]),
+        "MANY": float(gauss["many"]),
+        "NODES": gauss["nodes"],
+        "WEIGHTS": gauss["weights"],
+        "MU": gauss["mu_by_columns"],
+        "LEGENDRE": gauss["legendre"],
+        "CONTINUED": gauss["continued"],
+        **(
+            {"MODE_VALUES": modes.values, "MODE_INTO": modes.into, "MODE_BACK": modes.back}
+            if modes
+            else {}
+        ),
+    }
+
+
+def _of_method(method: Tableau, number: int) -> dict[str, Any]:
+    """The numbers of an explicit method."""
+
+    def terms(row: Any) -> list[float]:
+        return [float(x) for x in row]
+
+    rows, stages = len(method.legendre), method.stages
+    columns = len(method.legendre[0])
+    return {
+        "PAIR": bool(method.embedded),
+        "DENSE_STAGES": rows > stages,
+        "STAGES": stages,
+        "ROWS": rows,
+        "COLUMNS": columns,
+        "MOST_COLUMNS": max(columns, 2),
+        "LAST_COLUMN": columns - 1,
+        "NUMBER": number,
+        "INVERSE_ORDER": 1 / method.order,
+        "IS_EXTRA": [i >= stages for i in range(rows)],
+        "A": [*map(terms, method.a)],
+        "B": terms(method.b),
+        "C": terms(method.c),
+        "E": terms(method.error) if method.embedded else [],
+        "DENSE": [*map(terms, zip(*method.legendre, strict=True))],
+    }
+
+
+def source_of(given: dict[str, Any], steps: Mapping[str, Any]) -> Source:
+    """The algorithms that some steps need; the tables of the explicit ones are given then."""
+    source = Source()
+    source.read(text_of("motion"), given)
+    if given["GAUSS"]:
+        if given["MODES"]:
+            source.read(text_of("newton"), given)
+        source.read(text_of("gauss"), given)
+    for number, x in enumerate(steps["explicit"]["methods"] if steps["explicit"] else (), 1):
+        name = x["name"]
+        method = _of_method(METHODS[name][0](), number)
+        source.read(text_of("runge_kutta").replace("METHOD", name), {**given, **method})
+        given[f"{name}_DENSE"] = method["DENSE"]
+    if given["EVENTS"]:
+        source.read(text_of("event_search"), given)
+    return source
+
+
+def roots(steps: Mapping[str, Any]) -> list[str]:
+    """The functions of a file that others call."""
+    found = ["begin", "dense"] if steps["names"] else []
+    for name in steps["names"]:
+        if name == "discrete":
+            found += ["moved", "hold", "rate"]
+        else:
+            found += [name, f"{name}_to"]
+    if steps["adaptive"]:
+        found.append("towards")
+    if steps["ensemble"]:
+        found += ["fault_of", "first_of"]
+    if steps["watch"]:
+        found.append("watch")
+    return found
+
+
+def in_c(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
+    """The records, tables and routines of the steps in C, for these fields of the templates."""
+    steps, prefix, functions = fields["steps"], fields["prefix"], fields["functions"]
+    had = {"project": "projected", "jacobian_raw": "jacobian_raw", "events": "events"}
+    given = known(p, steps) | {
+        **{of: f"{prefix}_{functions[x]['name']}" for x, of in had.items() if x in functions},
+        "prefix": prefix,
+        "real": fields["real"],
+        "fabs": fields["fabs"],
+        "inline": fields["inline"],
+        "later": {"discrete_within"} if steps["discrete"] else set(),
+        "ENOUGH": f"{prefix}_ENOUGH",
+        "NO_EVENT": -1,
+    }
+    printer = C(source_of(given, steps), given)
+    more = {"Motion": INPUTS_IN_C.format(real=fields["real"]) if p.inputs else ""}
+    return _texts(
+        printer, [printer.record(x, more.get(x, "")) for x in printer.source.records], steps
+    )
+
+
+INPUTS_IN_C = """\
+    /* the inputs at a time and a state, if they are not held: by default a null pointer */
+    void (*inputs)({real} t, const {real} *x, {real} *u, void *data);
+    void *data;"""
+
+
+def in_rust(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
+    """The same in Rust."""
+    steps, functions = fields["steps"], fields["functions"]
+    moving = ("t", "t_low", "x", "low", "h", "start", "evaluations", "event", "rising")
+    had = {"jacobian_raw": "jacobian_raw", "events": "events"}
+    given = known(p, steps) | {
+        **{of: functions[x]["name"] for x, of in had.items() if x in functions},
+        "project": functions["project"]["name"] if "project" in functions else "",
+        "real": fields["real"],
+        "INPUT_FUNCTIONS": False,
+        "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] else 0,
+        "NO_EVENT": 0,
+        "public": {*roots(steps), *moving} - {"towards", "begin", "dense", "moved", "hold", "rate"},
+        "begin": "begin_at",
+        "dense": "dense_at",
+        "item": [
+            "#[allow(dead_code, non_snake_case, unused, clippy::all, clippy::pedantic)]",
+            "#[rustfmt::skip]",
+        ],
+    }
+    printer = Rust(source_of(given, steps), given)
+    return _texts(printer, [*map(printer.record, printer.source.records)], steps)
+
+
+def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
+    """The same in JavaScript."""
+    steps, functions, prefix = fields["steps"], fields["functions"], fields["prefix"]
+    had = {"jacobian_raw": "jacobian_raw", "events": "events"}
+    sizes = {"STATE": len(p.state), "CONSTANTS": len(p.constants), "INPUTS": len(p.inputs)}
+    lengths = {"k": len(p.constants)} | ({"u": len(p.inputs)} if p.inputs else {})
+    wrong = " || ".join(f"{x}.length !== {n}" for x, n in lengths.items())
+    right = ", ".join(f"{x} has {n} numbers" for x, n in lengths.items())
+    given = known(p, steps) | {
+        **{of: functions[x]["name"] for x, of in had.items() if x in functions},
+        **{f"N_{name}": n for name, n in sizes.items()},
+        "N_EVENTS": len(p.events),
+        "SIZE_U": len(p.inputs),
+        "SIZE_K": len(p.constants),
+        "project": functions["project"]["name"] if "project" in functions else "",
+        "real": fields["real"],
+        "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] else 0,
+        "NO_EVENT": -1,
+        "public": {*roots(steps)} - {"towards", "begin", "dense", "moved", "hold", "rate"},
+        "begin": "begin_at",
+        "dense": "dense_at",
+        "status": "OK, or why not: then the motion stands where the last good step ended",
+        "entry": [
+            *["    u ??= ZERO_INPUTS;"] * bool(p.inputs),
+            f"    if ({wrong}) {{",
+            f'        throw new RangeError("{prefix}: {right}");',
+            "    }",
+        ],
+        "tags": {
+            "m": "m what begin gave",
+            "k": "{ArrayLike<number>} k what constants(p) gave",
+            "u": "{?ArrayLike<number>} u "
+            + ("the inputs, held; zero when null" if p.inputs else "not read: there are no inputs"),
+            "steps": "{Function} steps",
+        },
+    }
+    printer = JavaScript(source_of(given, steps), given)
+    more = {"Motion": "        inputs: null, // or a function of t and x that gives the inputs"}
+    more = more if p.inputs else {}
+    return _texts(
+        printer, [printer.record(x, more.get(x, "")) for x in printer.source.records], steps
+    )
+
+
+def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
+    """The same in Python."""
+    steps, functions = fields["steps"], fields["functions"]
+    had = {"rhs": "rhs", "project": "projected", "jacobian_raw": "jacobian_raw", "events": "events"}
+    sizes = {"STATE": len(p.state), "CONSTANTS": len(p.constants), "INPUTS": len(p.inputs)}
+    given = known(p, steps) | {
+        **{f"N_{name}": n for name, n in sizes.items()},
+        "N_EVENTS": len(p.events),
+        "SIZE_U": len(p.inputs),
+        "SIZE_K": len(p.constants),
+        "returned": {of: functions[x]["name"] for x, of in had.items() if x in functions},
+        "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] else 0,
+        "NO_EVENT": "None",
+        "public": {*roots(steps)} - {"begin", "dense", "moved", "hold", "rate", "towards"},
+        "named": {"towards", "gauss_step", "vern9_step", "first_step"},
+        "begin": "_begin_at",
+        "dense": "_dense_at",
+        "fault_here": "fault_of",
+        "entry": ["    k, u = _given(k, u)"],
+        "status": "OK, or why not, with m as it was after the last good step.",
+    }
+    printer = Python(source_of(given, steps), given)
+    more = {
+        "Motion": "        self.inputs = None  # or a function of t and x that gives the inputs"
+    }
+    return _texts(
+        printer, [printer.record(x, more.get(x, "")) for x in printer.source.records], steps
+    )
+
+
+def _texts(
+    printer: Any, records: Sequence[Iterable[str]], steps: Mapping[str, Any]
+) -> dict[str, str]:
+    """Records, tables and routines, as text."""
+    return {
+        "records": "\n\n".join(map("\n".join, records)),
+        "tables": "\n".join(printer.tables()),
+        "routines": printer.text(roots(steps)),
+    }
+
+
+ALGORITHMS = {"c": in_c, "rust": in_rust, "javascript": in_javascript, "python": in_python}
+"""Language → the text of the algorithms of its steps."""

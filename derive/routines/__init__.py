@@ -1,0 +1,1 @@
+"""Run-time algorithms, each written once (``algorithms/``) and printed in every language."""

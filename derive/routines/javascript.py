@@ -1,0 +1,216 @@
+"""Algorithms in JavaScript: lanes are parts of flat arrays; arrays that a routine works with are
+kept in the motion, as to make them takes long."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+from typing import Any, ClassVar
+
+from .printer import PRODUCT, Lines, Printer
+from .source import LANES, Type
+
+
+class JavaScript(Printer):
+    """A module of ECMAScript 2020."""
+
+    spaced = False
+    words: ClassVar = {
+        "True": "true",
+        "False": "false",
+        "INFINITY": "Infinity",
+        "==": "===",
+        "!=": "!==",
+    }
+    builtin: ClassVar = {
+        "abs": "Math.abs({})",
+        "real": "{:.}",
+        "sqrt": "Math.sqrt({})",
+        "power": "{:.}**({})",
+        "fused": "({2} + {0:.}*{1:.})",
+        "in_memory": "",
+        "is_held": "!m.inputs",
+        "no_inputs": "m.inputs = null",
+    }
+    lanes = "for (let s = 0; s < 8; ++s) {"
+    lane_given: ClassVar = ("s",)
+
+    def __init__(self, source: Any, given: Any):
+        super().__init__(source, given)
+        self.hoisted: dict[str, str] = {}
+        """Local table → its name before the routine."""
+        self.before: list[str] = []
+
+    # -- heads -------------------------------------------------------------------------------------
+    def function(self, f: ast.FunctionDef) -> Lines:
+        """A routine, after its tables."""
+        self.hoisted, self.before = {}, []
+        lines = [*super().function(f)]
+        yield from self.before
+        yield from lines
+
+    def documented(self, f: ast.FunctionDef) -> Lines:
+        if f.name not in self.given["public"]:
+            yield from super().documented(f)
+            return
+        yield "/**"
+        for line in self.comment(self.told(ast.get_docstring(f) or "")):
+            yield " * " + line.removeprefix("/* ").removeprefix(" * ").removesuffix(" */")
+        yield " *"
+        optional = {a.arg for a in f.args.args[len(f.args.args) - len(f.args.defaults) :]}
+        for name in self.arguments:
+            said = self.given["tags"].get(name, f"{{number}} {name}")
+            said = said.replace(f" {name}", f" [{name}]") if name in optional else said
+            yield f" * @param {said}"
+        yield f" * @returns {{number}} {self.given['status']}"
+        yield " */"
+
+    def head(self, f: ast.FunctionDef, returns: Type | None) -> Lines:
+        plain = [None] * (len(f.args.args) - len(f.args.defaults))
+        given = [
+            self.argument(a.arg) + (f" = {self.bare(value)}" if value else "")
+            for a, value in zip(f.args.args, [*plain, *f.args.defaults], strict=True)
+        ]
+        public = f.name in self.given["public"]
+        name = self.given.get(f.name, f.name)
+        given += [*self.lane_given] * self.of_lanes
+        yield from self.wrapped(f"{'export ' * public}function {name}({', '.join(given)}) {{")
+        if public:
+            yield from self.given["entry"]
+
+    def argument(self, name: str) -> str:
+        """An argument; lanes by an array and where they begin in it."""
+        return f"{name}, {name}_at" if self.arguments[name].is_lanes else name
+
+    # -- statements --------------------------------------------------------------------------------
+    def statement(self, x: ast.stmt, depth: int) -> Lines:
+        """A loop over a few numbers is written out in a routine that is called for each lane."""
+        match x:
+            case ast.For(target=ast.Name(id=i), iter=ast.Call(args=limits)) if self.of_lanes:
+                outer = self.given
+                for n in range(*map(ast.literal_eval, limits)):
+                    self.given = {**outer, i: n}
+                    yield from self.block(x.body, depth)
+                self.given = outer
+            case _:
+                yield from super().statement(x, depth)
+
+    def declared(self, name: str, kind: Type, value: str | None) -> str:
+        word = "let" if kind.written else "const"
+        if value is None:
+            motion = next((a for a, t in self.arguments.items() if t.name == "Motion"), None)
+            value = self.made(kind)
+            value = f"({motion}.{self.routine}_{name} ??= {value})" if motion else value
+        return f"{word} {name} = {value}"
+
+    def made(self, t: Type) -> str:
+        """What a number, an array or a record is before it is computed."""
+        if t.name in self.source.records:
+            return f"{t.name}()"
+        if t.name in LANES:
+            return f"new Float64Array({'*'.join([*self.sizes(t)])})"
+        if not t.sizes:
+            return "false" if t.name == "flag" else "0"
+        *outer, last = self.sizes(t)
+        found = f"new {self.given['real'] if t.name == 'real' else 'Int32Array'}({last})"
+        for n in reversed(outer):
+            found = f"Array.from({{ length: {n} }}, () => {found})"
+        return found
+
+    def table(self, name: str, kind: Type, values: Any, depth: int = 0) -> str:
+        self.hoisted[name] = f"{self.routine}_{name}"
+        self.before += self.wrapped(f"const {self.hoisted[name]} = {self.rows(values, kind)};")
+        return ""
+
+    def rows(self, values: Any, kind: Type) -> str:
+        """Numbers, by rows; lanes one after the other."""
+        if kind.name in LANES:
+            return f"Float64Array.of({', '.join(map(self.constant, _flat(values)))})"
+        if not isinstance(values, (list, tuple)):
+            return self.constant(values)
+        inner = ", ".join(self.rows(x, kind) for x in values)
+        return f"[{inner}]"
+
+    def name(self, x: str) -> str:
+        return self.hoisted.get(x, x)
+
+    def copied(self, to: ast.expr, of: ast.expr) -> str:
+        return f"{self.outside(to)}.set({self.outside(of)})"
+
+    def loop_over(self, i: str, first: str, last: str, by: str, back: bool) -> str:
+        if back:
+            return f"for (let {i} = {last} - 1; {i} >= {first}; --{i}) {{"
+        step = f"++{i}" if by == "1" else f"{i} += {by}"
+        return f"for (let {i} = {first}; {i} < {last}; {step}) {{"
+
+    # -- expressions -------------------------------------------------------------------------------
+    def constant(self, value: Any) -> str:
+        if isinstance(value, float) and value == int(value) and abs(value) < 1e15:
+            return str(int(value))
+        return super().constant(value).replace("e-0", "e-")
+
+    def quotient(self, a: str, b: str) -> str:
+        return f"Math.floor({a}/{b})"
+
+    def called(self, name: str, given: Sequence[ast.expr]) -> str:
+        if name == "projected":
+            return f"{self.given['project']}({', '.join(map(self.outside, given))})"
+        return super().called(name, given)
+
+    # -- lanes -------------------------------------------------------------------------------------
+    def flat(self, x: ast.expr) -> tuple[str, str]:
+        """The array that lanes are of, and where they begin."""
+        if isinstance(x, ast.Subscript):
+            place = x.slice
+            if isinstance(place, ast.Constant) and isinstance(place.value, int):
+                return self.outside(x.value), str(8 * place.value)
+            known = self.given.get(place.id) if isinstance(place, ast.Name) else None
+            begin = str(8 * known) if isinstance(known, int) else f"8*{self.at(place, PRODUCT + 1)}"
+            return self.outside(x.value), begin
+        given = isinstance(x, ast.Name) and x.id in self.arguments
+        return self.outside(x), f"{self.outside(x)}_at" if given else "0"
+
+    def lane(self, x: ast.expr) -> str:
+        if isinstance(x, ast.Name) and x.id in self.lane_locals:
+            return x.id
+        array, begin = self.flat(x)
+        return f"{array}[{begin} + s]" if begin != "0" else f"{array}[s]"
+
+    def lane_entry(self, x: ast.Subscript) -> str:
+        array, begin = self.flat(x.value)
+        place = self.bare(x.slice)
+        return f"{array}[{begin} + {place}]" if begin != "0" else f"{array}[{place}]"
+
+    def passed(self, x: ast.expr, kind: Type) -> str:
+        return ", ".join(self.flat(x)) if kind.is_lanes else super().passed(x, kind)
+
+    # -- records, tables ---------------------------------------------------------------------------
+    def record(self, name: str, more: str = "") -> Lines:
+        """A function that makes a record; ``more``: fields that no algorithm reads."""
+        self.types, self.arguments = {}, {}
+        node = self.source.records[name]
+        yield from self.comment(self.told(ast.get_docstring(node) or ""))
+        yield f"function {name}() {{"
+        yield "    return {"
+        for x in node.body:
+            if isinstance(x, ast.AnnAssign):
+                told = self.told(" ".join(self.source.comments.get(x, ())))
+                made = self.made(Type.of(x.annotation))
+                yield f"        {ast.unparse(x.target)}: {made}," + f" // {told}" * bool(told)
+        yield from more.splitlines()
+        yield "    };"
+        yield "}"
+
+    def tables(self) -> Lines:
+        """The tables of numbers, known in the whole file."""
+        self.types, self.arguments, self.hoisted = {}, {}, {}
+        for name, kind in self.source.tables.items():
+            text = self.rows(self.given[self.source.values[name]], kind)
+            yield from self.wrapped(f"const {name} = {text};")
+
+
+def _flat(values: Any) -> list[float]:
+    """All numbers of rows."""
+    if not isinstance(values, (list, tuple)):
+        return [values]
+    return [x for row in values for x in _flat(row)]
