@@ -1,10 +1,12 @@
 """Bad input as data: problem files, command lines and records that are good but for a change."""
 
+import json
 import tomllib
 from copy import deepcopy
+from functools import cache
 from pathlib import Path
 
-from tests.fuzz.mutate import toml
+from tests.fuzz.mutate import apart, own_record, put, toml
 
 HERE = Path(__file__).parent
 
@@ -42,3 +44,24 @@ def problems(kind):
     for base, rows in found[kind].items():
         for change, *words in rows:
             yield *changed(found["base"][base], change), words
+
+
+@cache
+def good_record(base):
+    """Of the walk of one of the bases: its first two steps about the group and its first symbol."""
+    whole = own_record(table("records")["base"][base])
+    return whole | {"steps": apart(whole["steps"][:2]), "symbols": whole["symbols"][:1]}
+
+
+def record(base, path, value):
+    """The text of a record where something else stands at a place, as in ``steps.0.rule``."""
+    data = deepcopy(good_record(base))
+    put(data, [int(x) if x.isdigit() else x for x in path.split(".")], value)
+    return json.dumps(data)
+
+
+def records():
+    """The text of each changed record."""
+    for base, rows in table("records")["changed"].items():
+        for path, value in rows:
+            yield record(base, path, value)
