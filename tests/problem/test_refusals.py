@@ -90,6 +90,7 @@ SHAPES = [
         "expected a list of 3 rows",
     ),
     (lambda p: p.update(title="long" * 1000), "longer than"),
+    (lambda p: p.update(group="line\nSO(3)"), "key 'scope' must be"),
     (of_solid(BALL), "the sizes must be radius"),
     (of_solid(TETRAHEDRON), "expected a list of 4 points"),
     (of_solid({"kind": "mesh", "density": 1, "sizes": MESH}), "three numbers of vertices"),
@@ -101,8 +102,9 @@ SHAPES = [
 def test_a_record_of_another_shape_is_refused(change, reason):
     data = json.loads(to_json(record("so3")))
     change(data["problem"])
-    with pytest.raises(RecordError, match=reason):
+    with pytest.raises(RecordError, match=reason) as told:
         from_json(json.dumps(data))
+    assert "\n" not in str(told.value)
 
 
 @cache
