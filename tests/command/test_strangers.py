@@ -149,14 +149,6 @@ def test_what_is_dropped_while_an_object_goes_is_raised_again_soon():
     assert 0.03 < process_time() - begun < 0.5
 
 
-@pytest.mark.parametrize("words", ["0", "-1", "nan", "inf", "x"])
-def test_seconds_are_a_positive_number(words, capsys):
-    with pytest.raises(SystemExit) as end:
-        main(["walk", "so3", "--seconds", words])
-    assert end.value.code == 2
-    assert "--seconds" in capsys.readouterr().err
-
-
 def test_one_line():
     assert one_line("a\nb\x1b[2J\u202e\ud800c") == r"a\nb\x1b[2J\u202e\ud800c"
     assert len(one_line("x" * 10**6)) == limits.MESSAGE

@@ -65,3 +65,23 @@ def records():
     for base, rows in table("records")["changed"].items():
         for path, value in rows:
             yield record(base, path, value)
+
+
+def commands():
+    """The words of each command that is refused, the files of its folder, what is said."""
+    found = table("commands")
+    files = {x: y if isinstance(y, str) else toml(y) for x, y in found["file"].items()}
+    rows = found["refused"]
+    for about in ("words", "emit", "simulate", "search", "page"):
+        for words, *said in rows[about]:
+            yield words.split(), files, said
+    motion = ["simulate", "so3", "--t", "1", "--ensemble"]
+    for words, *said in rows["ensemble"]:
+        yield [*motion, *words.split()], files, said
+    spin = found["file"]["spin.toml"]
+    for when, *said in rows["event"]:
+        held = {"initial": {"zeta_3": "w"}, "event": [{"name": "e", "when": when}]}
+        yield ["simulate", "event.toml", "--t", "1"], {"event.toml": toml(spin | held)}, said
+    for initial, *said in rows["start"]:
+        start = toml(spin | {"initial": initial})
+        yield ["simulate", "start.toml", "--t", "1"], {"start.toml": start}, said

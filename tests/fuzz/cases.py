@@ -46,7 +46,6 @@ COMMANDS = {
     "check": ("check", "{}", "--seconds", f"{SECONDS * 0.8}"),
 }
 """Only checking may take longer than a case has, and is stopped."""
-REFUSED = "derive: stopped after"
 
 
 @contextmanager

@@ -35,68 +35,6 @@ POINTS = "".join(f"[[point]]\nmass = 1\nat = {[int(i == j) for j in range(3)]}\n
 PLACES = [(1, [1, 0, 0]), (1, [0, 1, 0]), (1, [0, 0, 1])]
 
 
-def test_a_file_beside(tmp_path, monkeypatch, capsys):
-    (tmp_path / "good.toml").write_text(HEAD + POINTS)
-    monkeypatch.chdir(tmp_path)
-    assert main(["emit", "good"]) == 2
-    assert "unknown problem 'good'; did you mean 'good.toml'?" in capsys.readouterr().err
-    assert main(["emit", "good.toml", "--lang", "c"]) == 0
-
-
-@pytest.mark.parametrize(
-    ("words", "named", "meant"),
-    [
-        (["walk", "so3", "--formt", "text"], "unknown option '--formt'", "'--format'"),
-        (["emit", "so3", "--jacobain=state"], "unknown option '--jacobain=state'", "'--jacobian'"),
-        (["check", "so3", "--second", "3", "--notaton"], "unknown option '--notaton'", ""),
-        (["simulate", "so3", "--t", "1", "--page", "x"], "unknown option '--page'", "'--html'"),
-        (["simulate", "so3", "--t", "1", "--plot", "x"], "draws the file of --out", ""),
-        (["emit", "so3", "--plot", "x"], "unknown option '--plot'", ""),
-        (["paper", "so3"], "unexpected 'so3'", ""),
-    ],
-)
-def test_an_unknown_option(words, named, meant, capsys):
-    with pytest.raises(SystemExit) as ended:
-        main(words)
-    assert ended.value.code == 2
-    err = capsys.readouterr().err
-    assert err.startswith(f"derive {words[0]}: error: ")
-    assert err.count("\n") == 1
-    assert named in err
-    assert (f"did you mean {meant}?" in err) == bool(meant)
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["integrals", "euler_top", "--degree", "0"], "an integer from 1 to 40, not '0'"),
-        (["equilibria", "euler_top", "--at", "Pi_3=1/0"], "'1/0' is no exact number"),
-        (["walk", "so3", "--trivialisation", "right"], "trivialisation = 'right' stands in the"),
-        (["walk", "so3", "--seconds", "soon"], "expected seconds, above 0, not 'soon'"),
-        (["check", "so3", "--seed", "-1"], "expected an integer, 0 or more, not '-1'"),
-        (["emit", "so3", "--lang", "cobol"], "invalid choice: 'cobol' (choose from 'c', "),
-        (["emit", "so3", "--lang", "rst"], "; did you mean 'rust'?"),
-        (["emit", "so3", "--lang", "c++"], "; did you mean 'cpp'?"),
-        (["emit", "so3", "--lang", "c,rust"], "; one at a time: --lang c --lang rust"),
-        (["emit", "so3", "--jacobian", "raw,state"], ": --jacobian raw --jacobian state"),
-    ],
-)
-def test_a_wrong_value(words, said, capsys):
-    with pytest.raises(SystemExit) as ended:
-        main(words)
-    assert ended.value.code == 2
-    out, err = capsys.readouterr()
-    assert (out, err.count("\n")) == ("", 1)
-    assert err.startswith(f"derive {words[0]}: error: argument {words[-2]}")
-    assert said in err
-
-
-@pytest.mark.parametrize("option", ["--at", "--near"])
-def test_one_coordinate_twice(option, capsys):
-    assert main(["equilibria", "euler_top", option, "Pi_3=1", option, "Pi_3=2"]) == 2
-    assert f"{option} Pi_3: given more than once" in capsys.readouterr().err
-
-
 def test_check_goes_on_behind_what_it_cannot_read(tmp_path, capsys):
     bad = tmp_path / "bad.toml"
     bad.write_text('name = "bad"\n')
@@ -236,16 +174,6 @@ def test_flat_bodies_in_few_digits_are_bodies(digits, symbolic):
             rows, values = [[values[x] for x in row] for row in rows], {}
         body = Moments(m=m, centre=centre, I_centre=rows)
         assert not [*doubts(Problem("plate", SE(3), body, parameters=values), {})]
-
-
-@pytest.mark.parametrize(("word", "meant"), [("simulat", "simulate"), ("symmetry", "symmetries")])
-def test_a_command_that_is_none(word, meant, capsys):
-    with pytest.raises(SystemExit) as ended:
-        main([word, "so3"])
-    assert ended.value.code == 2
-    err = capsys.readouterr().err
-    assert err.startswith(f"derive: error: argument COMMAND: invalid choice: {word!r} (choose from")
-    assert err.endswith(f"; did you mean {meant!r}?\n")
 
 
 @pytest.mark.parametrize("rpy", [[0, 0, 1], 1])

@@ -74,8 +74,6 @@ BALL = {"kind": "ball", "density": 1, "sizes": {"side": 1}}
 MESH = {"vertices": [[0, 0, 0]], "faces": [[0, 0, 9]]}
 BARE = {"m": 1, "c": [0, 0, 0], "J": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}
 
-GIVEN_BODY = {"kind": "given", "given": BARE | {"J": []}, "solids": []}
-
 
 def of_solid(solid):
     solid |= {"rotation": None, "shift": None}
