@@ -67,7 +67,7 @@ def _require_implied(data: dict[str, Any], key: str, right: Any, where: str) -> 
     """``RecordError`` where a key that follows from the rest of the record has another value than
     ``right``; it may be absent."""
     if key in data and data[key] != right:
-        text = right if isinstance(right, str) else json.dumps(right)
+        text = json.dumps(right, ensure_ascii=False)  # in one line, whatever a name of it is
         raise RecordError(f"{where}: key {key!r} must be {text}")
 
 

@@ -11,7 +11,6 @@ from derive import derive
 from derive.code.emit import EmitError
 from derive.code.languages import LANGUAGES
 from derive.code.program import LoweringError
-from derive.command.cli import main
 from derive.pipeline import program, walk
 from derive.problem.principal import principal
 from derive.problem.problem import ProblemError
@@ -339,18 +338,6 @@ def test_compiled_in_its_frame():
     assert np.allclose(f.out_of_frame(f(0.0, y)), g(0.0, x), atol=1e-11)
     with pytest.raises(ValueError, match="frame='principal'"):
         g.into_frame(x)
-
-
-@pytest.mark.parametrize(
-    ("name", "words"),
-    [("screw", "no principal frame"), ("jelly", "expression"), ("linear", "any group")],
-)
-def test_problems_without_a_frame(name, words, capsys, tmp_path):
-    assert main(["emit", name, "--frame", "principal", "--out", str(tmp_path)]) == 2
-    err = capsys.readouterr().err
-    assert words in err
-    assert err.count("\n") == 1
-    assert not list(tmp_path.iterdir())
 
 
 def test_what_does_not_go_with_a_frame(derived, tmp_path):

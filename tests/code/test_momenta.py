@@ -297,19 +297,6 @@ def test_validated(tmp_path, capsys):
         (tmp_path / f"{case}.c").write_text(whole, encoding="utf-8")
 
 
-@pytest.mark.parametrize(
-    ("words", "why"),
-    [
-        ("rod", "on a quotient"),
-        ("gyrostat --velocity tangent", "--velocity tangent has dg/dt"),
-    ],
-)
-def test_refused(words, why, tmp_path, capsys):
-    assert main(["emit", *words.split(), "--momenta", "--out", str(tmp_path)]) == 2
-    assert why in capsys.readouterr().err
-    assert not [*tmp_path.iterdir()]
-
-
 def test_nothing_without_the_option():
     with pytest.raises(ValueError, match="momenta=True"):
         derive.compile("gyrostat").momentum(0.0, np.zeros(12))

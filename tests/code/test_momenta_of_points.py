@@ -157,16 +157,3 @@ def test_validated(name, tmp_path, capsys):
             capsys.readouterr()
             assert main(["emit", name, "--check", *words])
             assert "DIFFERS" in "".join(capsys.readouterr()), old
-
-
-@pytest.mark.parametrize(
-    ("words", "why"),
-    [
-        ("se3 --frame principal", "for the body as given"),
-        ("so3 --velocity tangent", "--velocity tangent has dg/dt"),
-    ],
-)
-def test_refused(words, why, tmp_path, capsys):
-    assert main(["emit", *words.split(), "--momenta", "--out", str(tmp_path)]) == 2
-    assert why in capsys.readouterr().err
-    assert not [*tmp_path.iterdir()]

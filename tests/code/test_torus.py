@@ -10,7 +10,6 @@ from scipy.integrate import solve_ivp
 
 from derive import derive
 from derive.code.options import Options
-from derive.command.cli import main
 from derive.pipeline import program, walk
 from derive.problem.toml import problem_of
 from tests.oracles import torus
@@ -146,27 +145,6 @@ def test_written_out_up_to_five():
     assert found[3].functions["rhs"].operations()["mul"] <= 32
     tables = program(fluid(5), walk(fluid(5)), Options(conserved=True)).loops
     assert tables.names == {"conserved"}
-
-
-REFUSED = (
-    "--layout col",
-    "--frame principal",
-    "--velocity tangent",
-    "--jacobian state",
-    "--momenta",
-)
-
-
-@pytest.mark.parametrize("option", REFUSED)
-def test_what_is_not_written_is_one_line(option, tmp_path, capsys):
-    path = tmp_path / "fluid.toml"
-    path.write_text(FILE.format(N=9), encoding="utf-8")
-    out = tmp_path / "out"
-    assert main(["emit", str(path), *option.split(), "--out", str(out)]) == 2
-    err = capsys.readouterr().err
-    assert len(err.splitlines()) == 1
-    assert option.split()[0] in err
-    assert not out.exists()
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -207,30 +207,10 @@ def test_a_characteristic_polynomial_is_enclosed():
         assert all(abs(x - float(y.mid)) <= y.off for x, y in zip(moved, balls, strict=True))
 
 
-REFUSED = {
-    "kirchhoff Pi_1=1": "the only one on its level",
-    "euler_top Pi_9=1": "is no coordinate",
-}
-
-
-@pytest.mark.parametrize("words", REFUSED)
-def test_what_is_refused(words, capsys):
-    name, *given = words.split()
-    assert main(["equilibria", name, *(y for x in given for y in ("--near", x))]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith(f"derive: {name}: ")
-    assert REFUSED[words] in line
-
-
 def test_a_family_of_equilibria_is_not_enclosed():
     near = {"A_31": "0.866", "A_33": "0.5", "Pi_1": "0.866", "Pi_3": 1}
     with pytest.raises(ProblemError, match="the only one on its level"):
         derive(heavy("112", "A_33/2", "")).equilibrium_near(near)
-
-
-def test_near_and_at_are_two_questions(capsys):
-    assert main(["equilibria", "euler_top", "--near", "Pi_1=1", "--at", "Pi_1=1"]) == 2
-    assert "give one of them" in capsys.readouterr().err
 
 
 def test_numbers_are_needed():

@@ -107,24 +107,6 @@ def test_points_and_solids_too():
     assert found.at == {"Pi_1": 1}
 
 
-REFUSED = {
-    "Pi_9": ("lagrange_top", "is no coordinate"),
-    "A_33=2": ("lagrange_top", "no element of the group"),
-    "Pi_1=1,A_33=1": ("lagrange_top", "no equilibrium: the rate of"),
-    "": ("gyrostat", "give one by --at"),
-}
-
-
-@pytest.mark.parametrize("words", REFUSED)
-def test_what_is_refused(words, capsys):
-    name, said = REFUSED[words]
-    given = [x if "=" in x else f"{x}=1" for x in words.split(",") if x]
-    assert main(["equilibria", name, *(y for x in given for y in ("--at", x))]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith(f"derive: {name}: ")
-    assert said in line
-
-
 def test_numbers_are_needed():
     with pytest.raises(ProblemError, match="has no default"):
         derive(heavy("123", "m*A_31", "m")).equilibria()
@@ -142,14 +124,6 @@ def test_pi_is_no_number_here(potential, said):
     """“b, π has no default”; “cos of its parameters” where there is none."""
     with pytest.raises(ValueError, match=said):
         derive(heavy("123", potential, "b" if "b" in potential else "")).equilibria()
-
-
-@pytest.mark.parametrize("words", ["q", "Pi_1=", "Pi_1=x", "Pi_1=1/0"])
-def test_what_is_no_coordinate(words, capsys):
-    with pytest.raises(SystemExit) as error:
-        main(["equilibria", "euler_top", "--at", words])
-    assert error.value.code == 2
-    assert "--at" in capsys.readouterr().err
 
 
 def test_squares_by_lagrange():

@@ -1,5 +1,5 @@
-"""Files of strangers: hostile ones by hand, and any number by mutation, all deterministic.
+"""Files of strangers: hostile ones by hand, by rule and by mutation, all deterministic.
 
-``python -m tests.fuzz`` runs them (make fuzz); tests/command/test_strangers.py those of
-tests/corpus.
+``python -m tests.fuzz`` runs those by mutation (make fuzz); ``python -m tests.fuzz.corpus`` the
+others, which tests/command/test_strangers.py does, among them the tables of tests/corpus.
 """

@@ -1,16 +1,16 @@
-"""``python -m tests.fuzz.corpus``: the files of tests/corpus, and those too large for it."""
+"""``python -m tests.fuzz.corpus``: the files of tests/corpus, those that a rule makes of hostile
+strings, and those too large for a table."""
 
 import json
 import sys
 import time
-from pathlib import Path
 
+from tests import corpus
 from tests.fuzz.cases import COMMANDS, faults_of, own_faults, problem_files, record_faults, warm
-from tests.fuzz.hostile import STRINGS
-from tests.fuzz.mutate import at, paths, put, quoted, records
+from tests.fuzz.hostile import NUMBERS, STRINGS
+from tests.fuzz.mutate import apart, at, binary_stl, mesh, paths, put, quoted, records
 from tests.fuzz.watch import limited, slack
 
-CORPUS = Path(__file__).parents[1] / "corpus"
 SOME = ("text", "latex", "html", "json")
 """Commands for the files that are accepted; checking takes seconds, and each has checked steps."""
 POINT = "[[point]]\nmass = 1\nat = [1, 0]\n"
@@ -25,6 +25,95 @@ k = {{ default = 1.0, unit = {0}, meaning = {0} }}
 mass = "k"
 at = [1, 0]
 """
+EXPRESSION = TOP + '[[potential]]\nkind = "expression"\nU = "{}"\n'
+MESHED = 'name = "top"\ngroup = "SO(3)"\n[body]\nsolid = "mesh"\ndensity = 1\nfile = {}\n'
+WHERE = {
+    "expression": TOP + '[[potential]]\nkind = "expression"\nU = {}\n',
+    "group": 'name = "top"\ngroup = {}\n' + POINT,
+    "file": MESHED,
+    "input": TOP + '[[input]]\nkind = "force"\non = 1\nname = {}\n',
+    "name": 'name = {}\ngroup = "SO(2)"\n' + POINT,
+    "parameter": 'name = "top"\ngroup = "SO(2)"\n[parameters]\n{} = 1.0\n' + POINT,
+}
+"""Where a file may have any text, or one that must be a name or an expression."""
+MASS = (
+    'name = "top"\ngroup = "SO(2)"\n[parameters]\nr1_x = 1.0\n[[point]]\nmass = {}\nat = [1, 0]\n'
+)
+
+
+def problems():
+    """Name → a problem file that is refused, but for those called good: of the table, and by rule
+    with each hostile string wherever there may be one."""
+    yield "binary.toml", bytes(range(256))
+    for kind, name in (("refused", "bad"), ("taken", "good")):
+        for k, (text, *_) in enumerate(corpus.problems(kind)):
+            yield f"{name}-{k}.toml", text
+    for where, text in WHERE.items():
+        for k, words in enumerate(map(quoted, STRINGS)):
+            yield f"{where}-{k}.toml", text.format(words)
+    for where, text in {"U": WHERE["expression"], "mass": MASS}.items():
+        for k, words in enumerate(map(quoted, NUMBERS)):
+            yield f"{where}-{k}.toml", text.format(words)
+
+
+def meanings():
+    """A problem with every hostile string as the unit and the meaning of a parameter."""
+    names = [f"s{k}" for k in range(len(STRINGS))]
+    rows = [
+        f"{name} = {{ default = 1.0, meaning = {words}, unit = {words} }}\n"
+        for name, words in zip(names, map(quoted, STRINGS), strict=True)
+    ]
+    title = quoted(" ".join(STRINGS)[:900])
+    point = f'[[point]]\nmass = "{"+".join(names)}"\nat = [1, 0]\n'
+    return f'name = "top"\ngroup = "SO(2)"\ntitle = {title}\n[parameters]\n{"".join(rows)}{point}'
+
+
+SPOILT = {
+    "self.off": ("3 0 2 1", "3 0 0 0"),
+    "far.off": ("1 0 0\n0 1 0", "1e300 0 0\n0 1e-300 0"),
+    "negative.off": ("4 4 6", "-4 4 6"),
+    "count.off": ("4 4 6", "999999999 1 0"),
+    "comment.off": ("OFF", "# \0\x1b[2J\nOFF"),
+    "call.obj": ("v 0 0 0", "call /etc/passwd\nv 0 0 0"),
+    "continued.obj": ("f 1 3 2", "f 1 \\\n3 \\\n2"),
+    "free.obj": ("v 0 0 0", "cstype bspline\ncurv 0 1 1 2\nv 0 0 0"),
+    "map.obj": ("v 0 0 0", "mtllib x.mtl\nmap_Kd |touch PWNED\nv 0 0 0"),
+    "mtl.obj": ("v 0 0 0", "mtllib ../../../etc/passwd\nusemtl x\nv 0 0 0"),
+    "slash.obj": ("f 1 3 2", "f 1//1 3/9/9 2/"),
+    "long.obj": ("f 1 3 2", "f 1 3 2\nf" + " 1" * 3000),
+}
+SPOILT_STL = {
+    "solid.stl": (0, b"solid "),
+    "denormal.stl": (96, b"\1\0\0\0"),
+    "nan.stl": (96, b"\xff\xff\xff\x7f"),
+    "count.stl": (80, b"\xff\xff\xff\xff"),
+}
+
+
+def meshes():
+    """Name → a tetrahedron in one of the formats with something odd; tests/problem/test_solids.py
+    has what is refused and why."""
+    yield "binary.off", b"OFF BINARY\n" + bytes(range(256))
+    yield "good.off", mesh("off")
+    for name, (old, new) in SPOILT.items():
+        yield name, mesh(name.rpartition(".")[2]).replace(old, new, 1)
+    raw = binary_stl()
+    yield "good.stl", raw
+    yield "short.stl", raw[:100]
+    yield "zeros.stl", bytes(84)
+    for name, (place, new) in SPOILT_STL.items():
+        yield name, raw[:place] + new + raw[place + len(new) :]
+
+
+def changed_records():
+    """Name → a record with a thing changed, or what is none."""
+    good = json.dumps(corpus.good_record("plane"))
+    others = {"list": "[]", "number": "1", "trailing": good + "x", "bom": "\ufeff" + good}
+    others |= {"nan": '{"problem": NaN}', "duplicate": '{"problem": {"name": 1, "name": 2}}'}
+    others |= {"integer": f'{{"problem": {"9" * 5000}}}', "nested": good.replace("[", "[" * 300)}
+    for k, text in enumerate([good, *corpus.records(), *others.values()]):
+        yield f"{k}.json", text
+    yield "utf16.json", good.encode("utf-16")
 
 
 def bombs():
@@ -60,7 +149,22 @@ def bombs():
         "digits.json": "9" * 1_000_000,
         "keys.json": json.dumps({f"k{i}": i for i in range(100_000)}),
         "bytes.json": " " * 21_000_000,
+        "sum.toml": EXPRESSION.format("1+" * 500_000 + "1"),
+        "brackets.toml": EXPRESSION.format("(" * 10_000 + "1" + ")" * 10_000),
+        "power.toml": EXPRESSION.format("(r1_x+1)^9^9"),
+        "hole.off": holed_sphere(),
     }
+
+
+def holed_sphere():
+    """An OFF file of nearly the largest size, a grid on a sphere that lacks one triangle."""
+    n = 141
+    grid = [(i, j) for i in range(n) for j in range(n)]
+    points = [f"{i} {j} {(i * j) % 7}" for i, j in grid]
+    corners = [(i * n + j, i * n + j + 1, (i + 1) * n + j) for i, j in grid if max(i, j) < n - 1]
+    faces = [f"3 {a} {b} {c}\n3 {b} {c + 1} {c}" for a, b, c in corners]
+    count = 2 * len(faces)
+    return "\n".join([f"OFF\n{len(points)} {count} 0", *points, *faces, ""])
 
 
 def long_records():
@@ -93,7 +197,7 @@ def nodes():
     """A record with one node of another type, for every node."""
     record = records()[0]
     whole = {**record, "steps": record["steps"][:2], "symbols": record["symbols"][:1]}
-    text = json.dumps({**whole, "steps": [{**x, "uses": []} for x in whole["steps"]]})
+    text = json.dumps({**whole, "steps": apart(whole["steps"])})
     for k, path in enumerate([x for x in paths(json.loads(text)) if x]):
         data = json.loads(text)
         others = [None, [], "x", 3, {}, -1, "t", [[]], True, "9" * 50]
@@ -119,17 +223,19 @@ def main():
         found.extend((name, *x) for x in wrong)
         return wrong
 
-    for path in sorted(CORPUS.iterdir()):
-        count, raw = count + 1, path.read_bytes()
-        if path.suffix == ".json":
-            judge(path.name, raw, ["check"])
-            wrong = record_faults(raw.decode("utf-8", "replace"))
-            found.extend((path.name, *x) for x in wrong)
-            continue
-        shown = path.name.startswith(("title", "meaning", "mesh-good"))
-        judge(path.name, raw, SOME if shown else ["text"])
-        if path.name.startswith("hand"):
-            found.extend((path.name, *x) for x in own_faults({path.name: raw}, path.name))
+    for name, content in problems():
+        count += 1
+        judge(name, content, ["text"])
+        if name.startswith("good"):
+            found.extend((name, *x) for x in own_faults({name: content}, name))
+    for name, content in (*meshes(), ("meaning.toml", meanings())):
+        count += 1
+        judge(name, content, SOME if name.startswith(("meaning", "good")) else ["text"])
+    for name, content in changed_records():
+        count += 1
+        judge(name, content, ["check"])
+        if isinstance(content, str):
+            found.extend((name, *x) for x in record_faults(content))
     print(f"{count} files, {time.time() - start:.0f} s")
     for name, text in (bombs() | long_records()).items():
         count += 1

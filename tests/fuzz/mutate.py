@@ -304,24 +304,29 @@ def mesh_case(random):
 @cache
 def records():
     """Records without the steps about any group."""
-    found = []
-    for data in sources():
-        record = to_data(walk(problem_of(data)))
-        own = [x for x in record["steps"] if x["scope"] != ANY_GROUP]
-        labels = {x["label"] for x in own}
-        for x in own:
-            x["uses"] = [y for y in x["uses"] if y in labels]
-        found.append(json.loads(json.dumps(record | {"steps": own})))
-    return found
+    return [own_record(data) for data in sources()]
+
+
+def own_record(data):
+    """What is written of the walk of a problem, without the steps about any group."""
+    record = to_data(walk(problem_of(data)))
+    own = [x for x in record["steps"] if x["scope"] != ANY_GROUP]
+    labels = {x["label"] for x in own}
+    for x in own:
+        x["uses"] = [y for y in x["uses"] if y in labels]
+    return json.loads(json.dumps(record | {"steps": own}))
+
+
+def apart(steps):
+    """Steps that use no others, so that none of them is a remark."""
+    return [{k: x for k, x in step.items() if k != "remark"} | {"uses": []} for step in steps]
 
 
 def record_case(random):
     """A record with a few of its steps, changed."""
     data = random.choice(records())
     start = random.randrange(len(data["steps"]))
-    steps = data["steps"][start : start + 2]
-    for x in (steps := deepcopy(steps)):
-        x["uses"] = []
+    steps = deepcopy(apart(data["steps"][start : start + 2]))
     symbols = random.sample(data["symbols"], min(2, len(data["symbols"])))
     own = {"problem": deepcopy(data["problem"]), "symbols": symbols, "steps": steps}
     text = json.dumps(changed_data(random, own), ensure_ascii=random.random() < 0.9)

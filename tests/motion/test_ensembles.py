@@ -264,43 +264,6 @@ def test_a_full_disk_is_told_and_the_old_file_stays(ending, tmp_path):
     assert out.read_text() == "old"
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["--ensemble", "0", *OPTIONS], "between 1 and 1e+12 motions, not 0"),
-        (["--ensemble", "-3", *OPTIONS], "expected an integer, 0 or more, not '-3'"),
-        (["--ensemble", "9"], "--vary NAME="),
-        (["--ensemble", "9", "--vary", "zeta_9=0:1"], "did you mean 'zeta_3'?"),
-        (["--ensemble", "9", "--vary", "zeta_1=1:0"], "from 1 to 0, which is less"),
-        (["--ensemble", "9", "--vary", "zeta_1=1"], "is not NAME=LOW:HIGH or NAME=normal:MEAN:SD"),
-        (["--ensemble", "9", "--vary", "zeta_1=0:nan"], "expected a number"),
-        (["--ensemble", "9", "--vary", "zeta_1=normal:0:-1"], "deviation of -1, below 0"),
-        (["--ensemble", "9", *OPTIONS, *OPTIONS], "zeta_1 is varied twice"),
-        (["--ensemble", "9", "--vary", "A_11=2:3"], "motion 0 starts off the group"),
-        (["--ensemble", "9", *OPTIONS, "--html", "so3.html"], "--html shows one motion"),
-        (["--ensemble", "9", *OPTIONS, "--dt", "0.1"], "steps of their own"),
-        (["--ensemble", "9", *OPTIONS, "--step", "gauss"], "followed by vern9, not by gauss"),
-        (["--ensemble", "9", *OPTIONS, "--tol", "1e-16"], "at least 1e-15"),
-        (["--ensemble", "9", *OPTIONS, "--points", "0"], "instants can be kept"),
-        (["--ensemble", "9", *OPTIONS, "--out", "e.txt"], "must end in .npz, .csv, .parquet"),
-        (["--ensemble", "9", *OPTIONS, "--out", "/dev/null/e.npz"], "derive: /dev/null/e.npz: "),
-        (["--vary", "zeta_1"], "'zeta_1' is not NAME=LOW:HIGH or NAME=normal:MEAN:SD"),
-        (["--vary", "zeta_1=0:"], "'zeta_1=0:' is not NAME=LOW:HIGH or NAME=normal:MEAN:SD"),
-        (OPTIONS, "give --ensemble N, too"),
-        (["--seed", "1"], "give --ensemble N, too"),
-    ],
-)
-def test_bad_input_is_one_line(arguments, words, capsys):
-    need("cc")
-    try:
-        code = main(["simulate", "so3", "--t", "1", *arguments])
-    except SystemExit as stop:
-        code = stop.code
-    out, err = capsys.readouterr()
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert words in err
-
-
 def test_an_ensemble_needs_a_compiler(monkeypatch, capsys):
     monkeypatch.setenv("CC", "no-such-compiler")
     assert main(["simulate", "hammer", "--t", "1", "--ensemble", "9", *OPTIONS[:2]]) == 2

@@ -230,23 +230,6 @@ def test_more_than_their_limit_are_refused(tmp_path):
         load(problem(tmp_path, SPIN + listed))
 
 
-@pytest.mark.parametrize(
-    ("when", "words"),
-    [
-        ("A_44 - 1", "event e: no 'A_44' in the state, the parameters or the inputs"),
-        ("zeta_4", "did you mean 'zeta_3'?"),
-        ("A_11/(w - 2)", "event e: no finite value at the start"),
-        ("sqrt(A_12 - 1)", "event e: no finite value at the start"),
-    ],
-)
-def test_what_a_motion_refuses(tmp_path, capsys, when, words):
-    path = problem(tmp_path, f'{SPIN}[[event]]\nname = "e"\nwhen = "{when}"\n')
-    assert main(["simulate", str(path), "--t", "1"]) == 2
-    err = capsys.readouterr().err
-    assert words in err
-    assert err.count("\n") == 1
-
-
 def test_an_event_in_words():
     from derive import SO, Event, Moments, Problem
 

@@ -106,22 +106,6 @@ def test_a_bad_table_is_told(tmp_path, text, words):
     assert "swing.toml: " in str(caught.value)
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("zeta_4 = 1", "swing, [initial], has no 'zeta_4'; did you mean"),
-        ('zeta_1 = "sqrt(w)"', "initial, zeta_1: no finite number for these parameters: w"),
-    ],
-)
-def test_what_a_start_refuses(tmp_path, capsys, text, words):
-    parameter = "[parameters]\nw = -1.0\n" if "w" in text else ""
-    path = problem(tmp_path, f"{BODY}{parameter}[initial]\n{text}\n")
-    assert main(["simulate", str(path), "--t", "1"]) == 2
-    err = capsys.readouterr().err
-    assert words in err
-    assert err.count("\n") == 1
-
-
 def test_a_text_about_any_group_has_no_motion(tmp_path):
     with pytest.raises(ProblemError, match="a text about any group has no motion to follow"):
         load(problem(tmp_path, 'name = "x"\ngroup = "any"\naction = "linear"\n[initial]\na = 1\n'))

@@ -143,34 +143,9 @@ def test_calls_of_c_end_so_that_ctrl_c_is_heard(monkeypatch):
         assert np.array_equal(d.simulate(1.0, points=1, compiled=True, **method).table, whole.table)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["--step", "rk4"], "rk4 has steps of one size: give --dt"),
-        (["--step", "rk4", "--tol", "1e-6"], "rk4 has steps of one size: give --dt"),
-        (["--step", "vern"], "did you mean 'vern9'? there is gauss, rk4, vern9"),
-        (["--step", "gauss_jax"], "there is gauss, rk4, vern9, discrete\n"),
-        (["--step", "guass_jaxx"], "there is gauss, rk4, vern9, discrete\n"),
-        (["--dt", "1e-9", "--t", "100"], "1e+11 steps of 1e-09 are more than 1e+09: take larger"),
-        (["--dt", "5e-324", "--t", "100"], "inf steps of 4.94066e-324 are more than 1e+09"),
-        (["--step", "vern9", "--html", "so3.html"], "leave out --dt, --step"),
-    ],
-)
-def test_bad_methods_are_one_line(arguments, words, capsys):
-    assert main(["simulate", "so3", "--t", "1", *arguments]) == 2
-    out, err = capsys.readouterr()
-    assert (out, err.count("\n")) == ("", 1)
-    assert words in err
-
-
-def test_the_discrete_step_is_one_of_them(capsys):
+def test_the_discrete_step_is_one_of_them():
     in_c, in_python = in_both(derive.derive("so3"), 0.5, step="discrete", dt=0.005, points=5)
     assert np.abs(in_c.table - in_python.table).max() < 1e-12
-    assert main(["simulate", "so3", "--t", "5", "--step", "discrete"]) == 2
-    assert "discrete has steps of one size: give --dt" in capsys.readouterr().err
-    given = ["--t", "5", "--step", "discrete", "--dt", "0.01"]
-    assert main(["simulate", "gyrostat", *given]) == 2
-    assert "is of a Lagrangian of points" in capsys.readouterr().err
 
 
 def test_a_step_that_there_is_not_makes_no_run(tmp_path, capsys):
@@ -210,11 +185,5 @@ def test_the_discrete_step_has_an_order(tmp_path, capsys):
     assert main([*given, "discrete", "--order", "4", "--out", str(out)]) == 0
     assert ", by discrete of order 4, dt 0.1, in " in capsys.readouterr().out
     assert read(out).facts["method"] == "discrete of order 4, dt 0.1"
-    for more, words in (
-        (["rk4", "--order", "4"], "--order is that of --step discrete, not of rk4"),
-        (["rk4", "--order", "4", "--ensemble", "2", "--vary", "zeta_1=0:1"], "followed by vern9"),
-    ):
-        assert main([*given, *more]) == 2
-        assert words in capsys.readouterr().err
     with pytest.raises(MotionError, match="the order must be one of 2, 4, 6, 8, not 3"):
         d.simulate(1.0, step="discrete", dt=0.1, order=3)

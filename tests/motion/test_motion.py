@@ -304,14 +304,6 @@ def test_why_equations_have_no_finite_value(about, given, why, tmp_path, capsys)
     assert "spring" not in err
 
 
-@pytest.mark.parametrize("wrong", ["Q_12=5", "Q_33=-1"])
-def test_a_quadric_that_is_not_positive_is_named(wrong, capsys):
-    code, _, err = told(capsys, "dirichlet", "--t", "1", "--set", wrong)
-    assert code == 2
-    assert "positive definite" in err
-    assert err.count("\n") == 1
-
-
 def test_when_a_multiplier_is_negative():
     t = np.linspace(0, 5, 501)
     assert negative(t, t - 0.875) == "at t = 0 … 0.87, at 88 of 501 instants"
@@ -356,65 +348,6 @@ def test_ctrl_c_keeps_what_is_done(tmp_path, capsys, monkeypatch):
     )
     assert (code, len(read(out).t)) == (130, 3)
     assert "interrupted at t = 0.01" in err
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["--t", "-1"], "the time must be above 0"),
-        (["--t", "x"], "expected a number"),
-        (["--t", "nan"], "expected a number"),
-        (["--t", "1", "--dt", "0"], "a size above 0"),
-        (["--t", "1", "--tol", "1e-16"], "at least 1e-15"),
-        (["--t", "1", "--tol", "1e-6", "--dt", "1"], "give one of them"),
-        (["--t", "1", "--points", "0"], "can be kept"),
-        (["--t", "1", "--step", "guass"], "did you mean 'gauss'?"),
-        (["--t", "1", "--set", "zeta_4=1"], "has no 'zeta_4'"),
-        (["--t", "1", "--set", "exp=1"], "varied by a parameter that [initial] exp uses"),
-        (["--t", "1", "--set", "zeta_1"], "is not NAME=NUMBER"),
-        (["--t", "1", "--set", "zeta_1=inf"], "expected a number"),
-        (["--t", "1", "--set", "A_11=2"], "--project takes it there; its defect is 3"),
-        (["--t", "1", "--set", "A_11=0", "--set", "A_22=0", "--project"], "not taken to the group"),
-        (
-            ["--t", "1", "--set", "A_11=0", "--set", "A_22=0", "--project"],
-            "det A = 0 is not above 0",
-        ),
-        (["--t", "1", "--exp", "0,0,0", "--set", "A_33=-1"], "det A = -1: a reflection is no elem"),
-        (["--t", "1", "--exp", "0,0,0", "--set", "A_33=-0.9", "--project"], "of SO(3)"),
-        (["--t", "1", "--exp", "1,2"], "takes 3 numbers"),
-        (["--t", "1", "--out", "run.txt"], "must end in .npz, .csv, .parquet"),
-        (["--t", "1", "--state", "missing.toml"], "missing.toml: No such file"),
-        (["--t", "1", "--state", "missing.npz"], "missing.npz: No such file"),
-        (["--t", "1", "--set", "J_11=-9"], "singular or not positive"),
-    ],
-)
-def test_bad_input_is_one_line(arguments, words, capsys):
-    try:
-        code = main(["simulate", "so3", *arguments])
-    except SystemExit as stop:
-        code = stop.code
-    out, err = capsys.readouterr()
-    (line,) = [x for x in err.splitlines() if not x.startswith("derive: warning: ")]
-    assert (code, out) == (2, "")
-    assert words in line
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [('zeta_1 = "1"', "must be a number"), ("zeta_1 = ", "Invalid value"), ("x = 1", "has no 'x'")],
-)
-def test_a_bad_file_of_a_start_is_told(text, words, tmp_path, capsys):
-    path = tmp_path / "start.toml"
-    path.write_text(text)
-    assert main(["simulate", "so3", "--t", "1", "--state", str(path)]) == 2
-    assert words in capsys.readouterr().err
-
-
-def test_parameters_without_numbers_are_asked_for(tmp_path, capsys):
-    path = tmp_path / "open.toml"
-    path.write_text('name = "open"\ngroup = "SO(3)"\n[body]\nmoments = "symbolic"\n')
-    assert main(["simulate", str(path), "--t", "1"]) == 2
-    assert "no value for " in capsys.readouterr().err
 
 
 def test_states_without_an_element_have_no_exponential():

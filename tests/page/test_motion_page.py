@@ -528,42 +528,6 @@ def test_notes_in_two_languages_have_pages_of_their_own(tmp_path, capsys):
     assert told((tmp_path / "notes_fr_so3_motion.html").read_text(encoding="utf-8"))["comma"]
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["so3", "--motion", "-1", "--out", "a.html"], "the time must be above 0, not -1"),
-        (["so3", "--motion", "5", "--out", "a.tex"], "--motion: pages are linked from notes"),
-        (["ideal_fluid", "--motion", "5", "--out", "a.html"], "it has no numeric code"),
-    ],
-)
-def test_notes_without_a_motion(arguments, words, tmp_path, capsys, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert main(["notes", *arguments]) == 2
-    assert words in capsys.readouterr().err
-    assert not [*tmp_path.iterdir()]
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["--html", "page.txt"], "must end in .html"),
-        (["--html", "p.html", "--dt", "1"], "leave out --dt"),
-        (["--html", "p.html", "--t", "0"], "above 0"),
-        (["--html", "p.html", "--set", "A_11=2"], "not on the group"),
-        (["--html", "p.html", "--set", "J_11=-9"], "singular or not positive"),
-        (["--html", "p.html", "--tol", "2"], "below 1"),
-    ],
-)
-def test_bad_input_is_one_line(arguments, words, tmp_path, capsys, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert main(["simulate", "so3", "--t", "1", *arguments]) == 2
-    out, err = capsys.readouterr()
-    (line,) = [x for x in err.splitlines() if not x.startswith("derive: warning: ")]
-    assert out == ""
-    assert words in line
-    assert not [*tmp_path.iterdir()]
-
-
 # ---------------------------------------------------------------- in a browser
 
 

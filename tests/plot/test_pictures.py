@@ -657,29 +657,6 @@ def test_a_diagram_of_a_table(tmp_path, name):
     assert len(out.read_bytes()) > 2000
 
 
-@pytest.mark.parametrize(
-    ("files", "kind", "words"),
-    [
-        ({"a.csv": "method,work\nx,1\n"}, PRECISION, "a.csv: no table of method, work, error"),
-        ({"a.csv": "method,work,error\nx,1,0\n"}, PRECISION, "the last two above 0"),
-        ({"a.csv": "method,work,error\n"}, PRECISION, "a table without rows"),
-        ({"a.json": "1"}, PRECISION, "a.json: no table"),
-        ({}, PRECISION, "No such file"),
-        ({"a.csv": "", "b.csv": ""}, "state", "several runs are for --kind precision"),
-    ],
-)
-def test_what_a_diagram_refuses(tmp_path, capsys, files, kind, words):
-    for name, text in files.items():
-        (tmp_path / name).write_text(text)
-    paths = [str(tmp_path / x) for x in files or ["a.csv"]]
-    out = tmp_path / "out.svg"
-    assert main(["plot", *paths, "--kind", kind, "--out", str(out)]) == 2
-    err = capsys.readouterr().err
-    assert words in err
-    assert err.count("\n") == 1
-    assert not out.exists()
-
-
 def test_runs_of_two_motions_are_not_compared(tmp_path):
     runs = [simulated("euler_top", 1.0), simulated("euler_top", 2.0)]
     with pytest.raises(PlotError, match="runs of one motion"):

@@ -40,20 +40,3 @@ def test_in_a_pdf(tmp_path):
     assert main(["notes", "rod", "--picture", "3", "--out", str(out)]) == 0
     assert (tmp_path / "notes_rod_motion.pdf").stat().st_size > 2000
     assert out.stat().st_size > bare.stat().st_size + 2000
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["rod", "--picture", "-1", "--out", "a.html"], "the time must be above 0, not -1"),
-        (["rod", "--picture", "1", "--fragment", "--out", "a.tex"], "--picture: notes have"),
-        (["ideal_fluid", "--picture", "1", "--out", "a.html"], "it has no numeric code"),
-    ],
-)
-def test_what_is_refused(arguments, words, tmp_path, capsys, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert main(["notes", *arguments]) == 2
-    err = capsys.readouterr().err
-    assert words in err
-    assert err.count("\n") == 1
-    assert not [*tmp_path.iterdir()]

@@ -10,16 +10,13 @@ import pytest
 
 from derive import (
     SE,
-    Damping,
     Force,
-    Gravity,
     Lagrangian,
     Moments,
     MotionError,
     Points,
     Problem,
     Solid,
-    Spring,
     derive,
 )
 from derive.command.cli import COMMANDS, main
@@ -36,114 +33,6 @@ from derive.python.api import Table
 HEAD = 'name = "good"\ngroup = "SO(3)"\n'
 POINTS = "".join(f"[[point]]\nmass = 1\nat = {[int(i == j) for j in range(3)]}\n" for i in range(3))
 PLACES = [(1, [1, 0, 0]), (1, [0, 1, 0]), (1, [0, 0, 1])]
-
-
-def refused(group, body=PLACES, **more):
-    """The message that a problem is refused with."""
-    with pytest.raises(ProblemError) as caught:
-        Problem("b", group, Points(*body), **more)
-    return str(caught.value)
-
-
-def test_pi_is_a_number():
-    assert "'pi': this is the number π" in refused("SO(3)", parameters={"pi": 3})
-
-
-@pytest.mark.parametrize(
-    ("written", "meant"),
-    [
-        ("SO3", "SO(3)"), ("se(3)", "SE(3)"), ("SO 3", "SO(3)"), ("sl_2", "SL(2)"),
-        ("saff(3)", "SAff(3)"), ("SOO(3)", "SO(3)"), ("SO3 x SE3", "SO(3) x SE(3)"),
-    ],
-)  # fmt: skip
-def test_a_group_in_other_letters(written, meant):
-    assert f"did you mean {meant!r}?" in refused(written)
-
-
-@pytest.mark.parametrize("written", ["Spin(3)", "SO", "3", "", "x", "SO(3) x"])
-def test_no_group_is_made_up(written):
-    assert "did you mean" not in refused(written)
-
-
-def test_a_block_without_points_is_called_by_its_number():
-    points = [(1, [1, 0, 0], 1), (1, [0, 1, 0], 1), *((m, at, 3) for m, at in PLACES)]
-    told = refused("SO(3) x SE(3) x SO(3)", points)
-    assert told.startswith("block 2, SE(3), which has no [[point]] with block = 2, moves no mass")
-
-
-def test_a_direction_of_one_block_is_that_of_its_group():
-    points = [*((m, at, 1) for m, at in PLACES), (1, [1, 0, 0], 2)]
-    assert refused("SO(3) x SO(3)", points).startswith(
-        "in block 2, turning about the axis (1, 0, 0)"
-    )
-
-
-def test_a_large_direction_is_told_by_its_entries():
-    told = refused("SL(5)", [(1, [1, 0, 0, 0, 0])])
-    assert "the direction Z = e_1,2 of the Lie algebra" in told
-    assert len(told) < 200
-
-
-def test_a_file_beside(tmp_path, monkeypatch, capsys):
-    (tmp_path / "good.toml").write_text(HEAD + POINTS)
-    monkeypatch.chdir(tmp_path)
-    assert main(["emit", "good"]) == 2
-    assert "unknown problem 'good'; did you mean 'good.toml'?" in capsys.readouterr().err
-    assert main(["emit", "good.toml", "--lang", "c"]) == 0
-
-
-@pytest.mark.parametrize(
-    ("words", "named", "meant"),
-    [
-        (["walk", "so3", "--formt", "text"], "unknown option '--formt'", "'--format'"),
-        (["emit", "so3", "--jacobain=state"], "unknown option '--jacobain=state'", "'--jacobian'"),
-        (["check", "so3", "--second", "3", "--notaton"], "unknown option '--notaton'", ""),
-        (["simulate", "so3", "--t", "1", "--page", "x"], "unknown option '--page'", "'--html'"),
-        (["simulate", "so3", "--t", "1", "--plot", "x"], "draws the file of --out", ""),
-        (["emit", "so3", "--plot", "x"], "unknown option '--plot'", ""),
-        (["paper", "so3"], "unexpected 'so3'", ""),
-    ],
-)
-def test_an_unknown_option(words, named, meant, capsys):
-    with pytest.raises(SystemExit) as ended:
-        main(words)
-    assert ended.value.code == 2
-    err = capsys.readouterr().err
-    assert err.startswith(f"derive {words[0]}: error: ")
-    assert err.count("\n") == 1
-    assert named in err
-    assert (f"did you mean {meant}?" in err) == bool(meant)
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["integrals", "euler_top", "--degree", "0"], "an integer from 1 to 40, not '0'"),
-        (["equilibria", "euler_top", "--at", "Pi_3=1/0"], "'1/0' is no exact number"),
-        (["walk", "so3", "--trivialisation", "right"], "trivialisation = 'right' stands in the"),
-        (["walk", "so3", "--seconds", "soon"], "expected seconds, above 0, not 'soon'"),
-        (["check", "so3", "--seed", "-1"], "expected an integer, 0 or more, not '-1'"),
-        (["emit", "so3", "--lang", "cobol"], "invalid choice: 'cobol' (choose from 'c', "),
-        (["emit", "so3", "--lang", "rst"], "; did you mean 'rust'?"),
-        (["emit", "so3", "--lang", "c++"], "; did you mean 'cpp'?"),
-        (["emit", "so3", "--lang", "c,rust"], "; one at a time: --lang c --lang rust"),
-        (["emit", "so3", "--jacobian", "raw,state"], ": --jacobian raw --jacobian state"),
-    ],
-)
-def test_a_wrong_value(words, said, capsys):
-    with pytest.raises(SystemExit) as ended:
-        main(words)
-    assert ended.value.code == 2
-    out, err = capsys.readouterr()
-    assert (out, err.count("\n")) == ("", 1)
-    assert err.startswith(f"derive {words[0]}: error: argument {words[-2]}")
-    assert said in err
-
-
-@pytest.mark.parametrize("option", ["--at", "--near"])
-def test_one_coordinate_twice(option, capsys):
-    assert main(["equilibria", "euler_top", option, "Pi_3=1", option, "Pi_3=2"]) == 2
-    assert f"{option} Pi_3: given more than once" in capsys.readouterr().err
 
 
 def test_check_goes_on_behind_what_it_cannot_read(tmp_path, capsys):
@@ -195,71 +84,6 @@ def test_every_command_may_be_stopped(command, tmp_path):
     assert "stopped after 0.0001 s of processor time" in done.stderr
 
 
-K = "[parameters]\nk = -2\n"
-SPRING = '[[potential]]\nkind = "spring"\nstiffness = {}\nbetween = [1, 2]\n'
-NEGATIVE = {
-    "potential 1: key 'stiffness'": SPRING.format(-1),
-    "potential 2: key 'stiffness'": SPRING.format(1)
-    + SPRING.format('"k"')
-    + "[parameters]\nk = -2\n",
-    "damping 1: key 'coefficient'": "[[damping]]\ncoefficient = -0.5\n",
-}
-
-
-@pytest.mark.parametrize("where", NEGATIVE)
-@pytest.mark.parametrize("command", ["walk", "emit", "check"])
-def test_a_negative_stiffness(where, command, tmp_path, capsys):
-    path = tmp_path / "good.toml"
-    path.write_text(HEAD + POINTS + NEGATIVE[where])
-    words = [command, str(path), *(["--out", str(tmp_path)] if command == "emit" else [])]
-    assert main(words) == 2
-    told = capsys.readouterr().err
-    assert f"{where} is negative; correct it, or allow it with --allow-negative-stiffness" in told
-    assert main([*words, "--allow-negative-stiffness"]) == 0
-    assert f"derive: warning: {path}: {where} is negative\n" in capsys.readouterr().err
-
-
-ELLIPSOID = """
-name = "liquid"
-group = "SL(3)"
-[body]
-solid = "ellipsoid"
-density = "{}"
-semi_axes = [2, 1, 1]
-[[potential]]
-kind = "self_gravity"
-G = {}
-"""
-
-
-def test_a_negative_constant_of_gravitation(tmp_path, capsys):
-    path = tmp_path / "liquid.toml"
-    path.write_text(ELLIPSOID.format(1, -1))
-    assert main(["walk", str(path)]) == 2
-    assert "potential 1: key 'G' is negative; correct it" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("density", "words"),
-    [
-        ("1 - s/2", "the density of this body depends on the level s; give it one without s"),
-        ("1 - 3*s/2", "ellipsoid at the level s = 43/64, though not at 21/32, is negative"),
-    ],
-)
-def test_a_density_in_layers_is_told(density, words, tmp_path, capsys):
-    path = tmp_path / "liquid.toml"
-    path.write_text(ELLIPSOID.format(density, 1))
-    assert main(["walk", str(path)]) == 2
-    assert words in capsys.readouterr().err
-
-
-def test_a_negative_stiffness_from_python():
-    for force in (Spring(1, 2, -1), Damping("-1/2")):
-        assert "negative_stiffness=True" in refused("SO(3)", forces=[force])
-        Problem("b", "SO(3)", Points(*PLACES), [force], negative_stiffness=True)
-    Problem("b", "SO(3)", Points(*PLACES), [Spring(1, 2, 0), Gravity(0, 0, -1)])
-
-
 MASS = 2.5
 S = np.array([0.3, -0.2, 0.7])
 I_C = np.array([[1.1, 0.1, -0.2], [0.1, 1.3, 0.05], [-0.2, 0.05, 1.7]])
@@ -290,20 +114,6 @@ def test_moments_as_they_are_given(symbolic, first, second):
     found = np.array([[approximate(x, values) for x in row] for row in body.given.J])
     assert np.allclose(found, J, rtol=1e-14, atol=1e-15)
     assert np.allclose([approximate(x, values) for x in body.given.c], MASS * S, rtol=1e-15)
-
-
-@pytest.mark.parametrize(
-    ("given", "reason"),
-    [
-        ({"m": 1, "c": [0, 0, 0], "centre": [0, 0, 0], "J": np.eye(3)}, "one of c, the first"),
-        ({"m": 1, "J": np.eye(3)}, "one of c, the first moment, .* or centre, the centre of mass"),
-        ({"m": 1, "c": [0, 0, 0], "I": np.eye(3), "I_centre": np.eye(3)}, "one of J, .* I_centre,"),
-        ({"m": 0, "c": [0, 0, 0], "I_centre": np.eye(3)}, "without mass has no centre"),
-    ],
-)
-def test_moments_given_twice_or_not(given, reason):
-    with pytest.raises(ProblemError, match=reason):
-        Problem("b", SE(3), Moments(**given))
 
 
 FAR = [10.0, 0.0, 0.0]
@@ -364,32 +174,6 @@ def test_flat_bodies_in_few_digits_are_bodies(digits, symbolic):
             rows, values = [[values[x] for x in row] for row in rows], {}
         body = Moments(m=m, centre=centre, I_centre=rows)
         assert not [*doubts(Problem("plate", SE(3), body, parameters=values), {})]
-
-
-@pytest.mark.parametrize(("word", "meant"), [("simulat", "simulate"), ("symmetry", "symmetries")])
-def test_a_command_that_is_none(word, meant, capsys):
-    with pytest.raises(SystemExit) as ended:
-        main([word, "so3"])
-    assert ended.value.code == 2
-    err = capsys.readouterr().err
-    assert err.startswith(f"derive: error: argument COMMAND: invalid choice: {word!r} (choose from")
-    assert err.endswith(f"; did you mean {meant!r}?\n")
-
-
-@pytest.mark.parametrize(
-    ("given", "told"),
-    [
-        (
-            {"com": [0, 0, 0], "I": I_C},
-            "unknown key 'com'; the centre of mass is 'centre' in [body]",
-        ),
-        ({"centre": [0, 0, 0], "inertia": I_C}, "'inertia'; a tensor of inertia is 'I' or"),
-    ],
-)
-def test_moments_as_others_call_them(given, told):
-    with pytest.raises(ProblemError) as caught:
-        Problem("b", SE(3), Moments(m=1, **given))
-    assert told in str(caught.value)
 
 
 @pytest.mark.parametrize("rpy", [[0, 0, 1], 1])
@@ -482,68 +266,6 @@ def test_a_centre_that_is_too_long(tmp_path):
         load(path)
 
 
-def table(key, **fields):
-    """One table on three points of SE(3); its message."""
-    return refused("SE(3)", forces=[Table(key, **fields)])
-
-
-FORCE = {"kind": "force", "name": "f"}
-KNOWS_T = "'t' is known in the 'U' of an expression, the 'E' of a field and the 'U' of a volume"
-ALMOST = [
-    (("potential", {"kind": "sprng"}), "did you mean 'spring'?"),
-    (("potential", {"kind": "spring", "stifness": 1}), "'stifness'; did you mean 'stiffness'?"),
-    (("input", {"kind": "torque", "name": "f"}), "did you mean 'covector'?"),
-    (("input", {**FORCE, "on": 1, "direction": [1, 0, 0]}), "has all its components at every call"),
-    (("input", {**FORCE, "on": 1, "torque": 1}), '[[input]] with kind = "covector"'),
-    (("potential", {"kind": "gravity", "direction": [0, 0, 1]}), "that of the vector 'g'"),
-    (("potential", {"kind": "friction"}), "contacts, impacts and dry friction are not here"),
-    (("contact", {"mu": 1}), "contacts, impacts and dry friction are not here"),
-    (("joint", {"on": 1}), "other constraints, joints between bodies and rolling are not here"),
-    (("constraint", {"on": 1}), "what holds a body is its group"),
-    (("input", {**FORCE, "on": 1, "frame": "world"}), "did you mean 'space'?"),
-    (("input", FORCE), "input 1: key 'on' or 'at' is missing"),
-    (("input", {**FORCE, "on": [1, 2]}), "input 1: key 'on' must be one point"),
-    (("input", {**FORCE, "at": [1, 0, 0], "block": 2}), "SE(3) is no product: there is one block"),
-    (
-        ("damping", {"coefficient": 1, "on": [[1]]}),
-        "damping 1, on: expected an integer from 1",
-    ),
-    (("damping", {"coefficient": 1, "on": []}), "damping 1: key 'on' must be a point or a list"),
-    (("damping", {"coefficient": "t"}), KNOWS_T),
-]
-
-
-@pytest.mark.parametrize(("given", "told"), ALMOST)
-def test_what_is_almost_right(given, told):
-    key, fields = given
-    assert told in table(key, **fields)
-
-
-@pytest.mark.parametrize(
-    ("key", "told"),
-    [
-        ("mass", "did you mean 'm'?"),
-        ("I_com", "did you mean 'I_centre'?"),
-        ("I_cm", "did you mean 'I_centre'?"),
-        ("cm", "did you mean 'centre'?"),
-        ("IZZ", "a tensor of inertia is 'I' or 'I_centre'"),
-        ("I_xy", "a tensor of inertia is 'I' or 'I_centre'"),
-    ],
-)
-def test_a_moment_in_other_letters(key, told):
-    with pytest.raises(ProblemError) as caught:
-        Problem("b", "SO(3)", Table("body", given={key: 1}))
-    assert f"body, given: unknown key {key!r}; {told}" in str(caught.value)
-
-
-def test_a_hint_is_of_the_table_that_has_the_key():
-    for key, told in (("value", "; did you mean 'default'?"), ("direction", ""), ("com", "")):
-        assert f"unknown key {key!r}{told} (known: default" in refused(
-            "SO(3)", parameters={"k": {key: 1}}
-        )
-    assert "unknown key 'value' (known" in table("damping", coefficient=1, value=2)
-
-
 @pytest.mark.parametrize("where", [[Solid("sphere", 1, radius=1)], [Table("body", solid="sphere")]])
 def test_a_sphere_is_a_ball(where):
     with pytest.raises(ProblemError, match="did you mean 'ball'") as caught:
@@ -554,7 +276,7 @@ def test_a_sphere_is_a_ball(where):
 
 def test_without_points_a_place_is_asked_for_alone():
     spring = Table("potential", kind="spring", stiffness=1)
-    for force in (Force("f", on=1), Table("input", **FORCE), spring):
+    for force in (Force("f", on=1), Table("input", kind="force", name="f"), spring):
         with pytest.raises(ProblemError, match="'at'") as caught:
             Problem("b", "SE(3)", Moments(), [force])
         assert "'on' or" not in str(caught.value)
@@ -562,7 +284,8 @@ def test_without_points_a_place_is_asked_for_alone():
 
 def test_one_point_or_a_list_of_them():
     """The same wherever points are named."""
-    for key, fields in (("damping", {"coefficient": 1}), ("input", FORCE)):
+    force = {"kind": "force", "name": "f"}
+    for key, fields in (("damping", {"coefficient": 1}), ("input", force)):
         given = [Table(key, **fields, on=x) for x in (2, [2])]
         one, listed = (Problem("b", "SE(3)", Points(*PLACES), [x]) for x in given)
         assert data(one) == data(listed)

@@ -73,7 +73,7 @@ def keyed(key):
 def test_another_key_is_not_read(key):
     with pytest.raises(RecordError) as caught:
         from_json(changed(keyed(key)))
-    said = "step 27 (so3.kernel), equation 1: key 'key' must be so3.kernel.1"
+    said = "step 27 (so3.kernel), equation 1: key 'key' must be \"so3.kernel.1\""
     assert re.sub(r"step \d+", "step 27", str(caught.value)) == said
 
 

@@ -37,7 +37,6 @@ def test_a_step_alone(capsys):
     words = said(capsys, "top", "locked").out
     assert words.startswith("top.locked")
     assert "quadrature" not in words
-    assert "no step" in said(capsys, "top", "nothing", code=2).err
 
 
 @pytest.mark.parametrize("form", ["latex", "markdown", "html", "json"])
@@ -51,25 +50,6 @@ def test_a_record_is_checked(capsys, tmp_path):
     file = tmp_path / "top.json"
     said(capsys, "spherical_pendulum", "--format", "json", "--out", str(file))
     assert main(["check", str(file)]) == 0
-
-
-@pytest.mark.parametrize(
-    ("name", "why"),
-    [
-        ("jelly", "damping"),
-        ("linear", "any group"),
-        ("nothing", "unknown problem"),
-        ("screw", "up to dF"),
-        ("euler_poisson", "no element"),
-        ("sp4", "blocks"),
-    ],
-)
-def test_bad_input_is_one_line(capsys, name, why):
-    shown = said(capsys, name, code=2)
-    assert shown.out == ""
-    assert shown.err.count("\n") == 1
-    assert why in shown.err
-    assert name in shown.err
 
 
 def stated(L, group="SO(3)"):

@@ -35,7 +35,6 @@ def test_a_step_alone(capsys):
     words = said(capsys, "top", "momenta").out
     assert words.startswith("top.momenta")
     assert "symmetries" not in words
-    assert "no step" in said(capsys, "top", "nothing", code=2).err
 
 
 @pytest.mark.parametrize("form", ["latex", "markdown", "html", "json"])
@@ -49,16 +48,6 @@ def test_a_record_is_checked(capsys, tmp_path):
     file = tmp_path / "top.json"
     said(capsys, "top", "--format", "json", "--out", str(file))
     assert main(["check", str(file)]) == 0
-
-
-@pytest.mark.parametrize(
-    ("name", "why"), [("jelly", "damping"), ("linear", "any group"), ("nothing", "unknown problem")]
-)
-def test_bad_input_is_one_line(capsys, name, why):
-    shown = said(capsys, name, code=2)
-    assert shown.out == ""
-    assert shown.err.count("\n") == 1
-    assert why in shown.err
 
 
 def stated(basis, L="zeta_1^2/2"):

@@ -55,5 +55,3 @@ def test_the_command(capsys):
     out = capsys.readouterr().out
     assert "left.structure" in out
     assert "right.structure" in out
-    assert main(["walk", "gyrostat", "--trivialisation", "both", "--format", "json"]) == 2
-    assert "to be read" in capsys.readouterr().err

@@ -69,10 +69,6 @@ def test_without_tex_the_source_is_written(said, tmp_path, monkeypatch):
     assert "\\documentclass" in (tmp_path / "notes.pdf.tex").read_text(encoding="utf-8")
 
 
-def test_other_endings_are_refused(said, tmp_path):
-    assert ".tex, .pdf, .html" in said("notes", "so3", "--out", tmp_path / "x.doc", code=2).err
-
-
 def test_two_problems_of_one_name(said, tmp_path):
     """Their equations would have the same labels."""
     source = (READY / "top.toml").read_text(encoding="utf-8")
@@ -139,11 +135,6 @@ def test_every_symbol_goes_through_a_macro(said):
     assert not re.findall(raw, fragment)
     used = set(re.findall(r"\\([A-Za-z]+)", fragment))
     assert set(DEFINED) - {"Liealgebra"} <= used
-
-
-def test_choices_that_have_no_sense(said):
-    assert "--format latex" in said("walk", "so3", "--fragment", code=2).err
-    assert "latex and html" in said("walk", "so3", "--notation", "top", code=2).err
 
 
 def test_steps_of_time_refer_to_moser_and_veselov(said, tmp_path):

@@ -15,7 +15,6 @@ from derive.algebra.calculus import reduce
 from derive.algebra.words import word
 from derive.check.checker import checker_of
 from derive.check.fluid.flat_torus import Torus
-from derive.command.cli import main
 from derive.command.loading import load_problem
 from derive.language.show import show
 from derive.language.tree import names as names_in
@@ -314,24 +313,6 @@ def test_fields_with_a_divergence_break_what_rests_on_it(monkeypatch):
     assert {"skew", "divergence", "kernel", "divergence_along", "pressure_equation"} <= broken
     assert "structure" not in broken
     assert "chain" not in broken
-
-
-@pytest.mark.parametrize(
-    ("command", "words"),
-    [
-        ("emit ideal_fluid --lang c", "no numeric code; choose zeitlin"),
-        ("simulate ideal_fluid --t 1", "or dirichlet"),
-        ("symmetries ideal_fluid", "no matrices; choose zeitlin"),
-        ("integrals ideal_fluid", "no matrices; choose zeitlin"),
-        ("equilibria inhomogeneous_fluid", "no matrices; choose zeitlin"),
-        ("walk ideal_fluid --trivialisation both", "leave out --trivialisation"),
-    ],
-)
-def test_there_is_nothing_to_emit(command, words, capsys):
-    assert main(command.split()) == 2
-    said = capsys.readouterr().err
-    assert words in said
-    assert said.count("\n") == 1
 
 
 @pytest.mark.parametrize(
