@@ -70,7 +70,6 @@ KEPT = {
     "code/test_known_solutions.py::test_precession_is_the_integral_of_its_rate": 1,
     "code/test_known_solutions.py::test_steady_precession": 2,
     "code/test_languages.py::test_every_compiler_says_the_same": 6,
-    "code/test_matrix_state.py::test_a_lagrangian_of_ones_own": 1,
     "code/test_matrix_state.py::test_a_lagrangian_of_ones_own_equals_the_record": 1,
     "code/test_momenta.py::test_c_and_python_beside_the_derivatives_of_the_lagrangian": 0,
     "code/test_momenta_of_points.py::test_beside_sums_over_the_points": 6,
