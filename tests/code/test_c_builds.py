@@ -1,6 +1,7 @@
 """How the emitted C goes into a user's program: its sizes, its flags, and the order of its work."""
 
 import itertools
+import platform
 import re
 import shutil
 import subprocess
@@ -11,8 +12,9 @@ from derive import derive
 from derive.code.blocks import blocks, names
 from derive.code.languages import LANGUAGES
 from derive.code.options import Options
+from derive.command.cli import main
 from derive.pipeline import program
-from tests.support.needs import need
+from tests.support.needs import need, needs
 
 BARE = """
 name = "bare"
@@ -142,3 +144,35 @@ def test_rates_stand_early_and_loads_late():
     ]
     places = [body.index(x) for x in order]
     assert places == sorted(places)
+
+
+@needs("objdump")
+@pytest.mark.parametrize("compiler", ["gcc", "clang"])
+def test_batches_are_vectorised(compiler, tmp_path):
+    """gcc and clang use packed multiplications in the loop over states."""
+    need(compiler)
+    for name in ("so3", "se3", "sl3"):
+        derive(name).emit(tmp_path, ("c",))
+        source, out = tmp_path / f"{name}.c", tmp_path / "batch.o"
+        flags = ["-std=c99", "-O3", "-fno-math-errno", "-c", str(source), "-o", str(out)]
+        subprocess.run([compiler, *flags], check=True)
+        shown = subprocess.run(
+            ["objdump", "-d", f"--disassemble={name}_rhs_batch", str(out)],
+            check=True, capture_output=True, text=True,
+        ).stdout  # fmt: skip
+        packed, single = shown.count("mulpd"), shown.count("mulsd")
+        if platform.machine() == "x86_64":
+            assert packed > 50, (name, packed, single)
+
+
+@pytest.mark.parametrize("form", ["source", "header"])
+def test_the_names_are_those_of_the_files(form, tmp_path, capsys):
+    """In every language; with a prefix no problem is read, without one it has its own."""
+    chosen = [x for name in LANGUAGES for x in ("--lang", name)]
+    assert main(["emit", "none.toml", *chosen, "--prefix", "so3", "--form", form, "--names"]) == 0
+    names = capsys.readouterr().out.splitlines()
+    assert sorted(names) == sorted(derive("so3").emit(None, tuple(LANGUAGES), form=form))
+    assert main(["emit", "top", "--names"]) == 0
+    assert capsys.readouterr().out.splitlines() == ["top.h", "top.c", "top.py"]
+    assert main(["emit", "so3", "--lang", "rust", "--form", "header", "--names"]) == 2
+    assert "--form header is one of c" in capsys.readouterr().err

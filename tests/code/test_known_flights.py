@@ -1,9 +1,12 @@
 """Emitted code of solids and masses in flight and in orbit against motions in closed form."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from tests.oracles import free_top, kepler, relative_error, sampling
+import derive
+from tests.oracles import free_top, general, kepler, relative_error, sampling
 from tests.support.emitted import arrange, import_python
 from tests.support.flows import emitted, flow
 
@@ -156,3 +159,53 @@ def test_masses_on_a_spring(velocity, end):
     found = flow(code, code.constants([k]), expected[0], times)
     # 4e-15, and after ten swings 2e-13
     assert worst(found, expected, [9]) < 2e-12
+
+
+# ---------------------------------------------------------------- Exercise 2 in space
+
+READY = Path(derive.__file__).parent / "problems" / "saff3.toml"
+DOWN = np.array([0.0, 0.0, -9.81])
+CORNERS = np.vstack([np.eye(3), np.zeros(3)])
+
+
+def in_space(centre):
+    """saff3, its tetrahedron moved so that ``centre`` (3,) is its centre of mass."""
+    text = READY.read_text(encoding="utf-8")
+    for row in CORNERS:
+        at = [*map(float, row - CORNERS.mean(axis=0) + centre)]
+        text = text.replace(f"at = {[*map(int, row)]}", f"at = {at}")
+    return emitted(text)
+
+
+@pytest.mark.parametrize("where", [(0, 0, 0), (0.25, 0.25, 0.25), (-0.5, 2.0, 1.0)], ids=str)
+def test_the_centre_of_mass_separates(where):
+    """A moves as under SL(3) for the body about its centre of mass, which falls on a parabola."""
+    s, linear = np.array(where), import_python("sl3")
+    whole = in_space(s)
+    m, stiffness, times = 0.7, 1.9, np.linspace(0, 4, 9)
+    springs = np.diag([stiffness] * 3, 1) + np.diag([stiffness] * 3, -1)
+    body = sampling.Body(np.full(4, m), CORNERS - CORNERS.mean(axis=0), np.zeros(3), springs)
+    x = sampling.random_state("sl3", np.random.default_rng(6))
+    A, Z = sampling.split("sl3", x)
+    q, v = np.array([1.0, -2.0, 3.0]), np.array([0.3, 0.2, 5.0])
+    w = np.linalg.solve(A, v) - Z @ s
+    start = np.concatenate([x[:9], q - A @ s, x[9:], w])
+    p = arrange(linear, sampling.parameters("sl3", body))
+    expected = flow(linear, linear.constants(p), x, times)
+    found = flow(whole, whole.constants({"m": m, "k": stiffness, "g": 9.81}), start, times)
+    parts = np.split(found, [9, 12, 20], axis=1)
+    A, Z = parts[0].reshape(-1, 3, 3), np.tensordot(parts[2], linear.BASIS, 1)
+    centre = parts[1] + A @ s, np.einsum("tij,tj->ti", A, parts[3] + Z @ s)
+    # 1e-13 is found for velocities, 4e-14 otherwise
+    assert relative_error(parts[0], expected[:, :9]) < 1e-12
+    assert relative_error(parts[2], expected[:, 9:]) < 1e-12
+    t = times[:, None]
+    assert relative_error(centre[0], q + t * v + t**2 / 2 * DOWN) < 1e-12
+    assert relative_error(centre[1], v + t * DOWN) < 1e-12
+
+
+def test_the_tetrahedron_is_that_of_the_ready_made_problem():
+    code, same = emitted("saff3"), in_space(CORNERS.mean(axis=0))
+    x = general.random_state({"group": "SAff(3)"}, code.BASIS, np.random.default_rng(8))
+    dx = (each.rhs(0.0, x, each.constants({})) for each in (code, same))
+    np.testing.assert_array_equal(*dx)

@@ -1,7 +1,5 @@
 """to_matrix and from_matrix: a state with a quaternion, and the same with its matrix."""
 
-import json
-import subprocess
 from itertools import product
 
 import numpy as np
@@ -12,9 +10,10 @@ from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
 from tests.oracles.sampling import quaternion
 from tests.support.emitted import import_python
-from tests.support.needs import need
+from tests.support.library import library
 
 AXES = [v for v in product((-1.0, 0.0, 1.0), repeat=3) if any(v)]
+CARRIED = ("from_matrix", "to_matrix")
 ANGLES = (0.0, 1e-9, 0.1, 1.0, 2.0, 3.0, np.pi - 1e-7, np.pi)
 
 
@@ -95,38 +94,16 @@ def test_python_does_as_c_also_with_many(states, compiled, tmp_path):
         m.from_matrix(many)
 
 
-def test_javascript_does_as_c(states, compiled, tmp_path):
-    need("node")
-    derive.derive("se3").emit(tmp_path, ("javascript",), attitude="quaternion")
-    script = 'import * as m from "./se3.mjs";\nconst states = ' + json.dumps(states.tolist())
-    script += """;
-    const there = states.map((z) => [...m.from_matrix(z)]);
-    console.log(JSON.stringify([m.MATRIX_STATE, there, there.map((x) => [...m.to_matrix(x)])]));
-    """
-    (tmp_path / "main.mjs").write_text(script)
-    done = subprocess.run(["node", "main.mjs"], cwd=tmp_path, capture_output=True, text=True)
-    names, there, back = json.loads(done.stdout)
-    assert tuple(names) == derive.compile("se3").STATE
-    assert np.abs(np.array(back) - states).max() < 2e-15
-    in_c = np.array([compiled.from_matrix(z) for z in states])
-    assert np.abs(np.abs(there) - np.abs(in_c)).max() < 1e-15
-
-
-@pytest.mark.parametrize("name", ["so3", "se3"])
-def test_the_motion_by_a_quaternion_is_that_by_matrices(name):
-    """From one state with a matrix, to the same one."""
-    plain = derive.compile(name, step="gauss")
-    turned = derive.compile(name, step="gauss", attitude="quaternion")
-    rng = np.random.default_rng(3)
-    for A in (np.eye(3), np.diag([1.0, -1, -1]), rotation([1, 2, -1], 2.5)):
-        z = np.array([*A.ravel(), *rng.normal(size=len(plain.STATE) - 9)])
-        rates = plain.rhs(0.0, z)
-        x = turned.from_matrix(z)
-        assert np.abs(turned.rhs(0.0, x)[4:] - rates[9:]).max() < 1e-13 * np.abs(rates).max()
-        there = plain.begin(z).move_to(2.0, tol=1e-14).x
-        found = turned.to_matrix(turned.begin(x).move_to(2.0, tol=1e-14).x)
-        assert np.abs(there - z).max() > 0.1
-        assert np.abs(found - there).max() < 1e-12 * max(1.0, np.abs(there).max())
+@pytest.mark.parametrize("build", ["javascript", "rust2021", "g++17"])
+def test_other_languages_do_as_c(build, states, compiled):
+    made = library(build, "se3", attitude="quaternion")
+    there, back = (next(x for x in made.calls if x.name == y) for y in CARRIED)
+    for z in states[::5]:
+        values = {"t": 0.0, "z": z, **dict.fromkeys("pkxyu", np.zeros(18))}
+        (x,) = made.shown(there, values, False)
+        assert np.abs(np.abs(x) - np.abs(compiled.from_matrix(z))).max() < 1e-15
+        (found,) = made.shown(back, values | {"x": x}, False)
+        assert np.abs(found - z).max() < 2e-15
 
 
 def test_without_a_quaternion_there_are_none():
@@ -151,25 +128,6 @@ STATED = {
     "operator": ("SE(3)", derive.Inertia((OPERATOR + OPERATOR.T) / 2)),
     "basis": (derive.Group("Own", MIXED, "affine"), derive.Lagrangian(f"{L} - T_3 - A_33*T_1")),
 }
-
-
-@pytest.mark.parametrize("name", STATED)
-def test_a_lagrangian_of_ones_own(name, tmp_path):
-    """In a quaternion it has the motion that it has in matrices, and equals the record."""
-    group, lagrangian = STATED[name]
-    problem = derive.Problem("own", group, lagrangian, [derive.Covector("u")])
-    record = derive.derive(problem)
-    plain = derive.compile(record, step="gauss")
-    turned = derive.compile(record, step="gauss", attitude="quaternion")
-    rng = np.random.default_rng(5)
-    x = np.concatenate([quaternion(rotation([1, 2, 3], 1.0)), rng.normal(size=9)])
-    ends = []
-    for f, at in ((plain, turned.to_matrix(x)), (turned, x)):
-        f.u = 0.1 * np.arange(6)
-        ends.append(f.begin(at).move_to(2.0, 1e-12).x)
-    assert len(turned.STATE) == 13
-    assert np.abs(turned.to_matrix(ends[1]) - ends[0]).max() < 1e-11
-    assert np.abs(turned.to_matrix(ends[1]) - turned.to_matrix(x)).max() > 0.1
 
 
 @pytest.mark.parametrize("name", STATED)

@@ -12,16 +12,12 @@ from scipy.integrate import solve_ivp
 import derive
 from derive.code.assemble import assemble
 from derive.code.emit import emit
-from derive.code.languages import LANGUAGES
 from derive.code.options import Options
 from derive.command.cli import main
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from tests.oracles.euler_lagrange import acceleration
 from tests.support.emitted import import_python
-from tests.support.languages import command, known
-from tests.support.needs import need
-from tests.support.read_julia import REALS, Module, Numbers
 
 SQUARE = "zeta_1^2 + zeta_2^2 + zeta_3^2"
 CASES = {  # group, side, ℓ; the last three are found by Newton's method
@@ -162,100 +158,6 @@ def test_momenta_that_no_velocity_has():
         for function in (f.velocity, f.momentum_rhs):
             with pytest.raises(ArithmeticError, match="no velocity"):
                 function(0.0, y)
-
-
-# -- every language ------------------------------------------------------------------------------
-
-
-NODE = """\
-import * as m from "./test.mjs";
-const y = [1, 0, 0, 1, 0.7], k = m.constants([]);
-let refused = 0;
-try { m.velocity(0, [1, 0, 0, 1, NaN], k); } catch (e) { refused += e instanceof RangeError; }
-console.log(...m.velocity(0, y, k), ...m.momentum_rhs(0, y, k, [0.3]), refused);
-"""
-RUST = """\
-mod test;
-fn main() {
-    let (mut x, mut dy, k) = ([0.0; 5], [0.0; 5], test::constants(&[]).unwrap());
-    let y = [1.0, 0.0, 0.0, 1.0, 0.7];
-    test::velocity(0.0, &y, &k, &mut x).unwrap();
-    test::momentum_rhs(0.0, &y, &k, &[0.3], &mut dy).unwrap();
-    x.iter().chain(&dy).for_each(|v| print!("{v:e} "));
-    let none = test::velocity(0.0, &[1.0, 0.0, 0.0, 1.0, f64::NAN], &k, &mut x);
-    println!("{}", u8::from(none == Err(test::NotConverged)));
-}
-"""
-CPP = """\
-#include "test.hpp"
-#include <cmath>
-#include <cstdio>
-int main()
-{
-    namespace m = derive::test;
-    const auto k = m::constants({}).value();
-    const m::State y{1, 0, 0, 1, 0.7}, bad{1, 0, 0, 1, std::nan("")};
-    const auto x = m::velocity(0, y, k).value(), dy = m::momentum_rhs(0, y, k, {0.3}).value();
-    for (const double v : x) std::printf("%.17g ", v);
-    for (const double v : dy) std::printf("%.17g ", v);
-    std::printf("%d", !m::velocity(0, bad, k) && !m::momentum_rhs(0, bad, k));
-}
-"""
-
-
-def in_julia(source, real):
-    m, number = Module(source), REALS[LANGUAGES["julia"].reals[real]]
-    y, bad, u = (
-        Numbers(len(v), values=map(number, v))
-        for v in ([1, 0, 0, 1, 0.7], [1, 0, 0, 1, np.nan], [0.3])
-    )
-    k, x, dy = m.call("constants", Numbers(0)), Numbers(5), Numbers(5)
-    assert m.call("velocity!", x, y, k, number(0)) is True
-    assert m.call("momentum_rhs!", dy, y, k, number(0), u=u) is True
-    none = m.call("velocity!", Numbers(5), bad, k, number(0)) is False
-    return " ".join(map(str, map(float, [*x, *dy, none])))
-
-
-STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
-
-
-@pytest.mark.parametrize("language", ["javascript", "rust", "julia", "cpp", "cpp in one header"])
-@pytest.mark.parametrize("real", ["double", "float"])
-def test_newton_in_every_language(language, real, tmp_path):
-    """Π = sinh ζ, which asinh turns round."""
-    p = typed("hyperbolic")
-    d, form = walk(p), "header" if "header" in language else "source"
-    chosen = Options(real=real, form=form, momenta=True)
-    files = emit(assemble(d, p.group, chosen), d, ("c", language.split()[0]), "test", chosen)
-    for name, text in files.items():
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    if language == "javascript":
-        known("node", ["node"])
-        (tmp_path / "main.mjs").write_text(NODE)
-        out = command("node", "main.mjs", cwd=tmp_path)
-    elif language == "julia":
-        out = in_julia((tmp_path / "test.jl").read_text(encoding="utf-8"), real)
-    elif language == "rust":
-        known("rust2021", ["rustc"])
-        name = "f64" if real == "double" else "f32"
-        (tmp_path / "main.rs").write_text(RUST.replace("f64", name))
-        command("rustc", "--edition=2021", "-Dwarnings", "-omain", "main.rs", cwd=tmp_path)
-        out = command("./main", cwd=tmp_path)
-    else:
-        known("g++17", ["g++"])
-        (tmp_path / "main.cpp").write_text(CPP)
-        own = [] if form == "header" else ["test.o"]
-        if own:
-            need("cc")
-            command("cc", "-std=c99", *STRICT, "-c", "test.c", cwd=tmp_path)
-        if real == "float":
-            (tmp_path / "main.cpp").write_text(CPP.replace("0.7", "0.7f").replace("0.3", "0.3f"))
-        command("g++", "-std=c++17", *STRICT, "main.cpp", *own, "-omain", cwd=tmp_path)
-        out = command("./main", cwd=tmp_path)
-    found = [*map(float, out.split())]
-    zeta = np.arcsinh(0.7)
-    expected = [1, 0, 0, 1, zeta, 0, -zeta, zeta, 0, 0.3, 1]
-    assert np.abs(np.array(found) - expected).max() < (1e-14 if real == "double" else 1e-6)
 
 
 # -- held against the record, and refused ---------------------------------------------------------

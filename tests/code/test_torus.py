@@ -14,8 +14,7 @@ from derive.pipeline import program, walk
 from derive.problem.toml import problem_of
 from tests.oracles import torus
 from tests.support.emitted import compile_c, import_python
-from tests.support.languages import BUILDS, OTHERS, REFERENCE, Emitted, agree
-from tests.support.motions import LANGUAGES, follow
+from tests.support.library import ONE_BUILD, STEPPED, library
 from tests.support.needs import CC, need
 
 FILE = """
@@ -41,7 +40,7 @@ def folder(tmp_path_factory):
 
 
 def emitted(N, folder, **options):
-    derive(fluid(N)).emit(folder, REFERENCE, **{"conserved": True, **options})
+    derive(fluid(N)).emit(folder, ("c", "python"), **{"conserved": True, **options})
     return import_python(f"fluid{N}", folder), compile_c(CC, f"fluid{N}", folder, folder)
 
 
@@ -94,16 +93,6 @@ def test_energy_and_traces_are_kept(N, folder):
         assert np.abs(kept(0.0, last, k) - kept(0.0, x, k)).max() < 1e-9
 
 
-@pytest.mark.parametrize("build", BUILDS)
-def test_every_language_says_the_same(build, tmp_path):
-    need("cc")
-    others = tuple(x for x in OTHERS if x != "julia")
-    chosen = [Emitted("fluid9", fluid(9), tmp_path, (*REFERENCE, *others), {"conserved": True})]
-    if build == "julia":  # whose reader knows no loops
-        chosen = [Emitted("fluid5", fluid(5), tmp_path, (*REFERENCE, "julia"), {})]
-    agree(build, tmp_path, chosen, tolerance=1e-13)
-
-
 def test_one_header_and_a_prefix(tmp_path):
     need("cc")
     derive(fluid(9)).emit(tmp_path, ("c",), "flow", form="header")
@@ -147,17 +136,16 @@ def test_written_out_up_to_five():
     assert tables.names == {"conserved"}
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_the_vorticity_is_measured_as_one(language, tmp_path):
+@pytest.mark.parametrize("build", [ONE_BUILD[x] for x in STEPPED])
+def test_the_vorticity_is_measured_as_one(build):
     """Of a smooth flow, whose least modes are nothing but rounding, a tolerance is kept by steps
     that its order makes, not by those that rounding would."""
     N, T = 11, 1.0
     rng = np.random.default_rng(5)
     squares = np.array([a * a + b * b for a, b in torus.half_plane(N)]).repeat(2)
     x = np.exp(-2 * squares) * rng.normal(size=N * N - 1)
-    derive(fluid(N)).emit(tmp_path, (language,), step=("vern9",))
     commands = [("vern9_to", T, 1e-9), ("begin", 0, 0), ("vern9_to", T, 1e-12)]
-    coarse, _, fine = follow(language, tmp_path, f"fluid{N}", commands, x)
+    coarse, _, fine = library(build, fluid(N), step="vern9").follow(commands, x)
     path = solve_ivp(lambda t, y: torus.rates(N, y), (0, T), x, "DOP853", rtol=1e-13, atol=1e-15)
     for end, tol in ((coarse, 1e-9), (fine, 1e-12)):
         assert end.status == 0

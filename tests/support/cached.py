@@ -40,6 +40,11 @@ def write(path: Path, made: object) -> None:
     unfinished.replace(path)
 
 
+def read(path: Path) -> object:
+    """What was written."""
+    return pickle.loads(path.read_bytes())
+
+
 def on_disk(make: Callable) -> Callable:
     """A function of names whose results are plain data: those of its file, of these sources."""
     own = sha256(Path(make.__code__.co_filename).read_bytes()).hexdigest()
@@ -50,7 +55,7 @@ def on_disk(make: Callable) -> Callable:
         path = place(own, make.__qualname__, *names)
         if not path.is_file():
             write(path, make(*names))
-        return pickle.loads(path.read_bytes())
+        return read(path)
 
     return found
 
@@ -60,7 +65,7 @@ class DictOnDisk(dict):
 
     def get(self, key, default=None):
         if key not in self and (path := place("entry", key)).is_file():
-            super().__setitem__(key, pickle.loads(path.read_bytes()))
+            super().__setitem__(key, read(path))
         return super().get(key, default)
 
     def __setitem__(self, key, value):

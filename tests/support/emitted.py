@@ -1,4 +1,4 @@
-"""Load emitted code: compile NAME.c and call it, import NAME.py, integrate, refine the step."""
+"""Load emitted code: compile NAME.c and call it, import NAME.py."""
 
 import ctypes
 import importlib.util
@@ -144,25 +144,6 @@ def import_python(name, source=None):
 def arrange(module, values):
     """The parameters, named in ``values``, in the order that the module states."""
     return np.array([values[key] for key in module.PARAMETERS], float)
-
-
-def rk4(field, x, duration, steps):
-    """States (steps + 1, N) of the classical Runge-Kutta method for dx/dt = field(t, x)."""
-    h, states = duration / steps, [np.asarray(x, float)]
-    for i in range(steps):
-        t, y = i * h, states[-1]
-        k1 = field(t, y)
-        k2 = field(t + h / 2, y + h / 2 * k1)
-        k3 = field(t + h / 2, y + h / 2 * k2)
-        k4 = field(t + h, y + h * k3)
-        states.append(y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4))
-    return np.array(states)
-
-
-def observed_order(error, steps):
-    """log2 of error(steps) / error(2 steps), and both errors."""
-    coarse, fine = error(steps), error(2 * steps)
-    return np.log2(coarse / fine), coarse, fine
 
 
 def some_body(names, seed=1):

@@ -3,7 +3,7 @@
 import tomllib
 from typing import Any, NamedTuple
 
-from tests.code.test_frame import FREE, pushed_data
+from tests.code.test_forms import FREE, pushed_data
 from tests.oracles import solids
 from tests.problem.test_bad_problems import FILES, SINGULAR
 from tests.problems import PROBLEMS, READY

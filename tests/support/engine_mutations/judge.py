@@ -19,10 +19,10 @@ from derive.language.tree import mul
 from derive.record.contract import ANY_GROUP
 from derive.record.json_reader import from_json
 from derive.record.record import Derivation, RecordError, Step
-from tests.code.test_frame import loose
 from tests.oracles import general, relative_error
 from tests.support.engine_mutations.engine import SEED, Output, produce, read_back
 from tests.support.engine_mutations.jobs import JOBS, Job
+from tests.support.states import loose
 from tests.walk.test_general_oracle import algebra
 
 STATES, CLOSE = 3, 1e-8

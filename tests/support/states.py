@@ -1,0 +1,80 @@
+"""States of emitted code of any group: parameters, an element of the group, velocities, inputs."""
+
+import numpy as np
+
+from tests.support.emitted import some_body
+
+
+def drawn(module, seed=1):
+    """Parameters, a group element near 1 as names → numbers, ζ (and w), inputs."""
+    rng = np.random.default_rng(seed)
+    own = some_body(module.PARAMETERS, seed)
+    p = np.array(
+        [own.get(x, module.DEFAULTS.get(x)) or rng.uniform(0.5, 1.5) for x in module.PARAMETERS]
+    )
+    x = dict(zip(module.STATE, rng.normal(size=len(module.STATE)), strict=True))
+    return p, x, rng.normal(size=len(module.INPUTS)), rng
+
+
+def element(module, rng):
+    """A matrix of the group with the body's matrices: a product of exponentials of the basis."""
+    g = np.eye(len(module.BASIS[0]))
+    for e in module.BASIS:
+        z = rng.normal() / 2 * e
+        power, term = np.eye(len(z)), np.eye(len(z))
+        for k in range(1, 30):
+            term = term @ z / k
+            power = power + term
+        g = g @ power
+    return g
+
+
+def element_names(module):
+    """The names of the group element in the state, with their places in the matrix."""
+    size, places = len(module.BASIS[0]), {}
+    marks = sorted({x[1:].split("_")[0] for x in module.STATE if x[0] in "AT"})
+    offset = 0
+    for mark in marks:
+        rows = max(int(x[-1]) for x in module.STATE if x.startswith(f"A{mark}_"))
+        for name in module.STATE:
+            if name.startswith(f"A{mark}_"):
+                places[name] = (offset + int(name[-2]) - 1, offset + int(name[-1]) - 1)
+            elif name.startswith(f"T{mark}_"):
+                places[name] = (offset + int(name[-1]) - 1, offset + rows)
+        offset += rows + any(x.startswith(f"T{mark}_") for x in module.STATE)
+    assert offset == size
+    return places
+
+
+def state(module, seed=1):
+    """p, x, u, the matrix g and the coordinates of Z."""
+    p, x, u, rng = drawn(module, seed)
+    g = element(module, rng)
+    x |= {name: g[place] for name, place in element_names(module).items()}
+    zeta = np.array([x[name] for name in module.STATE[-len(module.BASIS) :]])
+    return p, np.array([x[name] for name in module.STATE]), u, g, zeta
+
+
+def hat(module, coordinates):
+    return np.einsum("a,aij->ij", coordinates, module.BASIS)
+
+
+def loose(module, seed):
+    """Any state: the equations are polynomial in what its relations would bind."""
+    rng = np.random.default_rng(seed)
+    p = drawn(module, seed)[0]
+    x = rng.normal(size=len(module.STATE))
+    if "q_0" in module.STATE:
+        x[:4] /= np.linalg.norm(x[:4])
+    else:
+        row = next(x for x in module.STATE if x.startswith("A_1"))
+        places = [module.STATE.index(row[:2] + f"{i}{j}") for i in "123" for j in "123"]
+        a = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        x[places] = (a * np.linalg.det(a)).ravel()
+        if module.STATE[-1].endswith("_dot"):
+            z = rng.normal(size=(3, 3))
+            z = z - z.T
+            x[[module.STATE.index(module.STATE[i] + "_dot") for i in places]] = (
+                a * np.linalg.det(a) @ z
+            ).ravel()
+    return p, x, rng.normal(size=len(module.INPUTS))
