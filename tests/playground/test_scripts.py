@@ -83,52 +83,6 @@ def test_a_check_ends_where_it_is_silent(verdicts, end, told, how, clocks):
     assert found == {"told": told, "how": how, "heard": len(verdicts), "clocks": clocks}
 
 
-# ---- what is completed
-
-COMPLETED = """
-import { CompletionContext } from "@codemirror/autocomplete";
-import { EditorState } from "@codemirror/state";
-import { completions } from "./src/completion.js";
-const offered = (doc) => completions(given.schema)(
-    new CompletionContext(EditorState.create({ doc }), doc.length, true));
-"""
-OFFERED = {
-    'group = "SO(3)"\n[initial]\n': {"zeta_1", "zeta_3", "exp"},
-    'group = "SE(3)"\n[initial]\n': {"zeta_3", "w_1", "w_3", "exp"},
-    'group = "SE(3)"\n[lagrangian]\nL = "1"\n[initial]\n': {"zeta_6"},
-    "[group]\n": {"name", "action", "basis"},
-    "[algebra]\n": {"of", "basis", "brackets", "dimension"},
-    "[inertia]\n": {"operator", "momentum", "U"},
-    "[lagrangian]\n": {"L", "trivialisation"},
-    "[fluid]\n": {"density", "forces"},
-    "[[advected]]\n": {"name", "representation"},
-    "[[event]]\n": {"when", "terminal"},
-    "[[damping]]\n": {"coefficient", "on"},
-    '[[potential]]\nkind = "spring"\nsti': {"stiffness"},
-    '[[input]]\nkind = "force"\n': {"frame", "on"},
-    "group = ": {"SO(2)", "SO(3)", "SO(8)", "Sp(4)", "U(4)"},
-    '[[input]]\nkind = "': {"covector", "force"},
-    '[[event]]\ndirection = "': {"rising", "falling", "both"},
-    "[bo": {"body"},
-    "[[poi": {"point"},
-}
-"""Text → some of what is offered at its end."""
-NEVER = {"[bo": {"point"}, "[[poi": {"body"}, "group = ": {"linear"}}
-
-
-def test_what_may_stand_there_is_offered():
-    need("npm")
-    built()
-    found = in_node.told(
-        COMPLETED,
-        "given.texts.map((x) => offered(x)?.options.map((y) => y.label) ?? [])",
-        {"schema": schema(), "texts": [*OFFERED]},
-    )
-    for (text, expected), labels in zip(OFFERED.items(), found, strict=True):
-        assert expected <= {*labels}, text
-        assert not ({"Sp(3)", "U(5)", "on = "} | NEVER.get(text, set())) & {*labels}, text
-
-
 # ---- numbers, names and words
 
 
@@ -247,3 +201,49 @@ def test_the_notebook_runs(book, tmp_path):
     assert "every step holds" in shown["check"]
     assert "run of so3" in shown["motion"]
     assert "so3.c" in shown["code"]
+
+
+# ---- what is completed
+
+COMPLETED = """
+import { CompletionContext } from "@codemirror/autocomplete";
+import { EditorState } from "@codemirror/state";
+import { completions } from "./src/completion.js";
+const offered = (doc) => completions(given.schema)(
+    new CompletionContext(EditorState.create({ doc }), doc.length, true));
+"""
+OFFERED = {
+    'group = "SO(3)"\n[initial]\n': {"zeta_1", "zeta_3", "exp"},
+    'group = "SE(3)"\n[initial]\n': {"zeta_3", "w_1", "w_3", "exp"},
+    'group = "SE(3)"\n[lagrangian]\nL = "1"\n[initial]\n': {"zeta_6"},
+    "[group]\n": {"name", "action", "basis"},
+    "[algebra]\n": {"of", "basis", "brackets", "dimension"},
+    "[inertia]\n": {"operator", "momentum", "U"},
+    "[lagrangian]\n": {"L", "trivialisation"},
+    "[fluid]\n": {"density", "forces"},
+    "[[advected]]\n": {"name", "representation"},
+    "[[event]]\n": {"when", "terminal"},
+    "[[damping]]\n": {"coefficient", "on"},
+    '[[potential]]\nkind = "spring"\nsti': {"stiffness"},
+    '[[input]]\nkind = "force"\n': {"frame", "on"},
+    "group = ": {"SO(2)", "SO(3)", "SO(8)", "Sp(4)", "U(4)"},
+    '[[input]]\nkind = "': {"covector", "force"},
+    '[[event]]\ndirection = "': {"rising", "falling", "both"},
+    "[bo": {"body"},
+    "[[poi": {"point"},
+}
+"""Text → some of what is offered at its end."""
+NEVER = {"[bo": {"point"}, "[[poi": {"body"}, "group = ": {"linear"}}
+
+
+def test_what_may_stand_there_is_offered():
+    need("npm")
+    built()
+    found = in_node.told(
+        COMPLETED,
+        "given.texts.map((x) => offered(x)?.options.map((y) => y.label) ?? [])",
+        {"schema": schema(), "texts": [*OFFERED]},
+    )
+    for (text, expected), labels in zip(OFFERED.items(), found, strict=True):
+        assert expected <= {*labels}, text
+        assert not ({"Sp(3)", "U(5)", "on = "} | NEVER.get(text, set())) & {*labels}, text
