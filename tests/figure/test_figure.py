@@ -225,6 +225,7 @@ def test_a_ball_is_a_circle_half_of_whose_equator_is_hidden() -> None:
     radii = [math.dist(p, (x, y)) for p in contour.points]
     assert max(radii) == pytest.approx(min(radii), rel=1e-6)
     assert inked(drawn, "hidden") == pytest.approx(inked(drawn, "thin"), rel=0.1)
+    assert inked(drawn, "hidden", "axis") > 0  # within the ball
 
 
 def test_what_is_behind_is_hidden() -> None:

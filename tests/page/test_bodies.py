@@ -127,13 +127,13 @@ def test_what_leaves_a_trail(name, traced):
 
 PAINTED = """
     {drawing}
-    for (const {{ towards, right, up, solid }} of {views}) {{
+    for (const {{ towards, right, up, solids }} of {views}) {{
         const eye = {{ look() {{}}, right, up, towards }}, painted = [];
         const pen = new Proxy({{}}, {{ get: () => () => {{}}, set: () => true }});
         const path = (list) => painted.push(list);
         const view = {{ width: 400, height: 400, pen, path, stroke() {{}} }};
         const pic = picture({{ colours: {{}} }}, view, eye, [0, 0, 0], 100);
-        const part = {{ points: [], anchors: [], attractions: [], solids: [solid] }};
+        const part = {{ points: [], anchors: [], attractions: [], solids }};
         const page = {{ module: {{ PARAMETERS: [] }}, body: {{ parts: [part] }} }};
         const [{{ faces }}] = built({{ p: [], page }}, [], {{ {shape} }}).parts;
         for (const f of faces) pic.face(f.v, Array(33).fill("grey"), f.clear, f.inside);
@@ -159,13 +159,17 @@ def nearness(face, places):
 
 
 def looked_at(shape, random):
-    """A shape from somewhere: one and its mirror image, twice."""
+    """A shape from somewhere, and another one well behind it: one and its mirror image, twice."""
     for turn in range(4):
         right, up, towards = np.linalg.qr(random.normal(size=(3, 3)))[0].tolist()
         columns = random.normal(size=(3, 3)) + 2 * np.eye(3)
         columns[0] *= (-1) ** turn
-        solid = {"shape": shape, "columns": columns.tolist(), "shift": [0.2, -0.1, 0.3]}
-        yield {"right": right, "up": up, "towards": towards, "solid": solid}
+        near = np.array([0.2, -0.1, 0.3])
+        solids = [
+            {"shape": shape, "columns": columns.tolist(), "shift": shift.tolist()}
+            for shift in (near, near - 12 * np.array(towards))
+        ]
+        yield {"right": right, "up": up, "towards": towards, "solids": solids}
 
 
 @pytest.mark.parametrize("shape", ["ball", "cylinder", "cone", "box", "tetrahedron"])

@@ -150,7 +150,7 @@ def test_other_bodies(fresh, site):
     chosen(fresh, "sim3")
     frame = moving(fresh)
     assert "pushed" in note.inner_text()
-    _, after = into_the_text(fresh, frame, zeta_1="1.5", theta_2="-0.25")
+    _, after = into_the_text(fresh, frame, theta_2="-0.25")  # with the velocity of the push
     assert after["initial"]["exp"] == [0, -0.25, 0, 0, 0, 0, 0]
     chosen(fresh, "so3")
     _, after = into_the_text(fresh, moving(fresh), u_2="0,5")
