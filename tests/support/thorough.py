@@ -127,7 +127,6 @@ KEPT = {
     "command/test_without_arrays.py::test_symmetries_are_the_same": 1,
     "command/test_without_arrays.py::test_walks_are_the_same": 1,
     "equilibria/test_stability.py::test_every_step_is_checked": 1,
-    "figure/test_figure.py::test_a_figure": 19,
     "integrals/test_conditions.py::test_a_grid_has_no_others": 1,
     "integrals/test_motions.py::test_along_a_motion": 2,
     "integrals/test_told.py::test_a_false_casimir_and_a_false_level_are_refused": 0,
