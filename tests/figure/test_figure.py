@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import subprocess
 import tomllib
 from dataclasses import replace
 from functools import cache
@@ -20,11 +19,12 @@ from derive.figure.figure import svg, tikz
 from derive.figure.placing import overlap
 from derive.figure.scene import WIDTH, scene
 from derive.pipeline import walk
-from derive.problem.toml import load, problem_of
+from derive.problem.toml import problem_of
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.record import Derivation
-from tests.support.needs import need
+from tests.support.tex import compiled
+from tests.support.walks import record as ready_made_record
 
 PROBLEMS = sorted((Path(__file__).parents[2] / "derive" / "problems").glob("*.toml"))
 GENERAL = ("affine", "linear")
@@ -88,7 +88,7 @@ def record(name: str) -> Derivation:
         text = re.sub(r"\n\s+", " ", OWN[name]) if name != "swarm" else OWN[name]
         keys = r" (?=(?:group|solid|point|potential|input|body|parameters) = )"
         return walk(problem_of(tomllib.loads(f'name = "{name}"\n' + re.sub(keys, "\n", text))))
-    return walk(load(PROBLEMS[0].parent / f"{name}.toml"))
+    return ready_made_record(name)
 
 
 @cache
@@ -105,15 +105,10 @@ def changed(name: str, **problem: Any) -> Scene:
     return found
 
 
-def compiled(source: str, folder: Path) -> str:
-    """The log of pdflatex, of a document with nothing but TikZ."""
-    need("pdflatex")
+def alone(source: str) -> str:
+    """A document with nothing but TikZ."""
     head = "\\documentclass{article}\n\\usepackage{tikz}\n\\begin{document}\n"
-    (folder / "figure.tex").write_text(f"{head}{source}\n\\end{{document}}\n", encoding="utf-8")
-    command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "figure.tex"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, timeout=300, check=False)
-    assert done.returncode == 0, done.stdout.decode(errors="replace")[-2000:]
-    return (folder / "figure.log").read_text(errors="replace")
+    return f"{head}{source}\n\\end{{document}}\n"
 
 
 @pytest.mark.parametrize("name", [*GENERAL, *STATED])
@@ -122,8 +117,11 @@ def test_a_text_without_a_body_has_no_figure(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_svg_is_well_formed_and_alone(name: str) -> None:
-    root = ElementTree.fromstring(svg(figure(name)))
+def test_a_figure(name: str) -> None:
+    """It is well-formed and alone; all is in its frame, and labels are apart; it is a function of
+    the record."""
+    drawn, shown = figure(name), svg(figure(name))
+    root = ElementTree.fromstring(shown)
     assert root.tag.endswith("}svg")
     assert root.get("role") == "img"
     assert root[0].tag.endswith("}title")
@@ -131,12 +129,8 @@ def test_svg_is_well_formed_and_alone(name: str) -> None:
     tags = {element.tag.split("}")[1] for element in root.iter()}
     assert tags <= {"svg", "title", "g", "path", "circle", "text", "tspan"}
     assert not any("id" in element.attrib or "href" in element.attrib for element in root.iter())
-    assert "nan" not in svg(figure(name))
-
-
-@pytest.mark.parametrize("name", ALL)
-def test_everything_is_in_the_frame(name: str) -> None:
-    drawn = figure(name)
+    assert "nan" not in shown
+    # in the frame
     assert drawn.width >= WIDTH
     corners = [p for s in drawn.strokes for p in s.points]
     corners += [c for label in drawn.labels for c in (label.box[:2], label.box[2:])]
@@ -144,31 +138,22 @@ def test_everything_is_in_the_frame(name: str) -> None:
         (d.at[0] + s * d.radius, d.at[1] + s * d.radius) for d in drawn.dots for s in (1, -1)
     ]
     assert all(0 < x < drawn.width and 0 < y < drawn.height for x, y in corners)
-
-
-@pytest.mark.parametrize("name", ALL)
-def test_labels_are_apart(name: str) -> None:
-    labels = figure(name).labels
-    for a, b in combinations(labels, 2):
+    # labels apart
+    for a, b in combinations(drawn.labels, 2):
         assert not overlap(a.box, b.box), (a.latex, b.latex)
-    for label in labels:
-        for dot in figure(name).dots:
-            x, y = dot.at
-            assert not overlap(label.box, (x, y, x, y)), label.latex
-
-
-@pytest.mark.parametrize("name", ALL)
-def test_figures_are_functions_of_the_record(name: str) -> None:
+    for label in drawn.labels:
+        assert not any(overlap(label.box, (*d.at, *d.at)) for d in drawn.dots), label.latex
+    # of the record
     again = scene(from_json(to_json(record(name))))
     assert again is not None
-    assert svg(again) == svg(figure(name))
-    assert tikz(again) == tikz(figure(name))
-    assert again.caption == figure(name).caption
+    assert svg(again) == shown
+    assert tikz(again) == tikz(drawn)
+    assert again.caption == drawn.caption
 
 
 def test_tikz_compiles(tmp_path: Path) -> None:
-    log = compiled("\n\n".join(tikz(figure(name)) for name in ALL), tmp_path)
-    assert "\n!" not in log
+    log = compiled(alone("\n\n".join(tikz(figure(name)) for name in ALL)), tmp_path)
+    assert " ! " not in log
     assert "Missing character" not in log
 
 
@@ -186,7 +171,7 @@ def test_hostile_names_are_printed_not_obeyed(name: str, tmp_path: Path) -> None
         assert not any("script" in element.tag for element in root.iter())
         assert r"\input" not in tikz(x)
         assert any(label.name for label in x.labels)
-    assert "passwd" not in compiled(tikz(drawn) + tikz(product), tmp_path)
+    assert "passwd" not in compiled(alone(tikz(drawn) + tikz(product)), tmp_path)
 
 
 @pytest.mark.parametrize("value", [1e300, -1e300, 1e-300, 0.0, None])
@@ -240,6 +225,7 @@ def test_a_ball_is_a_circle_half_of_whose_equator_is_hidden() -> None:
     radii = [math.dist(p, (x, y)) for p in contour.points]
     assert max(radii) == pytest.approx(min(radii), rel=1e-6)
     assert inked(drawn, "hidden") == pytest.approx(inked(drawn, "thin"), rel=0.1)
+    assert inked(drawn, "hidden", "axis") > 0  # within the ball
 
 
 def test_what_is_behind_is_hidden() -> None:

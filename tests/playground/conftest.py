@@ -3,7 +3,7 @@
 import pytest
 
 from tests.support.needs import need
-from tests.support.playground_site import built, chromium, served, walked
+from tests.support.playground_site import built, chromium, opened, served, visit
 
 
 @pytest.fixture(scope="module")
@@ -21,23 +21,14 @@ def site(browser):
 
 @pytest.fixture(scope="module")
 def page(browser, site):
-    """One page for all that only asks the worker."""
-    context = browser.new_context(viewport={"width": 1280, "height": 800}, locale="en-GB")
-    opened = context.new_page()
-    opened.goto(f"{site}#so3")
-    walked(opened)
-    yield opened
-    context.close()
+    """One page for all whose first act is a text of its own."""
+    with opened(browser) as page:
+        visit(page, f"{site}#so3")
+        yield page
 
 
 @pytest.fixture
-def fresh(browser, site):
-    """A page of its own, with what it asked for and what it complained of."""
-    context = browser.new_context(viewport={"width": 1280, "height": 800}, locale="en-GB")
-    opened = context.new_page()
-    opened.asked, opened.told = [], []
-    context.on("request", lambda x: opened.asked.append(x.url))
-    opened.on("console", lambda x: opened.told.append(x.text) if x.type == "error" else None)
-    opened.on("pageerror", lambda x: opened.told.append(str(x)))
-    yield opened
-    context.close()
+def fresh(browser):
+    """A page of its own."""
+    with opened(browser) as page:
+        yield page

@@ -85,7 +85,7 @@ def test_imports_go_one_way():
 def test_functions_are_small():
     """The length of a file is left to judgement: a cap splits files in odd places."""
     for path in FILES:
-        # an iteration that is printed in every language is not cut: its parts share all arrays
+        # an iteration that is printed in every language is not cut: its parts share arrays
         most = 80 if path.parent.name == "algorithms" else 60
         for node in parts(path):
             if isinstance(node, ast.FunctionDef):

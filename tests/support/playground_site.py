@@ -95,15 +95,88 @@ def asked(page, ask, **more):
     return how, [(kind, news) for kind, news in heard]
 
 
-def typed(opened, text):
+@contextmanager
+def opened(browser, **how):
+    """A page, in English on a desk, with what it asked for and what it complained of, which is
+    nothing at the end."""
+    desk = {"viewport": {"width": 1280, "height": 800}, "locale": "en-GB"}
+    context = browser.new_context(**desk | how)
+    page = context.new_page()
+    page.asked, page.told = [], []
+    context.on("request", lambda x: page.asked.append(x.url))
+    page.on("console", lambda x: page.told.append(x.text) if x.type == "error" else None)
+    page.on("pageerror", lambda x: page.told.append(str(x)))
+    yield page
+    assert not page.told
+    context.close()
+
+
+def walked(page, what="so3"):
+    """Wait until a problem is walked, or any where none is named."""
+    value = f'="{what}"' if what else ""
+    page.wait_for_selector(f"body[data-walked{value}]", timeout=90_000)
+
+
+@contextmanager
+def rewalked(page, what="own"):
+    """Do something, and wait until what it asks for is walked."""
+    page.evaluate("delete document.body.dataset.walked")
+    yield
+    walked(page, what)
+
+
+def visit(page, address, what="so3"):
+    """Go to an address, and wait until its problem is walked; a page that is there stays, where
+    nothing but the problem is another."""
+    if page.url.partition("#")[0] != address.partition("#")[0]:
+        page.goto(address)
+        walked(page, what)
+    elif page.url != address:
+        with rewalked(page, what):
+            page.goto(address)
+
+
+def chosen(page, name):
+    """Choose a ready-made problem."""
+    with rewalked(page, name):
+        page.select_option("#ready", name)
+
+
+def put(page, text):
     """Another text in the place of what stands there."""
-    opened.evaluate("delete document.body.dataset.walked")
-    opened.evaluate("(text) => { play.text.text = text; }", text)
+    page.evaluate("(text) => { play.text.text = text; }", text)
 
 
-def walked(opened, what="so3"):
-    """Wait until a problem is walked."""
-    opened.wait_for_selector(f'body[data-walked="{what}"]', timeout=90_000)
+def typed(page, text, what="own"):
+    """Another text, and wait until it is walked."""
+    with rewalked(page, what):
+        put(page, text)
+
+
+def text_in(page):
+    """What stands in the editor."""
+    return page.evaluate("play.text.text")
+
+
+def moving(page):
+    """The frame in which the problem that is walked moves, and stands."""
+    page.click("#tab-see")
+    page.wait_for_selector("iframe[data-moved]:not(.stale)", timeout=90_000)
+    frame = page.query_selector("iframe").content_frame()
+    frame.evaluate("document.getElementById('motion').motion.pause()")
+    return frame
+
+
+def violations(place):
+    """What axe finds wrong in a page or a frame."""
+    axe = (OWN / "node_modules" / "axe-core" / "axe.min.js").read_text(encoding="utf-8")
+    place.evaluate(f"{axe}; 0")
+    found = place.evaluate(
+        "axe.run({ resultTypes: ['violations'], iframes: false }).then((x) => x.violations)"
+    )
+    return [
+        (x["id"], [y["html"][:120] + y["failureSummary"] for y in x["nodes"][:3]]) for x in found
+    ]
 
 
 def first_walk(asked, address):

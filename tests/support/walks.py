@@ -6,6 +6,7 @@ import pytest
 
 from derive.check.checker import Checker
 from derive.command.loading import derive, load_problem, ready_made
+from derive.python.derived import Derived
 from derive.record.contract import ANY_GROUP
 from tests.support.cached import on_disk
 
@@ -34,6 +35,12 @@ def record(name):
 @cache
 def problem(name):
     return load_problem(name)
+
+
+@cache
+def derived(name):
+    """A ready-made problem and its record, as ``derive.derive`` has them."""
+    return Derived(problem(name), record(name))
 
 
 def own_verdicts(found, seed=SEED):

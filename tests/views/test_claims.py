@@ -3,8 +3,6 @@
 import re
 from itertools import chain
 
-import pytest
-
 from derive.views.language import entries
 
 ENTRIES = [(x["en"], x["fr"]) for x in entries()]
@@ -80,9 +78,8 @@ def wrong(english, french):
     return found + [e for e, f in TERMS.items() if has(e, english) != has(f, french)]
 
 
-@pytest.mark.parametrize(("english", "french"), ENTRIES, ids=lambda x: x[:40])
-def test_both_languages_claim_the_same(english, french):
-    assert wrong(english, french) == []
+def test_both_languages_claim_the_same():
+    assert [(english, x) for english, french in ENTRIES for x in wrong(english, french)] == []
 
 
 VERBS = {"est": "n’est pas", "sont": "ne sont pas", "s’annule": "ne s’annule pas"}

@@ -1,7 +1,6 @@
 """The web page: in a browser it fits, shows every formula and says nothing on the console."""
 
 import re
-import shutil
 from dataclasses import replace
 from fractions import Fraction
 from html.parser import HTMLParser
@@ -15,7 +14,8 @@ from derive.printing.tex import formula
 from derive.record.contract import AMENDED
 from derive.views.html import html
 from derive.views.language import language
-from tests.support.needs import BROWSERS, need
+from tests.support.needs import need
+from tests.support.playground_site import chromium
 from tests.support.walks import record
 
 NAMES = ("so3", "se3", "sl3", "saff3", "hammer", "two_tops", "jelly", "comet", "so4")
@@ -62,13 +62,8 @@ class Structure(HTMLParser):
 @pytest.fixture(scope="module")
 def browser():
     need("the module playwright", "chromium")
-    from playwright.sync_api import sync_playwright
-
-    path = next(filter(None, map(shutil.which, BROWSERS)))
-    with sync_playwright() as playwright:
-        running = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+    with chromium() as running:
         yield running
-        running.close()
 
 
 @pytest.mark.parametrize("lang", ["en", "fr"])

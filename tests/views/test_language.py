@@ -32,14 +32,12 @@ from derive.schema.solid_kinds import SOLIDS
 from derive.views import outline
 from derive.views.html import html
 from derive.views.language import ENGLISH, LANGUAGES, THIN, WIDE, Language, entries, language
-from derive.views.latex import latex
 from derive.views.markdown import markdown, step_markdown
 from derive.views.text import step_text, text
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
 from tests.support.kinds import examples
 from tests.support.lagrangians import every_record
-from tests.views.test_views import compiled
 
 ROOT = Path(__file__).parents[2] / "derive"
 ENTRIES = entries()
@@ -160,14 +158,20 @@ def said(record):
 
 
 @cache
+def tree(path):
+    """A source as it is parsed."""
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
 def strings(*folders):
     """Every string that stands in the sources."""
-    paths = [p for folder in folders for p in sorted(ROOT.glob(folder))]
-    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in paths]
-    constants = (x for tree in trees for x in ast.walk(tree) if isinstance(x, ast.Constant))
+    paths = (p for folder in folders for p in sorted(ROOT.glob(folder)))
+    constants = (x for p in paths for x in ast.walk(tree(p)) if isinstance(x, ast.Constant))
     return {x.value for x in constants if isinstance(x.value, str)}
 
 
+@cache
 def titles_and_meanings():
     """The words of the ready-made problems, and of moments that are parameters."""
     problems = [walks.problem(name) for name in ready_made()]
@@ -234,8 +238,7 @@ SPEAKING = sorted([*(p for x in ROOMS for p in ROOT.glob(f"{x}/*.py"))])
 def calls():
     """The paths of what speaks, and its calls."""
     for path in SPEAKING:
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        yield from ((path, x) for x in ast.walk(tree) if isinstance(x, ast.Call))
+        yield from ((path, x) for x in ast.walk(tree(path)) if isinstance(x, ast.Call))
 
 
 def test_every_word_said_is_in_the_catalogue():
@@ -355,15 +358,6 @@ def test_a_step_alone_in_french():
     assert "(d’après `so3.momenta`, `so3.coadjoint`)" in step_markdown(
         d["kernel"], d.symbols, language=FRENCH
     )
-
-
-@pytest.mark.parametrize("name", ["so3", "se3", "sl3"])
-def test_french_latex_compiles_within_its_margins(name, tmp_path):
-    source = latex(walks.record(name), language=FRENCH)
-    assert source.isascii()
-    log = compiled(source, tmp_path, runs=2)
-    assert "Overfull \\hbox" not in log
-    assert "undefined" not in log
 
 
 @pytest.mark.parametrize("name", ready_made())

@@ -8,7 +8,8 @@ import pytest
 from derive.command.cli import main
 from derive.printing.macros import DEFINED
 from tests.problems import READY
-from tests.support.needs import need, needs
+from tests.support.needs import needs
+from tests.support.tex import compiled
 
 GROUPS = ("so3", "se3", "sl3")
 
@@ -22,25 +23,12 @@ def said(capsys):
     return run
 
 
-def compiled(file, runs=1):
-    """The log of pdflatex, which after three runs knows all that is referred to."""
-    need("pdflatex")
-    for _ in range(runs):
-        done = subprocess.run(
-            ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", file.name],
-            cwd=file.parent,
-            capture_output=True,
-        )
-        assert done.returncode == 0, done.stdout.decode(errors="replace")[-1500:]
-    return file.with_suffix(".log").read_text(errors="replace").replace("\n", " ")
-
-
 @pytest.mark.parametrize(
     "options", [[], ["--lang", "fr"], ["--notation", "top", "--hat", "wedge"]], ids=str
 )
 def test_notes_of_three_groups(options, said, tmp_path):
     said("notes", *GROUPS, "--out", tmp_path / "notes.tex", *options)
-    log = compiled(tmp_path / "notes.tex", runs=3)
+    log = compiled((tmp_path / "notes.tex").read_text(encoding="utf-8"), tmp_path, runs=3)
     assert "Overfull" not in log
     assert "undefined" not in log
     assert "multiply defined" not in log
@@ -91,7 +79,7 @@ def test_letters_of_titles_and_units(said, tmp_path):
         err = said("notes", tmp_path / "screw.toml", "--out", tmp_path / "notes.tex").err
         assert ("LaTeX has no 力 here" in err) == bool(k)
         assert bool(err) == bool(k)
-        compiled(tmp_path / "notes.tex")
+        compiled((tmp_path / "notes.tex").read_text(encoding="utf-8"), tmp_path)
 
 
 def test_corrections_are_told(said, tmp_path):
@@ -118,14 +106,14 @@ def test_a_fragment_stands_in_a_lecturers_text(said, tmp_path):
     takes = {name: f"[{count}]" if count else "" for name, (count, _, _) in DEFINED.items()}
     bodies = {name: own.get(name, "#1" if x else "x") for name, x in takes.items()}
     lines = [rf"\newcommand{{\{name}}}{x}{{{bodies[name]}}}" for name, x in takes.items()]
-    (tmp_path / "lecture.tex").write_text(
+    lecture = (
         "\\documentclass{article}\n\\usepackage{amsmath,amssymb}\n"
         + "\n".join(lines)
         + "\n\\newcommand{\\walkstep}[4]{\\subsection*{#2}}\n\\newcommand{\\walkfrom}[1]{}\n"
         + "\\newcommand{\\walkheading}[1]{\\section{#1}}\n"
         + "\\begin{document}\nBy \\eqref{so3.kernel}:\n\\input{so3}\n\\end{document}\n"
     )
-    log = compiled(tmp_path / "lecture.tex", runs=2)
+    log = compiled(lecture, tmp_path, runs=2)
     assert "undefined" not in log
 
 

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import re
-import subprocess
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache
 from pathlib import Path
 
 import pytest
@@ -24,12 +22,14 @@ from derive.printing.tex import FormulaPrinter, latex_tree
 from derive.problem.toml import load
 from derive.record.record import Derivation, Equation, Step, Symbol
 from derive.record.sentence import say
+from derive.views.language import language
 from derive.views.latex import anchor, breakable, labels, latex
 from derive.views.markdown import markdown
 from derive.views.outline import printed
 from derive.views.rendering import FORMATS, NOTES, RenderError, notes, render
 from derive.views.text import text
-from tests.support.needs import need
+from tests.support.tex import compiled
+from tests.support.walks import record
 
 PROBLEMS = Path(__file__).parents[2] / "derive" / "problems"
 NAMES = ("so3", "se3", "sl3", "linear", "affine")
@@ -43,25 +43,9 @@ HOSTILE = (
 )
 
 
-@cache
-def record(name: str) -> Derivation:
-    return walk(load(PROBLEMS / f"{name}.toml"))
-
-
 def titled(title: str) -> Derivation:
     d = record("linear")
     return replace(d, problem={**d.problem, "title": title})
-
-
-def compiled(source: str, folder: Path, runs: int = 1) -> str:
-    """The log of pdflatex, after as many runs as references need."""
-    need("pdflatex")
-    (folder / "walk.tex").write_text(source, encoding="utf-8")
-    command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "walk.tex"]
-    for _ in range(runs):
-        done = subprocess.run(command, cwd=folder, capture_output=True, timeout=120, check=False)
-        assert done.returncode == 0, done.stdout.decode(errors="replace")[-2000:]
-    return (folder / "walk.log").read_text(errors="replace").replace("\n", " ")
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -137,9 +121,12 @@ def test_steps_of_any_group_stand_before_those_of_the_group(name: str) -> None:
     assert headings == ["any group of matrices", *special]
 
 
+@pytest.mark.parametrize("lang", ["en", "fr"])
 @pytest.mark.parametrize("name", [*NAMES, "saff3", "two_tops", "ellipsoid", "jelly"])
-def test_latex_compiles_within_its_margins(name: str, tmp_path: Path) -> None:
-    log = compiled(latex(record(name)), tmp_path, runs=2)
+def test_latex_compiles_within_its_margins(name: str, lang: str, tmp_path: Path) -> None:
+    source = latex(record(name), language=language(lang))
+    assert source.isascii()
+    log = compiled(source, tmp_path, runs=2)
     assert "Overfull" not in log
     assert "undefined" not in log
     assert "multiply defined" not in log

@@ -1,0 +1,285 @@
+"""The page in a browser: the body moves, and what is kept stays; what is drawn is where it should
+be; its sliders, numbers and keys; on a phone and by night."""
+
+import re
+
+import numpy as np
+import pytest
+
+import derive
+from derive.command.loading import ready_made
+from derive.problem.toml import problem_of
+from tests.page.test_motion_page import PAGELESS
+from tests.support.motion_pages import BAD, STARTS, page
+from tests.support.walks import derived
+
+INK = """() => [...document.querySelectorAll("canvas")].map((c) => {
+    const { data } = c.getContext("2d").getImageData(0, 0, c.width, c.height);
+    return data.filter((v, i) => i % 4 === 3 && v > 0).length/data.length*4;
+})"""
+MOTION = 'document.getElementById("motion").motion'
+STATE = f"[...{MOTION}.state]"
+CHANGES = """() => [...document.querySelectorAll("tbody td:nth-child(3)")].map(
+    (cell) => Number(cell.textContent.replace("−", "-")))"""
+
+
+def seek(shown, t):
+    shown.evaluate(f"{MOTION}.seek({t})")
+    shown.wait_for_function(f"Math.abs({MOTION}.time - {t}) < 1e-12")
+    shown.wait_for_timeout(100)
+
+
+def typed(shown, name, text):
+    """Type a number, and leave its box."""
+    row = shown.locator(f'[data-name="{name}"]')
+    row.locator("input[inputmode]").fill(text)
+    row.locator("input[inputmode]").press("Tab")
+    shown.wait_for_timeout(100)
+    return row
+
+
+# ---------------------------------------------------------------- what is drawn
+
+
+DRAWN = """(n) => {
+    const { prototype } = CanvasRenderingContext2D, stage = document.querySelectorAll("canvas")[n];
+    const kept = globalThis.drawn = { dots: [], lines: [], strokes: [] };
+    const heard = (name, does) => {
+        const own = prototype[name];
+        prototype[name] = function (...a) {
+            if (this.canvas === stage) does.apply(this, a);
+            own.call(this, ...a);
+        };
+    };
+    heard("clearRect", () => Object.assign(kept, { dots: [], lines: [], strokes: [] }));
+    heard("arc", (x, y) => kept.dots.push([x, y]));
+    heard("beginPath", () => { kept.path = []; });
+    heard("stroke", function () { kept.strokes.push([this.strokeStyle, kept.path]); });
+    for (const name of ["moveTo", "lineTo"]) {
+        heard(name, (x, y) => [kept.lines, kept.path].forEach((list) => list.push([x, y])));
+    }
+}"""
+"""Keeps the places, in pixels, of what the last picture on the n-th canvas has: its dots, ends of
+its lines, and strokes, colour and line."""
+
+
+@pytest.mark.parametrize(
+    ("group", "gravity"),
+    [("SO(2)", [0, -9.81]), ("SO(2)", [3, 2]), ("SE(2)", [0, -9.81]), ("SL(2)", [-1, 0])],
+)
+def test_a_plane_is_seen_as_it_is(group, gravity, opened):
+    """The first axis to the right, the second up, and gravity along them."""
+    points = [{"mass": 1, "at": [0.3, -0.7]}, {"mass": 2, "at": [0.4, 0.2]}]
+    weight = {"kind": "gravity", "g": gravity}
+    flat = {"name": "flat", "group": group, "point": points, "potential": [weight]}
+    d = derive.derive(problem_of(flat))
+    shown = opened(d.motion_page(2.0, start={"zeta_1": 1.3}))
+    shown.wait_for_timeout(100)
+    shown.evaluate(DRAWN, 0)
+    seek(shown, 0.7)
+    (one, other, *_), lines = map(np.array, shown.evaluate("[drawn.dots, drawn.lines]"))
+    A = np.reshape(shown.evaluate(STATE)[:4], (2, 2))
+    apart, own = (other - one) * [1, -1], A @ [0.1, 0.9]
+    scale = np.linalg.norm(apart) / np.linalg.norm(own)
+    assert scale > 50
+    assert np.abs(apart - scale * own).max() < 1e-6
+    fall = (lines[-4] - lines[-5]) * [1, -1]  # before the head of the arrow
+    assert np.abs(fall - 30 * np.array(gravity) / np.linalg.norm(gravity)).max() < 1e-6
+
+
+def test_a_curve_ends_where_its_time_does(opened):
+    """What leads to its name is of another colour, that of no curve."""
+    shown = opened(derived("hung_bar").motion_page(2.0))
+    shown.wait_for_timeout(100)
+    shown.evaluate(DRAWN, 1)
+    seek(shown, 1.5)
+    strokes = [(x, np.array(line)) for x, line in shown.evaluate("drawn.strokes")]
+    axes = strokes[0][1]
+    curves = [(x, line) for x, line in strokes if len(line) > 20]
+    assert len(curves) == 3
+    colours = {x for x, _ in curves}
+    for colour, line in strokes:
+        assert colour not in colours or line[:, 0].max() <= axes[:, 0].max() + 1e-9
+    state = shown.evaluate(STATE)[6:]
+    ends = [line[-1, 1] for _, line in curves]  # in the order of their names, the highest first
+    assert np.all(np.diff(ends) > 0)
+    span = (ends[0] - ends[-1]) / (max(state) - min(state))
+    assert ends == pytest.approx([ends[0] + span * (v - max(state)) for v in sorted(state)[::-1]])
+
+
+# ---------------------------------------------------------------- what moves
+
+
+@pytest.mark.dist
+@pytest.mark.parametrize("name", [x for x in ready_made() if x not in PAGELESS])
+def test_it_moves_and_keeps_what_is_kept(name, opened):
+    shown = opened(page(name))
+    shown.wait_for_timeout(200)
+    assert shown.evaluate(f"{MOTION}.time") == 0
+    seek(shown, 0.5)
+    ink = shown.evaluate(INK)
+    assert min(ink) > 0.002
+    if name not in STARTS:
+        return
+    assert ink[0] > 0.03 or name == "euler_poisson"  # the body, not the ground alone
+    assert max(shown.evaluate(CHANGES)) < 1e-9
+    shown.get_by_role("button", name="play").click()
+    shown.wait_for_function(f"{MOTION}.time > 0.501")
+    shown.keyboard.press("Escape")
+    shown.get_by_role("button", name="pause").click()
+    after = shown.evaluate(f"{MOTION}.time")
+    shown.wait_for_timeout(200)
+    assert shown.evaluate(f"{MOTION}.time") == after
+    seek(shown, 10.0)
+    assert max(shown.evaluate(CHANGES)) < 1e-9
+    if name == "sl3":
+        run = derived(name).simulate(10.0, points=1, tol=1e-12, **STARTS[name])
+        assert np.abs(np.array(shown.evaluate(STATE)) - run.states[-1]).max() < 1e-7
+
+
+@pytest.mark.dist
+def test_the_trail_follows_the_speed_that_is_set(opened):
+    """The tip of an axis that turns fast about another goes a small angle between two points."""
+    shown = opened(derived("top").motion_page(10.0, start={"zeta_1": 0.5}))
+    shown.locator('[data-name="zeta_1"] input[type=range]').fill("50")
+    seek(shown, 1.0)
+    shown.get_by_role("button", name="play").click()
+    shown.wait_for_function(f"{MOTION}.time > 1.2")
+    shown.get_by_role("button", name="pause").click()
+    trail = shown.evaluate(f"{MOTION}.trail.map(([t]) => t)")
+    assert len(trail) == 480
+    assert np.diff(trail).min() > 0
+    assert np.diff(trail).max() < 0.2 / 50
+
+
+@pytest.mark.dist
+def test_it_plays_by_itself_where_motion_is_welcome(opened):
+    shown = opened(page("two_tops"), reduced_motion="no-preference")
+    shown.wait_for_function(f"{MOTION}.time > 0.2")
+
+
+@pytest.mark.dist
+def test_a_collision_is_told(opened):
+    at_rest = dict.fromkeys(("T_1", "w_2", "zeta_3"), 0.0)  # about the centre, to which they fall
+    shown = opened(derived("comet").motion_page(1.0, start=at_rest))
+    shown.evaluate(f"{MOTION}.seek(1)")
+    message = 'document.querySelector(".message").textContent'
+    shown.wait_for_function(f'{message}.includes("collision")')
+
+
+# ---------------------------------------------------------------- numbers, sliders, keys
+
+
+@pytest.mark.dist
+@pytest.mark.parametrize("width", [390, 1280])
+def test_a_wrong_number_is_told_where_it_is_and_keys_move(width, opened):
+    """tests/playground/test_moving.py has the sliders."""
+    shown = opened(page("top"), width)
+    row = typed(shown, "R", "0")
+    told = shown.get_by_role("status")
+    assert told.inner_text() == "No body has these numbers: R = 0."
+    assert row.get_by_role("status").count() == 1
+    box = told.bounding_box()
+    assert 0 <= box["y"] <= 844 - box["height"]
+    energy = shown.locator('tr[data-name="energy"] td').first
+    assert energy.inner_text() == ""
+    typed(shown, "R", "0.03")
+    assert told.inner_text() == ""
+    assert energy.inner_text() != ""
+    shown.evaluate("document.activeElement.blur()")
+    shown.keyboard.press("ArrowRight")
+    shown.wait_for_function(f"{MOTION}.time > 0")
+    shown.keyboard.press("Home")
+    shown.wait_for_function(f"{MOTION}.time === 0")
+    before = shown.locator("canvas").first.screenshot()
+    shown.locator("canvas").first.focus()
+    shown.keyboard.press("ArrowLeft")
+    shown.wait_for_timeout(100)
+    assert shown.locator("canvas").first.screenshot() != before
+    assert shown.evaluate(f"{MOTION}.time") == 0
+    shown.keyboard.press("Space")
+    shown.wait_for_function(f"{MOTION}.time > 0")
+
+
+@pytest.mark.dist
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_on_a_phone_by_night_in_french(scheme, opened):
+    shown = opened(page("top", "fr"), 390, color_scheme=scheme, has_touch=True)
+    shown.wait_for_timeout(100)
+    assert shown.evaluate("document.documentElement.scrollWidth") == 390
+    assert shown.locator("canvas").first.bounding_box()["height"] > 300
+    assert min(shown.evaluate(INK)) > 0.002
+    sizes = '[...document.querySelectorAll(".controls button")].map((b) => b.offsetHeight)'
+    assert min(shown.evaluate(sizes)) >= 44
+    colour = shown.evaluate("getComputedStyle(document.body).backgroundColor")
+    assert (sum(map(int, re.findall(r"\d+", colour))) > 380) == (scheme == "light")
+    assert "t = 0,00" in shown.locator(".clock").inner_text()
+    # a number has a comma or a point, and nothing else
+    g = f"{MOTION}.given.p[3]"
+    for text, value in (("1,5", 1.5), ("2.25", 2.25), ("−3e-1", -0.3)):
+        typed(shown, "g", text)
+        assert shown.evaluate(g) == value
+    for text in ("1,234.5", "five", "", "1e999"):
+        box = typed(shown, "g", text).locator("input[inputmode]")
+        assert box.get_attribute("aria-invalid") == "true"
+        assert shown.get_by_role("status").inner_text() == "Ce n’est pas un nombre."
+        assert shown.evaluate(g) == -0.3
+    typed(shown, "g", "9,81")
+    assert box.get_attribute("aria-invalid") == "false"
+
+
+@pytest.mark.dist
+def test_a_component_along_no_direction_is_not_shown(opened):
+    """Along gravity, in its unit; without gravity those along the axes, which are kept then.  And a
+    slider spins the body both ways."""
+    shown = opened(page("so3"))
+    ends = shown.locator('[data-name="zeta_3"] input[type=range]').evaluate("(x) => [x.min, x.max]")
+    assert [float(x) for x in ends] == [-60, 60]
+    row = "[...document.querySelectorAll('[data-name=angular_momentum]')].map((x) => x.innerText)"
+    along = row.replace("name=", "name^=")
+    (only,) = shown.evaluate(row)
+    assert "kg m²/s" in only
+    typed(shown, "g_3", "0")
+    assert shown.evaluate(row) == []
+    assert [x.split()[:3] for x in shown.evaluate(along)] == [
+        ["angular", "momentum", str(k)] for k in (1, 2, 3)
+    ]
+    typed(shown, "g_1", "1")
+    assert len(shown.evaluate(row)) == len(shown.evaluate(along)) == 1
+
+
+@pytest.mark.dist
+def test_what_is_not_kept_stands_apart(opened):
+    shown = opened(derived("jelly").motion_page(2.0, start={"zeta_1": 0.1}))
+    groups = "[...document.querySelectorAll('tbody')].map((x) => x.innerText)"
+    kept, others = shown.evaluate(groups)
+    assert "energy" not in kept
+    assert others.startswith("What is not kept")
+    assert "energy" in others
+
+
+@pytest.mark.dist
+def test_texts_of_a_stranger_are_shown_as_text(hostile, opened):
+    shown = opened(hostile)
+    assert BAD in shown.locator('[data-name="a"]').inner_text()
+    assert shown.locator("h1").inner_text() == BAD
+    assert shown.locator("img").count() == 0
+
+
+@pytest.mark.dist
+@pytest.mark.parametrize("width", [1280, 390])
+def test_what_is_beside_keeps_its_place(width, opened):
+    """A value about 0.001, where small numbers begin to be powers of ten."""
+    d, tilt = derived("top"), (0.3, 0, 0)
+    spin = d.simulate(0.01, start={"zeta_3": 1.0}, exp=tilt, points=1)["body_angular_momentum_3"][0]
+    shown = opened(d.motion_page(10.0, start={"zeta_3": 0.001 / spin}, exp=tilt), width)
+    told, places = set(), set()
+    for k in range(20):
+        seek(shown, 0.0125 * 1.37**k)
+        cell = shown.locator('[data-name="body_angular_momentum_3"] td').first
+        told.add(cell.inner_text())
+        places.add(shown.locator(".adjuster").first.bounding_box()["y"])
+        assert shown.locator(".clock").bounding_box()["height"] < 30
+    assert "0.0010000" in told
+    assert {len(x) for x in told} == {9}
+    assert len(places) == 1

@@ -1,0 +1,283 @@
+"""The body that moves in the playground: what is kept, its sliders, numbers into the text, what is
+said of it; and that nothing is asked of others. Also by keys, on a phone and for screen readers."""
+
+import tomllib
+
+import pytest
+
+from tests.support.flows import emitted
+from tests.support.playground_site import (
+    chosen,
+    moving,
+    opened,
+    put,
+    text_in,
+    violations,
+    visit,
+    walked,
+)
+
+MOTION = "document.getElementById('motion').motion"
+STATE = f"""(t) => {{
+    {MOTION}.seek(t);
+    {MOTION}.run.reach(t, Infinity);
+    return [...{MOTION}.run.at(t)];
+}}"""
+LISTED = "[...document.querySelectorAll('tr[data-name]')].map((x) => x.dataset.name)"
+
+
+def until(frame, expression, too=lambda: True):
+    """Wait until an expression of the frame is true; its policy lets no script wait for a text."""
+    for _ in range(100):
+        if frame.evaluate(expression) and too():
+            return
+        frame.page.wait_for_timeout(100)
+    pytest.fail(f"never: {expression}")
+
+
+def apart(x, y):
+    return max(abs(a - b) for a, b in zip(x, y, strict=True))
+
+
+def change(frame, name):
+    """By how much a number has changed."""
+    return float(frame.inner_text(f"[data-name={name}] td + td").replace("−", "-"))
+
+
+def shown_at(frame, t):
+    """Seek an instant, and wait until it is drawn."""
+    frame.evaluate(STATE, t)
+    frame.wait_for_function(f"() => {MOTION}.time === {t}")
+    frame.page.wait_for_timeout(200)
+
+
+def adjuster(frame, name):
+    """The row of a number, in an open group."""
+    row = frame.locator(f'[data-name="{name}"].adjuster')
+    row.locator("xpath=ancestor::details").evaluate("(e) => { e.open = true; }")
+    return row
+
+
+def set_to(frame, name, value, key="Tab"):
+    """Type a number."""
+    box = adjuster(frame, name).locator("input[inputmode]")
+    box.fill(value)
+    box.press(key)
+
+
+def slid(frame, **values):
+    """Each slider changes the motion, and all goes back."""
+    first = frame.evaluate(STATE, 1.0)
+    for name, value in values.items():
+        adjuster(frame, name).locator("input[type=range]").fill(str(value))
+        assert apart(first, frame.evaluate(STATE, 1.0)) > 0.01, name
+        frame.locator(".reset").click()
+        assert frame.evaluate(STATE, 1.0) == first, name
+
+
+def into_the_text(page, frame, **numbers):
+    """Set numbers, and have them put into the text: the tables of before and of now; it moves as
+    with the numbers that were set."""
+    for name, value in numbers.items():
+        set_to(frame, name, value)
+    expected = frame.evaluate(STATE, 1.0)
+    before = tomllib.loads(text_in(page))
+    page.evaluate("delete document.body.dataset.walked")
+    frame.locator(".into").click()
+    walked(page, "own")
+    assert apart(moving(page).evaluate(STATE, 1.0), expected) < 1e-9
+    return before, tomllib.loads(text_in(page))
+
+
+def test_a_top(fresh, site):
+    visit(fresh, f"{site}#top", "top")
+    frame = moving(fresh)
+    # the wheel scrolls, and zooms with Ctrl alone
+    side = frame.locator(".side").bounding_box()
+    fresh.mouse.move(side["x"] + side["width"] / 2, side["y"] + side["height"] / 2)
+    before = frame.locator(".side").screenshot()
+    fresh.keyboard.down("Control")
+    fresh.mouse.wheel(0, -300)
+    fresh.keyboard.up("Control")
+    until(frame, "true", lambda: frame.locator(".side").screenshot() != before)
+    assert frame.evaluate("document.querySelector('.beside').scrollTop") == 0
+
+    def at_the_end():
+        fresh.mouse.wheel(0, 4000)
+        reset = frame.locator(".reset").bounding_box()
+        return reset["y"] + reset["height"] <= 800
+
+    until(frame, "true", at_the_end)
+    # every parameter and number of the start has a slider
+    names = frame.evaluate("[...document.querySelectorAll('.adjuster')].map((x) => x.dataset.name)")
+    start = [f"{x}_{k}" for x in ("zeta", "theta") for k in (1, 2, 3)]
+    assert names == [*start, *emitted("top").PARAMETERS]
+    slid(frame, g=5.0, zeta_1=40.0, theta_1=0.4)
+    # what is kept is found behind the motion, and stays
+    fresh.wait_for_selector("iframe[data-kept]", timeout=90_000)
+    shown_at(frame, 3)
+    kept = ["energy", "angular_momentum_3", "body_angular_momentum_3"]
+    assert frame.evaluate(LISTED) == [*kept, "defect"]
+    assert max(change(frame, x) for x in kept) < 1e-8
+    set_to(frame, "zeta_1", "3", "Enter")
+    fresh.wait_for_timeout(200)
+    assert frame.inner_text("[data-name=body_angular_momentum_3] td + td") == "0"
+    frame.locator(".reset").click()
+    before, after = into_the_text(fresh, frame, g="3,5", zeta_3="40")
+    assert after["parameters"]["g"] == before["parameters"]["g"] | {"default": 3.5}
+    assert after["initial"] == before["initial"] | {"zeta_3": 40}
+
+
+def test_other_bodies(fresh, site):
+    visit(fresh, f"{site}#sl3", "sl3")
+    slid(moving(fresh), zeta_1=3.0)
+    # a body that becomes flat is told, and a smaller push does not make it so
+    message = "document.querySelector('.message').textContent"
+    chosen(fresh, "gl3")
+    frame = moving(fresh)
+    frame.evaluate(STATE, 20.0)
+    until(frame, f"{message}.includes('det A = 0')")
+    chosen(fresh, "jelly")
+    frame = moving(fresh)
+    frame.evaluate(STATE, 20.0)
+    assert frame.evaluate(f"{MOTION}.run.last") == 20.0
+    assert frame.evaluate(message) == ""
+    # a push is told only where there is one
+    note = fresh.locator("#see .note")
+    chosen(fresh, "comet")  # it has a velocity in [initial]
+    moving(fresh)
+    assert "pushed" not in note.inner_text()
+    chosen(fresh, "sim3")
+    frame = moving(fresh)
+    assert "pushed" in note.inner_text()
+    _, after = into_the_text(fresh, frame, theta_2="-0.25")  # with the velocity of the push
+    assert after["initial"]["exp"] == [0, -0.25, 0, 0, 0, 0, 0]
+    chosen(fresh, "so3")
+    _, after = into_the_text(fresh, moving(fresh), u_2="0,5")
+    assert after["initial"]["u_2"] == 0.5
+    assert not {"u_1", "u_3"} & {*after["initial"]}
+    # what moves when the text is wrong is dim
+    fresh.evaluate("delete document.body.dataset.walked")
+    put(fresh, 'name = "so3"\ngroup = 3\n')
+    fresh.wait_for_selector("iframe.stale", timeout=10_000)
+    assert note.inner_text().startswith("The text has changed")
+    walked(fresh, "fault")
+    assert fresh.locator("iframe.stale").count() == 1
+
+
+SHORT = """() => {
+    const sought = (x) => document.getElementById("state").textContent === x;
+    const seconds = () => (sought("What is kept is sought …") ? 0.2 : 60);
+    Object.defineProperty(play.engine, "seconds", { get: seconds });
+}"""
+"""The clock is short for the search alone."""
+STOPPED = "What is kept was not found in 0.2 s: the motion goes on."
+
+
+def test_a_search_that_the_clock_ends_leaves_the_motion_running(fresh, site):
+    visit(fresh, f"{site}#top", "top")
+    fresh.evaluate(SHORT)
+    fresh.click("#tab-see")
+    says = "(x) => document.getElementById('state').textContent.startsWith(x)"
+    fresh.wait_for_function(says, arg=STOPPED, timeout=90_000)
+    assert "\n" not in fresh.inner_text("#state")
+    assert fresh.locator("iframe[data-moved]:not([data-kept]):not(.stale)").count() == 1
+    frame = fresh.frames[-1]
+    now = frame.evaluate(f"{MOTION}.time")
+    until(frame, f"{MOTION}.time > {now + 0.05}")
+    assert frame.evaluate(LISTED) == ["energy", "defect"]
+    fresh.click("#tab-walk")
+    fresh.click("#tab-see")  # it is not sought again
+    fresh.wait_for_timeout(300)
+    assert fresh.inner_text("#state") == STOPPED
+
+
+SCRIPT = """() => {
+    const made = document.createElement("script");
+    made.textContent = "window.ran = 1";
+    document.body.append(made);
+    return window.ran ?? "blocked";
+}"""
+
+
+def test_by_keys_and_nothing_is_asked_of_others(fresh, site):
+    visit(fresh, f"{site}#so3")
+    fresh.evaluate("document.activeElement.blur()")
+    reached = []
+    for _ in range(14):
+        fresh.keyboard.press("Tab")
+        focus = "document.activeElement.id || document.activeElement.className"
+        reached.append(fresh.evaluate(focus))
+    for id in ("ready", "as-text", "as-form", "link", "cm-content", "tab-walk", "check", "walk"):
+        assert any(id in x for x in reached), (id, reached)
+    fresh.focus("#tab-walk")
+    fresh.keyboard.press("ArrowRight")
+    fresh.wait_for_selector("iframe[data-moved]", timeout=90_000)
+    assert fresh.evaluate("document.activeElement.id") == "tab-see"
+    # it moves, and keeps its energy
+    frame = moving(fresh)
+    first, last = (frame.evaluate(STATE, t) for t in (0, 10))
+    assert apart(first, last) > 0.1
+    shown_at(frame, 10)
+    assert change(frame, "energy") < 1e-9
+    # nothing was asked of others, and nothing may be
+    assert fresh.asked
+    assert all(x.startswith((site, "blob:")) for x in fresh.asked)
+    assert not fresh.told
+    elsewhere = "fetch('http://127.0.0.2:9/x').then(() => 'came', () => 'refused')"
+    assert fresh.evaluate(elsewhere) == "refused"
+    assert any("Content Security Policy" in x for x in fresh.told)
+    (worker,) = fresh.workers
+    assert worker.evaluate(elsewhere) == "refused"
+    assert frame.evaluate("fetch('motion.css').then(() => 'came', () => 'refused')") == "refused"
+    assert not [x for x in fresh.asked if "127.0.0.2" in x]
+    assert fresh.evaluate(SCRIPT) == "blocked"
+    fresh.told.clear()
+
+
+def test_on_a_phone_all_is_in_one_page_and_sides_together(browser, site):
+    phone = {"width": 390, "height": 844}
+    with opened(browser, viewport=phone, has_touch=True) as page:
+        visit(page, f"{site}#so3/linear.pullback")
+        step = "article[id='linear.pullback']"
+        buttons = page.locator(f"#walk {step} .number button")
+        assert buttons.count() == 8
+        assert buttons.first.is_visible()
+        sides = f"""(side) => [...play.equations.root.querySelectorAll(
+            `{step} .${{side}}`)].map((x) => x.getBoundingClientRect())"""
+        for left, right in zip(*(page.evaluate(sides, x) for x in ("left", "right")), strict=True):
+            assert right["top"] < left["bottom"]
+            assert right["left"] >= left["right"]
+        chosen(page, "top")
+        frame = moving(page)
+        canvases = "[...document.querySelectorAll('canvas')]"
+        touch = f"{canvases}.map((x) => getComputedStyle(x).touchAction)"
+        assert {*frame.evaluate(touch)} == {"pan-y"}
+        until(frame, "document.documentElement.scrollHeight - innerHeight < 4 && innerHeight > 900")
+        assert frame.locator("canvas").first.bounding_box()["height"] < 0.5 * 844
+        frame.locator(".reset").scroll_into_view_if_needed()
+        assert page.evaluate("scrollY") > 200
+        assert frame.locator(".keys").is_visible()
+
+
+@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("width", [390, 1280])
+def test_screen_readers_and_contrast(browser, site, width, dark):
+    """Of each part of the page, and of the frame with all its groups open."""
+    scheme = "dark" if dark else "light"
+    size = {"width": width, "height": 800}
+    with opened(browser, viewport=size, color_scheme=scheme, locale="fr-FR") as page:
+        visit(page, f"{site}#jelly", "jelly")
+        for tab in ("walk", "take", "see"):
+            page.click(f"#tab-{tab}")
+            if tab == "see":
+                page.wait_for_selector("iframe[data-moved]", timeout=90_000)
+            assert page.evaluate("document.documentElement.scrollWidth") <= width, tab
+            assert not violations(page), tab
+        page.click("#as-form")
+        page.wait_for_selector("#form > *")
+        assert not violations(page), "form"
+        chosen(page, "top")
+        frame = moving(page)
+        frame.evaluate("for (const x of document.querySelectorAll('details')) x.open = true")
+        assert not violations(frame), "the body"

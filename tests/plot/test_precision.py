@@ -1,0 +1,104 @@
+"""Several runs in one picture: work and precision, and their energies."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from derive.command.cli import main
+from derive.motion.run import Run
+from derive.plot.kinds_told import PRECISION
+from derive.plot.pictures import plot_energies
+from derive.plot.plot_sheet import PlotError, sheet
+from derive.plot.precision import of_runs, table
+from derive.plot.time_series import energies
+from derive.python.simulated import Simulated
+from tests.support.drawn_runs import plain_run, simulated
+from tests.support.needs import needs
+from tests.support.pages import blocks, commands
+from tests.support.walks import derived
+
+pytestmark = needs("the module matplotlib")
+
+
+def test_the_energies_of_several_runs(tmp_path, capsys):
+    paths = [tmp_path / "a.npz", tmp_path / "b.npz"]
+    for path, step in zip(paths, ("discrete", "gauss"), strict=True):
+        derived("top").simulate(0.04, dt=0.002, step=step, points=20).save(path)
+    runs = [(x.name, Simulated.read(x)) for x in paths]
+    figure = sheet(6.5, 3.4)
+    energies(figure, runs, str)
+    (panel,) = figure.get_axes()
+    named = {x.get_label(): x.get_ydata() for x in panel.get_lines()}
+    assert {x.split("\n")[0].removeprefix("exact: ") for x in named} == {
+        "discrete of order 2, dt 0.002",
+        "gauss, dt 0.002",
+    }
+    E = runs[0][1]["energy"]
+    drawn = np.nan_to_num(named["discrete of order 2, dt 0.002\na.npz"])
+    assert drawn == pytest.approx(abs(E / E[0] - 1), abs=1e-15)
+    out = tmp_path / "a.pdf"
+    words = ["plot", *map(str, paths), "--kind", "energy", "--out", str(out)]
+    assert main(words) == 0
+    assert len(out.read_bytes()) > 2000
+    still = plain_run(np.zeros((2, 2)), x_1="state")
+    with pytest.raises(PlotError, match="c: no run with a column of the energy"):
+        plot_energies([*runs, ("c", still)], "a.svg")
+    bare = tuple(replace(x, unit="") for x in runs[0][1].columns)
+    with pytest.raises(PlotError, match="some have no units"):
+        plot_energies([runs[0], ("c", Run(bare, runs[0][1].table))], "a.svg")
+    assert main([*words, "--column", "A_11"]) == 2
+    assert "leave out --column" in capsys.readouterr().err
+
+
+def test_a_diagram_of_runs(tmp_path):
+    paths = [tmp_path / f"{dt}.npz" for dt in (2.0, 0.25, 1.0)]
+    for path in paths:
+        derived("euler_top").simulate(20.0, points=1, dt=float(path.stem)).save(path)
+    series = of_runs([Simulated.read(x) for x in paths])
+    assert list(series) == ["gauss, dt"]
+    (_, coarse), (_, fine) = series["gauss, dt"]
+    assert fine < coarse < 1e-4
+    out = [tmp_path / "a.svg", tmp_path / "b.svg"]
+    for x in out:
+        assert main(["plot", *map(str, paths), "--kind", PRECISION, "--out", str(x)]) == 0
+    assert out[0].read_bytes() == out[1].read_bytes()
+
+
+def test_the_recipe_of_the_page_has_points_apart(tmp_path, monkeypatch):
+    """That of docs/plot.md: each method's by their work and by their error."""
+    monkeypatch.chdir(tmp_path)
+    (recipe,) = [x.text for x in blocks("docs/plot.md") if f"--kind {PRECISION}" in x.text]
+    for line in commands(recipe):
+        assert main(line.split()[1:]) == 0
+    names = [x for x in commands(recipe)[-1].split() if x.endswith(".npz")]
+    series = of_runs([Simulated.read(tmp_path / x) for x in names])
+    assert len(series) > 1
+    for points in series.values():
+        work, error = np.array(sorted(points)).T
+        assert len(work) > 1
+        assert (work[1:] > 1.2 * work[:-1]).all()
+        assert (error[1:] < 0.1 * error[:-1]).all()
+
+
+def test_a_diagram_of_a_table(tmp_path):
+    rows = [("gauss", 100, 1e-6), ("gauss", 200, 1e-12), ("rk4", 1000, 1e-5)]
+    keys = ("method", "work", "error")
+    lines = [",".join(map(str, x)) for x in (keys, *rows)]
+    (tmp_path / "a.csv").write_text("\n".join(lines))
+    (tmp_path / "a.json").write_text(json.dumps([dict(zip(keys, x, strict=True)) for x in rows]))
+    for name in ("a.csv", "a.json"):
+        assert table(tmp_path / name) == {
+            "gauss": [(100, 1e-6), (200, 1e-12)],
+            "rk4": [(1000, 1e-5)],
+        }
+    out = tmp_path / "a.pdf"
+    assert main(["plot", str(tmp_path / "a.csv"), "--kind", PRECISION, "--out", str(out)]) == 0
+    assert len(out.read_bytes()) > 2000
+
+
+def test_runs_of_two_motions_are_not_compared():
+    runs = [simulated("euler_top", 1.0), simulated("euler_top", 2.0)]
+    with pytest.raises(PlotError, match="runs of one motion"):
+        of_runs(runs)
