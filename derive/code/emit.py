@@ -45,13 +45,16 @@ def emit(
     prefix: str,
     options: Options | None = None,
     allowed: Sequence[str] = (),
+    *,
+    short: bool = False,
 ) -> dict[str, str]:
     """File name → text, for each language; ``EmitError`` for a prefix that is no name.
 
-    ``allowed``: what may be negative in the problem, ``mass`` or ``stiffness``.
+    ``allowed``: what may be negative in the problem, ``mass`` or ``stiffness``; ``short``: as an
+    ``EmissionRequest`` has it.
     """
     chosen = options or Options()
-    asked = EmissionRequest(d.name, prefix, tuple(languages), chosen, tuple(allowed))
+    asked = EmissionRequest(d.name, prefix, tuple(languages), chosen, tuple(allowed), short)
     places = planned(languages, prefix, chosen)
     if chosen.ensemble and program.loops:
         raise EmitError(f"{d.name}: --ensemble is not written for loops on the torus: leave it out")
@@ -175,6 +178,7 @@ def _fields(
         "fabs": printer.absolute,
         "title": comment(p.title),
         "generated": generated,
+        "short": asked.short,
         "parameters": parameters,
         "parameter_names": [x[0] for x in p.parameters],
         "defaults": [(x[0], repr(x[1])) for x in p.parameters if x[1] is not None],
@@ -191,6 +195,8 @@ def _fields(
         "loops": p.loops and _loops(p.loops, printer),
         "steps": steps(p, written, asked.options) if asked.options.moves else None,
     }
+    if fields["steps"] and asked.short:
+        fields["steps"]["turns"] = []
     if fields["steps"] and language.name in ALGORITHMS:
         fields["steps"]["algorithms"] = ALGORITHMS[language.name](p, fields)
     return fields

@@ -16,13 +16,15 @@ _OPTION = re.compile(r"--([a-z-]+)(?: (\w+))?")
 
 @dataclass(frozen=True)
 class EmissionRequest:
-    """What ``derive emit`` was asked for; ``allowed``: what may be negative, as its flags say."""
+    """What ``derive emit`` was asked for; ``allowed``: what may be negative, as its flags say;
+    ``short``: for a page, where rates are not written a second time for the stages of a step."""
 
     problem: str
     prefix: str
     languages: tuple[str, ...]
     options: Options = field(default_factory=Options)
     allowed: tuple[str, ...] = ()
+    short: bool = False
 
     @property
     def words(self) -> list[str]:

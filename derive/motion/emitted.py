@@ -81,10 +81,12 @@ class Emitted(EmittedCode):
 
     @cached_property
     def python(self) -> ModuleType:
-        """The emitted module of Python."""
+        """The emitted module of Python, whose iterations end at rounding."""
         module = ModuleType(self.name)
         (text,) = emit(self.program, self.record, ("python",), self.prefix, self.options).values()
         exec(compile(text, f"{self.name}.py", "exec"), module.__dict__)  # our own templates
+        if "ENOUGH" in module.__dict__:
+            module.__dict__["ENOUGH"] = 0.0
         return module
 
     @cached_property

@@ -141,8 +141,9 @@ def style() -> str:
 
 def script(code: EmittedCode, record: Derivation, body: Data) -> str:
     """The emitted module, what mounts a motion, and the call of it, in few characters."""
+    options = Options(step=("gauss",))
     (source,) = emit(
-        code.program, record, ("javascript",), code.prefix, Options(step=("gauss",))
+        code.program, record, ("javascript",), code.prefix, options, short=True
     ).values()
     own = code.program
     kept = [x for x in KEPT if x in own.functions]

@@ -40,6 +40,8 @@ class JavaScript(Printer):
         self.hoisted: dict[str, str] = {}
         """Local table → its name before the routine."""
         self.before: list[str] = []
+        self.work: dict[str, int] = {}
+        """Array that a routine works with → its place among those that a motion keeps."""
 
     # -- heads -------------------------------------------------------------------------------------
     def function(self, f: ast.FunctionDef) -> Lines:
@@ -100,7 +102,8 @@ class JavaScript(Printer):
         if value is None:
             motion = next((a for a, t in self.arguments.items() if t.name == "Motion"), None)
             value = self.made(kind)
-            value = f"({motion}.{self.routine}_{name} ??= {value})" if motion else value
+            place = self.work.setdefault(f"{self.routine} {name}", len(self.work)) if motion else 0
+            value = f"({motion}.work[{place}] ??= {value})" if motion else value
         return f"{word} {name} = {value}"
 
     def made(self, t: Type) -> str:
@@ -161,11 +164,8 @@ class JavaScript(Printer):
     def flat(self, x: ast.expr) -> tuple[str, str]:
         """The array that lanes are of, and where they begin."""
         if isinstance(x, ast.Subscript):
-            place = x.slice
-            if isinstance(place, ast.Constant) and isinstance(place.value, int):
-                return self.outside(x.value), str(8 * place.value)
-            known = self.given.get(place.id) if isinstance(place, ast.Name) else None
-            begin = str(8 * known) if isinstance(known, int) else f"8*{self.at(place, PRODUCT + 1)}"
+            known = self.known(x.slice)
+            begin = f"8*{self.at(x.slice, PRODUCT + 1)}" if known is None else str(8 * known)
             return self.outside(x.value), begin
         given = isinstance(x, ast.Name) and x.id in self.arguments
         return self.outside(x), f"{self.outside(x)}_at" if given else "0"
@@ -178,8 +178,23 @@ class JavaScript(Printer):
 
     def lane_entry(self, x: ast.Subscript) -> str:
         array, begin = self.flat(x.value)
-        place = self.bare(x.slice)
-        return f"{array}[{begin} + {place}]" if begin != "0" else f"{array}[{place}]"
+        known = self.known(x.slice)
+        place = self.bare(x.slice) if known is None else str(known)
+        if "0" in (begin, place):
+            return f"{array}[{place if begin == '0' else begin}]"
+        return f"{array}[{begin} + {place}]"
+
+    def known(self, x: ast.expr) -> int | None:
+        """The value of an index that is known when a file is written."""
+        match x:
+            case ast.Constant(value=int(value)):
+                return value
+            case ast.Name(id=name) if isinstance(given := self.given.get(name), int):
+                return int(given)
+            case ast.BinOp(left, ast.Add(), right):
+                a, b = self.known(left), self.known(right)
+                return None if a is None or b is None else a + b
+        return None
 
     def passed(self, x: ast.expr, kind: Type) -> str:
         return ", ".join(self.flat(x)) if kind.is_lanes else super().passed(x, kind)
@@ -205,8 +220,10 @@ class JavaScript(Printer):
         """The tables of numbers, known in the whole file."""
         self.types, self.arguments, self.hoisted = {}, {}, {}
         for name, kind in self.source.tables.items():
-            text = self.rows(self.given[self.source.values[name]], kind)
-            yield from self.wrapped(f"const {name} = {text};")
+            values = self.given[self.source.values[name]]
+            halved = _halved(values) if kind.name in LANES and kind.sizes else None
+            text = f"{halved[0]}({', '.join(map(self.constant, halved[1]))})" if halved else ""
+            yield from self.wrapped(f"const {name} = {text or self.rows(values, kind)};")
 
 
 def _flat(values: Any) -> list[float]:
@@ -214,3 +231,16 @@ def _flat(values: Any) -> list[float]:
     if not isinstance(values, (list, tuple)):
         return [values]
     return [x for row in values for x in _flat(row)]
+
+
+def _halved(rows: Sequence[Sequence[float]]) -> tuple[str, list[float]] | None:
+    """Of eight rows that half of their numbers tell without rounding, the function that makes them
+    of these, and these; ``None`` for others."""
+    span = range(8)
+    if all(rows[n][7 - j] == (-1) ** n * rows[n][j] for n in span for j in span):
+        return "mirrored", [x for row in rows for x in row[:4]]
+    if all(
+        rows[i][j] + rows[j][i] == 1 and rows[j][i] == 1 - rows[i][j] for i in span for j in span
+    ):
+        return "completed", [rows[i][j] for i in span for j in range(i)]
+    return None

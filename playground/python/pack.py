@@ -52,16 +52,21 @@ def is_text(x: ast.stmt) -> bool:
     return constant and isinstance(x.value.value, str)
 
 
+READ = re.compile("routines/algorithms/")
+"""Sources that are read as text, and are never run."""
+
+
 def compiled(folder: Path, optimize: int = 0) -> None:
     """The modules of a folder as code, beside what else there is; ``optimize``: as Python's option
     -O or -OO has it, which then takes the docstrings out."""
-    for path in sorted(folder.rglob("*.py")) if not optimize else ():
+    modules = [x for x in sorted(folder.rglob("*.py")) if not READ.search(str(x))]
+    for path in modules if not optimize else ():
         undocumented(path)
     os.chdir(folder)
-    chosen = {"legacy": True, "optimize": optimize}
+    chosen = {"legacy": True, "optimize": optimize, "rx": READ}
     mode = PycInvalidationMode.UNCHECKED_HASH
     assert compileall.compile_dir(".", quiet=1, invalidation_mode=mode, **chosen)
-    for path in sorted(folder.rglob("*.py")):
+    for path in modules:
         path.unlink()
 
 

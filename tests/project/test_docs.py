@@ -11,12 +11,9 @@ from types import SimpleNamespace
 import pytest
 
 import derive
-from derive.code.emit import emit
 from derive.code.languages import LANGUAGES
-from derive.code.options import Options
 from derive.command.arguments import parser
 from derive.command.cli import COMMANDS, main
-from derive.pipeline import program
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.schema.kinds import kinds
@@ -246,35 +243,3 @@ def test_the_site_leads_to_its_playground():
         context = {"pathto": lambda path, resource: f"../{path}" if resource else ""}
         conf["playground"](app, "docs/motion", "page.html", context, None)
         assert ('href="../play/index.html"' in context.get("theme_announcement", "")) is told
-
-
-EMITTED = {
-    "C, C++": ("c", "gauss"),
-    "Rust": ("rust", "gauss"),
-    "Python": ("python", "gauss"),
-    "Python, JAX": ("python", "gauss_jax"),
-    "JavaScript": ("javascript", "gauss"),
-}
-MARKS = {
-    "a thousandth": r"(?<![\d.])0\.001(?!\d)",
-    "places first": r"first_rhs_lanes\(times|places, then velocities",
-    "by its iterations": r"\b16(\.0)? ?/ ?(m->sweeps|f64::from\(m\.sweeps|sweeps)",
-    "evaluations": r"\bm(->|\.)evaluations \+",
-}
-"""What each column of the table means in the code."""
-
-
-def test_what_gauss_to_is_said_to_do_in_each_language():
-    """The table of docs/steps.md, in the code that is emitted for `se3`, of 18 numbers."""
-    page = (ROOT / "docs" / "steps.md").read_text(encoding="utf-8")
-    rows = [x.strip(" |").split(" | ") for x in page.splitlines() if x.startswith("  | ")]
-    told = rows[1:]
-    assert [x for x, *_ in told] == [*EMITTED]
-    d = derive.derive("se3")
-    made = program(d.problem, d.record)
-    for name, ends, *others in told:
-        language, step = EMITTED[name]
-        files = emit(made, d.record, (language,), "se3", Options(step=(step,)))
-        code = "\n".join(files.values())
-        found = [bool(re.search(mark, code)) for mark in MARKS.values()]
-        assert found == ["thousandth" in ends, *(x.startswith("yes") for x in others)], name

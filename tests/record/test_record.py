@@ -182,7 +182,7 @@ def test_a_rule_of_another_kind_is_not_read(rule):
     if RULES[rule].kind == "kernel":
         assert from_json(damaged(change))["so3.kernel"].rule == rule
     else:
-        with pytest.raises(RecordError, match=f"key 'kind' must be {RULES[rule].kind}"):
+        with pytest.raises(RecordError, match=f"key 'kind' must be \"{RULES[rule].kind}\""):
             from_json(damaged(change))
 
 

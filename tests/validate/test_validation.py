@@ -444,7 +444,7 @@ HIDDEN = {
         "OK, NOT_FINITE, NOT_CONVERGED = 0, 2",
         "OK, NOT_FINITE, NOT_CONVERGED = 0, 1",
     ),
-    "table of a method": ("_RK4 = _Explicit(\n    4", "_RK4 = _Explicit(\n    5"),
+    "number of a method": ("h * (0.5 * f[0])", "h * (0.25 * f[0])"),
     "annotation": ("def _energy(xp, t, x, k, u):", "def _energy(xp, t, x, k, u: print()):"),
     "encoding": ('"""', '# coding: unicode_escape\n"""'),
     "carriage return": ("import math\n", "import math  #\rk = 1\n"),

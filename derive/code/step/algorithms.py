@@ -30,6 +30,7 @@ def known(p: Program, steps: Mapping[str, Any]) -> dict[str, Any]:
     """What the algorithms know of a file, whatever its language: see ``source``."""
     gauss, explicit, discrete = steps["gauss"], steps["explicit"], steps["discrete"]
     methods = {x["name"]: i for i, x in enumerate(explicit["methods"], 1)} if explicit else {}
+    numbered = methods | ({"discrete": discrete["number"]} if discrete else {})
     two = len(steps["turns"]) == 2
     parts = steps["parts"]
     return {
@@ -47,6 +48,7 @@ def known(p: Program, steps: Mapping[str, Any]) -> dict[str, Any]:
         "EXTRA": bool(explicit and explicit["extra"]),
         "HELD": steps["held"],
         "METHODS": bool(explicit or discrete),
+        "METHODS_SAID": ", ".join(f"{n} {x}" for x, n in {**numbered, "another": 0}.items()),
         "RK4": methods.get("rk4", 0),
         "VERN9": methods.get("vern9", 0),
         "DISCRETE": discrete["number"] if discrete else 0,
@@ -231,7 +233,8 @@ def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "SIZE_K": len(p.constants),
         "project": functions["project"]["name"] if "project" in functions else "",
         "real": fields["real"],
-        "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] else 0,
+        # a page shows what is kept: there the iteration goes to rounding
+        "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] and not fields["short"] else 0.0,
         "NO_EVENT": -1,
         "public": {*roots(steps)} - {"towards", "begin", "dense", "moved", "hold", "rate"},
         "begin": "begin_at",
@@ -252,11 +255,13 @@ def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         },
     }
     printer = JavaScript(source_of(given, steps), given)
-    more = {"Motion": "        inputs: null, // or a function of t and x that gives the inputs"}
-    more = more if p.inputs else {}
-    return _texts(
-        printer, [printer.record(x, more.get(x, "")) for x in printer.source.records], steps
+    inputs = "        inputs: null, // or a function of t and x that gives the inputs\n" * bool(
+        p.inputs
     )
+    work = "        work: [], // the arrays that routines work with"
+    more = {"Motion": inputs + work}
+    records = [printer.record(x, more.get(x, "")) for x in printer.source.records]
+    return _texts(printer, records, steps)
 
 
 def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
@@ -270,7 +275,7 @@ def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "SIZE_U": len(p.inputs),
         "SIZE_K": len(p.constants),
         "returned": {of: functions[x]["name"] for x, of in had.items() if x in functions},
-        "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] else 0,
+        "ENOUGH": "ENOUGH",
         "NO_EVENT": "None",
         "public": {*roots(steps)} - {"begin", "dense", "moved", "hold", "rate", "towards"},
         "named": {"towards", "gauss_step", "vern9_step", "first_step"},

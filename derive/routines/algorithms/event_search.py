@@ -157,11 +157,11 @@ def first_event(
     inside: real[N_EVENTS]
     first: var[real] = 2.0
     found: var[index] = 0
+    interval: var[index] = 0
     if EXTRA:
         vern9_complete(m)
-    seen[0][:] = (
-        m.values
-    )  # what two steps share is the same for both: nothing is seen twice, or not at all
+    # what two steps share is the same for both: nothing is seen twice, or not at all
+    seen[0][:] = m.values
     for s in range(1, INTERVALS):
         values_within(m, real(s) * WIDTH, k, u, seen[s])
     values(m, m.t, m.x, k, u, seen[INTERVALS])
@@ -183,11 +183,14 @@ def first_event(
         if b < first:
             first = b
             found = e
+            interval = s
             m.rising = seen[s][e] < 0.0
     if first > 1.0:
         m.seen = m.t
         m.values[:] = seen[INTERVALS]
         return OK
+    # what else happens there has changed its sign since that interval began, whatever it was before
+    m.values[:] = seen[interval]
     values_within(m, first + 1e-3, k, u, inside)
     above: real = inside[found]
     values_within(m, first - 1e-3, k, u, inside)
