@@ -170,10 +170,23 @@ def test_every_key_of_a_problem_file_is_described(table):
         assert re.search(rf"(?<!\w){key}(?!\w)", spans), key
 
 
+def rooms():
+    """Of each row of the table of rooms: the room, what it may import, its most lines."""
+    row = r"^\| `(\w+)` \| .* \| (.*?) ?\| (\d+) \|$"
+    return re.findall(row, PAGES["docs/architecture.md"], flags=re.M)
+
+
 def test_the_table_of_rooms_is_that_of_the_imports():
-    rows = re.findall(r"^\| `(\w+)` \| .* \| (.*?) ?\|$", PAGES["docs/architecture.md"], flags=re.M)
-    found = {room: {*re.findall(r"\w+", imports)} for room, imports in rows}
+    found = {room: {*re.findall(r"\w+", imports)} for room, imports, _ in rooms()}
     assert found == {x: y - {x, "__init__"} for x, y in ALLOWED.items()}
+
+
+def test_no_room_is_larger_than_its_budget():
+    """Nor much smaller: who makes a room smaller takes the lines out of the table."""
+    for room, _, most in rooms():
+        files = (ROOT / "derive" / room).rglob("*.py")
+        lines = sum(len(x.read_text(encoding="utf-8").splitlines()) for x in files)
+        assert 0.95 * int(most) - 50 <= lines <= int(most), (room, lines)
 
 
 def test_the_reference_has_every_public_name():
