@@ -117,7 +117,9 @@ class Python(Printer):
         yield from super().statement(x, depth)
 
     def is_elementwise(self, body: Sequence[ast.stmt], i: str) -> bool:
-        """Does each statement find one number for each i, or add or compare them all?"""
+        """Does each statement find one number for each i, or add or compare them all?  What is
+        added or compared is not read by another one."""
+        found: list[str] = []
         for x in body:
             match x:
                 case ast.AnnAssign(value=ast.expr()):
@@ -129,22 +131,25 @@ class Python(Printer):
                     summed = added and isinstance(left, ast.Name)
                     if not (own or summed or largest):
                         return False
+                    found += [ast.unparse(left)] * (not own)
                 case _:
                     return False
             if not self.is_index_alone(x, i):
                 return False
-        return True
+        read = [name for x in body for name in _names(x)]
+        return all(read.count(name) <= 1 for name in found)
 
     def last_two(self, x: ast.Subscript) -> list[str]:
         """The last index of an entry, and that before it."""
         before = [ast.unparse(x.value.slice)] if isinstance(x.value, ast.Subscript) else []
         return [*before, ast.unparse(x.slice)]
 
-    def sliced(self, x: ast.Subscript) -> str | None:
-        """The text of the entries that a loop over whole arrays goes through, if it does."""
+    def sliced(self, x: ast.Subscript, whole: str = "") -> str | None:
+        """The text of the entries that a loop over whole arrays goes through, if it does;
+        ``whole``: the index of all."""
         *before, last = self.last_two(x)
         if last in self.rows:
-            part = self.rows[last]
+            part = self.rows[last] or whole
             return self.outside(x.value) + (f"[{part}]" if part else "")
         if before and before[0] in self.rows and isinstance(x.value, ast.Subscript):
             part = self.rows[before[0]] or ":"
@@ -245,14 +250,8 @@ class Python(Printer):
         return f"{left}[:] = {self.outside(of)}"
 
     def target(self, x: ast.expr) -> str:
-        text = self.sliced(x) if isinstance(x, ast.Subscript) else None
-        if text is None:
-            return super().target(x)
-        return (
-            text
-            if text.endswith("]") and isinstance(x, ast.Subscript) and text != self.outside(x.value)
-            else f"{text}[:]"
-        )
+        text = self.sliced(x, ":") if isinstance(x, ast.Subscript) else None
+        return super().target(x) if text is None else text
 
     def loop_over(self, i: str, first: str, last: str, by: str, back: bool) -> str:
         if back:
@@ -353,8 +352,8 @@ ELEMENTWISE = {"abs", "product", "summed", "fused", "is_held"}
 """What may be called on arrays."""
 
 
-def _names(x: ast.expr) -> set[str]:
-    """The names of an expression."""
+def _names(x: ast.AST) -> set[str]:
+    """The names of an expression or a statement."""
     return {y.id for y in ast.walk(x) if isinstance(y, ast.Name)}
 
 

@@ -241,7 +241,7 @@ class _Known(ast.NodeTransformer):
         match x:
             case ast.Constant(value=value):
                 return value
-            case ast.Name(id=name):
+            case ast.Name(id=name) if name in self.given:
                 return self.given[name]
             case ast.Subscript():
                 return self._value(x.value)[self._value(x.slice)]

@@ -1,0 +1,103 @@
+"""Algorithms in each language: a small one does what Python, read plainly, says."""
+
+import ctypes
+import shutil
+import subprocess
+
+import numpy
+import pytest
+
+from derive.routines.c import C
+from derive.routines.javascript import JavaScript
+from derive.routines.python import Python
+from derive.routines.source import Source
+from tests.support.needs import need
+
+TEXT = '''
+def added(n: count, x: real[N], y: out[real[N]]) -> real:
+    """y becomes x in the order that it has from behind, with what TWO adds to each; the sum."""
+    total: var[real] = 0.0
+    largest: var[real] = -1.0
+    weights: table[real, N] = WEIGHTS
+    for i in range(N):
+        y[i] = TWO + weights[i] * x[i]
+        largest = abs(x[i]) if abs(x[i]) > largest else largest
+    for i in reversed(range(N)):
+        total += y[i]  # the sum
+    if LONG:
+        while total > 10.0:
+            total /= 2.0
+    for i in unrolled(3):
+        if ROW[i]:
+            total += ROW[i] * x[i]
+    return total + largest if n > 0 else 0.0
+'''
+GIVEN = {"N": 3, "TWO": 2.0, "WEIGHTS": [1.0, -1.0, 0.5], "LONG": True, "ROW": [0.0, 0.25, 3.0]}
+X = [3.0, -7.5, 11.0]
+Y = [5.0, 9.5, 7.5]
+TOTAL = 22.0 / 2 / 2 - 7.5 / 4 + 33.0 + 11.0
+
+
+def printed(printer, **more):
+    given = {**GIVEN, "N_STATE": 3, "public": set(), "real": "double", **more}
+    source = Source()
+    source.read(TEXT, given)
+    return printer(source, given).text(["added"])
+
+
+def test_python():
+    module = {"numpy": numpy, "math": __import__("math")}
+    text = printed(Python, named=set(), returned={}, entry=[], status="")
+    exec(text, module)
+    y = numpy.zeros(3)
+    assert module["_added"](1, numpy.array(X), y) == TOTAL
+    assert y.tolist() == Y
+    assert module["_added"](0, numpy.array(X), y) == 0.0
+    assert "for i in range(3)" not in text  # over whole arrays
+
+
+def test_c(tmp_path):
+    need("cc")
+    text = printed(C, prefix="a", fabs="fabs", inline="", later=set())
+    head = "#include <math.h>\n#include <stddef.h>\n"
+    (tmp_path / "a.c").write_text(head + text, encoding="utf-8")
+    command = ["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "a.c"]
+    subprocess.run([*command, "-o", "a.so"], cwd=tmp_path, check=True)
+    function = ctypes.CDLL(str(tmp_path / "a.so")).a_added
+    function.restype = ctypes.c_double
+    y = (ctypes.c_double * 3)()
+    assert function(ctypes.c_size_t(1), (ctypes.c_double * 3)(*X), y) == TOTAL
+    assert [*y] == Y
+
+
+def test_javascript(tmp_path):
+    if shutil.which("node") is None:
+        need("node")
+    text = printed(JavaScript, real="Float64Array", tags={}, entry=[], status="")
+    call = f"\nconst y = [0, 0, 0];\nconsole.log(added(1, {X}, y), ...y);\n"
+    (tmp_path / "a.mjs").write_text(text + call, encoding="utf-8")
+    command = ["node", "a.mjs"]
+    done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
+    assert [*map(float, done.stdout.split())] == [TOTAL, *Y]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("def f():\n    ''\n    with x:\n        pass\n", "no statement of a routine"),
+        ("def f():\n    ''\n    x: real = [1]\n", "no expression of a routine"),
+        ("def f():\n    ''\n    x: real = 1.0 / 2.0\n", "C takes the quotient whole"),
+        ("def f(x: 3):\n    ''\n    x = 1\n", "no type"),
+        ("for i in unrolled(n):\n    x = 1\n", "not known when a file is written"),
+    ],
+)
+def test_what_is_no_routine_is_said(text, words):
+    given = {"prefix": "a", "real": "double", "fabs": "fabs", "inline": "", "later": set()}
+
+    def in_c():
+        source = Source()
+        source.read(text, given)
+        return C(source, given).text(["f"])
+
+    with pytest.raises(ValueError, match=words):
+        in_c()
