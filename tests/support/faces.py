@@ -368,7 +368,7 @@ RUST_MOTION = """\
 @steps@
                 _ => return -9,
             };
-            given(out, &[@event@ as R, @rising@, m.t, m.h, -1.0]);
+            given(out, &[@event@ as R, @rising@, m.t, m.h, m.evaluations as R]);
             let state = if word == "dense" { code::dense(m, t) } else { m.x };
             given(unsafe { out.add(5) }, &state);
             return match made {
@@ -430,7 +430,7 @@ const moved = (code, path, word, [a, b, k, u, x]) => {
     const m = motions.get(path);
     if (word === "torque") {
         m.inputs = (t) => Array.from(code.INPUTS, (_, i) => (i ? 0 : a*Math.cos(b*t)));
-        return [0, -1, 0, m.t, m.h, -1, ...m.x];
+        return [0, -1, 0, m.t, m.h, m.evaluations, ...m.x];
     }
     const step = word.replace("_watch", "");
     let status = 0, state = m.x;
@@ -440,7 +440,7 @@ const moved = (code, path, word, [a, b, k, u, x]) => {
         status = step === word ? code[word](m, k, u, a, b) : code.watch(code[step], m, k, u, a, b);
         state = m.x;
     }
-    return [status, m.event ?? -1, Number(m.rising ?? 0), m.t, m.h, -1, ...state];
+    return [status, m.event ?? -1, Number(m.rising ?? 0), m.t, m.h, m.evaluations, ...state];
 };
 const answer = (code, path, real, word, given) => {
     if (word === "names") return [0, ...code.STATE, ...code.PARAMETERS, ...code.INPUTS];

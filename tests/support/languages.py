@@ -36,6 +36,10 @@ def command(*words, **options):
     return done.stdout
 
 
+DIVERGED = 1e6
+"""Beyond this no motion is compared: a state by chance is off the group, where forms diverge."""
+
+
 @dataclass
 class Case:
     """A problem with options, numbers for its arrays, and what the C makes of them in double.
@@ -108,6 +112,8 @@ class Case:
                 # C++ does not say why
                 expected = expected != 0 if library.language == "cpp" else expected
                 assert np.array_equal(found, expected), (self.name, what, found, expected)
+                continue
+            if what in library.steps and np.abs(expected).max() > DIVERGED:
                 continue
             worst = np.abs(found - expected).max(initial=0)
             most = (tolerance or self.tolerance) * np.abs(expected).max(initial=0)

@@ -201,7 +201,7 @@ def length(array, function, known):
 @dataclass(frozen=True)
 class Place:
     """Where a motion is after a command: what the step returned, the event (-1 for none), is it
-    reached from below, t, the last step, evaluations of the rates (-1 where nobody counts), the
+    reached from below, t, the last step, evaluations of the rates, the
     state."""
 
     status: int
