@@ -14,8 +14,8 @@ from derive.routines.source import Source
 from tests.support.needs import need
 
 TEXT = '''
-def added(n: count, x: real[N], y: out[real[N]]) -> real:
-    """y becomes x in the order that it has from behind, with what TWO adds to each; the sum."""
+def added(n: count, x: real[N], y: out[real[N]], z: out[real[N]]) -> real:
+    """z becomes TWO and multiples of x, y what z was; a sum."""
     total: var[real] = 0.0
     largest: var[real] = -1.0
     weights: table[real, N] = WEIGHTS
@@ -30,11 +30,14 @@ def added(n: count, x: real[N], y: out[real[N]]) -> real:
     for i in unrolled(3):
         if ROW[i]:
             total += ROW[i] * x[i]
+    for i in range(N):
+        other: real = y[i]
+        y[i] = z[i]
+        z[i] = other
     return total + largest if n > 0 else 0.0
 '''
 GIVEN = {"N": 3, "TWO": 2.0, "WEIGHTS": [1.0, -1.0, 0.5], "LONG": True, "ROW": [0.0, 0.25, 3.0]}
-X = [3.0, -7.5, 11.0]
-Y = [5.0, 9.5, 7.5]
+X, Y, Z = [3.0, -7.5, 11.0], [0.5, 0.25, 0.125], [5.0, 9.5, 7.5]
 TOTAL = 22.0 / 2 / 2 - 7.5 / 4 + 33.0 + 11.0
 
 
@@ -49,10 +52,10 @@ def test_python():
     module = {"numpy": numpy, "math": __import__("math")}
     text = printed(Python, named=set(), returned={}, entry=[], status="")
     exec(text, module)
-    y = numpy.zeros(3)
-    assert module["_added"](1, numpy.array(X), y) == TOTAL
-    assert y.tolist() == Y
-    assert module["_added"](0, numpy.array(X), y) == 0.0
+    y, z = numpy.zeros(3), numpy.array(Y)
+    assert module["_added"](1, numpy.array(X), y, z) == TOTAL
+    assert (y.tolist(), z.tolist()) == (Y, Z)
+    assert module["_added"](0, numpy.array(X), y, z) == 0.0
     assert "for i in range(3)" not in text  # over whole arrays
 
 
@@ -65,20 +68,20 @@ def test_c(tmp_path):
     subprocess.run([*command, "-o", "a.so"], cwd=tmp_path, check=True)
     function = ctypes.CDLL(str(tmp_path / "a.so")).a_added
     function.restype = ctypes.c_double
-    y = (ctypes.c_double * 3)()
-    assert function(ctypes.c_size_t(1), (ctypes.c_double * 3)(*X), y) == TOTAL
-    assert [*y] == Y
+    y, z = (ctypes.c_double * 3)(), (ctypes.c_double * 3)(*Y)
+    assert function(ctypes.c_size_t(1), (ctypes.c_double * 3)(*X), y, z) == TOTAL
+    assert ([*y], [*z]) == (Y, Z)
 
 
 def test_javascript(tmp_path):
     if shutil.which("node") is None:
         need("node")
     text = printed(JavaScript, real="Float64Array", tags={}, entry=[], status="")
-    call = f"\nconst y = [0, 0, 0];\nconsole.log(added(1, {X}, y), ...y);\n"
+    call = f"\nconst y = [0, 0, 0], z = {Y};\nconsole.log(added(1, {X}, y, z), ...y, ...z);\n"
     (tmp_path / "a.mjs").write_text(text + call, encoding="utf-8")
     command = ["node", "a.mjs"]
     done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
-    assert [*map(float, done.stdout.split())] == [TOTAL, *Y]
+    assert [*map(float, done.stdout.split())] == [TOTAL, *Y, *Z]
 
 
 @pytest.mark.parametrize(

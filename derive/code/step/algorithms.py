@@ -285,7 +285,9 @@ def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "entry": ["    k, u = _given(k, u)"],
         "status": "OK, or why not, with m as it was after the last good step.",
     }
-    printer = Python(source_of(given, steps), given)
+    source = source_of(given, steps)
+    source.leave("factored", "lu_solve")  # which NumPy has in much less time
+    printer = Python(source, given)
     more = {
         "Motion": "        self.inputs = None  # or a function of t and x that gives the inputs"
     }
