@@ -348,7 +348,7 @@ class Python(Printer):
         yield line
 
 
-ELEMENTWISE = {"abs", "product", "summed", "fused", "is_held"}
+ELEMENTWISE = {"abs", "combination", "summed", "fused", "is_held"}
 """What may be called on arrays."""
 
 

@@ -1,8 +1,10 @@
 """Algorithms in each language: a small one does what Python, read plainly, says."""
 
 import ctypes
+import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import numpy
 import pytest
@@ -13,6 +15,7 @@ from derive.routines.python import Python
 from derive.routines.source import Source
 from tests.support.needs import need
 
+ROOT = Path(__file__).parents[2]
 TEXT = '''
 def added(n: count, x: real[N], y: out[real[N]], z: out[real[N]]) -> real:
     """z becomes TWO and multiples of x, y what z was; a sum."""
@@ -104,3 +107,20 @@ def test_what_is_no_routine_is_said(text, words):
 
     with pytest.raises(ValueError, match=words):
         in_c()
+
+
+LEFT = {"discrete_within", "rhs_lanes", "inputs_at", "hold_inputs", "factored", "lu_solve"}
+"""What an algorithm leaves to a template."""
+HEAD = re.compile(
+    r"(?:function |fn |def _?|^static inline [\w ]*\{\{ prefix \}\}_)(\w+)\(", re.MULTILINE
+)
+
+
+def test_no_template_has_a_function_of_the_name_of_a_routine():
+    """As the loops on the torus, which stand in the same file."""
+    written = (ROOT / "derive" / "routines" / "algorithms").glob("*.py")
+    routines = {x for f in written for x in re.findall(r"def (\w+)", f.read_text(encoding="utf-8"))}
+    for language in ("c", "javascript", "python", "rust"):
+        for template in (ROOT / "templates" / language).glob("*.jinja"):
+            own = {*HEAD.findall(template.read_text(encoding="utf-8"))}
+            assert own & routines <= LEFT, template.name

@@ -19,7 +19,7 @@ def first_rhs_lanes(
 ): ...
 
 
-def product(a: eight[8], l: eight) -> lanes:
+def combination(a: eight[8], l: eight) -> lanes:
     """sum_j a_j l_j."""
     even: var[lanes] = 0.0
     odd: var[lanes] = 0.0
@@ -57,7 +57,7 @@ def extrapolate(m: out[Motion], h: real, L: out[lanes[N_STATE]]):
                 m.ahead[j][i] *= above
                 above *= gap[j]
     for i in range(N_STATE):
-        L[i] = product(m.ahead, m.L[i])
+        L[i] = combination(m.ahead, m.L[i])
 
 
 def summed(a: eight) -> real:
@@ -69,7 +69,7 @@ def stages(m: Motion, begin: index, end: index, L: lanes[N_STATE], X: out[lanes[
     """The stages of the numbers from begin to before end: X_i = x + sum_j mu_ij L_j."""
     in_memory(L)
     for i in range(begin, end):
-        X[i] = m.x[i] + (m.low[i] + product(mu, L[i]))
+        X[i] = m.x[i] + (m.low[i] + combination(mu, L[i]))
 
 
 def swept(

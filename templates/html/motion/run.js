@@ -11,7 +11,7 @@ function begun(page, p, u, x) {
   const until = (m, t, late) => {
     while (m.t < t) {
       if (performance.now() > late) return false;
-      const next = min(t, m.t + CHUNK * (m.next || each));
+      const next = min(t, m.t + CHUNK * (m.h_next || each));
       if (module.gauss_to(m, k, u, next, page.tol) !== 0) {
         ended = true;
         return false;
