@@ -109,8 +109,17 @@ def test_what_is_no_routine_is_said(text, words):
         in_c()
 
 
-LEFT = {"discrete_within", "rhs_lanes", "inputs_at", "hold_inputs", "factored", "lu_solve"}
-"""What an algorithm leaves to a template."""
+LEFT = {
+    "begin",
+    "dense",
+    "discrete_within",
+    "rhs_lanes",
+    "inputs_at",
+    "hold_inputs",
+    "factored",
+    "lu_solve",
+}
+"""What an algorithm leaves to a template, or is called from one under another name."""
 HEAD = re.compile(
     r"(?:function |fn |def _?|^static inline [\w ]*\{\{ prefix \}\}_)(\w+)\(", re.MULTILINE
 )
