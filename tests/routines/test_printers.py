@@ -121,7 +121,9 @@ LEFT = {
 }
 """What an algorithm leaves to a template, or is called from one under another name."""
 HEAD = re.compile(
-    r"(?:function |fn |def _?|^static inline [\w ]*\{\{ prefix \}\}_)(\w+)\(", re.MULTILINE
+    r"^(?:(?:export )?function |(?:pub )?fn |def _?|static inline [\w ]*\{\{ prefix \}\}_)"
+    r"(\w+)\(",
+    re.MULTILINE,
 )
 
 
