@@ -17,6 +17,7 @@ class C(Printer):
     """C99, and C++ and CUDA alike."""
 
     spaced = False
+    counter = "int"
     words: ClassVar = {"True": "1", "False": "0", "INFINITY": "HUGE_VAL", "OK": "0"}
     builtin: ClassVar = {
         "sqrt": "sqrt({})",
@@ -106,12 +107,6 @@ class C(Printer):
         return f"    (void){name};"
 
     # -- statements --------------------------------------------------------------------------------
-    def loop_over(self, i: str, first: str, last: str, by: str, back: bool) -> str:
-        if back:
-            return f"for (int {i} = {last} - 1; {i} >= {first}; --{i}) {{"
-        step = f"++{i}" if by == "1" else f"{i} += {by}"
-        return f"for (int {i} = {first}; {i} < {last}; {step}) {{"
-
     def declared(self, name: str, kind: Type, value: str | None) -> str:
         const = "const " * (value is not None and not kind.written)
         sizes = "".join(f"[{n}]" for n in self.sizes(kind))
@@ -142,11 +137,9 @@ class C(Printer):
 
     # -- expressions -------------------------------------------------------------------------------
     def constant(self, value: Any) -> str:
-        """A number; whole ones without a point, as they stand among others that are none."""
-        if isinstance(value, float) and value == int(value) and abs(value) < 1e15:
-            return str(int(value))
-        suffix = "f" * (isinstance(value, float) and self.real == "float")
-        return super().constant(value).replace("e-0", "e-") + suffix
+        """A number, of float with its suffix."""
+        text = super().constant(value)
+        return text + "f" * (self.real == "float" and ("." in text or "e" in text))
 
     def operation(self, x: ast.BinOp) -> tuple[str, int]:
         if (

@@ -15,6 +15,7 @@ class JavaScript(Printer):
     """A module of ECMAScript 2020."""
 
     spaced = False
+    counter = "let"
     words: ClassVar = {
         "True": "true",
         "False": "false",
@@ -56,8 +57,8 @@ class JavaScript(Printer):
             yield from super().documented(f)
             return
         yield "/**"
-        for line in self.comment(self.told(ast.get_docstring(f) or "")):
-            yield " * " + line.removeprefix("/* ").removeprefix(" * ").removesuffix(" */")
+        for line in self.paragraph(self.told(ast.get_docstring(f) or "")):
+            yield f" * {line}"
         yield " *"
         optional = {a.arg for a in f.args.args[len(f.args.args) - len(f.args.defaults) :]}
         for name in self.arguments:
@@ -140,18 +141,7 @@ class JavaScript(Printer):
     def copied(self, to: ast.expr, of: ast.expr) -> str:
         return f"{self.outside(to)}.set({self.outside(of)})"
 
-    def loop_over(self, i: str, first: str, last: str, by: str, back: bool) -> str:
-        if back:
-            return f"for (let {i} = {last} - 1; {i} >= {first}; --{i}) {{"
-        step = f"++{i}" if by == "1" else f"{i} += {by}"
-        return f"for (let {i} = {first}; {i} < {last}; {step}) {{"
-
     # -- expressions -------------------------------------------------------------------------------
-    def constant(self, value: Any) -> str:
-        if isinstance(value, float) and value == int(value) and abs(value) < 1e15:
-            return str(int(value))
-        return super().constant(value).replace("e-0", "e-")
-
     def quotient(self, a: str, b: str) -> str:
         return f"Math.floor({a}/{b})"
 
@@ -239,8 +229,6 @@ def _halved(rows: Sequence[Sequence[float]]) -> tuple[str, list[float]] | None:
     span = range(8)
     if all(rows[n][7 - j] == (-1) ** n * rows[n][j] for n in span for j in span):
         return "mirrored", [x for row in rows for x in row[:4]]
-    if all(
-        rows[i][j] + rows[j][i] == 1 and rows[j][i] == 1 - rows[i][j] for i in span for j in span
-    ):
+    if all(rows[j][i] == 1 - rows[i][j] for i in span for j in span):
         return "completed", [rows[i][j] for i in span for j in range(i)]
     return None

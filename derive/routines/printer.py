@@ -6,6 +6,7 @@ import ast
 import itertools
 import re
 import textwrap
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
@@ -28,7 +29,7 @@ WIDTH = 110
 Lines = Iterator[str]
 
 
-class Printer:
+class Printer(ABC):
     """The printer of a language, of one source; ``given``: what a name in capitals, or a routine
     that the file has, is called there."""
 
@@ -36,6 +37,8 @@ class Printer:
     gap = "\n\n"
     spaced = True
     """Do spaces stand about * and /?"""
+    counter = ""
+    """What stands before the index of a loop as C has it."""
     words: ClassVar[Mapping[str, str]] = {}
     logic: ClassVar[Mapping[str, str]] = {"and": "&&", "or": "||", "not": "!"}
     builtin: ClassVar[Mapping[str, str]] = {}
@@ -81,9 +84,17 @@ class Printer:
         text = " ".join(text.split())
         return re.sub(r"\b[A-Z][A-Z_]{2,}\b", lambda x: self.bare(ast.Name(x[0])), text)
 
+    @abstractmethod
     def head(self, f: ast.FunctionDef, returns: Type | None) -> Lines:
         """The lines that begin a routine."""
-        raise NotImplementedError
+
+    @abstractmethod
+    def record(self, name: str, more: str = "") -> Lines:
+        """The type of a record, or what makes one; ``more``: fields that no algorithm reads."""
+
+    @abstractmethod
+    def tables(self) -> Lines:
+        """The tables of numbers, known in the whole file."""
 
     def unread(self, name: str) -> str:
         """What keeps a compiler quiet about an argument that is not read."""
@@ -277,8 +288,11 @@ class Printer:
         return f"{left}{gap}{op}{gap}{right}", level
 
     def constant(self, value: Any) -> str:
-        """A number or a truth value."""
-        return self.words.get(str(value)) or repr(value)
+        """A number or a truth value; whole numbers without a point in what is not ``spaced``, as
+        they stand among others that are none."""
+        if not self.spaced and isinstance(value, float) and value == int(value):
+            return str(int(value))
+        return self.words.get(str(value)) or repr(value).replace("e-0", "e-")
 
     def called(self, name: str, given: Sequence[ast.expr]) -> str:
         """A call; nothing where a language has nothing of it."""
@@ -350,27 +364,34 @@ class Printer:
 
     def loop_over(self, i: str, first: str, last: str, by: str, back: bool) -> str:
         """The same, of texts."""
-        raise NotImplementedError
+        if back:
+            return f"for ({self.counter} {i} = {last} - 1; {i} >= {first}; --{i}) {{"
+        step = f"++{i}" if by == "1" else f"{i} += {by}"
+        return f"for ({self.counter} {i} = {first}; {i} < {last}; {step}) {{"
 
+    @abstractmethod
     def declared(self, name: str, kind: Type, value: str | None) -> str:
         """A local with its type."""
-        raise NotImplementedError
 
+    @abstractmethod
     def table(self, name: str, kind: Type, values: Any, depth: int = 0) -> str:
         """A local table of numbers that are known."""
-        raise NotImplementedError
 
+    @abstractmethod
     def copied(self, to: ast.expr, of: ast.expr) -> str:
         """An array becomes another one."""
-        raise NotImplementedError
 
     # -- comments and long lines -------------------------------------------------------------------
     def comment(self, text: str) -> Lines:
         """What a routine is for."""
-        lines = textwrap.wrap(text, WIDTH - 10)
+        lines = self.paragraph(text)
         for line in lines:
             begin = "/* " if line is lines[0] else " * "
             yield begin + line + " */" * (line is lines[-1])
+
+    def paragraph(self, text: str) -> list[str]:
+        """A text in lines."""
+        return textwrap.wrap(text, WIDTH - 10)
 
     def remark(self, text: str) -> str:
         """What a statement is for."""

@@ -59,8 +59,7 @@ class Python(Printer):
 
     def docstring(self, text: str, pad: str) -> Lines:
         """What something is for."""
-        lines = [x.removeprefix("/* ").removeprefix(" * ") for x in self.comment(text)]
-        lines[-1] = lines[-1].removesuffix(" */")
+        lines = self.paragraph(text)
         for i, line in enumerate(lines):
             yield pad + '"""' * (i == 0) + line + '"""' * (line is lines[-1])
 
@@ -280,9 +279,6 @@ class Python(Printer):
 
     def chosen(self, test: str, yes: str, no: str) -> str:
         return f"{yes} if {test} else {no}"
-
-    def constant(self, value: Any) -> str:
-        return super().constant(value).replace("e-0", "e-")
 
     def quotient(self, a: str, b: str) -> str:
         return f"{a} // {b}"

@@ -60,8 +60,8 @@ class Rust(Printer):
 
     # -- heads -------------------------------------------------------------------------------------
     def comment(self, text: str) -> Lines:
-        for line in super().comment(text):
-            yield "/// " + line.removeprefix("/* ").removeprefix(" * ").removesuffix(" */")
+        for line in self.paragraph(text):
+            yield f"/// {line}"
         yield from self.given["item"]
 
     def head(self, f: ast.FunctionDef, returns: Type | None) -> Lines:
@@ -134,9 +134,6 @@ class Rust(Printer):
     def chosen(self, test: str, yes: str, no: str) -> str:
         return f"if {test} {{ {yes} }} else {{ {no} }}"
 
-    def constant(self, value: Any) -> str:
-        return super().constant(value).replace("e-0", "e-")
-
     def called(self, name: str, given: Sequence[ast.expr]) -> str:
         if name == "real":
             return f"({self.bare(given[0])}) as {self.real}"
@@ -150,7 +147,7 @@ class Rust(Printer):
         return ("" if held else "&mut " if kind.written else "&") + text
 
     # -- records, tables ---------------------------------------------------------------------------
-    def record(self, name: str) -> Lines:
+    def record(self, name: str, more: str = "") -> Lines:
         """The type of a record, and one that is nothing yet."""
         self.types, self.arguments = {}, {}
         node = self.source.records[name]

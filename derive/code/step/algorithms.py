@@ -10,6 +10,7 @@ from typing import Any
 from ... import routines
 from ...routines.c import C
 from ...routines.javascript import JavaScript
+from ...routines.printer import Printer
 from ...routines.python import Python
 from ...routines.rust import Rust
 from ...routines.source import Source
@@ -288,16 +289,11 @@ def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     source = source_of(given, steps)
     source.leave("factored", "lu_solve")  # which NumPy has in much less time
     printer = Python(source, given)
-    more = {
-        "Motion": "        self.inputs = None  # or a function of t and x that gives the inputs"
-    }
-    return _texts(
-        printer, [printer.record(x, more.get(x, "")) for x in printer.source.records], steps
-    )
+    return _texts(printer, [*map(printer.record, source.records)], steps)
 
 
 def _texts(
-    printer: Any, records: Sequence[Iterable[str]], steps: Mapping[str, Any]
+    printer: Printer, records: Sequence[Iterable[str]], steps: Mapping[str, Any]
 ) -> dict[str, str]:
     """Records, tables and routines, as text."""
     return {

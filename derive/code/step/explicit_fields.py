@@ -27,7 +27,7 @@ def explicit(names: Iterable[str], number: Callable[[Fraction], str]) -> dict[st
     return {
         "methods": found,
         "stages": max(len(method["main"]) for method in found),
-        "rows": max(len(method["d"]) for method in found),
+        "rows": max(method["rows"] for method in found),
         "extra": any(method["extra"] for method in found),
         "growth": GROWTH,
         "safety": SAFETY,
@@ -37,7 +37,7 @@ def explicit(names: Iterable[str], number: Callable[[Fraction], str]) -> dict[st
 def fields_of(name: str, number: Callable[[Fraction], str]) -> dict[str, Any]:
     """The numbers of a method as text.  ``main``, ``extra``: for each stage, of the step and of
     dense output alone, its index, c, and the row of a; a row, b, and e = b − b̂ are pairs of an
-    index and a number that is not 0; d by rows, in Legendre's polynomials."""
+    index and a number that is not 0; ``rows``: how many there are with those of dense output."""
     make, title = METHODS[name]
     method = make()
 
@@ -58,11 +58,7 @@ def fields_of(name: str, number: Callable[[Fraction], str]) -> dict[str, Any]:
         "adaptive": bool(method.embedded),
         "main": rows[: method.stages],
         "extra": rows[method.stages :],
-        "c": [*map(text, method.c)],
-        "a": [[*map(text, row)] for row in method.a],
-        "b_all": [*map(text, method.b)],
-        "e_all": [*map(text, method.error)] if method.embedded else [],
         "b": terms(method.b),
         "e": terms(method.error) if method.embedded else [],
-        "d": [[text(x) for x in row] for row in method.legendre],
+        "rows": len(method.legendre),
     }
