@@ -35,6 +35,9 @@ class Project:
         path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
         self.environment = os.environ | {"PATH": path, "PYTHONPATH": str(self.generator)}
         self.environment["CC"] = CC
+        # Meson runs scripts where temporary files lie: a module there would stand for Python's own.
+        self.environment["TMPDIR"] = str(folder / "temporary")
+        Path(self.environment["TMPDIR"]).mkdir()
         for name in ("DESTDIR", "MAKEFLAGS", "MAKELEVEL", "CFLAGS", "PREFIX"):
             self.environment.pop(name, None)
 
