@@ -20,34 +20,25 @@ from .problem import left_invariant
 from .problem.principal import principal
 from .problem.problem import Problem, ProblemError
 from .record.record import Derivation
-from .walk import (
-    alphabet, body, brackets, cartan, components, conserved, coordinates, dirichlet, elimination,
-    explicit, exterior, inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit,
-    potential, pullback, rotation, separation, solution, specialisation, told_by_momenta,
-    translation, variation, vector,
+from .walk.chapter import Chapter, Stage, Values, follow, naming_steps, traced
+from .walk.discrete import discrete_blocks, discrete_forces, discrete_group, discrete_road
+from .walk.discrete.discrete_road import DiscreteAlphabet
+from .walk.ellipsoid import dirichlet
+from .walk.fluid import circulation, fluid_forms, fluid_kernel
+from .walk.fluid.fluid_forms import FluidAlphabet
+from .walk.given import body, inputs, potentials
+from .walk.given.inputs import acts, by_name
+from .walk.lie import any_lagrangian, expressed, momentum_side
+from .walk.matrices import (
+    conserved, coordinates, explicit, isometry, separation, solution, specialisation,
 )
-from .walk.alphabet import Alphabet
-from .walk.chapter import Chapter
-from .walk.discrete import (
-    discrete_blocks, discrete_forces, discrete_group, discrete_momenta, discrete_outside,
-    discrete_road,
-)
-from .walk.discrete.discrete_letters import DiscreteAlphabet
-from .walk.failure import naming_steps
-from .walk.fluid import (
-    advection, circulation, energy_kept, fluid_kernel, fluid_points, fluid_principle, loops,
-    pressure, trivialised,
-)
-from .walk.fluid.fluid_letters import FluidAlphabet
-from .walk.lie import (
-    advected, any_lagrangian, basis, expressed, kept_by_any, momentum_side, vorticity,
-)
-from .walk.head import problem_data, symbols
-from .walk.inputs import acts, by_name
-from .walk.lineage import traced
-from .walk.regularity import supposing_all
-from .walk.specialisation import turns_whole
-from .walk.stages import Stage, Values, follow
+from .walk.matrices.specialisation import turns_whole
+from .walk.spine import alphabet, cartan, kernel, lagrangian, orbit, principle
+from .walk.spine.alphabet import Alphabet
+from .walk.spine.head import problem_data, symbols
+from .walk.spine.lagrangian import supposing_all
+from .walk.torus import vorticity
+from .walk.vectors import by_momenta, euler, isomorphism, rotation
 # isort: on
 
 if TYPE_CHECKING:
@@ -68,19 +59,19 @@ if TYPE_CHECKING:
 
 ANY_GROUP = (
     Stage("lagrangian", "a c", "Lagrangian", lagrangian.lagrangian),
-    Stage("pullback", "lagrangian a c", "Pullback", pullback.pullback),
+    Stage("pullback", "lagrangian a c", "Pullback", lagrangian.pullback),
     Stage("unique", "lagrangian pullback.moments a c", "Step", orbit.unique),
     Stage("cartan", "pullback a c", "Cartan", cartan.cartan),
-    Stage("exterior", "cartan a c", "Exterior", exterior.exterior),
-    Stage("principle", "lagrangian pullback cartan a c", "Principle", variation.principle),
+    Stage("exterior", "cartan a c", "Exterior", cartan.exterior),
+    Stage("principle", "lagrangian pullback cartan a c", "Principle", principle.principle),
     Stage("kernel", "exterior principle a c", "Kernel", kernel.kernel),
-    Stage("motions", "cartan kernel a c", "Step", motions.motions),
+    Stage("motions", "cartan kernel a c", "Step", orbit.motions),
     Stage("trivial", "cartan a c", "Cartan", cartan.trivialise),
     Stage("distances", "lagrangian a c", "Distances", orbit.distances),
     Stage("volumes", "a c", "Step", orbit.volumes),
-    Stage("derivative", "exterior trivial a c", "Exterior", exterior.exterior_trivialised),
+    Stage("derivative", "exterior trivial a c", "Exterior", cartan.exterior_trivialised),
     Stage("balance", "derivative kernel trivial a c", "Steps", kernel.kernel_trivialised),
-    Stage("momenta", "trivial a c", "MomentumForm", momentum.momentum_form),
+    Stage("momenta", "trivial a c", "MomentumForm", kernel.momentum_form),
     Stage("apart", "pullback.kinetic a c", "Step", separation.kinetic_separation, "affine"),
 )
 """Exercise 1: L → L̃ → ϖ → dϖ → kernel for every matrix group, in space and carried to 𝔤."""
@@ -89,17 +80,17 @@ MATRICES = (
     Stage("general", "a pullback.moment_work trivial derivative momenta",
           "General", specialisation.General),
     Stage("body", "problem lagrangian a c", "Steps", body.body_step),
-    Stage("brackets", "group c", "Steps", brackets.bracket_step),
+    Stage("brackets", "group c", "Steps", coordinates.bracket_step),
     Stage("bodies", "problem", "Bodies", left_invariant.invariant),
     Stage("relation", "group bodies? c", "Steps", specialisation.relation),
     Stage("plain", "group", "Alphabet", alphabet.of_matrices),
     Stage("tetrahedron", "problem group c", "Steps", orbit.tetrahedron),
-    Stage("potentials", "problem plain c", "Potentials", potential.potentials),
+    Stage("potentials", "problem plain c", "Potentials", potentials.potentials),
     Stage("special", "general group potentials c bodies?", "Special", specialisation.specialise),
     Stage("external", "problem special.letters special.C c_u",
           "External", inputs.external_matrices),
     Stage("driven", "special external?", "Special", specialisation.with_external),
-    Stage("centred", "driven c_u", "Centred", translation.eliminate_translation, "affine"),
+    Stage("centred", "driven c_u", "Centred", separation.eliminate_translation, "affine"),
     Stage("solution", "driven centred? group c c_u", "Solution", solution.solution),
     Stage("fluid", "problem group potentials driven solution c_u",
           "Steps", dirichlet.fluid_steps),
@@ -108,12 +99,12 @@ MATRICES = (
           "Step", orbit.rigid, "orthogonal"),
     Stage("apart", "problem potentials special.letters c",
           "Steps", separation.potential_separation, "affine"),
-    Stage("held", "kernel special.C group.n c", "Step", motions.held, "rotations"),
+    Stage("held", "kernel special.C group.n c", "Step", orbit.held, "rotations"),
     Stage("space", "cartan.momentum a", "SpaceMomenta", conserved.matrix_momenta),
     Stage("conserved", "problem potentials space solution.motion special.letters c",
           "Steps", conserved.conserved_steps),
     Stage("by_momenta", "general driven centred? group c c_u",
-          "Steps", told_by_momenta.of_matrices),
+          "Steps", by_momenta.of_matrices),
     Stage("explicit", "problem group body potentials special driven external? solution.motion "
           "pullback.steps c_u", "Steps", explicit.of_matrices),
 )
@@ -124,14 +115,14 @@ VECTORS = (
     Stage("isometry", "trivial momenta a group.n c", "Isometry", isometry.isometry),
     Stage("rigid", "distances isometry.C isometry.letters c", "Step", orbit.rigid),
     Stage("unaligned", "lagrangian isometry.C isometry.letters c", "Step", orbit.unaligned),
-    Stage("held", "kernel isometry.C group.n c", "Step", motions.held, "linear"),
-    Stage("axial", "isometry.letters isometry.C c", "Axial", isomorphism.axial),
-    Stage("vectors", "momenta isometry axial.hat_map c", "VectorForm", vector.vector_form),
-    Stage("centred", "vectors isometry.letters c", "Eliminated", elimination.eliminate, "affine"),
+    Stage("held", "kernel isometry.C group.n c", "Step", orbit.held, "linear"),
+    Stage("axial", "isometry.letters isometry.C c", "Axial", isomorphism.axial_identification),
+    Stage("vectors", "momenta isometry axial.hat_map c", "VectorForm", euler.vector_form),
+    Stage("centred", "vectors isometry.letters c", "Eliminated", euler.eliminate, "affine"),
     Stage("euler", "vectors isometry.letters c", "Step", rotation.euler_step, "linear"),
     Stage("principal", "euler c", "Step", rotation.principal_step),
     Stage("potentials", "problem isometry.letters c isometry.C",
-          "Potentials", potential.potentials),
+          "Potentials", potentials.potentials),
     Stage("torque", "potentials isometry axial.hat_map c", "Torque", rotation.torque),
     Stage("external", "problem isometry.letters isometry.C axial.hat_map c_u",
           "External", inputs.external_vectors),
@@ -140,17 +131,17 @@ VECTORS = (
     Stage("motion", "centred torque isometry.letters axial.hat_map external? c_u",
           "Step", rotation.displacement_motion, "affine"),
     Stage("tensor", "problem body axial.inertia motion c",
-          "Steps", components.tensor_steps, "linear"),
+          "Steps", rotation.tensor_steps, "linear"),
     Stage("tensor", "problem body centred.inertia motion c",
-          "Steps", components.tensor_steps, "affine"),
+          "Steps", rotation.tensor_steps, "affine"),
     Stage("energy", "isometry potentials axial.hat_map c", "Step", rotation.energy_step),
     Stage("space", "vectors.momenta isometry.letters", "SpaceMomenta", conserved.vector_momenta),
     Stage("conserved", "problem potentials space motion isometry.letters c",
           "Steps", conserved.conserved_steps),
     Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
-          "Steps", told_by_momenta.of_rotations, "linear"),
+          "Steps", by_momenta.of_rotations, "linear"),
     Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
-          "Steps", told_by_momenta.of_displacements, "affine"),
+          "Steps", by_momenta.of_displacements, "affine"),
     Stage("basis", "group isometry.letters c", "Steps", coordinates.stated_basis_step),
     Stage("explicit", "problem group body potentials torque pullback.steps axial.inertia "
           "external? motion tensor c_u", "Steps", explicit.of_vectors, "linear"),
@@ -164,12 +155,12 @@ ANY_LAGRANGIAN = (
 """Exercise 1 for any Lagrangian on any matrix group, trivialised on one side."""
 
 EXPRESSED = (
-    Stage("basis", "problem group lagrangian c", "Basis", basis.of_element, "element"),
-    Stage("basis", "problem group lagrangian a c", "Basis", advected.reduced, "reduced"),
+    Stage("basis", "problem group lagrangian c", "Basis", expressed.of_element, "element"),
+    Stage("basis", "problem group lagrangian a c", "Basis", momentum_side.reduced, "reduced"),
     Stage("expressed", "problem group lagrangian basis c", "Expressed", expressed.expressed),
     Stage("balance", "expressed problem group lagrangian basis c_u", "Steps", expressed.balance),
     Stage("conserved", "expressed problem group lagrangian balance c",
-          "Steps", kept_by_any.kept),
+          "Steps", expressed.kept),
     Stage("by_momenta", "expressed problem group lagrangian basis balance c c_u",
           "Steps", momentum_side.by_momenta),
     Stage("explicit", "problem group balance expressed.told c_u",
@@ -178,19 +169,19 @@ EXPRESSED = (
 """One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""
 
 FLUID = (
-    Stage("points", "a c", "Points", fluid_points.points),
-    Stage("cartan", "points a c", "Cartan", fluid_points.in_space),
-    Stage("exterior", "cartan a c", "Exterior", fluid_points.exterior_in_space),
-    Stage("principle", "points cartan a c", "Principle", fluid_principle.principle),
-    Stage("relations", "a c", "Steps", trivialised.relations),
-    Stage("trivial", "cartan points a c", "Cartan", trivialised.trivialised),
-    Stage("derivative", "exterior trivial a c", "Exterior", trivialised.exterior_by_fields),
+    Stage("points", "a c", "Points", fluid_forms.points),
+    Stage("cartan", "points a c", "Cartan", fluid_forms.in_space),
+    Stage("exterior", "cartan a c", "Exterior", fluid_forms.exterior_in_space),
+    Stage("principle", "points cartan a c", "Principle", fluid_kernel.principle),
+    Stage("relations", "a c", "Steps", fluid_forms.relations),
+    Stage("trivial", "cartan points a c", "Cartan", fluid_forms.trivialised),
+    Stage("derivative", "exterior trivial a c", "Exterior", fluid_forms.exterior_by_fields),
     Stage("kernel", "derivative principle a c", "FluidKernel", fluid_kernel.kernel),
-    Stage("pressure", "kernel points a c", "Steps", pressure.pressure),
-    Stage("advection", "a c", "Steps", advection.advection),
-    Stage("energy", "kernel trivial a c", "Step", energy_kept.energy_kept),
+    Stage("pressure", "kernel points a c", "Steps", fluid_kernel.pressure),
+    Stage("advection", "a c", "Steps", circulation.advection),
+    Stage("energy", "kernel trivial a c", "Step", circulation.energy_kept),
     Stage("circulation", "kernel points a c", "Steps", circulation.circulation),
-    Stage("kelvin", "kernel points a c", "Steps", loops.kelvin),
+    Stage("kelvin", "kernel points a c", "Steps", circulation.kelvin),
 )
 """An incompressible fluid: the road of ANY_GROUP, affine, with composition for matrices."""
 ON_THE_TORUS = (Stage("fluid", "problem lagrangian a c", "Steps", vorticity.torus_steps),)
@@ -203,9 +194,9 @@ DISCRETE = (
     Stage("motion", "ends a c", "DiscreteMotion", discrete_road.motion),
     Stage("blocks", "motion a c", "BlockMotion", discrete_blocks.in_blocks, "affine"),
     Stage("forces", "problem group a plain here", "DiscreteForces", discrete_forces.forces),
-    Stage("outside", "problem motion group forces driven", "Outside", discrete_outside.outside),
+    Stage("outside", "problem motion group forces driven", "Outside", discrete_forces.outside),
     Stage("own", "motion blocks? group forces outside? driven", "Steps", discrete_group.of_group),
-    Stage("conserved", "ends motion a group forces here", "Steps", discrete_momenta.conserved),
+    Stage("conserved", "ends motion a group forces here", "Steps", discrete_forces.conserved),
 )
 """The discrete road: L_d → Θ⁺, Θ⁻ → dΘ⁺ = dΘ⁻ → the motion, then on one group."""
 # fmt: on

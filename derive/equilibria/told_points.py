@@ -13,8 +13,7 @@ from ..language.tree import Tree, add, mul, neg
 from ..language.univariate import square_free
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
-from ..walk.chapter import Chapter, Draft
-from ..walk.wording import say
+from ..walk.chapter import Chapter, Draft, say
 from .enclosed_points import Enclosed, less
 from .energy_casimir import Form, Leaf
 from .equilibrium_points import About, Expansion

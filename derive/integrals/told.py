@@ -9,8 +9,7 @@ from ..language.tree import Tree, mul, plain
 from ..record.claims import MONOMIALS
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
-from ..walk.chapter import Chapter, Draft
-from ..walk.wording import say
+from ..walk.chapter import Chapter, Draft, say
 from .all_integrals import Found, OnLevel
 from .degree_search import how_many
 from .independence import Integrability

@@ -7,14 +7,12 @@ from dataclasses import dataclass
 from ..record.record import Derivation, Step
 from ..record.tree_data import encode
 from ..symmetries.found import Found
-from ..walk.chapter import Chapter
-from ..walk.head import problem_data, symbols
+from ..walk.chapter import Chapter, Values, traced
 from ..walk.lie import expressed
 from ..walk.lie.any_lagrangian import AnyLagrangian
-from ..walk.lie.basis import of_element
-from ..walk.lineage import traced
-from ..walk.regularity import supposing_all
-from ..walk.stages import Values
+from ..walk.lie.expressed import of_element
+from ..walk.spine.head import problem_data, symbols
+from ..walk.spine.lagrangian import supposing_all
 from .commuting import chosen
 from .quadrature import Quadrature, quadrature_of
 from .routhian import Routhian

@@ -10,8 +10,7 @@ from ..language.tree import Tree, add, mul, neg, nodes, plain, terms
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..symmetries.symmetry import Symmetry
-from ..walk.chapter import Chapter
-from ..walk.wording import phrase, say
+from ..walk.chapter import Chapter, phrase, say
 from .quadrature import Quadrature
 from .routhian import Routhian, Square
 from .state_functions import Element

@@ -8,15 +8,12 @@ from ..algebra.groups import Group
 from ..language.tree import Tree, add, neg
 from ..record.formulas import stated
 from ..record.record import Derivation, Equation, Step
-from ..walk.chapter import Chapter
-from ..walk.head import problem_data, symbols
+from ..walk.chapter import Chapter, Values, phrase, say, traced
 from ..walk.lie import expressed
 from ..walk.lie.any_lagrangian import AnyLagrangian
-from ..walk.lie.basis import of_element
-from ..walk.lineage import traced
-from ..walk.regularity import supposing_all
-from ..walk.stages import Values
-from ..walk.wording import phrase, say
+from ..walk.lie.expressed import of_element
+from ..walk.spine.head import problem_data, symbols
+from ..walk.spine.lagrangian import supposing_all
 from .found import Central, Found
 from .symmetry import ON_FORM, Symmetry
 

@@ -13,8 +13,8 @@ from derive.command.loading import load_problem
 from derive.language.tree import mul, neg
 from derive.pipeline import walk
 from derive.record.record import Equation
-from derive.walk import pullback
-from derive.walk.failure import WalkError
+from derive.walk.chapter import WalkError
+from derive.walk.spine import lagrangian
 from tests.support.walks import SEED, record
 
 pytestmark = pytest.mark.no_cover
@@ -85,7 +85,7 @@ def wrong_transpose(monkeypatch):
         square = all(x.rows == x.cols and x.axis is None for x, _ in w)
         return sign, turned[::-1] if square else turned
 
-    for module in (words, calculus, notation, pullback):
+    for module in (words, calculus, notation, lagrangian):
         if hasattr(module, "transpose_word"):
             monkeypatch.setattr(module, "transpose_word", wrong)
 
@@ -131,14 +131,14 @@ def test_the_bracket_comes_from_the_structure_equation(name, monkeypatch):
 
 
 def test_a_wrong_work_of_the_forces_is_seen(monkeypatch):
-    right = pullback._gradient
+    right = lagrangian._gradient
 
     def turned(*given):
         work, step = right(*given)
         return -work, step
 
     with monkeypatch.context() as patched:
-        patched.setattr(pullback, "_gradient", turned)
+        patched.setattr(lagrangian, "_gradient", turned)
         wrong = walk(load_problem("so3"))
     seen = {"linear.exterior", "linear.kernel", "so3.exterior", "so3.kernel"}
     assert refused(wrong, seen) == seen

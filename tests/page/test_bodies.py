@@ -15,7 +15,7 @@ from derive.page.moving_body import moving_body
 from derive.pipeline import motion_of
 from derive.problem.state_names import state_names
 from derive.problem.toml import problem_of
-from derive.walk.head import problem_data
+from derive.walk.spine.head import problem_data
 from tests.support.in_node import printed
 from tests.support.motion_pages import body_of, page, scripts, told
 from tests.support.walks import derived

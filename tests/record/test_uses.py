@@ -9,8 +9,7 @@ from derive.algebra.words import Expr
 from derive.check.checker import UNUSED, check
 from derive.check.dependencies import mentioned, unused
 from derive.record.record import Equation
-from derive.walk.chapter import Draft
-from derive.walk.failure import WalkError
+from derive.walk.chapter import Draft, WalkError
 from tests.support.walks import NAMES, OTHERS, SEED, problem, record, repeated
 
 WALKED = ("so3", "saff3")

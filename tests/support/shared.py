@@ -15,7 +15,7 @@ from derive import pipeline
 from derive.problem.problem import Problem
 from derive.record.json_writer import to_json
 from derive.record.record import Derivation
-from derive.walk.head import problem_data
+from derive.walk.spine.head import problem_data
 from tests.support.cached import place, write
 
 RECORDS = {}

@@ -228,7 +228,7 @@ def test_every_word_of_the_tables_is_in_the_catalogue():
     words |= {p.remark for p in PAPER if p.remark}
     words |= {outline.CONVENTIONS, outline.FORMULAS_CONVENTIONS, outline.PAPER}
     assert words | titles_and_meanings() <= set(FRENCH.messages)
-    assert set(SOLIDS) <= strings("walk/body.py")
+    assert set(SOLIDS) <= strings("walk/given/body.py")
 
 
 ROOMS = ("views", "figure", "plot", "page", "walk", "walk/kinds")

@@ -10,10 +10,11 @@ from derive.algebra.words import word
 from derive.command.loading import load_problem
 from derive.pipeline import general_road, walk
 from derive.problem.problem import ProblemError
-from derive.walk import rotation, trivialisation
-from derive.walk.alphabet import Alphabet
-from derive.walk.failure import WalkError, naming_steps
-from derive.walk.restriction import restrict
+from derive.walk.chapter import WalkError, naming_steps
+from derive.walk.spine import cartan
+from derive.walk.spine.alphabet import Alphabet
+from derive.walk.spine.kernel import restrict
+from derive.walk.vectors import rotation
 
 
 @pytest.fixture(autouse=True)
@@ -30,7 +31,7 @@ def forgetful(w, k, image):
 
 
 right_product = calculus._apply_at
-right_rule = trivialisation.body_rule
+right_rule = cartan.body_rule
 
 
 def unbarred(a, C):

@@ -97,8 +97,8 @@ RULES = [  # module, change, which of FIRST is tried
     ("algebra/forms.py", "sign: delta_prime - delta  →  delta_prime + delta", 2),
     ("algebra/words.py", "condition: not bar  →  bar", 2),
     ("algebra/calculus.py", "term: total + term  →  total", 2),
-    ("walk/cartan.py", "transpose: covector.bar  →  covector", 1),
-    ("walk/multipliers.py", "factor: ('inv', x.name)  →  x.name", 2),
+    ("walk/spine/cartan.py", "transpose: covector.bar  →  covector", 1),
+    ("walk/matrices/solution.py", "factor: ('inv', x.name)  →  x.name", 2),
     ("code/lower.py", "comparison: i == j  →  i != j", 3),
 ]
 
@@ -116,7 +116,7 @@ def test_a_fluid_is_judged_by_its_own_checker(factor, outcome):
 
 def test_a_wrong_letter_is_tried_on_what_uses_it():
     """Loading runs its line for every job; of two, one runs more of the module."""
-    module, names = "walk/fluid/loops.py", ("linear", "ideal_fluid")
+    module, names = "walk/fluid/circulation.py", ("linear", "ideal_fluid")
     survey = Survey([module], [x for name in names for x in JOBS if x.name == name])
     skew, *_ = (m for m in mutants(module, (ROOT / module).read_text()) if "sign: -1" in str(m))
     assert survey.reaching(skew) == [1]
@@ -137,13 +137,13 @@ def test_the_ledger(tmp_path, monkeypatch):
     """A module is in it until its text changes; what survived is told with it."""
     monkeypatch.setattr(ledger, "FILE", tmp_path / "figures.json")
     one, two, three = list(mutants("pipeline.py", "x = f(a - b, 1)"))[:3]
-    other = two._replace(module="walk/cartan.py")
+    other = two._replace(module="walk/spine/cartan.py")
     found = [(one, Verdict("checker")), (two, Verdict("survived", "why")), (other, Verdict("same"))]
     ledger.save("pipeline.py", [*found, (three, Verdict("checker"))])
-    ledger.save("walk/cartan.py", found)
+    ledger.save("walk/spine/cartan.py", found)
     kept = ledger.load()
     assert kept["pipeline.py"] == ({"checker": 2, "survived": 1}, [f"survived: {two}: why"])
-    assert kept["walk/cartan.py"] == ({"same": 1}, [])
+    assert kept["walk/spine/cartan.py"] == ({"same": 1}, [])
     monkeypatch.setattr(ledger, "digest", lambda module: module)
     assert ledger.load() == {}
 

@@ -23,9 +23,9 @@ from derive.problem.toml import problem_of
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.record import RecordError
-from derive.walk.failure import WalkError
-from derive.walk.fluid import advection, energy_kept, loops
-from derive.walk.fluid.pressure import GRADIENT
+from derive.walk.chapter import WalkError
+from derive.walk.fluid import circulation
+from derive.walk.fluid.fluid_kernel import GRADIENT
 from tests.support import corpus
 from tests.support.refusals import equations
 from tests.support.walks import FLUIDS, SEED, record
@@ -244,8 +244,8 @@ def test_density_and_energy_of_a_known_motion():
 @pytest.mark.parametrize(
     ("where", "what", "words"),
     [
-        (advection, "varied_cauchy_green", "not carried along with the volume"),
-        (energy_kept, "rate_of_density", "not what the kernel pairs with u"),
+        (circulation, "varied_cauchy_green", "not carried along with the volume"),
+        (circulation, "rate_of_density", "not what the kernel pairs with u"),
     ],
 )
 def test_what_the_density_and_the_energy_need(where, what, words, monkeypatch):
@@ -261,11 +261,11 @@ def test_what_the_density_and_the_energy_need(where, what, words, monkeypatch):
 @pytest.mark.parametrize("name", FLUIDS)
 def test_what_kelvin_needs(name, monkeypatch):
     """That the curve is closed, and with a density that it is in a level surface."""
-    monkeypatch.setattr(loops, "ALONG", replace(loops.ALONG, symmetry=0))
+    monkeypatch.setattr(circulation, "ALONG", replace(circulation.ALONG, symmetry=0))
     with pytest.raises(WalkError, match="circulation along a curve"):
         walk(load_problem(name))
     monkeypatch.undo()
-    monkeypatch.setattr(loops, "on_level", lambda a: lambda x, y: None)
+    monkeypatch.setattr(circulation, "on_level", lambda a: lambda x, y: None)
     if name == "ideal_fluid":
         walk(load_problem(name))
         return
@@ -298,8 +298,8 @@ def test_a_wrong_structure_equation_leads_nowhere(name, monkeypatch):
 
 def test_a_pair_along_a_curve_is_read_either_way():
     """What ⟨Γ grad p, γ_s⟩ becomes is what its transpose does, transposed."""
-    pushed = word(loops.CURVE) * word(GRADIENT)
-    rule = loops.along_curve(GRADIENT)
+    pushed = word(circulation.CURVE) * word(GRADIENT)
+    rule = circulation.along_curve(GRADIENT)
     assert reduce(pushed, rule) not in (pushed, pushed.bar)
     assert reduce(pushed.bar, rule) == reduce(pushed, rule).bar
 

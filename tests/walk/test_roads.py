@@ -6,7 +6,7 @@ import pytest
 
 from derive import pipeline
 from derive.problem.toml import problem_of
-from derive.walk import solution
+from derive.walk.matrices import solution
 
 BODY = '[body]\nmoments = "symbolic"\n'
 

@@ -11,7 +11,7 @@ from derive.check.model import Model
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.language import rational as q
-from derive.walk import solution
+from derive.walk.matrices import solution
 from tests.support.corpus import LARGE, record
 
 

@@ -11,9 +11,8 @@ from derive.algebra.groups import Group
 from derive.problem.left_invariant import Bodies
 from derive.problem.problem import Problem
 from derive.record.record import Step
-from derive.walk.alphabet import Alphabet
-from derive.walk.chapter import Chapter
-from derive.walk.stages import Stage
+from derive.walk.chapter import Chapter, Stage
+from derive.walk.spine.alphabet import Alphabet
 from tests.support.walks import NAMES, OTHERS, problem
 
 ROADS = {

@@ -1,23 +1,30 @@
-"""The forces of a problem at g₁: N₁ and f₁ on words, as its potential gives them."""
+"""Forces of a discrete motion: from potentials, inputs and damping; what it keeps by Noether."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import pairwise
 
-from ...algebra.calculus import derivation, gradient, reduce, substitute
+from ...algebra.calculus import derivation, gradient, reduce, substitute, without
 from ...algebra.groups import Group
-from ...algebra.word_trees import WordNotation
-from ...algebra.words import Expr, Letter, word
+from ...algebra.word_trees import WordNotation, tree_of
+from ...algebra.words import Expr, Factor, Letter, inner, number, one, word, zero
+from ...language.tree import add, neg, replaced
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
-from ..alphabet import Alphabet
-from ..body import body_step
-from ..chapter import Chapter
-from ..inverse import cancelling, inverse_letter
-from ..potential import Potentials, potentials
-from ..wording import say
-from .discrete_letters import DiscreteAlphabet
+from ..chapter import Chapter, WalkError, enumerated, say
+from ..given.body import body_step
+from ..given.inputs import acts, damping_coefficients, external_matrices, where_given
+from ..given.potentials import Potentials, potentials
+from ..matrices.conserved import Kept, kept_momenta
+from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
+from ..spine.lagrangian import sum_over
+from .discrete_blocks import Blocks
+from .discrete_road import DiscreteAlphabet, DiscreteMotion, OneForms, opened, respelled
+
+# The forces of a problem at g₁: N₁ and f₁ on words, as its potential gives them.
 
 
 @dataclass(frozen=True)
@@ -77,3 +84,171 @@ def forces(
 def _hearing(step: Step, heard: Mapping[str, str]) -> Step:
     """A step of the continuous walk by the steps of this record that say what it uses."""
     return replace(step, uses=tuple(dict.fromkeys(heard.get(x, x) for x in step.uses)))
+
+
+# Inputs and damping in the discrete motion, by d'Alembert's principle: their work in a step is
+# taken half at either end, so that at g₁ half of two steps meets.
+#
+# Inputs are held at g₁; a damping −κ v has in each step the velocity of that step.
+
+HALF = Fraction(1, 2)
+
+
+@dataclass(frozen=True)
+class Outside:
+    """What acts from outside L_d: ``moments`` and ``resultant`` of the inputs in the body, on
+    words; ``damping``: D, Σ κ r r̄, of the size of the group's matrices, or none; ``tested``: what
+    they add to the balance on ξ."""
+
+    moments: Expr
+    resultant: Expr
+    damping: Letter | None
+    tested: Expr
+    steps: tuple[Step, ...]
+
+
+def outside(
+    problem: Problem,
+    stage: DiscreteMotion,
+    group: Group,
+    forces: DiscreteForces,
+    c: Chapter,
+) -> Outside | None:
+    """What acts from outside, with its steps and the balance with it; ``None`` where nothing
+    does."""
+    if not acts(problem):
+        return None
+    a, b = DiscreteAlphabet(group.size, affine=group.affine), Blocks(group.n, group.size)
+    steps: list[Step] = []
+    moments, resultant = zero(b.n, b.n), zero(b.n)
+    tested = number(0)
+    if problem.inputs:
+        steps.append(_inputs(problem, group, forces, c))
+        letters = replace(b.N, name="N_u"), replace(b.F, name="F_u")
+        moments, resultant = (word(x).marked(steps[-1].label) for x in letters)
+        whole = b.whole(moments, resultant) if group.affine else moments
+        tested = tested - word(a.h) * inner(whole, word(a.xi))
+    damping = Letter("D\u0302" if group.affine else "D", group.size, group.size, 1)
+    if problem.damping:
+        step = _damping(problem, damping, a, c)
+        steps.append(step)
+        tested = tested + drag(damping, a).marked(step.label)
+    draft = c.draft("dalembert", "kernel")
+    whole = respelled(stage.tested, a.letters, 1) + tested
+    if "orthogonal" in group.relations and not group.affine:
+        whole = _on_skew(whole, a)
+    told = Equation(draft.tree(whole, a.notation), 0, (a.xi.name,))
+    steps.append(draft.step((told,), say("dalembert.balance")))
+    found = damping if problem.damping else None
+    return Outside(moments, resultant, found, draft.mark(tested), tuple(steps))
+
+
+def _on_skew(e: Expr, a: DiscreteAlphabet) -> Expr:
+    """What a skew ξ feels, by ḡ₁g₁ = 1."""
+
+    def turning(x: Factor, y: Factor) -> Expr | None:
+        return one(a.n) if (x, y) == ((a.g[1], True), (a.g[1], False)) else None
+
+    skew = word(replace(a.xi, symmetry=-1))
+    return reduce(substitute(substitute(e, opened(a.g)), {a.xi: skew}), turning)
+
+
+def _inputs(problem: Problem, group: Group, forces: DiscreteForces, c: Chapter) -> Step:
+    """The step of the moments of inputs in the body."""
+    a = forces.letters
+    turned = "orthogonal" in group.relations
+    C = a.unit if turned else word(a.C)
+    found = external_matrices(replace(problem, damping=()), a, C, c)
+    assert found is not None
+    (step,) = found.steps
+    stretched = ("mul", ("T", "A"), "A")
+    told = tuple(Equation(e.lhs, replaced(e.rhs, "C", stretched)) for e in step.equations)
+    return replace(step, equations=told, prose=say("input.discrete") + where_given(problem))
+
+
+def drag(D: Letter, a: DiscreteAlphabet) -> Expr:
+    """Minus the work of damping at g₁ on ξ: of a force −κ v, half of that of each step."""
+    kappa, r = Letter("κ_i"), a.r_i
+    moved = word(a.g[1]) * word(a.xi) * word(r)
+    total = number(0)
+    for x, y in pairwise(a.g):
+        across = word(y) - word(x)
+        velocity = word(inverse_letter(a.h)) * across * word(r)
+        total = total + HALF * word(a.h) * word(kappa) * inner(velocity, moved)
+    found = sum_over(total, {kappa, r}, {(kappa, r, r): word(D)})
+    return cancel_scalar(found, a.h)
+
+
+def _damping(problem: Problem, D: Letter, a: DiscreteAlphabet, c: Chapter) -> Step:
+    """The step of κ_i and D."""
+    own = ("mul", ("at", "κ", "i"), a.place, ("T", a.place))
+    equations = [*damping_coefficients(problem), Equation(D.name, ("sum", "i", own))]
+    return c.draft("damping", "input").step(equations, say("damping.discrete"))
+
+
+# What the discrete motion keeps, by Noether's theorem: the momentum Θ⁺(Yg) = Θ⁻(Yg) of a
+# displacement of space Y that the group has and that leaves the potential alone.
+#
+# Which displacements these are, the continuous walk says (``matrices.conserved``).
+
+
+def conserved(
+    stage: OneForms,
+    motion: DiscreteMotion,
+    ends: DiscreteAlphabet,
+    group: Group,
+    forces: DiscreteForces,
+    c: Chapter,
+) -> tuple[Step, ...]:
+    """The step of the momenta that the discrete motion keeps; none where it keeps none."""
+    kept = kept_momenta(group, forces.potential, forces.letters, vectors=False)
+    if not kept:
+        return ()
+    draft = c.draft("conserved", "conservation")
+    b = Blocks(group.n, group.size)
+    a = DiscreteAlphabet(group.size, affine=group.affine)
+    draft.depends_on(motion.balance)
+    definitions, laws = [], []
+    for x in kept:
+        momentum = _momentum(stage, ends, a, b, turning=x.turning)
+        draft.depends_on(momentum, forces.potential.energy)
+        names = _names(x)
+        for name, e in zip(names, (momentum, _onward(momentum, a, b)), strict=True):
+            definitions.append(Equation(name, tree_of(e, b.notation)))
+        change = add(names[1], neg(names[0]))
+        rate = replaced(x.rate, "ℓ̇" if x.turning else "ṗ", change)
+        laws.append(Equation(rate, 0))
+    told = enumerated(sum((x.law for x in kept), ()))
+    prose = say("conserved.discrete", kept=told)
+    return (draft.step((*definitions, *laws), prose),)
+
+
+def _names(x: Kept) -> tuple[str, str]:
+    return ("ℓ_0", "ℓ_1") if x.turning else ("p_0", "p_1")
+
+
+def _momentum(
+    stage: OneForms, ends: DiscreteAlphabet, a: DiscreteAlphabet, b: Blocks, *, turning: bool
+) -> Expr:
+    """What Θ⁺(Yg) without the forces has on Y, twice the skew part of that; on a shift, Y = b.
+    Θ⁻(Yg) must have the same."""
+    Y, shift = Letter("Y", b.n, b.n, -1), Letter("b", b.n)
+    images, moving = {}, word(Y)
+    if a.affine:
+        images, moving = b.images(a), b.whole(word(Y), word(shift))
+    found = []
+    for k, form in ((1, stage.plus), (0, stage.minus)):
+        e = respelled(without(form, ends.d_U[k]), (*a.letters, *a.d_g), 1)
+        e = substitute(e, {a.d_g[k]: moving * word(a.g[k])})
+        e = reduce(substitute(e, images), b.relation)
+        found.append(2 * gradient(e, Y) if turning else gradient(e, shift))
+    plus, minus = found
+    if plus != minus:
+        raise WalkError("a displacement of space has two momenta on a step")
+    return plus
+
+
+def _onward(e: Expr, a: DiscreteAlphabet, b: Blocks) -> Expr:
+    """The momentum of the next step."""
+    moved = {x[k]: word(x[k + 1]) for x in (a.g, b.A, b.T) for k in range(2)}
+    return substitute(e, moved)

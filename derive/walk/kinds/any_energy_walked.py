@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...problem.problem import Problem
 from ...schema.kinds.any_energy import Expression
-from ..point_potentials import PointPotentials
+from ..given.potentials import PointPotentials
 
 KIND = Expression
 

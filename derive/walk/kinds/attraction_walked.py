@@ -6,7 +6,7 @@ from ...language.derivatives import product
 from ...language.tree import Tree, add, neg
 from ...problem.problem import Problem
 from ...schema.kinds.attraction import Attraction
-from ..point_potentials import PointPotentials, column, place
+from ..given.potentials import PointPotentials, column, place
 
 KIND = Attraction
 

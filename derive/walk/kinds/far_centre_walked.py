@@ -17,13 +17,10 @@ from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
 from ...record.record import Equation
 from ...schema.kinds.far_centre import FarCentre
-from ..alphabet import Alphabet
-from ..chapter import Chapter
-from ..lagrangian import POINT
-from ..point_potentials import column
-from ..potential_letters import PotentialLetter, Words, power_letter
-from ..pullback import sum_over
-from ..wording import say
+from ..chapter import Chapter, say
+from ..given.potentials import PotentialLetter, Words, column, power_letter
+from ..spine.alphabet import Alphabet
+from ..spine.lagrangian import POINT, sum_over
 
 KIND = FarCentre
 HALF = Fraction(1, 2)

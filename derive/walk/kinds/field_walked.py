@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...language.tree import add, mul
 from ...problem.problem import Problem
 from ...schema.kinds.field import Field
-from ..point_potentials import PointPotentials, in_space
+from ..given.potentials import PointPotentials, in_space
 
 KIND = Field
 

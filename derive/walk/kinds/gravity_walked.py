@@ -8,13 +8,10 @@ from ...problem.problem import Problem
 from ...record.record import Equation
 from ...schema.body_kinds import PointBody
 from ...schema.kinds.gravity import Gravity, gravity
-from ..alphabet import Alphabet
-from ..chapter import Chapter
-from ..lagrangian import POINT
-from ..point_potentials import column
-from ..potential_letters import Words
-from ..pullback import sum_over
-from ..wording import say
+from ..chapter import Chapter, say
+from ..given.potentials import Words, column
+from ..spine.alphabet import Alphabet
+from ..spine.lagrangian import POINT, sum_over
 
 KIND = Gravity
 

@@ -9,11 +9,10 @@ from ...language.tree import Tree, add
 from ...problem.problem import Problem
 from ...record.record import Equation
 from ...schema.kinds.harmonic import Harmonic
-from ..alphabet import Alphabet
 from ..chapter import Chapter
-from ..lagrangian import POINT
-from ..potential_letters import Words
-from ..pullback import sum_over
+from ..given.potentials import Words
+from ..spine.alphabet import Alphabet
+from ..spine.lagrangian import POINT, sum_over
 
 KIND = Harmonic
 HALF = Fraction(1, 2)

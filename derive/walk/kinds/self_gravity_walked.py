@@ -21,10 +21,9 @@ from ...language.tree import Tree, add, mul
 from ...problem.problem import Problem
 from ...record.record import Equation
 from ...schema.kinds.self_gravity import SelfGravity
-from ..alphabet import Alphabet
-from ..inverse import inverse_letter
-from ..potential_letters import PotentialLetter, Words
-from ..wording import say
+from ..chapter import say
+from ..given.potentials import PotentialLetter, Words
+from ..spine.alphabet import Alphabet, inverse_letter
 
 KIND = SelfGravity
 HALF, SHARE = Fraction(1, 2), Fraction(3, 10)

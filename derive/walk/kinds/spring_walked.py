@@ -9,12 +9,10 @@ from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
 from ...record.record import Equation
 from ...schema.kinds.spring import Spring, quadratic
-from ..alphabet import Alphabet
-from ..chapter import Chapter
-from ..point_potentials import PointPotentials, column, in_space, place
-from ..potential_letters import Words
-from ..pullback import sum_over
-from ..wording import say
+from ..chapter import Chapter, say
+from ..given.potentials import PointPotentials, Words, column, in_space, place
+from ..spine.alphabet import Alphabet
+from ..spine.lagrangian import sum_over
 
 KIND = Spring
 

@@ -9,8 +9,8 @@ from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
 from ...record.record import Equation
 from ...schema.kinds.torsion import Torsion
-from ..alphabet import Alphabet
-from ..potential_letters import PotentialLetter, Words
+from ..given.potentials import PotentialLetter, Words
+from ..spine.alphabet import Alphabet
 
 KIND = Torsion
 HALF = Fraction(1, 2)

@@ -12,10 +12,9 @@ from ...problem.problem import Problem
 from ...record.record import Equation
 from ...schema.kinds.volume import Volume
 from ...schema.table import DETERMINANT
-from ..alphabet import Alphabet
-from ..inverse import cancelling, inverse_letter
-from ..potential_letters import FunctionLetter, Words
-from ..wording import say
+from ..chapter import say
+from ..given.potentials import FunctionLetter, Words
+from ..spine.alphabet import Alphabet, cancelling, inverse_letter
 
 KIND = Volume
 V, U, P = "V_A", Letter("U_V"), Letter("p_V")

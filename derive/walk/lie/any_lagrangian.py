@@ -1,10 +1,4 @@
-"""Exercise 1 for any Lagrangian: what holds whatever L̃(t, g, Z) is, on the left or on the right.
-
-    δL̃ = ⟨Π, δZ⟩ + ⟨Φ, ξ⟩ + ∂ₜL̃ δt,  h̃ = ⟨Π, Z⟩ − L̃,  ϖ = ⟨Π, ξ⟩ − h̃ δt,  Π̇ = Φ + ε ad*_Z Π
-
-The sign ε is that of the bracket in the structure equation, which follows from δg = gξ, or ξg.
-Makes the steps of the chapters ``left`` and ``right``.
-"""
+"""Exercise 1 for any Lagrangian L̃(t, g, Z) on the left or right: its forms, momenta, orbits."""
 
 from __future__ import annotations
 
@@ -12,23 +6,28 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ...algebra import forms
-from ...algebra.calculus import substitute
+from ...algebra.calculus import derivation, reduce, substitute, substitute_trace
 from ...algebra.forms import Trivialisation
 from ...algebra.word_trees import WordNotation, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.read import read
-from ...language.tree import Tree
+from ...language.tree import Tree, add, neg
 from ...record.formulas import stated
 from ...record.hypotheses import Hypothesis
 from ...record.record import Equation, Step
-from ..alphabet import Alphabet
-from ..chapter import Chapter
-from ..contraction import CONTRACTED, CONTRACTION, Contraction
-from ..factorisation import at_constant_time
-from ..momentum import any_lagrangian_forms, contact
-from ..wording import say
-from .moment_map import moment_map
-from .orbit_form import orbit_form, sign_of
+from ..chapter import Chapter, say
+from ..matrices.coordinates import at_constant_time
+from ..spine.alphabet import Alphabet, cancelling, inverse_letter, inverse_tree
+from ..spine.cartan import DOMEGA
+from ..spine.kernel import any_lagrangian_forms, contact
+from ..spine.principle import CONTRACTED, CONTRACTION, Contraction
+
+# Exercise 1 for any Lagrangian: what holds whatever L̃(t, g, Z) is, on the left or on the right.
+#
+# δL̃ = ⟨Π, δZ⟩ + ⟨Φ, ξ⟩ + ∂ₜL̃ δt,  h̃ = ⟨Π, Z⟩ − L̃,  ϖ = ⟨Π, ξ⟩ − h̃ δt,  Π̇ = Φ + ε ad*_Z Π
+#
+# The sign ε is that of the bracket in the structure equation, which follows from δg = gξ, or ξg.
+# Makes the steps of the chapters ``left`` and ``right``.
 
 SIDES: dict[str, Trivialisation] = {"left": forms.left, "right": forms.right}
 REGULAR = Hypothesis("nondegenerate", read("M̃(ξ, ξ′)"), "𝔤")
@@ -163,3 +162,124 @@ def _notation(a: Alphabet) -> WordNotation:
     """Pairings with 𝔤* as ⟨·, ·⟩, and the letter of the bracket written out."""
     display = {a.bracket: read("[ξ′, ξ]")}
     return WordNotation(display=display, covectors=frozenset(a.Pi.letters))
+
+
+# The other momentum: Π carried by g to the other side, the moment map; its rate, and the
+# energy's.
+#
+# On the left, Z = g⁻¹ġ stays when g becomes hg, and δg = ηg has ϖ(δy) = ⟨Π, A⁻¹ηA⟩ = ⟨Π_o, η⟩; on
+# the right g becomes gh, and ⟨Π_o, η⟩ = ⟨Π, AηA⁻¹⟩. Along the motion the coadjoint term cancels:
+#
+# ⟨Π̇_o, η⟩ = ⟨Φ, A⁻¹ηA⟩,  ḣ = −∂ₜL̃.
+#
+# Makes the step ``moment_map`` of the chapters ``left`` and ``right``.
+
+
+def moment_map(balance: Expr, a: Alphabet, moved: Trivialisation, c: Chapter) -> Step:
+    """Π_o, its rate and that of the energy.
+
+    ``balance``: ⟨Π̇ − Φ, ξ′⟩ − ε⟨Π, [Z, ξ′]⟩, which vanishes on the motion for every ξ′.
+    """
+    draft = c.draft("moment_map", "conservation")
+    A, any_of = word(a.A.position), (a.Z.xi_prime.name,)
+    back, along = word(inverse_letter(a.A.position)), moved(A, word(a.Z.velocity))
+    on_left, xi_prime = moved is forms.left, word(a.Z.xi_prime)
+    carried = back * xi_prime * A if on_left else A * xi_prime * back
+    images = {
+        **{a.A.position: along, inverse_letter(a.A.position): -(back * along * back)},
+        **{a.Pi.momentum: word(a.Pi.rate), a.Z.velocity: word(a.Z.acceleration)},
+    }
+    lagrangian, momenta = Letter("L̃"), c.label("momenta")
+    varied = inner(word(a.Pi.momentum), word(a.Z.acceleration)) + word(Letter("∂ₜL̃"))
+    images[lagrangian] = varied + inner(word(a.Pi.force), word(a.Z.velocity))
+
+    def rate(e: Expr, along: Expr) -> Expr:
+        """The rate of a scalar, less the balance on ``along``, which is 0."""
+        less = derivation(e, images.get) - substitute(balance, {a.Z.xi_prime: along})
+        return reduce(less, cancelling(a.A.position)).of(balance)
+
+    momentum = inner(word(a.Pi.momentum).marked(momenta), carried)
+    energy = inner(word(a.Pi.momentum), word(a.Z.velocity)) - word(lagrangian)
+    whole = Letter("A⁻¹ξ′A", a.n, a.n)
+    display = {inverse_letter(a.A.position): inverse_tree(a.A.position)}
+    notation = WordNotation(
+        display={whole: tree_of(carried, WordNotation(display=display))},
+        covectors=frozenset(a.Pi.letters),
+    )
+
+    def paired(e: Expr, covector: Letter) -> Tree:
+        """The tree of ⟨P, A⁻¹ξ′A⟩."""
+        by_letter = (inner(word(covector), x) for x in (carried, word(whole)))
+        return draft.tree(substitute_trace(e, *by_letter).of(e), notation)
+
+    moving = rate(momentum, carried)
+    equations = [
+        Equation(read("⟨Π_o, ξ′⟩"), paired(momentum, a.Pi.momentum), any_of),
+        Equation(read("⟨Π̇_o, ξ′⟩"), paired(moving, a.Pi.force), any_of),
+        Equation("ḣ", draft.tree(rate(energy.marked(c.label("energy")), word(a.Z.velocity)))),
+    ]
+    return draft.step(equations, say(f"moment_map.{'left' if on_left else 'right'}"))
+
+
+# Kirillov, Kostant, Souriau: dϖ at constant time, on a level of the other momentum.
+#
+# The other momentum pairs a constant η of 𝔤 as Π pairs what g carries it to, A⁻¹ηA on the left;
+# on its level ⟨δΠ, ξ′⟩ = ε⟨Π, [ξ, ξ′]⟩, and dϖ is there ε⟨Π, [ξ, ξ′]⟩. Makes the step ``kks`` of
+# the chapters ``left`` and ``right``.
+
+CONSTANT_TIME = (Equation("δt", 0), Equation("δ′t", 0))
+
+
+def orbit_form(form: Expr, a: Alphabet, moved: Trivialisation, other: Step, c: Chapter) -> Step:
+    """dϖ at constant time, less what the variations of the other momentum are in it.
+
+    ``form``: dϖ by Π and the letter of the bracket; ``other``: the step of the other momentum.
+    ``ValueError`` where the rest is no bracket.
+    """
+    draft = c.draft("kks", "restriction")
+    draft.depends_on(other)
+    crossed = Letter("[ξ, ξ′]", a.n, a.n)
+    display = {a.bracket: read("[ξ′, ξ]"), crossed: read("[ξ, ξ′]")}
+    notation = WordNotation(display=display, covectors=frozenset(a.Pi.letters))
+    xi, xi_prime, Pi = word(a.Z.xi), word(a.Z.xi_prime), word(a.Pi.momentum)
+    opened = {a.bracket: xi_prime * xi - xi * xi_prime, crossed: xi * xi_prime - xi_prime * xi}
+    restricted = at_constant_time(form, a.dt, a.dpt)
+    turn = carried(a, moved)
+    sign = sign_of(turn, opened[crossed])
+    here = inner(word(a.Pi.d_momentum), xi_prime) + sign * inner(Pi, word(crossed))
+    there = inner(word(a.Pi.dp_momentum), xi) + sign * inner(Pi, word(a.bracket))
+    rest = substitute(restricted - here + there, opened)
+    left = sign_of(rest, inner(Pi, opened[crossed])) * inner(Pi, word(crossed))
+    return draft.step(
+        [
+            Equation(DOMEGA, draft.tree(restricted, notation)),
+            Equation(
+                add(DOMEGA, neg(draft.tree(left, notation))),
+                add(draft.tree(here, notation), neg(draft.tree(there, notation))),
+            ),
+        ],
+        say("kks.level"),
+        where=CONSTANT_TIME,
+    )
+
+
+def carried(a: Alphabet, moved: Trivialisation) -> Expr:
+    """The variation along ξ, at g = 1, of what g carries a constant of 𝔤 to, which is ξ′ there."""
+    g, back, constant = word(a.A.position), Letter("A⁻¹", a.n, a.n), Letter("η", a.n, a.n)
+    xi, inverse, eta = word(a.Z.xi), word(back), word(constant)
+    whole, undone = (
+        (inverse * eta * g, xi * inverse)
+        if moved is forms.left
+        else (g * eta * inverse, inverse * xi)
+    )
+    varied = derivation(whole, {a.A.position: moved(g, xi), back: -undone}.get)
+    one = {a.A.position: a.unit, back: a.unit, constant: word(a.Z.xi_prime)}
+    return substitute(varied, one)
+
+
+def sign_of(e: Expr, unit: Expr) -> int:
+    """ε of an expression ε · unit; ``ValueError`` where it is none."""
+    for sign in (1, -1):
+        if e == sign * unit:
+            return sign
+    raise ValueError("neither the expression nor its opposite")

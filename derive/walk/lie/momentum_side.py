@@ -1,27 +1,40 @@
-"""The motion told by momenta: the velocity from them, and the Poisson tensor of the variables.
-
-    ζ = M⁻¹(Π − b),  {Π_a, Π_b} = ε Σ c_ba^k Π_k,  {Γ_i, Π_b} = E_b·Γ_i,  Ḟ = {F, h̃} + Σ Φ_a ∂F/∂Π_a
-
-with [E_b, E_a] = Σ c_ba^k E_k.  These brackets are the entries of 𝕁; of h̃, a function of Π and Γ, ζ
-is the derivative by Π, and −∂L̃/∂Γ that by Γ.  Where Γ is in place of g, Φ is a part of {Π, h̃}.
-"""
+"""The motion told by momenta, and what an algebra carries along where the state has no g."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
+from ...algebra.calculus import derivation
+from ...algebra.carried import block
+from ...algebra.forms import left, strip_left
 from ...algebra.groups import Group
+from ...algebra.structure import brackets_of, faithful
+from ...algebra.words import Letter, word
 from ...language.derivatives import derivative
-from ...language.tree import Tree, add, mul, neg, nodes
+from ...language.rational import Matrix
+from ...language.suffixed import suffixed
+from ...language.tree import Tree, add, mul, neg, nodes, plain
+from ...problem.moved_entries import Entry, Moved
 from ...problem.problem import Problem
 from ...problem.state_names import coordinates
+from ...record.formulas import stated
 from ...record.record import Equation, Step
-from ..chapter import Chapter
-from ..wording import say
-from .any_lagrangian import AnyLagrangian
-from .basis import Basis, member
-from .expressed import Expressed, coadjoint_terms, tidied
+from ...schema.algebra_kinds import Advected
+from ..chapter import Chapter, say
+from ..spine.alphabet import Alphabet
+from .any_lagrangian import SIDES, AnyLagrangian, sign_of
+from .expressed import Basis, Expressed, brackets, coadjoint_terms, member, tidied
+
+# The motion told by momenta: the velocity from them, and the Poisson tensor of the variables.
+#
+# ζ = M⁻¹(Π − b),  {Π_a, Π_b} = ε Σ c_ba^k Π_k,  {Γ_i, Π_b} = E_b·Γ_i,  Ḟ = {F, h̃} + Σ Φ_a ∂F/∂Π_a
+#
+# with [E_b, E_a] = Σ c_ba^k E_k. These brackets are the entries of 𝕁; of h̃, a function of Π and
+# Γ, ζ is the derivative by Π, and −∂L̃/∂Γ that by Γ. Where Γ is in place of g, Φ is a part of {Π,
+# h̃}.
 
 
 def by_momenta(
@@ -118,3 +131,118 @@ def _moving(stage: Expressed, problem: Problem, group: Group) -> Equation:
 
 def _column(entries: Iterable[Tree]) -> Tree:
     return ("matrix", *(("row", x) for x in entries))
+
+
+# What an algebra carries along where the state has no element of the group.
+#
+# ρ(g)^ε Γ is constant, ε = +1 on the left, −1 on the right:  δΓ = −ε ρ(ξ)Γ,  Γ̇ = −ε ρ(Z)Γ
+
+UNNAMED = "G"
+"""The name of an algebra of no family."""
+
+NAMED = 6
+"""Of so many entries of one name each is named."""
+
+
+@dataclass(frozen=True)
+class EntriesOfAdvected(Moved):
+    """Those of Γ, with δΓ = ``sign`` ρ(ξ)Γ; ``matrices``: ρ(E_a)."""
+
+    letter = "Γ"
+    rate = "Γ̇"
+    matrices: Sequence[Matrix]
+    sign: int
+
+    def displaced(self, entry: Entry, a: int) -> Tree:
+        """An entry of ± ρ(E_a)Γ."""
+        *_, i = entry
+        return add(*_terms(self.matrices[a][i - 1], self.sign))
+
+
+def reduced(
+    problem: Problem, group: Group, general: AnyLagrangian, a: Alphabet, c: Chapter
+) -> Basis:
+    """Z = Σ ζ_a E_a; [E_a, E_b]; and where something is carried along, how it moves."""
+    assert problem.lagrangian is not None
+    assert problem.advected is not None
+    draft = c.draft("coordinates", "coordinates")
+    draft.depends_on(general["second_order"])
+    place = draft.step(stated("Z = Σ_a ζ_a E_a"), say("coordinates.reduced"))
+    side, size = problem.lagrangian.trivialisation, sum(x.size for x in problem.advected)
+    told = brackets(group, c, shown=not size and not _chosen(group))
+    rows = range(group.n - size, group.n)
+    moved = EntriesOfAdvected([block(e, rows) for e in group.basis], sign(a, side))
+    if not size:
+        return Basis(moved, (), place, told, (place, *told))
+    zeta: list[Tree] = [("entry", "ζ", k) for k in range(1, group.dimension + 1)]
+    by_velocity = [
+        [
+            add(
+                *(
+                    mul(plain(e[i][j]), z)
+                    for e, z in zip(moved.matrices, zeta, strict=True)
+                    if e[i][j]
+                )
+            )
+            for j in range(size)
+        ]
+        for i in range(size)
+    ]
+    rates = Equation("Γ̇", _column(_rate_of_entry(moved, zeta, i) for i in range(1, size + 1)))
+    draft, names = c.draft("advected", "variation"), _names(problem.advected)
+    draft.depends_on(place)
+    advected = draft.step(
+        [
+            Equation("δΓ", mul(moved.sign, ("call", "ρ", "ξ"), "Γ")),
+            Equation(("call", "ρ", "Z"), ("matrix", *(("row", *row) for row in by_velocity))),
+            Equation("Γ̇", mul(moved.sign, ("call", "ρ", "Z"), "Γ")),
+            rates,
+        ],
+        say(f"advected.{side}") + say("advected.names", entries=", ".join(names)),
+    )
+    return Basis(moved, (rates,), advected, told, (place, *told, advected))
+
+
+def _chosen(group: Group) -> bool:
+    """Were the matrices of an algebra chosen for its brackets, which is all that the file says?"""
+    table, span = group.structure_constants, range(group.dimension)
+    rows = (
+        (a + 1, b + 1, k + 1, table[a][b][k]) for a in span for b in span[a + 1 :] for k in span
+    )
+    known = group.name != UNNAMED
+    return not known and group.basis == faithful(brackets_of(rows), group.dimension)
+
+
+def _names(advected: Iterable[Advected]) -> Iterator[str]:
+    """What the problem calls the entries of Γ; of many under one name the first two and the
+    last."""
+    for x in advected:
+        listed = [f"‘{suffixed(x.name, i)}’" for i in range(1, x.size + 1)]
+        yield from listed if x.size <= NAMED else (*listed[:2], "…", listed[-1])
+
+
+def sign(a: Alphabet, side: str) -> int:
+    """That of δΓ = ± ρ(ξ)Γ: of 0 = δ(gΓ) on the left, of Γ = gΓ₀ on the right, where g is its own
+    representation."""
+    g, xi, carried = a.A.position, word(a.Z.xi), word(Letter("Γ", a.n))
+    varied = derivation(word(g) * carried, {g: SIDES[side](word(g), xi)}.get)
+    if SIDES[side] is left:
+        return -sign_of(strip_left(varied, g), xi * carried)
+    return sign_of(varied, xi * word(g) * carried)
+
+
+def _terms(row: Sequence[Fraction], times: int) -> list[Tree]:
+    """± Σ x_j Γ_j."""
+    found = enumerate(row, 1)
+    return [mul(plain(times * x), ("entry", "Γ", j)) for j, x in found if x]
+
+
+def _rate_of_entry(moved: EntriesOfAdvected, zeta: Sequence[Tree], i: int) -> Tree:
+    """Γ̇_i = ± Σ ζ_a (ρ(E_a)Γ)_i."""
+    terms = (
+        mul(plain(moved.sign * x), z, ("entry", "Γ", j))
+        for e, z in zip(moved.matrices, zeta, strict=True)
+        for j, x in enumerate(e[i - 1], 1)
+        if x
+    )
+    return add(*terms)

@@ -21,7 +21,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         prog="python -m tests.support.engine_mutations", description=__doc__
     )
-    parser.add_argument("modules", nargs="*", metavar="MODULE", help="like walk/cartan.py")
+    parser.add_argument("modules", nargs="*", metavar="MODULE", help="like walk/spine/cartan.py")
     parser.add_argument("--sample", type=int, help="so many mutants, in place of all")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--again", action="store_true", help="modules too that are in figures.json")

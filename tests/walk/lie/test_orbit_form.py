@@ -8,9 +8,9 @@ from derive.algebra import forms
 from derive.algebra.words import inner, word
 from derive.language.show import show
 from derive.pipeline import lagrangian_road
-from derive.walk.alphabet import Alphabet
 from derive.walk.chapter import Chapter
-from derive.walk.lie.orbit_form import orbit_form
+from derive.walk.lie.any_lagrangian import orbit_form
+from derive.walk.spine.alphabet import Alphabet
 
 STEP = 1e-3
 

@@ -18,10 +18,9 @@ from derive.language.tree import add, mul
 from derive.problem.toml import ProblemError, problem_of
 from derive.record.contract import ANY_GROUP
 from derive.record.record import Equation
-from derive.walk.alphabet import Alphabet
-from derive.walk.lie import vorticity
-from derive.walk.lie.lattice import Unit
-from derive.walk.lie.lattice_forms import Coefficient, paired, traced
+from derive.walk.spine.alphabet import Alphabet
+from derive.walk.torus import vorticity
+from derive.walk.torus.lattice import Coefficient, Unit, paired, traced
 from tests.support import corpus
 from tests.support.walks import SEED
 

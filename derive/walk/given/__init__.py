@@ -1,0 +1,1 @@
+"""What a problem gives: the body, its potentials, inputs and damping."""

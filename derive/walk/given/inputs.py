@@ -1,0 +1,243 @@
+"""What is given from outside dϖ: covectors and forces at every call, and damping."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from ...algebra.calculus import gradient, reduce, substitute
+from ...algebra.groups import Group
+from ...algebra.space import fold_inertia, normal_form
+from ...algebra.word_trees import tree_of
+from ...algebra.words import Expr, Letter, inner, number, word
+from ...language.suffixed import suffixed
+from ...language.tree import Tree, add, mul, plain
+from ...problem.problem import Problem
+from ...record.formulas import stated
+from ...record.record import Equation, Step
+from ...record.sentence import Prose, listed
+from ...schema.outside import ForceInput
+from ..chapter import Chapter, Draft, phrase, say
+from ..spine.alphabet import Alphabet
+from ..spine.cartan import body_rule
+from ..spine.lagrangian import sum_over
+from ..spine.principle import AND
+from ..vectors.isomorphism import OMEGA_P, ZETA, HatMap, anticommute, inertia_of, vector_sum
+from .potentials import applied, embedded
+
+INPUTS = phrase("input.forces")
+DRAG = phrase("input.damping")
+TORQUE, FORCE = Letter("u", 3), Letter("f_u", 3)
+
+
+@dataclass(frozen=True)
+class External:
+    """The forces from outside dϖ on words: their ``moments`` and ``resultant``, and the step that
+    says these."""
+
+    moments: Expr
+    resultant: Expr
+    steps: tuple[Step, ...]
+
+
+def acts(problem: Problem) -> bool:
+    """Does anything act that is outside dϖ, an input or damping?"""
+    return bool(problem.inputs or problem.damping)
+
+
+def prose(problem: Problem) -> Prose:
+    """The sentences that say what acts from outside dϖ."""
+    acting = [INPUTS] * bool(problem.inputs) + [DRAG] * bool(problem.damping)
+    outside = say("input.outside", forces=listed(AND, acting))
+    return outside + say("input.moments") + where_given(problem)
+
+
+def where_given(problem: Problem) -> Prose:
+    """The sentence that says where each force acts, and in which frame it is given."""
+    forces = [
+        phrase(f"input.{x.frame}_force", name=f"‘{x.name}’", point=f"r_{x.on}")
+        for x in problem.force_inputs
+    ]
+    return say("input.given", forces=listed("{first}; {second}", forces)) if forces else ()
+
+
+def by_name(problem: Problem, steps: Iterable[Step], *, discrete: bool = False) -> tuple[Step, ...]:
+    """The steps with the numbers of the inputs by the names of the problem: ``thrust_3`` for an
+    entry of the member of f_u that the force ``thrust`` is, or of the covector u, f_u; the whole
+    force is the column of its numbers.  ``discrete``: as in numbers."""
+    given = numbers(problem, discrete=discrete)
+    for e, (force, size) in enumerate(_sized(problem), 1):
+        rows = (("row", ("par", suffixed(force.name, k))) for k in range(1, size + 1))
+        given["at", "f_u", e] = ("matrix", *rows)
+
+    def named(t: Tree) -> Tree:
+        if t in given or not isinstance(t, tuple):
+            return given.get(t, t)
+        return (t[0], *map(named, t[1:]))
+
+    def told(step: Step) -> Step:
+        sides = (replace(e, lhs=named(e.lhs), rhs=named(e.rhs)) for e in step.equations)
+        return replace(step, equations=tuple(sides))
+
+    return tuple(map(told, steps) if given else steps)
+
+
+def numbers(problem: Problem, *, discrete: bool = False) -> dict[Tree, Tree]:
+    """Entries of f_u and u → the numbers that are given, of a covector in the basis that the
+    problem states; in the ``discrete`` motion u is the whole covector of a displacement."""
+    found: dict[Tree, Tree] = {}
+    group = problem.group
+    assert group is not None
+    for e, (force, size) in enumerate(_sized(problem), 1):
+        for k in range(1, size + 1):
+            found["entry", ("at", "f_u", e), k] = ("par", suffixed(force.name, k))
+    if covector := problem.covector:
+        own = [("par", suffixed(covector.name, a)) for a in range(1, group.dimension + 1)]
+        apart = group.turns_space and group.affine and not discrete
+        turns = group.dimension - (group.n if apart else 0)
+        for a, element in enumerate(group.basis, 1):
+            parts = zip(group.stated.nearest(element), own, strict=True)
+            letter, k = ("u", a) if a <= turns else ("f_u", a - turns)
+            found["entry", letter, k] = add(*(mul(plain(x), u) for x, u in parts if x))
+    return found
+
+
+def _sized(problem: Problem) -> Iterator[tuple[ForceInput, int]]:
+    """The forces that are given, each with the dimension of the space of its point."""
+    for force in problem.force_inputs:
+        assert problem.group is not None
+        _, moved = problem.group.places[problem.block(force.on) - 1]
+        yield force, moved.n
+
+
+def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> External | None:
+    """N_u and F_u of what acts from outside dϖ, with their step; ``None`` where nothing does.
+
+    ``C``: ĀA, as a step says it.
+    """
+    if not acts(problem):
+        return None
+    group = problem.group
+    assert group is not None
+    forces, draft = applied(b, "u", vectors=False), c.draft("input", "input")
+    definitions, drag = _damping(problem, b)
+    drag = reduce(drag, body_rule(b, C))
+    xi, eta = Letter("ξ′", b.n, b.n), Letter("η′", b.n)
+    moments, pulls = [draft.tree(gradient(drag, xi))], [draft.tree(gradient(drag, eta))]
+    for e, given in enumerate(problem.force_inputs, 1):
+        force = _carried(draft, problem, e, given, C, b)
+        moments.append(mul(force, ("T", ("at", "r", given.on))))
+        pulls.append(force)
+    if problem.covector:
+        moment, pull = _covector(group, b)
+        moments.append(moment)
+        pulls.append(pull)
+    equations = [*definitions, Equation(forces.moments.name, add(*moments))]
+    if b.affine:
+        equations.append(Equation(forces.resultant.name, add(*pulls)))
+    step = draft.step(equations, prose(problem))
+    return External(draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,))
+
+
+def _carried(d: Draft, problem: Problem, e: int, given: ForceInput, C: Expr, b: Alphabet) -> Tree:
+    """Force ``e`` in the body, a tree: Āf for a force in space, ĀA f for one that turns with the
+    body."""
+    f: Tree = ("at", "f_u", e)
+    group = problem.group
+    assert group is not None
+    if group.factors:
+        n = group.places[problem.block(given.on) - 1][1].n
+        f = embedded(problem, given.on, tuple(("entry", f, k) for k in range(1, n + 1)), 0)
+    if given.frame == "space":
+        return mul(("T", "A"), f)
+    d.depends_on(C)
+    return f if b.unit == C else mul("C", f)
+
+
+def _covector(group: Group, b: Alphabet) -> tuple[Tree, Tree]:
+    """A matrix (and for an affine group a column) whose pairing with ξ′ (and η′) is u(ξ′), by the
+    rows that read coordinates."""
+    size = group.size
+    entries: list[list[list[Tree]]] = [[[] for _ in range(size)] for _ in range(size)]
+    for a in range(group.dimension):
+        for x, i, j in group.coordinate_terms(a):
+            entries[i][j].append(mul(x, ("entry", "u", a + 1)))
+    n = b.n
+    assert isinstance(n, int)
+    rows = tuple(("row", *(add(*entries[i][j]) for j in range(n))) for i in range(n))
+    last = tuple(("row", add(*entries[i][n])) for i in range(n)) if b.affine else ()
+    return ("matrix", *rows), ("matrix", *last) if last else 0
+
+
+def _damping(problem: Problem, b: Alphabet) -> tuple[list[Equation], Expr]:
+    """The equations of κ_i and their sums over the points; and the work −Σ κ_i ⟨v_i, v′_i⟩ on
+    words, in a displacement ξ′, η′."""
+    kappa, g = Letter("κ_i"), word(b.A.position)
+    D, first, total = Letter("D", b.n, b.n, 1), Letter("D_c", b.n), Letter("D_m")
+    xi, eta = word(Letter("ξ′", b.n, b.n)), word(Letter("η′", b.n))
+    v = (g * word(b.Z.velocity) * word(b.r_i)).marked(Chapter(b.chapter).label("velocity"))
+    moved = g * xi * word(b.r_i)
+    if b.affine:
+        v, moved = v + g * word(b.w.velocity), moved + g * eta
+    if not problem.damping:
+        return [], number(0)
+    table = {
+        (kappa, b.r_i, b.r_i): word(D),
+        (kappa, b.r_i): word(first),
+        (kappa,): word(total),
+    }
+    work = sum_over(-word(kappa) * inner(v, moved), {kappa, b.r_i}, table)
+    equations = damping_coefficients(problem) + stated("D = Σᵢ κᵢ rᵢ r̄ᵢ")
+    if b.affine:
+        equations += stated("D_c = Σᵢ κᵢ rᵢ,  D_m = Σᵢ κᵢ")
+    return equations, work
+
+
+def damping_coefficients(problem: Problem) -> list[Equation]:
+    """The equations of κ_i of the points that are damped."""
+    terms: dict[int, list[Tree]] = {}
+    for d in problem.damping:
+        for i in d.on:
+            terms.setdefault(i, []).append(d.coefficient)
+    return [Equation(("at", "κ", i), add(*x)) for i, x in sorted(terms.items())]
+
+
+def external_vectors(
+    problem: Problem, b: Alphabet, C: Expr, hat_map: HatMap, c: Chapter
+) -> External | None:
+    """μ_u and F_u in R³, with their step; a covector alone keeps its own name. ``None`` where
+    nothing acts from outside dϖ."""
+    if not acts(problem):
+        return None
+    if not problem.force_inputs and not problem.damping:
+        return External(word(TORQUE), word(FORCE), ())
+    forces, draft = applied(b, "u", vectors=True), c.draft("input", "input")
+    definitions, drag = _damping(problem, b)
+    turned, pulled = _in_vectors(drag, b, C, hat_map)
+    draft.depends_on(turned, pulled)
+    moments, pulls = [vector_sum(turned)], [vector_sum(pulled)]
+    if problem.damping:
+        definitions.append(Equation("I_D", tree_of(inertia_of(Letter("D", 3, 3, 1)))))
+    for e, given in enumerate(problem.force_inputs, 1):
+        force = _carried(draft, problem, e, given, C, b)
+        moments.append(("wedge", ("at", "r", given.on), force))
+        pulls.append(force)
+    if problem.covector:
+        moments.append(TORQUE.name)
+        pulls.append(FORCE.name)
+    equations = [*definitions, Equation(forces.moments.name, add(*moments))]
+    if b.affine:
+        equations.append(Equation(forces.resultant.name, add(*pulls)))
+    step = draft.step(equations, prose(problem))
+    return External(draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,))
+
+
+def _in_vectors(drag: Expr, b: Alphabet, C: Expr, hat_map: HatMap) -> tuple[Expr, Expr]:
+    """The moment and the resultant of the damping, vectors: the coefficients of Ω′ and η′ in its
+    work."""
+    images = {b.Z.velocity: hat_map.hatted(ZETA), Letter("ξ′", 3, 3): hat_map.hatted(OMEGA_P)}
+    work = substitute(reduce(drag, body_rule(b, C)), images)
+    work = normal_form(fold_inertia(work, Letter("D", 3, 3, 1), word(Letter("I_D", 3, 3, 1))))
+    turned = normal_form(gradient(reduce(work, anticommute(OMEGA_P)), OMEGA_P))
+    eta = Letter("η′", 3)
+    return turned, normal_form(gradient(reduce(work, anticommute(eta)), eta))

@@ -1,0 +1,296 @@
+"""The answer: the equations of motion in coordinates, a problem's own numbers put in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from ...algebra.calculus import gradient
+from ...algebra.groups import Group
+from ...language import rational as q
+from ...language.laurent import Laurent
+from ...language.read import read
+from ...language.tree import Tree, mul
+from ...language.values import OPERATIONS, Value, hat
+from ...problem.problem import Problem
+from ...record.record import Equation, Step
+from ...record.sentence import Prose
+from ...schema.body_kinds import MomentBody
+from ..chapter import Chapter, Draft, say
+from ..given.inputs import External
+from ..given.potentials import Potentials
+from ..vectors.rotation import Torque, diagonal
+from .coordinates import Balance, solved, told
+from .separation import constant, linear
+from .specialisation import Special
+from .substitution import UNKNOWN, PutIn, element, symbols
+
+LARGEST = 6
+"""The dimension of the largest group for which the answer is stated."""
+RULE = "evaluation"
+RATE_OF = {"A": "Ȧ", "T": "Ṫ", "Γ": "Γ̇"}
+Steps = tuple[Step, ...]
+
+
+def of_matrices(
+    problem: Problem,
+    group: Group,
+    body: Steps,
+    v: Potentials,
+    special: Special,
+    driven: Special,
+    external: External | None,
+    motion: Step,
+    points: Steps,
+    c: Chapter,
+) -> Steps:
+    """From the kernel, the work of the forces on the right; ``points``: the steps of their
+    moments."""
+    if not _wanted(problem, group, body):
+        return ()
+    b, draft = driven.letters, c.draft("explicit", RULE)
+    primed = [f.xi_prime for f in b.algebra_parts]
+    left = [draft.tree(gradient(driven.inertial, x)) for x in primed]
+    right = [draft.tree(driven.forces[x]) for x in primed]
+    own = [draft.tree(special.forces[x]) for x in primed]
+    draft.depends_on(body[-1], motion)
+    span, n = range(1, len(group.linear_basis) + 1), group.n
+    rates: list[Tree] = [("entry", "ζ̇", a) for a in span]
+    known = _place(group) | {
+        x: q.combine([Laurent.symbol(("entry", y, a)) for a in span], group.linear_basis)
+        for x, y in (("Z", "ζ"), ("Ż", "ζ̇"))
+    }
+    if group.affine:
+        known |= {x: symbols(x, n) for x in ("w", "ẇ")}
+        rates += [("entry", "ẇ", i) for i in range(1, n + 1)]
+    values = PutIn(known | {"u": symbols("u", group.dimension)}, n)
+    _learn(values, problem, body, points, v, external, motion)
+    for metric in (values.names["C"], _symmetric("C", n)):  # by A, or by what of A enters
+        values.names["C"] = metric
+        try:
+            inertial, load, work = (_along(group, map(values.of, x)) for x in (left, right, own))
+            rows = [x - y for x, y in zip(inertial, load, strict=True)]
+            stage = _linear_in(rows, tuple(rates))
+        except UNKNOWN:
+            continue
+        idle = bool(problem.potentials) and not any(work)
+        if found := _told(draft, stage, values, idle, group):
+            return found
+    return ()
+
+
+def _symmetric(name: str, n: int) -> Value:
+    """The n × n matrix of the entries of a symmetric one, each a symbol."""
+    span = range(1, n + 1)
+    return tuple(
+        tuple(Laurent.symbol(("entry", name, *sorted((i, j)))) for j in span) for i in span
+    )
+
+
+def of_vectors(
+    problem: Problem,
+    group: Group,
+    body: Steps,
+    v: Potentials,
+    torque: Torque,
+    points: Steps,
+    inertia: Step,
+    external: External | None,
+    motion: Step,
+    tensor: Steps,
+    c: Chapter,
+) -> Steps:
+    """From the equations of motion in vectors; none where they stand in components already."""
+    if not _wanted(problem, group, body):
+        return ()
+    draft = c.draft("explicit", RULE)
+    draft.depends_on(body[-1], inertia, motion, *tensor[:1])
+    vectors = ("ζ", "ζ̇", "u", *(("w", "ẇ", "f_u") if group.affine else ()))
+    known = _place(group) | {x: symbols(x, 3) for x in vectors}
+    values = PutIn(known | {"Z": hat(known["ζ"])}, 3)
+    _learn(values, problem, body, (*points, inertia), v, external, motion)
+    sides = {e.lhs: e.rhs for e in motion.equations}
+    try:
+        name, rest = _inverted(sides["ζ̇"])
+        mass = values.of(name)
+        lettered = _is_diagonal(mass) and any(len(x.terms) > 1 for row in mass for x in row)
+        if lettered:
+            mass = values.names[name] = _moments(name, mass)
+        load = values.of(rest)
+        work = [values.of(e.rhs) for s in torque.steps for e in s.equations]
+        stage = Balance(mass, _entries(load), tuple(("entry", "ζ̇", i) for i in AXES))
+        drift = values.of(sides["ẇ"]) if group.affine else ()
+    except UNKNOWN:
+        return ()
+    idle = bool(problem.potentials) and not any(x for column in work for x in _entries(column))
+    shifts = _entries(drift) if group.affine else ()
+    rates: list[tuple[Tree, Laurent]] = [(("entry", "ẇ", i), x) for i, x in enumerate(shifts, 1)]
+    found = _told(draft, stage, values, idle, group, after=rates)
+    again = lettered and len(tensor) > 1 and found and len(found[0].prose) == 1
+    return () if again else found
+
+
+AXES = (1, 2, 3)
+
+
+def _entries(column: Value) -> tuple[Laurent, ...]:
+    """The entries of a vector of R³, or of the number 0 that stands for one."""
+    return tuple(x for (x,) in column) if isinstance(column, tuple) else (column,) * 3
+
+
+def _inverted(t: Tree) -> tuple[str, Tree]:
+    """I, or I_c, and the vector X of ζ̇ = I⁻¹ X."""
+    assert isinstance(t, tuple)
+    _, (_, name), *factors = t
+    return name, mul(*factors)
+
+
+def _is_diagonal(m: Value) -> bool:
+    return not any(x for i, row in enumerate(m) for j, x in enumerate(row) if i != j)
+
+
+def _moments(name: str, m: Value) -> Value:
+    """A diagonal tensor by its letters, equal ones the same."""
+    first = [next(j for j in AXES if m[j - 1][j - 1] == m[i - 1][i - 1]) for i in AXES]
+    return diagonal([("entry", name, i, i) for i in first])
+
+
+def of_lagrangian(
+    problem: Problem, group: Group, balance: Steps, momenta: Step, c: Chapter
+) -> Steps:
+    """From M and β of a problem with a Lagrangian of its own; ``momenta``: the step of Π_a and
+    Φ_a."""
+    if group.dimension > LARGEST:
+        return ()
+    *_, mass, motion = balance
+    draft = c.draft("explicit", RULE)
+    draft.depends_on(momenta, mass, motion)
+    size = group.dimension
+    known = {x: symbols(x, size) for x in ("ζ", "ζ̇", "u")}
+    Z = q.combine([x for (x,) in known["ζ"]], group.basis)
+    known |= {"A": element(group), "Z": Z}
+    if problem.advected is not None:
+        known["Γ"] = symbols("Γ", sum(x.size for x in problem.advected))
+    values = PutIn(known, group.size)
+    values.learn(motion.equations)
+    for a in range(1, size + 1):
+        values.member("Φ", a, Laurent.of(0))
+    values.learn(momenta.equations)
+    sides = {e.lhs: e.rhs for e in mass.equations}
+    try:
+        M, load = values.of(sides["M"]), values.of(sides["β"])
+    except UNKNOWN:
+        return ()
+    unknowns = tuple(("entry", "ζ̇", a) for a in range(1, size + 1))
+    stage = Balance(M, tuple(x for (x,) in load), unknowns)
+    assert problem.lagrangian is not None
+    return _told(draft, stage, values, False, group, side=problem.lagrangian.trivialisation)
+
+
+def _wanted(problem: Problem, group: Group, body: Steps) -> bool:
+    """Is something gained? Not where the moments are all letters."""
+    letters = isinstance(problem.body, MomentBody)
+    return bool(body) and group.dimension <= LARGEST and not letters
+
+
+def _place(group: Group) -> dict[str, Value]:
+    """A, and T of an affine group, by the entries that tell the others."""
+    g, n = element(group), group.n
+    found: dict[str, Value] = {"A": tuple(row[:n] for row in g[:n])}
+    return found | ({"T": tuple((row[n],) for row in g[:n])} if group.affine else {})
+
+
+def _learn(
+    values: PutIn,
+    problem: Problem,
+    body: Steps,
+    points: Steps,
+    v: Potentials,
+    external: External | None,
+    motion: Step,
+) -> None:
+    """The moments of the body, then what its potentials and inputs are made of."""
+    group = problem.group
+    assert group is not None
+    for k, given in enumerate(problem.force_inputs, 1):
+        _, moved = group.places[problem.block(given.on) - 1]
+        values.member("f_u", k, symbols(("at", "f_u", k), moved.n))
+    values.learn(e for s in body for e in s.equations)
+    values.learn(e for s in points for e in s.equations if e.lhs not in values.names)
+    A = values.names["A"]
+    values.names["C"] = OPERATIONS["mul"](q.transposed(A), A)
+    outside = external.steps if external else ()
+    values.learn(e for s in (*v.steps, *outside) for e in s.equations)
+    values.learn(e for e in motion.equations if e.lhs in RATE_OF.values())
+
+
+def _along(group: Group, covector: Iterable[Value]) -> list[Laurent]:
+    """Its values on the basis: of ξ′, then of η′."""
+    turned, *pulled = covector
+    inner = OPERATIONS["inner"]
+    found = [inner(turned, e) if isinstance(turned, tuple) else 0 for e in group.linear_basis]
+    for column in pulled:
+        found += [x for (x,) in column] if isinstance(column, tuple) else [0] * group.n
+    return [*map(Laurent.of, found)]
+
+
+def _linear_in(rows: Sequence[Laurent], unknowns: tuple[Tree, ...]) -> Balance:
+    """What vanishes, sorted: Σ M_ab x_b − β_a; ``ValueError`` where it is not linear in the x_b."""
+    place = {x: b for b, x in enumerate(unknowns)}
+    mass = [[Laurent.of(0) for _ in unknowns] for _ in rows]
+    load = [Laurent.of(0) for _ in rows]
+    for a, row in enumerate(rows):
+        for m, number in row.terms.items():
+            among = [(s, e) for s, e in m if s in place]
+            rest = Laurent({tuple(x for x in m if x[0] not in place): number})
+            if not among:
+                load[a] = load[a] - rest
+            elif [e for _, e in among] == [1]:
+                b = place[among[0][0]]
+                mass[a][b] = mass[a][b] + rest
+            else:
+                raise ValueError("not linear in the accelerations")
+    return Balance(tuple(map(tuple, mass)), tuple(load), unknowns)
+
+
+def _told(
+    draft: Draft,
+    stage: Balance,
+    values: PutIn,
+    idle: bool,
+    group: Group,
+    *,
+    side: str = "left",
+    after: Sequence[tuple[Tree, Laurent]] = (),
+) -> Steps:
+    """The step, with what can be seen of the equations; ``after``: rates that are solved."""
+    found, others = solved(stage), told(after)
+    if found is None or others is None:
+        return ()
+    work = "dŨ(Aξ′, Aη′)" if group.affine else "dŨ(Aξ′)"
+    equations = [*([Equation(read(work), 0)] if idle else []), *found, *others]
+    alone = all(e.lhs in stage.unknowns for e in found)
+    prose = say("explicit.solved" if alone else "explicit.balance")
+    prose += say("explicit.idle") if idle else ()
+    loads = (*stage.load, *(x for _, x in after))
+    seen = _seen(replace(stage, load=loads), values, side)
+    return (draft.step(equations, prose + seen),)
+
+
+def _seen(stage: Balance, values: PutIn, side: str) -> Prose:
+    """Whether the velocity or its rate is constant, or the equations are linear."""
+    if not any(stage.load):
+        return say(f"explicit.{side}")
+    if constant(stage):
+        return say("explicit.steady")
+    return say("explicit.linear") if linear(stage, lambda x: _rate(values, x)) else ()
+
+
+def _rate(values: PutIn, entry: Tree) -> Laurent | None:
+    """The rate of an entry of g, or of what is carried along."""
+    assert isinstance(entry, tuple)
+    _, name, i, *j = entry
+    if name not in RATE_OF:
+        return None
+    rate: Laurent = values.names[RATE_OF[name]][i - 1][j[0] - 1 if j else 0]
+    return rate

@@ -1,0 +1,1 @@
+"""The steps of the note for any group: orbit, Lagrangian, pull-back, Cartan form, dϖ, kernel."""

@@ -1,0 +1,103 @@
+"""The head of a record: its problem as plain data, and the names that its steps use."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from ...algebra.groups import Group
+from ...language.show import in_sentence
+from ...problem.data import data
+from ...problem.problem import Problem
+from ...record import sentence
+from ...record.contract import CONVENTIONS
+from ...record.discrete_names import DISCRETE
+from ...record.fluid_names import FLUID
+from ...record.name_types import Name
+from ...record.record import Step, Symbol
+from ...record.tree_data import encode
+from ...record.uses import of_steps
+from ...record.vocabulary import (
+    CARRYING,
+    DISPLACEMENTS,
+    LAGRANGIANS,
+    ON_THE_TORUS,
+    PRODUCTS,
+    ROTATIONS,
+    VOCABULARY,
+)
+from ..chapter import say
+from ..given.inputs import numbers
+
+SHOWN = 3
+"""So many numbers of an input are told one by one."""
+
+
+def problem_data(problem: Problem) -> dict[str, object]:
+    """The problem as JSON data: trees encoded."""
+
+    def plain(x: object) -> object:
+        if isinstance(x, dict):
+            return {k: plain(v) for k, v in x.items()}
+        if isinstance(x, list):
+            return [plain(v) for v in x]
+        return encode(x) if isinstance(x, (tuple, Fraction)) else x
+
+    basis = problem.group.stated.basis if problem.group else ()
+    rows = [[[str(x) for x in row] for row in e] for e in basis]
+    n = problem.group.n if problem.group else problem.torus.N if problem.torus else "any"
+    found = data(problem) | {"n": n, "basis": rows, "conventions": list(CONVENTIONS)}
+    return {k: plain(v) for k, v in found.items()}
+
+
+def symbols(
+    steps: tuple[Step, ...], problem: Problem, *, fields: int = 0, discrete: bool = False
+) -> tuple[Symbol, ...]:
+    """The names that the steps use, in the order in which they appear; ``fields``: by how many
+    symmetries the problem is reduced; ``discrete``: of the discrete road."""
+    meant, group = _meant(problem), problem.group
+    if discrete:
+        meant = VOCABULARY | DISCRETE[problem.action]
+    sizes = _sizes(group) if group else {}
+    if problem.torus:
+        sizes = {"n": problem.torus.N, "lattice": 2}
+    sizes["fields"] = fields
+    sizes["carried"] = sum(x.size for x in problem.advected or ())
+    sizes["reduced"] = sizes["carried"] + sizes.get("dim", 0)
+    meanings = {x: sentence.say(about.meaning) for x, about in meant.items()}
+    if problem.covector and group:
+        for x in ("u", "f_u"):
+            given = _given(problem, x, discrete)
+            meanings[x] = say("input.numbers", meaning=meanings[x][0], numbers=given)
+    used = of_steps(steps, meant, sizes)
+    return tuple(Symbol(x, meanings[x], meant[x].latex, uses) for x, uses in used.items())
+
+
+def _sizes(group: Group) -> dict[str, int]:
+    """What n, d and dim are for a group; and ``block``, where all its factors are of one size."""
+    sizes = {"n": group.n, "d": len(group.linear_basis), "dim": group.dimension, "size": group.size}
+    blocks = {factor.n for _, factor in group.places}
+    return sizes | ({"block": blocks.pop()} if len(blocks) == 1 else {})
+
+
+def _meant(problem: Problem) -> dict[str, Name]:
+    """The vocabulary of a problem, name → its meanings there: of all problems, of turning, of
+    products."""
+    group = problem.group
+    if problem.fluid:
+        return VOCABULARY | FLUID
+    if problem.torus:
+        return VOCABULARY | LAGRANGIANS["right"] | ON_THE_TORUS
+    if problem.lagrangian:
+        own = dict(CARRYING) if problem.advected else {}
+        return VOCABULARY | LAGRANGIANS[problem.lagrangian.trivialisation] | own
+    blocks = PRODUCTS if group and len(group.factors) > 1 else {}
+    turning = group is not None and group.turns_space
+    turned = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
+    return VOCABULARY | turned | blocks
+
+
+def _given(problem: Problem, letter: str, discrete: bool) -> str:
+    """The numbers of the covector that are the entries of u or of f_u, by the user's names."""
+    given = numbers(problem, discrete=discrete).items()
+    told = [in_sentence(x) for t, x in given if isinstance(t, tuple) and t[1] == letter]
+    return ", ".join(told if len(told) <= SHOWN else (told[0], "…", told[-1]))

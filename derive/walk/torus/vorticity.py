@@ -1,0 +1,206 @@
+"""Zeitlin's model: any Lagrangian on the right, on su(N) in the basis of the torus."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ...algebra.calculus import derivation, gradient, substitute
+from ...algebra.torus import Torus
+from ...algebra.words import Expr, Letter, inner, trace, word
+from ...language.tree import mul
+from ...problem.problem import Problem
+from ...record.record import Equation, Step
+from ..chapter import Chapter, say
+from ..lie.any_lagrangian import AnyLagrangian, sign_of
+from ..spine.alphabet import Alphabet
+from .lattice import (
+    LARGEST,
+    Coefficient,
+    Form,
+    M,
+    N,
+    Phase,
+    Unit,
+    bracket_at,
+    minus,
+    modes,
+    of,
+    paired,
+    summed,
+    traced,
+)
+
+CASIMIRS = (2, 3, 4)
+"""The powers of W of which the step tells the traces; the others go alike."""
+W, P = Letter("W", "n", "n"), Letter("P", "n", "n")
+BRACKET = word(W) * word(P) - word(P) * word(W)
+
+
+def inertia(a: Coefficient) -> Coefficient:
+    """𝔸, the opposite of the Laplacian: |n|² on T(n)."""
+    return a.times(1, 1)
+
+
+@dataclass(frozen=True)
+class Fluid:
+    """What the inertia operator and the trace form make of the coefficients ζ, for one N.
+
+    ``lagrangian``, ``energy``: L̃ by ζ and h̃ by ω̂; ``slope``: ω̂ by ζ; ``momentum``: Π of W̄;
+    ``scale``: N/4πi; ``stream``: P; ``velocity``: Z of P.
+    """
+
+    lagrangian: Form
+    slope: Coefficient
+    momentum: Unit
+    energy: Form
+    stream: Coefficient
+    velocity: Unit
+    scale: Unit
+
+
+def fluid_of(torus: Torus, a: Alphabet) -> Fluid:
+    """From ½⟨𝔸Z, Z⟩: δL̃ = ⟨Π, δZ⟩, h̃ = ⟨Π, Z⟩ − L̃, 𝔸P = −W."""
+    scale = Unit(Fraction(4, torus.N), 1, 1).inverse
+    zeta, varied, vorticity = (Coefficient(x) for x in ("ζ", "δζ", "ω̂"))
+    L = paired(inertia(zeta), zeta).times(Fraction(1, 2))
+    slope = L.varied("ζ", "δζ").gradient("δζ")
+    dZ, Z = a.Z.d_velocity, a.Z.velocity
+    elements = {W: vorticity, dZ: varied.times(scale), Z: zeta.times(scale)}
+    along, whole = (traced(inner(word(W).bar, word(x)), elements, torus.N) for x in (dZ, Z))
+    momentum = paired(vorticity, varied).over(along)
+    by_vorticity = slope.solved_for("ω̂")
+    energy = (whole.times(momentum) - L).put("ω̂", slope).put("ζ", by_vorticity)
+    stream = inertia(Coefficient("P")).times(-1).solved_for("ω̂")
+    velocity = by_vorticity.times(scale).over(stream)
+    return Fluid(L, slope, momentum, energy, stream, velocity, scale)
+
+
+def torus_steps(
+    problem: Problem, general: AnyLagrangian, a: Alphabet, c: Chapter
+) -> tuple[Step, ...]:
+    """From the basis to the motion, and what it keeps."""
+    torus = problem.torus
+    assert torus is not None
+    phase, fluid = Phase(torus.N), fluid_of(torus, a)
+    first = _basis(phase, fluid, general, c)
+    algebra, lagrangian = _algebra(phase, first, c), _lagrangian(fluid, general, first, c)
+    momenta = _momenta(fluid, (first, lagrangian, general["momenta"]), c)
+    flow, energy = _stream(fluid, momenta, c), _energy(fluid, (momenta, general["energy"]), c)
+    rate = coadjoint_rate(fluid, general.epsilon, a)
+    turning = _coadjoint(rate, general, (momenta, flow), c)
+    motion = _motion(phase, fluid, rate, (turning, flow, algebra, momenta), c)
+    told = [modes(phase, fluid.stream, rate, motion, c)] if torus.N <= LARGEST else []
+    kept = _kept(fluid, torus, (turning, energy, momenta), c)
+    return first, algebra, lagrangian, momenta, flow, energy, turning, motion, *told, kept
+
+
+def _basis(phase: Phase, fluid: Fluid, general: AnyLagrangian, c: Chapter) -> Step:
+    draft = c.draft("coordinates", "coordinates")
+    draft.depends_on(general["second_order"])
+    product = mul(of("T", M), of("T", N))
+    return draft.step(
+        [
+            Equation(product, mul(phase.product(), of("T", (1, 1)))),
+            Equation("Z", summed(lambda k: fluid.scale.times(of("ζ", k)))),
+        ],
+        say(
+            "coordinates.torus", order=str(phase.N), half=str(phase.N // 2), most=str(phase.N // 2)
+        ),
+    )
+
+
+def _algebra(phase: Phase, basis: Step, c: Chapter) -> Step:
+    draft = c.draft("algebra", "relation")
+    draft.depends_on(basis)
+    unit, sine = phase.bracket(M, N)
+    bracket = Equation(("bracket", of("T", M), of("T", N)), unit.times(sine, of("T", (1, 1))))
+    return draft.step([bracket], say("algebra.torus"))
+
+
+def _lagrangian(fluid: Fluid, general: AnyLagrangian, basis: Step, c: Chapter) -> Step:
+    draft = c.draft("lagrangian", "definition")
+    draft.depends_on(general["momenta"], basis)
+    return draft.step([Equation("L̃", fluid.lagrangian.tree())], say("lagrangian.torus"))
+
+
+def _momenta(fluid: Fluid, made_from: tuple[Step, ...], c: Chapter) -> Step:
+    """ω̂(n), the derivative along ζ(−n), of which δZ is a multiple of T(−n); W, and Π by it."""
+    draft = c.draft("momenta", "fibre derivative")
+    draft.depends_on(*made_from)
+    paired_with = ("inner", "Π", fluid.scale.times(of("T", minus(N))))
+    return draft.step(
+        [
+            Equation(of("ω̂", N), paired_with),
+            Equation(of("ω̂", N), fluid.slope.unit.times(fluid.slope.at(N))),
+            Equation("W", Coefficient("ω̂").element()),
+            Equation("Π", fluid.momentum.times(("T", "W"))),
+        ],
+        say("momenta.torus"),
+    )
+
+
+def _stream(fluid: Fluid, momenta: Step, c: Chapter) -> Step:
+    draft = c.draft("stream", "inversion")
+    draft.depends_on(momenta)
+    return draft.step(
+        [Equation("P", fluid.stream.element()), Equation("Z", fluid.velocity.times("P"))],
+        say("stream.torus"),
+    )
+
+
+def _energy(fluid: Fluid, made_from: tuple[Step, ...], c: Chapter) -> Step:
+    draft = c.draft("energy", "Legendre transform")
+    draft.depends_on(*made_from)
+    return draft.step([Equation("h̃", fluid.energy.tree())], say("energy.torus"))
+
+
+def coadjoint_rate(fluid: Fluid, epsilon: int, a: Alphabet) -> Unit:
+    """What Ẇ is of [W, P]: ⟨Π̇, ξ′⟩ = ε⟨Π, [Z, ξ′]⟩, Π is a multiple of W̄, Z one of P; ξ′ is any."""
+    Z, xi = word(a.Z.velocity), word(a.Z.xi_prime)
+    turned = epsilon * inner(word(W).bar, Z * xi - xi * Z)
+    rate = gradient(substitute(turned, {a.Z.velocity: word(P)}), a.Z.xi_prime).bar
+    return fluid.velocity * sign_of(rate, BRACKET)
+
+
+def _coadjoint(rate: Unit, general: AnyLagrangian, made_from: tuple[Step, ...], c: Chapter) -> Step:
+    draft = c.draft("coadjoint", "kernel")
+    draft.depends_on(general["coadjoint"], *made_from)
+    moved = Equation("Ẇ", rate.times(("bracket", "W", "P")))
+    return draft.step([moved], say("coadjoint.torus"))
+
+
+def _motion(
+    phase: Phase, fluid: Fluid, rate: Unit, made_from: tuple[Step, ...], c: Chapter
+) -> Step:
+    """The coefficient at T(n) of Ẇ."""
+    draft = c.draft("motion", "solution")
+    draft.depends_on(*made_from)
+    unit, total = bracket_at(phase, Coefficient("ω̂").at, fluid.stream.at)
+    unit = rate * fluid.stream.unit * unit
+    return draft.step(
+        [Equation(("call", "d/dt", of("ω̂", N)), unit.times(total))], say("motion.torus")
+    )
+
+
+def _kept(fluid: Fluid, torus: Torus, made_from: tuple[Step, ...], c: Chapter) -> Step:
+    """The energy, and Tr Wᵏ: traces of a product with a bracket of one of its factors."""
+    draft = c.draft("conserved", "conservation")
+    draft.depends_on(*made_from)
+    dW, vorticity = Letter("δW", "n", "n"), Coefficient("ω̂")
+    elements = {W: vorticity, P: fluid.stream, dW: Coefficient("δω̂")}
+    along = traced(trace(word(P, dW)), elements, torus.N)
+    fluid.energy.varied("ω̂", "δω̂").over(along)  # δh̃ is a multiple of Tr P δW
+    _require_zero(trace(word(P) * BRACKET))
+    told = [Equation(("call", "d/dt", "h̃"), 0)]
+    for k in CASIMIRS:
+        _require_zero(derivation(trace(word(*[W] * k)), {W: BRACKET}.get))
+        told.append(Equation(("call", "d/dt", ("tr", mul(*["W"] * k))), 0))
+    enstrophy = traced(trace(word(W, W)), elements, torus.N)
+    told.append(Equation(("tr", mul("W", "W")), enstrophy.tree()))
+    return draft.step(told, say("conserved.torus"))
+
+
+def _require_zero(e: Expr) -> None:
+    if e.terms:
+        raise ValueError("the motion does not keep this")
