@@ -1,10 +1,4 @@
-"""The checker: every equation of a record, put to the test in exact arithmetic.
-
-The names of a step are given the values that they mean (:mod:`derive.check.meaning`) at random
-exact points of the group, and both sides must agree, with no tolerance.  A false equation survives
-with probability at most  degree / size  (Schwartz–Zippel), the degree being that of what is
-computed (:mod:`derive.check.grades`).  Nothing is imported from the walk.
-"""
+"""The checker: every equation of a record, put to the test in exact arithmetic."""
 
 from __future__ import annotations
 
@@ -22,27 +16,41 @@ from ..record import mass_signs
 from ..record.contract import ANY_GROUP
 from ..record.json_writer import step_data, to_json
 from ..record.record import Derivation, Equation, RecordError, Step
-from . import symbols, well_formedness
-from .arithmetic import EvaluationError
 from .claims.claim_checker import ClaimChecker
-from .definitions import PRIMITIVE, unexplained
-from .dependencies import unused
-from .enclosure import enclosure_fault, kept_claims
-from .equation_sides import difference, largest_degree
-from .locus import Locus, locus_of
-from .necessary_hypotheses import (
+from .claims.enclosure import enclosure_fault, kept_claims
+from .form import symbols, well_formedness
+from .form.hypotheses_checked import (
+    IMPOSSIBLE,
+    MOST_BITS,
     ORDER,
+    RefusedError,
+    Verdict,
+    bit_count,
     false_by_default,
     false_hypothesis,
     missing_hypothesis,
     missing_mass_hypotheses,
+    no_sense,
+    refusal,
 )
-from .trial_groups import LEAST, LEAST_BY_MOMENTA, fault_for_any_group, free, sizes
-from .trial_points import SIZE, TrialPoints, action_of, side_of
-from .verdict import IMPOSSIBLE, MOST_BITS, RefusedError, Verdict, bit_count, no_sense, refusal
+from .form.well_formedness import PRIMITIVE, unexplained, unused
+from .trials.trial_points import (
+    LEAST,
+    LEAST_BY_MOMENTA,
+    SIZE,
+    TrialPoints,
+    action_of,
+    fault_for_any_group,
+    free,
+    side_of,
+    sizes,
+)
+from .values.arithmetic import EvaluationError
+from .values.draws import Locus, difference, largest_degree, locus_of
 
 if TYPE_CHECKING:
     from .fluid.fluid_checker import FluidChecker
+
 
 LARGEST_DEGREE = 2**25
 """The largest Schwartz–Zippel degree of a claim that is tried: its numbers have 128 times as many

@@ -22,7 +22,7 @@ from .progress import with_progress
 from .showing import columns, save, save_record, save_steps, steps_of, told_steps
 
 if TYPE_CHECKING:
-    from ..check.verdict import Verdict
+    from ..check.form.hypotheses_checked import Verdict
 
 
 def command_list(_: argparse.Namespace) -> int:

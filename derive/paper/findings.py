@@ -17,12 +17,11 @@ from random import Random
 from typing import Any
 
 from ..algebra.families import group
-from ..check.equation_sides import difference
-from ..check.evaluate import Environment, evaluate
-from ..check.locus import Locus
-from ..check.meaning import environment
-from ..check.model import Model
-from ..check.trial_points import SIZE
+from ..check.trials.meaning import environment
+from ..check.trials.model import Model
+from ..check.trials.trial_points import SIZE
+from ..check.values.draws import Locus, difference
+from ..check.values.evaluate import Environment, evaluate
 from ..language import rational as q
 from ..language.show import show
 from ..language.tree import Tree, names, neg

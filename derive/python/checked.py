@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..check.verdict import Verdict
+from ..check.form.hypotheses_checked import Verdict
 from ..record.record import Derivation
 
 

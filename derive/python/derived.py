@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
-from ..check.verdict import Verdict
+from ..check.form.hypotheses_checked import Verdict
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
 from .doubted import loaded

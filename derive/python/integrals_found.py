@@ -10,7 +10,7 @@ from typing import Any
 
 import sympy
 
-from ..check.verdict import Verdict
+from ..check.form.hypotheses_checked import Verdict
 from ..integrals.all_integrals import Condition, Found
 from ..language.suffixed import suffixed
 from ..language.tree import Tree

@@ -15,7 +15,7 @@ from random import Random
 from typing import Any
 
 from ..algebra.groups import Group
-from ..check.nilpotent import EPS, nilpotent
+from ..check.values.arithmetic import EPS, nilpotent
 from ..language import rational as q
 from ..language.rational import Matrix
 

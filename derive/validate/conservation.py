@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from ..check.nilpotent import EPS, part
+from ..check.values.arithmetic import EPS, part
 from .chart import EPSILON
 from .declarations import DiffersError
 from .emitted_file import Machine

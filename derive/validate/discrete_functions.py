@@ -16,9 +16,9 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from ..check.applied_forces import damping_members
-from ..check.model import Model
-from ..check.nilpotent import EPS, part
+from ..check.trials.model import Model
+from ..check.trials.point_masses import damping_members
+from ..check.values.arithmetic import EPS, part
 from ..language import rational as q
 from ..language.rational import Matrix
 from .chart import EPSILON, StateChart, axis

@@ -16,12 +16,11 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..algebra.samplers import Sampler, Source, affine, by_cayley
-from ..check.arithmetic import EvaluationError
-from ..check.equation_sides import largest_degree
-from ..check.evaluate import Environment, evaluate
-from ..check.grades import Degree, DegreeSource, degrees
-from ..check.locus import Locus
-from ..check.trial_points import AnyModel, TrialPoints, model_at, names_at
+from ..check.trials.trial_points import AnyModel, TrialPoints, model_at, names_at
+from ..check.values.arithmetic import EvaluationError
+from ..check.values.draws import Locus, largest_degree
+from ..check.values.evaluate import Environment, evaluate
+from ..check.values.residue import Degree, DegreeSource, degrees
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..record.record import Derivation, Equation, RecordError

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ..check.nilpotent import EPS, part
+from ..check.values.arithmetic import EPS, part
 from ..language import rational as q
 from ..language.rational import Matrix
 from .chart import EPSILON, StateChart

@@ -11,9 +11,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..check.model import Model
-from ..check.momenta import basis_momenta, brackets
-from ..check.nilpotent import EPS, part
+from ..check.trials.model import Model
+from ..check.trials.momenta import basis_momenta, brackets
+from ..check.values.arithmetic import EPS, part
 from ..language.rational import Matrix
 from .chart import EPSILON
 from .emitted_file import Machine

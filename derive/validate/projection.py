@@ -13,8 +13,8 @@ from typing import Any
 
 from ..algebra.families import group
 from ..algebra.groups import Group
-from ..check.nilpotent import EPS, part
-from ..check.residue import Residue
+from ..check.values.arithmetic import EPS, part
+from ..check.values.residue import Residue
 from ..language import rational as q
 from .chart import EPSILON, StateChart
 from .declarations import DiffersError

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from ..check.elementary_values import ELEMENTARY
+from ..check.values.evaluate import ELEMENTARY
 from .ellipsoid_integrals import BUNDLES, MOST
 from .ellipsoid_integrals import NAME as INTEGRALS
 from .emitted_file import Module

@@ -14,7 +14,7 @@ import re
 from fractions import Fraction
 from typing import Any
 
-from ..check.elementary_values import ELEMENTARY
+from ..check.values.evaluate import ELEMENTARY
 from .ellipsoid_integrals import BUNDLES, MOST
 from .ellipsoid_integrals import NAME as INTEGRALS
 from .emitted_file import Module

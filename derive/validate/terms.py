@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ..check.nilpotent import part
+from ..check.values.arithmetic import part
 from ..language.refused import Refused
 
 Expression = tuple[Any, ...]

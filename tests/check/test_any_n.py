@@ -6,9 +6,9 @@ from fractions import Fraction
 
 import pytest
 
-from derive.check import trial_groups
 from derive.check.checker import Checker
-from derive.check.trial_groups import LEAST
+from derive.check.trials import trial_points
+from derive.check.trials.trial_points import LEAST
 from derive.record.record import Equation, RecordError
 from tests.support.walks import SEED, record
 
@@ -87,12 +87,12 @@ def test_what_is_so_for_every_n_holds(case):
 
 
 def test_so_many_n_as_the_degree_and_the_traces_of_one_ask_for():
-    assert [*trial_groups.sizes(trial_groups.Grade(3, 2, 0))] == [LEAST]
-    assert [*trial_groups.sizes(trial_groups.Grade(3, 15, 0))] == [8]
-    assert [*trial_groups.sizes(trial_groups.Grade(3, 2, 2))] == [LEAST, LEAST + 1, LEAST + 2]
+    assert [*trial_points.sizes(trial_points.Grade(3, 2, 0))] == [LEAST]
+    assert [*trial_points.sizes(trial_points.Grade(3, 15, 0))] == [8]
+    assert [*trial_points.sizes(trial_points.Grade(3, 2, 2))] == [LEAST, LEAST + 1, LEAST + 2]
     for grade in ((3, 17, 0), (3, 2, 3), (0, 0, 1)):
         with pytest.raises(RecordError):
-            trial_groups.sizes(trial_groups.Grade(*grade))
+            trial_points.sizes(trial_points.Grade(*grade))
 
 
 @pytest.mark.parametrize("forgotten", ["slots", "loops"])
@@ -101,7 +101,7 @@ def test_indices_and_traces_that_are_not_counted_let_it_through(monkeypatch, for
     action, lhs, rhs, _ = FALSE[
         "e7 of Z, linear" if forgotten == "slots" else "the n that are tried first"
     ]
-    whole = trial_groups.sizes
+    whole = trial_points.sizes
     monkeypatch.setattr(
         "derive.check.checker.sizes",
         lambda grade, least: whole(grade._replace(**{forgotten: 0}), least),

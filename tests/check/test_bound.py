@@ -11,8 +11,10 @@ from random import Random
 import pytest
 import sympy
 
-from derive.check import checker, residue, trial_points
+from derive.check import checker
 from derive.check.checker import Checker
+from derive.check.trials import trial_points
+from derive.check.values import residue
 from derive.language.tree import add, mul
 from derive.pipeline import walk
 from derive.problem.toml import problem_of

@@ -6,9 +6,9 @@ from fractions import Fraction
 
 import pytest
 
-from derive.check.arithmetic import scalar
 from derive.check.checker import Checker
-from derive.check.grades import Graded
+from derive.check.values.arithmetic import scalar
+from derive.check.values.residue import Graded
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.record import Equation

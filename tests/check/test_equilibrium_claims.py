@@ -12,7 +12,8 @@ import pytest
 
 from derive import derive
 from derive.check.claims.claim_checker import ClaimChecker
-from derive.check.claims.enclosure_claims import (
+from derive.check.claims.enclosure import (
+    Enclosure,
     changes_of_coefficients,
     has_rank,
     not_real_and_not_positive,
@@ -26,8 +27,7 @@ from derive.check.claims.exact_spectra import (
     real_and_not_positive,
     signature,
 )
-from derive.check.enclosure import Enclosure
-from derive.check.verdict import IMPOSSIBLE
+from derive.check.form.hypotheses_checked import IMPOSSIBLE
 from derive.equilibria import stability
 from derive.language import univariate
 from derive.language.quadratic import root

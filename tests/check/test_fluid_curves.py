@@ -6,10 +6,9 @@ import random
 import pytest
 from scipy.integrate import quad
 
-from derive.check.fluid.ball import Ball
 from derive.check.fluid.curves import curve
-from derive.check.fluid.flat_torus import Torus
-from derive.check.fluid.functions import Function
+from derive.check.fluid.exact_functions import Function
+from derive.check.fluid.fluid_spaces import Ball, Torus
 
 K = ((0.3, -1.1), (0.7, 0.4), (-0.5, 0.9))
 CORNERS = ((0.2, 0.1), (1.3, -0.4), (0.6, 1.5))

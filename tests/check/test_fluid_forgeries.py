@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from derive.check.fluid.ball import Ball, curl
-from derive.check.fluid.flat_torus import Torus
 from derive.check.fluid.fluid_checker import FluidChecker
+from derive.check.fluid.fluid_spaces import Ball, Torus, curl
 from derive.language.read import read
 from derive.record.record import Equation
 from tests.support.walks import FLUIDS, SEED, record

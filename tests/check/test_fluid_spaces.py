@@ -7,9 +7,8 @@ from fractions import Fraction
 import pytest
 import sympy
 
-from derive.check.fluid.ball import Ball, on_boundary
-from derive.check.fluid.flat_torus import Torus
-from derive.check.fluid.functions import Function, divergence, dot
+from derive.check.fluid.exact_functions import Function, divergence, dot
+from derive.check.fluid.fluid_spaces import Ball, Torus, on_boundary
 
 COORDINATES = sympy.symbols("x y z")
 VOLUME = Fraction(7, 3)

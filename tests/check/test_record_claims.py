@@ -14,7 +14,7 @@ from derive import derive, first_integrals
 from derive.check.claims import no_more
 from derive.check.claims.claim_checker import JUDGES, OBLIGATORY, ClaimChecker
 from derive.check.claims.symmetry_count import SymmetryCount
-from derive.check.problem_group import group_of
+from derive.check.trials.trial_points import group_of
 from derive.integrals import told
 from derive.language.tree import add, mul
 from derive.pipeline import walk

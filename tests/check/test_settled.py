@@ -6,11 +6,9 @@ from random import Random
 import pytest
 
 from derive.algebra.families import group
-from derive.check.elementary_values import ElementaryValues
-from derive.check.evaluate import Environment, evaluate
-from derive.check.lagrangian.lagrangian_model import LagrangianModel
-from derive.check.lagrangian.settled import settled
-from derive.check.locus import Locus
+from derive.check.lagrangian.lagrangian_model import LagrangianModel, settled
+from derive.check.values.draws import Locus
+from derive.check.values.evaluate import ElementaryValues, Environment, evaluate
 from derive.language.read import read
 from derive.language.tree import nodes
 from derive.record.record import RecordError

@@ -8,9 +8,9 @@ from functools import cache
 import pytest
 
 from derive.check.checker import Checker, check
-from derive.check.forced_velocity import concludes_velocity, unforced_velocity
 from derive.check.lagrangian.lagrangian_model import LagrangianModel
-from derive.check.model import Direction, Model
+from derive.check.lagrangian.reduced_by_symmetries import concludes_velocity, unforced_velocity
+from derive.check.trials.model import Direction, Model
 from derive.language import rational as q
 from derive.record.contract import ANY_GROUP
 from derive.record.hypotheses import Hypothesis

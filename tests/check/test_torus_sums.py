@@ -7,10 +7,10 @@ from random import Random
 import pytest
 
 from derive.algebra.torus import Torus
-from derive.check.arithmetic import EvaluationError
-from derive.check.equation_sides import difference, index_bindings
-from derive.check.evaluate import evaluate
 from derive.check.torus.torus_model import TorusModel, environment
+from derive.check.values.arithmetic import EvaluationError
+from derive.check.values.draws import difference, index_bindings
+from derive.check.values.evaluate import evaluate
 from derive.language.tree import mul
 from derive.pipeline import walk
 from derive.problem.toml import problem_of

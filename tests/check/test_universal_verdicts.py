@@ -6,7 +6,7 @@ import pytest
 
 from derive.check import checker
 from derive.check.checker import check
-from derive.check.verdict import Verdict
+from derive.check.form.hypotheses_checked import Verdict
 from derive.record.contract import ANY_GROUP
 from derive.record.mass_signs import ANY_SIGN
 from tests.support import corpus

@@ -10,7 +10,7 @@ import sympy
 from scipy.optimize import fsolve
 
 from derive.algebra.families import group
-from derive.check.enclosure import enclosure_fault
+from derive.check.claims.enclosure import enclosure_fault
 from derive.equilibria.enclosed_points import _slopes, certified
 from derive.equilibria.equilibrium_points import Expansion, NoEquilibriumError
 from derive.language.tree import add, mul

@@ -10,7 +10,7 @@ import pytest
 from derive import ProblemError
 from derive.algebra.families import group
 from derive.algebra.told_entries import constant_entries
-from derive.check.entries_of_an_element import decided as checked
+from derive.check.claims.entries_checked import decided as checked
 from derive.equilibria.entries_of_elements import conditions
 from derive.equilibria.equilibrium_points import About, attained, off_the_group
 from derive.integrals.reduced import without_energy

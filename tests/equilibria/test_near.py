@@ -10,7 +10,7 @@ from scipy.optimize import fsolve
 from derive import ProblemError, derive, pipeline
 from derive.algebra.families import group
 from derive.check.checker import Checker
-from derive.check.enclosure import enclosure_fault
+from derive.check.claims.enclosure import enclosure_fault
 from derive.command.cli import main
 from derive.equilibria import enclosed_points
 from derive.equilibria.enclosed_points import Ball, characteristic

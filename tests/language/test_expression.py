@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 
-from derive.check.evaluate import Environment, evaluate
+from derive.check.values.evaluate import Environment, evaluate
 from derive.language.expression import ExpressionError, names, parse
 from derive.language.tree import mul
 

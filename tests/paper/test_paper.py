@@ -107,7 +107,7 @@ def test_the_print_with_the_misprint_mended_holds(number):
 
 def test_the_two_signs_contradict_each_other():
     """(25) against (29) with its bars mended: one of them has the wrong sign, whatever dϖ is."""
-    from derive.check.evaluate import evaluate
+    from derive.check.values.evaluate import evaluate
 
     p25, p29 = PAPER[24], PAPER[28]
     env = paper.point(p29, 9, 1)

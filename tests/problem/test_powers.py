@@ -8,7 +8,7 @@ import pytest
 
 from derive import SO, Points, Potential, Problem, derive
 from derive.check.checker import Checker
-from derive.check.evaluate import Environment, evaluate
+from derive.check.values.evaluate import Environment, evaluate
 from derive.language.derivatives import derivative
 from derive.language.expression import ExpressionError, parse
 from derive.language.limits import EXPONENT

@@ -12,9 +12,9 @@ from random import Random
 import numpy as np
 import pytest
 
-from derive.check.arithmetic import EvaluationError
-from derive.check.evaluate import Environment, evaluate
-from derive.check.slices import slice_moments
+from derive.check.trials.equimomental import slice_moments
+from derive.check.values.arithmetic import EvaluationError
+from derive.check.values.evaluate import Environment, evaluate
 from derive.language import rational as q
 from derive.language.tree import mul
 from derive.problem.mesh import MeshError, mesh_moments, read

@@ -14,14 +14,11 @@ import sympy
 from sympy.core.function import AppliedUndef
 
 import derive
-from derive.check.arithmetic import EvaluationError, is_matrix
-from derive.check.equation_sides import index_bindings
-from derive.check.evaluate import _range, evaluate
-from derive.check.function_signatures import POINT
-from derive.check.locus import locus_of
-from derive.check.problem_group import group_of
-from derive.check.trial_groups import groups_with_relations
-from derive.check.trial_points import model_at, names_at
+from derive.check.form.function_signatures import POINT
+from derive.check.trials.trial_points import group_of, groups_with_relations, model_at, names_at
+from derive.check.values.arithmetic import EvaluationError, is_matrix
+from derive.check.values.draws import index_bindings, locus_of
+from derive.check.values.evaluate import _range, evaluate
 from derive.language.derivatives import DERIVATIVES
 from derive.language.expression import parse
 from derive.python.as_sympy import Translation

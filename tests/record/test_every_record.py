@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from derive.check.checker import SIZE, check, checker_of
-from derive.check.function_signatures import HEADS
+from derive.check.form.function_signatures import HEADS
 from derive.language.tree import names
 from derive.record.contract import ANY_GROUP
 from derive.record.json_reader import from_json

@@ -7,7 +7,7 @@ import pytest
 from derive import pipeline
 from derive.algebra.words import Expr
 from derive.check.checker import UNUSED, check
-from derive.check.dependencies import mentioned, unused
+from derive.check.form.well_formedness import mentioned, unused
 from derive.record.record import Equation
 from derive.walk.chapter import Draft, WalkError
 from tests.support.walks import NAMES, OTHERS, SEED, problem, record, repeated

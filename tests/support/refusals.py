@@ -13,13 +13,12 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 
-from derive.check import symbols
 from derive.check.checker import Checker
 from derive.check.claims.claim_checker import ClaimChecker
-from derive.check.definitions import unexplained
-from derive.check.dependencies import unused
-from derive.check.function_signatures import RATES
-from derive.check.necessary_hypotheses import missing_mass_hypotheses
+from derive.check.form import symbols
+from derive.check.form.function_signatures import RATES
+from derive.check.form.hypotheses_checked import missing_mass_hypotheses
+from derive.check.form.well_formedness import unexplained, unused
 from derive.record.contract import ANY_GROUP, COMMENTARY
 from derive.record.json_reader import from_json
 from derive.record.json_writer import step_data, to_data

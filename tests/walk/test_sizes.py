@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from derive import Gravity, Group, Moments, Problem, derive
-from derive.check.locus import Locus
-from derive.check.model import Model
+from derive.check.trials.model import Model
+from derive.check.values.draws import Locus
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.language import rational as q

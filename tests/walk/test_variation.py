@@ -8,7 +8,7 @@ lift is read from the record.
 import pytest
 import sympy as sp
 
-from derive.check.evaluate import Environment, evaluate
+from derive.check.values.evaluate import Environment, evaluate
 from tests.support.walks import record
 
 t, e = sp.symbols("t e")

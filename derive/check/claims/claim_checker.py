@@ -1,22 +1,54 @@
-"""The checker of claims: what sentences say beside the equations, computed again from the trees of
-the record and the matrices of its group, by none of the searches that found it."""
+"""The checker of claims: what sentences say beside the equations, computed again from the trees."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
+from ...language import rational as q
+from ...language.rational import Matrix
 from ...record.claims import Claim, fault
 from ...record.record import RecordError, Step
-from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
-from . import (
-    enclosure_claims,
-    equilibrium_claims,
-    integral_claims,
-    orbit_claims,
-    reduction_claims,
-    symmetry_claims,
-)
-from .claimed_record import ClaimedRecord
+from ..form.hypotheses_checked import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
+from . import enclosure, equilibrium_claims, integral_claims, reduction_claims, symmetry_count
+from .reduced_system import ClaimedRecord
+
+# The claims about the orbit of a body's configurations: its dimension, and that of the group.
+
+POINTS = 4
+
+
+def _tetrahedron(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+    """The displacements of four random points by the algebra have this rank, those by its linear
+    maps and the translations together that of the orbit."""
+    n, size = c.group.n, c.group.n + 1
+    linear = [_embedded(e, size) for e in c.group.basis]
+    shifts = [
+        q.matrix([[int((i, j) == (k, n)) for j in range(size)] for i in range(size)])
+        for k in range(n)
+    ]
+    places = q.matrix(
+        [[c.random.randint(-99, 99) for _ in range(POINTS)] for _ in range(n)] + [[1] * POINTS]
+    )
+    whole = _rank([*linear, *shifts], places)
+    if claim["orbit"] != whole:
+        return f"the orbit has the dimension {whole}"
+    own = _rank(linear, places)
+    told = whole if claim.kind == "tetrahedron.affine" else claim["linear"]
+    return "" if told == own else f"the group moves the points in {own} dimensions"
+
+
+def _embedded(e: Matrix, size: int) -> Matrix:
+    """An element of 𝔤 as a matrix that acts on (r, 1)."""
+    missing = size - len(e)
+    return q.matrix([[*row, *[0] * missing] for row in e] + [[0] * size] * missing)
+
+
+def _rank(velocities: Iterable[Matrix], places: Matrix) -> int:
+    """How many of the displacements of these places are independent."""
+    return q.rank(q.matrix([q.flatten(q.times(e, places)) for e in velocities]))
+
+
+ORBIT_JUDGES = {"tetrahedron.affine": _tetrahedron, "tetrahedron.linear": _tetrahedron}
 
 
 class ClaimChecker(ClaimedRecord):
@@ -77,17 +109,17 @@ def _of_reduced(judge: integral_claims.Judge) -> Judge:
     return lambda c, step, x: c.reduced.fault or judge(c.reduced, step, x)
 
 
-def _of_symmetries(judge: symmetry_claims.Judge) -> Judge:
+def _of_symmetries(judge: symmetry_count.Judge) -> Judge:
     """The judge of a claim about the symmetries of a Lagrangian."""
     return lambda c, step, x: judge(c.symmetries, c.record, step, x)
 
 
 JUDGES: dict[str, Judge] = {
     **reduction_claims.JUDGES,
-    **orbit_claims.JUDGES,
-    **{kind: _of_symmetries(judge) for kind, judge in symmetry_claims.JUDGES.items()},
+    **ORBIT_JUDGES,
+    **{kind: _of_symmetries(judge) for kind, judge in symmetry_count.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
-    **{kind: _of_reduced(judge) for kind, judge in enclosure_claims.JUDGES.items()},
+    **{kind: _of_reduced(judge) for kind, judge in enclosure.JUDGES.items()},
 }
 """How each kind of claim is judged."""

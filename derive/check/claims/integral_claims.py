@@ -11,6 +11,7 @@ from ...language.values import approximate
 from ...record.claims import Claim
 from ...record.record import RecordError, Step
 from .exact_spectra import signature
+from .modular_values import value
 from .no_more import (
     Completeness,
     TooLargeError,
@@ -19,7 +20,6 @@ from .no_more import (
     degree,
     monomials,
 )
-from .rational_values import value
 from .reduced_system import Place, ReducedSystem, rates_of
 
 Judge = Callable[[ReducedSystem, Step, Claim], str]

@@ -1,12 +1,4 @@
-"""That there are no more polynomials up to a degree: a proof by ranks modulo a prime.
-
-What derivations take to 0 among the polynomials of a degree at most d is a space V; the products
-of the recorded generators of a degree at most d are in it.  Modulo a prime, with residues for the
-parameters and at points of them, the rank of the products is at most what it is, and the kernel of
-the derivations at least V in dimension (it takes them to 0 at some points alone).  Where the two
-are equal, whatever the prime and the points are, V is what the products span: for generic
-parameters, and for all that have these values.
-"""
+"""That there are no more polynomials up to a degree: a proof by ranks modulo a prime."""
 
 from __future__ import annotations
 
@@ -21,7 +13,7 @@ from ...algebra.exact_kernel import pivots
 from ...algebra.residue_vectors import PRIMES, Residues, ResidueSource
 from ...language.tree import Tree, operands
 from ...record.claims import MONOMIALS
-from .rational_values import Value, value
+from .modular_values import Value, value
 from .reduced_system import ReducedSystem
 
 Exponents = tuple[int, ...]

@@ -1,20 +1,27 @@
-"""The reduced equations of a record, read from its steps: variables, rates, energy, Casimirs and
-integrals; and exact points of theirs modulo a large prime."""
+"""The reduced equations of a record, read from its steps, and their Poisson tensor."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from random import Random
+from typing import Any
 
 from ...algebra.groups import Group
+from ...algebra.residue_vectors import residue_of
 from ...language.show import show
 from ...language.tree import Tree, nodes
 from ...record.record import Derivation, RecordError, Step
-from ..residue import random_prime
-from .poisson_tensor import PoissonTensor
-from .rational_values import Jet, rank, value
+from ..trials.trial_points import group_of
+from ..values.residue import random_prime
+from .entries_checked import constant_entries
+from .modular_values import Jet, Value, rank, value
+from .symmetry_count import SymmetryCount
+
+# The reduced equations of a record, read from its steps: variables, rates, energy, Casimirs and
+# integrals; and exact points of theirs modulo a large prime.
 
 VARIABLE = {"Π̇": "Π", "Ȧ": "A", "Γ̇": "Γ"}
 """The variable that each rate is of."""
@@ -190,3 +197,111 @@ def _kept(d: Derivation, label: str) -> tuple[Tree, ...]:
 def rates_of(step: Step) -> tuple[Tree, ...]:
     """The polynomials whose rates the equations of a step are."""
     return tuple(e.lhs[2] for e in step.equations if isinstance(e.lhs, tuple) and len(e.lhs) == 3)
+
+
+# The Poisson tensor of reduced equations, from the matrices of the group.
+#
+# {Π_a, Π_b} = ε⟨Π, [E_b, E_a]⟩,  {g_ij, Π_b} = (gE_b)_ij or (E_b g)_ij,
+# {Γ_i, Π_b} = −ε(ρ(E_b)Γ)_i,  {g_ij, g_kl} = {Γ_i, Γ_j} = 0
+#
+# with ε = 1 and gE_b where Z = g⁻¹ġ, ε = −1 and E_b g where Z = ġg⁻¹.
+
+Linear = dict[int | None, Fraction]
+"""A linear form by the numbers of the variables in it, ``None`` for the constant."""
+
+
+class PoissonTensor:
+    """The brackets of the ``variables`` of reduced equations on the dual of a group's algebra;
+    ``RecordError`` where they are no linear forms in the variables."""
+
+    def __init__(self, problem: Mapping[str, Any], group: Group, variables: Sequence[Tree]):
+        self.group, self.variables = group, variables
+        self.left = problem["lagrangian"]["trivialisation"] == "left"
+        self.carried = sum(x["size"] for x in problem.get("advected", ()))
+        self.place = {x: k for k, x in enumerate(variables)}
+        self.forms: dict[tuple[int, int], Linear] = {}
+        for x, i in self.place.items():
+            for b in range(group.dimension):
+                j = self.place["at", "Π", b + 1]
+                if form := {k: c for k, c in self._moved(x, b).items() if c}:
+                    self.forms[i, j] = form
+                    if i >= group.dimension:
+                        self.forms[j, i] = {k: -c for k, c in form.items()}
+
+    def _moved(self, x: Tree, b: int) -> Linear:
+        """{x, Π_b}."""
+        sign = 1 if self.left else -1
+        assert isinstance(x, tuple)
+        e, found = self.group.basis[b], Linear()
+        if x[1] == "Π":
+            for k, c in enumerate(self.group.structure_constants[b][x[2] - 1]):
+                found[self.place["at", "Π", k + 1]] = sign * c
+        elif x[1] == "Γ":
+            first = self.group.n - self.carried
+            for j, c in enumerate(e[first + x[2] - 1][first:], 1):
+                self._add(found, ("entry", "Γ", j), -sign * c)
+        else:
+            i, j = x[2] - 1, x[3] - 1
+            for k in range(self.group.size):
+                if self.left:
+                    self._add(found, ("entry", "A", i + 1, k + 1), e[k][j])
+                else:
+                    self._add(found, ("entry", "A", k + 1, j + 1), e[i][k])
+        return found
+
+    def _add(self, form: Linear, x: tuple[Any, ...], c: Fraction) -> None:
+        """Add a multiple of an entry to a linear form: of a variable, or of a constant."""
+        if not c:
+            return
+        if x in self.place:
+            form[self.place[x]] = c
+            return
+        _, letter, *place = x
+        i, j = (k - 1 for k in place) if letter == "A" else (-1, -1)
+        constant = self.constants.get((i, j))
+        if constant is None:
+            raise RecordError("the variables do not move among themselves")
+        form[None] = form.get(None, Fraction(0)) + c * constant
+
+    @cached_property
+    def constants(self) -> dict[tuple[int, int], Fraction]:
+        """The entries that are the same for all elements of the group."""
+        return constant_entries(self.group)
+
+    def at(self, x: Sequence[Value], p: int) -> dict[tuple[int, int], Value]:
+        """The entries Λ_ij = {x_i, x_j}, those that do not vanish for all x, modulo p at values of
+        the variables."""
+        found = {}
+        for ij, form in self.forms.items():
+            terms = ((1 if k is None else x[k]) * residue_of(c, p) for k, c in form.items())
+            total = sum(terms, 0)
+            found[ij] = total % p if isinstance(total, int) else total
+        return found
+
+
+# What the claims of a record speak of, read once: its reduced equations, its symmetries.
+
+
+class ClaimedRecord:
+    """A record, and the random numbers with which its claims are tried."""
+
+    def __init__(self, d: Derivation, seed: int | str):
+        self.record, self.random = d, Random(f"{seed} claims")
+
+    @cached_property
+    def reduced(self) -> ReducedSystem:
+        """The Lie–Poisson equations of the record; ``RecordError`` where it has none."""
+        return ReducedSystem(self.record, self.group, self.random)
+
+    @cached_property
+    def group(self) -> Group:
+        """The group of the problem; ``RecordError`` where it has none."""
+        group = group_of(self.record.problem)
+        if group is None:
+            raise RecordError("the claim is of a group")
+        return group
+
+    @cached_property
+    def symmetries(self) -> SymmetryCount:
+        """The symmetries of its Lagrangian; ``KeyError`` where it has none of its own."""
+        return SymmetryCount(self.record.problem, self.group, self.random)

@@ -1,5 +1,4 @@
-"""The claims of a reduction, and of the metric that it starts from: what curvature there is, and of
-which kind the quadrature is."""
+"""The claims of a reduction, and of the metric that it starts from: its curvature."""
 
 from __future__ import annotations
 
@@ -17,14 +16,14 @@ from ...record.claims import Claim
 from ...record.formulas import stated
 from ...record.record import RecordError, Step
 from ...record.tree_data import decode
+from ..form.hypotheses_checked import denominators
 from ..lagrangian.given_field import inverse
 from ..lagrangian.lagrangian_model import LagrangianModel
-from ..locus import Locus
-from ..necessary_hypotheses import denominators
-from ..residue import Residue, random_prime
-from ..trial_points import SIZE
-from .claimed_record import ClaimedRecord
-from .rational_values import value
+from ..trials.trial_points import SIZE
+from ..values.draws import Locus
+from ..values.residue import Residue, random_prime
+from .modular_values import value
+from .reduced_system import ClaimedRecord
 
 Judge = Callable[[ClaimedRecord, Step, Claim], str]
 LARGEST = 24

@@ -1,16 +1,8 @@
-"""How many symmetries a Lagrangian has among the fields that are searched.
-
-A field δt = τ, δg = V₀ + tV₁ with V = Yg − gX moves g by η = g⁻¹V, or Vg⁻¹, and so
-
-    left:  η = g⁻¹Yg − X,  δZ = [X, Z] + η₁        right:  η = Y − gXg⁻¹,  δZ = [Y, Z] + η₁
-
-δL̃ = ⟨Π, δZ⟩ + ∂L̃/∂g · δg + τ ∂ₜL̃ = dF/dt is linear in Y, X, τ and F, of degree two in t and the
-entries of g: at random points modulo a prime it has no fewer solutions than everywhere.  Solutions
-with the same ⟨Π, η⟩ − τh̃ − F up to a constant are one symmetry, and none where that is constant.
-"""
+"""How many symmetries a Lagrangian has among the fields that are searched."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -24,13 +16,13 @@ from ...algebra.exact_kernel import kernel, pivots
 from ...algebra.groups import Group
 from ...algebra.residue_vectors import Residues, ResidueSource, primes_from, residue_of
 from ...language import rational as q
-from ...language.tree import Tree, nodes, operands
-from ...record.record import RecordError
+from ...language.tree import Tree, add, neg, nodes, operands, terms
+from ...record.claims import Claim
+from ...record.record import Derivation, RecordError, Step
 from ...record.tree_data import decode
-from ..residue import Residue
-from .constant_entries import constant_entries
-from .rational_values import Jet, value
-from .sampled_functions import Functions, UnluckyError
+from ..values.residue import Residue
+from .entries_checked import constant_entries
+from .modular_values import Functions, Jet, UnluckyError, value
 
 Square = list[list[int]]
 """A square matrix of residues."""
@@ -354,3 +346,51 @@ def _square(v: Sequence[int], size: int) -> Square:
 def _spread(x: Any, count: int) -> list[int]:
     """A number at each of so many points."""
     return [x] * count if isinstance(x, int) else x.values
+
+
+# The claims about the symmetries of a Lagrangian: how many there are, as many independent ones
+# are listed, which functions in it were taken for any numbers.
+
+Judge = Callable[[SymmetryCount, Derivation, Step, Claim], str]
+ON_FORM: Tree = ("call", "ϖ", "δy")
+LISTED = re.compile(r"\.conserved_[0-9]+$")
+
+
+def _dimension(found: SymmetryCount, record: Derivation, step: Step, claim: Claim) -> str:
+    """The dimension is that of all symmetries, and as many are listed."""
+    told = dict(claim.values).get("dimension", 0)
+    held = bool(record.problem["lagrangian"].get("held"))
+    if held is not (claim.kind == "symmetries.algebra_modulo") and told != 0:
+        return "it is modulo those without kinetic energy, or not"
+    if found.open_functions and not any(x.kind == "symmetries.open" for x in step.claims):
+        return "functions were taken for any numbers"
+    if told != found.dimension:
+        return f"the dimension is {found.dimension}"
+    listed = [_listed(x) for x in record.steps if LISTED.search(x.label)]
+    if told != len(listed):
+        return f"{len(listed)} are listed"
+    return "" if found.independent(listed) else "those that are listed depend on one another"
+
+
+def _listed(step: Step) -> Listed:
+    """The field of a step about a symmetry, and F, which is taken from ϖ of the field."""
+    field = {e.lhs: e.rhs for e in step.given}
+    forms = [terms(e.lhs) for e in step.equations if ON_FORM in terms(e.lhs)]
+    if {*field} != {"δt", "δA"} or len(forms) != 1:
+        raise RecordError(f"the step {step.label} lists no symmetry")
+    F = neg(add(*(x for x in forms[0] if x != ON_FORM)))
+    return Listed(field["δt"], field["δA"], F)
+
+
+def _open(found: SymmetryCount, record: Derivation, step: Step, claim: Claim) -> str:
+    names = claim["functions"]
+    same = names == ("row", *found.open_functions)
+    return "" if same else f"they are {', '.join(found.open_functions) or 'none'}"
+
+
+JUDGES: dict[str, Judge] = {
+    **dict.fromkeys(
+        ("symmetries.algebra", "symmetries.algebra_modulo", "symmetries.none"), _dimension
+    ),
+    "symmetries.open": _open,
+}

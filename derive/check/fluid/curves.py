@@ -1,10 +1,4 @@
-"""Closed curves on the spaces, along which functions are integrated exactly.
-
-On a torus they are polygons, on whose edges e^{ik·x} is an exponential; in a ball Laurent
-polynomials in a z.  Values of exponentials at the corners are drawn at random, for they are
-independent of the frequencies and the edges; so is the rate of z, an i that is taken into the
-parameter.
-"""
+"""Closed curves on the spaces of a fluid, along which functions are integrated exactly."""
 
 from __future__ import annotations
 
@@ -12,11 +6,9 @@ from collections.abc import Sequence
 from functools import cache, cached_property
 from typing import Any
 
-from ..arithmetic import EvaluationError
-from .ball import Ball, substituted
-from .edges import Edges
-from .flat_torus import Torus, crossed
-from .functions import Exponents, Field, Function
+from ..values.arithmetic import EvaluationError
+from .exact_functions import Edges, Exponents, Field, Function
+from .fluid_spaces import Ball, Torus, crossed, substituted
 
 CORNERS = 3
 

@@ -1,9 +1,4 @@
-"""A random exact point of the evolution space of a fluid, with two variations and the motion.
-
-Displacements are maps (id + φ) ∘ g₀, φ nilpotent, composed by Taylor's formula; velocities are
-fields carried along by them; the acceleration and the pressure are those that leave a field without
-divergence.  No structure equation, no ∇_c and no rule of the walk is used.
-"""
+"""A random exact point of the evolution space of a fluid, with two variations and the motion."""
 
 from __future__ import annotations
 
@@ -13,11 +8,11 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from ..grades import with_slots
-from ..nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, nilpotent, part
+from ..values.arithmetic import EPS, EPS_PRIME, ETA, Nilpotent, nilpotent, part
+from ..values.residue import with_slots
 from .curves import curve
-from .flat_torus import crossed
-from .functions import ORDERS, Function, dot, shifted
+from .exact_functions import ORDERS, Function, dot, shifted
+from .fluid_spaces import crossed
 
 Fields = tuple[Any, ...]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..applied_forces import AppliedForces, Vector
+from ..trials.point_masses import AppliedForces, Vector
 
 KIND = "expression"
 

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from ...language import rational as q
-from ..applied_forces import AppliedForces, Distance, Vector
+from ..trials.point_masses import AppliedForces, Distance, Vector
 
 KIND = "attraction"
 Data = Mapping[str, Any]

@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ..applied_forces import AppliedForces, Vector
-from ..model import Model
+from ..trials.model import Model
+from ..trials.point_masses import AppliedForces, Vector
 
 KIND, OF_BODY_AXES = "far_centre", True
 Data = Mapping[str, Any]

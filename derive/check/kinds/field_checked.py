@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ..applied_forces import AppliedForces, Vector
+from ..trials.point_masses import AppliedForces, Vector
 
 KIND = "field"
 

@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ..applied_forces import AppliedForces, Vector
-from ..model import Model
+from ..trials.model import Model
+from ..trials.point_masses import AppliedForces, Vector
 
 KIND = "gravity"
 Data = Mapping[str, Any]

@@ -14,12 +14,10 @@ from typing import Any
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
-from ..applied_forces import AppliedForces, Vector
-from ..arithmetic import determinant, inverse
-from ..evaluate import Environment, evaluate
-from ..model import Model
-from ..nilpotent import ETA, Nilpotent, nilpotent, part
-from ..point_masses import outer_sum, scaled_each
+from ..trials.model import Model
+from ..trials.point_masses import AppliedForces, Vector, outer_sum, scaled_each
+from ..values.arithmetic import ETA, Nilpotent, determinant, inverse, nilpotent, part
+from ..values.evaluate import Environment, evaluate
 
 KIND = "self_gravity"
 Data = Mapping[str, Any]

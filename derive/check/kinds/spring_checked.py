@@ -7,9 +7,8 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ..applied_forces import AppliedForces, Distance, Vector
-from ..model import Model
-from ..point_masses import outer_sum, scaled_each
+from ..trials.model import Model
+from ..trials.point_masses import AppliedForces, Distance, Vector, outer_sum, scaled_each
 
 KIND = "spring"
 Data = Mapping[str, Any]

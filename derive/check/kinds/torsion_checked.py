@@ -7,10 +7,10 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ..applied_forces import AppliedForces, Vector
-from ..model import Model
-from ..nilpotent import ETA, Nilpotent, nilpotent
-from ..rigid_body import axial
+from ..trials.model import Model
+from ..trials.momenta import axial
+from ..trials.point_masses import AppliedForces, Vector
+from ..values.arithmetic import ETA, Nilpotent, nilpotent
 
 KIND, OF_BODY_AXES = "torsion", True
 Data = Mapping[str, Any]

@@ -7,10 +7,9 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ..applied_forces import AppliedForces, Vector
-from ..arithmetic import determinant
-from ..model import Model
-from ..nilpotent import ETA, Nilpotent, nilpotent
+from ..trials.model import Model
+from ..trials.point_masses import AppliedForces, Vector
+from ..values.arithmetic import ETA, Nilpotent, determinant, nilpotent
 
 KIND, OF_BODY_AXES = "volume", True
 Data = Mapping[str, Any]

@@ -1,8 +1,4 @@
-"""A random exact point of the evolution space of a Lagrangian ℓ(t, g, Z), with two variations.
-
-No structure equation is used: dϖ comes from nilpotent numbers on a family in the group, the
-acceleration from the variation of the action, d/ds ⟨p, g⁻¹∂ᵥg⟩ = ∂ᵥℓ on a family g(s, v) of curves.
-"""
+"""A random exact point of the evolution space of a Lagrangian ℓ(t, g, Z), with two variations."""
 
 from __future__ import annotations
 
@@ -18,16 +14,22 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from ...record.tree_data import decode
-from ..arithmetic import EvaluationError
-from ..draws import Draws
-from ..evaluate import Environment, evaluate
-from ..grades import with_slots
-from ..locus import Locus
-from ..model import Direction
-from ..nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, derivative_in, nilpotent, part
-from .carried_along import CarriedAlong
-from .given_field import GivenField
-from .settled import settled
+from ..trials.model import Direction
+from ..values.arithmetic import (
+    EPS,
+    EPS_PRIME,
+    ETA,
+    EvaluationError,
+    Nilpotent,
+    Value,
+    derivative_in,
+    nilpotent,
+    part,
+)
+from ..values.draws import Draws, Locus
+from ..values.evaluate import Environment, evaluate
+from ..values.residue import with_slots
+from .given_field import CarriedAlong, GivenField
 
 ENTRY, PAIRED, WITH_BRACKET = 2, 4, 6
 """The indices of an entry of a matrix, of ⟨Π, ξ⟩, of ⟨Π, [ξ′, ξ]⟩: what a claim contracts."""
@@ -311,3 +313,36 @@ def part_in(x: Any, mask: int) -> Any:
 def _at_start(x: Any) -> Any:
     """A number at s = 0, a function of the other parameters."""
     return Nilpotent({k: y for k, y in Nilpotent.of(x).parts.items() if not k & EPS})
+
+
+# A tree that is evaluated at many points, with what is the same at all of them computed once.
+#
+# Moments of a turned solid are long expressions in parameters, and stand in a Lagrangian a
+# thousand times; with respect to the entries of g and the coordinates of Z they are numbers.
+
+
+def settled(t: Tree, env: Environment) -> tuple[Tree, dict[str, Value]]:
+    """The tree with a name for each of its largest parts that speak of parameters, numbers and
+    names of ``env`` alone, and the values of these names, which no record can have; equal parts
+    have one name.
+    """
+    named: dict[Tree, str] = {}
+
+    def short(x: Tree) -> Tree:
+        if not isinstance(x, tuple) or x[0] == "par":
+            return x
+        if is_settled(x, env):
+            return named.setdefault(x, f"\0{len(named)}")
+        return (x[0], *map(short, x[1:]))
+
+    tree = short(t)
+    return tree, {name: evaluate(x, env) for x, name in named.items()}
+
+
+def is_settled(t: Tree, env: Environment) -> bool:
+    """Does a tree speak of parameters, numbers and names of ``env`` alone?"""
+    if isinstance(t, str):
+        return t in env.names
+    if not isinstance(t, tuple) or t[0] == "par":
+        return True
+    return all(is_settled(x, env) for x in t[2 if t[0] == "fun" else 1 :])

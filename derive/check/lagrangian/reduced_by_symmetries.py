@@ -1,9 +1,4 @@
-"""What a reduction by symmetries speaks of, at an exact point, by the fields that the record has.
-
-Momenta are derivatives of ℓ, 𝕀 and 𝒜 are made of them at the velocities of the fields and at rest,
-energies are taken at the horizontal velocity and at what is left; derivatives come from nilpotent
-numbers on a family in the group.
-"""
+"""What a reduction by symmetries speaks of, at an exact point; that dϖ forces the velocity."""
 
 from __future__ import annotations
 
@@ -15,12 +10,19 @@ from typing import Any
 
 from ...language import rational as q
 from ...language.rational import Matrix
-from ..arithmetic import EvaluationError
-from ..evaluate import Environment
-from ..model import Direction
-from ..nilpotent import EPS, EPS_PRIME, derivative_in, part
+from ...record.record import Equation, Step
+from ..trials.model import Direction, Model
+from ..values.arithmetic import EPS, EPS_PRIME, EvaluationError, derivative_in, part
+from ..values.draws import part_of_velocity
+from ..values.evaluate import Environment
 from .given_field import inverse
 from .lagrangian_model import Family, LagrangianModel
+
+# What a reduction by symmetries speaks of, at an exact point, by the fields that the record has.
+#
+# Momenta are derivatives of ℓ, 𝕀 and 𝒜 are made of them at the velocities of the fields and at
+# rest, energies are taken at the horizontal velocity and at what is left; derivatives come from
+# nilpotent numbers on a family in the group.
 
 
 @dataclass(frozen=True)
@@ -177,3 +179,36 @@ def member(found: list[Any], head: Any, env: Environment | None = None) -> Any:
     if not isinstance(i, int) or not 1 <= i <= len(found):
         raise EvaluationError(f"no symmetry {i!r}")
     return found[i - 1]
+
+
+# That dϖ forces the velocity of X: variations of the velocity alone pair with ξ(X) − Z by the
+# metric, so that the kernel of this pairing is {ξ(X) = Z} where the metric is not degenerate.
+
+
+def states_velocity(equation: Equation) -> bool:
+    """Does the equation say what part of the velocity of X is, as δA(X) = α?"""
+    return bool(part_of_velocity(equation.lhs, equation.rhs))
+
+
+def concludes_velocity(step: Step) -> bool:
+    """Does a step conclude a part of the velocity of X, which is then put in?"""
+    return any(states_velocity(e) and e in step.given for e in step.equations)
+
+
+def unforced_velocity(model: Model | LagrangianModel) -> str:
+    """Why dϖ(X, δ′) = 0 for every δ′ with δ′t = 0 and δ′g = 0 does not force ξ(X) = Z at a point,
+    in words; "" where it does.
+
+    dϖ(X, δ′) = −⟨ξ(X) − Z, δ′Z⟩ is tried for random ξ(X) and δ′Z in 𝔤, and the rank of the metric
+    taken.
+    """
+    x, y = model.mixed.xi, model.second.velocity
+    nothing = q.scaled(Fraction(0), y)
+    moving = Direction(Fraction(1), q.plus(model.Z, x), model.first.velocity)
+    paired = model.exterior(moving, Direction(Fraction(0), nothing, y))
+    row, column = (q.column(model.group.nearest(z)) for z in (x, y))
+    ((metric,),) = q.times(q.times(q.transposed(row), model.metric), column)
+    if paired != -metric:
+        return "variations of the velocity do not pair with that of X by the metric"
+    singular = q.rank(model.metric) < model.group.dimension
+    return "other velocities of X are in the kernel of dϖ, too" if singular else ""

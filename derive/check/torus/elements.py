@@ -1,12 +1,8 @@
-"""The matrices T(𝐧) at all points of the lattice at once, between other matrices.
-
-They are held equal by one number: Σ w(𝐧) x a(𝐧) T(𝐧) y with a random row x, a column y and weights
-w, which is of degree 3 in what is drawn.
-"""
+"""The matrices T(𝐧) at all points of the lattice at once, and the torus of a record."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from itertools import repeat
@@ -14,13 +10,19 @@ from operator import mul
 from random import Random
 from typing import Any, Protocol
 
+from ...algebra.groups import Group
+from ...algebra.samplers import Source
 from ...algebra.torus import Torus
 from ...language import rational as q
 from ...language.rational import Matrix
-from ..arithmetic import EvaluationError, Many, Shape
-from ..residue import Residue, _residue
-from .residues import Multiples, Residues
-from .roots_of_unity import RootsOfUnity
+from ..values.arithmetic import EvaluationError, Many, Shape
+from ..values.residue import Residue, _residue
+from .residues import Multiples, Residues, RootsOfUnity
+
+# The matrices T(𝐧) at all points of the lattice at once, between other matrices.
+#
+# They are held equal by one number: Σ w(𝐧) x a(𝐧) T(𝐧) y with a random row x, a column y and
+# weights w, which is of degree 3 in what is drawn.
 
 WEIGHTS = 3
 """The degree of the number by which two are compared."""
@@ -246,3 +248,20 @@ def _numbers(factor: Any, p: int) -> Any:
 def _product(a: Matrix | None, b: Matrix | None) -> Matrix | None:
     """a b, where no matrix is 1."""
     return (b if a is None else a) if a is None or b is None else q.times(a, b)
+
+
+# The torus of a record's problem, and its group.
+
+
+def torus_of(problem: Mapping[str, Any]) -> Torus:
+    """The torus of a record's problem."""
+    return Torus(problem["torus"]["N"])
+
+
+def group_of_torus(torus: Torus) -> Group:
+    """SU(N) by its name and size, without a table of a basis, or elements."""
+
+    def none(random: Source, size: int) -> Matrix:
+        raise EvaluationError(f"no elements of {torus.name} are drawn")
+
+    return Group(torus.name, torus.N, "linear", (), none)

@@ -18,13 +18,11 @@ from ...algebra.torus import Place, Torus
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
-from ..arithmetic import EvaluationError
-from ..evaluate import Environment, evaluate
-from ..grades import DegreeSource
-from ..residue import _residue
+from ..values.arithmetic import EvaluationError
+from ..values.evaluate import Environment, evaluate
+from ..values.residue import DegreeSource, _residue
 from .elements import Drawn, Elements, Places, Term, Wave
-from .residues import Multiples, Residues
-from .roots_of_unity import RootsOfUnity, Turns
+from .residues import Multiples, Residues, RootsOfUnity, Turns
 
 KEPT = 64
 """The most T(n) that are kept."""

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from ...check.elementary_values import ELEMENTARY
+from ...check.values.evaluate import ELEMENTARY
 from ..degree_bounds import Measured
 from ..read_c import SIGNATURES, CReader
 from ..terms import CodeError

@@ -19,11 +19,11 @@ from typing import Any
 import numpy as np
 
 from ...algebra.torus import Place
-from ...check.arithmetic import EvaluationError
-from ...check.evaluate import evaluate
-from ...check.residue import Residue
-from ...check.torus.torus_group import torus_of
+from ...check.torus.elements import torus_of
 from ...check.torus.torus_model import TorusModel, environment
+from ...check.values.arithmetic import EvaluationError
+from ...check.values.evaluate import evaluate
+from ...check.values.residue import Residue
 from ...language import rational as q
 from ...record.json_writer import to_json
 from ...record.record import Derivation

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from derive.check.checker import Checker, checker_of
-from derive.check.definitions import unexplained
+from derive.check.form.well_formedness import unexplained
 from derive.language.tree import mul
 from derive.record.contract import ANY_GROUP
 from derive.record.json_reader import from_json

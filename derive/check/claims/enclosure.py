@@ -1,0 +1,401 @@
+"""An enclosed equilibrium: the critical point of h̃, how near it is, its signs, its stability."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import Context, Decimal, localcontext
+from fractions import Fraction
+from functools import cached_property, reduce
+from typing import Any
+
+from ...algebra.groups import Group
+from ...language import rational as q
+from ...language.quadratic import value_of
+from ...language.show import show
+from ...language.tree import Tree, nodes
+from ...record.claims import Claim
+from ...record.record import Equation, RecordError, Step
+from .entries_checked import Entries, invertible
+from .equilibrium_claims import coordinates, not_from, silent
+from .exact_spectra import DIGITS as PRECISION
+from .exact_spectra import (
+    all_roots,
+    characteristic,
+    decimal,
+    digits_told,
+    is_rounded,
+    signature,
+    size,
+)
+from .integral_claims import Judge
+from .reduced_system import ReducedSystem
+
+# The claim of a step of rule "enclosure": a critical point of h̃ on a level of what is kept.
+#
+# The last equation of the step has h̃ with multiples of the left sides of the others, C_j − c_j;
+# all right sides are polynomials. 𝓛 = their last, plus Σ δ_j times the others, has one critical
+# point near the place of its distances, if Newton's step there is a contraction: computed here
+# once more, from the trees, in fractions. Entries of g there must be those of an element of the
+# group.
+
+Powers = tuple[tuple[Tree, int], ...]
+Terms = dict[Powers, Fraction]
+"""A polynomial: powers of names, sorted → coefficient."""
+VARIABLES = (("at", "Π"), ("entry", "A"), ("entry", "Γ"))
+DIGITS = 10**6
+"""Decimals are of so many parts of 1."""
+SIZE, TERMS = 60, 20_000
+"""The most variables and multipliers; and the most products of terms at once."""
+
+
+def kept_claims(step: Step) -> list[Equation]:
+    """That motions keep the left sides of all equations but the last."""
+    return [Equation(("call", "d/dt", e.lhs), 0) for e in step.equations[:-1]]
+
+
+@dataclass(frozen=True)
+class Enclosure:
+    """The function 𝓛 of a step of rule "enclosure", in powers of the distances from the ``centre``
+    and of δ_j: ``names``, of the variables and the multipliers; the ``slope`` and the ``second``
+    derivatives at 0; ``above``, the terms of higher order, by the numbers of the names."""
+
+    centre: dict[Tree, Fraction]
+    names: list[Tree]
+    slope: list[Fraction]
+    second: list[list[Fraction]]
+    above: list[tuple[dict[int, int], Fraction]]
+
+    @cached_property
+    def _inverse(self) -> q.Matrix | None:
+        return q.inverse(q.matrix(self.second))
+
+    @cached_property
+    def least(self) -> Fraction:
+        """2a for a = |J⁻¹g|, for the slope g and second derivatives J at 0."""
+        assert self._inverse is not None
+        steps = q.flatten(q.times(self._inverse, q.column(self.slope)))
+        return Fraction(2 * max(abs(x) for x in steps))
+
+    @property
+    def isolated(self) -> bool:
+        """Is one critical point within 2a?"""
+        return self._inverse is not None and self.contracts(self.least)
+
+    def contracts(self, radius: Fraction) -> bool:
+        """Is a ≤ ρ/2 and ‖|J⁻¹|B(ρ)‖ < ½ for this radius ρ?"""
+        if self._inverse is None or self.least > radius:
+            return False
+        change = [[Fraction(0)] * len(self.names) for _ in self.names]
+        for powers, c in self.above:
+            small = radius ** (sum(powers.values()) - 2)
+            for i, j, k in _pairs(powers):
+                change[i][j] += k * c * small
+        size = tuple(tuple(map(abs, row)) for row in self._inverse)
+        moved: Any = q.times(size, q.matrix(change))
+        return bool(2 * max(map(sum, moved)) < 1)
+
+
+def enclosure_of(step: Step) -> Enclosure:
+    """What the right sides of a step say; ``ValueError`` where they are no polynomials."""
+    *levels, energy = (e.rhs for e in step.equations)
+    centre = {x: _centre(x, (*levels, energy)) for x in _variables((*levels, energy))}
+    names = [*centre, *(f"δ{j}" for j, _ in enumerate(levels))]
+    if len(names) > SIZE:
+        raise ValueError(f"{len(names)} variables and multipliers; at most {SIZE}")
+    function = polynomial(energy, centre)
+    for j, t in enumerate(levels):
+        for m, c in polynomial(t, centre).items():
+            function[*m, (f"δ{j}", 1)] = c
+    place = {x: i for i, x in enumerate(names)}
+    slope = [Fraction(0)] * len(names)
+    second = [[Fraction(0)] * len(names) for _ in names]
+    above: list[tuple[dict[int, int], Fraction]] = []
+    for m, c in function.items():
+        powers = {place[x]: e for x, e in m}
+        degree = sum(powers.values())
+        if degree == 1:
+            slope[next(iter(powers))] += c
+        if degree > 2:
+            above.append((powers, abs(c)))
+        for i, j, k in _pairs(powers) if degree == 2 else ():
+            second[i][j] += k * c
+    return Enclosure(centre, names, slope, second, above)
+
+
+def enclosure_fault(step: Step, group: Group, side: str) -> str:
+    """Why the equations of a step enclose no critical point at entries of an element of a group; ""
+    where they do.  ``side``: "right" where entries of g move by E_bg."""
+    *lefts, own = (polynomial(e.lhs, {}) for e in step.equations)
+    if own.pop((("h̃", 1),), None) != 1 or not _spanned(own, lefts):
+        return "the left side is not h̃ with multiples of what is kept"
+    found = enclosure_of(step)
+    entries = Entries(group, [*found.centre], left=side != "right")
+    momenta: list[Tree] = [("at", "Π", a + 1) for a in range(group.dimension)]
+    if free := [x for x in (*momenta, *entries.missing()) if x not in found.centre]:
+        return f"no critical point is enclosed: {show(free[0])} is free"
+    if not found.isolated:
+        return "no critical point is enclosed: no contraction"
+    return entries.fault(lefts, found.centre, found.least)
+
+
+def _variables(trees: Sequence[Tree]) -> list[Tree]:
+    found = {x for t in trees for x in nodes(t) if isinstance(x, tuple) and x[:2] in VARIABLES}
+    return sorted(found, key=str)
+
+
+def _centre(x: Tree, trees: Sequence[Tree]) -> Fraction:
+    """The number that a variable is written as a distance from; 0 where it is from none."""
+    sums = (y for t in trees for y in nodes(t) if isinstance(y, tuple) and y[0] == "add")
+    shifts = (y[2] for y in sums if len(y) == 3 and y[1] == x)
+    return next((-Fraction(z) for z in shifts if isinstance(z, (int, Fraction))), Fraction(0))
+
+
+def polynomial(t: Tree, centre: dict[Tree, Fraction]) -> Terms:
+    """A tree as a polynomial in its names, those with a centre less this."""
+    if isinstance(t, (int, Fraction)):
+        return {(): Fraction(t)} if t else {}
+    if t == "h̃" or (isinstance(t, tuple) and t[:2] in VARIABLES):
+        shift = centre.get(t, Fraction(0))
+        return {((t, 1),): Fraction(1)} | ({(): shift} if shift else {})
+    if not isinstance(t, tuple):
+        raise ValueError(f"{t} in a polynomial")
+    if t[0] == "add":
+        return reduce(_plus, (polynomial(x, centre) for x in t[1:]))
+    if t[0] == "mul":
+        return reduce(_times, (polynomial(x, centre) for x in t[1:]))
+    if t[0] == "pow" and isinstance(t[2], int) and 0 < t[2] <= 8:
+        return reduce(_times, [polynomial(t[1], centre)] * t[2])
+    if t[0] == "div" and isinstance(t[2], (int, Fraction)):
+        return _times(polynomial(t[1], centre), {(): 1 / Fraction(t[2])})
+    raise ValueError(f"{t[0]} in a polynomial")
+
+
+def _plus(f: Terms, g: Terms) -> Terms:
+    found = dict(f)
+    for m, c in g.items():
+        found[m] = found.get(m, Fraction(0)) + c
+    return {m: c for m, c in found.items() if c}
+
+
+def _times(f: Terms, g: Terms) -> Terms:
+    if len(f) * len(g) > TERMS:
+        raise ValueError("a polynomial of too many terms")
+    found: Terms = {}
+    for m, x in f.items():
+        for k, y in g.items():
+            powers: dict[Tree, int] = dict(m)
+            for name, e in k:
+                powers[name] = powers.get(name, 0) + e
+            key = tuple(sorted(powers.items(), key=str))
+            found[key] = found.get(key, Fraction(0)) + x * y
+    return {m: c for m, c in found.items() if c}
+
+
+def _spanned(f: Terms, others: Sequence[Terms]) -> bool:
+    """Is a polynomial a combination of others, up to a constant?"""
+    monomials = sorted({m for g in (f, *others) for m in g if m}, key=str)
+    rows = [[g.get(m, Fraction(0)) for m in monomials] for g in (*others, f)]
+    if not any(rows[-1]):
+        return True
+    return q.rank(q.matrix(rows)) == q.rank(q.matrix(rows[:-1])) if others else False
+
+
+def _pairs(powers: dict[int, int]) -> list[tuple[int, int, int]]:
+    """Where the second derivatives of a monomial are, and by how much each is multiplied."""
+    return [
+        (i, j, e * (f - (i == j)))
+        for i, e in powers.items()
+        for j, f in powers.items()
+        if i != j or e > 1
+    ]
+
+
+# The claims about an enclosed equilibrium: how near it is, its signs, whether it is stable.
+#
+# All eigenvalues are on the leaf or 0 where Λ has the corank of the level's Casimirs: their
+# polynomial is μᵏq(μ²). Within ρ of the decimals M changes by at most off_ij, so that a
+# coefficient of det(μ − M), a sum of minors, changes by at most that of Π(1 + (r_i + Σ_j
+# off_ij)t) − Π(1 + r_i t), with r_i = Σ_j |M_ij|, as a determinant is at most the product of the
+# sums of its rows.
+
+Numbers = Sequence[Fraction]
+
+
+def _near(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """The equations are in powers of the distance from the point, which is enclosed."""
+    if not any(step.label in s.uses and _says_within(s) for s in system.record.steps):
+        return "no step encloses it"
+    return not_from(step, coordinates(claim), constants=True)
+
+
+def _says_within(step: Step) -> bool:
+    return any(x.kind == "enclosure.within" for x in step.claims)
+
+
+def enclosed(system: ReducedSystem, step: Step) -> Enclosure:
+    """What a step encloses, about the decimals of a step that it uses; ``RecordError`` where it
+    does not, or takes for a Casimir what is none."""
+    steps = [system.record[x] for x in step.uses]
+    (told,) = (x for s in steps for x in s.claims if x.kind == "equilibrium.near")
+    found, decimals = enclosure_of(step), dict(coordinates(told))
+    if any(y != decimals.get(x, 0) for x, y in found.centre.items()):
+        raise RecordError("these are not the decimals")
+    if any(any(system.anywhere.field(e.lhs)) for e in step.equations[:-1]):
+        raise RecordError("what has values on the level is no Casimir")
+    return found
+
+
+def _within(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """One critical point is within the radius, which is not much larger than is needed, and what
+    is proved of its stability is said."""
+    found, told = enclosed(system, step), value_of(claim["radius"])
+    if fault := silent(step, PROVED, _proved(system, step)):
+        return fault
+    assert isinstance(told, Fraction)
+    if not found.contracts(told):
+        return "Newton's step is not proved to contract"
+    return "" if told <= max(2 * found.least, Fraction(1, DIGITS)) else "it is nearer"
+
+
+def _squares(system: ReducedSystem, step: Step) -> tuple[int, int]:
+    """The signs on the level: those of J, less one of each for every Casimir."""
+    several = len(step.equations) - 1
+    positive, negative = signature(enclosed(system, step).second)
+    return positive - several, negative - several
+
+
+def _signs(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    found = _squares(system, step)
+    if found == (claim["positive"], claim["negative"]):
+        return ""
+    return f"it has {found[0]} positive and {found[1]} negative squares"
+
+
+NEAR_0 = Fraction(1, 1000)
+"""Of eigenvalues up to this size nothing is computed again."""
+UNKNOWN = Decimal("1e-6")
+"""The part of an eigenvalue that is not known: the decimals have so many digits."""
+PROVED = ("enclosure.stable", "enclosure.unstable", "enclosure.open")
+"""The claims of which each enclosure has one."""
+
+
+def _proved(system: ReducedSystem, step: Step) -> str:
+    """What is proved of the stability: the name of the sentence."""
+    definite = 0 in _squares(system, step)
+    return "stable" if definite else "unstable" if grows(system, step) else "open"
+
+
+def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    found = _proved(system, step)
+    return "" if claim.kind == f"enclosure.{found}" else f"what follows is: {found}"
+
+
+def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """Each number is a root of the characteristic polynomial p of the rates at the decimals,
+    rounded, and each root, but for its sign, is one of the numbers; all that are near 0, and known
+    less well, are taken for one."""
+    centre = enclosed(system, step).centre
+    at, told = {x: centre.get(x, Fraction(0)) for x in system.variables}, claim["eigenvalues"]
+    p = characteristic([[x for x, _ in slopes(t, at, Fraction(0))] for t in system.rates])
+    assert isinstance(told, tuple)
+    with localcontext(Context(prec=PRECISION)):
+        numbers = [(decimal(re), decimal(im)) for _, re, im in told[1:]]
+        roots, digits = [(abs(re), abs(im)) for re, im in all_roots(p)], digits_told(numbers)
+        if len({*numbers}) < len(numbers):
+            return "one is told twice"
+        large, known = ([z for z in x if size(z) > decimal(NEAR_0)] for x in (numbers, roots))
+        pairs = {(z, x) for z in large for x in known if is_rounded(z, x, digits, UNKNOWN)}
+        if {z for z, _ in pairs} < {*large}:
+            return "one is no eigenvalue"
+        small = p[-1] == 0 or len(known) < len(roots)
+        all_told = {x for _, x in pairs} == {*known} and small is (len(large) < len(numbers))
+        return "" if all_told else "they are not all"
+
+
+# -- instability ----------------------------------------------------------------------------------
+
+
+def grows(system: ReducedSystem, step: Step) -> bool:
+    """Have the linearised rates an eigenvalue with positive real part?  True is proved."""
+    found = enclosed(system, step)
+    several, n = len(step.equations) - 1, len(system.variables)
+    centre, radius = {x: found.centre.get(x, Fraction(0)) for x in system.variables}, found.least
+    if not has_rank(system.tensor.forms, [*centre.values()], radius, n - several):
+        return False
+    rows = [slopes(t, centre, radius) for t in system.rates]
+    mid, off = ([[x[k] for x in row] for row in rows] for k in (0, 1))
+    pairs: Any = zip(characteristic(mid), changes_of_coefficients(mid, off), strict=True)
+    return not_real_and_not_positive([*pairs][: n - several + 1 : 2])
+
+
+def has_rank(forms: Any, at: Numbers, radius: Fraction, rank: int) -> bool:
+    """Has Λ this rank everywhere within the radius?"""
+    n = len(at)
+    mid, off = ([[Fraction(0)] * n for _ in at] for _ in range(2))
+    for (i, j), form in forms.items():
+        mid[i][j] = sum((x if k is None else x * at[k] for k, x in form.items()), Fraction(0))
+        off[i][j] = radius * sum(abs(x) for k, x in form.items() if k is not None)
+    rows, columns = (q.echelon(q.matrix(x))[1] for x in (q.transposed(q.matrix(mid)), mid))
+    chosen, change = ([[x[i][j] for j in columns] for i in rows] for x in (mid, off))
+    return len(rows) == rank and invertible(q.matrix(chosen), change)
+
+
+def slopes(
+    t: Tree, centre: dict[Tree, Fraction], radius: Fraction
+) -> list[tuple[Fraction, Fraction]]:
+    """The first derivatives of a polynomial, and how much they change within the radius."""
+    found = {x: (Fraction(0), Fraction(0)) for x in centre}
+    for m, c in polynomial(t, centre).items():
+        degree = sum(k for _, k in m)
+        for x, k in m:
+            mid, off = found[x]
+            if degree == 1:
+                found[x] = mid + c, off
+            else:
+                found[x] = mid, off + abs(c) * k * radius ** (degree - 1)
+    return [*found.values()]
+
+
+def changes_of_coefficients(mid: Sequence[Numbers], off: Sequence[Numbers]) -> list[Fraction]:
+    """How much the coefficients of det(μ − M) change at most with the entries of M."""
+
+    def by_rows(a: Sequence[Numbers], change: Sequence[Numbers]) -> list[Fraction]:
+        sums = [sum(map(abs, row), Fraction(0)) for row in a]
+        more = [x + sum(row) for x, row in zip(sums, change, strict=True)]
+        return [x - y for x, y in zip(symmetric(more), symmetric(sums), strict=True)]
+
+    columns = (q.transposed(q.matrix(x)) for x in (mid, off))
+    return [*map(min, by_rows(mid, off), by_rows(*columns))]
+
+
+def symmetric(x: Numbers) -> list[Fraction]:
+    """The coefficients of Π(1 + x_i t)."""
+    zero, found = Fraction(0), [Fraction(1)]
+    for y in x:
+        found = [a + y * b for a, b in zip([*found, zero], [zero, *found], strict=True)]
+    return found
+
+
+def not_real_and_not_positive(c: Sequence[tuple[Fraction, Fraction]]) -> bool:
+    """Has a polynomial with such coefficients, each with a bound of its error, surely a root that
+    is not real and at most 0: a negative coefficient, or c_j² j(d − j) < c_{j−1}c_{j+1}(j + 1)(d −
+    j + 1) for some j (Newton)?"""
+    d = len(c) - 1
+    if any(x + e < 0 for x, e in c):
+        return True
+    least, most = [max(x - e, Fraction(0)) for x, e in c], [abs(x) + e for x, e in c]
+    return any(
+        most[j] ** 2 * j * (d - j) < least[j - 1] * least[j + 1] * (j + 1) * (d - j + 1)
+        for j in range(1, d)
+    )
+
+
+JUDGES: dict[str, Judge] = {
+    "equilibrium.near": _near,
+    "enclosure.within": _within,
+    "enclosure.signs": _signs,
+    "enclosure.eigenvalues": _eigenvalues,
+    **dict.fromkeys(PROVED, _verdict),
+}
+"""How claims about enclosed equilibria are judged, of equations that are Hamiltonian."""

@@ -1,0 +1,306 @@
+"""What the names of a record mean, computed from equation (3) alone, at one exact random point."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from ...algebra.groups import Group
+from ...algebra.samplers import Source
+from ...language import rational as q
+from ...language.rational import Matrix
+from ..values.arithmetic import (
+    EPS,
+    EPS_PRIME,
+    ETA,
+    Nilpotent,
+    derivative_in,
+    derivative_of,
+    nilpotent,
+    part,
+)
+from ..values.draws import LINEAR, TIME, TRANSLATION, Locus
+from ..values.residue import with_slots
+from .point_masses import (
+    RATE_SLOTS,
+    AnyPotential,
+    AppliedForces,
+    Body,
+    Vector,
+    damping_members,
+    listed_count,
+)
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A tangent vector of the evolution space: δt, and the matrices ξ̂ = g⁻¹δg, δẐ in 𝔤."""
+
+    time: Any
+    xi: Matrix
+    velocity: Matrix
+
+
+class Model(Body):
+    """One random point of the evolution space of a problem, with two variations and the motion.
+
+    ``at``: the hypotheses that hold there. ``generic``: the potential is any polynomial; ``pi``:
+    its value, else any. ``few``: no more points than are needed, and each of them once. ``zero``:
+    the names of parameters that vanish.
+    """
+
+    def __init__(
+        self,
+        problem: Mapping[str, Any],
+        group: Group,
+        random: Source,
+        size: int,
+        at: Locus,
+        *,
+        generic: bool = False,
+        pi: Fraction | None = None,
+        few: bool = False,
+        zero: Collection[str] = (),
+    ):
+        super().__init__(problem, group, random, size, generic=generic, pi=pi, few=few, zero=zero)
+        self.at = at
+        self.s = group.size
+        self.hypothesis_failures: dict[Any, str] = {}
+        self._families: dict[tuple[int, int], tuple[Any, tuple[Any, Matrix, Matrix]]] = {}
+        self.embody(principal=at.principal)
+        self.applied = AppliedForces(
+            {} if generic else problem, group, self.blocks, self.expressions
+        )
+        self.t = self.draw()
+        inside = at.inside and group.has_inner_samples
+        self.g = group.sample_inside(random, size) if inside else group.sample(random, size)
+        self.any_potential = AnyPotential(self, self.t, self.moved(self.g)) if generic else None
+        self.Z = self.algebra()
+        self.first, self.second, self.mixed = (
+            Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
+        )
+        if at.vanishing:
+            time = Fraction(0) if TIME in at.vanishing else self.second.time
+            self.second = replace(
+                self.second, time=time, xi=self._without_parts(at.vanishing, self.second.xi)
+            )
+        self.vector = None if at.along is None else self._motion_like(at.along)
+        if at.contracted and self.vector is not None:
+            self.first = self.vector
+        turning = at.driven and bool(self.inputs_of("covector"))
+        self.covector = [self.draw() if turning else Fraction(0) for _ in group.basis]
+        self.input_forces = [
+            tuple(self.draw() if at.driven else Fraction(0) for _ in range(self.n))
+            for _ in self.inputs_of("force")
+        ]
+        forces = (
+            force[group.of_block(self.blocks[data["on"] - 1])]
+            for force, data in zip(self.input_forces, self.inputs_of("force"), strict=True)
+        )
+        self.parameters |= self.name_inputs(self.covector, [*forces])
+        once = len(self.points) if few else listed_count(self)
+        self.copies = [
+            Fraction(1) if i < once else self.draw(positive=True) for i in range(len(self.points))
+        ]
+        self.draw_more()
+
+    def draw_more(self) -> None:
+        """What a kind of model draws beside this: nothing."""
+
+    def _without_parts(self, parts: Collection[str], xi: Matrix) -> Matrix:
+        """A random element of 𝔤 without these parts; ``xi`` where the group has none of them."""
+        basis = self.group.basis
+        rows = []
+        for e in basis:
+            linear = q.flatten(self.group.linear_part(e)) if LINEAR in parts else ()
+            moved = self.group.affine and TRANSLATION in parts
+            rows.append((*linear, *(row[-1] for row in e[:-1] if moved)))
+        if not rows[0]:
+            return xi
+        kept = q.nullspace(q.transposed(tuple(rows)))
+        total = q.scaled(Fraction(0), xi)
+        for weights in kept:
+            total = q.plus(total, q.scaled(self.draw(), self.group.hat(weights)))
+        return total
+
+    def _motion_like(self, along: Collection[str]) -> Direction:
+        """X, with δt = 1 and the velocity of the motion in the parts ``along``, any in others."""
+        free = self._without_parts(along, self.first.xi if self.at.contracted else self.algebra())
+        xi = q.plus(self.Z, free) if along else free
+        return Direction(Fraction(1), xi, self.algebra())
+
+    @cached_property
+    def nu(self) -> Matrix:
+        """ν = g Z, the velocity of g."""
+        return q.times(self.g, self.Z)
+
+    # -- potential ----------------------------------------------------------------------------
+
+    def potential(self, t: Any, r: list[Vector]) -> Any:
+        """U(t, r): the problem's, or a random polynomial where the walk leaves it open."""
+        if self.any_potential:
+            return self.any_potential.energy(t, r)
+        return self.applied.potential(t, r, self.masses)
+
+    # -- Lagrangian, Cartan form and its derivative --------------------------------------------
+
+    def lagrangian(self, t: Any, g: Matrix, nu: Matrix) -> Any:
+        """L̃(t, g, ν) = L at the moved points: equation (3)."""
+        return self.pairing(nu, nu) * Fraction(1, 2) - self.potential(t, self.moved(g))
+
+    def momentum(self, nu: Matrix, w: Matrix) -> Any:
+        """p̃(w), the derivative of L̃ along the velocity: Σ m_i ⟨v_i, w r_i⟩, as ½ ‖v‖² has it."""
+        return self.pairing(nu, w)
+
+    def energy(self, t: Any, g: Matrix, nu: Matrix) -> Any:
+        """h̃ = p̃(ν) − L̃."""
+        return self.momentum(nu, nu) - self.lagrangian(t, g, nu)
+
+    def family(self, a: Direction, b: Direction) -> tuple[Any, Matrix, Matrix]:
+        """t, g and Z on a two-parameter family with these directions, to first order in each.
+
+        The mixed part is arbitrary: dϖ does not depend on it, but δξ′ and δ′ξ do.
+        """
+        key = id(a), id(b)
+        if key not in self._families:
+            self._families[key] = (a, b), self._family(a, b)
+        return self._families[key][1]
+
+    def _family(self, a: Direction, b: Direction) -> tuple[Any, Matrix, Matrix]:
+        e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
+        t = self.t + e * a.time + f * b.time + e * f * self.mixed.time
+        Z = self.Z
+        for weight, x in ((e, a.velocity), (f, b.velocity), (e * f, self.mixed.velocity)):
+            Z = q.plus(Z, q.scaled(weight, x))
+        return t, q.times(self.g, self.displaced(a, b)), Z
+
+    @cached_property
+    def varied_places(self) -> list[Vector]:
+        """The moved points on the two-parameter family of δ and δ′, in nilpotent numbers."""
+        return self.moved(self.family(self.first, self.second)[1])
+
+    @cached_property
+    def varied(self) -> Matrix:
+        """g₀⁻¹g on the two-parameter family of δ and δ′, a matrix of nilpotent numbers."""
+        return self.displaced(self.first, self.second)
+
+    def displaced(self, a: Direction, b: Direction) -> Matrix:
+        """g₀⁻¹g = (1 + εξ_a)(1 + ε′ξ_b)(1 + εε′ξ_mixed) on the family of the directions a and b."""
+        e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
+        g = one = q.identity(self.s)
+        for weight, xi in ((e, a.xi), (f, b.xi), (e * f, self.mixed.xi)):
+            g = q.times(g, q.plus(one, q.scaled(weight, xi)))
+        return g
+
+    def cartan(self, a: Direction) -> Any:
+        """ϖ(δ) at the point."""
+        momentum = self.momentum(self.nu, q.times(self.g, a.xi))
+        return part(momentum - self.energy(self.t, self.g, self.nu) * a.time, 0)
+
+    def exterior(self, a: Direction, b: Direction) -> Any:
+        """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family."""
+        t, g, Z = self.family(a, b)
+        nu = q.times(g, Z)
+        energy = self.energy(t, g, nu)
+
+        def form(mask: int) -> Any:
+            """ϖ on the derivative of the family in one parameter, a function of the other."""
+            dt, dg = derivative_in(t, mask), derivative_of(g, mask)
+            return self.momentum(nu, dg) - energy * dt
+
+        return part(form(EPS_PRIME), EPS) - part(form(EPS), EPS_PRIME)
+
+    # -- forces and the motion -------------------------------------------------------------------
+
+    def work(self, w: Matrix) -> Fraction:
+        """dŨ(w), for a tangent matrix w at g."""
+        shifted = q.plus(self.g, q.scaled(nilpotent(ETA), w))
+        value = self.potential(self.t, self.moved(shifted))
+        return Nilpotent.of(value).part(ETA)
+
+    @cached_property
+    def forces(self) -> list[Vector]:
+        """F_i = −∂U/∂r_i for each point, in space."""
+        if self.any_potential:
+            return self.any_potential.forces
+        return self.applied.forces(self.t, self.moved(self.g), self.masses)
+
+    @cached_property
+    def given_forces(self) -> list[Vector]:
+        """The force on each point, in space, by force inputs."""
+        total = [[Fraction(0)] * self.n for _ in self.points]
+        linear = self.group.linear_part(self.g)
+        for u, data in zip(self.input_forces, self.inputs_of("force"), strict=True):
+            block = self.blocks[data["on"] - 1]
+            here = u[self.group.of_block(block)]
+            inside = q.column(self.group.in_block(block, here))
+            force = q.times(linear, inside) if data["frame"] == "body" else inside
+            for k, (x,) in enumerate(force):
+                total[data["on"] - 1][k] += x
+        return [tuple(f) for f in total]
+
+    @cached_property
+    def nonpotential_forces(self) -> list[Vector]:
+        """The force on each point, in space, by force inputs and damping together."""
+        total = [[*f] for f in self.given_forces]
+        if self.at.driven:
+            velocities = self.moved(self.nu)
+            for i, kappa in damping_members(self).items():
+                for k, x in enumerate(velocities[i - 1]):
+                    total[i - 1][k] -= kappa * x
+        return [tuple(f) for f in total]
+
+    @cached_property
+    def input(self) -> list[Fraction]:
+        """The values u(E_a) on the basis of the covector of all inputs and damping."""
+        found = []
+        for u, e in zip(self.covector, self.group.basis, strict=True):
+            pairs = zip(self.nonpotential_forces, self.moved(q.times(self.g, e)), strict=True)
+            found.append(u + sum((q.dot(f, v) for f, v in pairs), Fraction(0)))
+        return found
+
+    @cached_property
+    def metric(self) -> Matrix:
+        """The d × d matrix of the kinetic energy's metric at g on the basis."""
+        return self.metric_matrix([q.times(self.g, e) for e in self.group.basis])
+
+    def solve_metric(self, covector: list[Fraction]) -> Matrix:
+        """The element of 𝔤, as a matrix, that the kinetic metric at g sends to a covector, by its
+        values on the basis; ``ZeroDivisionError`` where the metric is singular."""
+        solution = q.solve(self.metric, q.column(covector))
+        if solution is None:
+            raise ZeroDivisionError("the kinetic metric is singular at this point")
+        return self.group.hat([row[0] for row in solution])
+
+    def as_indeterminates(self, x: Matrix, slots: int) -> Matrix:
+        """A matrix that was found by solving, as one of new indeterminates of ``slots`` indices
+        where any forces act: what they are is then as free as it is."""
+        if not self.generic:
+            return x
+        return tuple(tuple(with_slots(y, slots) for y in row) for row in x)
+
+    @cached_property
+    def acceleration(self) -> Matrix:
+        """Ż by d'Alembert: Σ ⟨m_i a_i − F_i, v′_i⟩ = u(ξ′) for every ξ′, with a = g(Ż + Z²)r."""
+        if self.at.free_acceleration and self.vector is not None:
+            return self.vector.velocity
+        centripetal = q.times(self.g, q.times(self.Z, self.Z))
+        covector = []
+        for u, e in zip(self.input, self.group.basis, strict=True):
+            displacement = q.times(self.g, e)
+            covector.append(u - self.work(displacement) - self.pairing(centripetal, displacement))
+        return self.as_indeterminates(self.solve_metric(covector), RATE_SLOTS)
+
+    @cached_property
+    def gradient(self) -> Matrix:
+        """f in 𝔤, with ⟨A f, A ξ⟩ = −dŨ(A ξ) for every ξ: the metric sends A f to −dŨ."""
+        covector = [-self.work(q.times(self.g, e)) for e in self.group.basis]
+        return self.as_indeterminates(self.solve_metric(covector), 2 * RATE_SLOTS)
+
+    @property
+    def motion(self) -> Direction:
+        """X, with δt = 1: the direction of the motion, or the random vector that stands for it."""
+        return self.vector or Direction(Fraction(1), self.Z, self.acceleration)

@@ -1,0 +1,325 @@
+"""The body of a model: its points, the masses that a matrix moves, the forces on them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from ...algebra.groups import Group
+from ...language import rational as q
+from ...language.rational import Matrix
+from ...language.tree import Tree
+from ...record.record import RecordError
+from ...record.tree_data import decode
+from ..kinds import accounts, uses_body_axes
+from ..values.arithmetic import ETA, Nilpotent, nilpotent, part
+from ..values.draws import Draws
+from ..values.evaluate import Environment, evaluate
+from .equimomental import equimomental_points, moments_of, remaining_moments
+
+# The points of a model: those of the problem, or random ones where it leaves them open.
+
+Vector = tuple[Any, ...]
+Points = tuple[list[Fraction], list[Vector], list[int]]
+"""Masses, places in the body and blocks of the points; places without a mass are among them."""
+
+
+def points_of(model: Draws) -> Points:
+    """The points of a model: those that the problem lists, its other places without mass, and then
+    points for what it does not list."""
+    body = model.problem.get("body", {})
+    listed = [] if model.generic else model.problem.get("places", [])
+    places, blocks = _listed_places(model, listed)
+    empty = [Fraction(0)] * len(places)
+    if body.get("kind") in ("points", "given") and not model.generic:
+        listed = body.get("points", [])
+        own = [evaluate(decode(p["mass"], "mass"), model.expressions) for p in listed]
+        points, first = _listed_places(model, listed)
+        masses, rest = (
+            _points_with_moments(model, *moments_of(model)) if body["kind"] == "given" else ([], [])
+        )
+        blocks = first + blocks + [1] * len(rest)
+        return own + empty + masses, points + places + rest, blocks
+    masses, points = _random_points(model, model.n + 1 + model.spare)
+    return empty + masses, places + points, blocks + [1] * len(points)
+
+
+def listed_count(model: Draws) -> int:
+    """How many points the problem lists: they come first, and have numbers in equations."""
+    if model.generic:
+        return 0
+    body = model.problem.get("body", {})
+    return len(body.get("points", [])) + len(model.problem.get("places", []))
+
+
+def principal_points(model: Draws) -> Points:
+    """The points of a model with random m, c and diagonal J: as many random points as the problem
+    lists, and those that complete the moments."""
+    n, count = model.n, len(model.problem.get("body", {}).get("points", []))
+    masses, points = _random_points(model, count)
+    places, blocks = _listed_places(model, model.problem.get("places", []))
+    m, c = model.draw(positive=True), model.place()
+    J = q.matrix(
+        [[model.draw(slots=2) if i == j else Fraction(0) for j in range(n)] for i in range(n)]
+    )
+    more, rest = _points_with_moments(model, *remaining_moments(masses, points, m, c, J))
+    empty = [Fraction(0)] * len(places)
+    return masses + empty + more, points + places + rest, [1] * count + blocks + [1] * len(rest)
+
+
+def _points_with_moments(
+    model: Draws, m: Fraction, c: Vector, J: Matrix
+) -> tuple[list[Fraction], list[Vector]]:
+    """Points with the moments m, c, J, some at random: no more is known of them."""
+    masses, points = _random_points(model, model.spare)
+    more, rest = equimomental_points(*remaining_moments(masses, points, m, c, J))
+    return masses + more, points + rest
+
+
+def _random_points(model: Draws, count: int) -> tuple[list[Fraction], list[Vector]]:
+    """So many random points: their masses, and their places."""
+    masses = [model.draw(positive=True) for _ in range(count)]
+    return masses, [model.place() for _ in range(count)]
+
+
+def _listed_places(model: Draws, listed: list[Mapping[str, Any]]) -> tuple[list[Vector], list[int]]:
+    """The places that the problem lists, in the coordinates of a product, and their blocks."""
+    places, blocks = [], []
+    for data in listed:
+        at = tuple(evaluate(decode(x, "at"), model.expressions) for x in data["at"])
+        block = data.get("block", 1)
+        blocks.append(block)
+        at = model.group.in_block(block, at, 1)
+        places.append(at)
+    return places, blocks
+
+
+# The body of a model: point masses that a matrix moves, their moments and their metric.
+
+
+def outer_sum(vectors: Sequence[Vector], arms: Sequence[Vector]) -> Matrix:
+    """Σ v_i x̄_i, n × k, over vectors of n numbers and arms of k, one of each for every point."""
+    return q.times(q.transposed(tuple(vectors)), tuple(arms))
+
+
+def scaled_each(weights: Iterable[Any], vectors: Iterable[Vector]) -> list[Vector]:
+    """The vectors m_i v_i."""
+    return [tuple(m * x for x in v) for m, v in zip(weights, vectors, strict=True)]
+
+
+class Body(Draws):
+    """The draws of a model with its body: masses, places and blocks of its points."""
+
+    masses: list[Any]
+    points: list[Vector]
+    blocks: list[int]
+
+    def embody(self, *, principal: bool) -> None:
+        """Draw the points, with a diagonal J if ``principal``; symbolic moments m, c, J get the
+        values that these points have."""
+        self.masses, self.points, self.blocks = (
+            principal_points(self) if principal else points_of(self)
+        )
+        if not self.generic and uses_body_axes(self.problem):
+            self._axes()
+        if self.problem.get("body", {}).get("kind") != "moments":
+            return
+        m, c, J = self.moments
+        self.parameters |= {"m": m} | {f"c_{i + 1}": c[i][0] for i in range(self.n)}
+        self.parameters |= {
+            f"J_{i + 1}{j + 1}": J[i][j] for i in range(self.n) for j in range(i, self.n)
+        }
+
+    def _axes(self) -> None:
+        """Last of all the origin of the body and the ends of its axes, without mass."""
+        rows = (q.scaled(Fraction(0), q.identity(self.n))[0], *q.identity(self.n))
+        self.masses = [*self.masses, *(Fraction(0) for _ in rows)]
+        self.points, self.blocks = [*self.points, *rows], [*self.blocks, *(1 for _ in rows)]
+
+    @cached_property
+    def moments(self) -> tuple[Fraction, Matrix, Matrix]:
+        """m, c, J as sums over the points."""
+        weighted = scaled_each(self.masses, self.points)
+        first, second = outer_sum(weighted, self.units), outer_sum(weighted, self.points)
+        return sum(self.masses, Fraction(0)), first, second
+
+    @property
+    def units(self) -> list[Vector]:
+        """The number 1 for each point, as a vector."""
+        return [(Fraction(1),)] * len(self.points)
+
+    def homogeneous(self, r: Vector) -> Matrix:
+        """A place as a column: r, or (r, 1) for an affine action."""
+        return q.column((*r, Fraction(1)) if self.group.affine else r)
+
+    def moved(self, g: Matrix) -> list[Vector]:
+        """The places in space of the points moved by g; for a tangent matrix their velocities."""
+        ends = q.transposed(tuple(q.flatten(self.homogeneous(r)) for r in self.points))
+        return [*q.transposed(q.times(g[: self.n], ends))]
+
+    def pairing(self, a: Matrix, b: Matrix, weights: Sequence[Any] | None = None) -> Any:
+        """Σ m_i ⟨a r_i, b r_i⟩, the kinetic metric of two tangent matrices at g; ``weights``: those
+        of the points that stand for m_i."""
+        weights = self.masses if weights is None else weights
+        pairs = zip(weights, self.moved(a), self.moved(b), strict=True)
+        return sum((m * q.dot(u, v) for m, u, v in pairs), Fraction(0))
+
+    def metric_matrix(self, tangents: list[Matrix]) -> Matrix:
+        """The matrix of the kinetic metric on tangent matrices at g."""
+        moved = [[x for v in self.moved(a) for x in v] for a in tangents]
+        weights = [m for m in self.masses for _ in range(self.n)]
+        rows = [[m * x for m, x in zip(weights, u, strict=True)] for u in moved]
+        return q.times(q.matrix(rows), q.transposed(q.matrix(moved)))
+
+
+# The potentials of a problem at the exact points of a model, their forces, and damping.
+#
+# U is computed from the problem's own data, term by term; its forces come from nilpotent numbers.
+
+Distance = tuple[Vector, Callable[[Any], Any]]
+"""d, and a potential as a function of ‖d‖²."""
+
+
+RATE_SLOTS = 2
+"""Indices of Ż, which may be anything where any forces act; f = Ż + Z² has twice as many."""
+
+FORCE_SLOTS = 3 * RATE_SLOTS + 1
+"""Those of F_i = m_i A f r_i and more, of which a force has what Ż needs."""
+
+
+class AnyPotential:
+    """A polynomial that stands for any potential: any value and any forces at the places of a model
+    at its time, and somewhere else others."""
+
+    def __init__(self, model: Draws, t: Any, places: Sequence[Vector]):
+        self.t, self.places, self.value = t, places, model.draw()
+        self.forces = [tuple(model.draw(slots=FORCE_SLOTS) for _ in r) for r in places]
+        self.later, *self.weights = (model.draw() for _ in (None, *places))
+
+    def energy(self, t: Any, r: Sequence[Vector]) -> Any:
+        """U(t, r)."""
+        later = t - self.t
+        total = self.value + later * self.later
+        for force, weight, x, x0 in zip(self.forces, self.weights, r, self.places, strict=True):
+            y = tuple(a - b for a, b in zip(x, x0, strict=True))
+            total = total - q.dot(force, y) * (1 + later) + weight * q.dot(y, y)
+        return total
+
+
+def minus_gradient(energy: Callable[[Sequence[Vector]], Any], r: Sequence[Vector]) -> list[Vector]:
+    """Minus the derivative of a function of the places by each of them."""
+    eta = nilpotent(ETA)
+    found = []
+    for i, place in enumerate(r):
+        force = []
+        for k in range(len(place)):
+            moved = tuple(x + eta if j == k else x for j, x in enumerate(place))
+            value = energy([*r[:i], moved, *r[i + 1 :]])
+            force.append(-part(Nilpotent.of(value), ETA))
+        found.append(tuple(force))
+    return found
+
+
+class AppliedForces:
+    """The potentials of a problem and their forces, for points in these blocks."""
+
+    def __init__(
+        self, problem: Mapping[str, Any], group: Group, blocks: Sequence[int], env: Environment
+    ):
+        self.problem, self.group, self.blocks, self.env = problem, group, blocks, env
+        self.potentials = [*problem.get("potentials", [])]
+        self.single = [p for p in self.potentials if not self._summed(p)]
+
+    def _summed(self, p: Mapping[str, Any]) -> bool:
+        """Does the walk sum it up in words?"""
+        account = _account(p)
+        which = getattr(account, "summed", lambda *_: hasattr(account, "values"))
+        return bool(which(self, p))
+
+    def members(self) -> Iterator[tuple[Any, list[Mapping[str, Any]]]]:
+        """The accounts of kinds of which some are summed up, with these."""
+        for account in accounts().values():
+            found = [p for p in self.potentials if _account(p) is account and self._summed(p)]
+            if found:
+                yield account, found
+
+    def number(self, tree: Any) -> Any:
+        """The value of an expression of the problem."""
+        return evaluate(decode(tree, "problem"), self.env)
+
+    def vector(self, trees: Any) -> Vector:
+        """The values of a list of expressions."""
+        return tuple(self.number(x) for x in trees)
+
+    def place(self, r: Sequence[Vector], i: int) -> Vector:
+        """Point i (from 1) in its space: its block of a product."""
+        if not self.group.factors:
+            return r[i - 1]
+        return r[i - 1][self.group.of_block(self.blocks[i - 1])]
+
+    def body_axes(self, r: Sequence[Vector]) -> tuple[Vector, list[Vector]]:
+        """Where the origin of the body is, and its axes from there, as columns of A."""
+        origin, *ends = r[-self.env.size - 1 :]
+        return origin, [tuple(x - y for x, y in zip(e, origin, strict=True)) for e in ends]
+
+    def potential(
+        self, t: Any, r: Sequence[Vector], masses: Sequence[Any], *, single: bool = False
+    ) -> Any:
+        """U(t, r); ``single``: U_Q, the part of it point by point."""
+        chosen = self.single if single else self.potentials
+        return sum((_account(p).energy(self, p, t, r, masses) for p in chosen), Fraction(0))
+
+    def root(self, x: Any) -> Any:
+        """√x."""
+        assert self.env.elementary is not None
+        return self.env.elementary("sqrt", x)
+
+    def value(self, tree: Any, t: Any, r: Sequence[Vector], **names: Any) -> Any:
+        """The value of an expression of the time and the places, and of other ``names``."""
+
+        def point(head: Any, arguments: tuple[Tree, ...], env: Environment) -> Any:
+            del arguments, env
+            return q.column(r[head[2] - 1])
+
+        env = replace(self.env, names={**self.env.names, **names, "t": t}, functions={"r": point})
+        return evaluate(decode(tree, "U"), env)
+
+    def forces(
+        self, t: Any, r: Sequence[Vector], masses: Sequence[Any], *, single: bool = False
+    ) -> list[Vector]:
+        """−∂U/∂r_i for every point, of all of U or of U_Q."""
+        return minus_gradient(lambda places: self.potential(t, places, masses, single=single), r)
+
+    def tension(self, energy: Any) -> Any:
+        """−2 dU/dq, from U at q + η."""
+        return -2 * part(Nilpotent.of(energy), ETA)
+
+    def radial(self, r: Sequence[Vector], masses: Sequence[Any]) -> list[tuple[Vector, Fraction]]:
+        """d_e and σ_e of the elements that are functions of a distance, in order."""
+        eta = nilpotent(ETA)
+        return [
+            (d, self.tension(energy(q.dot(d, d) + eta)))
+            for p in self.single
+            if hasattr(_account(p), "radial")
+            for d, energy in _account(p).radial(self, p, r, masses)
+        ]
+
+
+def _account(p: Mapping[str, Any]) -> Any:
+    """The checker's account of a potential."""
+    if p["kind"] not in accounts():
+        raise RecordError(f"unknown potential {str(p['kind'])[:20]!r}")
+    return accounts()[p["kind"]]
+
+
+def damping_members(model: Draws) -> dict[int, Fraction]:
+    """κ_i of the points that are damped."""
+    found: dict[int, Fraction] = {}
+    for d in model.problem.get("damping", []):
+        kappa = evaluate(decode(d["coefficient"], "damping"), model.expressions)
+        for i in d["on"]:
+            found[i] = found.get(i, Fraction(0)) + kappa
+    return found

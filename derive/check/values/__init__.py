@@ -1,0 +1,1 @@
+"""Values: trees evaluated over rings, what is drawn at random."""
