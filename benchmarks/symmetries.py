@@ -9,10 +9,10 @@ import statistics
 import sys
 import time
 
-from derive.command.loading import derive, ready_made
+from derive.command.showing import derive, ready_made
 from derive.problem.problem import ProblemError
-from derive.symmetries.found import symmetries_of
-from derive.symmetries.tangent_fields import tangent_fields
+from derive.search.symmetries.conditions import tangent_fields
+from derive.search.symmetries.found_symmetries import symmetries_of
 
 AIM = 1.0
 

@@ -32,13 +32,13 @@ WORDS = (
 """And a word for each other kind of potential: ``Attraction`` and so on."""
 PLACES = dict.fromkeys(WORDS, "derive.python.api") | {
     **dict.fromkeys(("Derived", "derive"), "derive.python.derived"),
-    **dict.fromkeys(("FirstIntegrals", "first_integrals"), "derive.python.integrals_found"),
+    **dict.fromkeys(("FirstIntegrals", "first_integrals"), "derive.python.found"),
     **dict.fromkeys(("Compiled", "CompileError", "compile"), "derive.python.compiled"),
-    "StepError": "derive.native.motion_in_c",
+    "StepError": "derive.motion.native",
     "MotionError": "derive.motion.start",
     "EmitError": "derive.code.emit",
     "ProblemError": "derive.problem.problem",
-    "Refused": "derive.language.refused",
+    "Refused": "derive.language.limits",
 }
 """Where each name is to be had."""
 

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING
 
 # fmt: off
 # isort: off
-from .language.refused import Refused
-from .problem import left_invariant
+from .language.limits import (Refused)
+from .problem import (inertia)
 from .problem.principal import principal
-from .problem.problem import Problem, ProblemError
+from .problem.problem import (Problem, ProblemError)
 from .record.record import Derivation
 from .walk.chapter import Chapter, Stage, Values, follow, naming_steps, traced
 from .walk.discrete import discrete_blocks, discrete_forces, discrete_group, discrete_road
@@ -46,16 +46,15 @@ if TYPE_CHECKING:
 
     from .code.options import Options
     from .code.program import Program
-    from .equilibria.enclosed_points import Enclosed
-    from .equilibria.entries_of_elements import Conditions
-    from .equilibria.stability import Equilibrium
-    from .integrals.all_integrals import Found
-    from .language.quadratic import Number
     from .language.tree import Tree
-    from .motion.effective_well import OneDegree
-    from .motion.emitted import Emitted
-    from .reduction.reduced_record import Reduction
-    from .symmetries.steps import Symmetries
+    from .language.univariate import Number
+    from .motion.emitted import Emitted, OneDegree
+    from .search.equilibria.enclosed_points import Enclosed
+    from .search.equilibria.entries_of_elements import Conditions
+    from .search.equilibria.stability import Equilibrium
+    from .search.integrals.all_integrals import Found
+    from .search.reduction.told_reduction import Reduction
+    from .search.symmetries.symmetry_steps import Symmetries
 
 ANY_GROUP = (
     Stage("lagrangian", "a c", "Lagrangian", lagrangian.lagrangian),
@@ -81,7 +80,7 @@ MATRICES = (
           "General", specialisation.General),
     Stage("body", "problem lagrangian a c", "Steps", body.body_step),
     Stage("brackets", "group c", "Steps", coordinates.bracket_step),
-    Stage("bodies", "problem", "Bodies", left_invariant.invariant),
+    Stage("bodies", "problem", "Bodies", inertia.invariant),
     Stage("relation", "group bodies? c", "Steps", specialisation.relation),
     Stage("plain", "group", "Alphabet", alphabet.of_matrices),
     Stage("tetrahedron", "problem group c", "Steps", orbit.tetrahedron),
@@ -274,8 +273,8 @@ def lagrangian_road(side: str) -> Values:
 
 def both_trivialisations(record: Derivation) -> Derivation:
     """A record behind what holds for any Lagrangian, on the left beside the right; to be read."""
-    from .schema.lagrangian_kinds import Lagrangian
-    from .views.both_sides import both_sides
+    from .schema.kind import Lagrangian
+    from .views.rendering import both_sides
 
     sides = (Lagrangian(L=0, trivialisation=side) for side in ("left", "right"))
     left, right = (walk(Problem(x.trivialisation, None, lagrangian=x)) for x in sides)
@@ -291,10 +290,10 @@ def integrals(
     Without the inputs of the problem; ``at_defaults``: with numbers for its parameters;
     ``conditions``: with those on the parameters under which there are more.
     """
-    from .integrals.all_integrals import found
-    from .integrals.reduced import reduced, require_group, with_defaults
-    from .integrals.told import told
-    from .symmetries.scalar_lagrangian import with_scalar_lagrangian
+    from .search.integrals.all_integrals import found
+    from .search.integrals.reduced import reduced, require_group, with_defaults
+    from .search.integrals.told_integrals import told
+    from .search.symmetries.scalar_lagrangian import with_scalar_lagrangian
 
     require_group(problem)
     driven, problem = bool(problem.inputs), replace(problem, inputs=())
@@ -303,7 +302,7 @@ def integrals(
     problem = with_defaults(problem) if at_defaults else problem
     whole = found(reduced(problem), degree)
     if conditions:
-        from .integrals.special_parameters import conditions as conditions_of
+        from .search.integrals.special_parameters import conditions as conditions_of
 
         whole = replace(whole, conditions=conditions_of(whole))
     assert problem.group is not None
@@ -318,9 +317,9 @@ def equilibrium_near(
 ) -> tuple[Enclosed, Derivation]:
     """The equilibrium of a problem near a point, enclosed, and the record of its integrals up to a
     degree with the steps that tell it; parameters have their defaults."""
-    from .equilibria.enclosed_points import enclosed
-    from .equilibria.stability import require_numbers
-    from .equilibria.told_points import told_enclosed
+    from .search.equilibria.enclosed_points import enclosed
+    from .search.equilibria.stability import require_numbers
+    from .search.equilibria.told_points import told_enclosed
 
     whole, record = integrals(problem, degree, at_defaults=True)
     try:
@@ -337,8 +336,8 @@ def equilibrium_near(
 def _of_variables(problem: Problem, values: Mapping[str, Number]) -> dict[str, Number]:
     """The coordinates of a point by the names of the reduced variables: A_44 is A2_11 in the
     problem, where its group is a product."""
-    from .equilibria.equilibrium_points import coordinate
-    from .problem.state_names import state_names
+    from .problem.fields import state_names
+    from .search.equilibria.equilibrium_points import coordinate
 
     assert problem.group is not None
     own = state_names(problem.group)
@@ -348,7 +347,7 @@ def _of_variables(problem: Problem, values: Mapping[str, Number]) -> dict[str, N
 
 def _elements(problem: Problem, whole: Found) -> tuple[Conditions, ...]:
     """What the entries of g satisfy that are among the variables of the reduced equations."""
-    from .equilibria.entries_of_elements import conditions
+    from .search.equilibria.entries_of_elements import conditions
 
     assert problem.group is not None
     left = problem.lagrangian is None or problem.lagrangian.trivialisation == "left"
@@ -361,8 +360,8 @@ def equilibria(
     """The relative equilibrium of a problem at a point, or those among some points where no values
     are given, and the record of its integrals up to a degree with the steps that tell them;
     parameters have their defaults."""
-    from .equilibria.stability import equilibria_of
-    from .equilibria.told_points import told
+    from .search.equilibria.stability import equilibria_of
+    from .search.equilibria.told_points import told
 
     whole, record = integrals(problem, degree, at_defaults=True)
     try:
@@ -380,8 +379,8 @@ def equilibria(
 def symmetries(problem: Problem, record: Derivation) -> Symmetries:
     """All symmetries of the Lagrangian of a problem, by its record, and a record of them;
     ``ProblemError`` where there is no Lagrangian of its own."""
-    from .symmetries.found import symmetries_of
-    from .symmetries.steps import Symmetries, record_of
+    from .search.symmetries.found_symmetries import symmetries_of
+    from .search.symmetries.symmetry_steps import Symmetries, record_of
 
     found = symmetries_of(problem, record, of_integrand=True)
     general = lagrangian_road(found.lagrangian.trivialisation)
@@ -391,8 +390,8 @@ def symmetries(problem: Problem, record: Derivation) -> Symmetries:
 def reduction(problem: Problem, record: Derivation) -> Reduction:
     """Routh's reduction of a problem by symmetries that commute, by its record, and a record of it;
     ``ProblemError`` where there is nothing to reduce by."""
-    from .reduction.reduced_record import record_of
-    from .symmetries.found import symmetries_of
+    from .search.reduction.told_reduction import record_of
+    from .search.symmetries.found_symmetries import symmetries_of
 
     found = symmetries_of(problem, record)
     return record_of(found, lagrangian_road(found.lagrangian.trivialisation))
@@ -401,9 +400,8 @@ def reduction(problem: Problem, record: Derivation) -> Reduction:
 def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree]:
     """Name → what the motion keeps: by each symmetry, else by Casimirs and integrals up to degree
     4 of the reduced equations; of these what no symmetry gives stands beside symmetries, too."""
-    from .integrals.integral_names import first_integrals
-    from .symmetries.found import kept_with_damping, symmetries_of
-    from .symmetries.quantity_names import named
+    from .search.integrals.told_integrals import first_integrals
+    from .search.symmetries.found_symmetries import kept_with_damping, named, symmetries_of
 
     if problem.damping:
         return named(kept_with_damping(problem, record))
@@ -484,10 +482,10 @@ def motion_of_many(problem: Problem, record: Derivation) -> Emitted:
 def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
     """The effective potential where the symmetries of a problem leave one degree of freedom, an
     entry of g; else ``None``."""
-    from .motion.effective_well import OneDegree
-    from .reduction.one_degree import leaves_one, momenta_of
-    from .reduction.reduced_record import record_of
-    from .symmetries.found import symmetries_of
+    from .motion.emitted import OneDegree
+    from .search.reduction.quadrature import leaves_one, momenta_of
+    from .search.reduction.told_reduction import record_of
+    from .search.symmetries.found_symmetries import symmetries_of
 
     try:
         found = symmetries_of(problem, record)

@@ -19,24 +19,32 @@ from derive.algebra.families import FAMILIES, Family, group
 from derive.algebra.groups import Group
 from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
-from derive.command.loading import READY, ready_made
+from derive.command.showing import READY, ready_made
 from derive.language.limits import TABLES
 from derive.page.motion_page import SCRIPTS
-from derive.problem.followed_names import of_points
+from derive.problem.stated_motion import of_points
 from derive.problem.toml import TOP
-from derive.schema.algebra_kinds import REPRESENTATIONS, StatedAdvected, StatedAlgebra
-from derive.schema.body_kinds import Point
-from derive.schema.declared import Parameter, StatedGroup
-from derive.schema.fluid_kinds import DENSITIES, FORCES, Fluid
-from derive.schema.followed import DIRECTIONS, Event
+from derive.schema.body_kinds import SOLIDS, Point
+from derive.schema.kind import (
+    DENSITIES,
+    DIRECTIONS,
+    FORCES,
+    INPUTS,
+    REPRESENTATIONS,
+    SECTIONS,
+    SIDES,
+    Damping,
+    Event,
+    Fluid,
+    Parameter,
+    StatedAdvected,
+    StatedAlgebra,
+    StatedGroup,
+)
 from derive.schema.kinds import kinds
-from derive.schema.lagrangian_kinds import SECTIONS, SIDES
-from derive.schema.outside import INPUTS, Damping
-from derive.schema.solid_kinds import SOLIDS
 from derive.schema.table import Table
 from derive.views.language import language
-from derive.views.outline import title
-from derive.views.system import system
+from derive.views.outline import system, title
 
 HERE = Path(__file__).parent
 LIBRARIES, LATER = ("jinja2", "markupsafe"), ("mpmath", "sympy")

@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterator
 import numpy as np
 
 from derive.code.naming import name_of
-from derive.language.suffixed import suffixed
+from derive.language.reserved import suffixed
 from derive.pipeline import program
 from derive.python.compiled import Compiled
 

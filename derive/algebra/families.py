@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..language import rational as q
-from ..language.near_names import did_you_mean, near_name
 from ..language.rational import Matrix
+from ..language.reserved import did_you_mean, near_name
 from . import samplers as draw
 from .groups import Group
 from .samplers import Sampler, Source

@@ -1,17 +1,53 @@
-"""A Lie algebra by its structure constants, [E_a, E_b] = Σ c_ab^k E_k, and its representations.
-
-The constants are a sparse table (a, b) → {k: c}, for both orders of a and b, counted from 0.
-"""
+"""A Lie algebra by its structure constants, [E_a, E_b] = Σ c_ab^k E_k; that of the torus."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from itertools import combinations, pairwise
+from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
+
+# Matrices of which most entries are 0, as place → entry: those of a basis of a Lie algebra.
+
+Sparse = Mapping[tuple[int, int], Any]
+
+
+def sparse(m: Matrix) -> Sparse:
+    """The entries that are not 0."""
+    return {(i, j): x for i, row in enumerate(m) for j, x in enumerate(row) if x}
+
+
+def commutator(a: Sparse, b: Sparse) -> Sparse:
+    """ab − ba."""
+    return _sum_of_entries([*_product(a, b), *((at, -x) for at, x in _product(b, a))])
+
+
+def combined(weights: Sequence[Any], basis: Sequence[Sparse]) -> Sparse:
+    """Σ w_a E_a."""
+    pairs = zip(weights, basis, strict=True)
+    return _sum_of_entries((at, w * x) for w, e in pairs if w for at, x in e.items())
+
+
+def _product(a: Sparse, b: Sparse) -> Iterable[tuple[tuple[int, int], Any]]:
+    rows: dict[int, list[tuple[int, Any]]] = {}
+    for (i, j), x in b.items():
+        rows.setdefault(i, []).append((j, x))
+    for (i, k), x in a.items():
+        for j, y in rows.get(k, ()):
+            yield (i, j), x * y
+
+
+def _sum_of_entries(terms: Iterable[tuple[tuple[int, int], Any]]) -> Sparse:
+    total: dict[tuple[int, int], Any] = {}
+    for at, x in terms:
+        total[at] = total.get(at, 0) + x
+    return {at: x for at, x in total.items() if x}
+
 
 Combination = Mapping[int, Fraction]
 Brackets = Mapping[tuple[int, int], Combination]
@@ -229,3 +265,47 @@ def derivations(brackets: Brackets, dimension: int) -> list[Matrix]:
     return [
         q.matrix([x[i:j] for i, j in pairwise(ends)]) for x in q.nullspace(tuple(rows or [none]))
     ]
+
+
+# The algebra su(N) in the basis T_n of the torus, N odd, n a point of a square lattice.
+#
+# T_n = ω^(n₁n₂) g^n₁ h^n₂,  ω = e^(2πi/N),  g = diag(ω^2j),  h_(j,j+1) = 1  (indices modulo N)
+#
+# T_n depends on n modulo N alone, and T_m T_n = ω^(−m∧n) T_(m+n), m∧n = m₁n₂ − m₂n₁; T_0 = 1. In
+# row a and column b, T_n has ω^(n₁(a+b)) where b − a = n₂ modulo N, and 0 elsewhere.
+
+Place = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Torus:
+    """The lattice of one odd N; ``half``: the largest size of a coordinate of a representative."""
+
+    N: int
+
+    @property
+    def name(self) -> str:
+        """That of the group."""
+        return f"SU({self.N})"
+
+    @property
+    def half(self) -> int:
+        """(N − 1)/2."""
+        return self.N // 2
+
+    @cached_property
+    def places(self) -> tuple[Place, ...]:
+        """The representatives |n_i| ≤ (N − 1)/2 but 0, row by row: n₁, then n₂."""
+        span = range(-self.half, self.half + 1)
+        return tuple((a, b) for a in span for b in span if a or b)
+
+    @cached_property
+    def half_plane(self) -> tuple[Place, ...]:
+        """One of n and −n: n₂ > 0, or n₂ = 0 and n₁ > 0; by n₂, then n₁."""
+        found = (n for n in self.places if n[1] > 0 or (n[1] == 0 and n[0] > 0))
+        return tuple(sorted(found, key=lambda n: (n[1], n[0])))
+
+    def representative(self, n: Place) -> Place:
+        """The representative of n modulo N."""
+        a, b = ((x + self.half) % self.N - self.half for x in n)
+        return a, b

@@ -8,8 +8,8 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..language.limits import SLOPES
+from ..language.reserved import suffixed
 from ..language.show import show
-from ..language.suffixed import suffixed
 from ..language.tree import Tree
 from ..record.record import Derivation
 from .change_of_frame import frame_changes

@@ -11,7 +11,7 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.relations import Relations, relations
 from ..language import rational as q
-from ..language.greek import SPELT
+from ..language.reserved import SPELT
 from ..language.show import show
 from ..record.tree_data import decode
 from .heading import signed_entries

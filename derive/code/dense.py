@@ -11,7 +11,7 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.suffixed import suffixed
+from ..language.reserved import suffixed
 from .graph import PARAMETER, Graph, Node
 
 Namer = Callable[[Matrix, int, int], Matrix]

@@ -11,8 +11,8 @@ from fractions import Fraction
 from typing import Any
 
 from .. import __version__
-from ..language.near_names import did_you_mean, near_name
-from ..language.refused import Refused
+from ..language.limits import Refused
+from ..language.reserved import did_you_mean, near_name
 from ..language.templating import environment
 from ..record.record import Derivation
 from .collisions import hollowed, identifiers, without_collisions

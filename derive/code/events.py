@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Protocol
 
 from ..language.expression import names
-from ..language.near_names import did_you_mean, near_name
+from ..language.reserved import did_you_mean, near_name
 from ..language.tree import Tree
 from ..language.values import value
 from .factor import factored

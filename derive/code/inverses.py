@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.suffixed import suffixed
+from ..language.reserved import suffixed
 from ..language.tree import Tree
 from ..record.mass_signs import ANY_SIGN
 from ..record.tree_data import decode

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..language import rational as q
-from ..language.suffixed import suffixed
+from ..language.reserved import suffixed
 from .graph import Node
 from .naming import ClaimedNames
 from .quaternion import ROTATED, of_rotation

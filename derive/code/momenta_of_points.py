@@ -13,7 +13,7 @@ from typing import Any
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.suffixed import suffixed
+from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
 from ..record.record import Derivation, Equation
 from . import dense

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from ..algebra.groups import Group
 from ..language.rational import Matrix
-from ..language.suffixed import suffixed
+from ..language.reserved import suffixed
 from ..language.tree import Tree
 from ..record.record import Derivation
 from .graph import Node

@@ -8,8 +8,7 @@ import unicodedata
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
-from ..language.greek import SPELT
-from ..language.reserved import WORDS
+from ..language.reserved import SPELT, WORDS
 from ..language.tree import Tree
 
 MEANINGS = {

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..language.near_names import did_you_mean, near_name
+from ..language.reserved import did_you_mean, near_name
 
 CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
     "real": (("double", "float"), "the numbers of the code"),

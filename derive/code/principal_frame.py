@@ -13,7 +13,7 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.suffixed import suffixed
+from ..language.reserved import suffixed
 from ..record.tree_data import decode
 from . import dense
 from .graph import Node

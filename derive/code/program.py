@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from ..language.refused import Refused
+from ..language.limits import Refused
 from ..language.tree import Tree, nodes
 
 

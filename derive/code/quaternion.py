@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..language.rational import Matrix
-from ..language.suffixed import suffixed
+from ..language.reserved import suffixed
 from .graph import Graph, Node
 
 Quaternion = tuple[Any, ...]

@@ -8,7 +8,7 @@ from functools import cached_property, partial
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.suffixed import suffixed
+from ..language.reserved import suffixed
 from ..language.tree import Tree, subtrees
 from ..record.record import Derivation, Equation, Step
 from . import dense

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..algebra.groups import Group
-from ..language.suffixed import suffixed
+from ..language.reserved import suffixed
 from .graph import Graph, Node
 from .options import Options
 from .state import Component, Named, StateSpace

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..language.suffixed import suffixed
+from ..language.reserved import suffixed
 from .ellipsoid import BUNDLES
 from .graph import PARAMETER, Node
 from .naming import ClaimedNames, is_sum, sum_name

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..algebra.groups import Group
-from ..algebra.told_entries import constant_entries
-from ..language.suffixed import suffixed
+from ..algebra.groups import Group, constant_entries
+from ..language.reserved import suffixed
 
 
 @dataclass(frozen=True)

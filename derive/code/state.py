@@ -13,10 +13,10 @@ from fractions import Fraction
 from functools import cached_property
 
 from ..algebra.groups import Group
-from ..algebra.invariance import skew
+from ..algebra.relations import skew
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.suffixed import suffixed
+from ..language.reserved import suffixed
 from . import dense
 from .graph import Graph, Node
 from .options import Options

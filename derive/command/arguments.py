@@ -9,15 +9,14 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from .. import __version__
-from ..language.near_names import did_you_mean, near_name
+from ..language.reserved import did_you_mean, near_name
 from ..plot.kinds_told import told_kinds
 from ..schema.table import nearest
 from ..views.rendering import FORMATS
-from .guard import one_line
-from .writing import STDOUT
+from .writing import STDOUT, one_line
 
 if TYPE_CHECKING:
-    from ..language.quadratic import Number
+    from ..language.univariate import Number
 
 ALLOWED = {"mass": "mass", "stiffness": "stiffness or damping"}
 """What may be negative where a flag allows it: the name in the flag → the quantity in messages."""
@@ -294,7 +293,7 @@ def named(words: str, form: str) -> tuple[str, str]:
 
 def coordinate(words: str) -> tuple[str, Number]:
     """A name and an exact number from NAME=NUMBER; ``ArgumentTypeError`` for any other text."""
-    from ..equilibria.equilibrium_points import NoEquilibriumError, number_from
+    from ..search.equilibria.equilibrium_points import NoEquilibriumError, number_from
 
     name, text = named(words, "NAME=NUMBER, as Pi_3=2")
     try:
@@ -330,7 +329,7 @@ def add_reading_options(
 ) -> None:
     """Add the options of ``walk`` and its like and of ``notes``: problems, format, language,
     notations."""
-    from ..printing.notation import NOTATIONS
+    from ..printing.signs import NOTATIONS
     from ..views.language import LANGUAGES
 
     for one in (*walks, *searched):

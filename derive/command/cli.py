@@ -13,13 +13,23 @@ from contextvars import copy_context
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..language.refused import Refused
-from ..language.telling import LISTENER
-from .encoding import replacing_unencodable
-from .guard import StoppedError, one_line, time_limit
-from .loading import UsageError, allowed, derive, discrete_walk, doubted, load_problem, ready_made
-from .progress import with_progress
-from .showing import columns, save, save_record, save_steps, steps_of, told_steps
+from ..language.limits import LISTENER, Refused
+from .showing import (
+    UsageError,
+    allowed,
+    columns,
+    derive,
+    discrete_walk,
+    doubted,
+    load_problem,
+    ready_made,
+    save,
+    save_record,
+    save_steps,
+    steps_of,
+    told_steps,
+)
+from .writing import StoppedError, one_line, replacing_unencodable, time_limit, with_progress
 
 if TYPE_CHECKING:
     from ..check.form.hypotheses_checked import Verdict
@@ -27,7 +37,7 @@ if TYPE_CHECKING:
 
 def command_list(_: argparse.Namespace) -> int:
     """Groups and ready-made problems."""
-    from .listing import listing
+    from .showing import listing
 
     print(listing({name: load_problem(name) for name in ready_made()}))
     return 0
@@ -94,7 +104,7 @@ def command_equilibria(args: argparse.Namespace) -> int:
 def command_symmetries(args: argparse.Namespace) -> int:
     """All symmetries of a problem's Lagrangian, and what the motion keeps by each."""
     from ..pipeline import symmetries
-    from ..symmetries.steps import shown as about_symmetries
+    from ..search.symmetries.symmetry_steps import shown as about_symmetries
 
     problem, walked = derive(args.problem, **allowed(args))
     save_record(symmetries(problem, walked).record, about_symmetries, args)
@@ -104,7 +114,7 @@ def command_symmetries(args: argparse.Namespace) -> int:
 def command_reduction(args: argparse.Namespace) -> int:
     """Routh's reduction by symmetries that commute: effective potential, what is left to solve."""
     from ..pipeline import reduction
-    from ..reduction.reduced_record import shown
+    from ..search.reduction.told_reduction import shown
 
     problem, walked = derive(args.problem, **allowed(args))
     save_record(reduction(problem, walked).record, shown, args)
@@ -113,7 +123,7 @@ def command_reduction(args: argparse.Namespace) -> int:
 
 def command_notes(args: argparse.Namespace) -> int:
     """Lecture notes of problems: .tex, .pdf or .html; or .sty, the macros of their fragments."""
-    from .noting import command_notes
+    from .simulating import command_notes
 
     return command_notes(args)
 
@@ -166,10 +176,10 @@ def command_simulate(args: argparse.Namespace) -> int:
 def command_plot(args: argparse.Namespace) -> int:
     """Draw a run of a motion, or several: .svg, .pdf or .png (needs matplotlib)."""
     from ..motion.ensemble_files import read_either
+    from ..plot.ensemble_pictures import plot_precision
     from ..plot.kinds_told import PRECISION
     from ..plot.pictures import plot, plot_energies
     from ..plot.plot_sheet import ending
-    from ..plot.precision import plot_precision
     from ..views.language import language
     from .writing import write
 
@@ -246,8 +256,8 @@ def command_paper(args: argparse.Namespace) -> int:
     """The paper's numbered equations against the derivation."""
     from ..paper import findings as paper
     from ..paper.printed import PAPER
+    from ..views.book import as_json, as_text
     from ..views.language import language
-    from ..views.paper import as_json, as_text
 
     records = [derive(name)[1] for name in paper.PROBLEMS]
     findings = list(with_progress(paper.findings(records), len(PAPER), "equations"))

@@ -1,33 +1,31 @@
-"""``derive emit``: what is asked for, and the files of an emission read back.
-
-``--check`` compares the files of a folder with what they say that they were made by; ``--validate``
-holds what can be read back against the record.
-"""
+"""``derive emit``: what is asked for, the files of an emission read back, options refused."""
 
 from __future__ import annotations
 
 import argparse
 import shlex
 import sys
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..code.emit import emit, included, planned
 from ..code.languages import LANGUAGES
 from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 from ..code.program import Program
 from ..code.request import EmissionRequest, request_of
+from ..language.limits import Refused
 from ..pipeline import program, require_program
-from ..problem.forces import negative_stiffness_of
+from ..problem.bodies import negative_stiffness_of
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
-from .loading import UsageError, allowed, derive
+from .showing import UsageError, allowed, derive
 from .writing import REMEDY, STDOUT, stale, text_on_disk
 
 if TYPE_CHECKING:
     from ..validate.emission import Report
+
 
 HEAD = 10_000
 """In so many characters a file says what it was made by."""
@@ -187,3 +185,58 @@ def all_hold(reports: Collection[Report]) -> bool:
         print("derive: nothing of this can be validated", file=sys.stderr)
         return False
     return all(report.holds for report in reports)
+
+
+# What each further option of an emission would be refused for, told before it is chosen.
+#
+# The reasons are the command's own: those that are known before the code is made.
+
+Choice = tuple[tuple[str, ...], Options]
+"""Languages and options."""
+
+
+def refused(
+    p: Problem, record: Derivation, languages: Sequence[str], chosen: Options
+) -> dict[str, str]:
+    """Option → why it cannot be chosen beside the others: ``lang julia``, ``step gauss``,
+    ``momenta``; where what is chosen is refused itself, that alone, by the name ""."""
+    own = (*languages,), chosen
+    if reason := _reason(p, record, own):
+        return {"": reason}
+    reasons = {words: _reason(p, record, choice) for words, choice in further(*own)}
+    return {words: reason for words, reason in reasons.items() if reason}
+
+
+def further(languages: tuple[str, ...], chosen: Options) -> Iterator[tuple[str, Choice]]:
+    """Each option that is not chosen, and the choice with it."""
+    for name in LANGUAGES:
+        if name not in languages:
+            yield f"lang {name}", ((*languages, name), chosen)
+    for name, (values, _) in (CHOICES | DEPENDENT).items():
+        for x in values:
+            if x != getattr(chosen, name):
+                yield f"{name} {x}", (languages, _with(chosen, name, x))
+    for name, (values, _) in REPEATED.items():
+        given = getattr(chosen, name)
+        for x in values:
+            if x not in given:
+                yield f"{name} {x}", (languages, _with(chosen, name, (*given, x)))
+    for name in ADDED:
+        if not getattr(chosen, name):
+            yield name, (languages, _with(chosen, name, True))
+
+
+def _with(chosen: Options, name: str, value: object) -> Options:
+    changed: dict[str, Any] = {name: value}
+    return replace(chosen, **changed)
+
+
+def _reason(p: Problem, record: Derivation, choice: Choice) -> str:
+    """Why a choice is refused; empty where it is not, as far as is known before it is made."""
+    languages, options = choice
+    try:
+        require_program(p, record, options)
+        planned(languages, p.name, options)
+    except Refused as error:
+        return str(error)
+    return ""

@@ -1,34 +1,43 @@
-"""``derive simulate``: from a problem to a run in one command."""
+"""``derive simulate``: a run or an ensemble in one command; ``derive notes`` with motions."""
 
 from __future__ import annotations
 
 import argparse
 import sys
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..motion.driven import DAMPING, INPUTS, is_weightless
-from ..motion.ensemble import require_an_ensemble
-from ..motion.kept_words import parts
-from ..motion.method import STEPS, Method, instants
-from ..motion.run import Array, Run
-from ..motion.run_files import format_of, written
+from ..motion.ensemble import (
+    Many,
+    Part,
+    Plan,
+    Varied,
+    require_an_ensemble,
+    require_steps_of_an_ensemble,
+)
+from ..motion.ensemble_files import writer
+from ..motion.native import AT_EVENT
+from ..motion.run import Array, Run, format_of, parts, written
 from ..motion.simulate import beginning, run
-from ..motion.start import MotionError, state_file
+from ..motion.start import DAMPING, INPUTS, MotionError, is_weightless, state_file
+from ..motion.trajectory import STEPS, Method, instants
 from ..page.motion_page import motion_page
-from ..pipeline import motion_of
+from ..pipeline import motion_of, motion_of_many
 from ..plot.pictures import plot
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..views.language import language
-from .ensembles import command_ensemble
-from .guard import one_line
-from .loading import allowed, derive
-from .progress import with_progress
-from .writing import require_place, write
+from ..views.rendering import NOTES, RenderError, notes, pdf
+from .showing import UsageError, allowed, derive, discrete_walk, notation, warn_of_letters
+from .writing import growing, heard, one_line, require_place, with_progress, write
+
+# ``derive simulate``: from a problem to a run in one command.
 
 ROUNDING = 1e-15
 """A component that is smaller, beside the others, is that of sums of a few terms."""
@@ -227,3 +236,188 @@ def _told(run: Run) -> int:
         print(f"derive: {one_line(f'{name}: {run.ended}')}", file=sys.stderr)
         return 1
     return 0
+
+
+# ``derive simulate --ensemble``: many motions, written part by part.
+
+
+def plan_of(args: argparse.Namespace, start: dict[str, Any]) -> Plan:
+    """The ensemble that a command asks for; ``MotionError`` for options that are not for one."""
+    if args.html:
+        raise MotionError("--html shows one motion: leave out --ensemble")
+    require_steps_of_an_ensemble(args.method, args.dt, args.order)
+    chosen = {} if args.tol is None else {"tol": args.tol}
+    points = 1 if args.points is None else args.points
+    varied = tuple(Varied(*x) for x in args.vary or ())
+    seed = args.seed or 0
+    return Plan(args.ensemble, varied, args.t, points, seed=seed, **chosen, **start)
+
+
+def command_ensemble(
+    args: argparse.Namespace, problem: Problem, record: Derivation, start: dict[str, Any]
+) -> int:
+    """Run ``derive simulate --ensemble``: its exit code."""
+    plan = plan_of(args, start)
+    many = Many(motion_of_many(problem, record), problem, plan)
+    if not all(x.terminal for x in problem.events):
+        text = "events that are not terminal are not looked for in an ensemble"
+        print(f"derive: warning: {problem.name}: {text}", file=sys.stderr)
+    tally = Tally(len(many.first.x))
+    with heard() as interrupted, kept(many, args.out) as add:
+        about = f"{problem.name}, parts of {many.size}"
+        parts = with_progress(many.parts(interrupted), many.count, about)
+        for part in parts:
+            add(part)
+            tally.add(part)
+            if interrupted():
+                break
+        stopped = interrupted() and tally.motions < plan.n
+    for line in ensemble_summary(many, tally):
+        print(one_line(line))
+    if args.out:
+        print(args.out)
+    if stopped:
+        text = f"interrupted after {tally.motions} of {plan.n} motions"
+        print(f"derive: {problem.name}: {text}", file=sys.stderr)
+        return 130
+    return 0 if any(k == 0 or k >= AT_EVENT for k in tally.count) else 1
+
+
+@contextmanager
+def kept(many: Many, out: str) -> Iterator[Callable[[Part], None]]:
+    """What writes the parts to a file, or, where none is named, nowhere."""
+    if not out:
+        yield lambda part: None
+        return
+    with growing(Path(out)) as file, writer(file, out, many.whole([many.none])) as made:
+        yield made.add
+
+
+class Tally:
+    """What is told of motions: how many have which status, mean and deviation of their ends."""
+
+    def __init__(self, size: int):
+        self.count: Counter[int] = Counter()
+        self.sum, self.squares = np.zeros(size), np.zeros(size)
+        self.origin: np.ndarray[Any, Any] | None = None
+
+    @property
+    def motions(self) -> int:
+        """How many there were."""
+        return self.count.total()
+
+    def add(self, part: Part) -> None:
+        """Count some more."""
+        self.count.update(part.status.tolist())
+        ends = part.states[part.status == 0, -1]
+        if len(ends):
+            self.origin = ends[0] if self.origin is None else self.origin
+            self.sum += (ends - self.origin).sum(axis=0)
+            self.squares += ((ends - self.origin) ** 2).sum(axis=0)
+
+    def ends(self) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+        """Mean and standard deviation of the states at the end."""
+        assert self.origin is not None
+        mean = self.sum / self.count[0]
+        return self.origin + mean, np.sqrt(np.maximum(self.squares / self.count[0] - mean**2, 0))
+
+
+def ensemble_summary(many: Many, tally: Tally) -> list[str]:
+    """What an ensemble says of itself, in lines."""
+    facts, plan = many.facts, many.plan
+    span = f"{plan.n} motions, t = 0 … {many.t[-1]:g}"
+    lines = [f"{facts['problem']}: {span}, by {facts['method']}, in C; seed {plan.seed}"]
+    lines += [f"  {x}" for _, x in facts["varied"]]
+    lines += [f"  {tally.count[k]} {text}" for k, text in many.said.items() if tally.count[k]]
+    if tally.count[0]:
+        pairs = zip(many.code.program.state, *(x.tolist() for x in tally.ends()), strict=True)
+        told = ", ".join(f"{name} = {mean:.6g} ± {off:.2g}" for name, mean, off in pairs)
+        lines.append(f"  at the end, mean and deviation: {told}")
+    return lines
+
+
+# ``derive notes``: lecture notes of problems, with pages and pictures of their motions beside.
+
+
+def command_notes(args: argparse.Namespace) -> int:
+    """Lecture notes of problems: .tex, .pdf or .html; or .sty, the macros of their fragments."""
+    from .writing import write
+
+    out = Path(args.out)
+    if out.suffix not in NOTES:
+        raise UsageError(f"--out {args.out}: the name must end in {', '.join(NOTES)}")
+    names = dict.fromkeys(args.problem)
+    walked = discrete_walk if args.discrete else derive
+    walks = list(with_progress((walked(name) for name in names), len(names), "walks"))
+    records = [record for _, record in walks]
+    pages = {} if args.motion is None else pages_of_motions(args, out, walks)
+    pictures = {} if args.picture is None else pictures_of_motions(args, out, walks)
+    moving, drawn = (
+        dict(zip((d.name for d in records), files, strict=False)) for files in (pages, pictures)
+    )
+    text = notes(
+        records,
+        out.suffix,
+        args.lang,
+        fragment=args.fragment,
+        moving=moving,
+        pictures=drawn,
+        **notation(args),
+    )
+    if out.suffix in (".tex", ".pdf"):
+        warn_of_letters(records)
+    content = pdf_of(text, out, pictures) if out.suffix == ".pdf" else text
+    for path in write({out.name: content, **pages, **pictures}, out.parent, links=True):
+        print(path)
+    return 0
+
+
+def pdf_of(tex: str, out: Path, pictures: Mapping[str, bytes]) -> bytes:
+    """The PDF of LaTeX with its pictures, to be the file ``out``; where none is made, the LaTeX is
+    written beside it, as OUT.tex: the error says where."""
+    from .writing import write
+
+    try:
+        (made,) = with_progress((pdf(x, pictures) for x in [tex]), 1, "LaTeX")
+    except RenderError as error:
+        (source, *_) = write({f"{out.name}.tex": tex, **pictures}, out.parent)
+        raise RenderError(f"{error}; the LaTeX is written to {source}") from None
+    return made
+
+
+def pages_of_motions(
+    args: argparse.Namespace, out: Path, walks: Sequence[tuple[Problem, Derivation]]
+) -> dict[str, str]:
+    """File → the page in which the body of a problem moves, one for each; ``Refused`` where one
+    has no motion."""
+    from ..motion.trajectory import Method
+
+    pass  # GONE
+
+    if args.discrete or out.suffix != ".html":
+        raise UsageError("--motion: pages are linked from notes FILE.html, without --discrete")
+    chosen: tuple[Any, ...] = args.motion, Method(), args.lang
+    names = beside(out, walks, ".html")
+    return {name: moving_page(*x, *chosen, given={}) for name, x in zip(names, walks, strict=True)}
+
+
+def pictures_of_motions(
+    args: argparse.Namespace, out: Path, walks: Sequence[tuple[Problem, Derivation]]
+) -> dict[str, bytes]:
+    """File → the picture of the motion of a problem, one for each; ``Refused`` where one has no
+    motion."""
+    pass  # GONE
+
+    if args.discrete or args.fragment or out.suffix == ".sty":
+        raise UsageError("--picture: notes have pictures without --discrete, --fragment and .sty")
+    ending = ".svg" if out.suffix == ".html" else ".pdf"
+    return {
+        name: picture_of(*x, args.picture, name, args.lang)
+        for name, x in zip(beside(out, walks, ending), walks, strict=True)
+    }
+
+
+def beside(out: Path, walks: Sequence[tuple[Problem, Derivation]], ending: str) -> list[str]:
+    """The names of the files of motions beside the notes ``out``, which begin as its own does:
+    other notes in the same folder, as in another language, have others."""
+    return [f"{out.stem}_{record.name}_motion{ending}" for _, record in walks]

@@ -1,22 +1,28 @@
-"""Writing files whole or not at all: under a temporary name, then renamed.
-
-A folder is locked while it is written to, so that the files of two emissions are not mixed; what an
-emission that was killed left over is removed by the next one.
-"""
+"""Files whole or not at all, standard output, the bounds of a command and its progress."""
 
 from __future__ import annotations
 
+import codecs
 import errno
+import io
 import os
+import signal
+import sys
 import tempfile
+import threading
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from itertools import zip_longest
 from pathlib import Path
-from typing import IO
+from typing import IO, TypeVar
 
-from ..language.refused import Refused
+from ..language.limits import MESSAGE, Refused
+
+# Writing files whole or not at all: under a temporary name, then renamed.
+#
+# A folder is locked while it is written to, so that the files of two emissions are not mixed;
+# what an emission that was killed left over is removed by the next one.
 
 try:
     import fcntl
@@ -206,3 +212,137 @@ def _lock(folder: Path, stack: ExitStack) -> bool:
             time.sleep(0.01)
         except OSError:
             return False
+
+
+# Standard output in an encoding that lacks letters: they become ?, and stderr says so once.
+
+HANDLER = "derive.lost"
+
+
+@contextmanager
+def replacing_unencodable() -> Iterator[None]:
+    """A context in which stdout writes ? for letters that it lacks; stderr says so at its end."""
+    lost: set[str] = set()
+
+    def shown(error: UnicodeError) -> tuple[str, int]:
+        if not isinstance(error, UnicodeEncodeError):
+            raise error
+        lost.update(error.object[error.start : error.end])
+        return "?" * (error.end - error.start), error.end
+
+    out = sys.stdout
+    if isinstance(out, io.TextIOWrapper):
+        codecs.register_error(HANDLER, shown)
+        out.reconfigure(errors=HANDLER)
+    try:
+        yield
+    finally:
+        if lost:
+            count = f"{len(lost)} letter{'s' * (len(lost) != 1)}"
+            print(
+                f"derive: warning: the encoding of standard output, {out.encoding}, lacks {count}, "
+                "shown as ?; where UTF-8 is read set PYTHONIOENCODING=utf-8; files of --out are "
+                "in UTF-8",
+                file=sys.stderr,
+            )
+
+
+def as_in_a_file() -> None:
+    """Write stdout in UTF-8 from here on, as formats that name their encoding, but to a
+    terminal."""
+    out = sys.stdout
+    if isinstance(out, io.TextIOWrapper) and not out.isatty():
+        out.reconfigure(encoding="utf-8", errors=out.errors)
+
+
+# The bounds of a command: a limit on its processor time, and one printable line for a message.
+
+AGAIN = 0.1
+"""After so many seconds it is raised again: Python drops what is raised while it collects garbage,
+and at the end of an import."""
+
+
+class StoppedError(BaseException):
+    """The time is over. Not an ``Exception``, so that nothing on the way catches it."""
+
+
+@contextmanager
+def time_limit(seconds: float | None) -> Iterator[None]:
+    """A context that raises ``StoppedError`` after so many seconds of processor time; no limit for
+    ``None``.
+
+    It is raised at once where there are no such timers, or outside the main thread.
+    """
+    if seconds is None:
+        yield
+        return
+    main = threading.current_thread() is threading.main_thread()
+    if not (main and hasattr(signal, "setitimer")):
+        raise StoppedError("--seconds needs the timers of Unix and the main thread")
+
+    over = StoppedError(f"stopped after {seconds:g} s of processor time (--seconds)")
+    rung = False
+
+    def stop(*_: object) -> None:
+        nonlocal rung
+        rung = True
+        raise over
+
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, seconds, AGAIN)
+    try:
+        yield
+    except Exception as error:
+        if rung:  # what is raised within a library of C may come out of it as another error
+            raise over from error
+        raise
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
+
+
+@contextmanager
+def heard() -> Iterator[Callable[[], bool]]:
+    """A context in which the first Ctrl-C is noted, to be asked for, and the second one stops."""
+    asked = False
+
+    def note(*_: object) -> None:
+        nonlocal asked
+        if asked:
+            raise KeyboardInterrupt
+        asked = True
+
+    if threading.current_thread() is not threading.main_thread():
+        yield lambda: False
+        return
+    before = signal.signal(signal.SIGINT, note)
+    try:
+        yield lambda: asked
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def one_line(words: object) -> str:
+    """A message, which may quote a file, as one line that a terminal can only print."""
+    shown = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in str(words)[: 2 * MESSAGE])
+    return shown if len(shown) <= MESSAGE else f"{shown[: MESSAGE - 1]}…"
+
+
+# The progress of a long command: one line on stderr, where that is a terminal.
+
+Item = TypeVar("Item")
+
+
+def with_progress(items: Iterable[Item], total: int, what: str) -> Iterator[Item]:
+    """The items unchanged; while each is made, stderr shows ``what: done of total``."""
+    shown, left = sys.stderr is not None and sys.stderr.isatty(), iter(items)
+    for done in range(total):
+        line = f"{what}: {done} of {total}" if shown else ""
+        try:
+            if shown:
+                print(line, end="\r", file=sys.stderr, flush=True)
+            item = next(left)
+        finally:  # also before an error is told
+            if shown:
+                print(" " * len(line), end="\r", file=sys.stderr, flush=True)
+        yield item

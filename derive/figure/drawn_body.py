@@ -1,13 +1,16 @@
-"""The body of a problem in numbers, for a drawing: expressions at the parameters' defaults."""
+"""The body of a problem in numbers for a drawing, seen so that its points lie well apart."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import combinations, pairwise
 from typing import Any
 
 from ..language.values import approximate
 from ..record.tree_data import decode
+from .drawing import Box, Dot, Label, Point, Stroke, from_segment
 
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, ...]
@@ -208,3 +211,196 @@ def cross(a: Vector, b: Vector) -> Vector:
 def image(A: Matrix, v: Vector) -> Vector:
     """A v."""
     return dot(A[0], v), dot(A[1], v), dot(A[2], v)
+
+
+# The direction from which a body is seen: one in which its points and axes lie well apart.
+
+Segment = tuple[Vector, Vector]
+AZIMUTH, ELEVATION = 30, 21
+"""The preferred direction in degrees, from the axis that comes forward."""
+ENOUGH = 0.2
+"""The clearance, in sizes of the body, above which all views are as good."""
+MOST = 14
+
+
+@dataclass(frozen=True)
+class View:
+    """A direction of view, by three unit vectors: right and up on the paper, and towards the
+    reader; ``flat``: the plane seen as it is."""
+
+    right: Vector
+    up: Vector
+    towards: Vector
+    flat: bool = False
+
+    def __call__(self, p: Vector) -> Point:
+        """The place of a point on the paper, before it is scaled."""
+        return dot(self.right, p), dot(self.up, p)
+
+
+FLAT = View(*UNITS, flat=True)
+
+
+def upright(gravity: Vector) -> tuple[Vector, Vector, Vector]:
+    """The axes forward, right and up: the one nearest to gravity goes up, else the third."""
+    k = max(range(3), key=lambda i: (abs(gravity[i]), i))
+    first, second = UNITS[(k + 1) % 3], UNITS[(k + 2) % 3]
+    if gravity[k] > 0:
+        return second, first, scaled(-1.0, UNITS[k])
+    return first, second, UNITS[k]
+
+
+def ranked(
+    bodies: Sequence[tuple[Sequence[Vector], Sequence[Segment]]],
+    size: float,
+    gravity: Vector,
+) -> list[View]:
+    """Views, best first: the farther apart the nearest marks and lines of a body are."""
+    axes = upright(gravity)
+    thinned = [([*dict.fromkeys(marks)][:MOST], lines[:MOST]) for marks, lines in bodies]
+
+    def score(angles: tuple[int, int]) -> float:
+        view = _view(axes, *angles)
+        nearest = (min(_distances(view, *body), default=math.inf) for body in thinned)
+        clear = min(nearest, default=1.0) / size
+        azimuth, elevation = angles
+        preference = 0.001 * abs(azimuth - AZIMUTH) + 0.003 * abs(elevation - ELEVATION)
+        return min(clear, ENOUGH) - preference
+
+    every = [(a, e) for a in range(14, 77, 4) for e in range(12, 41, 4)]
+    return [_view(axes, *angles) for angles in sorted(every, key=score, reverse=True)]
+
+
+def _view(axes: tuple[Vector, Vector, Vector], azimuth: float, elevation: float) -> View:
+    ahead, aside, above = axes
+    a, e = math.radians(azimuth), math.radians(elevation)
+    level = plus(scaled(math.cos(a), ahead), aside, math.sin(a))
+    right = plus(scaled(-math.sin(a), ahead), aside, math.cos(a))
+    up = plus(scaled(-math.sin(e), level), above, math.cos(e))
+    return View(right, up, plus(scaled(math.cos(e), level), above, math.sin(e)))
+
+
+def _distances(view: View, marks: Sequence[Vector], lines: Sequence[Segment]) -> Iterator[float]:
+    joined = {frozenset(line) for line in lines}
+    for a, b in combinations(marks, 2):
+        yield math.dist(view(a), view(b)) * (0.6 if frozenset((a, b)) in joined else 1.0)
+    for p in marks:
+        for a, b in lines:
+            if p not in (a, b) and not _between(p, a, b):
+                yield 2.2 * from_segment(view(p), view(a), view(b))
+
+
+def _between(p: Vector, a: Vector, b: Vector) -> bool:
+    """Is p on the segment from a to b itself, in space?"""
+    return math.dist(a, p) + math.dist(p, b) < (1 + 1e-9) * math.dist(a, b)
+
+
+# The placement of labels: beside what they name, free of each other and of the lines.
+
+STEP = 0.6
+"""The distance, in millimetres, of the points by which lines are seen."""
+WEIGHTS = {"line": 2.2, "dashed": 1.6, "thin": 1.2, "hidden": 0.8, "solid": 3.0, "wash": 0.0}
+CROWD = 1000
+"""The most points of lines near a label that are looked at; of more, each counts for several."""
+OPTIONAL = 14.0
+"""The largest cost at which an optional label is placed."""
+
+
+@dataclass(frozen=True)
+class Wish:
+    """A label to be placed, the place that it names, how far from that to stay, and in which
+    direction to look first.
+
+    ``optional``: may it be left out where it would be in the way?
+    """
+
+    label: Label
+    at: Point
+    gap: float
+    towards: Point = (0.0, 0.0)
+    optional: bool = False
+
+
+def placed(
+    wishes: Sequence[Wish], strokes: Sequence[Stroke], dots: Sequence[Dot]
+) -> tuple[Label, ...]:
+    """The labels in order, each at the place of least cost among lines, dots and labels."""
+    ink = [(p, WEIGHTS[s.pen]) for s in strokes if WEIGHTS[s.pen] for p in _along(s.points)]
+    found: list[Label] = []
+    for wish in wishes:
+        near = [(p, w) for p, w in ink if math.dist(p, wish.at) < 22]
+        step = 1 + len(near) // CROWD
+        near = [(p, w * step) for p, w in near[::step]]
+        boxes = [label.box for label in found]
+        cost, choice = math.inf, wish.label
+        for label in _choices(wish):
+            least = _distance_cost(label, wish)
+            if least < cost:
+                least += _overlap_cost(label, dots, boxes)
+            if least < cost and (whole := least + _line_cost(label, near)) < cost:
+                cost, choice = whole, label
+        if not (wish.optional and cost > OPTIONAL):
+            found.append(choice)
+    return tuple(found)
+
+
+def _choices(wish: Wish) -> Iterator[Label]:
+    """A label at its possible places: sixteen directions, nearest first, so far out at last that
+    some place is free."""
+    w, h = wish.label.half
+    for more in (0.0, 0.9, 2.0, 3.5, 6.0, 9.0, 13.0, 18.0, 26.0, 36.0):
+        for k in range(16):
+            x, y = math.cos(math.pi * k / 8), math.sin(math.pi * k / 8)
+            far = wish.gap + more
+            yield replace(
+                wish.label, at=(wish.at[0] + x * (far + w), wish.at[1] + y * (far + h * 0.9))
+            )
+        if more >= 3.5 and wish.optional:
+            return
+
+
+def _distance_cost(label: Label, wish: Wish) -> float:
+    """The cost of a label's distance from what it names, and of an unwished direction."""
+    dx, dy = label.at[0] - wish.at[0], label.at[1] - wish.at[1]
+    w, h = label.half
+    cost = 1.8 * math.hypot(max(0.0, abs(dx) - w), max(0.0, abs(dy) - h))
+    length = math.hypot(*wish.towards) * math.hypot(dx, dy)
+    if length:
+        cost += 2.5 * (1 - (dx * wish.towards[0] + dy * wish.towards[1]) / length)
+    return cost
+
+
+def _overlap_cost(label: Label, dots: Sequence[Dot], boxes: Sequence[Box]) -> float:
+    """The cost of the dots and labels that a label would cover."""
+    box = label.box
+    cost = sum(60.0 for d in dots if _contains(box, d.at, d.radius + 0.3))
+    return cost + sum(1000.0 for other in boxes if overlap(box, other, 0.4))
+
+
+def _line_cost(label: Label, ink: Sequence[tuple[Point, float]]) -> float:
+    """The cost of the lines that a label would cover."""
+    left, bottom, right, top = label.box
+    left, bottom, right, top = left - 0.35, bottom - 0.35, right + 0.35, top + 0.35
+    return sum(weight for (x, y), weight in ink if left < x < right and bottom < y < top)
+
+
+def _contains(box: Box, p: Point, margin: float) -> bool:
+    left, bottom, right, top = box
+    return left - margin < p[0] < right + margin and bottom - margin < p[1] < top + margin
+
+
+def overlap(a: Box, b: Box, margin: float = 0.0) -> bool:
+    """Do two boxes come nearer to each other than ``margin``?"""
+    return (
+        a[0] < b[2] + margin
+        and b[0] < a[2] + margin
+        and a[1] < b[3] + margin
+        and b[1] < a[3] + margin
+    )
+
+
+def _along(points: Sequence[Point]) -> Iterator[Point]:
+    for a, b in pairwise(points):
+        n = max(1, math.ceil(math.dist(a, b) / STEP))
+        yield from ((a[0] + (b[0] - a[0]) * k / n, a[1] + (b[1] - a[1]) * k / n) for k in range(n))
+    yield from points[-1:]

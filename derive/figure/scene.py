@@ -13,12 +13,9 @@ from typing import Any
 from ..record.record import Derivation
 from ..record.sentence import Prose, say
 from ..schema.kinds import kinds
-from .camera import FLAT, View, ranked
 from .drawing import Box, Label, Point, Scene, arrow, from_segment
-from .drawn_body import ORIGIN, Numbers, Vector, parts, plus
-from .panels import Panel
-from .placing import Wish, placed
-from .sheet import Sheet, draw, shows_centre
+from .drawn_body import FLAT, ORIGIN, Numbers, Vector, View, Wish, parts, placed, plus, ranked
+from .panels import Panel, Sheet, draw, shows_centre
 
 GRAVITY = "γ"
 WIDTH, MARGIN, GAP = 80.0, 1.5, 13.0

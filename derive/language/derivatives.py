@@ -1,11 +1,14 @@
-"""Derivatives of scalar trees, and products and quotients with like powers in one."""
+"""Derivatives of scalar trees; what they cost, and divisors that are zero whatever the names."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from fractions import Fraction
+from hashlib import sha256
+from typing import NamedTuple
 
-from .tree import Tree, add, mul, neg
+from .tree import Tree, add, fold, mul, neg
 
 
 def _f(name: str, x: Tree) -> Tree:
@@ -99,3 +102,102 @@ def _factor_powers(t: Tree, n: int, powers: dict[Tree, int]) -> Fraction:
         return _factor_powers(t[1], n * t[2], powers)
     powers[t] = powers.get(t, 0) + n
     return Fraction(1)
+
+
+# What an expression will cost: how deep it is, its degree, and how long its derivatives are.
+
+FUNCTION = 8
+"""The degree of a function and its first three derivatives, as the checker bounds it."""
+
+
+class Weight(NamedTuple):
+    """What an expression costs: leaves; operands of all its first derivatives; degree."""
+
+    leaves: int
+    slope: int
+    degree: int
+
+
+def depth(tree: Tree) -> int:
+    """The number of operations of a tree that are in one another; without recursion, which this
+    bounds."""
+    level, inside = 0, [tree]
+    while inside := [x for t in inside if isinstance(t, tuple) for x in t[1:]]:
+        level += 1
+    return level
+
+
+@fold
+def weight(t: Tree, *parts: Weight) -> Weight:
+    """The weight of a tree that is not too deep."""
+    if isinstance(t, (int, Fraction)):
+        return Weight(1, 0, 0)
+    if isinstance(t, str) or t[0] == "par":
+        return Weight(1, 1, 1)
+    if t[0] == "pow":
+        (base,), n = parts, abs(int(t[2]))
+        return Weight(base.leaves + 1, base.slope + base.leaves + 1, n * base.degree)
+    if t[0] == "fun":
+        (inside,) = parts
+        return Weight(inside.leaves + 1, inside.slope + inside.leaves, FUNCTION + inside.degree)
+    leaves = sum(x.leaves for x in parts)
+    if t[0] == "add":  # a derivative has those of its terms; in a product all factors stay
+        return Weight(leaves, sum(x.slope for x in parts), max(x.degree for x in parts))
+    slope = sum(x.slope + leaves - x.leaves for x in parts if x.slope)
+    return Weight(leaves, slope, sum(x.degree for x in parts))
+
+
+# Is a divisor of an expression zero whatever the names in it, as in 1/(a − a)?
+#
+# The expression is evaluated in residues modulo a large prime, names and functions by a hash: a
+# divisor that does not vanish identically is zero there with probability below 1e-14 (Schwartz,
+# Zippel), and is held to be zero only where two primes agree.
+
+DIVISOR_PRIMES = (2**61 - 1, 2**89 - 1)
+
+
+def has_zero_divisor(tree: Tree) -> bool:
+    """Does a tree divide by what is identically zero, or take the root or logarithm of it?"""
+    return all(_divides_by_zero(tree, p) for p in DIVISOR_PRIMES)
+
+
+def _divides_by_zero(tree: Tree, p: int) -> bool:
+    try:
+        residue(tree, p)
+    except ZeroDivisionError:
+        return True
+    return False
+
+
+def residue(tree: Tree, p: int) -> int:
+    """The value of a tree modulo p; ``ZeroDivisionError`` for a divisor, root or logarithm of 0
+    modulo p."""
+    if isinstance(tree, (int, Fraction)):
+        q = Fraction(tree)
+        return q.numerator * inverse(q.denominator, p) % p
+    if isinstance(tree, str) or tree[0] in ("par", "entry"):
+        return hashed(str(tree), p)
+    if tree[0] == "fun":
+        inside = residue(tree[2], p)
+        if inside == 0 and tree[1] in ("sqrt", "log"):
+            raise ZeroDivisionError
+        return hashed(f"{tree[1]} {inside}", p)
+    if tree[0] == "pow":
+        base = residue(tree[1], p)
+        return pow(base if tree[2] > 0 else inverse(base, p), abs(tree[2]), p)
+    first, *others = (residue(x, p) for x in tree[1:])
+    if tree[0] == "div":
+        return first * inverse(others[0], p) % p
+    return sum(others, first) % p if tree[0] == "add" else math.prod(others, start=first) % p
+
+
+def inverse(x: int, p: int) -> int:
+    """The inverse of x modulo p; ``ZeroDivisionError`` of 0."""
+    if x % p == 0:
+        raise ZeroDivisionError
+    return pow(x, -1, p)
+
+
+def hashed(text: str, p: int) -> int:
+    """A residue modulo p, not 0, that a text determines."""
+    return int.from_bytes(sha256(text.encode()).digest()) % (p - 1) + 1

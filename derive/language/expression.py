@@ -9,12 +9,10 @@ import re
 from collections.abc import Iterator
 from fractions import Fraction
 
-from .derivatives import DERIVATIVES
-from .divisors import has_zero_divisor
+from .derivatives import DERIVATIVES, depth, has_zero_divisor, weight
 from .limits import BITS, DEGREE, DEPTH, DIGITS, EXPONENT, EXPRESSION, MAGNITUDE, NESTING, SLOPE
 from .tree import Tree, add, mul, neg, nodes, operands, plain
 from .values import approximate
-from .weight import depth, weight
 
 SMALLEST, LARGEST = Fraction(1, MAGNITUDE), Fraction(MAGNITUDE)
 TOKEN = re.compile(

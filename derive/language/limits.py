@@ -1,12 +1,27 @@
-"""What a file of a stranger may cost: the limits on problem files and meshes, and on what is
-made of them, each with its reason; the checker's own are where it counts.
-
-Each is far above what a problem, a mesh or a record of use needs, and so low that a file at the
-limit is read, walked, emitted and set within seconds.  Only checking, which is exact, may take
-longer: ``--seconds`` stops it (SECURITY.md).
-"""
+"""What a file of a stranger may cost, errors for people, a word to whoever waits."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from contextvars import ContextVar
+
+# Errors for people: their message is one line, which says what is wrong, where, what to do.
+
+
+class Refused(Exception):  # noqa: N818
+    """Bad input, or something missing on the machine; on the command line exit 2, no traceback."""
+
+
+# A word to whoever waits, from what may take long: to nobody, unless a command listens.
+
+LISTENER: ContextVar[Callable[[str], None]] = ContextVar("LISTENER")
+
+
+def tell(text: str) -> None:
+    """Say one line to the listener, if there is one."""
+    if listener := LISTENER.get(None):
+        listener(text)
+
 
 # -- problem files ------------------------------------------------------------------------------
 

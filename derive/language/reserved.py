@@ -1,9 +1,15 @@
-"""Words that a name of the user must not be: keywords of C, C++ and Python, names of math.h."""
+"""Names: words that one must not be, names that a wrong one may stand for, Greek, suffixes."""
 
 from __future__ import annotations
 
+import difflib
 import keyword
 import re
+import unicodedata
+from collections.abc import Iterable
+from itertools import takewhile
+
+# Words that a name of the user must not be: keywords of C, C++ and Python, names of math.h.
 
 _C = """
     auto bool break case char const constexpr continue default do double else enum extern false
@@ -63,3 +69,67 @@ def taken(name: str) -> str:
     """What a name means in every expression, so that no parameter may have it; "" for a free
     one."""
     return CONSTANTS.get(name, "a place of a point" if PLACE.fullmatch(name) else "")
+
+
+# Near names: the known name that a wrong one may stand for, and the question that asks so.
+
+LONGEST = 40
+"""So many letters of a wrong name are compared."""
+
+
+def near_name(word: str, known: Iterable[str], alike: float = 0.6) -> str:
+    """The known name nearest to a word, ``alike`` from 0 (any) to 1 (the same), and of those as
+    near the last that begins as it does for longest; "" if none is."""
+    listed, word = [*known], word[:LONGEST]
+    close = {*difflib.get_close_matches(word, listed, len(listed) or 1, alike)}
+
+    def nearness(name: str) -> tuple[float, int]:
+        alike = (a == b for a, b in zip(name, word, strict=False))
+        return difflib.SequenceMatcher(None, name, word).ratio(), sum(takewhile(bool, alike))
+
+    return max((x for x in reversed(listed) if x in close), key=nearness, default="")
+
+
+def did_you_mean(name: str, before: str = "", after: str = "") -> str:
+    """``did you mean 'spring'?`` between the texts ``before`` and ``after``; "" for no name."""
+    return f"{before}did you mean {name!r}?{after}" if name else ""
+
+
+# Greek letters by their English names: LaTeX has these as commands, emitted names as words.
+
+GREEK = {
+    name: unicodedata.lookup(f"GREEK {case} LETTER {name.upper()}")
+    for case, names in (
+        ("SMALL", "alpha beta gamma delta epsilon zeta eta theta iota kappa mu nu xi pi rho "
+         "sigma tau upsilon phi chi psi omega"),
+        ("CAPITAL", "Gamma Delta Theta Xi Pi Sigma Upsilon Phi Psi Omega"),
+    )
+    for name in names.split()
+}  # fmt: skip
+"""Name → letter; without λ: no parameter is called as a word of Python is."""
+
+SPELT = {letter: name for name, letter in GREEK.items()} | {"λ": "lambda", "Λ": "Lambda"}
+"""Letter → name."""
+
+
+# The names of the entries of an array, as files and emitted code have them.
+
+
+def suffixed(name: str, *index: int) -> str:
+    """The name of an entry: ``I_12``; where an index is above 9, ``I_1_12``."""
+    digits = "".join(map(str, index)) if max(index) < 10 else "_".join(map(str, index))
+    return f"{name}_{digits}"
+
+
+def letter_and_suffix(name: str) -> tuple[str, str]:
+    """What such a name is of, and the rest: ``("zeta", "1")``, ``("re", "m1_2")``."""
+    letter, _, suffix = name.partition("_")
+    return letter, suffix
+
+
+def by_letter(names: Iterable[str]) -> dict[str, list[str]]:
+    """The names of each letter."""
+    found: dict[str, list[str]] = {}
+    for name in names:
+        found.setdefault(letter_and_suffix(name)[0], []).append(name)
+    return found

@@ -1,8 +1,4 @@
-"""Operator trees: the one language in which equations are recorded, shown, checked and lowered.
-
-A tree is a leaf (a name, an integer, a fraction) or a tuple ``(operator, operand, …)``.  The
-operators and the number of operands they take are in :data:`OPERATORS`; nothing else is a tree.
-"""
+"""Operator trees: the one language in which equations are recorded, shown, checked and lowered."""
 
 from __future__ import annotations
 

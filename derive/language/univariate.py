@@ -1,14 +1,176 @@
-"""Polynomials in one variable over Q or a quadratic field, and their real roots, counted exactly.
-
-A polynomial is a sequence of its coefficients, the constant one first.
-"""
+"""Polynomials in one variable over Q or a quadratic field; their real roots, counted exactly."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import total_ordering
 from itertools import pairwise
+from math import isqrt, sqrt
 from typing import Any
+
+from .tree import Tree, add, mul, plain
+from .values import value
+
+# Exact numbers a + b√d, a and b rational, of one quadratic field, d > 1 an integer.
+#
+# Where b vanishes the number is a fraction. Signs are exact.
+
+TRIED = 1_000
+"""Squares of primes up to this are taken out of a root."""
+
+
+class RootError(ValueError):
+    """A number in no quadratic field: the message says why."""
+
+
+@total_ordering
+class Quadratic:
+    """The number a + b√d, with b not 0; numbers with different d have no sum."""
+
+    __slots__ = ("a", "b", "d")
+
+    def __init__(self, a: Fraction, b: Fraction, d: int):
+        self.a, self.b, self.d = a, b, d
+
+    def _with(self, other: Any) -> tuple[Fraction, Fraction] | None:
+        """The parts of another number of the field; ``None`` for anything else."""
+        if isinstance(other, (int, Fraction)):
+            return Fraction(other), Fraction(0)
+        if not isinstance(other, Quadratic):
+            return None
+        if other.d != self.d:
+            raise RootError(f"sqrt({self.d}) and sqrt({other.d}) are of different fields")
+        return other.a, other.b
+
+    def __add__(self, other: Any) -> Any:
+        y = self._with(other)
+        return NotImplemented if y is None else number(self.a + y[0], self.b + y[1], self.d)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Quadratic:
+        return Quadratic(-self.a, -self.b, self.d)
+
+    def __sub__(self, other: Any) -> Any:
+        y = self._with(other)
+        return NotImplemented if y is None else number(self.a - y[0], self.b - y[1], self.d)
+
+    def __rsub__(self, other: Any) -> Any:
+        return -self + other
+
+    def __mul__(self, other: Any) -> Any:
+        y = self._with(other)
+        if y is None:
+            return NotImplemented
+        c, e = y
+        return number(self.a * c + self.b * e * self.d, self.a * e + self.b * c, self.d)
+
+    __rmul__ = __mul__
+
+    @property
+    def norm(self) -> Fraction:
+        """(a + b√d)(a − b√d)."""
+        return self.a**2 - self.b**2 * self.d
+
+    @property
+    def conjugate(self) -> Quadratic:
+        """a − b√d."""
+        return Quadratic(self.a, -self.b, self.d)
+
+    @property
+    def inverse(self) -> Quadratic:
+        """1 over the number."""
+        return Quadratic(self.a / self.norm, -self.b / self.norm, self.d)
+
+    def __truediv__(self, other: Any) -> Any:
+        if isinstance(other, Quadratic):
+            return self * other.inverse
+        y = self._with(other)
+        return NotImplemented if y is None else Quadratic(self.a / y[0], self.b / y[0], self.d)
+
+    def __rtruediv__(self, other: Any) -> Any:
+        return self.inverse * other
+
+    def __pow__(self, n: int) -> Any:
+        base, found = (self if n >= 0 else self.inverse), Fraction(1)
+        for _ in range(abs(n)):
+            found = base * found
+        return found
+
+    def __eq__(self, other: object) -> bool:
+        same = isinstance(other, Quadratic) and other.d == self.d
+        return same and (self.a, self.b) == (other.a, other.b)  # type: ignore[attr-defined]
+
+    def __hash__(self) -> int:
+        return hash((self.a, self.b, self.d))
+
+    def __lt__(self, other: Any) -> bool:
+        x = self - other
+        return x.sign < 0 if isinstance(x, Quadratic) else x < 0
+
+    @property
+    def sign(self) -> int:
+        """1 or −1: of the part that is larger."""
+        by_root = self.b**2 * self.d > self.a**2
+        return 1 if (self.b if by_root else self.a) > 0 else -1
+
+    def __float__(self) -> float:
+        return float(self.a) + float(self.b) * sqrt(self.d)
+
+    def __repr__(self) -> str:
+        from .show import show
+
+        return show(tree(self))
+
+
+Number = Fraction | Quadratic
+
+
+def number(a: Fraction, b: Fraction, d: int) -> Number:
+    """a + b√d."""
+    return Quadratic(a, b, d) if b else a
+
+
+def root(x: int | Fraction) -> Number:
+    """√x of a rational number x ≥ 0; ``RootError`` for a negative one."""
+    x = Fraction(x)
+    if x < 0:
+        raise RootError("the root of a negative number")
+    left, outside = x.numerator * x.denominator, 1
+    for k in range(2, TRIED):
+        if k * k > left:
+            break
+        while left % (k * k) == 0:
+            left, outside = left // (k * k), outside * k
+    whole = isqrt(left)
+    if whole * whole == left:
+        return Fraction(outside * whole, x.denominator)
+    return Quadratic(Fraction(0), Fraction(outside, x.denominator), left)
+
+
+def value_of(t: Tree) -> Number:
+    """The value of an expression of numbers and square roots; ``RootError`` where it is in no
+    quadratic field."""
+
+    def elementary(name: str, x: Any) -> Number:
+        if name != "sqrt":
+            raise RootError(f"{name} of a number; square roots alone are exact")
+        if not isinstance(x, (int, Fraction)):
+            raise RootError("a root of a root is in no quadratic field")
+        return root(x)
+
+    found = value(t, {}, {}, elementary)
+    return Fraction(found) if isinstance(found, int) else found
+
+
+def tree(x: Number) -> Tree:
+    """A number as a tree."""
+    if isinstance(x, Quadratic):
+        return add(plain(x.a), mul(plain(x.b), ("fun", "sqrt", x.d)))
+    return plain(x)
+
 
 Coefficients = tuple[Any, ...]
 
@@ -106,7 +268,7 @@ def division(f: Coefficients, g: Coefficients) -> tuple[Coefficients, Coefficien
     return trimmed(found), trimmed(rest)
 
 
-def value(f: Coefficients, x: Any) -> Any:
+def polynomial_value(f: Coefficients, x: Any) -> Any:
     """A polynomial at a number."""
     total = 0 * f[0]
     for c in reversed(f):

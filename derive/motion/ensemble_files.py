@@ -20,11 +20,10 @@ from typing import IO, Any, Protocol
 
 import numpy as np
 
-from ..native.motion_in_c import AT_EVENT, Integers
 from .ensemble import Ensemble, Part
-from .run import Array, Run
-from .run_files import COMMENT, FORMATS, RunFileError, commented, pyarrow
-from .run_files import read as read_run
+from .native import AT_EVENT, Integers
+from .run import COMMENT, FORMATS, Array, Run, RunFileError, commented, pyarrow
+from .run import read as read_run
 
 MARK = "derive ensemble"
 """What the head of a file begins with, by which it is known."""

@@ -1,14 +1,150 @@
-"""A run: a motion as a table, a row an instant, with names, units and what it was made of."""
+"""A run: a motion as a table, a row an instant, its columns, its files."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import io
+import json
+import re
+import zipfile
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .emitted_code import KINDS, Column
+from ..code.naming import own_prefix
+from ..code.program import Program
+from ..language.limits import Refused
+from ..problem.problem import Problem
+from ..record.record import Derivation
+
+# What the names of conserved quantities are in words, where they are not words.
+
+KEPT = {
+    "momentum": "linear momentum",
+    "angular_momentum": "angular momentum",
+    "body_momentum": "linear momentum in the body",
+    "body_angular_momentum": "angular momentum in the body",
+    "circulation": "circulation in the body",
+}
+
+
+def parts(name: str) -> tuple[str, int]:
+    """``angular_momentum_3`` → angular_momentum and 3; 0 where there is no number."""
+    base, number = re.fullmatch(r"(.*?)(?:_(\d+))?", name, re.DOTALL).groups()  # type: ignore[union-attr]
+    return base, int(number or 0)
+
+
+def in_order(names: Sequence[str]) -> list[int]:
+    """The places of names, those with one base together, where the first of them is, by number."""
+    bases = [parts(x)[0] for x in names]
+    return sorted(range(len(names)), key=lambda k: (bases.index(bases[k]), parts(names[k])[1]))
+
+
+def in_words(name: str, word: Callable[[str], str]) -> str:
+    """``angular_momentum_3`` → angular momentum 3, in the language of ``word``."""
+    base, number = re.fullmatch(r"(.*?)((?:_\d+)?)", name, re.DOTALL).groups()  # type: ignore[union-attr]
+    return word(KEPT.get(base, base.replace("_", " "))) + number.replace("_", " ")
+
+
+# A program with its record, and the columns of what a motion of it gives: nothing is run here.
+
+KINDS = ("time", "state", "energy", "conserved", "defect", "multiplier")
+"""What a column can be, in the order of a table."""
+
+UNITS = {"time": "s", "energy": "J", "multiplier": "J", "centre": "kg m"}
+UNITS |= dict.fromkeys(("momentum", "body_momentum"), "kg m/s")
+UNITS |= dict.fromkeys(("angular_momentum", "body_angular_momentum"), "kg m^2/s")
+"""Those of columns of a kind, and of the components of what is kept."""
+
+SI = re.compile("kg|m|s|A|K|mol|cd|rad|sr|Hz|N|Pa|J|W|C|V|F|Ω|ohm|S|Wb|T|H|lm|lx|Bq|Gy|Sv|kat")
+"""The units of SI, which go together without factors."""
+
+IN_SECONDS = re.compile(
+    "[fpnuµμmcdhkMGTP]?(g|m|rad|A|K|mol|N|Pa|J|W|C|V|F|T)|deg|°|t|in|ft|yd|mi|lbm?|lbf|slug|oz|kgf|L|%"
+)
+"""Other units, of which none has a time that is not in seconds."""
+
+FACTOR = re.compile(r"[^\W\d_⁰¹²³⁴-⁹]+|[°%]|\d[.\d]*\d")
+"""A unit in a product of powers, or a number that is none of their exponents."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a run: its name, what it is (of KINDS), its unit, empty where there is none."""
+
+    name: str
+    kind: str
+    unit: str = ""
+
+
+def base_units(problem: Problem) -> frozenset[str]:
+    """The base units in which the numbers of a problem are by those of its parameters: all of SI's
+    mechanics, the second alone where others stand beside SI, none where a time may be in
+    others."""
+    stated = [x.unit for x in problem.parameters.values() if x.unit]
+    factors = [x for unit in stated for x in FACTOR.findall(unit)]
+    if not stated or not all(SI.fullmatch(x) or IN_SECONDS.fullmatch(x) for x in factors):
+        return frozenset()
+    return frozenset(["kg", "m", "s"] if all(map(SI.fullmatch, factors)) else ["s"])
+
+
+@dataclass(frozen=True)
+class EmittedCode:
+    """A program and its record; the :func:`base_units` of the problem."""
+
+    program: Program
+    record: Derivation
+    base: frozenset[str]
+
+    @property
+    def name(self) -> str:
+        """That of the problem, for messages."""
+        return self.program.name
+
+    @property
+    def prefix(self) -> str:
+        """That of the emitted functions."""
+        return own_prefix(self.name)
+
+    @property
+    def kept(self) -> list[int]:
+        """The places of what is conserved beside the energy, which has a column of its own."""
+        names = self.program.conserved
+        return [k for k in in_order(names) if names[k] != "energy"]
+
+    def columns(self) -> tuple[Column, ...]:
+        """The columns of a run: time, state, then what :meth:`table` adds."""
+        has = self.program.functions
+        names = [("t", "time"), *((x, "state") for x in self.program.state), ("energy", "energy")]
+        names += [(self.program.conserved[k], "conserved") for k in self.kept]
+        names += [("defect", "defect")] * ("defect" in has)
+        names += [("multiplier", "multiplier")] * ("multiplier" in has)
+        return tuple(Column(x, kind, self._unit(x, kind)) for x, kind in names)
+
+    def _unit(self, name: str, kind: str) -> str:
+        if kind == "state":
+            unit = self._unit_of_state(name)
+        else:
+            unit = UNITS.get(parts(name)[0] if kind == "conserved" else kind, "")
+        return unit if {*FACTOR.findall(unit.replace("J", "kg m s"))} <= self.base else ""
+
+    def _unit_of_state(self, name: str) -> str:
+        """That of a place, of a velocity, and of ζ on an element of the basis: of one that does no
+        more than shift, whose columns are those of the rows that are 0 where the state has a T,
+        that of a velocity.  Where there are no matrices, none is known."""
+        if not name.startswith("zeta"):
+            return {"T": "m", "w": "m/s"}.get(name[0], "")
+        if self.program.state[0][0] not in "AT":
+            return ""
+        basis = self.program.basis
+        moved = range(len(basis[0]))
+        affine = any(x[0] == "T" for x in self.program.state)
+        shifted = {i for i in moved if affine and not any(any(E[i]) for E in basis)}
+        own = basis[int(name.rpartition("_")[2]) - 1]
+        return "1/s" if any(row[j] for row in own for j in moved if j not in shifted) else "m/s"
+
 
 __all__ = ("KINDS", "Array", "Column", "Happening", "Run")
 
@@ -88,3 +224,143 @@ class Run:
         name, rows = self.facts.get("problem", "?"), len(self.table)
         span = f", t = {self.t[0]:g} … {self.t[-1]:g}" if rows else ""
         return f"<run of {name}: {rows} instant{'s' * (rows != 1)}{span}>"
+
+
+# Runs as files: ``.npz`` of NumPy, ``.csv`` with its facts in a comment below the names of the
+# columns, ``.parquet``.
+#
+# All three hold the same numbers to the last bit, the columns with their kinds and units, and the
+# facts as JSON. The same run gives the same bytes.
+
+MARK = "derive run"
+"""What the facts of a file begin with, by which it is known."""
+
+COMMENT = "# "
+"""What the line of a .csv begins with that other programs skip."""
+
+
+class RunFileError(Refused, ValueError):
+    """A file that is no run, or cannot be made: the message says which, and what to do."""
+
+
+def written(run: Run, name: str) -> bytes:
+    """The bytes of a file of this name; ``RunFileError`` for an ending that means no format."""
+    return format_of(name)[0](run)
+
+
+def read(path: Path) -> Run:
+    """The run in a file; ``RunFileError`` where there is none."""
+    reader = format_of(path.name)[1]
+    try:
+        return reader(path.read_bytes())
+    except RunFileError as error:
+        raise RunFileError(f"{path}: {error}") from None
+    except OSError as error:
+        raise RunFileError(f"{path}: {error.strerror}") from None
+    except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile):
+        raise RunFileError(f"{path}: not a run that derive simulate wrote, or damaged") from None
+
+
+def known(name: str) -> bool:
+    """Is there a format for a file of this name?"""
+    return Path(name).suffix in FORMATS
+
+
+def format_of(name: str) -> tuple[Callable[[Run], bytes], Callable[[bytes], Run]]:
+    """What writes and what reads a file of this name; ``RunFileError`` for another ending."""
+    if not known(name):
+        raise RunFileError(f"{name}: the name of a run must end in {', '.join(FORMATS)}")
+    return FORMATS[Path(name).suffix]
+
+
+def _head(run: Run) -> str:
+    """The columns and the facts as one line of JSON."""
+    columns = [[x.name, x.kind, x.unit] for x in run.columns]
+    told = {"file": MARK, "columns": columns, "facts": dict(run.facts)}
+    return json.dumps(told, ensure_ascii=False, sort_keys=True)
+
+
+def _run(head: str, table: Any) -> Run:
+    """A run from its head and numbers; ``ValueError`` where they do not belong together."""
+    told = json.loads(head)
+    if told["file"] != MARK:
+        raise ValueError("no run")
+    columns = tuple(Column(*map(str, x)) for x in told["columns"])
+    table = np.asarray(table, dtype=float).reshape(-1, len(columns))
+    kinds = [x.kind for x in columns]
+    if kinds[:1] != ["time"] or not {*kinds} <= {*KINDS}:
+        raise ValueError("no run")
+    return Run(columns, table, dict(told["facts"]))
+
+
+def _to_npz(run: Run) -> bytes:
+    """As ``numpy.savez``, but with no date in the archive."""
+    arrays = {"head": np.array(_head(run)), "table": np.ascontiguousarray(run.table)}
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, array in arrays.items():
+            own = io.BytesIO()
+            np.lib.format.write_array(own, array, allow_pickle=False)
+            archive.writestr(zipfile.ZipInfo(f"{name}.npy"), own.getvalue(), zipfile.ZIP_DEFLATED)
+    return file.getvalue()
+
+
+def _from_npz(data: bytes) -> Run:
+    with np.load(io.BytesIO(data), allow_pickle=False) as found:
+        return _run(str(found["head"]), found["table"])
+
+
+def _to_csv(run: Run) -> bytes:
+    names = [f"{x.name} [{x.unit}]" if x.unit else x.name for x in run.columns]
+    rows = (",".join(map(repr, row)) for row in run.table.tolist())
+    return "\n".join([",".join(names), COMMENT + _head(run), *rows, ""]).encode()
+
+
+def _from_csv(data: bytes) -> Run:
+    first, second, *rows = (x.rstrip("\r") for x in data.decode().rstrip("\n").split("\n"))
+    head = commented(first, second)
+    return _run(head, [[float(x) for x in row.split(",")] for row in rows])
+
+
+def commented(first: str, second: str) -> str:
+    """What the comment of a table says, its second line, or, in files of before, its first."""
+    return (first if first.startswith(COMMENT) else second).removeprefix(COMMENT)
+
+
+def _to_parquet(run: Run) -> bytes:
+    arrow, parquet = pyarrow()
+    columns = {x.name: run.table[:, k] for k, x in enumerate(run.columns)}
+    table = arrow.table(columns).replace_schema_metadata({MARK: _head(run)})
+    file = io.BytesIO()
+    parquet.write_table(table, file)
+    return file.getvalue()
+
+
+def _from_parquet(data: bytes) -> Run:
+    arrow, parquet = pyarrow()
+    try:
+        found = parquet.read_table(io.BytesIO(data))
+    except arrow.ArrowInvalid as error:
+        raise ValueError(str(error)) from None
+    head = (found.schema.metadata or {})[MARK.encode()].decode()
+    return _run(head, np.column_stack([x.to_numpy() for x in found.columns]))
+
+
+def pyarrow() -> tuple[Any, Any]:
+    """pyarrow and its parquet; ``RunFileError`` where it is not installed."""
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise RunFileError(
+            ".parquet needs pyarrow: pip install 'derive-mechanics[parquet]', or take .npz or .csv"
+        ) from None
+    return pyarrow, pyarrow.parquet
+
+
+FORMATS: dict[str, tuple[Callable[[Run], bytes], Callable[[bytes], Run]]] = {
+    ".npz": (_to_npz, _from_npz),
+    ".csv": (_to_csv, _from_csv),
+    ".parquet": (_to_parquet, _from_parquet),
+}
+"""Ending → what makes the bytes of a run, and what reads them."""

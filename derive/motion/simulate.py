@@ -13,18 +13,24 @@ from ..code.step.step_numbers import parts
 from ..language.show import show
 from ..language.tree import replaced
 from ..language.values import approximate
-from ..native.library import CompileError
-from ..native.motion_in_c import Motion
 from ..problem.inertia import fault_of_quadrics
 from ..problem.problem import Problem, points_of
-from .component import not_near, reflection, taken_to_group, unreached
-from .driven import drives
+from ..schema.kinds.attraction import Attraction
+from ..schema.kinds.spring import Spring
 from .emitted import Emitted
-from .method import Method, instants
-from .not_finite import why_not_finite
+from .native import CompileError, Motion
 from .run import Array, Run
-from .start import OFF_THE_GROUP, MotionError, Start, start
-from .trajectory import INTERRUPTED, Trajectory
+from .start import OFF_THE_GROUP, MotionError, Start, drives, start
+from .trajectory import (
+    INTERRUPTED,
+    Method,
+    Trajectory,
+    instants,
+    not_near,
+    reflection,
+    taken_to_group,
+    unreached,
+)
 
 LONG, TURN = 500, 2.0
 """A motion of more steps is compiled, where there is a compiler; in a step for a tolerance no part
@@ -209,3 +215,32 @@ def behind(follow: Trajectory, t: Array, ended: str) -> tuple[float, Array] | No
     if ended == INTERRUPTED or (ended and len(t) == 1):
         ends.append((follow.motion.t, follow.motion.x))
     return next(((when, x) for when, x in reversed(ends) if when > t[-1]), None)
+
+
+# Why the equations have no finite value at a start, as far as can be told, in words.
+
+LARGE = 1e60
+"""Products of a few numbers that are larger leave the range of doubles, 1e308."""
+
+
+def why_not_finite(problem: Problem, begin: Start, energy: float) -> str:
+    """The reason that fits: numbers too large, the function itself, ∂²ℓ/∂Z², or a collision.
+
+    ``energy``: that of the start.
+    """
+    largest = max((*begin.parameters.values(), *begin.u, *begin.x), key=abs, default=0.0)
+    if abs(largest) > LARGE:
+        return f"its numbers are too large, as {largest:g}"
+    given, finite = problem.lagrangian, math.isfinite(energy)
+    if given is not None:
+        if finite:
+            return "the second derivative of L in the velocity is singular there"
+        return "L has no finite value there, as the root of a negative number or a division by 0"
+    kinds = {type(x) for x in problem.potentials}
+    if Spring in kinds:
+        return "look at the state, as two ends of a spring at one place"
+    if Attraction in kinds:
+        return "look at the state, as a mass at the centre of attraction"
+    if finite:
+        return "the mass matrix is singular there, or a force is not finite"
+    return "a potential has no finite value there, as the root of a negative number"

@@ -12,12 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 from ..code.emit import emit
 from ..code.options import Options
-from ..language.greek import GREEK
+from ..language.reserved import GREEK
 from ..language.templating import environment, folder
-from ..motion.driven import drives, is_free, weight
-from ..motion.emitted_code import EmittedCode
-from ..motion.first_numbers import FirstNumbers
-from ..motion.kept_words import in_words
+from ..motion.run import EmittedCode, in_words
+from ..motion.start import FirstNumbers, drives, is_free, weight
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..views.html import visible

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..figure.drawn_body import UNITS, Numbers
-from ..problem.state_names import state_names
+from ..problem.fields import state_names
 
 DIGITS = 4
 """Of the places of a mesh."""
@@ -213,7 +213,7 @@ def _mesh(solid: Mapping[str, Any], value: Numbers) -> Data:
     """A mesh with its places at the defaults, thinned out where it has very many faces."""
     import numpy as np
 
-    from ..figure.meshes import simplified
+    from ..figure.shapes import simplified
 
     R = np.array([value.vector(row) for row in solid["rotation"] or UNITS])
     own = np.array([value.vector(v) for v in solid["sizes"]["vertices"]])

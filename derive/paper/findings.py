@@ -1,16 +1,10 @@
-"""The paper's print against the derivation: what holds as it stands, and why the rest does not.
-
-Every printed equation is evaluated, as it stands, at exact points of the group; the correction is
-read from the records.  A printed name that means nothing (f′) is given a value of its own.  What
-is false as it stands and true with the other sign of dϖ follows another convention; what is true
-where there are no forces has left them out; all else that is false is misprinted.
-"""
+"""The paper's print against the derivation: what holds as it stands, why the rest does not."""
 
 from __future__ import annotations
 
 from collections import ChainMap
 from collections.abc import Container, Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 from random import Random
@@ -26,15 +20,38 @@ from ..language import rational as q
 from ..language.show import show
 from ..language.tree import Tree, names, neg
 from ..record.record import Derivation, Equation
-from .finding import (
-    CONFIRMED,
-    DEFINITION,
-    MISPRINT,
-    OMISSION,
-    SIGN,
-    Finding,
-)
 from .printed import PAPER, Printed
+
+# What became of a numbered equation of the paper, as data: nothing is computed here.
+
+CONFIRMED, DEFINITION = "confirmed", "definition"
+SIGN, OMISSION, MISPRINT = "sign convention", "omission", "misprint"
+VERDICTS = (CONFIRMED, SIGN, OMISSION, MISPRINT, DEFINITION)
+
+HOLDS = {SIGN: "with −dϖ for dϖ, −ω for ω", OMISSION: "where there are no forces"}
+"""How what is false as it stands is true, by its verdict."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What became of one numbered equation.
+
+    ``verdict``: one of :data:`VERDICTS`; ``equations``: those that are false as printed.
+    """
+
+    number: int
+    verdict: str
+    printed: str
+    derived: str | None
+    counterexample: dict[str, str] | None
+    remark: str
+    equations: tuple[Equation, ...] = ()
+
+    @property
+    def holds(self) -> str | None:
+        """In words, how a print that is false as it stands is true; ``None`` for any other."""
+        return HOLDS.get(self.verdict)
+
 
 ORIENTED = ("dϖ", "ω")
 """Forms that change their sign with the convention: dϖ(δ, δ′) is δ[ϖ(δ′)] − δ′[ϖ(δ)], or the

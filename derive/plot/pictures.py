@@ -6,19 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..language.near_names import did_you_mean, near_name
+from ..language.reserved import did_you_mean, near_name
 from ..motion.ensemble import Ensemble
 from ..motion.run import Run
-from . import (
-    body_pictures,
-    ensemble_pictures,
-    polhode_picture,
-    potential_picture,
-    spheroid_pictures,
-    surfaces,
-    time_series,
-    torus_pictures,
-)
+from . import body_pictures, ensemble_pictures, time_series
 from .kinds_told import OVERVIEW, PRECISION
 from .plot_sheet import PlotError, ending, look, sheet, written
 
@@ -54,7 +45,7 @@ def _rotates(run: Run) -> bool:
 
 
 ROTATION = ("a group of rotations of R³, SO(3) or SE(3)", _rotates)
-ATTITUDE = ("columns A_11 … A_33", _columns(*surfaces.ATTITUDE))
+ATTITUDE = ("columns A_11 … A_33", _columns(*body_pictures.ATTITUDE))
 
 KINDS = {
     "state": Kind(
@@ -72,12 +63,12 @@ KINDS = {
         ),
         time_series.size_of_energy,
     ),
-    "axes": Kind(surfaces.axes, (ROTATION, ATTITUDE), _sized(4.2, 4.4)),
+    "axes": Kind(body_pictures.axes, (ROTATION, ATTITUDE), _sized(4.2, 4.4)),
     "polhode": Kind(
-        polhode_picture.polhode,
+        body_pictures.polhode,
         (
             ROTATION,
-            ("columns zeta_1 … zeta_3", _columns(*polhode_picture.VELOCITY)),
+            ("columns zeta_1 … zeta_3", _columns(*body_pictures.VELOCITY)),
             (
                 "a tensor of inertia, that of points or solids, of [body] given, or of an ℓ that "
                 "is quadratic in zeta_1 … zeta_3",
@@ -98,7 +89,7 @@ KINDS = {
         _sized(8.0, 2.2),
     ),
     "potential": Kind(
-        potential_picture.potential,
+        time_series.potential,
         (
             (
                 "symmetries that leave one degree of freedom",
@@ -108,16 +99,16 @@ KINDS = {
         _sized(5.0, 3.4),
     ),
     "spheroid": Kind(
-        spheroid_pictures.spheroid,
+        time_series.spheroid,
         (
             ATTITUDE,
-            ("a body that is one solid ellipsoid", spheroid_pictures.is_ellipsoid),
+            ("a body that is one solid ellipsoid", time_series.is_ellipsoid),
             ("a column of the multiplier", lambda run: bool(run.of_kind("multiplier"))),
         ),
         _sized(7.5, 3.0),
     ),
     "vorticity": Kind(
-        torus_pictures.vorticity,
+        time_series.vorticity,
         (("columns re_1_0, im_1_0, … of the torus", _columns("re_1_0", "im_1_0")),),
         _sized(7.0, 3.3),
     ),

@@ -1,19 +1,22 @@
-"""The state against time, and how well what motions keep was kept."""
+"""The state against time, what was kept, potentials, spheroids, the fluid on the torus."""
 
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Sequence
+from itertools import permutations
 from textwrap import wrap
 from typing import Any
 
 import numpy as np
 
-from ..language.suffixed import by_letter
-from ..motion.kept_words import KEPT, in_words
-from ..motion.run import Array, Column, Run
+from ..language.reserved import by_letter, letter_and_suffix
+from ..motion.run import KEPT, Array, Column, Run, in_words
+from .body_pictures import attitude
 from .plot_sheet import COLOURS, label
+
+# The state against time, and how well what motions keep was kept.
 
 MOST = 12
 """So many curves a panel: of more, the first are drawn."""
@@ -174,3 +177,139 @@ def time_label(run: Run) -> str:
 def with_unit(shown: str, unit: str) -> str:
     """A label with its unit, if there is one."""
     return f"{shown} [{unit}]" if unit else shown
+
+
+# The effective potential of what the symmetries leave, with the run in it.
+
+
+def potential(figure: Any, run: Run, word: Any) -> None:
+    """V against the entry of the group that is left, above its least value there, the energy, and
+    where between its turning points the run was."""
+    told = run.facts["potential"]
+    u, V = (np.array(told[x], float) for x in ("u", "V"))
+    least, at = float(V.min()), run[told["entry"]]
+    V, energy = V - least, float(run["energy"][0]) - least
+    panel = figure.subplots()
+    panel.plot(u, V, c=COLOURS[0], label=word("effective potential"))
+    panel.axhline(energy, c="#777777", lw=0.8, label=word("energy"))
+    below = np.minimum(V, energy)
+    panel.fill_between(u, below, energy, color=COLOURS[5], alpha=0.2, lw=0)
+    ends = np.array([at.min(), at.max()])
+    there = np.unique(np.concatenate([ends, u[(u > ends[0]) & (u < ends[1])]]))
+    panel.plot(there, np.interp(there, u, V), c=COLOURS[1], lw=3, alpha=0.7, label=word("the run"))
+    panel.plot(ends, [energy, energy], "o", c=COLOURS[1], ms=4)
+    panel.vlines(ends, 0, energy, colors=COLOURS[1], lw=0.6, linestyles=":")
+    room = energy if energy > 1e-12 * abs(energy + least) else float(V.max()) or 1.0
+    panel.set_ylim(-0.1 * room, energy + 0.8 * room)
+    panel.set_xlim(u[0], u[-1])
+    unit = next((x.unit for x in run.columns if x.kind == "energy"), "")
+    panel.set(xlabel=label(told["entry"]), ylabel=with_unit(r"$V - V_{\min}$", unit))
+    panel.ticklabel_format(axis="x", useOffset=False)
+    panel.locator_params(axis="x", nbins=6)
+    figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+
+
+# A fluid that stays an ellipsoid: its semi-axes, its pressure, and its section, in time.
+
+SECTIONS = 6
+PRESSURE = "#7a4b00"
+"""The colour of its axis, its curve, and of when it is negative."""
+
+
+def is_ellipsoid(run: Run) -> bool:
+    """Is the body one ellipsoid about the origin?"""
+    body = run.facts.get("body", {})
+    ellipsoids, others = body.get("ellipsoids", ()), body.get("points") or body.get("solids")
+    return len(ellipsoids) == 1 and not others
+
+
+def maps(run: Run) -> Array:
+    """The maps of the unit ball to the ellipsoid, (instants, 3, 3)."""
+    (map_, _), *_ = run.facts["body"]["ellipsoids"]
+    found: Array = attitude(run) @ np.array(map_, float)
+    return found
+
+
+def spheroid(figure: Any, run: Run, word: Any) -> None:
+    """Semi-axes, integral of the pressure, and sections by the plane y = 0 of space."""
+    M = maps(run)
+    left, right = figure.subplots(1, 2, width_ratios=(1.5, 1))
+    axes = followed(np.asarray(np.linalg.svd(M, compute_uv=False), dtype=float))
+    for k in range(3):
+        left.plot(run.t, axes[:, k], ("-", "--", ":")[k], c=COLOURS[k], label=f"$a_{k + 1}$")
+    (column,) = (x for x in run.columns if x.kind == "multiplier")
+    length = "m" if column.unit else ""  # a run is in SI or has no units
+    left.set(ylabel=with_unit(word("semi-axes"), length))
+    below, theta = left.twinx(), run[column.name]
+    below.plot(run.t, theta, "-.", c=PRESSURE, label=word("integral of the pressure"))
+    below.axhline(0, c=PRESSURE, lw=0.5)
+    where = below.get_xaxis_transform()
+    below.fill_between(
+        run.t, 0, 1, where=theta < 0, transform=where, color=PRESSURE, alpha=0.12, lw=0
+    )
+    below.set_ylabel(with_unit(word("integral of the pressure"), column.unit), color=PRESSURE)
+    below.tick_params(axis="y", colors=PRESSURE)
+    below.spines["right"].set(visible=True, color=PRESSURE)
+    left.set_xlabel(time_label(run))
+    handles, labels = left.get_legend_handles_labels()
+    handles += below.get_legend_handles_labels()[0]
+    labels += below.get_legend_handles_labels()[1]
+    figure.legend(handles, labels, loc="outside lower left", ncols=4)
+    rows = np.linspace(0, len(M) - 1, SECTIONS).round().astype(int)
+    for shade, k in zip(np.linspace(0.25, 1, SECTIONS), rows, strict=True):
+        right.plot(*section(M[k]), c=COLOURS[0], alpha=shade, label=f"$t = {run.t[k]:.3g}$")
+    right.set(aspect="equal", title=word("section y = 0 (space)"))
+    right.set(xlabel=with_unit(label("x"), length), ylabel=with_unit(label("z"), length))
+    right.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+
+
+def followed(sizes: Array) -> Array:
+    """Sizes by instants, (instants, 3), in such an order at each that the curves go on straight."""
+    found = sizes.copy()
+    for k in range(2, len(found)):
+        ahead = 2 * found[k - 1] - found[k - 2]
+        found[k] = min(permutations(sizes[k]), key=lambda x: float(np.abs(x - ahead).sum()))
+    return found
+
+
+def section(M: Array) -> Array:
+    """The section of {M u : |u| ≤ 1} with the plane of the first and third axes of space, (2,
+    places): ⟨r, (M M̄)⁻¹ r⟩ = 1."""
+    Q = np.linalg.inv(M @ M.T)[np.ix_([0, 2], [0, 2])]
+    turn = np.linspace(0, 2 * np.pi, 181)
+    found: Array = np.linalg.inv(np.linalg.cholesky(Q)).T @ np.stack([np.cos(turn), np.sin(turn)])
+    return found
+
+
+# The fluid on the torus: its vorticity at the last instant, the spectrum of enstrophy.
+
+ROUNDING = 1e-32
+"""What the enstrophy of a mode is, relative, where its coefficient is nothing but rounding."""
+
+
+def amplitudes(run: Run) -> tuple[Array, Array]:
+    """The waves n, (count, 2), and ω_n at the last instant, of the columns re_n, im_n; ``m1``
+    stands for −1."""
+    names = [letter_and_suffix(x)[1] for x in by_letter(run.of_kind("state"))["re"]]
+    waves = [[int(k.replace("m", "-")) for k in x.split("_")] for x in names]
+    return np.array(waves), np.array([run[f"re_{x}"][-1] + 1j * run[f"im_{x}"][-1] for x in names])
+
+
+def vorticity(figure: Any, run: Run, word: Any) -> None:
+    """ω(x, y) = Σ ω_n e^{in·x}, with ω_−n the conjugate; the enstrophy Σ |ω_n|², its sum over the n
+    whose |n| is nearest to each whole number, but for what is rounding alone."""
+    waves, amplitude = amplitudes(run)
+    grid = np.linspace(0, 2 * np.pi, 129)
+    along = [np.exp(1j * np.outer(waves[:, k], grid)) for k in (0, 1)]
+    field = 2 * np.einsum("n,nx,ny->yx", amplitude, *along).real
+    left, right = figure.subplots(1, 2)
+    most = float(np.abs(field).max()) or 1.0
+    image = left.pcolormesh(grid, grid, field, cmap="RdBu_r", vmin=-most, vmax=most,
+                            rasterized=True)  # fmt: skip
+    left.set(aspect="equal", xlabel="$x$", ylabel="$y$", title=f"$t = {run.t[-1]:g}$")
+    figure.colorbar(image, ax=left, label=word("vorticity"))
+    shell = np.rint(np.hypot(*waves.T)).astype(int)
+    spectrum = 2 * np.bincount(shell, np.abs(amplitude) ** 2)
+    seen = np.flatnonzero(spectrum > ROUNDING * spectrum.max())
+    right.loglog(seen, spectrum[seen], "o-", c=COLOURS[0], ms=3)
+    right.set(xlabel="$|n|$", ylabel=word("enstrophy"))

@@ -14,14 +14,10 @@ from operator import add
 
 from ..language.show import ATOM, FIELD_OPERATORS, PRODUCT, SUM, has_norm, signed, swallows
 from ..language.tree import Tree
-from .escape import tex_text
-from .inline import spelt
-from .juxtaposition import number, outside, separator
-from .letters import NAMES, parameter
-from .line_breaking import Piece, fill
-from .notation import Notation
-from .sentences import formula_ok
-from .spelling import named, transposed
+from .letters import NAMES, named, number, outside, parameter, separator, transposed
+from .line_breaking import Piece, fill, measure
+from .sentences import formula_ok, spelt
+from .signs import Notation, tex_text
 from .typeset import (
     AFTER_COMMA,
     BEFORE_FACTOR,
@@ -49,7 +45,6 @@ from .typeset import (
     upright,
     word,
 )
-from .widths import measure
 
 SCRIPTED = re.compile(r"\^|'.*_")
 OPENING = re.compile(r"\(|\[|\\(?:langle|lVert)(?![A-Za-z])")

@@ -17,8 +17,7 @@ from typing import NamedTuple
 
 from .line_breaking import COMMA, FACTOR, WEDGE
 from .line_breaking import SUM as TERM
-from .notation import Notation
-from .signs import LETTERS, SYMBOLS
+from .signs import LETTERS, SYMBOLS, Notation
 
 BREAKS = {"\x01": COMMA, "\x02": TERM, "\x03": WEDGE, "\x04": FACTOR}
 AFTER_COMMA, BEFORE_TERM, BEFORE_WEDGE, BEFORE_FACTOR = BREAKS

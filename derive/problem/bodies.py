@@ -1,17 +1,41 @@
-"""The body of a problem file: points, moments as parameters or given, solids and their mixtures."""
+"""The body, the group and the forces of a problem file."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import reduce
 from typing import Any
 
-from ..schema.body_kinds import Body, GivenBody, MomentBody, Moments, Point, PointBody
-from ..schema.solid_kinds import SOLIDS, Solid
+from ..algebra.families import group, on_homogeneous
+from ..algebra.groups import Group
+from ..algebra.stated_groups import group_of_basis
+from ..schema.body_kinds import (
+    SOLIDS,
+    Body,
+    GivenBody,
+    MomentBody,
+    Moments,
+    Point,
+    PointBody,
+    Solid,
+)
+from ..schema.kind import (
+    GROUP,
+    INPUTS,
+    CovectorInput,
+    Damping,
+    ForceInput,
+    Input,
+    Parameter,
+    Potential,
+    StatedGroup,
+)
+from ..schema.kinds import kinds
 from ..schema.table import Slot
 from .fields import tables
 from .file_reader import FileReader
-from .moments import SolidError
+from .inertia import is_negative
+from .mesh import SolidError
 from .problem import ProblemError
 from .solids import moments, together
 
@@ -73,3 +97,80 @@ def _mixture(solids: Mapping[str, Solid], points: tuple[Point, ...]) -> GivenBod
     total = reduce(together, parts)
     own = together(total, PointBody(points=points).moments()) if points else total
     return GivenBody(given=own, solids=tuple(solids.values()), points=points or None)
+
+
+# The group of a problem file: by its name, or a table with a basis of one's own.
+
+
+def group_of(data: Mapping[str, Any], reader: FileReader) -> tuple[Group | None, str]:
+    """The group, by its name or by a table with a basis, and its action."""
+    which = data.get("group")
+    if isinstance(which, dict):
+        moved = _stated(reader.whole(StatedGroup, which, "group"))
+        if "action" in data:
+            raise ProblemError("key 'action' belongs into the table [group]")
+        return moved, moved.action
+    which = reader.text(Slot(data, "group", "file"))
+    if which.casefold() == GROUP.casefold():
+        raise ProblemError(f"key 'group': {GROUP} is that of a table [fluid]; leave this out")
+    try:
+        named = None if which == "any" else group(which)
+    except ValueError as error:
+        raise ProblemError(f"key 'group': {error}") from None
+    if named and "action" not in data:
+        return named, named.action
+    action = reader.action(Slot(data, "action", "file"))
+    if named and action != named.action:
+        raise ProblemError(f"key 'action': {named.name} acts by {named.action} maps")
+    return named, action
+
+
+def _stated(own: StatedGroup) -> Group:
+    try:
+        moved = group_of_basis(
+            own.name, "affine" if own.action == "affine" else "linear", [*own.basis]
+        )
+    except ValueError as error:
+        raise ProblemError(f"group: {error}") from None
+    return moved if not moved.affine or moved.free_translations else on_homogeneous(moved)
+
+
+# The tables [[potential]], [[input]] and [[damping]] of a problem file.
+
+Forces = tuple[tuple[Potential, ...], tuple[Input, ...], tuple[Damping, ...]]
+
+
+def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
+    """All of them; there is one of what may be there once."""
+    potentials, inputs, damping = (
+        {f"{key} {k}": x for k, x in enumerate(tables(data, key), 1)}
+        for key in ("potential", "input", "damping")
+    )
+    acting = [w for w, x in inputs.items() if x.get("kind") == ForceInput.kind]
+    for where in (*potentials, *acting, *damping) if reader.group is None else ():
+        raise ProblemError(f"{where}: a text about any group has no points on which this could act")
+    found = tuple(reader.one_of(kinds(), x, where) for where, x in potentials.items())
+    given = tuple(reader.one_of(INPUTS, x, where) for where, x in inputs.items())
+    for k, p in enumerate(found, 1):
+        if p.alone and any(x.kind == p.kind for x in found[: k - 1]):
+            raise ProblemError(f"potential {k}: a second {p.kind}; there may be one")
+    if sum(isinstance(i, CovectorInput) for i in given) > 1:
+        raise ProblemError("key 'input': one covector holds every component; give one such table")
+    return found, given, tuple(reader.whole(Damping, x, w) for w, x in damping.items())
+
+
+def negative_stiffness_of(
+    potentials: Sequence[Potential],
+    damping: Sequence[Damping],
+    parameters: Mapping[str, Parameter],
+) -> str | None:
+    """Where a stiffness, a damping or a constant of gravitation is negative, for the defaults of
+    the parameters."""
+    listed = [
+        (f"{told} {k}: key {key!r}", value)
+        for told, tables in (("potential", potentials), ("damping", damping))
+        for k, p in enumerate(tables, 1)
+        for key, about, value in p.values()
+        if about.positive
+    ]
+    return next((where for where, t in listed if is_negative(t, parameters)), None)

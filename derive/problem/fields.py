@@ -1,13 +1,17 @@
-"""The tables of a problem file as TOML has them, and where in them a name or a mistake stands."""
+"""The tables of a problem file as TOML has them, and the names of the state in expressions."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
+from ..algebra.groups import Group
 from ..language.limits import TABLES
-from ..schema.lagrangian_kinds import SECTIONS
+from ..language.reserved import by_letter, suffixed
+from ..language.tree import Tree
+from ..schema.kind import SECTIONS, Advected
+from ..schema.table import nearest
 from .problem import ProblemError
 
 LIKE_A_PLACE = re.compile(r"[rv][0-9]+_\w+")
@@ -35,3 +39,88 @@ def used_at(data: Mapping[str, Any], name: str, *but: str) -> str:
                 if key not in but and word.search(str(value)):
                     return f"{kind} {k}, key {key!r}" if listed else f"{kind}, key {key!r}"
     return "file"
+
+
+# The names of the state in an expression of a Lagrangian, as the emitted code has them.
+
+LIKE_AN_ENTRY = re.compile(r"A[0-9]*_([1-9]{2}|[0-9]+_[0-9]+)|(T|zeta)[0-9]*_[1-9][0-9]*")
+"""What an entry of the state of some group is called."""
+
+
+def no_entry(name: str, group: Group, known: Mapping[str, Tree]) -> str:
+    """That a state with the ``known`` names has none of this name, in words, where it is like that
+    of an entry; "" for any other."""
+    if not LIKE_AN_ENTRY.fullmatch(name):
+        return ""
+    on_group = any(isinstance(t, tuple) and t[1] == "A" for t in known.values())
+    whose = group.name if on_group else "the state of this algebra"
+    return f"{whose} has no {name[:40]}; its entries are {entries(known)}"
+
+
+def entries(known: Iterable[str]) -> str:
+    """The names of a state in words: the first and the last of each letter."""
+    runs = by_letter(x for x in known if x != "t").values()
+    ends = (dict.fromkeys((run[0], run[-1])) for run in runs)
+    return ", ".join(map(" … ".join, ends))
+
+
+def undeclared(
+    name: str, where: str, parameters: Collection[str], group: Group, known: Mapping[str, Tree]
+) -> str:
+    """That a name in an expression of a Lagrangian is neither a parameter nor of the state, in
+    words."""
+    if fault := no_entry(name, group, known):
+        return f"{where}: {fault}"
+    hint = nearest(name[:40], parameters).removeprefix("; ")
+    other = f"{hint} Else " if hint else ""
+    return (
+        f"{where}: {name[:40]!r} is not declared; {other}add it to [parameters]; the state has "
+        f"{entries(known)}"
+    )
+
+
+def coordinates(group: Group) -> list[Tree]:
+    """The coordinates ζ_1 … ζ_d of a velocity, as trees."""
+    return [("entry", "ζ", a) for a in range(1, group.dimension + 1)]
+
+
+def known_in_lagrangian(group: Group, advected: Sequence[Advected] | None) -> dict[str, Tree]:
+    """Name → what it stands for in a Lagrangian."""
+    return state_names(group) if advected is None else reduced_names(group, advected)
+
+
+def reduced_names(group: Group, advected: Sequence[Advected]) -> dict[str, Tree]:
+    """Name → what it stands for, where the state has no g: t, the entries of Γ, all advected
+    quantities in one column, and ζ."""
+    listed = [suffixed(x.name, i) for x in advected for i in range(1, x.size + 1)]
+    found: dict[str, Tree] = {"t": "t"}
+    found |= {name: ("entry", "Γ", i) for i, name in enumerate(listed, 1)}
+    return found | _velocity(group)
+
+
+def state_names(group: Group) -> dict[str, Tree]:
+    """Name → what it stands for: t, the entries of g, a matrix that acts on (r, 1), and ζ."""
+    found: dict[str, Tree] = {"t": "t"}
+    several = len(group.places) > 1
+    for k, (offset, factor) in enumerate(group.places, 1):
+        mark, span = str(k) if several else "", range(1, factor.n + 1)
+        for i in span:
+            for j in span:
+                found[suffixed(f"A{mark}", i, j)] = ("entry", "A", offset + i, offset + j)
+            if factor.affine:
+                place = ("entry", "A", offset + i, offset + factor.n + 1)
+                found[suffixed(f"T{mark}", i)] = place
+    return found | _velocity(group)
+
+
+def _velocity(group: Group) -> dict[str, Tree]:
+    return {suffixed("zeta", a): t for a, t in enumerate(coordinates(group), 1)}
+
+
+def meant(t: Tree, names: Mapping[str, Tree]) -> Tree:
+    """An expression with its names as what they stand for."""
+    if not isinstance(t, tuple):
+        return t
+    if t[0] == "par":
+        return names.get(t[1], t)
+    return (t[0], *(meant(x, names) for x in t[1:]))

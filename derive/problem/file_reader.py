@@ -12,23 +12,19 @@ from typing import Any
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.expression import ExpressionError, parse
-from ..language.layers import LEVEL, WRITTEN, degree_in_level, is_layered
+from ..language.laurent import LEVEL, WRITTEN, degree_in_level, is_layered
 from ..language.limits import BASIS, LAYERS, MATRIX, TEXT
 from ..language.reserved import PLACE
 from ..language.tree import Tree, nodes, replaced, subtrees
 from ..language.values import approximate
-from ..schema.algebra_kinds import Advected
-from ..schema.body_kinds import Body, GivenBody, Place, Point, PointBody, is_ellipsoid
-from ..schema.followed import DIRECTIONS
-from ..schema.lagrangian_kinds import SIDES
-from ..schema.solid_kinds import LAYERED
+from ..schema.body_kinds import LAYERED, Body, GivenBody, Place, Point, PointBody, is_ellipsoid
+from ..schema.kind import DIRECTIONS, SIDES, Advected
 from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
-from .fields import LIKE_A_PLACE
-from .moments import SolidError, first_moment, given_by, second_moment
+from .fields import LIKE_A_PLACE, known_in_lagrangian, meant, state_names
+from .mesh import SolidError, first_moment, given_by, second_moment
 from .problem import ProblemError, points_of
 from .solids import fault_of_quadric, rotation_about
-from .state_names import known_in_lagrangian, meant, state_names
 
 AXES = "xyz"
 CHAPTERS = ("linear", "affine", "discrete", "discrete_affine", *SIDES)

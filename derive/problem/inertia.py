@@ -1,8 +1,4 @@
-"""Checks of a body on its group: does every direction move some mass, is no mass negative?
-
-The metric of 𝔤 at g = 1 is ⟨Z, Z′⟩ = Tr Z M Z̄′, with M the moments of the body as the group's
-matrices see it. Its kernel is found exactly, in fractions, at two choices of the parameters.
-"""
+"""Checks of a body on its group: does every direction move some mass, is its metric invariant?"""
 
 from __future__ import annotations
 
@@ -10,18 +6,20 @@ from collections.abc import Mapping
 from fractions import Fraction
 from math import gcd, lcm
 from random import Random
-from typing import Any
+from typing import Any, Literal
 
 from ..algebra.groups import Group
+from ..algebra.relations import for_every_body, pairings, skew
 from ..language import rational as q
+from ..language.derivatives import DIVISOR_PRIMES, residue
 from ..language.expression import names
-from ..language.layers import TRIED, at_levels, is_layered
+from ..language.laurent import TRIED, OverlongError, at_levels, is_layered, vanishes
 from ..language.rational import Matrix
-from ..language.tree import Tree
+from ..language.tree import Tree, add, mul, plain
 from ..language.values import approximate, value
 from ..schema.body_kinds import Body, GivenBody, MomentBody, PointBody
-from ..schema.declared import Parameter
-from .problem import points_of
+from ..schema.kind import Parameter
+from .problem import Problem, points_of
 from .solids import fault_of_quadric
 
 Vector = tuple[Any, ...]
@@ -273,3 +271,55 @@ def _least(a: list[list[Fraction]]) -> Fraction:
         shifted = [[x + s * (i == j) for j, x in enumerate(row)] for i, row in enumerate(a)]
         low, high = (low, s) if q.semidefinite(shifted) else (s, high)
     return -high
+
+
+# Left-invariance of the metric of a body on its group, where C = ĀA is not 1.
+#
+# Decided exactly, in polynomials of the parameters.
+
+Bodies = Literal["every body", "this body"]
+EVERY: Bodies = "every body"
+THIS: Bodies = "this body"
+
+
+def invariant(problem: Problem) -> Bodies | None:
+    """For which bodies, this one among them, Tr Y J Ȳ′ C = Tr Y J Ȳ′ for all Y, Y′ of 𝔤.
+
+    ``None`` where not for this one, or where to tell would take polynomials that are too long.
+    """
+    group, body = problem.group, problem.body
+    if group is None or body is None or group.affine or skew(group):
+        return None
+    if for_every_body(group):
+        return EVERY
+    if group.larger:
+        return None
+    J = _moment_trees(problem, body)
+    try:
+        return THIS if all(_vanishes(_paired(k, J)) for k in pairings(group)) else None
+    except (OverlongError, ZeroDivisionError):
+        return None
+
+
+def _paired(k: Matrix, J: tuple[tuple[Tree, ...], ...]) -> Tree:
+    """The tree Σ k_ij J_ij."""
+    pairs = zip(k, J, strict=True)
+    return add(*(mul(plain(x), t) for a, b in pairs for x, t in zip(a, b, strict=True) if x))
+
+
+def _vanishes(t: Tree) -> bool:
+    """Is it 0 for all parameters? A residue that is not 0 settles it without multiplying out."""
+    return residue(t, DIVISOR_PRIMES[0]) == 0 and vanishes(t)
+
+
+def _moment_trees(problem: Problem, body: Body) -> tuple[tuple[Tree, ...], ...]:
+    """The matrix Σ m r r̄ with r as the matrices of the group act on it."""
+    group = problem.group
+    assert group is not None
+    if isinstance(body, PointBody):
+        masses = [(p.mass, group.in_block(p.block, p.at, 1)) for p in body.points]
+        span = range(group.n)
+        return tuple(
+            tuple(add(*(mul(m, r[i], r[j]) for m, r in masses)) for j in span) for i in span
+        )
+    return body.moments().J

@@ -23,11 +23,9 @@ from typing import Any
 from ..algebra.groups import Group
 from ..language.tree import Tree, mul
 from ..schema.body_kinds import GivenBody, Moments, Place, Point
-from ..schema.declared import Parameter
-from ..schema.kind import Potential
+from ..schema.kind import Damping, ForceInput, Input, Parameter, Potential
 from ..schema.kinds.gravity import Gravity, gravity
 from ..schema.kinds.spring import Spring, quadratic
-from ..schema.outside import Damping, ForceInput, Input
 from ..schema.table import Key
 from .problem import Problem, ProblemError
 

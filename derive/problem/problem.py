@@ -1,23 +1,30 @@
-"""A problem: group, body, potentials, inputs, parameters.  Data only; ``toml.py`` reads files."""
+"""A problem: group, body, potentials, inputs, parameters, as data."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from ..algebra.groups import Group
-from ..algebra.torus import Torus
-from ..language.refused import Refused
+from ..algebra.structure import Torus
+from ..language.limits import Refused
 from ..language.tree import Tree
-from ..schema.algebra_kinds import Advected
-from ..schema.body_kinds import Body, MomentBody, Place, Point
-from ..schema.declared import Parameter
-from ..schema.fluid_kinds import GROUP, Fluid
-from ..schema.followed import Event
-from ..schema.kind import Potential
-from ..schema.lagrangian_kinds import Lagrangian
-from ..schema.outside import CovectorInput, Damping, ForceInput, Input
+from ..schema.body_kinds import AnyBody, Body, MomentBody, NoBody, Place, Point
+from ..schema.kind import (
+    GROUP,
+    Advected,
+    CovectorInput,
+    Damping,
+    Event,
+    Fluid,
+    ForceInput,
+    Input,
+    Lagrangian,
+    Parameter,
+    Potential,
+)
+from ..schema.table import Table
 
 
 class ProblemError(Refused, ValueError):
@@ -142,3 +149,40 @@ class Problem:
 def points_of(body: Body | None) -> tuple[Point, ...]:
     """The points of a body that have a mass, if any are listed."""
     return () if body is None or isinstance(body, MomentBody) else body.points or ()
+
+
+# A problem as the record has it: plain data, trees as they are.
+
+
+def data(problem: Problem) -> dict[str, Any]:
+    """What the record says of the problem; trees as they are."""
+    return {
+        "name": problem.name,
+        "title": problem.title,
+        "group": problem.group_name,
+        "action": problem.action,
+        "homogeneous": problem.homogeneous,
+        "parameters": {k: p.plain() for k, p in problem.parameters.items()},
+        "body": _body(problem).plain(),
+        "potentials": [*_plain(problem.potentials)],
+        "inputs": [*_plain(problem.inputs)],
+        "places": [*_plain(problem.places)],
+        "damping": [*_plain(problem.damping)],
+        **({"frame": dict(problem.frame)} if problem.frame else {}),
+        **({"masses": "of any sign"} if problem.signed else {}),
+        **({"lagrangian": problem.lagrangian.plain()} if problem.lagrangian else {}),
+        **({"fluid": problem.fluid.plain()} if problem.fluid else {}),
+        **({"lagrangian": {"trivialisation": "right"}} if problem.torus else {}),
+        **({"torus": {"N": problem.torus.N}} if problem.torus else {}),
+        **({} if problem.advected is None else {"advected": [*_plain(problem.advected)]}),
+    }
+
+
+def _plain(tables: Iterable[Table]) -> Iterator[dict[str, Any]]:
+    return (x.plain() for x in tables)
+
+
+def _body(problem: Problem) -> Table:
+    """The body, or why there is none."""
+    given = problem.lagrangian or problem.torus or problem.fluid
+    return problem.body or (NoBody() if given else AnyBody())

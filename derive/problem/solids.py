@@ -15,15 +15,13 @@ from typing import Any
 from ..language import rational
 from ..language.derivatives import quotient
 from ..language.expression import LARGEST, SMALLEST
-from ..language.laurent import Laurent, Monomial
-from ..language.layers import LEVEL, is_layered
+from ..language.laurent import LEVEL, Laurent, Monomial, is_layered
 from ..language.limits import EXPONENT
 from ..language.tree import Tree, add, coefficient, mul
 from ..language.values import approximate
-from ..schema.body_kinds import Moments
-from ..schema.solid_kinds import LAYERED, Solid
+from ..schema.body_kinds import LAYERED, Moments, Solid
 from ..schema.table import Rows
-from .moments import Row, SolidError
+from .mesh import Row, SolidError
 
 SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
 TERMS_OF_DENSITY = 40

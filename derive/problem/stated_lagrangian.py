@@ -1,29 +1,229 @@
-"""A Lagrangian that no points give: an expression ℓ(t, g, Z), or an inertia operator on 𝔤.
-
-In an expression t is the time, and the names of the state are what they are in emitted code: A_11
-and so on are the entries of g (A1_11, … in a product), T_1, … its translation, zeta_1, … the
-coordinates of Z in the basis of 𝔤; of an algebra without g, those of what it carries along.
-"""
+"""Problems that no points give: a Lagrangian, an algebra with what it carries along, the torus."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from ..algebra.families import group, on_homogeneous
 from ..algebra.groups import Group
-from ..algebra.structure import as_text
+from ..algebra.stated_groups import carrying, group_of_basis
+from ..algebra.structure import (
+    Algebra,
+    Brackets,
+    Torus,
+    as_text,
+    brackets_of,
+    faithful,
+    require_jacobi,
+    require_representation,
+)
 from ..language.derivatives import derivative
 from ..language.expression import names
+from ..language.limits import CARRIED, ROWS, TABLE
+from ..language.rational import Matrix
 from ..language.tree import Tree, add, mul, neg, nodes, plain
-from ..schema.lagrangian_kinds import SECTIONS, Inertia, Lagrangian
-from .fields import used_at
+from ..schema.kind import (
+    REPRESENTATIONS,
+    SECTIONS,
+    Advected,
+    Inertia,
+    Lagrangian,
+    StatedAdvected,
+    StatedAlgebra,
+    StatedTorus,
+    TorusInertia,
+)
+from ..schema.table import Slot
+from .fields import coordinates, no_entry, undeclared, used_at
 from .file_reader import FileReader
-from .moved_entries import EntriesOfElement, settled, vanishes_on
-from .null_directions import Direction, along, held, hessian, null_directions, vanishes
-from .problem import ProblemError
-from .state_names import coordinates, no_entry, undeclared
+from .moved_entries import (
+    Direction,
+    EntriesOfElement,
+    along,
+    held,
+    hessian,
+    null_directions,
+    settled,
+    vanishes,
+    vanishes_on,
+)
+from .problem import Problem, ProblemError
+from .stated_motion import KEYS as MOTION
+from .stated_motion import stated_motion
+
+# The algebra of a problem file that moves no points: its brackets, and what it carries along.
+
+GIVEN = ("of", "basis", "brackets")
+"""The keys of [algebra], of which one says it."""
+
+
+def carried_group(data: Mapping[str, Any]) -> tuple[Group, tuple[Advected, ...]]:
+    """The group of [algebra], and what [[advected]] tables say it carries along."""
+    reader = AlgebraReader()
+    if "group" in data or "action" in data:
+        raise ProblemError("give either 'group' or [algebra]")
+    own = _algebra(reader.whole(StatedAlgebra, data["algebra"], "algebra"), data["algebra"])
+    reader.represents(own)
+    listed = data.get("advected", [])
+    if not isinstance(listed, list) or not all(isinstance(x, dict) for x in listed):
+        raise ProblemError("key 'advected' must be tables [[advected]]")
+    read = [reader.whole(StatedAdvected, x, f"advected {k}") for k, x in enumerate(listed, 1)]
+    for k, x in enumerate(read, 1):
+        if x.name in [y.name for y in read[: k - 1]] or x.name in ("zeta", "t"):
+            raise ProblemError(f"advected {k}: {x.name!r} names something else; choose another")
+        try:
+            require_representation(x.representation, own.brackets)
+        except ValueError as error:
+            raise ProblemError(f"advected {k}, representation: {error}") from None
+    try:
+        stand = own.standard or faithful(own.brackets, own.dimension)
+    except ValueError as error:
+        raise ProblemError(f"algebra: {error}") from None
+    found = carrying(own.name, own.dimension, stand, [x.representation for x in read])
+    if found.n > CARRIED:
+        raise ProblemError(
+            f"advected: the matrices of the algebra and of all that it carries have {found.n} "
+            f"rows together; at most {CARRIED}"
+        )
+    return found, tuple(Advected(name=x.name, size=len(x.representation[0])) for x in read)
+
+
+def _algebra(given: StatedAlgebra, table: Mapping[str, Any]) -> Algebra:
+    if len([key for key in GIVEN if key in table]) != 1:
+        raise ProblemError(f"algebra: give one of {', '.join(GIVEN)}")
+    if "dimension" in table and "brackets" not in table:
+        raise ProblemError("algebra, dimension: it goes with 'brackets'; leave it out")
+    if given.brackets or "brackets" in table:
+        return _by_brackets(given)
+    try:
+        moved = group(given.of) if given.of else group_of_basis("G", "linear", [*given.basis])
+    except ValueError as error:
+        raise ProblemError(f"algebra, {'of' if given.of else 'basis'}: {error}") from None
+    own = (on_homogeneous(moved) if moved.affine else moved).stated
+    return Algebra(own.name, own.dimension, _sparse(own.structure_constants), own.basis)
+
+
+def _by_brackets(given: StatedAlgebra) -> Algebra:
+    largest = max((i for *indices, _ in given.brackets for i in indices), default=1)
+    dimension = given.dimension or largest
+    if largest > dimension:
+        raise ProblemError(f"algebra, brackets: E_{largest}, of {dimension} elements (dimension)")
+    if dimension > TABLE:
+        raise ProblemError(f"algebra: {dimension} elements; at most {TABLE}")
+    try:
+        brackets = brackets_of(given.brackets)
+        require_jacobi(brackets, dimension)
+    except ValueError as error:
+        raise ProblemError(f"algebra, brackets: {error}") from None
+    return Algebra("G", dimension, brackets)
+
+
+def _sparse(table: Sequence[Matrix]) -> Brackets:
+    """The table without what is 0."""
+    return {
+        (a, b): {k: x for k, x in enumerate(own) if x}
+        for a, rows in enumerate(table)
+        for b, own in enumerate(rows)
+        if any(own)
+    }
+
+
+# A problem on the torus: [algebra] of = "torus", its N, and its inertia operator by name.
+
+KEYS = ("name", "title", "algebra", "inertia", *MOTION)
+"""The keys of such a file."""
+
+
+def on_torus(data: Mapping[str, Any]) -> bool:
+    """Is the algebra of a file that of the torus, or of a name, with the N of a lattice?"""
+    given = data.get("algebra")
+    return isinstance(given, dict) and (given.get("of") == "torus" or {"of", "N"} <= {*given})
+
+
+def torus_problem(data: Mapping[str, Any], reader: FileReader) -> Problem:
+    """The problem of a file; ``ProblemError`` for what else it says."""
+    for key, value in data.items():
+        if key not in KEYS and (key, value) != ("parameters", {}):
+            raise ProblemError(
+                f"key {key!r}: on the torus there are {', '.join(KEYS)} alone; leave it out"
+            )
+    algebra = reader.whole(StatedTorus, data["algebra"], "algebra")
+    if algebra.of != "torus":
+        raise ProblemError(f'algebra, of: with N it is "torus", not {algebra.of[:40]!r}')
+    torus = Torus(algebra.N)
+    if "inertia" not in data:
+        raise ProblemError('the torus needs its inertia: give [inertia] operator = "laplacian"')
+    given = reader.whole(TorusInertia, data["inertia"], "inertia")
+    if given.operator != "laplacian":
+        raise ProblemError('inertia, operator: on the torus it is "laplacian", |n|² on T_n')
+    if given.trivialisation != "right":
+        raise ProblemError('inertia, trivialisation: a fluid moves on the "right"; leave it out')
+    name = reader.name_of(data)
+    title, motion = reader.title_of(data, name), stated_motion(data, reader)
+    return Problem(name, None, title=title, torus=torus, **motion)
+
+
+# The values of the tables [algebra] and [[advected]] of a file.
+
+
+class AlgebraReader(FileReader):
+    """Reads these tables; those of advected quantities after the algebra is known."""
+
+    def represents(self, algebra: Algebra) -> None:
+        """From here on the algebra is known."""
+        self.algebra = algebra
+
+    def elements(self, slot: Slot) -> int:
+        """How many elements."""
+        return self.integer(self.value(slot), 1, TABLE, slot.path)
+
+    def brackets(self, slot: Slot) -> tuple[tuple[int, int, int, Fraction], ...]:
+        """Rows [a, b, k, c], of indices from 1 and a rational number."""
+        rows = self.value(slot, list)
+        if len(rows) > ROWS:
+            raise ProblemError(f"{slot.path}: {len(rows)} rows; at most {ROWS}")
+        return tuple(self._row(row, f"{slot.path}, row {k}") for k, row in enumerate(rows, 1))
+
+    def _row(self, row: Any, where: str) -> tuple[int, int, int, Fraction]:
+        if not isinstance(row, list) or len(row) != 4:
+            raise ProblemError(f"{where}: expected [a, b, k, c], of [E_a, E_b] = c E_k + …")
+        a, b, k = (self.integer(x, 1, TABLE, where) for x in row[:3])
+        c = self.expression(row[3], where)
+        if not isinstance(c, (int, Fraction)):
+            raise ProblemError(f"{where}: the coefficient must be a rational number")
+        return a, b, k, Fraction(c)
+
+    def representation(self, slot: Slot) -> tuple[Matrix, ...]:
+        """By its name, 'standard' where the file leaves it out, or a matrix for each element."""
+        given = slot.table.get(slot.key, "standard")
+        if isinstance(given, str):
+            name = self.choice(Slot({slot.key: given}, slot.key, slot.where), REPRESENTATIONS)
+            try:
+                return tuple(self.algebra.representation(name))
+            except ValueError as error:
+                raise ProblemError(f"{slot.path}: {error}") from None
+        if not isinstance(given, list) or len(given) != self.algebra.dimension:
+            raise ProblemError(
+                f"{slot.path}: expected {', '.join(REPRESENTATIONS)}, or a list of "
+                f"{self.algebra.dimension} matrices, one for each element of the algebra"
+            )
+        where = f"{slot.path}, matrix {{}}"
+        found = tuple(self._matrix(e, where.format(a)) for a, e in enumerate(given, 1))
+        size = len(found[0])
+        for a, e in enumerate(found, 1):
+            if len(e) != size or any(len(row) != size for row in e) or not size:
+                raise ProblemError(f"{where.format(a)}: expected a {size} × {size} matrix")
+        return found
+
+
+# A Lagrangian that no points give: an expression ℓ(t, g, Z), or an inertia operator on 𝔤.
+#
+# In an expression t is the time, and the names of the state are what they are in emitted code:
+# A_11 and so on are the entries of g (A1_11, … in a product), T_1, … its translation, zeta_1, …
+# the coordinates of Z in the basis of 𝔤; of an algebra without g, those of what it carries along.
 
 
 def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lagrangian:

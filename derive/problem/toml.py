@@ -5,44 +5,30 @@ from __future__ import annotations
 import math
 import re
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from ..algebra.families import on_homogeneous
 from ..algebra.groups import Group
+from ..language.derivatives import derivative, weight
 from ..language.expression import names, numbers
-from ..language.limits import (
-    BITS,
-    COMMON_BITS,
-    KEY_PARTS,
-    LEAVES,
-    PARAMETERS,
-    PROBLEM_BYTES,
-    PULLS,
-)
-from ..language.tree import Tree
-from ..language.weight import weight
-from ..schema.algebra_kinds import Advected
+from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, PROBLEM_BYTES, PULLS
+from ..language.tree import Tree, nodes
 from ..schema.body_kinds import GivenBody, MomentBody
-from ..schema.declared import Parameter
-from ..schema.fluid_kinds import Fluid
+from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
 from ..schema.kinds import kinds
-from ..schema.lagrangian_kinds import SECTIONS
 from ..schema.table import Table, nearest
 from . import inertia
-from .bodies import body
-from .fields import LIKE_A_PLACE, used_at
+from .bodies import body, forces, group_of, negative_stiffness_of
+from .fields import LIKE_A_PLACE, coordinates, used_at
 from .file_reader import FileReader
-from .followed_names import named_twice
-from .forces import forces, negative_stiffness_of
-from .group import group_of
+from .inertia import impossible, negative_mass
+from .moved_entries import hessian, vanishes
 from .problem import Problem, ProblemError
-from .stated_algebra import carried_group
-from .stated_lagrangian import lagrangian
-from .stated_motion import KEYS, named, stated_motion
-from .stated_torus import on_torus, torus_problem
-from .toml_faults import unread
+from .stated_lagrangian import carried_group, lagrangian, on_torus, torus_problem
+from .stated_motion import KEYS, faults, named, named_twice, stated_motion
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
 TOP |= {"damping", "solid", "algebra", "advected", "fluid", *SECTIONS, *KEYS}
@@ -335,3 +321,121 @@ def _affordable(problem: Problem) -> None:
         common = math.lcm(common, q.denominator)
         if common.bit_length() > COMMON_BITS:
             raise ProblemError("the fractions have no small common denominator; round them")
+
+
+# What is wrong with a text that is not TOML, at which line, and what to write instead.
+
+AT = re.compile(r"at line ([0-9]+), column ([0-9]+)")
+CURLY = "“”„‟«»‘’‚"
+SPACES = "\u00a0\u1680\u2007\u202f\u3000\u200b\ufeff"
+"""No-break and other spaces that TOML does not know."""
+WORD = re.compile(r"[\w.*/^+()-]+")
+DECIMAL = re.compile(r"=\s*([-+]?[0-9]+),([0-9]+)\s*$")
+TEXT = re.compile(r""" "[^"]*" | '[^']*' | \#.* """, re.VERBOSE)
+ENDS = {
+    "Unclosed array": "a list ends with ], and its entries are parted by commas",
+    "Unclosed inline": "{ … } ends with }, on the line where it begins",
+    **dict.fromkeys(
+        ("Unterminated", 'Expected "\'"', "Illegal character '\\n'"),
+        "a text ends with the quote that it begins with",
+    ),
+}
+"""The beginning of a message → what is missing."""
+TWICE = ("Cannot overwrite", "Cannot declare", "Cannot mutate")
+
+
+def unread(raw: bytes, error: ValueError) -> str:
+    """The message of Python's reader, always with a line, and the remedy where it is known."""
+    if isinstance(error, UnicodeDecodeError):
+        line = raw[: error.start].count(b"\n") + 1
+        return f"line {line} has a byte that is not UTF-8; save the file as UTF-8"
+    lines = raw.decode("utf-8-sig", "replace").split("\n")
+    last = max((k for k, x in enumerate(lines, 1) if x.strip()), default=1)
+    end = f"at line {last}, column {len(lines[last - 1]) + 1}, the end"
+    said = str(error).replace("at end of document", end)
+    if said.startswith(TWICE):
+        said += "; a key or a table stands twice, where a list of tables is written [[…]]"
+    at = AT.search(said)
+    if at is None:
+        return said
+    shown = lines[int(at[1]) - 1].rstrip("\r")
+    told = remedy(said, shown, int(at[2]) - 1)
+    return f"{said}; {told}" if told else said
+
+
+def remedy(said: str, line: str, column: int) -> str:
+    """What to write instead, from what stands about a column, from 0, of a line; "" if unknown."""
+    before, here, key = line[:column], line[column : column + 1], line.partition("=")[0]
+    if quote := next((x for x in TEXT.sub("", line) if x in CURLY), ""):
+        return f'{quote} is a curly quote: text stands in straight ones, "…"'
+    if here and here in SPACES:
+        return f"a no-break space (U+{ord(here):04X}) stands here: write a plain one"
+    if here == "−":
+        return "− is not the minus sign of a number: write -"
+    if not key.isascii():
+        return "names have the letters A to Z, a to z, digits and _ only"
+    if found := _decimal(line, column):
+        return f"a decimal point, not a comma: {found}"
+    if said.startswith("Invalid statement") and line.lstrip().startswith((";", "//")):
+        return "a comment begins with #"
+    if said.startswith("Expected '=' after a key") and here == ":":
+        return "a key and its value are parted by =, not by :"
+    if said.startswith("Expected ']"):
+        return "a table is written [name], one of a list of tables [[name]]"
+    bare = said.startswith(("Invalid value", "Expected newline", "Unclosed")) and "=" in before
+    told = _unquoted(line, column) if bare else ""
+    return told or next((x for begin, x in ENDS.items() if said.startswith(begin)), "")
+
+
+def _decimal(line: str, column: int) -> str:
+    """The number with a point, where one with a comma ends or has its comma at the column."""
+    comma = re.match(r",[0-9]+", line[column:])
+    found = DECIMAL.search(line[: column + comma.end()] if comma else line[:column])
+    return f"{found[1]}.{found[2]}" if found else ""
+
+
+def _unquoted(line: str, column: int) -> str:
+    """That a text or an expression has no quotes, or a number no digit on one side of its point."""
+    word = next((x for x in WORD.finditer(line) if x.start() <= column < x.end()), None)
+    if word is None:
+        nothing = not line[column:].split("#")[0].strip() and line[:column].rstrip().endswith("=")
+        return "a value is missing" if nothing else ""
+    told = word[0]
+    if re.fullmatch(r"[-+]?(\.[0-9]+|[0-9]+\.)", told):
+        return "a digit stands on both sides of the point: " + re.sub(
+            r"^([-+]?)\.", r"\g<1>0.", told if told[-1] != "." else f"{told}0"
+        )
+    if re.search(r"[A-Za-z*/^+(]", told) and told[-1] != "(":
+        return f'a text or an expression stands in quotes: "{told[:40]}"'
+    return ""
+
+
+# What may be meant otherwise in a problem that is good: said, not refused.
+
+
+def doubts(p: Problem, given: Mapping[str, float], *, followed: bool = False) -> Iterator[str]:
+    """Each in words, as the values of the parameters have it that are ``given``, or by default;
+    ``followed``: without the names of [initial] and [[event]], which a motion refuses."""
+    values = {k: replace(x, default=given.get(k, x.default)) for k, x in p.parameters.items()}
+    negative = (
+        negative_mass(p.body, values),
+        negative_stiffness_of(p.potentials, p.damping, values),
+    )
+    yield from (f"{where} is negative" for where in negative if where)
+    if p.group and not p.signed and (why := impossible(p.group, p.body, values)):
+        yield f"body: {why}"
+    if metric_in_time(p):
+        yield (
+            "the metric ∂²L/∂Z² depends on the time: if by a mass m(t), the equations are "
+            "d(mv)/dt = F, of what comes from rest or is left at rest in space; a rocket has "
+            "m dv/dt = F + dm/dt c, with c the velocity relative to it of what leaves it"
+        )
+    yield from () if followed else faults(p)
+
+
+def metric_in_time(p: Problem) -> bool:
+    """Does the kinetic energy of a Lagrangian of one's own depend on the time?"""
+    if not (p.group and p.lagrangian) or "t" not in nodes(p.lagrangian.L):
+        return False
+    second = hessian(p.lagrangian.L, coordinates(p.group))
+    return any(not vanishes(derivative(x, "t")) for row in second for x in row)

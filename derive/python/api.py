@@ -1,18 +1,10 @@
-"""The same as problem files, from Python: a few words that build the tables of a file.
-
-    >>> from derive import SL, Points, Problem, Spring, derive
-    >>> body = Points((1, [1, 0]), (2, [0, "a"]))
-    >>> p = Problem("pair", SL(2), body, [Spring(1, 2, "k")], parameters={"a": 1.5, "k": 2})
-    >>> print(derive(p)["motion"].equations[0].lhs)
-    Ȧ
-
-What stands in quotes may be an expression of SymPy as well, and a parameter its Symbol.  Everything
-is checked as a file is; ``ProblemError`` says in one line what is wrong.
-"""
+"""The same as problem files, from Python: a few words that build the tables of a file."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -20,14 +12,15 @@ from inspect import Parameter, Signature, getmodule, signature
 from typing import Any, TypeVar
 
 from ..algebra.families import FAMILIES
+from ..language.limits import Refused
 from ..problem import problem as mechanics
 from ..problem.toml import problem_of
 from ..schema import table as schema
-from ..schema.lagrangian_kinds import SECTIONS
+from ..schema.kind import SECTIONS
 from ..schema.python_words import words
 from ..schema.table import Number, hint
 from . import quoted
-from .doubted import warned
+from .quoted import warned
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -234,3 +227,25 @@ def _plain(x: Any, where: str) -> Any:
     if isinstance(x, (list, tuple)):
         return [_plain(y, where) for y in x]
     return {k: _plain(y, f"{where}, {k}") for k, y in x.items()} if isinstance(x, dict) else x
+
+
+# Messages that the command line shares, in the words of Python: keywords in place of options.
+
+KEYWORDS = {"set": "start", "lang": "languages", "column": "columns"}
+"""Option → its keyword, where that has another name."""
+
+
+@contextmanager
+def in_keywords() -> Iterator[None]:
+    """What is refused inside is told with ``dt`` for ``--dt``, ``at_defaults`` for
+    ``--at-defaults``."""
+    try:
+        yield
+    except Refused as error:
+        told = re.sub(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)", _keyword, str(error))
+        raise type(error)(told) from None
+
+
+def _keyword(option: re.Match[str]) -> str:
+    """What an option of the command line is called in Python."""
+    return KEYWORDS.get(option[1], option[1].replace("-", "_"))

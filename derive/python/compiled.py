@@ -23,15 +23,26 @@ from ..code.naming import own_prefix
 from ..code.options import ADDED, options_of
 from ..code.program import Block, Program
 from ..code.step.step_numbers import FIXED
-from ..language.near_names import did_you_mean, near_name
-from ..motion.component import reflection
+from ..language.reserved import did_you_mean, near_name
+from ..motion.native import (
+    FLAGS,
+    Array,
+    CompileError,
+    CSource,
+    Motion,
+    binding,
+    constants,
+    ensemble,
+    loaded,
+    over_cores,
+    pointer,
+)
 from ..motion.start import OFF_THE_GROUP
-from ..native.library import FLAGS, CompileError, CSource, loaded, over_cores
-from ..native.motion_in_c import Array, Motion, binding, constants, ensemble, pointer
+from ..motion.trajectory import reflection
 from ..pipeline import program
 from ..problem.problem import Problem, ProblemError
 from .derived import Derived, derive
-from .in_momenta import InMomenta
+from .simulated import InMomenta
 
 __all__ = ["CompileError", "Compiled", "compile"]
 

@@ -12,18 +12,16 @@ from typing import TYPE_CHECKING, Any, overload
 from ..check.form.hypotheses_checked import Verdict
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
-from .doubted import loaded
-from .keywords import in_keywords
-from .shown import Shown
+from .api import in_keywords
+from .conserved_quantities import Shown
+from .quoted import loaded
 
 if TYPE_CHECKING:
     from ..figure.drawing import Scene
     from .as_sympy import Translation
     from .conserved_quantities import SymmetriesOf
-    from .equilibria_found import Equilibria, Near
     from .expressions import Expressions
-    from .integrals_found import FirstIntegrals
-    from .reduction_found import Reduced
+    from .found import Equilibria, FirstIntegrals, Near, Reduced
     from .simulated import Simulated, SimulatedEnsemble
 
 
@@ -38,7 +36,7 @@ class Figure:
 
     def svg(self) -> str:
         """The drawing as SVG text, a file of its own or an element of a page."""
-        from ..figure.figure import svg
+        from ..figure.drawing import svg
 
         return svg(self.scene)
 
@@ -108,7 +106,7 @@ class Derived:
         self, degree: int = 4, *, at_defaults: bool = False, conditions: bool = False
     ) -> FirstIntegrals:
         """The polynomial first integrals of the reduced equations up to a degree."""
-        from .integrals_found import first_integrals
+        from .found import first_integrals
 
         chosen = {"at_defaults": at_defaults, "conditions": conditions}
         return first_integrals(self.problem, degree, **chosen)
@@ -120,9 +118,9 @@ class Derived:
         ``{"Pi_1": "sqrt(3)/2"}``, or those among some points; parameters have their defaults.
         ``degree``: of the integrals that are searched.  ``ValueError`` where it is none, or for
         what is no such number."""
-        from ..equilibria.equilibrium_points import number_from
         from ..pipeline import equilibria
-        from .equilibria_found import Equilibria
+        from ..search.equilibria.equilibrium_points import number_from
+        from .found import Equilibria
 
         values = {x: number_from(str(v)) for x, v in (at or {}).items()}
         return Equilibria(*equilibria(self.problem, values, degree))
@@ -130,9 +128,9 @@ class Derived:
     def equilibrium_near(self, at: Mapping[str, Fraction | int | str], *, degree: int = 4) -> Near:
         """The relative equilibrium near a point with these coordinates, on its level of the
         Casimirs up to a ``degree``, enclosed; ``ValueError`` where none is."""
-        from ..equilibria.equilibrium_points import number_from
         from ..pipeline import equilibrium_near
-        from .equilibria_found import Near
+        from ..search.equilibria.equilibrium_points import number_from
+        from .found import Near
 
         values = {x: number_from(str(v)) for x, v in at.items()}
         return Near(*equilibrium_near(self.problem, values, degree))
@@ -150,7 +148,7 @@ class Derived:
         """Routh's reduction by symmetries that commute; ``ProblemError`` where there is nothing to
         reduce by."""
         from ..pipeline import reduction
-        from .reduction_found import Reduced
+        from .found import Reduced
 
         found = reduction(self.problem, self.record)
         return Reduced(found.routhian, found.record)
@@ -191,11 +189,10 @@ class Derived:
         ``vary``, drawn by (low, high) or ("normal", mean, deviation) from a ``seed`` (0); kept is
         the end, or ``points`` instants.  ``MotionError``, a ``ValueError``, says what is wrong.
         """
-        from ..motion.driven import is_weightless
         from ..motion.ensemble import require_an_ensemble
-        from ..motion.first_numbers import require_numbers
-        from ..motion.method import STEPS, Method
         from ..motion.simulate import run
+        from ..motion.start import is_weightless, require_numbers
+        from ..motion.trajectory import STEPS, Method
         from ..pipeline import motion_of
         from .simulated import Simulated
 
@@ -224,8 +221,7 @@ class Derived:
         begin: Mapping[str, Any],
         how: Mapping[str, Any],
     ) -> SimulatedEnsemble:
-        from ..motion.ensemble import Many, Plan, require_steps_of_an_ensemble
-        from ..motion.varied import laws
+        from ..motion.ensemble import Many, Plan, laws, require_steps_of_an_ensemble
         from ..pipeline import motion_of_many
         from .simulated import SimulatedEnsemble
 
@@ -247,9 +243,9 @@ class Derived:
     ) -> str:
         """A page of HTML in which the body moves from 0 to t, from a start as of ``simulate``; in
         English or in French (``fr``)."""
-        from ..motion.first_numbers import require_numbers
-        from ..motion.method import Method, instants
         from ..motion.simulate import beginning
+        from ..motion.start import require_numbers
+        from ..motion.trajectory import Method, instants
         from ..page.motion_page import motion_page
         from ..pipeline import motion_of
         from ..views.language import language as named

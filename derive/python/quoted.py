@@ -1,23 +1,17 @@
-"""SymPy's expressions as a problem file says them: text of its grammar, numbers, lists.
-
-    >>> from sympy import Rational, symbols
-    >>> a, b = symbols("a b")
-    >>> quoted(Rational(1, 2) * a**2 / (a + b))
-    '1/2*a^2/(a+b)'
-
-SymPy is not imported for this: who hands in an expression has done so.  The text is read by the
-parser of problem files as any other (:mod:`derive.language.expression`).
-"""
+"""SymPy expressions as a problem file says them, and what is doubtful of it as warnings."""
 
 from __future__ import annotations
 
 import sys
+import warnings
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 from ..language.derivatives import DERIVATIVES
 from ..language.limits import DEPTH
 from ..language.reserved import CONSTANTS
+from ..problem.problem import Problem
 from ..schema.table_reader import NAME
 
 SUM, PRODUCT, POWER, ATOM = range(4)
@@ -177,3 +171,24 @@ def _refusal(x: Any) -> str:
         known = ", ".join(DERIVATIVES)
         return f"unknown function {_shown(x)}; known: {known}"
     return f"{_shown(x)}, a {called}, has no meaning in an expression"
+
+
+# A problem with what may be meant otherwise in it, as warnings of Python.
+
+
+def warned(problem: Problem, *, frames: int = 1) -> Problem:
+    """A problem, with a warning for each of its doubts, at the line so many ``frames`` above."""
+    from ..problem.toml import doubts
+
+    for doubt in doubts(problem, {}):
+        warnings.warn(f"{problem.name}: {doubt}", stacklevel=frames + 2)
+    return problem
+
+
+def loaded(problem: Problem | str | Path) -> Problem:
+    """A problem, one of a file or a ready-made one, of which doubts are told."""
+    from ..command.showing import load_problem
+
+    if isinstance(problem, Problem):
+        return problem
+    return warned(load_problem(str(problem)), frames=2)

@@ -1,13 +1,17 @@
-"""A run, and an ensemble, in Python, which can be drawn and written."""
+"""A run, and an ensemble, in Python; the functions of a compiled problem in momenta."""
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from ..motion.ensemble import Ensemble, Part
 from ..motion.run import Run
-from .keywords import in_keywords
+from .api import in_keywords
 
 
 def _drawn(
@@ -33,7 +37,7 @@ class Simulated(Run):
     @classmethod
     def read(cls, path: str | Path) -> Simulated:
         """The run in a file; ``RunFileError`` where there is none."""
-        from ..motion.run_files import read
+        from ..motion.run import read
 
         return cls.of(read(Path(path)))
 
@@ -43,7 +47,7 @@ class Simulated(Run):
 
     def save(self, out: str | Path) -> Path:
         """Write it to a file, .npz, .csv or .parquet."""
-        from ..motion.run_files import written
+        from ..motion.run import written
 
         path = Path(out)
         path.write_bytes(written(self, path.name))
@@ -76,10 +80,52 @@ class SimulatedEnsemble(Ensemble):
     def save(self, out: str | Path) -> Path:
         """Write it to a file, .npz, .csv or .parquet."""
         from ..motion.ensemble_files import writer
-        from ..motion.run_files import format_of
+        from ..motion.run import format_of
 
         path = Path(out)
         format_of(path.name)
         with path.open("wb") as file, writer(file, path.name, self) as made:
             made.add(Part(self.varied, self.status, self.states, self.end))
         return path
+
+
+# The functions of ``momenta=True`` of a compiled problem: the motion in momenta.
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+class InMomenta:
+    """What a compiled problem has of a state y, with momenta in the place of the velocity."""
+
+    STATE: tuple[str, ...]
+    REDUCED: int
+    """The variables of the Poisson tensor."""
+
+    @abstractmethod
+    def _in_momenta(self, what: str, t: float, x: Any, u: Any, out: Array) -> int:
+        """Call a C function of the time, a state, constants and inputs, which writes ``out``."""
+
+    def momentum(self, t: float, x: Any) -> Array:
+        """The state x with its momenta in the place of the velocity; needs ``momenta=True``."""
+        return self._written("momentum", t, x)
+
+    def velocity(self, t: float, y: Any) -> Array:
+        """The state y, with momenta, with its velocity in their place; ``ArithmeticError`` where
+        Newton's method does not find it."""
+        return self._written("velocity", t, y)
+
+    def momentum_rhs(self, t: float, y: Any, u: Any = None) -> Array:
+        """dy/dt, y the state with momenta; ``ArithmeticError`` as that of :meth:`velocity`."""
+        return self._written("momentum_rhs", t, y, u)
+
+    def poisson(self, t: float, y: Any) -> Array:
+        """The matrix of the Poisson brackets of the momenta, and of what is carried along."""
+        out = np.zeros((self.REDUCED, self.REDUCED))
+        self._in_momenta("poisson", t, y, None, out)
+        return out
+
+    def _written(self, what: str, t: float, x: Any, u: Any = None) -> Array:
+        out = np.zeros(len(self.STATE))
+        if self._in_momenta(what, t, x, u, out):
+            raise ArithmeticError("no velocity is found that has these momenta")
+        return out

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..language import rational as q
-from ..language.layers import at_levels
+from ..language.laurent import at_levels
 from ..language.tree import Tree
 from ..language.values import approximate
 from .record import RecordError

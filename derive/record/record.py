@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from ..language.refused import Refused
+from ..language.limits import Refused
 from ..language.tree import Tree, names
 from .claims import Claim
 from .contract import ANY_GROUP

@@ -11,16 +11,12 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from ..language.derivatives import DERIVATIVES
-from ..language.layers import LEVEL, degree_in_level
+from ..language.laurent import LEVEL, degree_in_level
 from ..language.limits import BASIS, CARRIED, LAYERS, TORUS
 from ..language.tree import Tree, replaced
-from ..schema.algebra_kinds import Advected, Torus
-from ..schema.body_kinds import BODIES, Place, is_ellipsoid
-from ..schema.fluid_kinds import GROUP, Fluid
+from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
+from ..schema.kind import GROUP, INPUTS, Advected, Damping, Fluid, Lagrangian, Torus
 from ..schema.kinds import kinds
-from ..schema.lagrangian_kinds import Lagrangian
-from ..schema.outside import INPUTS, Damping
-from ..schema.solid_kinds import LAYERED, SOLIDS, Solid
 from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
 from .contract import CONVENTIONS

@@ -1,14 +1,30 @@
-"""What a kind of potential is: a table, its words, and what the others must know of it.
+"""What a problem may say: parameters, a group, an algebra, a fluid, forces, events, potentials."""
 
-The kinds are in :mod:`derive.schema.kinds`.
-"""
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from typing import Annotated, Any, ClassVar, NamedTuple
 
-from __future__ import annotations
+from ..language.tree import Tree
+from .table import (
+    Action,
+    Basis,
+    Default,
+    End,
+    Frame,
+    Key,
+    Letters,
+    Name,
+    Number,
+    Points,
+    Stiffness,
+    Table,
+    Text,
+    place,
+)
 
-from collections.abc import Iterator
-from typing import ClassVar, NamedTuple
-
-from .table import Table
+# What a kind of potential is: a table, its words, and what the others must know of it.
+#
+# The kinds are in kinds.
 
 
 class Own(NamedTuple):
@@ -54,3 +70,251 @@ class Potential(Table):
         for _, about, value in self.values():
             if about.type in ("pair", "end", "points"):
                 yield from (value,) if about.type == "end" else value
+
+
+# What a problem declares before its body: its parameters, and a group of its own.
+
+
+class Parameter(Table):
+    """A free name, with what a reader of the emitted code wants to know."""
+
+    default: Default = None
+    unit: Text = ""
+    meaning: Text = ""
+
+
+class StatedGroup(Table):
+    """A group by a ``basis`` of its Lie algebra, matrices over Q; those of an affine one have a
+    last row of zeros."""
+
+    name: Letters
+    action: Action = "linear"
+    basis: Basis
+
+
+# What a file says of motions that are followed, and no record of equations has: events.
+
+Watched = Annotated[Tree, Key("watched", trees=True)]
+Direction = Annotated[str, Key("direction")]
+Flag = Annotated[bool, Key("flag")]
+"""An expression of the state, the time and the parameters; one of DIRECTIONS; true or false."""
+
+DIRECTIONS = ("both", "rising", "falling")
+
+
+class Event(Table):
+    """An instant at which the expression ``when`` changes its sign: ``rising`` from below 0,
+    ``falling`` from above; a ``terminal`` one ends the run."""
+
+    section, called = "event", "Event"
+    name: Name
+    when: Watched
+    direction: Direction = "both"
+    terminal: Flag = False
+
+    @classmethod
+    def word(cls, name: str, when: Number, direction: str = "both", terminal: bool = False) -> Any:
+        """An event of a motion: an expression of the state, t and the parameters crosses 0, from
+        below, "rising", or from above, "falling", or either, "both"; a terminal one ends a run."""
+        return {"name": name, "when": when, "direction": direction, "terminal": terminal}
+
+
+# Forces outside dϖ: inputs, given at every call, and damping.
+
+
+class CovectorInput(Table):
+    """A covector of the Lie algebra: power ⟨u, ζ⟩."""
+
+    kind, section, called = "covector", "input", "Covector"
+    name: Name
+
+    @classmethod
+    def word(cls, name: str) -> Any:
+        """An input: a covector of the Lie algebra, by its values on the basis."""
+        return {"name": name}
+
+
+class ForceInput(Table):
+    """A force on a point or a place; ``frame``: its components are in space or body."""
+
+    kind, section, called = "force", "input", "Force"
+    name: Name
+    on: End
+    frame: Frame = "space"
+
+    @classmethod
+    def word(
+        cls,
+        name: str,
+        on: int | Sequence[Number],
+        frame: str = "space",
+        block: int | None = None,
+    ) -> Any:
+        """An input: a force on a point, or at a place of the body, in a product of that of a block;
+        its frame is "space" or "body"."""
+        return {"name": name, "frame": frame} | place(on, block)
+
+
+class Damping(Table):
+    """−κ v on points: a Rayleigh function ½ κ |v|², no potential."""
+
+    section = "damping"
+    coefficient: Stiffness
+    on: Points
+
+    @classmethod
+    def word(
+        cls,
+        coefficient: Number,
+        on: Sequence[int] | None = None,
+        at: Sequence[Number] | None = None,
+        block: int | None = None,
+    ) -> Any:
+        """The force −κ v on points (all by default), or on a place of the body, in a product of
+        that of a block, outside dϖ."""
+        return {"coefficient": coefficient, "on": on, "at": at, "block": block}
+
+
+Input = CovectorInput | ForceInput
+INPUTS: dict[str, type[CovectorInput] | type[ForceInput]] = {
+    "covector": CovectorInput,
+    "force": ForceInput,
+}
+
+
+# A fluid whose displacements keep the volume: a problem without matrices.
+
+Density = Annotated[str, Key("density")]
+"""One of DENSITIES."""
+
+Forces = Annotated[str, Key("field_of_force")]
+"""One of FORCES."""
+
+DENSITIES = ("homogeneous", "advected")
+"""Everywhere the same; or from place to place another, which the fluid carries along."""
+FORCES = ("none", "potential")
+"""None; or per unit mass, −grad V of any function V of the place."""
+GROUP = "SDiff"
+"""The displacements that keep the volume."""
+
+
+class Fluid(Table):
+    """An incompressible fluid in the flat space of any dimension, or a domain of it; with its
+    ``density`` and the ``forces`` on it."""
+
+    section = "fluid"
+    density: Density = "homogeneous"
+    forces: Forces = "none"
+
+
+# Lagrangians that no points give: an expression ℓ(t, g, Z), or an inertia operator on 𝔤.
+
+Lettered = Annotated[Tree, Key("lettered", trees=True)]
+Coordinates = Annotated[tuple[Tree, ...], Key("coordinates", 1, trees=True)]
+Operator = Annotated[tuple[tuple[Tree, ...], ...], Key("operator", 2, trees=True)]
+Side = Annotated[str, Key("side")]
+Held = Annotated[tuple[int, ...], Key("held", 1, keys=())]
+"""An expression in the time and the names of the state; one for each coordinate of 𝔤; a symmetric
+matrix of these; the side on which velocities are carried to 𝔤; numbers of coordinates, which no
+file tells."""
+
+
+class Lagrangian(Table):
+    """ℓ(t, g, Z), in t, the entries of g, the coordinates of Z in the basis of 𝔤, and parameters.
+
+    ``trivialisation``: Z = g⁻¹ġ on the left, ġg⁻¹ on the right. ``held``: the coordinates, from 1,
+    in which a motion is chosen, where the second derivative is singular.
+    """
+
+    section = "lagrangian"
+    L: Lettered
+    trivialisation: Side = "left"
+    held: Held = ()
+
+
+class Inertia(Table):
+    """½⟨ζ, 𝕀ζ⟩ + ⟨a, ζ⟩ − U: the ``operator`` 𝕀, d × d, the ``momentum`` a at rest, and ``U``."""
+
+    section = "inertia"
+    operator: Operator
+    momentum: Coordinates = ()
+    U: Lettered = 0
+    trivialisation: Side = "left"
+
+
+SECTIONS: dict[str, type[Lagrangian] | type[Inertia]] = {
+    x.section: x for x in (Lagrangian, Inertia)
+}
+SIDES = ("left", "right")
+
+
+# A Lie algebra whose group moves no points, and what it carries along: advected quantities.
+
+Rows = Annotated[tuple[tuple[int, int, int, Fraction], ...], Key("brackets", 2)]
+Count = Annotated[int, Key("elements")]
+Matrices = Annotated[tuple[tuple[tuple[Fraction, ...], ...], ...], Key("representation", 2)]
+"""Rows [a, b, k, c] of [E_a, E_b] = c E_k + …; how many; the matrices of a representation."""
+
+
+class StatedAlgebra(Table):
+    """Those of a group ``of`` a name; or by a ``basis`` of matrices; or by ``brackets``, rows
+    [a, b, k, c] of [E_a, E_b] = c E_k + …, of so many elements (``dimension``)."""
+
+    section = "algebra"
+    called = "Algebra"
+    of: Text = ""
+    basis: Basis = ()
+    brackets: Rows = ()
+    dimension: Count = 0
+
+
+class Torus(Table):
+    """su(N) in the basis T_n of the torus, as a record has it; L = ½ Σ |n|² |ζ_n|²."""
+
+    N: Annotated[int, Key("odd")]
+
+
+class StatedTorus(Torus):
+    """The same in a file."""
+
+    section, called = "algebra", "Torus"
+    of: Text
+
+    @classmethod
+    def word(cls, N: int) -> Any:
+        """su(N) in the basis of the torus, N odd: Zeitlin's model, with ``Laplacian()``."""
+        return {"of": "torus", "N": N}
+
+
+class TorusInertia(Table):
+    """The inertia operator of the torus, by name: ``laplacian``, |n|² on T_n."""
+
+    section, called = "inertia", "Laplacian"
+    operator: Text
+    trivialisation: Text = "right"
+
+    @classmethod
+    def word(cls) -> Any:
+        """The inertia of a fluid on the torus: the square of n on T_n."""
+        return {"operator": "laplacian"}
+
+
+class StatedAdvected(Table):
+    """Γ = ρ(g)⁻¹Γ₀, on the right ρ(g)Γ₀, by the matrices ρ(E_a) of its ``representation``, or one
+    of those that every algebra has; its entries are NAME_1, NAME_2, … in expressions."""
+
+    section = "advected"
+    called = "Advected"
+    name: Name
+    representation: Matrices
+
+
+class Advected(Table):
+    """The same in a record: of so many entries; ρ is a block of the basis of the group."""
+
+    name: Name
+    size: Count
+
+
+REPRESENTATIONS = ("standard", "dual", "adjoint", "coadjoint")
+"""The representations by name: by the matrices of the algebra, x ↦ [E_a, x], and their duals."""

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from .algebra_kinds import StatedAdvected, StatedAlgebra, StatedTorus, TorusInertia
-from .body_kinds import Moments, Point
-from .fluid_kinds import Fluid
-from .followed import Event
+from .body_kinds import Moments, Point, Solid
+from .kind import (
+    INPUTS,
+    SECTIONS,
+    Damping,
+    Event,
+    Fluid,
+    StatedAdvected,
+    StatedAlgebra,
+    StatedTorus,
+    TorusInertia,
+)
 from .kinds import kinds
-from .lagrangian_kinds import SECTIONS
-from .outside import INPUTS, Damping
-from .solid_kinds import Solid
 from .table import Table
 
 

@@ -20,7 +20,7 @@ from typing import (
     get_args,
 )
 
-from ..language.near_names import did_you_mean, near_name
+from ..language.reserved import did_you_mean, near_name
 from ..language.tree import Tree
 
 Number = int | float | str | Fraction

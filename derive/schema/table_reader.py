@@ -13,10 +13,7 @@ from typing import Any, ClassVar, TypeVar
 from ..language.limits import MAGNITUDE, TEXT, TORUS
 from ..language.reserved import WORDS, taken
 from ..language.tree import Tree
-from .declared import Parameter
-from .fluid_kinds import DENSITIES, FORCES
-from .lagrangian_kinds import SIDES
-from .outside import Input
+from .kind import DENSITIES, FORCES, SIDES, Input, Parameter
 from .table import Rows, Slot, Table, hint
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")

@@ -18,7 +18,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..check.values.arithmetic import part
-from ..language.refused import Refused
+from ..language.limits import Refused
 
 Expression = tuple[Any, ...]
 Statement = tuple[Any, ...]

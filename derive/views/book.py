@@ -1,20 +1,26 @@
-"""Several records as one text: what holds for any group once, then a chapter for each problem."""
+"""Several records as one text, and what is said of the paper's print beside them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import json
+import re
+import textwrap
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from itertools import groupby
 from unicodedata import normalize
 
-from ..language.tree import names
+from ..language.tree import Tree, names
+from ..paper.findings import OMISSION, SIGN, VERDICTS, Finding
+from ..printing.line_breaking import WIDTH
 from ..record.contract import ACTIONS, ANY_GROUP
 from ..record.record import Derivation, Step, Symbol
 from ..record.sentence import english, say
 from ..record.vocabulary import VOCABULARY
 from .language import ENGLISH, Language
-from .outline import title
-from .system import system
+from .outline import system, title
 
 VARIATIONS = ("δ′", "δ")
 RATE = "\u0307"
@@ -135,3 +141,168 @@ def steps(parts: Sequence[BookPart]) -> Iterator[tuple[BookPart, Step]]:
     for part in parts:
         for step in part.steps:
             yield part, step
+
+
+# Corrections of the paper's print: what it says, why that is wrong, a counterexample.
+
+FORMULA = re.compile("\ue000([^\ue001]*)\ue001")
+"""The number of a formula among the words of a sentence."""
+
+TRUE = {
+    SIGN: "This is true in the other convention of signs, with −dϖ for dϖ.",
+    OMISSION: "This is true where there are no forces.",
+}
+"""Verdict → how a print that is false as it stands is true."""
+
+
+@dataclass(frozen=True)
+class Passage:
+    """A stretch of a correction: words, or a formula whose sides are equal."""
+
+    text: str
+    formula: tuple[Tree, ...] = ()
+
+    def shown(self, words: Callable[[str], str], formula: Callable[[Sequence[Tree]], str]) -> str:
+        """The stretch in a language of markup; the spaces at the ends of words stay."""
+        if self.formula:
+            return formula(self.formula)
+        inside = self.text.strip()
+        before, _, after = self.text.partition(inside) if inside else (self.text, "", "")
+        return f"{before}{words(inside)}{after}"
+
+
+def corrections(
+    parts: Sequence[BookPart], findings: Sequence[Finding], language: Language
+) -> dict[str, dict[int, list[Passage]]]:
+    """Label of a step → number of the paper → its correction, at the first step that has it."""
+    left = {f.number: f for f in findings}
+    found: dict[str, dict[int, list[Passage]]] = {}
+    for part in parts:
+        for step in part.steps:
+            here = [left.pop(n) for n in step.paper if n in left]
+            found[step.label] = {f.number: [*_passages(f, language)] for f in here}
+    return found
+
+
+def _passages(f: Finding, language: Language) -> Iterator[Passage]:
+    """A correction: what was printed, how it is true, what is wrong, values that show it."""
+    formulas: list[tuple[Tree, ...]] = []
+
+    def formula(*sides: Tree) -> str:
+        formulas.append(sides)
+        return f"\ue000{len(formulas) - 1}\ue001"
+
+    printed = ", ".join(formula(e.lhs, e.rhs) for e in f.equations)
+    *point, (_, left), (_, right) = (f.counterexample or {}).items()
+    sides = {"left": formula(value_of(left)), "right": formula(value_of(right))}
+    values = ", ".join(formula(*names, value_of(x)) for *names, x in grouped(point))
+    template = "For {values}, the left side is {left}, the printed right side {right}."
+    sentences = (
+        language.word(
+            "The paper prints in {number}, here in the letters of these notes: {printed}.",
+            number=f"({f.number})",
+            printed=printed,
+        ),
+        language.word(TRUE[f.verdict]) if f.holds else "",
+        language.word(f.remark),
+        language.word(template, values=values, **sides),
+    )
+    for k, piece in enumerate(FORMULA.split(" ".join(filter(None, sentences)))):
+        if piece:
+            yield Passage(piece, formulas[int(piece)] if k % 2 else ())
+
+
+def value_of(text: str) -> Tree:
+    """An exact value as a tree: a fraction, or the rows of a matrix."""
+    if not text.startswith("["):
+        return Fraction(text)
+    rows = (row.split(", ") for row in text[1:-1].split("; "))
+    return ("matrix", *(("row", *map(Fraction, row)) for row in rows))
+
+
+# The findings about the paper's print, as text and as JSON.
+
+TOTAL = (
+    "{confirmed} confirmed, {sign} in another sign convention, {omission} with an omission, "
+    "{misprint} misprinted, {definition} definitions"
+)
+HEADS = ("printed", "derived", "holds", "but for", "remark")
+
+
+def as_json(findings: Sequence[Finding]) -> str:
+    """The findings as JSON: a list of objects, one for each numbered equation."""
+    data = [
+        {
+            "number": f.number,
+            "verdict": f.verdict,
+            "printed": f.printed,
+            "derived": f.derived,
+            "holds": f.holds,
+            "counterexample": f.counterexample,
+            "remark": f.remark or None,
+        }
+        for f in findings
+    ]
+    return json.dumps(data, ensure_ascii=False, indent=1) + "\n"
+
+
+def as_text(findings: Sequence[Finding], language: Language = ENGLISH, width: int = WIDTH) -> str:
+    """The findings as text, a paragraph each, its lines of ``width`` columns at most; what is false
+    with its correction."""
+    lines, word = [], language.word
+    heads = [word(x) for x in HEADS]
+    wide = max(map(len, heads))
+    for f in findings:
+        lines.append(f"({f.number}) {word(f.verdict)}")
+        derived = f.derived if f.verdict != "definition" else None
+        example = _example(f, language) if f.counterexample else None
+        holds = word(f.holds) if f.holds else None
+        texts = (f.printed, derived, holds, example, word(f.remark))
+        for head, text in zip(heads, texts, strict=True):
+            lines += _indented(f"{head:{wide}}  ", text, width) if text else []
+    counts = Counter(f.verdict for f in findings)
+    numbers = {x.split()[0]: str(counts[x]) for x in VERDICTS}
+    return "\n".join([*lines, "", *textwrap.wrap(word(TOTAL, **numbers), width)]) + "\n"
+
+
+def _example(f: Finding, language: Language) -> str:
+    """The values at which a printed equation is false, and its two sides there."""
+    *point, (_, left), (_, right) = (f.counterexample or {}).items()
+    values = ",  ".join(" = ".join(x) for x in grouped(point))
+    template = "{values}: the left side is {left}, the printed right side {right}"
+    return language.word(template, values=values, left=left, right=right)
+
+
+def grouped(values: Iterable[tuple[str, str]]) -> Iterator[tuple[str, ...]]:
+    """Names and their values; names that are 0, or 1, together before that value."""
+    together: dict[str, list[str]] = {"1": [], "0": []}
+    others = []
+    for name, value in values:
+        short = _short(value)
+        together.get(short, []).append(name)
+        if short not in together:
+            others.append((name, value))
+    yield from others
+    yield from ((*equal, value) for value, equal in together.items() if equal)
+
+
+def _short(value: str) -> str:
+    """0 or 1 for a matrix that is zero or the identity; else the value."""
+    if not value.startswith("["):
+        return value
+    rows = [row.split(", ") for row in value[1:-1].split("; ")]
+    if all(x == "0" for row in rows for x in row):
+        return "0"
+    square = all(len(row) == len(rows) for row in rows)
+    one = [["1" if i == j else "0" for j in range(len(rows))] for i in range(len(rows))]
+    return "1" if square and rows == one else value
+
+
+def _indented(head: str, text: str, width: int) -> list[str]:
+    return textwrap.wrap(
+        text,
+        width,
+        initial_indent=f"     {head}",
+        subsequent_indent=" " * (5 + len(head)),
+        break_long_words=False,
+    )

@@ -9,9 +9,8 @@ from itertools import groupby
 
 from ..language.show import show
 from ..language.tree import Tree
-from ..printing.line_breaking import display_width
+from ..printing.line_breaking import display_width, measure
 from ..printing.tex import latex_tree
-from ..printing.widths import measure
 from ..record.record import Equation
 
 TABLE, CELL, ROW = 4, 24, 72

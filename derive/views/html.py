@@ -9,24 +9,20 @@ from functools import cache, cached_property, lru_cache, partial
 from html import escape
 from typing import Any
 
-from ..figure.figure import svg
+from ..figure.drawing import svg
 from ..figure.scene import scene
 from ..language.templating import environment
 from ..language.tree import Tree
-from ..paper.finding import Finding
-from ..printing.inline import inline, spelt
-from ..printing.letters import NAMES
-from ..printing.line_breaking import groups
-from ..printing.macros import standard
-from ..printing.notation import Notation
-from ..printing.sentences import between_dollars, prose
+from ..paper.findings import Finding
+from ..printing.letters import NAMES, standard
+from ..printing.line_breaking import groups, measure
+from ..printing.sentences import between_dollars, inline, prose, spelt
+from ..printing.signs import Notation
 from ..printing.tex import Cut, cut_up, formula, joined
 from ..printing.typeset import Formula, literal, plain
-from ..printing.widths import measure
 from ..record.record import Derivation, Equation, Step
 from ..record.rules import RULES
-from .book import MOTION, REGULAR, BookPart, book, parameters
-from .corrections import Passage, corrections
+from .book import MOTION, REGULAR, BookPart, Passage, book, corrections, parameters
 from .entries import entries
 from .language import ENGLISH, Language
 from .latex import anchor

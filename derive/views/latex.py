@@ -8,21 +8,17 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 from itertools import accumulate, pairwise
 
-from ..figure.drawing import Scene
-from ..figure.figure import tikz
+from ..figure.drawing import Scene, tikz
 from ..figure.scene import scene
 from ..language.templating import environment
 from ..language.tree import Tree
-from ..paper.finding import Finding
-from ..printing.escape import tex_text
-from ..printing.letters import parameter
-from ..printing.macros import definitions, styled
-from ..printing.notation import Notation
+from ..paper.findings import Finding
+from ..printing.letters import definitions, parameter, styled
 from ..printing.sentences import between_dollars, dollars, prose
+from ..printing.signs import Notation, tex_text
 from ..printing.tex import latex_tree
 from ..record.record import Derivation, Step
-from .book import MOTION, REGULAR, BookPart, book, parameters, steps
-from .corrections import Passage, corrections
+from .book import MOTION, REGULAR, BookPart, Passage, book, corrections, parameters, steps
 from .language import ENGLISH, Language
 from .layout import blocks
 from .outline import (

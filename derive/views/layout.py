@@ -7,13 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from ..printing.escape import tex_text
-from ..printing.inline import spelt
-from ..printing.line_breaking import Line, fill
-from ..printing.notation import Notation
+from ..printing.line_breaking import Line, fill, measure
+from ..printing.sentences import spelt
+from ..printing.signs import Notation, tex_text
 from ..printing.tex import formula, guarded, joined, latex_tree, marked, paren, pieces
 from ..printing.typeset import Formula, literal, plain, text
-from ..printing.widths import measure
 from ..record.record import Equation
 from .entries import Entry, entries
 from .language import ENGLISH, Language

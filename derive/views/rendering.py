@@ -1,21 +1,45 @@
-"""Records in the formats of the command line: one walk, or notes of several."""
+"""Records in the formats of the command line: one walk, notes of several, both sides."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..language.refused import Refused
+from ..language.limits import Refused
 from ..printing.line_breaking import WIDTH
-from ..record.record import Derivation
+from ..record.record import Derivation, Symbol
 
 if TYPE_CHECKING:
-    from ..paper.finding import Finding
-    from ..printing.notation import Notation
+    from ..paper.findings import Finding
+    from ..printing.signs import Notation
     from ..record.record import Step
     from .language import Language
+
+
+# A record to be read beside the other trivialisation: what holds for any Lagrangian, step by step
+# on the left and on the right.
+
+
+def both_sides(d: Derivation, left: Derivation, right: Derivation) -> Derivation:
+    """A record behind the steps of ``left`` and ``right``, each beside its like.
+
+    To be read, not to be checked: of the names, it explains those that mean the same on both sides.
+    """
+    general = [step for pair in zip(left.steps, right.steps, strict=True) for step in pair]
+    there = {step.label for step in general}
+    own = [step for step in d.steps if step.label not in there]
+    return replace(d, steps=(*general, *own), symbols=(*_symbols(d, left, right),))
+
+
+def _symbols(d: Derivation, left: Derivation, right: Derivation) -> Iterator[Symbol]:
+    """The symbols of the three, without those that the sides define each in its own way."""
+    others = {s.name: s.meaning for s in right.symbols}
+    sided = {s.name for s in left.symbols if others.get(s.name) != s.meaning}
+    found = {s.name: s for s in (*left.symbols, *d.symbols)}
+    yield from (s for s in found.values() if s.name not in sided)
+
 
 NOTES = (".tex", ".pdf", ".html", ".sty")
 
@@ -31,7 +55,7 @@ def _latex(d: Derivation, words: Language, notation: Notation, alone: bool) -> s
 
 
 def _markdown(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
-    from .markdown import markdown
+    from .text import markdown
 
     return markdown(d, language=words)
 
@@ -86,7 +110,7 @@ def render(
 
     :class:`RenderError` for a format that is none, and for choices that do not go together.
     """
-    from ..printing.notation import Notation
+    from ..printing.signs import Notation
     from .language import language
 
     if form not in FORMATS:
@@ -137,7 +161,7 @@ def notes(
     ``moving``: the pages that a web page links to, by the names of the records; ``pictures``: files
     of pictures of their motions, which are shown.
     """
-    from ..printing.notation import Notation
+    from ..printing.signs import Notation
     from . import latex
     from .html import html
     from .language import language
@@ -168,7 +192,7 @@ def notes(
 
 def unprinted(records: Sequence[Derivation]) -> str:
     """The characters of titles, units and meanings that LaTeX shows as question marks."""
-    from ..printing.escape import unknown_to_tex
+    from ..printing.signs import unknown_to_tex
 
     words = [str(d.problem["title"]) for d in records]
     for d in records:

@@ -24,11 +24,11 @@ from typing import Any
 from places import line_of
 
 from derive.command.cli import main
-from derive.command.guard import one_line
-from derive.command.loading import derive
-from derive.language.refused import Refused
-from derive.paper.finding import Finding
-from derive.problem.followed_names import faults
+from derive.command.showing import derive
+from derive.command.writing import one_line
+from derive.language.limits import Refused
+from derive.paper.findings import Finding
+from derive.problem.stated_motion import faults
 from derive.record.contract import AMENDED
 from derive.record.record import Derivation
 
@@ -155,8 +155,7 @@ class Play:
         from argparse import ArgumentParser
 
         from derive.command.arguments import add_emission_options
-        from derive.command.emitting import languages, options
-        from derive.command.refused_options import refused
+        from derive.command.emitting import languages, options, refused
 
         with self.refusals():
             self.read(text)
@@ -188,8 +187,8 @@ class Play:
         motion keeps?"""
         from derive.code.emit import emit
         from derive.code.options import Options
-        from derive.motion.emitted_code import EmittedCode, base_units
-        from derive.motion.first_numbers import first_numbers
+        from derive.motion.run import EmittedCode, base_units
+        from derive.motion.start import first_numbers
         from derive.page.motion_page import data
         from derive.pipeline import moving_program
         from derive.views.language import language

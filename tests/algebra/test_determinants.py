@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from derive.algebra.determinants import adjugate, determinant, determinant_letter, power_of
+from derive.algebra.calculus import adjugate, determinant, determinant_letter, power_of
 from derive.algebra.words import Letter, one, trace, word
 
 X, Y, U = Letter("X", 3, 3), Letter("Y", 3, 3), Letter("u")

@@ -6,8 +6,17 @@ from random import Random
 import pytest
 import sympy
 
-from derive.algebra.exact_kernel import echelon, fraction_of, kernel, pivots, rational
-from derive.algebra.residue_vectors import PRIMES, Residues, ResidueSource, residue_of
+from derive.algebra.exact_kernel import (
+    PRIMES,
+    Residues,
+    ResidueSource,
+    echelon,
+    fraction_of,
+    kernel,
+    pivots,
+    rational,
+    residue_of,
+)
 
 P = PRIMES[0]
 

@@ -6,8 +6,8 @@ from random import Random
 import pytest
 
 from derive.algebra.families import group, so_basis
-from derive.algebra.inner_sampler import inner_sampler, one_parameter
-from derive.algebra.stated_basis import group_of_basis
+from derive.algebra.samplers import inner_sampler, one_parameter
+from derive.algebra.stated_groups import group_of_basis
 from derive.language import rational as q
 
 

@@ -17,8 +17,7 @@ from derive.algebra.calculus import (
     terms_with,
     without,
 )
-from derive.algebra.space import double, fold_double, hat, normal_form
-from derive.algebra.word_trees import tree_of
+from derive.algebra.word_trees import double, fold_double, hat, normal_form, tree_of
 from derive.algebra.words import (
     Expr,
     Letter,

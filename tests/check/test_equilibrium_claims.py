@@ -28,11 +28,11 @@ from derive.check.claims.exact_spectra import (
     signature,
 )
 from derive.check.form.hypotheses_checked import IMPOSSIBLE
-from derive.equilibria import stability
 from derive.language import univariate
-from derive.language.quadratic import root
 from derive.language.tree import add, mul, neg, nodes, replaced
+from derive.language.univariate import root
 from derive.record.claims import CLAIMS, Claim, rendered
+from derive.search.equilibria import stability
 from tests.check.test_record_claims import EQUILIBRIA, changes, said
 from tests.support.lagrangians import (
     SPIRAL,
@@ -219,7 +219,7 @@ ABSENT = {
 @pytest.mark.parametrize("name", ABSENT)
 def test_a_point_that_no_element_has(name, monkeypatch):
     problem, at = ABSENT[name]
-    monkeypatch.setattr("derive.equilibria.equilibrium_points.off_the_group", lambda *_: "")
+    monkeypatch.setattr("derive.search.equilibria.equilibrium_points.off_the_group", lambda *_: "")
     monkeypatch.setattr(stability, "attained", lambda *_: True)
     record = derive(problem).equilibria(at).record
     reasons = [*map(ClaimChecker(record, SEED).fault, record.steps)]

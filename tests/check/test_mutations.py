@@ -9,7 +9,7 @@ from derive import pipeline
 from derive.algebra import calculus, forms, words
 from derive.algebra import word_trees as notation
 from derive.check.checker import Checker, check, checker_of
-from derive.command.loading import load_problem
+from derive.command.showing import load_problem
 from derive.language.tree import mul, neg
 from derive.pipeline import walk
 from derive.record.record import Equation

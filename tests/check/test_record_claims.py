@@ -15,7 +15,6 @@ from derive.check.claims import no_more
 from derive.check.claims.claim_checker import JUDGES, OBLIGATORY, ClaimChecker
 from derive.check.claims.symmetry_count import SymmetryCount
 from derive.check.trials.trial_points import group_of
-from derive.integrals import told
 from derive.language.tree import add, mul
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
@@ -24,6 +23,7 @@ from derive.record.claims import CLAIMS, Claim
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.sentence import Sentence
+from derive.search.integrals import told_integrals
 from tests.problems import PROBLEMS
 from tests.support import walks
 from tests.support.lagrangians import (
@@ -115,7 +115,7 @@ def unsolved():
 def large(name, **how):
     """A record whose claims are too large to be computed again."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(told, "MONOMIALS", MONOMIALS)
+        patch.setattr(told_integrals, "MONOMIALS", MONOMIALS)
         return first_integrals(name, 2, **how).record
 
 

@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from derive.algebra.torus import Torus
+from derive.algebra.structure import Torus
 from derive.check.torus.torus_model import TorusModel, environment
 from derive.check.values.arithmetic import EvaluationError
 from derive.check.values.draws import difference, index_bindings

@@ -13,9 +13,9 @@ from derive.code.languages import LANGUAGES
 from derive.code.options import Options
 from derive.code.program import LoweringError
 from derive.command.cli import main
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
+from derive.language.limits import Refused
 from derive.language.rational import times, transposed
-from derive.language.refused import Refused
 from derive.pipeline import program
 from derive.problem.toml import problem_of
 from derive.python.derived import derive

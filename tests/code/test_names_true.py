@@ -13,7 +13,7 @@ import pytest
 
 from derive import derive
 from derive.code.program import LoweringError
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from derive.problem.problem import ProblemError
 from tests.support.forms import FORMS
 from tests.support.walks import FLUIDS

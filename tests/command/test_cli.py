@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from derive.command.cli import main
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from derive.printing.line_breaking import display_width
 from derive.record.json_writer import to_data, to_json
 from derive.views.rendering import FORMATS

@@ -6,7 +6,7 @@ from derive import derive
 from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 from derive.command.cli import main
-from derive.command.refused_options import further, refused
+from derive.command.emitting import further, refused
 
 FORMS = {
     "so3": ((), Options()),

@@ -12,7 +12,7 @@ import pytest
 
 from derive.code.statements import comment
 from derive.command.cli import main
-from derive.command.guard import StoppedError, one_line, time_limit
+from derive.command.writing import StoppedError, one_line, time_limit
 from derive.language import limits
 from derive.views.rendering import FORMATS
 from tests.fuzz.cases import problem_files

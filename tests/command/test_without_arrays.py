@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import pytest
 
 from derive.command.cli import main
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 
 WITHOUT = """
 import sys

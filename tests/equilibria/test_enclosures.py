@@ -11,10 +11,10 @@ from scipy.optimize import fsolve
 
 from derive.algebra.families import group
 from derive.check.claims.enclosure import enclosure_fault
-from derive.equilibria.enclosed_points import _slopes, certified
-from derive.equilibria.equilibrium_points import Expansion, NoEquilibriumError
 from derive.language.tree import add, mul
 from derive.record.record import Equation, Step
+from derive.search.equilibria.enclosed_points import _slopes, certified
+from derive.search.equilibria.equilibrium_points import Expansion, NoEquilibriumError
 
 Y = sympy.symbols("y1 y2")
 HIGHER = [e for e in product(range(5), repeat=2) if 2 < sum(e) < 5]

@@ -9,14 +9,14 @@ import pytest
 
 from derive import ProblemError
 from derive.algebra.families import group
-from derive.algebra.told_entries import constant_entries
+from derive.algebra.groups import constant_entries
 from derive.check.claims.entries_checked import decided as checked
-from derive.equilibria.entries_of_elements import conditions
-from derive.equilibria.equilibrium_points import About, attained, off_the_group
-from derive.integrals.reduced import without_energy
-from derive.language.quadratic import root
+from derive.language.univariate import root
 from derive.pipeline import equilibria
 from derive.record.sentence import english
+from derive.search.equilibria.entries_of_elements import conditions
+from derive.search.equilibria.equilibrium_points import About, attained, off_the_group
+from derive.search.integrals.reduced import without_energy
 from tests.support.lagrangians import LINE, LINES, LORENTZ, lagrangian, squares
 
 

@@ -13,15 +13,15 @@ from derive.check.checker import Checker
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.command.cli import main
-from derive.equilibria.energy_casimir import along_the_orbit, kernel, restricted, solutions
-from derive.equilibria.stability import roots_of_squares
 from derive.language.expression import parse
-from derive.language.quadratic import RootError, root, value_of
 from derive.language.tree import add, replaced
+from derive.language.univariate import RootError, root, value_of
 from derive.pipeline import walk
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.sentence import english
+from derive.search.equilibria.energy_casimir import along_the_orbit, kernel, restricted, solutions
+from derive.search.equilibria.stability import roots_of_squares
 from tests.support.coadjoint_orbits import hat, match, orbit_signature
 from tests.support.emitted import import_python
 from tests.support.lagrangians import disc, heavy, lagrangian, squares

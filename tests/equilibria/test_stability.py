@@ -7,10 +7,10 @@ import pytest
 
 from derive import ProblemError, derive
 from derive.command.cli import main
-from derive.equilibria.energy_casimir import between_roots, diagonalised
-from derive.equilibria.stability import polynomial, roots_of_squares
 from derive.problem.toml import problem_of
 from derive.record.sentence import english
+from derive.search.equilibria.energy_casimir import between_roots, diagonalised
+from derive.search.equilibria.stability import polynomial, roots_of_squares
 from tests.support.lagrangians import LINE, heavy, heisenberg, lagrangian, nilpotent
 from tests.support.walks import repeated
 

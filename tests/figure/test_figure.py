@@ -14,9 +14,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from derive.figure.drawing import Scene, Stroke
-from derive.figure.figure import svg, tikz
-from derive.figure.placing import overlap
+from derive.figure.drawing import Scene, Stroke, svg, tikz
+from derive.figure.drawn_body import overlap
 from derive.figure.scene import WIDTH, scene
 from derive.pipeline import walk
 from derive.problem.toml import problem_of

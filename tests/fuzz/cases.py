@@ -8,7 +8,7 @@ from pathlib import Path
 
 from derive.check.checker import Checker
 from derive.code.languages import LANGUAGES
-from derive.command.guard import StoppedError, time_limit
+from derive.command.writing import StoppedError, time_limit
 from derive.pipeline import walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import load

@@ -10,10 +10,10 @@ import sympy
 from derive import first_integrals
 from derive.check.checker import Checker
 from derive.command.cli import main
-from derive.integrals.degree_search import TooLargeError
 from derive.language.tree import neg
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
+from derive.search.integrals.degree_search import TooLargeError
 from tests.support.lagrangians import heavy, lagrangian, squares
 from tests.support.walks import SEED, repeated
 
@@ -226,7 +226,7 @@ REFUSED = {
 
 @pytest.mark.parametrize("words", repeated(REFUSED, 2))
 def test_what_is_too_large(words, monkeypatch):
-    monkeypatch.setattr("derive.integrals.special_parameters.WORK", 500)
+    monkeypatch.setattr("derive.search.integrals.special_parameters.WORK", 500)
     problem, degree = REFUSED[words]
     with pytest.raises(TooLargeError, match=words) as error:
         first_integrals(problem, degree, conditions=True)

@@ -7,7 +7,7 @@ import pytest
 
 import derive
 from derive.command.cli import main
-from derive.motion.run_files import read, written
+from derive.motion.run import read, written
 from derive.motion.start import MotionError, continued
 
 TOP = """

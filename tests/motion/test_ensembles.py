@@ -11,9 +11,9 @@ import pytest
 
 import derive
 from derive.command.cli import main
-from derive.command.ensembles import Tally, kept
+from derive.command.simulating import Tally, kept
 from derive.motion import ensemble as of_parts
-from derive.motion.varied import Draws, Varied
+from derive.motion.ensemble import Draws, Varied
 from derive.pipeline import motion_of
 from derive.python.simulated import SimulatedEnsemble
 from tests.problems.line import FALLING

@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 
 import derive
 from derive.command.cli import main
-from derive.motion.run_files import FORMATS, read, written
+from derive.motion.run import FORMATS, read, written
 from derive.pipeline import motion_of
 from derive.problem.problem import ProblemError
 from derive.problem.toml import load
@@ -241,9 +241,9 @@ def test_an_event_in_words():
 
 def test_the_polynomial_of_a_step_is_of_order_nine():
     """Uniformly on the step, against elliptic functions."""
-    from derive.motion.method import Method
     from derive.motion.simulate import following
     from derive.motion.start import start
+    from derive.motion.trajectory import Method
 
     moments = (1.25, 2.0, 2.75)
     theta, errors = np.linspace(0, 1, 9), []

@@ -6,7 +6,7 @@ import pytest
 import derive
 from derive.code.emit import problem_hash
 from derive.command.cli import main
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from derive.problem.problem import ProblemError
 from derive.problem.toml import load
 from tests.problems import READY

@@ -11,10 +11,9 @@ import pytest
 import derive
 from derive.command.cli import main
 from derive.motion import ensemble as of_parts
-from derive.motion.motion_in_python import MotionInPython
-from derive.motion.run_files import read
-from derive.motion.trajectory import Trajectory
-from derive.native.motion_in_c import Motion
+from derive.motion.native import Motion
+from derive.motion.run import read
+from derive.motion.trajectory import MotionInPython, Trajectory
 from derive.python.simulated import SimulatedEnsemble
 from tests.problems import moving
 from tests.support.needs import need, needs

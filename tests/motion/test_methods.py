@@ -5,10 +5,10 @@ import pytest
 
 import derive
 from derive.command.cli import main
-from derive.motion.run_files import read
+from derive.motion import native
+from derive.motion.native import CompileError
+from derive.motion.run import read
 from derive.motion.start import MotionError
-from derive.native import motion_in_c
-from derive.native.library import CompileError
 from tests.problems.moving import BODY, WEIGHT
 from tests.support.needs import need, needs
 
@@ -139,7 +139,7 @@ def test_calls_of_c_end_so_that_ctrl_c_is_heard(monkeypatch):
     for method in METHODS:
         monkeypatch.undo()
         whole = d.simulate(1.0, points=1, compiled=True, **method)
-        monkeypatch.setattr(motion_in_c, "MANY", 3)
+        monkeypatch.setattr(native, "MANY", 3)
         assert np.array_equal(d.simulate(1.0, points=1, compiled=True, **method).table, whole.table)
 
 

@@ -11,15 +11,9 @@ import derive
 from derive.code.step.collocation import Collocation
 from derive.command.cli import main
 from derive.command.simulating import at_first, negative
-from derive.motion.component import taken_to_group
-from derive.motion.driven import drives
-from derive.motion.first_numbers import exponential
-from derive.motion.kept_words import in_order
-from derive.motion.method import Method, instants
-from derive.motion.run import Column, Run
-from derive.motion.run_files import read
-from derive.motion.start import MotionError
-from derive.motion.stated_inertia import inertia_of
+from derive.motion.run import Column, Run, in_order, read
+from derive.motion.start import MotionError, drives, exponential, inertia_of
+from derive.motion.trajectory import Method, instants, taken_to_group
 from derive.pipeline import motion_of, walk
 from derive.problem.toml import problem_of
 from tests.oracles import free_top, lagrange_top

@@ -9,8 +9,7 @@ import pytest
 from derive.command import simulating
 from derive.command.cli import main
 from derive.command.writing import WriteError, require_place
-from derive.motion.run import Column, Run
-from derive.motion.run_files import FORMATS, RunFileError, read, written
+from derive.motion.run import FORMATS, Column, Run, RunFileError, read, written
 from tests.support.needs import need
 
 COLUMNS = (Column("t", "time", "s"), Column("A_11", "state"), Column("energy", "energy", "J"))

@@ -8,12 +8,12 @@ import pytest
 import derive
 from derive.code.emit import emit
 from derive.code.options import Options
-from derive.command.loading import load_problem, ready_made
+from derive.command.showing import load_problem, ready_made
 from derive.figure.drawn_body import Numbers
 from derive.language.values import approximate
 from derive.page.moving_body import moving_body
 from derive.pipeline import motion_of
-from derive.problem.state_names import state_names
+from derive.problem.fields import state_names
 from derive.problem.toml import problem_of
 from derive.walk.spine.head import problem_data
 from tests.support.in_node import printed

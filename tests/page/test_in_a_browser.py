@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import derive
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from derive.problem.toml import problem_of
 from tests.page.test_motion_page import PAGELESS
 from tests.support.motion_pages import BAD, STARTS, page

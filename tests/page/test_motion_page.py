@@ -6,7 +6,7 @@ import pytest
 
 import derive
 from derive.command.cli import main
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from tests.support.motion_pages import BAD, FAST, page, told
 from tests.support.walks import derived
 

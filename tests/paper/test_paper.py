@@ -11,7 +11,7 @@ import sympy
 from derive.command.cli import main
 from derive.language.show import show
 from derive.paper import findings as paper
-from derive.paper.finding import VERDICTS
+from derive.paper.findings import VERDICTS
 from derive.paper.printed import PAPER
 from derive.record.contract import AMENDED
 from derive.views.text import text

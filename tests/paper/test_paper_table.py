@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from tests.support.walks import record
 
 TEXT = (Path(__file__).parents[2] / "docs" / "paper.md").read_text(encoding="utf-8")

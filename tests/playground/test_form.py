@@ -6,7 +6,7 @@ import tomllib
 
 import pytest
 
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from tests.support.played import PENDULUM, text_of
 from tests.support.playground_site import put, rewalked, text_in, typed, walked
 

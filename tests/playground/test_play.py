@@ -10,7 +10,7 @@ from derive import derive as derived
 from derive.code.emit import emit
 from derive.code.options import Options
 from derive.command.cli import main
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from derive.motion.simulate import beginning
 from derive.page.motion_page import data
 from derive.pipeline import motion_of

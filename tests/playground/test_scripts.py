@@ -8,7 +8,7 @@ import pytest
 
 from derive import derive as derived
 from derive.code.options import CHOICES, REPEATED
-from derive.command.loading import READY, ready_made
+from derive.command.showing import READY, ready_made
 from derive.problem.toml import load
 from playground.stage import schema
 from tests.support import in_node

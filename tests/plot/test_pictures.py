@@ -7,14 +7,12 @@ import numpy as np
 import pytest
 
 from derive.command.cli import main
-from derive.motion.run import Run
-from derive.motion.run_files import written
+from derive.motion.run import Run, written
 from derive.plot import kinds_told
+from derive.plot.body_pictures import VIEW, in_math, projected
 from derive.plot.kinds_told import OVERVIEW, PRECISION
 from derive.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
 from derive.plot.plot_sheet import FORMATS, PlotError, label, look, settled, with_mark
-from derive.plot.polhode_picture import in_math
-from derive.plot.surfaces import VIEW, projected
 from derive.views.language import language
 from tests.support.drawn_runs import figure_of, fitting, run_of, simulated, texts, words_of
 from tests.support.needs import needs

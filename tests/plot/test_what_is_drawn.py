@@ -5,14 +5,13 @@ import importlib
 import numpy as np
 import pytest
 
-from derive.motion.effective_well import curve, turning_points
+from derive.motion.emitted import curve, turning_points
 from derive.motion.run import Run
-from derive.plot.body_pictures import _ellipsoid, drawn, hull
+from derive.plot.body_pictures import _ellipsoid, drawn, hull, levels, unstable
 from derive.plot.kinds_told import OVERVIEW
 from derive.plot.pictures import KINDS, plot
 from derive.plot.plot_sheet import label
-from derive.plot.polhode_picture import levels, unstable
-from derive.plot.spheroid_pictures import followed, maps, section
+from derive.plot.time_series import followed, maps, section
 from derive.problem.toml import problem_of
 from derive.python.derived import derive
 from derive.views.language import language

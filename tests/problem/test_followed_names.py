@@ -3,9 +3,9 @@
 import pytest
 
 from derive.command.cli import main
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from derive.pipeline import program, walk
-from derive.problem.followed_names import faults, numbers_followed
+from derive.problem.stated_motion import faults, numbers_followed
 from derive.problem.toml import load
 from tests.problems import READY, moving
 

@@ -20,14 +20,11 @@ from derive import (
     derive,
 )
 from derive.command.cli import COMMANDS, main
-from derive.language.near_names import near_name
+from derive.language.reserved import near_name
 from derive.language.values import approximate
-from derive.motion.run import Column, Run
-from derive.motion.run_files import written
-from derive.problem.data import data
-from derive.problem.doubts import doubts
-from derive.problem.problem import ProblemError
-from derive.problem.toml import load
+from derive.motion.run import Column, Run, written
+from derive.problem.problem import ProblemError, data
+from derive.problem.toml import doubts, load
 from derive.python.api import Table
 
 HEAD = 'name = "good"\ngroup = "SO(3)"\n'
@@ -48,7 +45,7 @@ def test_check_goes_on_behind_what_it_cannot_read(tmp_path, capsys):
 STOPPED = """
 import gc, sys
 from time import process_time
-import derive.command.listing
+import derive.command.showing
 from derive.command.cli import main
 
 def unhurried(problems):  # a list may be done before the clock of the machine ticks
@@ -57,7 +54,7 @@ def unhurried(problems):  # a list may be done before the clock of the machine t
         pass
     return ""
 
-derive.command.listing.listing = unhurried
+derive.command.showing.listing = unhurried
 gc.disable()  # what is raised while it collects is dropped, and raised again later
 sys.exit(main([*sys.argv[1:], "--seconds", "0.0001"]))
 """

@@ -27,13 +27,12 @@ from derive.record.vocabulary import (
     VOCABULARY,
     add_letters,
 )
-from derive.schema.kind import Own
+from derive.schema.kind import INPUTS, Damping, Own
 from derive.schema.kinds import kinds
-from derive.schema.outside import INPUTS, Damping
 from derive.schema.python_words import words
 from derive.schema.table import NEEDS
 from derive.views.language import language
-from derive.views.system import system
+from derive.views.outline import system
 from tests.support.kinds import PAGES, examples, pages
 from tests.support.walks import own_verdicts
 

@@ -15,8 +15,6 @@ ALLOWED = {
     "problem": {"problem", "schema", "algebra", "language"},
     "record": {"record", "prose", "schema", "language"},
     "walk": {"walk", "prose", "record", "problem", "schema", "algebra", "language"},
-    "integrals": {"integrals", "walk", "record", "problem", "algebra", "language"},
-    "equilibria": {"equilibria", "integrals", "walk", "record", "algebra", "language"},
     "check": {"check", "record", "algebra", "language"},
     "paper": {"paper", "check", "record", "algebra", "language"},
     "printing": {"printing", "record", "language"},
@@ -24,25 +22,11 @@ ALLOWED = {
     "views": {"views", "prose", "figure", "printing", "paper", "record", "schema", "language"},
     "routines": {"routines"},
     "code": {"code", "routines", "record", "algebra", "language", "__init__"},
-    "symmetries": {
-        *("symmetries", "code", "walk", "record", "problem", "schema", "algebra", "language"),
+    "search": {
+        *("search", "code", "walk", "record", "problem", "schema", "algebra", "language"),
     },
-    "reduction": {
-        *("reduction", "symmetries", "walk", "record", "problem", "algebra", "language"),
-    },
-    "native": {"native"},
     "motion": {
-        *(
-            "motion",
-            "native",
-            "code",
-            "figure",
-            "problem",
-            "record",
-            "algebra",
-            "schema",
-            "language",
-        ),
+        *("motion", "code", "figure", "problem", "record", "algebra", "schema", "language"),
     },
     "plot": {"plot", "motion", "language"},
     "page": {

@@ -4,14 +4,13 @@ import random
 from functools import partial
 
 from derive.language.show import show
-from derive.printing.escape import markdown_text, tex_text
-from derive.printing.macros import standard, styled
-from derive.printing.notation import Notation
+from derive.printing.letters import standard, styled
 from derive.printing.sentences import dollars, prose
+from derive.printing.signs import Notation, markdown_text, tex_text
 from derive.printing.tex import formula, latex_tree
 from derive.views import html
 from derive.views import latex as latex_view
-from derive.views import markdown as markdown_view
+from derive.views import text as markdown_view
 from derive.views import text as text_view
 from derive.views.language import language
 from derive.views.outline import assumed, latex_names

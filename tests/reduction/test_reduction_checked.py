@@ -10,7 +10,7 @@ from derive.language.tree import mul
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.record import RecordError
-from derive.reduction.reduced_record import shown
+from derive.search.reduction.told_reduction import shown
 from derive.views.rendering import FORMATS, render
 from tests.readers.read import PAGES, faults
 from tests.support.reduced import reduced

@@ -17,7 +17,7 @@ from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
 from derive.command.arguments import parser
 from derive.command.cli import COMMANDS
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from derive.record.rules import RULES
 from derive.schema.table import Table
 

@@ -10,7 +10,7 @@ from functools import cache, partial
 from derive import Gravity, Harmonic, Problem, SelfGravity, Solid, first_integrals
 from derive.algebra.families import group as named_group
 from derive.check.checker import checker_of
-from derive.command.loading import load_problem
+from derive.command.showing import load_problem
 from derive.pipeline import discrete, symmetries, walk
 from derive.problem.toml import problem_of
 from tests.problems import PROBLEMS

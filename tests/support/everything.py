@@ -49,9 +49,9 @@ def commands(pdf):
 def main(folder, pdf):
     """Run all of them there."""
     import derive
-    from derive.command import loading
+    from derive.command import showing
 
-    loading.derive = functools.cache(loading.derive)  # one walk for all that is made of it
+    showing.derive = functools.cache(showing.derive)  # one walk for all that is made of it
     from derive.command import cli
 
     os.makedirs(folder, exist_ok=True)

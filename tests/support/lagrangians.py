@@ -3,7 +3,7 @@
 from derive.algebra.families import group as named
 from derive.problem.toml import problem_of
 from derive.python.derived import derive
-from derive.python.integrals_found import first_integrals
+from derive.python.found import first_integrals
 from tests.support.cached import on_disk
 
 

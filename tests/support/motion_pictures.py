@@ -18,7 +18,8 @@ from typing import NamedTuple
 import numpy as np
 
 from derive.command.cli import main
-from derive.motion import ensemble_files, run_files
+from derive.motion import ensemble_files
+from derive.motion import run as run_files
 from derive.motion.ensemble import Part
 from derive.motion.run import Run
 

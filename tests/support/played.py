@@ -9,7 +9,7 @@ import sys
 import zipfile
 from functools import cache
 
-from derive.command.loading import READY
+from derive.command.showing import READY
 from derive.record.contract import AMENDED
 from tests.support.playground_site import OWN
 

@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from derive.pipeline import reduction, walk
 from derive.problem.toml import problem_of
 from tests.support.walks import problem, record

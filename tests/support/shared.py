@@ -7,8 +7,6 @@ import sys
 import pytest
 
 import derive.command.emitting
-import derive.command.ensembles
-import derive.command.refused_options
 import derive.command.simulating
 import derive.python.compiled  # noqa: F401  (all that name a function of the pipeline, before it is another)
 from derive import pipeline

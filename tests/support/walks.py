@@ -5,7 +5,7 @@ from functools import cache
 import pytest
 
 from derive.check.checker import Checker
-from derive.command.loading import derive, load_problem, ready_made
+from derive.command.showing import derive, load_problem, ready_made
 from derive.python.derived import Derived
 from derive.record.contract import ANY_GROUP
 from tests.support.cached import on_disk

@@ -4,7 +4,7 @@ from collections import Counter
 
 import pytest
 
-from derive.command.loading import derive, ready_made
+from derive.command.showing import derive, ready_made
 from derive.language.expression import parse
 from derive.language.show import show
 from derive.language.tree import add
@@ -12,9 +12,9 @@ from derive.pipeline import symmetries, walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.record.sentence import english
-from derive.symmetries import search
-from derive.symmetries.in_parameters import quotients_of
-from derive.symmetries.parameter_values import ParameterValues
+from derive.search.symmetries import search
+from derive.search.symmetries.scalar_lagrangian import ParameterValues
+from derive.search.symmetries.search import quotients_of
 from tests.support.symmetric import FILES, found
 from tests.support.walks import FLUIDS, problem, record
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from derive.python.derived import derive
 from tests.oracles import general
 from tests.support.walks import FLUIDS, repeated

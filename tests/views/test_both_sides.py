@@ -3,7 +3,7 @@
 import pytest
 
 from derive.command.cli import main
-from derive.command.loading import derive
+from derive.command.showing import derive
 from derive.language.read import read
 from derive.pipeline import both_trivialisations
 from derive.views.rendering import FORMATS, render

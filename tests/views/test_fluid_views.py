@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from derive.printing.escape import markdown_text
 from derive.printing.sentences import prose
+from derive.printing.signs import markdown_text
 from derive.views.language import entries
 from derive.views.outline import assumed, moving
 from derive.views.rendering import FORMATS, notes, render

@@ -8,8 +8,8 @@ from html.parser import HTMLParser
 import pytest
 
 from derive.paper.findings import amendments
-from derive.printing.inline import inline, spelt
-from derive.printing.notation import Notation
+from derive.printing.sentences import inline, spelt
+from derive.printing.signs import Notation
 from derive.printing.tex import formula
 from derive.record.contract import AMENDED
 from derive.views.html import html

@@ -13,11 +13,11 @@ import pytest
 
 from derive import prose as texts
 from derive.command.cli import main
-from derive.command.loading import ready_made
+from derive.command.showing import ready_made
 from derive.paper.printed import PAPER
 from derive.pipeline import symmetries, walk
-from derive.printing.escape import markdown_text, tex_text
 from derive.printing.sentences import prose
+from derive.printing.signs import markdown_text, tex_text
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
 from derive.record.discrete_names import DISCRETE
@@ -26,14 +26,12 @@ from derive.record.json_writer import to_json
 from derive.record.rules import RULES
 from derive.record.sentence import PLACE, english, phrase, say
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
-from derive.schema.body_kinds import MomentBody
+from derive.schema.body_kinds import SOLIDS, MomentBody
 from derive.schema.kinds import kinds
-from derive.schema.solid_kinds import SOLIDS
 from derive.views import outline
 from derive.views.html import html
 from derive.views.language import ENGLISH, LANGUAGES, THIN, WIDE, Language, entries, language
-from derive.views.markdown import markdown, step_markdown
-from derive.views.text import step_text, text
+from derive.views.text import markdown, step_markdown, step_text, text
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
 from tests.support.kinds import examples
@@ -262,7 +260,7 @@ def test_every_entry_is_used():
     sources |= strings("record/contract.py")
     sources |= strings(
         *("paper/finding*.py", "views/*.py", "figure/*.py", "schema/kinds/*.py", "plot/*.py"),
-        *("page/*.py", "motion/kept_words.py"),
+        *("page/*.py", "motion/run.py"),
     )
     sources |= {p.remark for p in PAPER if p.remark}
     used = sources | strings("pipeline.py") | titles_and_meanings()

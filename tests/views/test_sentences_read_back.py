@@ -11,8 +11,7 @@ from derive.record.sentence import Sentence
 from derive.views.html import html
 from derive.views.language import language
 from derive.views.latex import latex
-from derive.views.markdown import markdown
-from derive.views.text import text
+from derive.views.text import markdown, text
 from tests.readers.formula import letters_of
 from tests.readers.read import misread_sentences
 from tests.support import corpus, reduced, symmetric

@@ -10,8 +10,7 @@ from derive.problem.toml import problem_of
 from derive.views.html import html
 from derive.views.language import language
 from derive.views.latex import latex
-from derive.views.outline import ROAD, ROAD_BOTH, ROAD_GIVEN, road
-from derive.views.system import system
+from derive.views.outline import ROAD, ROAD_BOTH, ROAD_GIVEN, road, system
 from tests.support import walks
 
 POINTS = "of the points is pulled back"

@@ -12,22 +12,19 @@ import pytest
 from derive.language.read import read
 from derive.language.show import show
 from derive.pipeline import discrete, walk
-from derive.printing.escape import markdown_text, tex_text, unknown_to_tex
-from derive.printing.letters import names_of, parameter
+from derive.printing.letters import names_of, parameter, transposed
 from derive.printing.line_breaking import Piece, display_width, fill
-from derive.printing.notation import Notation
 from derive.printing.sentences import prose
-from derive.printing.spelling import transposed
+from derive.printing.signs import Notation, markdown_text, tex_text, unknown_to_tex
 from derive.printing.tex import FormulaPrinter, latex_tree
 from derive.problem.toml import load
 from derive.record.record import Derivation, Equation, Step, Symbol
 from derive.record.sentence import say
 from derive.views.language import language
 from derive.views.latex import anchor, breakable, labels, latex
-from derive.views.markdown import markdown
 from derive.views.outline import printed
 from derive.views.rendering import FORMATS, NOTES, RenderError, notes, render
-from derive.views.text import text
+from derive.views.text import markdown, text
 from tests.support.tex import compiled
 from tests.support.walks import record
 

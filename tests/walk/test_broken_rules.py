@@ -7,7 +7,7 @@ import pytest
 from derive import pipeline
 from derive.algebra import calculus
 from derive.algebra.words import word
-from derive.command.loading import load_problem
+from derive.command.showing import load_problem
 from derive.pipeline import general_road, walk
 from derive.problem.problem import ProblemError
 from derive.walk.chapter import WalkError, naming_steps

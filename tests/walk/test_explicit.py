@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from derive.algebra.families import group
-from derive.algebra.told_entries import told_entries
+from derive.algebra.groups import told_entries
 from derive.language.show import show
 from derive.language.tree import nodes
 from derive.pipeline import walk

@@ -15,7 +15,7 @@ from derive.algebra.calculus import reduce
 from derive.algebra.words import word
 from derive.check.checker import checker_of
 from derive.check.fluid.fluid_spaces import Torus
-from derive.command.loading import load_problem
+from derive.command.showing import load_problem
 from derive.language.show import show
 from derive.language.tree import names as names_in
 from derive.pipeline import walk

@@ -12,12 +12,12 @@ import pytest
 
 from derive import pipeline
 from derive.algebra.families import group, on_homogeneous
-from derive.algebra.invariance import changes, for_every_body
-from derive.algebra.stated_basis import group_of_basis, nilpotent
+from derive.algebra.relations import changes, for_every_body
+from derive.algebra.stated_groups import group_of_basis, nilpotent
 from derive.language import rational as q
 from derive.language.laurent import OverlongError, vanishes
 from derive.language.tree import names
-from derive.problem.left_invariant import EVERY, THIS, invariant
+from derive.problem.inertia import EVERY, THIS, invariant
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from tests.problems import PROBLEMS, TRANSLATIONS, flat

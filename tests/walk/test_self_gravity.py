@@ -14,7 +14,7 @@ import derive
 from derive import Problem, Solid, pipeline
 from derive.code.emit import emit
 from derive.problem.problem import ProblemError
-from derive.symmetries.scalar_lagrangian import Integrand
+from derive.search.symmetries.scalar_lagrangian import Integrand
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
 from tests.oracles import ellipsoids

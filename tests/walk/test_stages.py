@@ -8,7 +8,7 @@ import pytest
 
 from derive import pipeline
 from derive.algebra.groups import Group
-from derive.problem.left_invariant import Bodies
+from derive.problem.inertia import Bodies
 from derive.problem.problem import Problem
 from derive.record.record import Step
 from derive.walk.chapter import Chapter, Stage

@@ -11,9 +11,9 @@ from typing import Any
 
 from ...algebra.groups import Group
 from ...language import rational as q
-from ...language.quadratic import value_of
 from ...language.show import show
 from ...language.tree import Tree, nodes
+from ...language.univariate import value_of
 from ...record.claims import Claim
 from ...record.record import Equation, RecordError, Step
 from .entries_checked import Entries, invertible

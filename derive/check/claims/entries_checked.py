@@ -9,12 +9,11 @@ from itertools import product
 from typing import Any, Literal
 
 from ...algebra.families import LARGEST_PRODUCT
-from ...algebra.groups import Group
+from ...algebra.groups import Group, told_entries
 from ...algebra.relations import relations
-from ...algebra.told_entries import told_entries
 from ...language import rational as q
-from ...language.quadratic import Number
 from ...language.tree import Tree
+from ...language.univariate import Number
 from .exact_spectra import characteristic, negative_or_zero
 
 # Has an element of a group some given, exact entries?

@@ -9,9 +9,8 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 from ...language import rational as q
-from ...language.quadratic import Number, tree, value_of
 from ...language.tree import Tree, add, neg, nodes, replaced, terms
-from ...language.univariate import square_free
+from ...language.univariate import Number, square_free, tree, value_of
 from ...record.claims import Claim
 from ...record.record import RecordError, Step
 from .entries_checked import Decision, decided

@@ -7,8 +7,7 @@ from decimal import Decimal
 from fractions import Fraction
 from itertools import pairwise
 
-from ...language.quadratic import Number, Quadratic
-from ...language.univariate import square_free
+from ...language.univariate import Number, Quadratic, square_free
 
 # Eigenvalues of exact matrices, counted: over Q, or numbers of one quadratic field.
 #

@@ -8,10 +8,10 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from ...algebra.residue_vectors import ResidueSource, residue_of
+from ...algebra.exact_kernel import ResidueSource, residue_of
 from ...language import rational as q
-from ...language.quadratic import Number, value_of
 from ...language.tree import Tree
+from ...language.univariate import Number, value_of
 from ..values.residue import Residue
 
 # Values of trees of rational functions modulo a prime: at points, and with their gradients.

@@ -9,8 +9,7 @@ from itertools import islice
 from math import lcm
 from operator import add, mul
 
-from ...algebra.exact_kernel import pivots
-from ...algebra.residue_vectors import PRIMES, Residues, ResidueSource
+from ...algebra.exact_kernel import PRIMES, Residues, ResidueSource, pivots
 from ...language.tree import Tree, operands
 from ...record.claims import MONOMIALS
 from .modular_values import Value, value

@@ -9,8 +9,8 @@ from functools import cached_property
 from random import Random
 from typing import Any
 
+from ...algebra.exact_kernel import residue_of
 from ...algebra.groups import Group
-from ...algebra.residue_vectors import residue_of
 from ...language.show import show
 from ...language.tree import Tree, nodes
 from ...record.record import Derivation, RecordError, Step

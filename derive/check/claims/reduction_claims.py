@@ -8,7 +8,7 @@ from itertools import pairwise
 from math import prod
 from random import Random
 
-from ...algebra.residue_vectors import PRIMES, ResidueSource
+from ...algebra.exact_kernel import PRIMES, ResidueSource
 from ...language import rational as q
 from ...language.show import show
 from ...language.tree import Tree, nodes, operands, terms

@@ -12,9 +12,8 @@ from operator import mul
 from random import Random
 from typing import Any, NamedTuple
 
-from ...algebra.exact_kernel import kernel, pivots
+from ...algebra.exact_kernel import Residues, ResidueSource, kernel, pivots, primes_from, residue_of
 from ...algebra.groups import Group
-from ...algebra.residue_vectors import Residues, ResidueSource, primes_from, residue_of
 from ...language import rational as q
 from ...language.tree import Tree, add, neg, nodes, operands, terms
 from ...record.claims import Claim

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 
 from ...algebra.groups import Group
 from ...algebra.samplers import Source
-from ...algebra.torus import Torus
+from ...algebra.structure import Torus
 from ...language import rational as q
 from ...language.rational import Matrix
 from ..values.arithmetic import EvaluationError, Many, Shape

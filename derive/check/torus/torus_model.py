@@ -14,7 +14,7 @@ from random import Random
 from typing import Any
 
 from ...algebra.samplers import Source
-from ...algebra.torus import Place, Torus
+from ...algebra.structure import Place, Torus
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree

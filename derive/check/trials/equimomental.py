@@ -11,7 +11,7 @@ from math import lcm
 from typing import Any
 
 from ...language import rational as q
-from ...language.layers import LEVEL, degree_in_level
+from ...language.laurent import LEVEL, degree_in_level
 from ...language.rational import Matrix
 from ...language.tree import OPERATORS
 from ...record.record import RecordError

@@ -8,11 +8,10 @@ from functools import cache, cached_property, partial
 from random import Random
 from typing import Any
 
-from ...algebra.carried import blocks_apart, of_matrices
 from ...algebra.families import LARGEST, group, on_homogeneous, turning_about_a_point
 from ...algebra.groups import Group
 from ...algebra.samplers import Source
-from ...algebra.stated_basis import group_of_basis
+from ...algebra.stated_groups import blocks_apart, group_of_basis, of_matrices
 from ...algebra.structure import rank
 from ...language import rational as q
 from ...language.show import show

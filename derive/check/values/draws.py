@@ -12,8 +12,8 @@ from typing import Any
 from ...algebra.groups import Group
 from ...algebra.samplers import Source
 from ...language.rational import Matrix, flatten
+from ...language.reserved import suffixed
 from ...language.show import show
-from ...language.suffixed import suffixed
 from ...language.tree import Tree
 from ...record.record import Equation, RecordError, Step
 from ...record.rules import OFF_MOTION

@@ -9,8 +9,8 @@ from functools import lru_cache, reduce
 from typing import Any
 
 from ...language import rational as q
-from ...language.quadratic import Quadratic, root
 from ...language.tree import Tree
+from ...language.univariate import Quadratic, root
 from ..form.function_signatures import AXIS, INDEX_SETS, LATTICE, MATRICES, POINT
 from .arithmetic import (
     EvaluationError,

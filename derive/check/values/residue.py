@@ -10,8 +10,8 @@ from operator import mul
 from random import Random
 from typing import Any, NamedTuple
 
-from ...language.quadratic import Quadratic
 from ...language.rational import Matrix, flatten
+from ...language.univariate import Quadratic
 
 # Rational numbers by their residues modulo a large random prime.
 #

@@ -19,8 +19,7 @@ from operator import add, mul
 from typing import Any
 from zlib import crc32
 
-from ...algebra.exact_kernel import Rows, kernel, pivots
-from ...algebra.residue_vectors import PRIMES, Residues, ResidueSource
+from ...algebra.exact_kernel import PRIMES, Residues, ResidueSource, Rows, kernel, pivots
 from ...language import rational as q
 from ...language.tree import nodes
 from ..ellipsoid import BUNDLES

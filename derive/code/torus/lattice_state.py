@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...algebra.torus import Place, Torus
+from ...algebra.structure import Place, Torus
 
 
 def names(torus: Torus) -> tuple[str, ...]:

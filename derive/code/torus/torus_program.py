@@ -13,7 +13,7 @@ from decimal import Decimal, localcontext
 from fractions import Fraction
 from typing import NamedTuple
 
-from ...algebra.torus import Place, Torus
+from ...algebra.structure import Place, Torus
 from ...record.record import Derivation
 from ..events import Event, table, values_of
 from ..factor import factored

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any, NamedTuple
 
-from ...algebra.torus import Place, Torus
+from ...algebra.structure import Place, Torus
 from ...language.tree import Tree, mul
 from ..graph import Graph, Node
 from ..program import LoweringError

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ...algebra.torus import Torus
+from ...algebra.structure import Torus
 from ...check.torus.torus_model import TorusModel
 
 SCALE = 1 << 200

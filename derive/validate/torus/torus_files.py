@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from ...algebra.torus import Place
+from ...algebra.structure import Place
 from ...check.torus.elements import torus_of
 from ...check.torus.torus_model import TorusModel, environment
 from ...check.values.arithmetic import EvaluationError

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ...algebra.calculus import gradient, reduce, substitute
-from ...algebra.space import double, fold_inertia, hat, normal_form
-from ...algebra.word_trees import WordNotation, tree_of
+from ...algebra.word_trees import WordNotation, double, fold_inertia, hat, normal_form, tree_of
 from ...algebra.words import Dim, Expr, Factor, Letter, inner, number, one, word, zero
 from ...language.tree import Tree
 from ...record.record import Equation, Step

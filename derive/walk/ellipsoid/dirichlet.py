@@ -9,6 +9,8 @@ from fractions import Fraction
 from ...algebra.calculus import (
     coefficient_of,
     derivation,
+    determinant,
+    determinant_letter,
     gradient,
     reduce,
     substitute,
@@ -16,21 +18,18 @@ from ...algebra.calculus import (
     terms_with,
     without,
 )
-from ...algebra.determinants import determinant, determinant_letter
 from ...algebra.groups import Group
 from ...algebra.word_trees import WordNotation, tree_of
 from ...algebra.words import Expr, Factor, Letter, inner, number, one, trace, word
 from ...language.derivatives import derivative, product, quotient
-from ...language.laurent import vanishes
-from ...language.layers import LEVEL, is_layered
+from ...language.laurent import LEVEL, is_layered, vanishes
 from ...language.read import read
 from ...language.tree import Tree, add, mul, neg, replaced
 from ...problem.problem import Problem
 from ...problem.solids import integral_above, quadric_about_origin
 from ...record.record import Equation, Step
-from ...schema.body_kinds import GivenBody
+from ...schema.body_kinds import GivenBody, Solid
 from ...schema.kinds.volume import Volume
-from ...schema.solid_kinds import Solid
 from ..chapter import Chapter, Draft, say
 from ..given.potentials import Potentials
 from ..kinds.self_gravity_walked import GradientLetter

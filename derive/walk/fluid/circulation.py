@@ -14,8 +14,7 @@ from ...algebra.calculus import (
     without,
 )
 from ...algebra.forms import strip_left
-from ...algebra.vector_fields import along, with_derivatives
-from ...algebra.word_trees import WordNotation
+from ...algebra.word_trees import WordNotation, along, with_derivatives
 from ...algebra.words import Expr, Factor, Letter, col_dim, inner, row_dim, word, zero
 from ...language.read import read
 from ...language.tree import Tree

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 from ...algebra import forms
 from ...algebra.calculus import derivation, gradient, reduce, substitute, terms_with, without
-from ...algebra.vector_fields import along
-from ...algebra.word_trees import PLAIN, WordNotation, metrics, tree_of
+from ...algebra.word_trees import PLAIN, WordNotation, along, metrics, tree_of
 from ...algebra.words import Expr, Letter, inner, number, one, word, zero
 from ...language.read import read
 from ...language.tree import add, neg

@@ -15,8 +15,7 @@ from ...algebra.calculus import (
     without,
 )
 from ...algebra.forms import strip_left
-from ...algebra.vector_fields import with_derivatives
-from ...algebra.word_trees import PLAIN, WordNotation
+from ...algebra.word_trees import PLAIN, WordNotation, with_derivatives
 from ...algebra.words import Expr, Factor, Letter, inner, one, trace, word, zero
 from ...language.read import read
 from ...language.tree import add, neg

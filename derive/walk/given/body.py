@@ -8,7 +8,7 @@ from typing import Any
 from ...algebra.calculus import derivation, substitute
 from ...algebra.word_trees import WordNotation
 from ...algebra.words import Expr, Letter, number, word
-from ...language.layers import is_layered
+from ...language.laurent import is_layered
 from ...language.read import read
 from ...language.show import in_sentence
 from ...language.tree import Tree, add, coefficient, mul, neg
@@ -17,8 +17,7 @@ from ...record.formulas import stated
 from ...record.hypotheses import Hypothesis
 from ...record.record import Equation, Step
 from ...record.sentence import Prose, Sentence, listed
-from ...schema.body_kinds import GivenBody, MomentBody, Moments, PointBody
-from ...schema.solid_kinds import Solid
+from ...schema.body_kinds import GivenBody, MomentBody, Moments, PointBody, Solid
 from ..chapter import Chapter, Draft, phrase, say, say_signed
 from ..spine.alphabet import Alphabet
 from ..spine.lagrangian import Lagrangian, of_moments

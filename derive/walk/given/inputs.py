@@ -7,16 +7,15 @@ from dataclasses import dataclass, replace
 
 from ...algebra.calculus import gradient, reduce, substitute
 from ...algebra.groups import Group
-from ...algebra.space import fold_inertia, normal_form
-from ...algebra.word_trees import tree_of
+from ...algebra.word_trees import fold_inertia, normal_form, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
-from ...language.suffixed import suffixed
+from ...language.reserved import suffixed
 from ...language.tree import Tree, add, mul, plain
 from ...problem.problem import Problem
 from ...record.formulas import stated
 from ...record.record import Equation, Step
 from ...record.sentence import Prose, listed
-from ...schema.outside import ForceInput
+from ...schema.kind import ForceInput
 from ..chapter import Chapter, Draft, phrase, say
 from ..spine.alphabet import Alphabet
 from ..spine.cartan import body_rule

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from ...algebra.calculus import PairRule, derivation, gradient, reduce, substitute, without
-from ...algebra.space import hat
-from ...algebra.word_trees import WordNotation, metrics, tree_of
+from ...algebra.word_trees import WordNotation, hat, metrics, tree_of
 from ...algebra.words import Expr, Factor, Letter, inner, number, word, zero
 from ...language.derivatives import derivative, product
 from ...language.tree import Tree, add, mul, replaced, subtrees

@@ -13,8 +13,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from ...algebra.calculus import derivation, reduce, substitute
-from ...algebra.determinants import adjugate, determinant, determinant_letter, power_of
+from ...algebra.calculus import (
+    adjugate,
+    derivation,
+    determinant,
+    determinant_letter,
+    power_of,
+    reduce,
+    substitute,
+)
 from ...algebra.word_trees import WordNotation, tree_of
 from ...algebra.words import Expr, Factor, Letter, number, one, trace, word
 from ...language.tree import Tree, add, mul

@@ -11,14 +11,20 @@ from ...language.derivatives import derivative
 from ...language.laurent import OverlongError, collected
 from ...language.read import read
 from ...language.tree import Tree, add, mul, names, neg, plain
-from ...problem.moved_entries import EntriesOfElement, Moved, vanishes_on
-from ...problem.null_directions import along, hessian, null_directions
+from ...problem.fields import coordinates
+from ...problem.moved_entries import (
+    EntriesOfElement,
+    Moved,
+    along,
+    hessian,
+    null_directions,
+    vanishes_on,
+)
 from ...problem.problem import Problem
-from ...problem.state_names import coordinates
 from ...record.formulas import stated
 from ...record.record import Equation, Step
 from ...record.sentence import Prose, listed
-from ...schema.lagrangian_kinds import Lagrangian
+from ...schema.kind import Lagrangian
 from ..chapter import Chapter, enumerated, phrase, say
 from ..matrices.coordinates import basis_equations
 from .any_lagrangian import AnyLagrangian

@@ -8,21 +8,21 @@ from fractions import Fraction
 from typing import Any
 
 from ...algebra.calculus import derivation
-from ...algebra.carried import block
 from ...algebra.forms import left, strip_left
 from ...algebra.groups import Group
+from ...algebra.stated_groups import block
 from ...algebra.structure import brackets_of, faithful
 from ...algebra.words import Letter, word
 from ...language.derivatives import derivative
 from ...language.rational import Matrix
-from ...language.suffixed import suffixed
+from ...language.reserved import suffixed
 from ...language.tree import Tree, add, mul, neg, nodes, plain
+from ...problem.fields import coordinates
 from ...problem.moved_entries import Entry, Moved
 from ...problem.problem import Problem
-from ...problem.state_names import coordinates
 from ...record.formulas import stated
 from ...record.record import Equation, Step
-from ...schema.algebra_kinds import Advected
+from ...schema.kind import Advected
 from ..chapter import Chapter, say
 from ..spine.alphabet import Alphabet
 from .any_lagrangian import SIDES, AnyLagrangian, sign_of

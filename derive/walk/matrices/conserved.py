@@ -7,13 +7,12 @@ from dataclasses import dataclass
 
 from ...algebra.calculus import derivation, gradient, reduce, substitute, without
 from ...algebra.groups import Group
-from ...algebra.space import hat, normal_form
-from ...algebra.word_trees import tree_of
+from ...algebra.word_trees import hat, normal_form, tree_of
 from ...algebra.words import Expr, Letter, inner, one, word, zero
 from ...language import rational as q
 from ...language.derivatives import product
 from ...language.tree import Tree, add, mul, names, neg
-from ...problem.null_directions import vanishes
+from ...problem.moved_entries import vanishes
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ...record.sentence import Prose

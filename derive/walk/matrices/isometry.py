@@ -10,7 +10,7 @@ from ...algebra.calculus import gradient, map_traces, substitute, without
 from ...algebra.word_trees import WordNotation, tree_of
 from ...algebra.words import Expr, Letter, Word, expr_of_word, trace, word
 from ...language.tree import Tree, add
-from ...problem.left_invariant import EVERY, Bodies
+from ...problem.inertia import EVERY, Bodies
 from ...record.formulas import stated
 from ...record.record import Equation, Step
 from ...record.sentence import Prose

@@ -11,7 +11,7 @@ from ...algebra.word_trees import WordNotation
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.read import read
 from ...language.tree import Tree
-from ...problem.left_invariant import Bodies
+from ...problem.inertia import Bodies
 from ...record.formulas import stated
 from ...record.record import Equation, Step
 from ...record.sentence import Prose

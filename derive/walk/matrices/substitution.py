@@ -8,8 +8,7 @@ from itertools import chain
 from math import prod
 from typing import Any
 
-from ...algebra.groups import Group
-from ...algebra.told_entries import told_entries
+from ...algebra.groups import Group, told_entries
 from ...language import rational as q
 from ...language.laurent import Laurent, OverlongError, polynomial, written
 from ...language.tree import Tree, nodes, operands, replaced

@@ -6,8 +6,7 @@ from fractions import Fraction
 
 from ...algebra.groups import Group
 from ...language.show import in_sentence
-from ...problem.data import data
-from ...problem.problem import Problem
+from ...problem.problem import Problem, data
 from ...record import sentence
 from ...record.contract import CONVENTIONS
 from ...record.discrete_names import DISCRETE

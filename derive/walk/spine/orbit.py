@@ -6,8 +6,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ...algebra import forms
-from ...algebra.calculus import derivation, gradient, reduce, substitute, terms_with, without
-from ...algebra.determinants import determinant, determinant_letter
+from ...algebra.calculus import (
+    derivation,
+    determinant,
+    determinant_letter,
+    gradient,
+    reduce,
+    substitute,
+    terms_with,
+    without,
+)
 from ...algebra.groups import Group
 from ...algebra.word_trees import PLAIN, WordNotation, metrics, tree_of
 from ...algebra.words import Expr, Letter, inner, number, trace, word

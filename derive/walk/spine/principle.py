@@ -8,8 +8,7 @@ from functools import cached_property
 
 from ...algebra import forms
 from ...algebra.calculus import derivation, substitute, terms_with, without
-from ...algebra.space import hat
-from ...algebra.word_trees import WordNotation, tree_of
+from ...algebra.word_trees import WordNotation, hat, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.read import read
 from ...language.tree import Tree, add

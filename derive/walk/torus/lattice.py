@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ...algebra.torus import Place, Torus
+from ...algebra.structure import Place, Torus
 from ...algebra.words import Expr, Letter
 from ...language.tree import Tree, add, mul
 from ...record.record import Equation, Step

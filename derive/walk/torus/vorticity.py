@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ...algebra.calculus import derivation, gradient, substitute
-from ...algebra.torus import Torus
+from ...algebra.structure import Torus
 from ...algebra.words import Expr, Letter, inner, trace, word
 from ...language.tree import mul
 from ...problem.problem import Problem

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...algebra.calculus import coefficient_of, gradient, reduce, substitute, terms_with, without
-from ...algebra.space import antisymmetry, hat, normal_form
-from ...algebra.word_trees import WordNotation, metrics, tree_of
+from ...algebra.word_trees import WordNotation, antisymmetry, hat, metrics, normal_form, tree_of
 from ...algebra.words import Expr, Letter, inner, word
 from ...language.tree import Tree, add, mul, terms
 from ...record import sentence

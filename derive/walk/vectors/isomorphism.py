@@ -16,8 +16,16 @@ from ...algebra.calculus import (
     reduce,
     substitute,
 )
-from ...algebra.space import double, fold_double, fold_inertia, hat, normal_form
-from ...algebra.word_trees import PLAIN, WordNotation, tree_of
+from ...algebra.word_trees import (
+    PLAIN,
+    WordNotation,
+    double,
+    fold_double,
+    fold_inertia,
+    hat,
+    normal_form,
+    tree_of,
+)
 from ...algebra.words import Expr, Factor, Letter, Traces, Word, inner, scalar_of, trace, word, zero
 from ...language.read import read
 from ...language.tree import Tree, add, terms

@@ -6,8 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from ...algebra.calculus import gradient, reduce, substitute
-from ...algebra.space import hat, normal_form
-from ...algebra.word_trees import metrics
+from ...algebra.word_trees import hat, metrics, normal_form
 from ...algebra.words import Expr, Letter, word
 from ...language import rational as q
 from ...language.laurent import Laurent, OverlongError, grouped, polynomial, written

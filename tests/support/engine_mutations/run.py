@@ -27,7 +27,7 @@ ROOMS = (
 LEFT = {
     "language/show.py": "prints trees",
     "algebra/samplers.py": "the checker's alone",
-    "language/divisors.py": "refuses expressions; held against fractions by tests of its own",
+    "language/derivatives.py": "refuses expressions; held against fractions by tests of its own",
     "problem/mesh.py": "reads files of meshes, for which the oracle has no reader",
     "code/languages.py": "how the languages are written, compared with C by their own tests",
     "code/conventions.py": "words at the head of a file",

@@ -12,7 +12,7 @@ from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.language.values import approximate
 from derive.pipeline import walk
-from derive.problem.state_names import state_names
+from derive.problem.fields import state_names
 from derive.problem.toml import problem_of
 from tests.oracles import general, relative_error
 from tests.problems import READY

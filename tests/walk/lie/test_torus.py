@@ -8,7 +8,7 @@ from random import Random
 import numpy as np
 import pytest
 
-from derive.algebra.torus import Torus
+from derive.algebra.structure import Torus
 from derive.algebra.words import Letter, trace, word
 from derive.check.checker import Checker, check
 from derive.command.cli import main

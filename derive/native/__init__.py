@@ -1,1 +1,0 @@
-"""Emitted C at work: compiled by the compiler at hand, loaded, called."""

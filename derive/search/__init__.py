@@ -1,0 +1,1 @@
+"""What is found of the equations of motion: symmetries, integrals, equilibria, reductions."""

@@ -1,0 +1,279 @@
+"""The steps of a record that tell equilibria: the rates about each, and its energy–Casimir form."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+
+from ...language.tree import Tree, add, mul, neg
+from ...language.univariate import Number, Quadratic, root, square_free
+from ...language.univariate import tree as plain
+from ...record.record import Equation, Step
+from ...record.sentence import Prose
+from ...walk.chapter import Chapter, Draft, say
+from ..integrals.all_integrals import Found
+from ..integrals.told_integrals import rate
+from .enclosed_points import Enclosed, less
+from .energy_casimir import Form, Leaf
+from .equilibrium_points import About, Expansion
+from .stability import Equilibrium
+
+
+def told(
+    whole: Found,
+    found: Sequence[Equilibrium],
+    steps: Sequence[Step],
+    c: Chapter,
+    *,
+    tried: bool,
+) -> tuple[Step, ...]:
+    """Two steps for each equilibrium, one where no multipliers are found; ``steps``: of the record
+    of the integrals; ``tried``: were points tried, none being given?"""
+    by_label = {s.label: s for s in steps}
+    reduced, kept = (by_label.get(c.label(x)) for x in ("poisson", "casimirs"))
+    made_from = [x for x in (reduced, kept, by_label[c.label("first_integrals")]) if x]
+    told_steps: list[Step] = []
+    for k, x in enumerate(found, 1):
+        rates = _rates(x, f"equilibrium_{k}", made_from[0], c, tried=tried and k == 1)
+        told_steps.append(rates)
+        if x.form:
+            used = (*made_from, rates)
+            told_steps.append(_form(whole, x, x.form, f"energy_casimir_{k}", used, c))
+    return tuple(told_steps)
+
+
+def told_enclosed(whole: Found, x: Enclosed, steps: Sequence[Step], c: Chapter) -> tuple[Step, ...]:
+    """Two steps: the rates about the decimals, and the energy with multiples of the Casimirs."""
+    by_label = {s.label: s for s in steps}
+    reduced, kept, integrals = (
+        by_label.get(c.label(x)) for x in ("poisson", "casimirs", "first_integrals")
+    )
+    made_from = [y for y in (reduced, kept, integrals) if y]
+    draft = c.draft("equilibrium_1", "components")
+    draft.depends_on(made_from[0])
+    away = distances(x.about)
+    variables = x.about.system.variables
+    equations = [
+        Equation(rate(v), expanded(e, away)) for v, e in zip(variables, x.about.rates, strict=True)
+    ]
+    point = _point(x.about)
+    rates = draft.step(equations, draft.claim("equilibrium.near", point=point))
+    return rates, _enclosure(whole, x, (*made_from, rates), c)
+
+
+def _enclosure(whole: Found, x: Enclosed, made_from: Iterable[Step], c: Chapter) -> Step:
+    """The Casimirs less their values on the level, and the energy with multiples of them."""
+    draft = c.draft("enclosure_1", "enclosure")
+    draft.depends_on(*made_from)
+    algebra, away = whole.system.algebra, distances(x.about)
+    kept = [*map(algebra.tree, whole.casimirs)]
+    found = [x.about.expansion(algebra.over_the_field(f)) for f in whole.casimirs]
+    equations = [
+        Equation(add(f, neg(plain(level))), expanded(less(e, level), away))
+        for f, e, level in zip(kept, found, x.level, strict=True)
+    ]
+    energy = x.about.expansion(algebra.hamiltonian)
+    whole_energy = combined(energy, found, x.multipliers)
+    pairs = zip(x.multipliers, kept, strict=True)
+    left = add("h̃", *(mul(plain(m), f) for m, f in pairs if m))
+    equations.append(Equation(left, expanded(whole_energy, away)))
+    positive, negative = x.signature
+    prose = draft.claim("enclosure.within", radius=scientific(x.radius))
+    prose += draft.claim("enclosure.signs", positive=positive, negative=negative)
+    prose += draft.claim(f"enclosure.{x.verdict}")
+    if x.verdict != "stable":
+        prose += draft.claim("enclosure.eigenvalues", eigenvalues=_about(x.eigenvalues))
+    return draft.step(equations, prose)
+
+
+def combined(energy: Expansion, kept: Sequence[Expansion], by: Sequence[Fraction]) -> Expansion:
+    """A polynomial plus multiples of others."""
+    pairs, places = [*zip(by, kept, strict=True)], range(len(energy.slope))
+    higher = dict(energy.higher)
+    for y, e in pairs:
+        for m, c in e.higher.items():
+            higher[m] = higher.get(m, Fraction(0)) + y * c
+    slope = [energy.slope[i] + sum(y * e.slope[i] for y, e in pairs) for i in places]
+    second = [
+        [energy.second[i][j] + sum(y * e.second[i][j] for y, e in pairs) for j in places]
+        for i in places
+    ]
+    value = energy.value + sum(y * e.value for y, e in pairs)
+    return Expansion(value, slope, second, {m: c for m, c in higher.items() if c != 0})
+
+
+def scientific(x: Fraction) -> Tree:
+    """A number of one digit, at most 1, as that digit times a power of ten."""
+    k = 0
+    while x < 1:
+        x, k = 10 * x, k + 1
+    return mul(plain(x), ("pow", 10, -k))
+
+
+def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool) -> Step:
+    """The rates in powers of the distance from the equilibrium: none has a constant term."""
+    draft = c.draft(label, "components")
+    draft.depends_on(reduced)
+    variables, away = x.about.system.variables, distances(x.about)
+    equations = [
+        Equation(rate(v), expanded(e, away)) for v, e in zip(variables, x.about.rates, strict=True)
+    ]
+    prose = say("equilibrium.tried") if tried else ()
+    if any(x.about.at):
+        prose += draft.claim("equilibrium.at", point=_point(x.about))
+    else:
+        prose += draft.claim("equilibrium.origin")
+    if x.form:
+        return draft.step(equations, prose)
+    prose += draft.claim("equilibrium.none")
+    if x.leaf.free:
+        positive, negative = x.signature
+        prose += draft.claim("equilibrium.orbit", positive=positive, negative=negative)
+    return draft.step(equations, prose + _verdict(draft, x))
+
+
+def _point(about: About) -> Tree:
+    """The coordinates of a point that are not 0, each with its variable."""
+    pairs = zip(about.system.variables, about.at, strict=True)
+    return ("matrix", *(("row", v, plain(x)) for v, x in pairs if x))
+
+
+def distances(about: About) -> list[Tree]:
+    """The variables less their values at the point."""
+    return [
+        add(v, neg(plain(number)))
+        for v, number in zip(about.system.variables, about.at, strict=True)
+    ]
+
+
+def linear(row: Sequence[Number], away: Sequence[Tree]) -> Tree:
+    """A linear form in the distances."""
+    return add(*(mul(plain(x), y) for x, y in zip(row, away, strict=True) if x))
+
+
+def expanded(e: Expansion, away: Sequence[Tree]) -> Tree:
+    """A polynomial in powers of the distances."""
+    n = len(away)
+    pairs = [(i, j) for i in range(n) for j in range(i, n) if e.second[i][j]]
+    squares = [
+        mul(plain(e.second[i][j] / 2), _power(away[i], 2))
+        if i == j
+        else mul(plain(e.second[i][j]), away[i], away[j])
+        for i, j in pairs
+    ]
+    terms = (plain(e.value), linear(e.slope, away), *squares, *higher(e, away))
+    return add(*(x for x in terms if x != 0))
+
+
+def higher(e: Expansion, away: Sequence[Tree]) -> list[Tree]:
+    """The terms above the second order."""
+    return [
+        mul(plain(c), *(_power(y, k) for y, k in zip(away, m, strict=True) if k))
+        for m, c in e.higher.items()
+    ]
+
+
+def _power(x: Tree, k: int) -> Tree:
+    return x if k == 1 else ("pow", x, k)
+
+
+def _form(
+    whole: Found, x: Equilibrium, form: Form, label: str, made_from: Iterable[Step], c: Chapter
+) -> Step:
+    """The energy with multiples of what is kept: a constant, squares, and what vanishes on the
+    leaf."""
+    draft = c.draft(label, "expansion")
+    draft.depends_on(*made_from)
+    algebra, away = whole.system.algebra, distances(x.about)
+    kept = map(algebra.tree, (*whole.casimirs, *whole.integrals))
+    pairs = zip(form.multipliers, kept, strict=True)
+    left = add("h̃", *(mul(plain(m), f) for m, f in pairs if m))
+    right = [
+        plain(form.expansion.value),
+        *(mul(plain(d), _power(linear(row, away), 2)) for d, row in form.squares),
+        *_beside(x.leaf, form, away),
+        *higher(form.expansion, away),
+    ]
+    positive, negative = form.signature
+    prose = draft.claim("equilibrium.form", positive=positive, negative=negative)
+    equation = Equation(left, add(*(t for t in right if t != 0)))
+    return draft.step([equation], prose + _verdict(draft, x))
+
+
+def _beside(on: Leaf, form: Form, away: Sequence[Tree]) -> list[Tree]:
+    """The products n_j m_j, which vanish on the tangent space of the leaf."""
+    return [_product(n, m, away) for n, m in zip(on.equations, form.mixed, strict=True) if any(m)]
+
+
+def _product(n: Sequence[Number], m: Sequence[Number], away: Sequence[Tree]) -> Tree:
+    """The product of two linear forms, a square where they are proportional."""
+    first = next(i for i, x in enumerate(n) if x)
+    factor = m[first] / n[first]
+    if all(y == factor * x for x, y in zip(n, m, strict=True)):
+        return mul(plain(factor), _power(linear(n, away), 2))
+    return mul(linear(n, away), linear(m, away))
+
+
+def _verdict(draft: Draft, x: Equilibrium) -> Prose:
+    """What is proved of its stability."""
+    kind, say_so = x.sentence, draft.claim
+    if kind == "unstable_beyond":
+        coefficients = ("row", *map(plain, x.characteristic_of_all))
+        return say_so("equilibrium.unstable_beyond", coefficients=coefficients)
+    if kind not in ("unstable", "open"):
+        return say_so(f"equilibrium.{kind}")
+    coefficients = ("row", *map(plain, x.characteristic))
+    prose = say_so("equilibrium.indefinite")
+    prose += say_so(f"equilibrium.{kind}", coefficients=coefficients)
+    prose += say_so("equilibrium.eigenvalues", eigenvalues=nearly(x.characteristic))
+    squares = exact_squares(x.characteristic)
+    return prose + (say_so("equilibrium.squares", squares=("row", *squares)) if squares else ())
+
+
+def _about(values: Iterable[complex]) -> Tree:
+    """Numbers that come with their opposites and conjugates, as decimals of four digits, each
+    once."""
+    pairs = ((abs(round(x.real, 9)), abs(round(x.imag, 9))) for x in values)
+    rows = {tuple(Fraction(f"{y:.4g}") for y in pair) for pair in pairs}
+    return ("matrix", *(("row", *map(plain, row)) for row in sorted(rows, reverse=True)))
+
+
+def nearly(characteristic: Sequence[Number]) -> Tree:
+    """The eigenvalues as decimals that differ, each once but for its opposite and conjugate: roots
+    of q(λ²), q without multiple roots."""
+    import numpy as np
+
+    found = np.sqrt(np.roots([*map(float, square_free(tuple(characteristic[::-2]))[::-1])]) + 0j)
+    pairs = [
+        [0.0 if abs(y) < NOTHING * abs(x) else abs(y) for y in (x.real, x.imag)] for x in found
+    ]
+
+    def rounded(digits: int) -> set[tuple[Fraction, ...]]:
+        return {tuple(Fraction(f"{y:.{digits}g}") for y in pair) for pair in pairs}
+
+    several = len(rounded(10))
+    rows = next(x for x in map(rounded, range(4, 11)) if len(x) == several)
+    return ("matrix", *(("row", *map(plain, row)) for row in sorted(rows, reverse=True)))
+
+
+NOTHING = 1e-9
+"""A part of a root that is so much smaller than the root is 0."""
+
+
+def exact_squares(characteristic: Sequence[Number]) -> list[Tree]:
+    """The squares of the eigenvalues, where these are of q(λ²), q of degree at most 2 but for
+    powers of λ², and exact by square roots; else nothing."""
+    q = [*characteristic[::2]]
+    zeros: list[Tree] = []
+    while len(q) > 1 and q[-1] == 0:
+        q, zeros = q[:-1], [0]
+    if len(q) == 2:
+        return [plain(-q[1]), *zeros]
+    if len(q) != 3 or any(isinstance(x, Quadratic) for x in q):
+        return []
+    b, c = Fraction(q[1]), Fraction(q[2])  # type: ignore[arg-type]
+    disc = b * b / 4 - c
+    if disc >= 0:
+        return [*dict.fromkeys(plain(s * root(disc) - b / 2) for s in (1, -1)), *zeros]
+    part = mul(plain(root(-disc)), "i")
+    return [add(plain(-b / 2), part), add(plain(-b / 2), neg(part)), *zeros]

@@ -1,0 +1,310 @@
+"""The steps of a record that say what integrals there are, and under which conditions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from typing import Any
+
+from ...language.limits import Refused, tell
+from ...language.tree import Tree, add, mul, neg, nodes, plain
+from ...problem.problem import Problem
+from ...record.claims import MONOMIALS
+from ...record.record import Equation, Step
+from ...record.sentence import Prose
+from ...walk.chapter import Chapter, Draft, say
+from .all_integrals import Condition, Conditions, Found, Integrability, OnLevel, casimirs, found
+from .degree_search import TooLargeError, how_many, unknowns
+from .lie_poisson import Algebra, Level, LiePoisson
+from .parameter_cases import Case, grading
+from .reduced import NotReducedError, reduced, without_energy
+
+# The steps of a record that say what integrals there are.
+
+
+def told(
+    whole: Found, steps: Sequence[Step], c: Chapter, *, driven: bool = False
+) -> tuple[Step, ...]:
+    """The reduced equations, the Casimirs, the integrals, and those on levels, as steps of a
+    chapter; ``steps``: of the walk of the problem, which may be ``driven`` by inputs."""
+    by_label = {s.label: s for s in steps}
+    made_from = [by_label[c.label(x)] for x in ("momenta", "energy", "coadjoint", "motion")]
+    reduced = _reduced(whole, made_from, c, driven=driven)
+    found = [reduced]
+    if whole.casimirs:
+        found.append(_casimirs(whole, reduced, c))
+    found.append(_integrals(whole, reduced, c))
+    found += [_on_level(whole, on, reduced, k, c) for k, on in enumerate(whole.levels)]
+    if whole.conditions:
+        found += told_conditions(whole, whole.conditions, reduced, c)
+    return tuple(found)
+
+
+def _reduced(whole: Found, made_from: Iterable[Step], c: Chapter, *, driven: bool) -> Step:
+    """h̃ and the rates, as functions of the variables."""
+    algebra, system = whole.system.algebra, whole.system
+    draft = c.draft("poisson", "reduction")
+    draft.depends_on(*made_from)
+    equations = [Equation("h̃", algebra.field_tree(algebra.hamiltonian))]
+    for i, x in enumerate(system.variables):
+        equations.append(Equation(rate(x), algebra.field_tree(algebra.flow.get(i, {}))))
+    only = len(system.variables) == system.momenta
+    kind = "poisson.group" if only else "poisson.advected"
+    prose = draft.claim(kind, dimension=len(system.variables)) + _weights(whole, draft)
+    return draft.step(equations, prose + (say("poisson.undriven") if driven else ()))
+
+
+def _weights(whole: Found, draft: Draft) -> Prose:
+    """How degrees count, where not all variables are of degree 1."""
+    momenta, weights = whole.system.momenta, whole.grading.degree
+    entries = {*weights[momenta:]}
+    if entries <= {1}:
+        return ()
+    if len(entries) == 1:
+        return draft.claim("poisson.weighted", weight=plain(entries.pop()))
+    return draft.claim("poisson.weights", weights=("row", *map(plain, weights[momenta:])))
+
+
+def rate(x: Tree) -> Tree:
+    """The rate of a variable, Π̇_a, or an entry of Ȧ or Γ̇."""
+    assert isinstance(x, tuple)
+    return (x[0], {"Π": "Π̇", "A": "Ȧ", "Γ": "Γ̇"}[x[1]], *x[2:])
+
+
+def _kept(trees: Iterable[Tree]) -> list[Equation]:
+    """The equations that say that motions keep these polynomials."""
+    return [Equation(("call", "d/dt", t), 0) for t in trees]
+
+
+def _casimirs(whole: Found, reduced: Step, c: Chapter) -> Step:
+    draft = c.draft("casimirs", "Poisson bracket")
+    draft.depends_on(reduced)
+    prose = draft.claim("casimirs.kept")
+    prose += draft.claim(f"casimirs.all{_large(whole)}", degree=whole.degree)
+    return draft.step(_kept(map(whole.system.algebra.tree, whole.casimirs)), prose)
+
+
+def _large(whole: Found) -> str:
+    """How the key of a sentence ends that is not computed again for its size."""
+    weights = whole.grading.degree
+    return "_large" if how_many(weights, Fraction(whole.degree), exactly=False) > MONOMIALS else ""
+
+
+def _integrals(whole: Found, reduced: Step, c: Chapter) -> Step:
+    algebra = whole.system.algebra
+    draft = c.draft("first_integrals", "Poisson bracket")
+    draft.depends_on(reduced)
+    trees = [algebra.field_tree(algebra.hamiltonian), *map(algebra.tree, whole.integrals)]
+    prose = _said(whole, draft)
+    prose += all_conditions(whole, whole.conditions, draft) if whole.conditions else ()
+    return draft.step(_kept(trees), prose)
+
+
+def _said(whole: Found, draft: Draft) -> Prose:
+    """What is proved of the integrals."""
+    several = bool(whole.integrals)
+    prose = say("first_integrals.several" if several else "first_integrals.energy")
+    for k, new in enumerate(whole.fresh, 2):
+        prose += () if new else draft.claim("first_integrals.dependent", number=k)
+    generic = "_generic" if whole.system.parameters else ""
+    (these,) = draft.claim(THESE[several, bool(whole.casimirs)])
+    key = f"first_integrals.all{generic}{_large(whole)}"
+    prose += draft.claim(key, degree=whole.degree, these=these)
+    return prose + _integrability(whole.proved, draft)
+
+
+THESE = {
+    (False, False): "first_integrals.it",
+    (False, True): "first_integrals.it_and_casimirs",
+    (True, False): "first_integrals.these",
+    (True, True): "first_integrals.these_and_casimirs",
+}
+"""What is called so, by whether there are several integrals, and Casimirs."""
+
+
+def _integrability(proved: Integrability, draft: Draft) -> Prose:
+    rank, dimension, half = proved.rank, proved.dimension, proved.rank // 2
+    if proved.complete and rank == 2 and proved.involution == (0,):
+        return draft.claim("first_integrals.complete_by_energy", dimension=dimension)
+    if proved.complete and rank == 2:
+        number = proved.involution[0] + 1
+        return draft.claim("first_integrals.complete_by_one", dimension=dimension, number=number)
+    if rank == 0:
+        return draft.claim("first_integrals.still")
+    if not proved.proved:
+        return draft.claim("first_integrals.unknown_rank")
+    if not proved.complete:
+        return draft.claim("first_integrals.undecided", rank=rank, dimension=dimension, half=half)
+    numbers = ("row", *(k + 1 for k in proved.involution))
+    return draft.claim(
+        "first_integrals.complete", rank=rank, dimension=dimension, half=half, numbers=numbers
+    )
+
+
+# -- on a level ---------------------------------------------------------------------------------
+
+
+def _on_level(whole: Found, on: OnLevel, reduced: Step, k: int, c: Chapter) -> Step:
+    """The integrals where a Casimir vanishes: their rates are multiples of it."""
+    algebra = whole.system.algebra
+    draft = c.draft("level" if not k else f"level_{k + 1}", "Poisson bracket")
+    draft.depends_on(reduced)
+    casimir = whole.casimirs[on.casimir]
+    level = Level(algebra, casimir)
+    equations = []
+    for f in on.integrals:
+        factor = level.quotient(algebra.derivative(algebra.over_the_field(f)))
+        right = mul(algebra.field_tree(factor), algebra.tree(casimir))
+        equations.append(Equation(("call", "d/dt", algebra.tree(f)), right))
+    prose = draft.claim("level.multiple", number=on.casimir + 1)
+    if on.proved.complete:
+        rank = on.proved.rank
+        prose += draft.claim("level.complete", rank=rank, half=rank // 2)
+    return draft.step(equations, prose)
+
+
+# The steps of a record that say under which conditions on the parameters there is more.
+#
+# d/dt F is a sum of multiples of p − s for the letters p that are solved, s being their values:
+# it vanishes in the case p = s.
+
+
+def told_conditions(whole: Found, found: Conditions, reduced: Step, c: Chapter) -> list[Step]:
+    """A step for each condition, with the integrals that there are under it."""
+    return [
+        _under(whole, found, x, reduced, f"condition_{k}", c)
+        for k, x in enumerate(found.conditions, 1)
+    ]
+
+
+def _under(
+    whole: Found, found: Conditions, x: Condition, reduced: Step, label: str, c: Chapter
+) -> Step:
+    draft = c.draft(label, "Poisson bracket")
+    draft.depends_on(reduced)
+    equations = [
+        Equation(("call", "d/dt", x.system.algebra.tree(f)), _rate(whole, found, x, f))
+        for f in x.integrals
+    ]
+    several = "condition.several" if len(x.integrals) > 1 else "condition.one"
+    prose = draft.claim(several, condition=case_tree(whole.system.algebra, x.case))
+    if x.proved.complete:
+        rank = x.proved.rank
+        prose += draft.claim("condition.complete", rank=rank, half=rank // 2)
+    return draft.step(equations, prose)
+
+
+def _rate(whole: Found, found: Conditions, x: Condition, f: Any) -> Tree:
+    """The rate for all parameters, as a sum of multiples of what vanishes in the case."""
+    algebra, own = whole.system.algebra, x.system.algebra
+    terms = {e: algebra.number(own.number_tree(c)) for e, c in own.over_the_field(f).items()}
+    left, summed = algebra.derivative(terms), []
+    for j, value in x.case.solved:
+        there = found.cases.polynomial_at(Case(((j, value),)), left)
+        zero = algebra.field.gens[j] - value
+        quotient = {
+            e: (left.get(e, algebra.field.zero) - there.get(e, algebra.field.zero)) / zero
+            for e in left
+        }
+        quotient = {e: y for e, y in quotient.items() if y}
+        letter, number = solved_letter(algebra, j, value)
+        summed.append(mul(add(letter, neg(number)), algebra.field_tree(quotient)))
+        left = there
+    assert not left
+    return add(*summed)
+
+
+def solved_letter(algebra: Algebra, j: int, value: Any) -> tuple[Tree, Tree]:
+    """A letter and its value, as trees."""
+    name = algebra.system.parameters[j]
+    return name if name == "π" else ("par", name), algebra.number_tree(value)
+
+
+def case_tree(algebra: Algebra, case: Case, *beside: Any) -> Tree:
+    """The equations of a case: letters, each with its value; and others ``beside``, that vanish."""
+    rows = [solved_letter(algebra, j, value) for j, value in case.solved]
+    rows += [(algebra.number_tree(algebra.field(f)), 0) for f in beside]
+    return ("matrix", *(("row", *x) for x in rows))
+
+
+def all_conditions(whole: Found, found: Conditions, draft: Draft) -> Prose:
+    """What is said of all conditions together."""
+    algebra, degree = whole.system.algebra, whole.degree
+    cases = [case_tree(algebra, x.case) for x in found.conditions]
+    if cases:
+        prose = draft.claim("first_integrals.further", degree=degree, conditions=("row", *cases))
+    else:
+        prose = draft.claim("first_integrals.no_further", degree=degree)
+    if not found.unsolved:
+        return prose
+    unsolved = (case_tree(algebra, case, f) for case, f in found.unsolved)
+    return prose + draft.claim("first_integrals.unsolved", conditions=("row", *unsolved))
+
+
+# The names of Casimirs and first integrals in emitted code, and their expressions.
+
+DEGREE, UNKNOWNS = 4, 800
+"""Up to which degree integrals are looked for, and in how many unknowns at once: more would keep
+code waiting for minutes."""
+
+
+def first_integrals(problem: Problem, *, beside_symmetries: bool = False) -> dict[str, Tree]:
+    """Name → the polynomial in Π_a and the entries of Γ or of g: the energy, the Casimirs and the
+    integrals; the first two alone where the equations are not such as can be searched.
+
+    ``beside_symmetries``: only those that no symmetry gives, neither linear in the momenta nor
+    Casimirs; none where the reduced equations are not such as can be searched.
+    """
+    try:
+        system = reduced(problem)
+        whole = found(system, _sought(system, problem.name))
+    except (NotReducedError, TooLargeError) as error:
+        return {} if beside_symmetries else _whatever_the_energy(problem, error)
+    algebra = whole.system.algebra
+    if beside_symmetries:
+        own = [f for f in whole.integrals if nonlinear(f, whole)]
+        return _numbered("integral", map(algebra.tree, own))
+    return (
+        {"energy": "h̃"}
+        | _numbered("casimir", map(algebra.tree, whole.casimirs))
+        | _numbered("integral", map(algebra.tree, whole.integrals))
+    )
+
+
+def _whatever_the_energy(problem: Problem, error: Refused) -> dict[str, Tree]:
+    """The energy, where ℓ has no t, and the Casimirs; ``Refused`` for none of them, by what is
+    in the way of a search."""
+    timed = problem.lagrangian is None or "t" in nodes(problem.lagrangian.L)
+    kept: dict[str, Tree] = {} if timed else {"energy": "h̃"}
+    try:
+        system = without_energy(problem)
+        degree = _sought(system, problem.name)
+        kept |= _numbered("casimir", map(system.algebra.tree, casimirs(system, degree)))
+    except (NotReducedError, TooLargeError):
+        pass  # too many variables
+    if kept:
+        return kept
+    raise NotReducedError(f"{error}, and no Casimir of degree 4 or less: leave out --conserved")
+
+
+def _sought(system: LiePoisson, name: str) -> int:
+    """The degree up to which there are no more unknowns than may be; that it is lower is told."""
+    by, degree = grading(system), DEGREE
+    while degree > 1 and (count := unknowns(by, Fraction(degree))) > UNKNOWNS:
+        degree -= 1
+        tell(
+            f"{name}: integrals of degree {degree + 1} are not sought, {count} unknowns in one "
+            "linear system; derive integrals seeks them"
+        )
+    return degree
+
+
+def _numbered(base: str, trees: Iterable[Tree]) -> dict[str, Tree]:
+    """base_1, base_2, …, and the trees in order."""
+    return {f"{base}_{k}": t for k, t in enumerate(trees, 1)}
+
+
+def nonlinear(f: Any, whole: Found) -> bool:
+    """Is a polynomial of degree 2 or more in the momenta?"""
+    momenta = whole.system.momenta
+    return any(sum(m[:momenta]) > 1 for m in f)
