@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..code.emit import emit
@@ -22,7 +22,6 @@ from ..views.html import visible
 from ..views.language import ENGLISH, Language
 from ..views.outline import capitalised, subtitle, title
 from .moving_body import Data, element, moving_body
-from .shortened import called, shortened
 
 if TYPE_CHECKING:
     from ..motion.start import Start
@@ -71,6 +70,17 @@ LENGTHS = re.compile(r"\n *if \([^{}]*\.length !==[^{}]*\) \{\s*throw new RangeE
 """A check of how many numbers a function is given, which a page gives always."""
 THROWN = re.compile(r'new RangeError\("[^"]*"\)')
 """What a page catches, without its words."""
+COMMENT = re.compile(
+    r"""("(?:[^"\\\n]|\\.)*"|`[^`]*`)|/\*.*?\*/|(?:(?<=\s)|^)//[^\n]*""", re.DOTALL | re.MULTILINE
+)
+"""A comment; or a text, the first group, in which there is none."""
+NAME = re.compile(r"[^\W\d][\w$]*")
+TAKEN = re.compile(r"(?:(?<![\w$.])|(?<=\.\.\.))[^\W\d][\w$]*")
+"""A name that is not that of a property."""
+DEFINED = re.compile(
+    r"^(?:function (\w+).*?\n\}\n|const (\w+|\{[^}]*\}).*?;\n(?=\n*(?:[^\s})\]]|\Z)))",
+    re.DOTALL | re.MULTILINE,
+)
 
 VELOCITIES = ("ζ", "w")
 REACH = 60.0
@@ -155,13 +165,44 @@ def script(code: EmittedCode, record: Derivation, body: Data) -> str:
     chosen = pieces(body)
     drawing = called(drawing, ["mount", *chosen.values()])
     given = ", ".join(f"{name}: {x}" for name, x in chosen.items())
-    return shortened(
+    return lean(
         f'"use strict";\nconst emitted = (() => {{\n{module}'
         f"return {{ {', '.join(names)} }};\n}})();\n"
         f'{drawing}\nconst page = JSON.parse(document.getElementById("page").textContent);\n'
         'const home = document.getElementById("motion");\n'
         f"home.motion = mount(home, {{ module: emitted, ...page }}, {{ {given} }});\n"
     )
+
+
+def called(source: str, names: Sequence[str]) -> str:
+    """The functions and tables of a module that are needed for some of them."""
+    parts = [(NAME.findall(m[1] or m[2]), m[0]) for m in DEFINED.finditer(plain(source))]
+    defined = {name: text for own, text in parts for name in own}
+    needed, left = set[str](), [*names]
+    while left:
+        name = left.pop()
+        if name not in needed and name in defined:
+            needed.add(name)
+            taken = defined[name].startswith("const {")
+            left += TAKEN.findall(defined[name].partition("=")[2] if taken else defined[name])
+    return "".join(_of(own, text, needed) for own, text in parts if needed & {*own})
+
+
+def _of(own: Sequence[str], text: str, needed: Collection[str]) -> str:
+    """A part of a module; of a pattern, the names that are needed."""
+    if not text.startswith("const {"):
+        return text
+    return f"const {{ {', '.join(x for x in own if x in needed)} }} ={text.partition('=')[2]}"
+
+
+def plain(source: str) -> str:
+    """A script without its comments; our templates have no literal of a regular expression."""
+    return COMMENT.sub(lambda m: m[1] or "", source)
+
+
+def lean(source: str) -> str:
+    """A script without comments, indentation and empty lines."""
+    return re.sub(r"\n\s+", "\n", plain(source))
 
 
 def pieces(body: Data) -> dict[str, str]:
