@@ -20,12 +20,11 @@ from derive.printing.escape import markdown_text, tex_text
 from derive.printing.sentences import prose
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
-from derive.record.discrete_names import DISCRETE
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.rules import RULES
 from derive.record.sentence import PLACE, english, phrase, say
-from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
+from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, meanings
 from derive.schema.body_kinds import MomentBody
 from derive.schema.kinds import kinds
 from derive.schema.solid_kinds import SOLIDS
@@ -249,16 +248,14 @@ def test_every_word_said_is_in_the_catalogue():
 
 
 def test_every_entry_is_used():
-    sources = strings("walk/*.py", "walk/*/*.py", "record/*_names.py", "record/rules.py")
-    sources |= strings("record/vocabulary.py")
-    sources |= strings("record/contract.py")
+    sources = strings("walk/*.py", "walk/*/*.py", "record/rules.py", "record/contract.py")
     sources |= strings(
         *("paper/finding*.py", "views/*.py", "figure/*.py", "schema/kinds/*.py", "plot/*.py"),
         *("page/*.py", "motion/kept_words.py"),
     )
     sources |= {p.remark for p in PAPER if p.remark}
     used = sources | strings("pipeline.py") | titles_and_meanings()
-    used |= {x.meaning for table in DISCRETE.values() for x in table.values()}  # made of parts
+    used |= {meaning for meaning, _ in meanings()}  # of which some are made of parts
     used |= {x["en"] for x in texts.entries()}  # tests/prose
     assert [x["en"] for x in ENTRIES if x["en"] not in used] == []
 
