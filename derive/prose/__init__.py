@@ -1,53 +1,73 @@
-"""The prose of each step in every language, by the label of the step.
+"""The prose of each step in every language, from the text files beside this one.
 
-A sentence is called ``kernel.line``: the label without the chapter, and a name, which ends in
-``_signed`` where it is said of masses that may be negative.  Spaces that
-French does not break are written as ordinary ones (views/language.py).
+A message is its label and, each in an indented line, its English and its French; ``#`` begins a
+comment.  The label of a sentence is ``kernel.line``: that of its step without the chapter, and a
+name, which ends in ``_signed`` where it is said of masses that may be negative.  Spaces that French
+does not break are written as ordinary ones (views/language.py).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cache
+from pathlib import Path
 
-from .answer import STEPS as ANSWER
-from .discrete import STEPS as DISCRETE
-from .equilibria import STEPS as EQUILIBRIA
-from .first_integrals import STEPS as FIRST_INTEGRALS
-from .fluid import STEPS as FLUID
-from .general import STEPS as GENERAL
-from .material import STEPS as MATERIAL
-from .matrices import STEPS as MATRICES
-from .momentum_form import STEPS as MOMENTUM_FORM
-from .reduction import STEPS as REDUCTION
-from .rotations import STEPS as ROTATIONS
-from .symmetries import STEPS as SYMMETRIES
-from .zeitlin import STEPS as ZEITLIN
-
-ROADS = (
-    *(GENERAL, ROTATIONS, MATRICES, MATERIAL, FIRST_INTEGRALS, SYMMETRIES, MOMENTUM_FORM),
-    *(ANSWER, DISCRETE, EQUILIBRIA, REDUCTION, ZEITLIN, FLUID),
-)
-STEPS: dict[str, dict[str, tuple[str, str]]] = {}
-for road in ROADS:
-    for label, sentences in road.items():
-        STEPS.setdefault(label, {}).update(sentences)
-"""Label → name → the sentence in each of ``LANGUAGES``."""
-LISTS = ("{first}, {second}", "{first}; {second}", "{first} and {second}")
-"""How parts of a sentence are strung together; in French in the catalogue of the views."""
-MESSAGES = frozenset(("", *LISTS, *(en for named in STEPS.values() for en, _ in named.values())))
-"""All that steps of a record say, in English: nothing else is a sentence of a step."""
 LANGUAGES = ("en", "fr")
 """The languages of the prose, in the order of the texts of a sentence."""
+LISTS = ("{first}, {second}", "{first}; {second}", "{first} and {second}")
+"""How parts of a sentence are strung together; in French in the catalogue of the views."""
+INDENT = "  "
 
 
-def english(key: str) -> str:
-    """The English of a sentence, by its key ``label.name``; ``KeyError`` for none."""
-    label, name = key.split(".")
-    return STEPS[label][name][0]
+def read(files: Iterable[Path], languages: Sequence[str] = LANGUAGES) -> dict[str, tuple[str, ...]]:
+    """Label → the texts in some languages, for all messages of some files; ``ValueError`` names the
+    file and the line of what is none."""
+    found: dict[str, tuple[str, ...]] = {}
+    for file in files:
+        for number, label, texts in _messages(file):
+            if label in found:
+                raise ValueError(f"{file}, line {number}: {label!r} stands twice; rename one")
+            if len(texts) != len(languages):
+                needed = f"an indented line in each of {', '.join(languages)}"
+                raise ValueError(f"{file}, line {number}: {label!r} has {len(texts)}, not {needed}")
+            found[label] = tuple(texts)
+    return found
+
+
+def _messages(file: Path) -> list[tuple[int, str, list[str]]]:
+    """The messages of a file: the line where each begins, its label, its texts."""
+    found: list[tuple[int, str, list[str]]] = []
+    for number, line in enumerate(file.read_text(encoding="utf-8").split("\n"), 1):
+        text = line.strip()
+        if not line or line.startswith("#"):
+            continue
+        if line == text:
+            found.append((number, text, []))
+        elif found and text and line == INDENT + text:
+            found[-1][2].append(text)
+        else:
+            raise ValueError(f"{file}, line {number}: no label, and no text two spaces below one")
+    return found
+
+
+@cache
+def sentences() -> dict[str, tuple[str, ...]]:
+    """Label → the sentence in each of ``LANGUAGES``."""
+    return read(sorted(Path(__file__).parent.glob("*.txt")))
+
+
+@cache
+def messages() -> frozenset[str]:
+    """All that steps of a record say, in English: nothing else is a sentence of a step."""
+    return frozenset(("", *LISTS, *(texts[0] for texts in sentences().values())))
+
+
+def english(label: str) -> str:
+    """The English of a sentence; ``KeyError`` for none."""
+    return sentences()[label][0]
 
 
 def entries() -> Iterator[dict[str, str]]:
     """Every sentence, as its text by language."""
-    for named in STEPS.values():
-        for texts in named.values():
-            yield dict(zip(LANGUAGES, texts, strict=True))
+    for texts in sentences().values():
+        yield dict(zip(LANGUAGES, texts, strict=True))

@@ -14,7 +14,7 @@ from fractions import Fraction
 
 from ..language.show import in_sentence
 from ..language.tree import Tree
-from ..prose import MESSAGES, english
+from ..prose import english, messages
 from . import sentence
 from .sentence import Prose, Sentence
 
@@ -129,7 +129,7 @@ def fault(prose: Prose, claims: tuple[Claim, ...]) -> str:
     """A sentence that is no message of :mod:`derive.prose`, or has words in the place of a formula,
     or is a claim and among none of these, or a claim that no sentence is; "" where they agree."""
     parts = [*_parts(prose)]
-    if strange := next((x.message for x in parts if x.message not in MESSAGES), ""):
+    if strange := next((x.message for x in parts if x.message not in messages()), ""):
         return f"a sentence that is none of derive's: {_quoted(strange)}"
     texts = (y for x in parts for _, y in x.places if isinstance(y, str))
     if words := next(filter(WORDS.search, texts), ""):

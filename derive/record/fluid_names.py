@@ -18,6 +18,7 @@ from .name_types import (
     of_X,
     rate,
     unknown,
+    with_derivatives,
 )
 
 # fmt: off
@@ -44,8 +45,6 @@ FLUID: dict[str, Name] = {
         "vitesse dans le groupe : celle de chaque point du corps", r"\nu", letter(FIELD)),
     "δg": name("variation of g", "variation de g", r"\delta g", letter(FIELD)),
     "δ′g": name("variation δ′ of g", "variation δ′ de g", r"\delta'g", letter(FIELD)),
-    "δν": name("variation of ν", "variation de ν", r"\delta\nu", letter(FIELD)),
-    "δ′ν": name("variation δ′ of ν", "variation δ′ de ν", r"\delta'\nu", letter(FIELD)),
     "ν̇": name("dν/dt along the motion, the acceleration of all points",
         "dν/dt le long du mouvement, accélération de tous les points",
         r"\dot\nu", rate(FIELD)),
@@ -67,8 +66,6 @@ FLUID: dict[str, Name] = {
         r"\eta", letter(FIELD), of_X(FIELD)),
     "η′": name("displacement δ′ of the point that is at each place",
         "déplacement δ′ du point qui est en chaque lieu", r"\eta'", letter(FIELD)),
-    "δu": name("variation of u", "variation de u", r"\delta u", letter(FIELD)),
-    "δ′u": name("variation δ′ of u", "variation δ′ de u", r"\delta' u", letter(FIELD)),
     "u̇": name("∂u/∂t along the motion, at each place",
         "∂u/∂t le long du mouvement, en chaque lieu", r"\dot u", rate(FIELD)),
     "δ": name("first variation", "première variation", r"\delta",
@@ -121,8 +118,6 @@ FLUID: dict[str, Name] = {
         "composition avec la courbe γ = g ∘ γ₀ que le fluide transporte ; les produits de tels "
         "champs sont intégrés sur son paramètre s",
         r"\Gamma", defined(OPERATOR)),
-    "Γ̇": name("dΓ/dt along the motion", "dΓ/dt le long du mouvement", r"\dot\Gamma",
-        rate(OPERATOR)),
     "γ̇": name("∂γ/∂t along the motion, the velocity of the points of the curve",
         "∂γ/∂t le long du mouvement, vitesse des points de la courbe", r"\dot\gamma", rate(FIELD)),
     "γ_s": name("tangent of the curve γ, its derivative in the parameter s",
@@ -133,9 +128,9 @@ FLUID: dict[str, Name] = {
         letter(OPERATOR)),
     "κ": name("density on the curve γ, in a level surface of ρ",
         "densité sur la courbe γ, dans une surface de niveau de ρ", r"\kappa", letter(SCALAR)),
-    "κ̇": name("dκ/dt along the motion", "dκ/dt le long du mouvement", r"\dot\kappa", rate(SCALAR)),
     "X": name("a vector with δt = 1; the one of the kernel of dϖ gives the motion",
         "vecteur tel que δt = 1 ; celui du noyau de dϖ donne le mouvement",
         "X", letter(VARIATION)),
 }
 # fmt: on
+FLUID = with_derivatives(FLUID, varied="ν u", moving="Γ κ")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import Any, NamedTuple
+from unicodedata import normalize
 
 Type = str | tuple[Any, ...]
 """``scalar``, ``(matrix, rows, columns)``, ``(vector, n)``; ``(algebra,)``, a matrix among the
@@ -87,3 +88,26 @@ def of_X(type: Type) -> Use:
 def family(index: str, type: Type) -> Type:
     """The type of a family of members of a type, and what their index counts."""
     return ("family", index, type)
+
+
+def with_derivatives(table: dict[str, Name], varied: str, moving: str) -> dict[str, Name]:
+    """A table of names, with δX and δ′X for each X of ``varied`` and the rate Ẋ for each of
+    ``moving``, names apart by spaces; what the table says of one itself stays."""
+    found: dict[str, Name] = {}
+    for x in varied.split():
+        latex, use = table[x].latex, letter(table[x].uses[0].type)
+        told = f"variation of {x}", f"variation de {x}"
+        found[f"δ{x}"] = name(*told, _of(r"\delta", latex), use)
+        told = f"variation δ′ of {x}", f"variation δ′ de {x}"
+        found[f"δ′{x}"] = name(*told, _of(r"\delta'", latex), use)
+    for x in moving.split():
+        told = f"d{x}/dt along the motion", f"d{x}/dt le long du mouvement"
+        rates = (rate(use.type) for use in table[x].uses)
+        dotted = normalize("NFC", f"{x[0]}\u0307{x[1:]}")
+        found[dotted] = name(*told, _of(r"\dot", table[x].latex), *rates)
+    return found | table
+
+
+def _of(mark: str, latex: str) -> str:
+    """The LaTeX of a name behind a mark."""
+    return f"{mark}{latex}" if latex.startswith("\\") else f"{mark} {latex}"

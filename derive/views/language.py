@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
-from importlib import resources
+from pathlib import Path
 
 from ..prose import LANGUAGES as LANGUAGES
 from ..prose import entries as steps
+from ..prose import read
 from ..record import rules, vocabulary
 from ..record.sentence import Prose, Sentence, filled, phrase
 
-CATALOGUE = resources.files(__package__) / "catalogue.toml"
+CATALOGUE = Path(__file__).with_name("catalogue.txt")
 POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
 """The point of a decimal number."""
 THIN, WIDE = "\u202f", "\u00a0"
@@ -76,12 +76,10 @@ def language(name: str) -> Language:
 
 
 def entries() -> list[dict[str, str]]:
-    """The prose of the steps, the names and rules of the record, and the catalogue, where a line
-    break is a space."""
+    """The prose of the steps, the names and rules of the record, and the catalogue."""
     words = dict.fromkeys((*vocabulary.meanings(), *rules.names()))
-    listed = tomllib.loads(CATALOGUE.read_text(encoding="utf-8"))["message"]
-    flat = ({k: " ".join(text.split()) for k, text in entry.items()} for entry in listed)
-    return [*steps(), *(dict(zip(LANGUAGES, x, strict=True)) for x in words), *flat]
+    catalogue = ((en, *texts) for en, texts in read([CATALOGUE], LANGUAGES[1:]).items())
+    return [*steps(), *(dict(zip(LANGUAGES, x, strict=True)) for x in (*words, *catalogue))]
 
 
 def typeset(french: str) -> str:

@@ -20,7 +20,13 @@ from pathlib import Path
 from py_compile import PycInvalidationMode
 
 FIRST, LATER = Path("/first"), Path("/later")
-NEEDED = ("derive/templates/html/", "derive/problems/", "derive/views/", "amendments.pickle")
+NEEDED = (
+    "derive/templates/html/",
+    "derive/problems/",
+    "derive/prose/",
+    "derive/views/",
+    "amendments.pickle",
+)
 """Of files that are no modules, those that a walk reads."""
 LEFT_OUT = re.compile(
     r"(unittest|xml|xmlrpc|_pyrepl|multiprocessing|pydoc_data|ensurepip|idlelib|lib2to3|wsgiref|email"

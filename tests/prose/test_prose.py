@@ -19,7 +19,7 @@ ALSO = {"coadjoint": {"kernel"}, "energy_casimir": {"equilibrium"}}
 
 
 def keys():
-    return [f"{label}.{name}" for label, named in prose.STEPS.items() for name in named]
+    return [*prose.sentences()]
 
 
 def named():
@@ -59,9 +59,8 @@ def test_a_step_of_integrals_says_what_stands_under_its_label():
 
 def says_what_stands_under_its_label(found):
     own = {}
-    for label, named in prose.STEPS.items():
-        for english, _ in named.values():
-            own.setdefault(english, set()).add(label)
+    for key, (english, _) in prose.sentences().items():
+        own.setdefault(english, set()).add(key.split(".")[0])
     for step in found.steps:
         said = [m for sentence in step.prose for m in messages(sentence) if m in own]
         short = re.sub(
@@ -74,7 +73,50 @@ def says_what_stands_under_its_label(found):
 
 
 def test_no_label_is_told_in_two_files():
-    parts = (prose.GENERAL, prose.ROTATIONS, prose.MATRICES, prose.MATERIAL)
-    parts += (prose.FIRST_INTEGRALS,)
-    labels = [label for part in parts for label in part]
+    files = ("general", "rotations", "matrices", "material", "first_integrals")
+    parts = [prose.read([ROOT / "prose" / f"{x}.txt"]) for x in files]
+    labels = [label for part in parts for label in {x.split(".")[0] for x in part}]
     assert sorted({*labels}) == sorted(labels)
+
+
+def test_a_sentence_is_called_by_its_step():
+    assert [x for x in keys() if not re.fullmatch(r"[a-z0-9_]+\.[a-z0-9_]+", x)] == []
+
+
+MESSAGES = "# two\n\na.b\n  One.\n  Un.\n\na.c\n  Two: # 2.\n  Deux : # 2.\n"
+
+
+def read(folder, *texts):
+    """The messages of files 0.txt, 1.txt, … in a folder."""
+    files = [folder / f"{k}.txt" for k in range(len(texts))]
+    for file, text in zip(files, texts, strict=True):
+        file.write_text(text, encoding="utf-8")
+    return prose.read(files)
+
+
+def test_messages_of_a_file(tmp_path):
+    assert read(tmp_path, MESSAGES) == {"a.b": ("One.", "Un."), "a.c": ("Two: # 2.", "Deux : # 2.")}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        ("a.c", "a.b", "line 7: 'a.b' stands twice"),
+        ("  Un.\n", "", "line 3: 'a.b' has 1, not an indented line in each of en, fr"),
+        ("  Un.\n", "  Un.\n  Uno.\n", "line 3: 'a.b' has 3, not"),
+        ("  Un.\n", "Un.\n", "line 3: 'a.b' has 1, not"),
+        ("  Un.\n", "   Un.\n", "line 5: no label, and no text"),
+        ("  Un.\n", "  Un. \n", "line 5: no label, and no text"),
+        ("  Un.\n", "  \n", "line 5: no label, and no text"),
+        ("\n\na.b", "\n\n  a.b", "line 3: no label, and no text"),
+        ("\n\na.b", "\n\na.b ", "line 3: no label, and no text"),
+    ],
+)
+def test_a_line_that_is_no_message_is_refused(old, new, why, tmp_path):
+    with pytest.raises(ValueError, match=re.escape(f"0.txt, {why}")):
+        read(tmp_path, MESSAGES.replace(old, new, 1))
+
+
+def test_no_label_stands_in_two_files(tmp_path):
+    with pytest.raises(ValueError, match=r"1.txt, line 1: 'a\.b' stands twice; rename one"):
+        read(tmp_path, MESSAGES, "a.b\n  One.\n  Un.\n")

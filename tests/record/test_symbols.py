@@ -7,6 +7,7 @@ import pytest
 
 from derive.check.checker import Checker
 from derive.record.json_reader import from_json
+from derive.record.name_types import SQUARE, VECTOR, Name, defined, letter, rate, with_derivatives
 from derive.record.record import RecordError
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
 from tests.support.refusals import data, read
@@ -32,6 +33,23 @@ def test_a_few_symbols():
     assert found["m"]["also"] == [{"type": ["family", "points", "scalar"], "role": "letter"}]
     multiplier = next(s for s in data("ready sl3")["symbols"] if s["name"] == "θ")
     assert (multiplier["type"], multiplier["role"]) == ("scalar", "unknown")
+
+
+def test_names_of_derivatives_by_hand():
+    own = Name("the way", "le chemin", r"\delta p_b", (letter(VECTOR),))
+    table = {
+        "p_b": Name("momentum", "impulsion", "p_b", (defined(VECTOR), defined(SQUARE))),
+        "τ": Name("velocity", "vitesse", r"\tau", (letter(VECTOR),)),
+        "δp_b": own,
+    }
+    prime = "variation δ′ of p_b", "variation δ′ de p_b", r"\delta' p_b"
+    dotted = "dp_b/dt along the motion", "dp_b/dt le long du mouvement", r"\dot p_b"
+    assert with_derivatives(table, varied="p_b τ", moving="p_b") == table | {
+        "δ′p_b": Name(*prime, (letter(VECTOR),)),
+        "ṗ_b": Name(*dotted, (rate(VECTOR), rate(SQUARE))),
+        "δτ": Name("variation of τ", "variation de τ", r"\delta\tau", (letter(VECTOR),)),
+        "δ′τ": Name("variation δ′ of τ", "variation δ′ de τ", r"\delta'\tau", (letter(VECTOR),)),
+    }
 
 
 @pytest.mark.parametrize(("key", "value"), [("n", 4), ("n", "any"), ("n", "n"), ("n", None)])

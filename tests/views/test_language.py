@@ -20,13 +20,12 @@ from derive.printing.sentences import prose
 from derive.printing.signs import markdown_text, tex_text
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
-from derive.record.discrete_names import DISCRETE
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.rules import RULES
 from derive.record.sentence import PLACE, english, phrase, say
-from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
-from derive.schema.body_kinds import SOLIDS, MomentBody
+from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, meanings
+from derive.schema.body_kinds import MomentBody
 from derive.schema.kinds import kinds
 from derive.views import outline
 from derive.views.html import html
@@ -178,14 +177,6 @@ def titles_and_meanings():
     return {x.title for x in problems} | {p.meaning for p in given if p.meaning}
 
 
-def test_no_road_says_the_sentence_of_another():
-    """Label and name of a sentence are those of one road: a second would take its place."""
-    said_by = Counter(
-        (x, name) for road in texts.ROADS for x, named in road.items() for name in named
-    )
-    assert {key for key, count in said_by.items() if count > 1} == set()
-
-
 def test_the_english_of_an_entry_stands_once():
     assert len({x["en"] for x in ENTRIES}) == len(ENTRIES)
     assert all(set(x) == set(LANGUAGES) and all(x.values()) for x in ENTRIES)
@@ -204,16 +195,16 @@ def test_every_sentence_is_in_the_catalogue(records):
     used = set().union(*map(said, records))
     assert used <= set(FRENCH.messages)
     steps = {x for d in records for step in d.steps for y in step.prose for x in messages(y)}
-    assert steps <= texts.MESSAGES  # no others are accepted in a record
+    assert steps <= texts.messages()  # no others are accepted in a record
 
 
 def test_every_message_of_the_walk_is_reached(records):
     """The problems above go through every branch that says something, but for what is said of
     masses of any sign (tests/walk/test_signed_masses.py), and of searches that are too large to be
     checked and quadratures with a square factor (tests/check/test_record_claims.py)."""
-    steps = [(name, en) for named in texts.STEPS.values() for name, (en, _) in named.items()]
+    steps = texts.sentences().items()
     written = strings("walk/*.py", "walk/kinds/*.py") & set(FRENCH.messages) - set(RULES)
-    written |= {en for name, en in steps if not name.endswith(("_signed", "_large", "_squared"))}
+    written |= {x[0] for key, x in steps if not key.endswith(("_signed", "_large", "_squared"))}
     meanings = titles_and_meanings()
     assert written - meanings <= set().union(*map(said, records))
 
@@ -255,16 +246,14 @@ def test_every_word_said_is_in_the_catalogue():
 
 
 def test_every_entry_is_used():
-    sources = strings("walk/*.py", "walk/*/*.py", "record/*_names.py", "record/rules.py")
-    sources |= strings("record/vocabulary.py")
-    sources |= strings("record/contract.py")
+    sources = strings("walk/*.py", "walk/*/*.py", "record/rules.py", "record/contract.py")
     sources |= strings(
         *("paper/finding*.py", "views/*.py", "figure/*.py", "schema/kinds/*.py", "plot/*.py"),
         *("page/*.py", "motion/run.py"),
     )
     sources |= {p.remark for p in PAPER if p.remark}
     used = sources | strings("pipeline.py") | titles_and_meanings()
-    used |= {x.meaning for table in DISCRETE.values() for x in table.values()}  # made of parts
+    used |= {meaning for meaning, _ in meanings()}  # of which some are made of parts
     used |= {x["en"] for x in texts.entries()}  # tests/prose
     assert [x["en"] for x in ENTRIES if x["en"] not in used] == []
 
@@ -373,7 +362,7 @@ def test_the_command_line_speaks_french(capsys):
 
 
 def test_the_catalogue_is_in_the_package():
-    assert (resources.files("derive.views") / "catalogue.toml").is_file()
+    assert (resources.files("derive.views") / "catalogue.txt").is_file()
 
 
 def test_records_read_back_say_the_same(records):
