@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Any
 from ..algebra.groups import Group
 from ..language.show import show
 from ..record import mass_signs
-from ..record.contract import ANY_GROUP
-from ..record.json_writer import step_data, to_json
-from ..record.record import Derivation, Equation, RecordError, Step
+from ..record.as_json import step_data, to_json
+from ..record.record import ANY_GROUP, Derivation, Equation, RecordError, Step
 from .claims.claim_checker import ClaimChecker
 from .claims.enclosure import enclosure_fault, kept_claims
 from .form import symbols, well_formedness

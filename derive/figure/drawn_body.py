@@ -9,7 +9,7 @@ from itertools import combinations, pairwise
 from typing import Any
 
 from ..language.values import approximate
-from ..record.tree_data import decode
+from ..record.as_json import decode
 from .drawing import Box, Dot, Label, Point, Stroke, from_segment
 
 Vector = tuple[float, float, float]

@@ -25,8 +25,8 @@ from ..language.values import approximate, value
 from ..problem.fields import state_names
 from ..problem.problem import Problem
 from ..problem.stated_motion import named
+from ..record.as_json import decode
 from ..record.record import Derivation
-from ..record.tree_data import decode
 from ..schema.body_kinds import Body
 from ..schema.kind import Lagrangian
 from .run import Array, Run, known, read

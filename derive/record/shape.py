@@ -19,7 +19,7 @@ from ..schema.kind import GROUP, INPUTS, Advected, Damping, Fluid, Lagrangian, T
 from ..schema.kinds import kinds
 from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
-from .contract import CONVENTIONS
+from .record import CONVENTIONS
 
 T = TypeVar("T")
 IDENTIFIER = NAME

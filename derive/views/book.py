@@ -15,8 +15,7 @@ from unicodedata import normalize
 from ..language.tree import Tree, names
 from ..paper.findings import OMISSION, SIGN, VERDICTS, Finding
 from ..printing.line_breaking import WIDTH
-from ..record.contract import ACTIONS, ANY_GROUP
-from ..record.record import Derivation, Step, Symbol
+from ..record.record import ACTIONS, ANY_GROUP, Derivation, Step, Symbol
 from ..record.sentence import english, say
 from ..record.vocabulary import VOCABULARY
 from .language import ENGLISH, Language

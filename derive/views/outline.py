@@ -10,10 +10,9 @@ from ..language.show import in_sentence
 from ..language.tree import names, nodes
 from ..language.tree import names as names_in
 from ..printing.letters import names_of
-from ..record.contract import AMENDED, ANY_GROUP, FIELDS
-from ..record.record import Derivation, Equation, Step
+from ..record.as_json import decode
+from ..record.record import AMENDED, ANY_GROUP, FIELDS, Derivation, Equation, Step
 from ..record.sentence import Sentence, listed, phrase
-from ..record.tree_data import decode
 from ..schema.kinds import kinds
 from .entries import entries
 from .language import ENGLISH, Language

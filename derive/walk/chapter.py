@@ -15,13 +15,10 @@ from ..algebra.word_trees import PLAIN, WordNotation, tree_of
 from ..algebra.words import Expr
 from ..language.tree import Tree
 from ..problem.problem import ProblemError
-from ..prose import english
+from ..prose import message
 from ..record import sentence
-from ..record.claims import Claim, rendered
-from ..record.contract import ANY_GROUP
-from ..record.hypotheses import Hypothesis
-from ..record.record import Equation, Step
-from ..record.sentence import Prose, Sentence, listed
+from ..record.record import ANY_GROUP, Equation, Hypothesis, Step
+from ..record.sentence import Claim, Prose, Sentence, listed, rendered
 from ..record.uses import position_of
 from ..record.vocabulary import DERIVATIVE_OF, VOCABULARY
 
@@ -290,7 +287,7 @@ def naming_steps() -> Iterator[None]:
 
 def phrase(key: str, **places: Sentence | str) -> Sentence:
     """The sentence, or a part of one, of a key as ``kernel.line``, its places filled."""
-    return sentence.phrase(english(key), **places)
+    return sentence.phrase(message(key), **places)
 
 
 def say(key: str, **places: Sentence | str) -> Prose:

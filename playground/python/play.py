@@ -29,8 +29,7 @@ from derive.command.writing import one_line
 from derive.language.limits import Refused
 from derive.paper.findings import Finding
 from derive.problem.stated_motion import faults
-from derive.record.contract import AMENDED
-from derive.record.record import Derivation
+from derive.record.record import AMENDED, Derivation
 
 Tell = Callable[[str, str], None]
 FOLDER = Path("/problem")

@@ -31,7 +31,7 @@ from derive.check.form.hypotheses_checked import IMPOSSIBLE
 from derive.language import univariate
 from derive.language.tree import add, mul, neg, nodes, replaced
 from derive.language.univariate import root
-from derive.record.claims import CLAIMS, Claim, rendered
+from derive.record.sentence import CLAIMS, Claim, rendered
 from derive.search.equilibria import stability
 from tests.check.test_record_claims import EQUILIBRIA, changes, said
 from tests.support.lagrangians import (

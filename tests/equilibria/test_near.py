@@ -13,8 +13,7 @@ from derive.check.checker import Checker
 from derive.check.claims.enclosure import enclosure_fault
 from derive.command.cli import main
 from derive.language.tree import add, replaced
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from derive.search.equilibria import enclosed_points
 from derive.search.equilibria.enclosed_points import Ball, characteristic
 from tests.support.coadjoint_orbits import hat, match, orbit_signature

@@ -17,8 +17,7 @@ from derive.language.expression import parse
 from derive.language.tree import add, replaced
 from derive.language.univariate import RootError, root, value_of
 from derive.pipeline import walk
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from derive.record.sentence import english
 from derive.search.equilibria.energy_casimir import along_the_orbit, kernel, restricted, solutions
 from derive.search.equilibria.stability import roots_of_squares

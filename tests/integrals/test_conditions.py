@@ -11,8 +11,7 @@ from derive import first_integrals
 from derive.check.checker import Checker
 from derive.command.cli import main
 from derive.language.tree import neg
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from derive.search.integrals.degree_search import TooLargeError
 from tests.support.lagrangians import heavy, lagrangian, squares
 from tests.support.walks import SEED, repeated

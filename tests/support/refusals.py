@@ -19,11 +19,9 @@ from derive.check.form import symbols
 from derive.check.form.function_signatures import RATES
 from derive.check.form.hypotheses_checked import missing_mass_hypotheses
 from derive.check.form.well_formedness import unexplained, unused
-from derive.record.contract import ANY_GROUP, COMMENTARY
-from derive.record.json_reader import from_json
-from derive.record.json_writer import step_data, to_data
-from derive.record.name_types import ROLES
-from derive.record.record import RecordError
+from derive.record.as_json import from_json, step_data, to_data
+from derive.record.names import ROLES
+from derive.record.record import ANY_GROUP, COMMENTARY, RecordError
 from derive.record.rules import OFF_MOTION
 from derive.record.vocabulary import VOCABULARY
 from derive.search.reduction import told_reduction

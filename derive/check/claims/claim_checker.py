@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable
 
 from ...language import rational as q
 from ...language.rational import Matrix
-from ...record.claims import Claim, fault
 from ...record.record import RecordError, Step
+from ...record.sentence import Claim, fault
 from ..form.hypotheses_checked import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
 from . import enclosure, equilibrium_claims, integral_claims, reduction_claims, symmetry_count
 from .reduced_system import ClaimedRecord

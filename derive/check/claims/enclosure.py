@@ -14,8 +14,8 @@ from ...language import rational as q
 from ...language.show import show
 from ...language.tree import Tree, nodes
 from ...language.univariate import value_of
-from ...record.claims import Claim
 from ...record.record import Equation, RecordError, Step
+from ...record.sentence import Claim
 from .entries_checked import Entries, invertible
 from .equilibrium_claims import coordinates, not_from, silent
 from .exact_spectra import DIGITS as PRECISION

@@ -11,8 +11,8 @@ from typing import Any
 from ...language import rational as q
 from ...language.tree import Tree, add, neg, nodes, replaced, terms
 from ...language.univariate import Number, square_free, tree, value_of
-from ...record.claims import Claim
 from ...record.record import RecordError, Step
+from ...record.sentence import Claim
 from .entries_checked import Decision, decided
 from .exact_spectra import (
     DIGITS,

@@ -11,7 +11,7 @@ from operator import add, mul
 
 from ...algebra.exact_kernel import PRIMES, Residues, ResidueSource, pivots
 from ...language.tree import Tree, operands
-from ...record.claims import MONOMIALS
+from ...record.sentence import MONOMIALS
 from .modular_values import Value, value
 from .reduced_system import ReducedSystem
 

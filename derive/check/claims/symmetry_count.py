@@ -16,9 +16,9 @@ from ...algebra.exact_kernel import Residues, ResidueSource, kernel, pivots, pri
 from ...algebra.groups import Group
 from ...language import rational as q
 from ...language.tree import Tree, add, neg, nodes, operands, terms
-from ...record.claims import Claim
+from ...record.as_json import decode
 from ...record.record import Derivation, RecordError, Step
-from ...record.tree_data import decode
+from ...record.sentence import Claim
 from ..values.residue import Residue
 from .entries_checked import constant_entries
 from .modular_values import Functions, Jet, UnluckyError, value

@@ -15,9 +15,7 @@ from ...language.show import show
 from ...language.tree import Tree, names, nodes, replaced
 from ...language.values import approximate
 from ...record import mass_signs
-from ...record.contract import ANY_GROUP
-from ...record.hypotheses import OF_MASSES, Hypothesis
-from ...record.record import Equation, RecordError, Step
+from ...record.record import ANY_GROUP, OF_MASSES, Equation, Hypothesis, RecordError, Step
 from ..lagrangian.lagrangian_model import LagrangianModel
 from ..lagrangian.reduced_by_symmetries import concludes_velocity, unforced_velocity
 from ..trials.meaning import parts_of

@@ -7,8 +7,7 @@ from typing import Any
 
 from ...language.show import show
 from ...language.tree import Tree, names, nodes
-from ...record.contract import FIELDS
-from ...record.record import Equation, Step
+from ...record.record import FIELDS, Equation, Step
 from ..values.draws import TIME, Locus
 from ..values.evaluate import ELEMENTARY
 from .function_signatures import (

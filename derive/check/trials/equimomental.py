@@ -14,8 +14,8 @@ from ...language import rational as q
 from ...language.laurent import LEVEL, degree_in_level
 from ...language.rational import Matrix
 from ...language.tree import OPERATORS
+from ...record.as_json import decode
 from ...record.record import RecordError
-from ...record.tree_data import decode
 from ..values.arithmetic import EvaluationError
 from ..values.draws import Draws
 from ..values.evaluate import evaluate

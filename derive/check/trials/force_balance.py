@@ -12,7 +12,7 @@ from typing import Any
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
-from ...record.tree_data import decode
+from ...record.as_json import decode
 from ..form.function_signatures import PER_DENSITY
 from ..values.arithmetic import EvaluationError, plus, times
 from ..values.evaluate import Environment, evaluate

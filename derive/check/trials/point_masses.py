@@ -12,8 +12,8 @@ from ...algebra.groups import Group
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
+from ...record.as_json import decode
 from ...record.record import RecordError
-from ...record.tree_data import decode
 from ..kinds import accounts, uses_body_axes
 from ..values.arithmetic import ETA, Nilpotent, nilpotent, part
 from ..values.draws import Draws

@@ -16,8 +16,7 @@ from ...algebra.structure import rank
 from ...language import rational as q
 from ...language.show import show
 from ...language.tree import Tree, nodes
-from ...record.contract import ANY_GROUP
-from ...record.record import Equation, RecordError, Step
+from ...record.record import ANY_GROUP, Equation, RecordError, Step
 from ...record.shape import IDENTIFIER
 from ..lagrangian import lagrangian_values
 from ..lagrangian.lagrangian_model import LagrangianModel

@@ -9,9 +9,8 @@ from typing import Any
 from ...language.limits import Refused, tell
 from ...language.tree import Tree, add, mul, neg, nodes, plain
 from ...problem.problem import Problem
-from ...record.claims import MONOMIALS
 from ...record.record import Equation, Step
-from ...record.sentence import Prose
+from ...record.sentence import MONOMIALS, Prose
 from ...walk.chapter import Chapter, Draft, say
 from .all_integrals import Condition, Conditions, Found, Integrability, OnLevel, casimirs, found
 from .degree_search import TooLargeError, how_many, unknowns

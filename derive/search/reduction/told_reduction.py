@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, add, mul, neg, nodes, plain, terms
-from ...record.hypotheses import Hypothesis
-from ...record.record import Derivation, Equation, Step
-from ...record.tree_data import encode
+from ...record.as_json import encode
+from ...record.record import Derivation, Equation, Hypothesis, Step
 from ...walk.chapter import Chapter, Values, phrase, say, traced
 from ...walk.lie import expressed
 from ...walk.lie.any_lagrangian import AnyLagrangian

@@ -25,7 +25,7 @@ from ...check.values.arithmetic import EvaluationError
 from ...check.values.evaluate import evaluate
 from ...check.values.residue import Residue
 from ...language import rational as q
-from ...record.json_writer import to_json
+from ...record.as_json import to_json
 from ...record.record import Derivation
 from ..compare import SIZE, Agreement
 from ..declarations import DiffersError

@@ -12,8 +12,7 @@ from ...algebra.word_trees import WordNotation, metrics, tree_of
 from ...algebra.words import Dim, Expr, Letter, inner, word
 from ...language.read import read
 from ...language.tree import Tree, add, mul
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ..chapter import Chapter, Draft, WalkError, say
 from ..matrices.coordinates import factored_tree
 from ..spine.alphabet import cancel_scalar, inverse_letter, inverse_tree

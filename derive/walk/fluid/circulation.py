@@ -18,8 +18,7 @@ from ...algebra.word_trees import WordNotation, along, with_derivatives
 from ...algebra.words import Expr, Factor, Letter, col_dim, inner, row_dim, word, zero
 from ...language.read import read
 from ...language.tree import Tree
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ..chapter import Chapter, say
 from ..matrices.coordinates import factored_tree
 from ..spine.cartan import Cartan, brackets_of, trivial_images, varied_cauchy_green

@@ -10,8 +10,7 @@ from ...algebra.word_trees import PLAIN, WordNotation, along, metrics, tree_of
 from ...algebra.words import Expr, Letter, inner, number, one, word, zero
 from ...language.read import read
 from ...language.tree import add, neg
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ..chapter import Chapter, say
 from ..given.body import integral
 from ..matrices.coordinates import at_constant_time, factored_tree, solve_for

@@ -19,8 +19,7 @@ from ...algebra.word_trees import PLAIN, WordNotation, with_derivatives
 from ...algebra.words import Expr, Factor, Letter, inner, one, trace, word, zero
 from ...language.read import read
 from ...language.tree import add, neg
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ..chapter import Chapter, say
 from ..matrices.coordinates import factored_tree
 from ..spine.cartan import Cartan, Exterior

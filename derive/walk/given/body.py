@@ -13,9 +13,7 @@ from ...language.read import read
 from ...language.show import in_sentence
 from ...language.tree import Tree, add, coefficient, mul, neg
 from ...problem.problem import Problem
-from ...record.formulas import stated
-from ...record.hypotheses import Hypothesis
-from ...record.record import Equation, Step
+from ...record.record import Equation, Hypothesis, Step, stated
 from ...record.sentence import Prose, Sentence, listed
 from ...schema.body_kinds import GivenBody, MomentBody, Moments, PointBody, Solid
 from ..chapter import Chapter, Draft, phrase, say, say_signed

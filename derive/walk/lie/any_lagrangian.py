@@ -12,9 +12,7 @@ from ...algebra.word_trees import WordNotation, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.read import read
 from ...language.tree import Tree, add, neg
-from ...record.formulas import stated
-from ...record.hypotheses import Hypothesis
-from ...record.record import Equation, Step
+from ...record.record import Equation, Hypothesis, Step, stated
 from ..chapter import Chapter, say
 from ..matrices.coordinates import at_constant_time
 from ..spine.alphabet import Alphabet, cancelling, inverse_letter, inverse_tree

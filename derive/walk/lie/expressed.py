@@ -21,8 +21,7 @@ from ...problem.moved_entries import (
     vanishes_on,
 )
 from ...problem.problem import Problem
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
 from ...schema.kind import Lagrangian
 from ..chapter import Chapter, enumerated, phrase, say

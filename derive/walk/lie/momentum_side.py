@@ -20,8 +20,7 @@ from ...language.tree import Tree, add, mul, neg, nodes, plain
 from ...problem.fields import coordinates
 from ...problem.moved_entries import Entry, Moved
 from ...problem.problem import Problem
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ...schema.kind import Advected
 from ..chapter import Chapter, say
 from ..spine.alphabet import Alphabet

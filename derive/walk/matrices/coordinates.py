@@ -15,8 +15,7 @@ from ...language import rational as q
 from ...language.laurent import Laurent, grouped, written
 from ...language.rational import Matrix
 from ...language.tree import Tree, add, mul, nodes, operands, terms
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose
 from ..chapter import Chapter, Draft, say
 from ..spine.alphabet import Alphabet

@@ -11,8 +11,7 @@ from ...algebra.word_trees import WordNotation, tree_of
 from ...algebra.words import Expr, Letter, Word, expr_of_word, trace, word
 from ...language.tree import Tree, add
 from ...problem.inertia import EVERY, Bodies
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose
 from ..chapter import Chapter, Draft, say
 from ..spine.alphabet import Alphabet

@@ -13,8 +13,7 @@ from ...language.laurent import Laurent
 from ...language.read import read
 from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
 from ..chapter import Chapter, phrase, say, say_signed
 from ..given.potentials import U_Q, Potentials, column

@@ -12,8 +12,7 @@ from ...algebra.words import Expr, Factor, Letter, inner, number, one, word
 from ...language import rational as q
 from ...language.read import read
 from ...language.tree import Tree, add, plain
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose
 from ..chapter import Chapter, Draft, say, say_signed
 from ..spine.alphabet import Alphabet, cancelling, inverse_letter

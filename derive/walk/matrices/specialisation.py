@@ -12,8 +12,7 @@ from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.read import read
 from ...language.tree import Tree
 from ...problem.inertia import Bodies
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose
 from ..chapter import Chapter, Draft, say
 from ..given.inputs import External

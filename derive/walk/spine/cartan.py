@@ -20,8 +20,7 @@ from ...algebra.word_trees import WordNotation, metrics, tree_of
 from ...algebra.words import Expr, Factor, Letter, word
 from ...language.read import read
 from ...language.tree import Tree, add, mul
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ..chapter import Chapter, Draft, say
 from ..matrices.coordinates import at_constant_time, factored_tree, solve_for
 from .alphabet import Alphabet

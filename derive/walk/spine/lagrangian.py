@@ -24,9 +24,7 @@ from ...algebra.words import (
 )
 from ...language.read import read
 from ...language.tree import Tree, add, neg, nodes, operands
-from ...record.formulas import stated
-from ...record.hypotheses import Hypothesis
-from ...record.record import Equation, Step
+from ...record.record import Equation, Hypothesis, Step, stated
 from ...record.sentence import Prose
 from ..chapter import Chapter, say, say_signed
 from .alphabet import Alphabet

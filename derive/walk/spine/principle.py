@@ -12,8 +12,7 @@ from ...algebra.word_trees import WordNotation, hat, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.read import read
 from ...language.tree import Tree, add
-from ...record.hypotheses import Hypothesis
-from ...record.record import Equation, Step
+from ...record.record import Equation, Hypothesis, Step
 from ...record.sentence import Sentence
 from ..chapter import Chapter, Draft, phrase, say, say_signed
 from ..matrices.coordinates import factored_tree

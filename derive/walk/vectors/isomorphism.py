@@ -29,8 +29,7 @@ from ...algebra.word_trees import (
 from ...algebra.words import Expr, Factor, Letter, Traces, Word, inner, scalar_of, trace, word, zero
 from ...language.read import read
 from ...language.tree import Tree, add, terms
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ..chapter import Chapter, say
 from ..spine.alphabet import AlgebraPart, Alphabet, Dual
 from ..spine.cartan import brackets_of
