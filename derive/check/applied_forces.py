@@ -13,8 +13,8 @@ from typing import Any
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.tree import Tree
+from ..record.as_json import decode
 from ..record.record import RecordError
-from ..record.tree_data import decode
 from .draws import Draws
 from .evaluate import Environment, evaluate
 from .kinds import accounts

@@ -19,9 +19,8 @@ from typing import TYPE_CHECKING, Any
 from ..algebra.groups import Group
 from ..language.show import show
 from ..record import mass_signs
-from ..record.contract import ANY_GROUP
-from ..record.json_writer import step_data, to_json
-from ..record.record import Derivation, Equation, RecordError, Step
+from ..record.as_json import step_data, to_json
+from ..record.record import ANY_GROUP, Derivation, Equation, RecordError, Step
 from . import symbols, well_formedness
 from .arithmetic import EvaluationError
 from .claims.claim_checker import ClaimChecker

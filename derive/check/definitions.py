@@ -11,8 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator
 
 from ..language.tree import Tree, names
-from ..record.contract import FIELDS
-from ..record.record import Equation, Step
+from ..record.record import FIELDS, Equation, Step
 from .elementary_values import ELEMENTARY
 
 _PRIMITIVE = """

@@ -14,8 +14,8 @@ from typing import Any
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import OPERATORS
+from ..record.as_json import decode
 from ..record.record import RecordError
-from ..record.tree_data import decode
 from .draws import Draws
 from .evaluate import evaluate
 from .shells import Layers

@@ -11,7 +11,7 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..record.tree_data import decode
+from ..record.as_json import decode
 from .equimomental import volume_of
 from .evaluate import evaluate
 from .model import Model

@@ -20,9 +20,7 @@ from ..language.show import show
 from ..language.tree import Tree, names, nodes, replaced
 from ..language.values import approximate
 from ..record import mass_signs
-from ..record.contract import ANY_GROUP
-from ..record.hypotheses import OF_MASSES, Hypothesis
-from ..record.record import RecordError, Step
+from ..record.record import ANY_GROUP, OF_MASSES, Hypothesis, RecordError, Step
 from .arithmetic import EvaluationError, is_matrix, scalar
 from .equation_sides import index_bindings
 from .evaluate import Environment, evaluate

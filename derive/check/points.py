@@ -8,7 +8,7 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..record.tree_data import decode
+from ..record.as_json import decode
 from .draws import Draws
 from .equimomental import equimomental_points, moments_of, remaining_moments
 from .evaluate import evaluate

@@ -11,8 +11,7 @@ from ..algebra.families import group, on_homogeneous
 from ..algebra.groups import Group
 from ..algebra.stated_basis import group_of_basis
 from ..algebra.structure import rank
-from ..record.contract import ANY_GROUP
-from ..record.record import RecordError
+from ..record.record import ANY_GROUP, RecordError
 from ..record.shape import IDENTIFIER
 from .torus.torus_group import group_of_torus, torus_of
 

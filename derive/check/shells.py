@@ -14,7 +14,7 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.layers import LEVEL, degree_in_level
-from ..record.tree_data import decode
+from ..record.as_json import decode
 from .arithmetic import EvaluationError
 from .draws import Draws
 from .evaluate import evaluate

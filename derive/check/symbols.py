@@ -15,9 +15,8 @@ from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.show import show
 from ..language.tree import Tree
-from ..record.contract import ANY_GROUP
-from ..record.name_types import Type, Use
-from ..record.record import Derivation, Equation, Step, Symbol
+from ..record.names import Type, Use
+from ..record.record import ANY_GROUP, Derivation, Equation, Step, Symbol
 from . import well_formedness
 from .arithmetic import is_matrix
 from .definitions import Usage, definitions, occurrences

@@ -10,8 +10,7 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.samplers import Source
 from ..language.show import show
-from ..record.contract import ANY_GROUP
-from ..record.record import Equation, RecordError, Step
+from ..record.record import ANY_GROUP, Equation, RecordError, Step
 from . import discrete_model
 from .discrete_model import DiscreteModel
 from .equation_sides import claim_grade

@@ -13,7 +13,7 @@ from ..algebra.relations import Relations, relations
 from ..language import rational as q
 from ..language.greek import SPELT
 from ..language.show import show
-from ..record.tree_data import decode
+from ..record.as_json import decode
 from .heading import signed_entries
 from .options import Options
 from .slots import still_slots

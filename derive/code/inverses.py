@@ -9,8 +9,8 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.suffixed import suffixed
 from ..language.tree import Tree
+from ..record.as_json import decode
 from ..record.mass_signs import ANY_SIGN
-from ..record.tree_data import decode
 from . import dense
 from .graph import PARAMETER, Node
 from .naming import name_of

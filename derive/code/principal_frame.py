@@ -14,7 +14,7 @@ from typing import Any
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.suffixed import suffixed
-from ..record.tree_data import decode
+from ..record.as_json import decode
 from . import dense
 from .graph import Node
 from .quaternion import conjugate, horn

@@ -195,7 +195,7 @@ def command_check(args: argparse.Namespace) -> int:
     """Re-check every recorded step, independently of the code that derived it."""
     from ..check.checker import fresh_seed
     from ..check.checker import verdicts as check
-    from ..record.json_reader import read
+    from ..record.as_json import read
 
     steps, failed, refused = 0, 0, 0
     seed = fresh_seed() if args.seed is None else args.seed

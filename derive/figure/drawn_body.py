@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..language.values import approximate
-from ..record.tree_data import decode
+from ..record.as_json import decode
 
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, ...]

@@ -6,9 +6,8 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 from ..language.tree import Tree, mul, plain
-from ..record.claims import MONOMIALS
 from ..record.record import Equation, Step
-from ..record.sentence import Prose
+from ..record.sentence import MONOMIALS, Prose
 from ..walk.chapter import Chapter, Draft
 from ..walk.wording import say
 from .all_integrals import Found, OnLevel

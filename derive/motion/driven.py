@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..language.values import approximate
-from ..record.tree_data import decode
+from ..record.as_json import decode
 
 DAMPING, TIME, INPUTS = "damping", "the time", "inputs"
 

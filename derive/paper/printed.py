@@ -13,8 +13,7 @@ from functools import cached_property, partial
 
 from ..language.read import read
 from ..language.tree import Tree
-from ..record.formulas import stated
-from ..record.record import Equation
+from ..record.record import Equation, stated
 
 ALWAYS = {"Σ ": "Σᵢ ", "(t, g, ν)": "", " ∈ so(3)": "", "(δx)": "(δy)"}
 """Parts of prints, and what they mean everywhere: sums run over the points, dϖ and ϖ are of y."""

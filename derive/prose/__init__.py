@@ -62,7 +62,7 @@ def messages() -> frozenset[str]:
     return frozenset(("", *LISTS, *(texts[0] for texts in sentences().values())))
 
 
-def english(label: str) -> str:
+def message(label: str) -> str:
     """The English of a sentence; ``KeyError`` for none."""
     return sentences()[label][0]
 

@@ -16,7 +16,7 @@ from ..language.read import read
 from ..language.show import show, show_name
 from ..language.tree import Tree, nodes
 from ..problem.problem import ProblemError
-from ..record.name_types import (
+from ..record.names import (
     ALGEBRA,
     FIELD,
     FUNCTION_ON_SPACE,

@@ -10,8 +10,8 @@ from ..language import rational as q
 from ..language.layers import at_levels
 from ..language.tree import Tree
 from ..language.values import approximate
+from .as_json import decode
 from .record import RecordError
-from .tree_data import decode
 
 ANY_SIGN = "of any sign"
 """The value of the key ``masses`` of a problem that says its masses may be negative."""

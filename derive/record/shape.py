@@ -23,7 +23,7 @@ from ..schema.outside import INPUTS, Damping
 from ..schema.solid_kinds import LAYERED, SOLIDS, Solid
 from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
-from .contract import CONVENTIONS
+from .record import CONVENTIONS
 
 T = TypeVar("T")
 IDENTIFIER = NAME

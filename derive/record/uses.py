@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 
 from ..language.show import FIELD_OPERATORS
 from ..language.tree import Tree
-from .contract import ANY_GROUP, FIELDS
-from .name_types import ALGEBRA, SCALAR, SQUARE, VECTOR, Name, Type, Use
-from .record import Equation, Step
+from .names import ALGEBRA, SCALAR, SQUARE, VECTOR, Name, Type, Use
+from .record import ANY_GROUP, FIELDS, Equation, Step
 from .vocabulary import VOCABULARY
 
 Usage = tuple[str, str]

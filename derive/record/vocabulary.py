@@ -11,13 +11,13 @@ from collections.abc import Iterable, Iterator
 
 from ..schema.kind import Own
 from ..schema.kinds import kinds
-from .discrete_names import DISCRETE
-from .fluid_names import FLUID
-from .name_types import (
+from .names import (
     ADVECTED,
     ALGEBRA,
     AT_ONE_TIME,
     COORDINATES,
+    DISCRETE,
+    FLUID,
     LATTICE,
     PLACE,
     SCALAR,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..record.as_json import encode
 from ..record.record import Derivation, Step
-from ..record.tree_data import encode
 from ..symmetries.found import Found
 from ..walk.chapter import Chapter
 from ..walk.head import problem_data, symbols

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import Tree, add, mul, neg, nodes, plain, terms
-from ..record.hypotheses import Hypothesis
-from ..record.record import Equation, Step
+from ..record.record import Equation, Hypothesis, Step
 from ..symmetries.symmetry import Symmetry
 from ..walk.chapter import Chapter
 from ..walk.wording import phrase, say

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 from ..algebra.groups import Group
 from ..language.tree import Tree, add, neg
-from ..record.formulas import stated
-from ..record.record import Derivation, Equation, Step
+from ..record.record import Derivation, Equation, Step, stated
 from ..walk.chapter import Chapter
 from ..walk.head import problem_data, symbols
 from ..walk.lie import expressed

@@ -14,7 +14,7 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from ..record.json_writer import to_json
+from ..record.as_json import to_json
 from .attitude import compare_attitude, exact_root
 from .chart import StateChart
 from .conservation import compare_conserved

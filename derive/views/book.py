@@ -8,8 +8,7 @@ from itertools import groupby
 from unicodedata import normalize
 
 from ..language.tree import names
-from ..record.contract import ACTIONS, ANY_GROUP
-from ..record.record import Derivation, Step, Symbol
+from ..record.record import ACTIONS, ANY_GROUP, Derivation, Step, Symbol
 from ..record.sentence import english, say
 from ..record.vocabulary import VOCABULARY
 from .language import ENGLISH, Language

@@ -10,8 +10,7 @@ from ..language.show import in_sentence
 from ..language.tree import names as names_in
 from ..language.tree import nodes
 from ..printing.letters import names_of
-from ..record.contract import AMENDED, ANY_GROUP, FIELDS
-from ..record.record import Derivation, Equation, Step
+from ..record.record import AMENDED, ANY_GROUP, FIELDS, Derivation, Equation, Step
 from .entries import entries
 from .language import ENGLISH, Language
 

@@ -41,7 +41,7 @@ def _html(d: Derivation, words: Language, notation: Notation, alone: bool) -> st
 
 
 def _json(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
-    from ..record.json_writer import to_json
+    from ..record.as_json import to_json
 
     if alone:
         raise RenderError("the JSON is of a whole walk: name no steps")
@@ -180,7 +180,7 @@ def unprinted(records: Sequence[Derivation]) -> str:
 def corrections(records: Sequence[Derivation]) -> list[Finding]:
     """The findings about the numbers that these records have and the paper prints otherwise."""
     from ..paper.findings import amendments
-    from ..record.contract import AMENDED
+    from ..record.record import AMENDED
 
     numbers = {n for d in records for step in d.steps for n in step.paper} & AMENDED
     return amendments(numbers) if numbers else []

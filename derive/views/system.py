@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ..language.tree import names
+from ..record.as_json import decode
 from ..record.record import Derivation
 from ..record.sentence import Sentence, listed, phrase
-from ..record.tree_data import decode
 from ..schema.kinds import kinds
 from .language import Language
 from .outline import given, group

@@ -7,9 +7,7 @@ from typing import Any
 from ..language.layers import is_layered
 from ..language.show import in_sentence
 from ..problem.problem import Problem
-from ..record.formulas import stated
-from ..record.hypotheses import Hypothesis
-from ..record.record import Equation, Step
+from ..record.record import Equation, Hypothesis, Step, stated
 from ..record.sentence import Prose, Sentence, listed
 from ..schema.body_kinds import GivenBody, MomentBody, Moments, PointBody
 from ..schema.solid_kinds import Solid

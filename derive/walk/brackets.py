@@ -9,8 +9,7 @@ from typing import Any
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..record.formulas import stated
-from ..record.record import Equation, Step
+from ..record.record import Equation, Step, stated
 from ..record.sentence import Prose
 from .chapter import Chapter
 from .wording import say

@@ -9,8 +9,7 @@ from __future__ import annotations
 from ..algebra.calculus import map_traces
 from ..algebra.words import Expr, Word, expr_of_word, trace
 from ..problem.left_invariant import EVERY, Bodies
-from ..record.formulas import stated
-from ..record.record import Equation
+from ..record.record import Equation, stated
 from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Draft

@@ -13,11 +13,8 @@ from dataclasses import dataclass, replace
 from ..algebra.word_trees import PLAIN, WordNotation, tree_of
 from ..algebra.words import Expr
 from ..language.tree import Tree
-from ..record.claims import Claim, rendered
-from ..record.contract import ANY_GROUP
-from ..record.hypotheses import Hypothesis
-from ..record.record import Equation, Step
-from ..record.sentence import Prose, Sentence
+from ..record.record import ANY_GROUP, Equation, Hypothesis, Step
+from ..record.sentence import Claim, Prose, Sentence, rendered
 from .failure import begin, end
 
 

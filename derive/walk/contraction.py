@@ -17,8 +17,7 @@ from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Letter, number, word
 from ..language.read import read
 from ..language.tree import Tree
-from ..record.hypotheses import Hypothesis
-from ..record.record import Equation, Step
+from ..record.record import Equation, Hypothesis, Step
 from ..record.sentence import Sentence
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from ..algebra.groups import Group
 from ..language.tree import Tree, add, mul
-from ..record.formulas import stated
-from ..record.record import Equation, Step
+from ..record.record import Equation, Step, stated
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .wording import say

@@ -30,8 +30,7 @@ from ..algebra.words import (
     zero,
 )
 from ..language.read import read
-from ..record.formulas import stated
-from ..record.record import Equation, Step
+from ..record.record import Equation, Step, stated
 from .alphabet import AlgebraPart, Alphabet, Dual
 from .chapter import Chapter
 from .exterior import brackets_of

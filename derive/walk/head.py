@@ -9,12 +9,9 @@ from ..language.show import in_sentence
 from ..problem.data import data
 from ..problem.problem import Problem
 from ..record import sentence
-from ..record.contract import CONVENTIONS
-from ..record.discrete_names import DISCRETE
-from ..record.fluid_names import FLUID
-from ..record.name_types import Name
-from ..record.record import Step, Symbol
-from ..record.tree_data import encode
+from ..record.as_json import encode
+from ..record.names import DISCRETE, FLUID, Name
+from ..record.record import CONVENTIONS, Step, Symbol
 from ..record.uses import of_steps
 from ..record.vocabulary import (
     CARRYING,

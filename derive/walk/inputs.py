@@ -17,8 +17,7 @@ from ..algebra.words import Expr, Letter, inner, number, word
 from ..language.suffixed import suffixed
 from ..language.tree import Tree, add, mul, plain
 from ..problem.problem import Problem
-from ..record.formulas import stated
-from ..record.record import Equation, Step
+from ..record.record import Equation, Step, stated
 from ..record.sentence import Prose, listed
 from ..schema.outside import ForceInput
 from .alphabet import Alphabet

@@ -9,8 +9,7 @@ from ..algebra.calculus import gradient, without
 from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Letter, word
 from ..language.tree import Tree
-from ..record.formulas import stated
-from ..record.record import Equation, Step
+from ..record.record import Equation, Step, stated
 from .alphabet import Alphabet
 from .cartan import Cartan, form_equation
 from .chapter import Chapter, Draft

@@ -9,8 +9,7 @@ from ..algebra.calculus import gradient, substitute, without
 from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Letter, inner, word
 from ..language.read import read
-from ..record.formulas import stated
-from ..record.record import Equation, Step
+from ..record.record import Equation, Step, stated
 from .alphabet import Alphabet
 from .centre import CentralEquations
 from .chapter import Chapter, Draft

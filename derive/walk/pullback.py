@@ -31,9 +31,7 @@ from ..algebra.words import (
 )
 from ..language.read import read
 from ..language.tree import add, neg
-from ..record.formulas import stated
-from ..record.hypotheses import Hypothesis
-from ..record.record import Equation, Step
+from ..record.record import Equation, Hypothesis, Step, stated
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .lagrangian import Lagrangian, kinetic_of_motion, moving_tree

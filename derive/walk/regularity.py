@@ -16,8 +16,7 @@ from ..algebra.word_trees import WordNotation, metrics, tree_of
 from ..algebra.words import Expr, Letter, word
 from ..language.read import read
 from ..language.tree import Tree, nodes, operands
-from ..record.hypotheses import Hypothesis
-from ..record.record import Step
+from ..record.record import Hypothesis, Step
 from .alphabet import Alphabet
 
 ALWAYS = ("A", "C", read("Ā"), "g_1", ("T", "g_1"), "A_1", ("T", "A_1"))

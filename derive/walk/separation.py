@@ -11,8 +11,7 @@ from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Letter, word
 from ..language.read import read
 from ..problem.problem import Problem
-from ..record.formulas import stated
-from ..record.record import Equation, Step
+from ..record.record import Equation, Step, stated
 from ..record.sentence import Prose, listed
 from .alphabet import Alphabet
 from .chapter import Chapter

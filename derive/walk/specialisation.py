@@ -16,8 +16,7 @@ from ..algebra.words import Expr, Letter, inner, number, word
 from ..language.read import read
 from ..language.tree import Tree
 from ..problem.left_invariant import Bodies
-from ..record.formulas import stated
-from ..record.record import Equation, Step
+from ..record.record import Equation, Step, stated
 from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .cartan import Cartan, form_equation

@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from ..algebra.calculus import PairRule, derivation, reduce, substitute
 from ..algebra.word_trees import tree_of
 from ..algebra.words import Expr, Factor, Letter, word
-from ..record.formulas import stated
-from ..record.record import Equation, Step
+from ..record.record import Equation, Step, stated
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .wording import say

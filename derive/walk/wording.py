@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..prose import english
+from ..prose import message
 from ..record import sentence
 from ..record.sentence import Prose, Sentence, listed
 
 
 def phrase(key: str, **places: Sentence | str) -> Sentence:
     """The sentence, or a part of one, of a key as ``kernel.line``, its places filled."""
-    return sentence.phrase(english(key), **places)
+    return sentence.phrase(message(key), **places)
 
 
 def say(key: str, **places: Sentence | str) -> Prose:

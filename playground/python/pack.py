@@ -80,7 +80,7 @@ def walked() -> set[str]:
     """The files that walks load."""
     sys.path.insert(0, str(FIRST))
     from derive.paper.findings import amendments
-    from derive.record.contract import AMENDED
+    from derive.record.record import AMENDED
 
     (FIRST / "amendments.pickle").write_bytes(pickle.dumps(amendments(AMENDED)))
     for name in [x for x in sys.modules if x.startswith("derive")]:

@@ -29,8 +29,7 @@ from derive.command.loading import derive
 from derive.language.refused import Refused
 from derive.paper.finding import Finding
 from derive.problem.followed_names import faults
-from derive.record.contract import AMENDED
-from derive.record.record import Derivation
+from derive.record.record import AMENDED, Derivation
 
 Tell = Callable[[str, str], None]
 FOLDER = Path("/problem")

@@ -32,7 +32,7 @@ from derive.equilibria import stability
 from derive.language import univariate
 from derive.language.quadratic import root
 from derive.language.tree import add, mul, neg, nodes, replaced
-from derive.record.claims import CLAIMS, Claim, rendered
+from derive.record.sentence import CLAIMS, Claim, rendered
 from tests.check.test_record_claims import EQUILIBRIA, changes, said
 from tests.support.lagrangians import (
     SPIRAL,

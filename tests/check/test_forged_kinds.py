@@ -19,12 +19,9 @@ from derive.language.show import show
 from derive.language.tree import mul, nodes
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.record.contract import ANY_GROUP
-from derive.record.hypotheses import Hypothesis
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_data
+from derive.record.as_json import from_json, to_data
 from derive.record.mass_signs import SUPPOSED
-from derive.record.record import Equation
+from derive.record.record import ANY_GROUP, Equation, Hypothesis
 from derive.record.rules import OFF_MOTION, RULES
 from tests.support import corpus
 from tests.support.walks import FLUIDS, SEED, record

@@ -6,10 +6,8 @@ import pytest
 
 from derive.check.checker import Checker
 from derive.language.read import read
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import encode, from_json, to_json
 from derive.record.record import RecordError
-from derive.record.tree_data import encode
 from tests.support.walks import SEED, record
 
 

@@ -19,11 +19,9 @@ from derive.integrals import told
 from derive.language.tree import add, mul
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.prose import english
-from derive.record.claims import CLAIMS, Claim
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
-from derive.record.sentence import Sentence
+from derive.prose import message
+from derive.record.as_json import from_json, to_json
+from derive.record.sentence import CLAIMS, Claim, Sentence
 from tests.problems import PROBLEMS
 from tests.support import walks
 from tests.support.lagrangians import (
@@ -181,7 +179,7 @@ def said(step, old, new):
 
     def rendered_anew(x):
         places = tuple((k, y if isinstance(y, str) else rendered_anew(y)) for k, y in x.places)
-        if x.message == english(old.kind) and {**dict(places), **old.texts} == dict(places):
+        if x.message == message(old.kind) and {**dict(places), **old.texts} == dict(places):
             places = tuple((dict(places) | new.texts).items())
         return Sentence(x.message, places)
 
@@ -236,7 +234,7 @@ def test_no_integral_or_casimir_is_missing(label, place):
 def test_no_curvature_is_told_that_is_not_there(name, other):
     step = record(name)["curvature"]
     wrong = Claim(f"reduction.{other}")
-    prose = (Sentence(english(wrong.kind)),)
+    prose = (Sentence(message(wrong.kind)),)
     assert "vanishes, or does not" in judged(name, replace(step, prose=prose, claims=(wrong,)))
 
 
@@ -245,12 +243,12 @@ def test_what_is_divided_by_is_said(name):
     """By the step itself; and that det 𝕀 is 0 elsewhere only where it is the product."""
     step = record(name)["effective"]
     (own,) = step.claims
-    silent = tuple(x for x in step.prose if x.message != english(own.kind))
+    silent = tuple(x for x in step.prose if x.message != message(own.kind))
     assert "which no claim says" in judged(name, replace(step, prose=silent, claims=()))
     for text in (own.texts["conditions"].replace("≠", ">"), "‘I1’ ≠ 0"):
         places = (("conditions", text),)
         prose = tuple(
-            Sentence(x.message, places) if x.message == english(own.kind) else x for x in step.prose
+            Sentence(x.message, places) if x.message == message(own.kind) else x for x in step.prose
         )
         assert "not what the sentences say" in judged(name, replace(step, prose=prose))
     other = {"isotropy": "divided", "divided": "isotropy"}[own.kind.split(".")[1]]
@@ -262,7 +260,7 @@ def said_as(step, old, kind):
     """A step that says the same values by another sentence."""
     new = Claim(kind, old.values)
     prose = tuple(
-        Sentence(english(kind), x.places) if x.message == english(old.kind) else x
+        Sentence(message(kind), x.places) if x.message == message(old.kind) else x
         for x in step.prose
     )
     return replace(step, prose=prose, claims=(new,))
@@ -273,7 +271,7 @@ def test_symmetries_that_leave_a_configuration_are_not_free():
     for name in ("elliptic", "spherical_pendulum"):
         d = derive(name).reduction().record if name not in RECORDS else record(name)
         step, free = d["effective"], Claim("reduction.free")
-        prose = (*step.prose, Sentence(english(free.kind)))
+        prose = (*step.prose, Sentence(message(free.kind)))
         wrong = replace(step, prose=prose, claims=(*step.claims, free))
         assert "reduction.free" in ClaimChecker(d, SEED).fault(wrong)
 

@@ -13,8 +13,8 @@ from derive.check.lagrangian.settled import settled
 from derive.check.locus import Locus
 from derive.language.read import read
 from derive.language.tree import nodes
+from derive.record.as_json import decode, encode
 from derive.record.record import RecordError
-from derive.record.tree_data import decode, encode
 
 MOMENT = ("add", ("pow", ("fun", "sin", ("mul", Fraction(1, 3), "π")), 2), ("par", "a"))
 """(sin π/3)² + a: of a problem, and of nothing that moves."""

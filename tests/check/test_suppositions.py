@@ -12,11 +12,8 @@ from derive.check.forced_velocity import concludes_velocity, unforced_velocity
 from derive.check.lagrangian.lagrangian_model import LagrangianModel
 from derive.check.model import Direction, Model
 from derive.language import rational as q
-from derive.record.contract import ANY_GROUP
-from derive.record.hypotheses import Hypothesis
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_data
-from derive.record.record import Equation, RecordError
+from derive.record.as_json import from_json, to_data
+from derive.record.record import ANY_GROUP, Equation, Hypothesis, RecordError
 from tests.support.walks import SEED, record
 
 

@@ -7,8 +7,8 @@ import pytest
 from derive.check import checker
 from derive.check.checker import check
 from derive.check.verdict import Verdict
-from derive.record.contract import ANY_GROUP
 from derive.record.mass_signs import ANY_SIGN
+from derive.record.record import ANY_GROUP
 from tests.support import corpus
 from tests.support.walks import record
 

@@ -12,7 +12,7 @@ import pytest
 from derive.command.cli import main
 from derive.command.loading import ready_made
 from derive.printing.line_breaking import display_width
-from derive.record.json_writer import to_data, to_json
+from derive.record.as_json import to_data, to_json
 from derive.views.rendering import FORMATS
 from tests.support.needs import CC, needs
 from tests.support.walks import record

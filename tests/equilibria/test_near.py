@@ -15,8 +15,7 @@ from derive.command.cli import main
 from derive.equilibria import enclosed_points
 from derive.equilibria.enclosed_points import Ball, characteristic
 from derive.language.tree import add, replaced
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from tests.support.coadjoint_orbits import hat, match, orbit_signature
 from tests.support.lagrangians import LINE, bent, heavy, lagrangian, squares
 from tests.support.walks import SEED, repeated

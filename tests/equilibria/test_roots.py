@@ -19,8 +19,7 @@ from derive.language.expression import parse
 from derive.language.quadratic import RootError, root, value_of
 from derive.language.tree import add, replaced
 from derive.pipeline import walk
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from derive.record.sentence import english
 from tests.support.coadjoint_orbits import hat, match, orbit_signature
 from tests.support.emitted import import_python

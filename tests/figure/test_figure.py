@@ -20,8 +20,7 @@ from derive.figure.placing import overlap
 from derive.figure.scene import WIDTH, scene
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from derive.record.record import Derivation
 from tests.support.tex import compiled
 from tests.support.walks import record as ready_made_record

@@ -12,10 +12,8 @@ from derive.command.guard import StoppedError, time_limit
 from derive.pipeline import walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import load
-from derive.record.contract import ANY_GROUP
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
-from derive.record.record import RecordError
+from derive.record.as_json import from_json, to_json
+from derive.record.record import ANY_GROUP, RecordError
 from derive.views.rendering import FORMATS, render
 from tests.fuzz.mutate import SOLID, binary_stl, mesh
 from tests.fuzz.outputs import wrong_with

@@ -10,8 +10,8 @@ from random import Random
 from derive.language.derivatives import DERIVATIVES
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.record.contract import ANY_GROUP
-from derive.record.json_writer import to_data
+from derive.record.as_json import to_data
+from derive.record.record import ANY_GROUP
 from tests.fuzz.hostile import NUMBERS, STRINGS, VALUES
 from tests.problems import PROBLEMS
 from tests.support.kinds import pages

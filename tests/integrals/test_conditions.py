@@ -12,8 +12,7 @@ from derive.check.checker import Checker
 from derive.command.cli import main
 from derive.integrals.degree_search import TooLargeError
 from derive.language.tree import neg
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from tests.support.lagrangians import heavy, lagrangian, squares
 from tests.support.walks import SEED, repeated
 

@@ -9,10 +9,8 @@ from derive import first_integrals
 from derive.check.checker import check
 from derive.command.cli import main
 from derive.language.tree import neg, replaced
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import decode, encode, from_json, to_json
 from derive.record.sentence import english
-from derive.record.tree_data import decode, encode
 from derive.views.rendering import FORMATS, render
 from tests.support.corpus import LEVEL
 from tests.support.lagrangians import lagrangian

@@ -13,7 +13,7 @@ from derive.language.show import show
 from derive.paper import findings as paper
 from derive.paper.finding import VERDICTS
 from derive.paper.printed import PAPER
-from derive.record.contract import AMENDED
+from derive.record.record import AMENDED
 from derive.views.text import text
 from tests.support.walks import record
 

@@ -17,8 +17,7 @@ from derive.problem.toml import problem_of
 from derive.python import api
 from derive.python.api import SE, Moments, Problem, Table
 from derive.record import shape
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_data
+from derive.record.as_json import from_json, to_data
 from derive.record.record import RecordError
 from derive.record.vocabulary import (
     DISPLACEMENTS,

@@ -13,8 +13,7 @@ from derive.language.derivatives import derivative
 from derive.language.expression import ExpressionError, parse
 from derive.language.limits import EXPONENT
 from derive.language.values import value
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from tests.support.emitted import compile_c, import_python
 from tests.support.needs import CC, need
 

@@ -15,8 +15,7 @@ from derive.code.emit import emit
 from derive.code.options import Options
 from derive.pipeline import program
 from derive.problem.problem import ProblemError
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from derive.record.record import Equation, RecordError
 from derive.validate.read_c import read_c
 from derive.validate.terms import CodeError

@@ -10,9 +10,8 @@ import pytest
 from derive.check.checker import SIZE, check, checker_of
 from derive.check.function_signatures import HEADS
 from derive.language.tree import names
-from derive.record.contract import ANY_GROUP
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
+from derive.record.record import ANY_GROUP
 from derive.record.rules import RULES
 from derive.record.uses import position_of
 from tests.support.corpus import NAMED, READY, checker, record

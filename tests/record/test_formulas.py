@@ -3,8 +3,7 @@
 import pytest
 
 from derive.language.read import FormulaError
-from derive.record.formulas import stated
-from derive.record.record import Equation
+from derive.record.record import Equation, stated
 
 
 def test_equations_are_stated_as_printed():

@@ -9,8 +9,7 @@ import pytest
 
 from derive import derive
 from derive.check.checker import Checker
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from derive.record.record import RecordError
 from derive.views.html import html
 from derive.views.latex import latex

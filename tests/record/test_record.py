@@ -10,10 +10,8 @@ from derive.check.checker import check
 from derive.language.show import show
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.record.contract import COMMENTARY
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_data, to_json
-from derive.record.record import RecordError
+from derive.record.as_json import from_json, to_data, to_json
+from derive.record.record import COMMENTARY, RecordError
 from derive.record.rules import RULES
 from tests.support import steps
 from tests.support.engine_mutations.jobs import BOTH, MIXED

@@ -5,8 +5,7 @@ import json
 import pytest
 
 from derive.language.limits import SENTENCE
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_data, to_json
+from derive.record.as_json import from_json, to_data, to_json
 from derive.record.record import RecordError
 from derive.record.sentence import english, listed, phrase, say
 from derive.views.language import language

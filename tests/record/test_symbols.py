@@ -6,8 +6,8 @@ import json
 import pytest
 
 from derive.check.checker import Checker
-from derive.record.json_reader import from_json
-from derive.record.name_types import SQUARE, VECTOR, Name, defined, letter, rate, with_derivatives
+from derive.record.as_json import from_json
+from derive.record.names import SQUARE, VECTOR, Name, defined, letter, rate, with_derivatives
 from derive.record.record import RecordError
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
 from tests.support.refusals import data, read

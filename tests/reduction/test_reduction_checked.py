@@ -7,8 +7,7 @@ import pytest
 from derive.check.checker import Checker, check
 from derive.language.show import show
 from derive.language.tree import mul
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from derive.record.record import RecordError
 from derive.reduction.reduced_record import shown
 from derive.views.rendering import FORMATS, render

@@ -10,7 +10,7 @@ import zipfile
 from functools import cache
 
 from derive.command.loading import READY
-from derive.record.contract import AMENDED
+from derive.record.record import AMENDED
 from tests.support.playground_site import OWN
 
 PENDULUM = """name = "mine"

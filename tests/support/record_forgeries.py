@@ -10,8 +10,7 @@ from dataclasses import replace
 
 from derive.check.checker import check
 from derive.language.tree import mul, neg, replace_at, subtrees
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_data
+from derive.record.as_json import from_json, to_data
 from derive.record.record import RecordError
 
 ABOUT = {

@@ -20,11 +20,9 @@ from derive.check.definitions import unexplained
 from derive.check.dependencies import unused
 from derive.check.function_signatures import RATES
 from derive.check.necessary_hypotheses import missing_mass_hypotheses
-from derive.record.contract import ANY_GROUP, COMMENTARY
-from derive.record.json_reader import from_json
-from derive.record.json_writer import step_data, to_data
-from derive.record.name_types import ROLES
-from derive.record.record import RecordError
+from derive.record.as_json import from_json, step_data, to_data
+from derive.record.names import ROLES
+from derive.record.record import ANY_GROUP, COMMENTARY, RecordError
 from derive.record.rules import OFF_MOTION
 from derive.record.vocabulary import VOCABULARY
 from derive.reduction import reduced_record

@@ -13,7 +13,7 @@ import derive.command.simulating
 import derive.python.compiled  # noqa: F401  (all that name a function of the pipeline, before it is another)
 from derive import pipeline
 from derive.problem.problem import Problem
-from derive.record.json_writer import to_json
+from derive.record.as_json import to_json
 from derive.record.record import Derivation
 from derive.walk.head import problem_data
 from tests.support.cached import place, write

@@ -7,7 +7,7 @@ import pytest
 from derive.check.checker import Checker
 from derive.command.loading import derive, load_problem, ready_made
 from derive.python.derived import Derived
-from derive.record.contract import ANY_GROUP
+from derive.record.record import ANY_GROUP
 from tests.support.cached import on_disk
 
 NAMES = ("linear", "affine", "so3", "se3", "sl3")

@@ -11,7 +11,7 @@ from derive.paper.findings import amendments
 from derive.printing.inline import inline, spelt
 from derive.printing.notation import Notation
 from derive.printing.tex import formula
-from derive.record.contract import AMENDED
+from derive.record.record import AMENDED
 from derive.views.html import html
 from derive.views.language import language
 from tests.support.needs import need

@@ -20,8 +20,7 @@ from derive.printing.escape import markdown_text, tex_text
 from derive.printing.sentences import prose
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from derive.record.rules import RULES
 from derive.record.sentence import PLACE, english, phrase, say
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, meanings
@@ -241,14 +240,14 @@ def test_every_word_said_is_in_the_catalogue():
             if isinstance(message, ast.Constant):
                 text = message.value
                 of_walk = "walk" in path.parts[-3:] and isinstance(called, ast.Name)
-                assert (texts.english(text) if of_walk else text) in FRENCH.messages, path
+                assert (texts.message(text) if of_walk else text) in FRENCH.messages, path
             else:
                 in_walk = "walk" in path.parts[-3:]
                 assert in_walk or not isinstance(message, ast.JoinedStr), path
 
 
 def test_every_entry_is_used():
-    sources = strings("walk/*.py", "walk/*/*.py", "record/rules.py", "record/contract.py")
+    sources = strings("walk/*.py", "walk/*/*.py", "record/rules.py", "record/record.py")
     sources |= strings(
         *("paper/finding*.py", "views/*.py", "figure/*.py", "schema/kinds/*.py", "plot/*.py"),
         *("page/*.py", "motion/kept_words.py"),

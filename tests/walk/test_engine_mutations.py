@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import pytest
 
-from derive.record.json_writer import to_json
+from derive.record.as_json import to_json
 from derive.record.record import Equation
 from tests.project.test_layers import ROOT
 from tests.support.engine_mutations import ledger

@@ -20,8 +20,7 @@ from derive.language.show import show
 from derive.language.tree import names as names_in
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from derive.record.record import RecordError
 from derive.walk.failure import WalkError
 from derive.walk.fluid import advection, energy_kept, loops

@@ -14,8 +14,7 @@ from derive import Harmonic, Problem, Solid
 from derive.check.checker import Checker
 from derive.language.values import approximate
 from derive.problem.problem import ProblemError
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from derive.record.record import RecordError
 from derive.record.sentence import english
 from tests.support.emitted import arrange, import_python

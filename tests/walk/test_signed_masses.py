@@ -17,11 +17,9 @@ from derive.check.checker import check
 from derive.pipeline import general_road, walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
-from derive.record.contract import ANY_GROUP
-from derive.record.hypotheses import OF_MASSES
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from derive.record.mass_signs import SUPPOSED
+from derive.record.record import ANY_GROUP, OF_MASSES
 from derive.record.sentence import Sentence
 from derive.views.language import language
 from derive.views.text import text
@@ -56,7 +54,7 @@ CLAIMS = re.compile(
 )
 """What is said of positive masses alone."""
 PAIRS = [
-    (prose.english(key.removesuffix("_signed")), prose.english(key))
+    (prose.message(key.removesuffix("_signed")), prose.message(key))
     for key in prose.sentences()
     if key.endswith("_signed")
 ]

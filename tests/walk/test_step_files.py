@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.record.formulas import stated
+from derive.record.record import stated
 from tests.support.walks import record
 
 ROOM = Path(__file__).parents[2] / "derive" / "walk"

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ...record.claims import Claim, fault
 from ...record.record import RecordError, Step
+from ...record.sentence import Claim, fault
 from ..verdict import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
 from . import (
     enclosure_claims,

@@ -17,8 +17,8 @@ from typing import Any
 from ...language import rational as q
 from ...language.quadratic import value_of
 from ...language.tree import Tree
-from ...record.claims import Claim
 from ...record.record import RecordError, Step
+from ...record.sentence import Claim
 from ..enclosure import DIGITS, Enclosure, enclosure_of, polynomial
 from ..entries_on_a_level import invertible
 from .equilibrium_claims import coordinates, not_from, silent

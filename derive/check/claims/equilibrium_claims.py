@@ -14,8 +14,8 @@ from ...language import rational as q
 from ...language.quadratic import Number, tree, value_of
 from ...language.tree import Tree, add, neg, nodes, replaced, terms
 from ...language.univariate import square_free
-from ...record.claims import Claim
 from ...record.record import RecordError, Step
+from ...record.sentence import Claim
 from .equilibrium_facts import Equilibrium, equilibrium
 from .exact_spectra import distinct_roots, hermite, signature
 from .integral_claims import Judge

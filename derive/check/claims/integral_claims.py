@@ -8,8 +8,8 @@ from fractions import Fraction
 from ...language.show import show
 from ...language.tree import Tree, add, neg, nodes, replaced
 from ...language.values import approximate
-from ...record.claims import Claim
 from ...record.record import RecordError, Step
+from ...record.sentence import Claim
 from .exact_spectra import signature
 from .no_more import (
     Completeness,

@@ -20,7 +20,7 @@ from operator import add, mul
 from ...algebra.exact_kernel import pivots
 from ...algebra.residue_vectors import PRIMES, Residues, ResidueSource
 from ...language.tree import Tree, operands
-from ...record.claims import MONOMIALS
+from ...record.sentence import MONOMIALS
 from .rational_values import Value, value
 from .reduced_system import ReducedSystem
 

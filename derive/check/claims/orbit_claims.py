@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 from ...language import rational as q
 from ...language.rational import Matrix
-from ...record.claims import Claim
 from ...record.record import Step
+from ...record.sentence import Claim
 from .claimed_record import ClaimedRecord
 
 POINTS = 4

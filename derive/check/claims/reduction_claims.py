@@ -13,10 +13,9 @@ from ...algebra.residue_vectors import PRIMES, ResidueSource
 from ...language import rational as q
 from ...language.show import show
 from ...language.tree import Tree, nodes, operands, terms
-from ...record.claims import Claim
-from ...record.formulas import stated
-from ...record.record import RecordError, Step
-from ...record.tree_data import decode
+from ...record.as_json import decode
+from ...record.record import RecordError, Step, stated
+from ...record.sentence import Claim
 from ..lagrangian.given_field import inverse
 from ..lagrangian.lagrangian_model import LagrangianModel
 from ..locus import Locus

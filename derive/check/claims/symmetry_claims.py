@@ -7,8 +7,8 @@ import re
 from collections.abc import Callable
 
 from ...language.tree import Tree, add, neg, terms
-from ...record.claims import Claim
 from ...record.record import Derivation, RecordError, Step
+from ...record.sentence import Claim
 from .symmetry_count import Listed, SymmetryCount
 
 Judge = Callable[[SymmetryCount, Derivation, Step, Claim], str]

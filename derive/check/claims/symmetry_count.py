@@ -25,8 +25,8 @@ from ...algebra.groups import Group
 from ...algebra.residue_vectors import Residues, ResidueSource, primes_from, residue_of
 from ...language import rational as q
 from ...language.tree import Tree, nodes, operands
+from ...record.as_json import decode
 from ...record.record import RecordError
-from ...record.tree_data import decode
 from ..residue import Residue
 from .constant_entries import constant_entries
 from .rational_values import Jet, value

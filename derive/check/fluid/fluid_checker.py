@@ -12,8 +12,7 @@ from typing import Any
 
 from ...algebra.samplers import Source
 from ...language.tree import Tree, names
-from ...record.hypotheses import Hypothesis
-from ...record.record import Derivation, Equation, RecordError, Step
+from ...record.record import Derivation, Equation, Hypothesis, RecordError, Step
 from ...record.rules import OFF_MOTION
 from ..arithmetic import EvaluationError
 from ..equation_sides import as_text

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from ...language.tree import Tree
-from ...record.name_types import Type, Use
+from ...record.names import Type, Use
 from ...record.record import Derivation, Step
 from ..definitions import Usage, definitions, occurrences
 

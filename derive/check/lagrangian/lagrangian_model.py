@@ -17,7 +17,7 @@ from ...algebra.samplers import Source
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
-from ...record.tree_data import decode
+from ...record.as_json import decode
 from ..arithmetic import EvaluationError
 from ..draws import Draws
 from ..evaluate import Environment, evaluate

@@ -25,7 +25,7 @@ from ...check.residue import Residue
 from ...check.torus.torus_group import torus_of
 from ...check.torus.torus_model import TorusModel, environment
 from ...language import rational as q
-from ...record.json_writer import to_json
+from ...record.as_json import to_json
 from ...record.record import Derivation
 from ..compare import SIZE, Agreement
 from ..declarations import DiffersError

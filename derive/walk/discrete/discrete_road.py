@@ -15,8 +15,7 @@ from ...algebra.word_trees import WordNotation, metrics, tree_of
 from ...algebra.words import Expr, Letter, inner, word
 from ...language.read import read
 from ...language.tree import Tree, add, mul
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ..chapter import Chapter, Draft
 from ..factorisation import factored_tree
 from ..failure import WalkError

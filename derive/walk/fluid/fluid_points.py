@@ -12,8 +12,7 @@ from ...algebra.word_trees import PLAIN
 from ...algebra.words import Expr, Letter, inner, number, word, zero
 from ...language.read import read
 from ...language.tree import add, neg
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ..cartan import Cartan, cartan_form, fibre_derivative, legendre
 from ..chapter import Chapter
 from ..continuum import integral

@@ -14,8 +14,7 @@ from ...algebra.vector_fields import along
 from ...algebra.words import Expr, Factor, Letter, col_dim, inner, row_dim, word, zero
 from ...language.read import read
 from ...language.tree import Tree
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ..chapter import Chapter
 from ..factorisation import factored_tree
 from ..trivialisation import trivial_images

@@ -23,8 +23,7 @@ from ...algebra.word_trees import WordNotation
 from ...algebra.words import Expr, Factor, Letter, inner, one, trace, word, zero
 from ...language.read import read
 from ...language.tree import add, neg
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ..chapter import Chapter
 from ..factorisation import factored_tree
 from ..wording import say

@@ -13,8 +13,7 @@ from ...algebra.calculus import derivation, reduce, substitute, terms_with, with
 from ...algebra.word_trees import WordNotation, metrics, tree_of
 from ...algebra.words import Expr, word
 from ...language.read import read
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ..cartan import Cartan, cartan_form, form_equation
 from ..chapter import Chapter
 from ..exterior import (

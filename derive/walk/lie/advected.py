@@ -20,8 +20,7 @@ from ...language.suffixed import suffixed
 from ...language.tree import Tree, add, mul, plain
 from ...problem.moved_entries import Entry, Moved
 from ...problem.problem import Problem
-from ...record.formulas import stated
-from ...record.record import Equation
+from ...record.record import Equation, stated
 from ...schema.algebra_kinds import Advected
 from ..alphabet import Alphabet
 from ..chapter import Chapter

@@ -18,9 +18,7 @@ from ...algebra.word_trees import WordNotation, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.read import read
 from ...language.tree import Tree
-from ...record.formulas import stated
-from ...record.hypotheses import Hypothesis
-from ...record.record import Equation, Step
+from ...record.record import Equation, Hypothesis, Step, stated
 from ..alphabet import Alphabet
 from ..chapter import Chapter
 from ..contraction import CONTRACTED, CONTRACTION, Contraction

@@ -19,8 +19,7 @@ from ...language.tree import Tree, add, mul, neg, plain
 from ...problem.null_directions import along, hessian, null_directions
 from ...problem.problem import Problem
 from ...problem.state_names import coordinates
-from ...record.formulas import stated
-from ...record.record import Equation, Step
+from ...record.record import Equation, Step, stated
 from ...schema.lagrangian_kinds import Lagrangian
 from ..chapter import Chapter
 from ..wording import say

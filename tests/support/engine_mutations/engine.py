@@ -54,7 +54,7 @@ def produce(job: Job) -> Output:
     from derive.code.options import Options
     from derive.pipeline import program, walk
     from derive.problem.toml import problem_of
-    from derive.record.json_writer import to_json
+    from derive.record.as_json import to_json
 
     problem = problem_of(job.data)
     record = found(job.sought, problem) if job.sought else walk(problem)
@@ -225,7 +225,7 @@ def serve(mutant: Mutant, graph: dict[str, set[str]], connection: Any) -> None:
 def refuses(job: Job, output: Output, labels: list[str]) -> bool:
     """Does this process refuse one of these steps, or the code, or break on it, or hang?"""
     from derive.check.checker import checker_of
-    from derive.record.json_reader import from_json
+    from derive.record.as_json import from_json
 
     try:
         with limited():
@@ -240,7 +240,7 @@ def refuses(job: Job, output: Output, labels: list[str]) -> bool:
 
 def read_back(job: Job, output: Output) -> list[Any]:
     """What the validator says of emitted code."""
-    from derive.record.json_reader import from_json
+    from derive.record.as_json import from_json
     from derive.validate.chart import Chart
     from derive.validate.emission import EmittedFiles
 

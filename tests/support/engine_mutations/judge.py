@@ -16,9 +16,8 @@ import numpy as np
 from derive.check.checker import Checker, checker_of
 from derive.check.definitions import unexplained
 from derive.language.tree import mul
-from derive.record.contract import ANY_GROUP
-from derive.record.json_reader import from_json
-from derive.record.record import Derivation, RecordError, Step
+from derive.record.as_json import from_json
+from derive.record.record import ANY_GROUP, Derivation, RecordError, Step
 from tests.oracles import general, relative_error
 from tests.support.engine_mutations.engine import SEED, Output, produce, read_back
 from tests.support.engine_mutations.jobs import JOBS, Job

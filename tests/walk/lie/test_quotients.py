@@ -13,8 +13,7 @@ from derive.code.options import Options
 from derive.code.program import LoweringError
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
 from tests.support import corpus
 from tests.support.corpus import LAGRANGIANS
 from tests.support.walks import SEED, problem, record

@@ -15,9 +15,8 @@ from derive.code.emit import emit
 from derive.pipeline import walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
-from derive.record.contract import ANY_GROUP
-from derive.record.json_reader import from_json
-from derive.record.json_writer import to_json
+from derive.record.as_json import from_json, to_json
+from derive.record.record import ANY_GROUP
 from tests.support.walks import SEED
 from tests.walk.lie.test_expressed import held, states
 

@@ -16,8 +16,7 @@ from derive.language.read import read
 from derive.language.show import show
 from derive.language.tree import add, mul
 from derive.problem.toml import ProblemError, problem_of
-from derive.record.contract import ANY_GROUP
-from derive.record.record import Equation
+from derive.record.record import ANY_GROUP, Equation
 from derive.walk.alphabet import Alphabet
 from derive.walk.lie import vorticity
 from derive.walk.lie.lattice import Unit

@@ -1,5 +1,9 @@
-"""A record from its JSON, which may be a stranger's: what is wrong is said, and where.
+"""The JSON of a record, which is read from strangers too: what is wrong is said, and where.
 
+``commentary``, the fields that are words for people; ``problem``, with the dimension ``n`` of its
+space, a number or "any"; ``symbols``, each a name with its first use, ``type``, ``role`` and the
+key of the equation that says first what it is, ``defined``, and ``also``, its other uses; and
+``steps``, each of a ``kind`` that follows from its rule, each of their equations with its ``key``.
 What the rest says already (commentary, kind, key) may be absent; if it is there, it must be right.
 """
 
@@ -8,22 +12,185 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Set
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 from ..language.limits import RECORD_BYTES, TREE
+from ..language.tree import OPERATORS, Tree
 from . import sentence
-from .claims import CLAIMS, Claim
-from .contract import ANY_GROUP, CHAPTERS, COMMENTARY
-from .hypotheses import PROPERTIES, SPACES, Hypothesis
-from .name_types import ROLES, Type, Use
-from .record import Derivation, Equation, RecordError, Step, Symbol, equation_key, step_of
+from .names import ROLES, Type, Use
+from .record import (
+    ANY_GROUP,
+    CHAPTERS,
+    COMMENTARY,
+    PROPERTIES,
+    SPACES,
+    Derivation,
+    Equation,
+    Hypothesis,
+    RecordError,
+    Step,
+    Symbol,
+    equation_key,
+    step_of,
+)
 from .rules import RULES
-from .sentence import Prose, english
-from .shape import ShapeError, deepest, problem_shape
-from .strict_json import loads
-from .tree_data import decode
+from .sentence import CLAIMS, Claim, Prose, english
+from .shape import ShapeError, deepest, problem_shape, tree_shape
 from .vocabulary import VOCABULARY
+
+
+def loads(text: str) -> Any:
+    """The data of a text; ``ValueError`` says in one line what cannot be read."""
+    try:
+        return json.loads(text, parse_constant=_no_constant, object_pairs_hook=_object)
+    except RecursionError:
+        raise ValueError("nested deeper than can be read") from None
+    except ValueError as error:  # Python reads no integer of thousands of digits
+        if "set_int_max_str_digits" in str(error):
+            raise ValueError("an integer of thousands of digits") from None
+        raise
+
+
+def _no_constant(name: str) -> Any:
+    """``ValueError`` for NaN and the infinities, which are no JSON."""
+    raise ValueError(f"{name} is no number of JSON")
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object from its keys and values; ``ValueError`` for a key that occurs twice."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        twice = next(key for k, (key, _) in enumerate(pairs) if key in dict(pairs[:k]))
+        raise ValueError(f"key {twice[:40]!r} stands twice")
+    return found
+
+
+# Trees as plain data: names, integers, fractions as strings, operators as lists.
+
+
+def encode(t: Tree) -> Any:
+    """A tree as plain data: names, integers, fractions as strings "p/q", operators as lists."""
+    if isinstance(t, Fraction):
+        return f"{t.numerator}/{t.denominator}"
+    return [t[0], *(encode(x) for x in t[1:])] if isinstance(t, tuple) else t
+
+
+def decode(data: Any, where: str, depth: int = 0) -> Tree:
+    """The inverse of :func:`encode`; :class:`RecordError` for anything that is not a tree."""
+    if depth > TREE:
+        raise RecordError(f"{where}: tree deeper than {TREE}")
+    if isinstance(data, str):
+        if re.fullmatch(r"-?[0-9]{1,4000}/0*[1-9][0-9]{0,4000}", data):
+            return Fraction(data)
+        if not data or not data.isprintable():
+            raise RecordError(f"{where}: a name may not be {ascii(data)[:40]}")
+        return data
+    if isinstance(data, int) and not isinstance(data, bool):
+        return data
+    if isinstance(data, list) and data and isinstance(data[0], str):
+        arity = OPERATORS.get(data[0])
+        if arity is None:
+            raise RecordError(f"{where}: unknown operator {data[0][:20]!r}")
+        least, most = arity
+        if len(data) - 1 < least or (most is not None and len(data) - 1 > most):
+            raise RecordError(f"{where}: {data[0]!r} with {len(data) - 1} operands")
+        found = (data[0], *(decode(x, where, depth + 1) for x in data[1:]))
+        if wrong := tree_shape(found):
+            raise RecordError(f"{where}: {data[0]!r}: {wrong}")
+        return found
+    raise RecordError(f"{where}: not an operator tree: {type(data).__name__}")
+
+
+# The JSON of a record, written.
+
+
+def to_data(d: Derivation) -> dict[str, Any]:
+    """The record as plain data, in the layout of its JSON."""
+    return {
+        "commentary": list(COMMENTARY),
+        "problem": dict(d.problem),
+        "symbols": [_symbol_data(s) for s in d.symbols],
+        "steps": [
+            step_data(s) | ({"remark": True} if s.label in d.remarks else {}) for s in d.steps
+        ],
+    }
+
+
+def _symbol_data(s: Symbol) -> dict[str, Any]:
+    data: dict[str, Any] = {"name": s.name, "meaning": english(s.meaning), "latex": s.latex}
+    if not sentence.plain(s.meaning):
+        data["sentences"] = sentence.to_data(s.meaning)
+    first, *also = [*map(_use_data, s.uses)] or [{}]
+    return data | first | ({"also": also} if also else {})
+
+
+def _use_data(use: Use) -> dict[str, Any]:
+    data = {"type": use.type, "role": use.role}
+    return data | ({"defined": use.defined} if use.defined else {})
+
+
+def step_data(s: Step) -> dict[str, Any]:
+    """A step as it stands in the JSON of its record."""
+    data: dict[str, Any] = {
+        "label": s.label,
+        "rule": s.rule,
+        "kind": s.kind,
+        "uses": list(s.uses),
+        "paper": list(s.paper),
+        "scope": s.scope,
+        "given": [_equation_data(e) for e in s.given],
+        "hypotheses": [_hypothesis_data(x) for x in s.hypotheses],
+        "prose": english(s.prose),
+        "sentences": sentence.to_data(s.prose),
+        "equations": [
+            {"key": key} | _equation_data(e) for key, e in zip(s.keys, s.equations, strict=True)
+        ],
+    }
+    if s.claims:
+        data["claims"] = [_claim_data(x) for x in s.claims]
+    return data | {"driven": True} if s.driven else data
+
+
+def _claim_data(x: Claim) -> dict[str, Any]:
+    return {"says": x.kind} | {name: encode(value) for name, value in x.values}
+
+
+def _hypothesis_data(x: Hypothesis) -> dict[str, Any]:
+    data: dict[str, Any] = {"is": x.property, "of": encode(x.of)}
+    return data | {"on": x.space} if x.space else data
+
+
+def _equation_data(e: Equation) -> dict[str, Any]:
+    data: dict[str, Any] = {"lhs": encode(e.lhs), "rhs": encode(e.rhs)}
+    for key, names in (("for_all", e.for_all), ("exists", e.exists)):
+        if names:
+            data[key] = list(names)
+    return data
+
+
+def to_json(d: Derivation) -> str:
+    """The record as JSON text: objects over several lines, trees in one."""
+    return _laid_out(to_data(d), "") + "\n"
+
+
+def _laid_out(data: Any, indent: str) -> str:
+    """JSON text: objects over several lines, trees in one line."""
+    inner = indent + " "
+    if isinstance(data, dict) and data:
+        items = (f"{inner}{_laid_out(k, inner)}: {_laid_out(v, inner)}" for k, v in data.items())
+        return "{\n" + ",\n".join(items) + f"\n{indent}}}"
+    if isinstance(data, list) and data and isinstance(data[0], dict):
+        return "[\n" + ",\n".join(inner + _laid_out(x, inner) for x in data) + f"\n{indent}]"
+    text = json.dumps(data, ensure_ascii=False)
+    if text.isprintable():
+        return text
+    # what moves a terminal's cursor or turns the direction of its text
+    return "".join(c if c.isprintable() else json.dumps(c)[1:-1] for c in text)
+
+
+# A record from its JSON.
 
 DEEPEST_TYPE = 4
 """How deep lists may lie in one another in the type of a symbol."""
