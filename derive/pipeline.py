@@ -514,7 +514,7 @@ def program(
     """The program of a problem; in its principal frame that is the program of another problem.
     ``weightless``: with what is conserved, also that which is where gravity is 0."""
     from .code.assemble import assemble
-    from .code.events import watched
+    from .code.kept import watched
 
     require_program(problem, record, options)
     events = watched(problem.name, problem.events, options) if options else ()
@@ -537,9 +537,9 @@ def program(
 def require_program(problem: Problem, record: Derivation, options: Options | None = None) -> None:
     """Refuse options that exclude one another or the problem, before anything is made of it:
     ``LoweringError``, or ``ProblemError`` where it has no code, or no such frame."""
-    from .code.events import watched
-    from .code.excluded_options import require_written
+    from .code.kept import watched
     from .code.options import Options
+    from .code.requests import require_written
     from .code.torus.torus_program import require_on_torus
 
     chosen = options or Options()

@@ -12,29 +12,23 @@ from ..language.reserved import suffixed
 from ..language.show import show
 from ..language.tree import Tree
 from ..record.record import Derivation
-from .change_of_frame import frame_changes
-from .conventions import conventions
+from .conventions import conventions, titles
 from .drift import TEXTS, drift, matrices
-from .events import Event, table, values
-from .excluded_options import require_written
 from .factor import factored
-from .graph import Node
-from .kept import Kept
-from .linearise import by_leaves, by_numbers, by_state
+from .graph import Node, reachable
+from .kept import Event, Kept, table, values
 from .lower import Lowering
-from .matrix_state import FROM_MATRIX, LABELS, TO_MATRIX, matrix_state
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
 from .options import Options
-from .principal_axes import inertia, turning
-from .principal_frame import PrincipalFrame
+from .principal_frame import PrincipalFrame, frame_changes, inertia, turning
 from .program import EmittedFunction, Framing, KeptByGauss, LoweringError, Program
 from .reader import RecordReader
-from .rewrite import reachable
-from .schedule import Scheduler, frontier
+from .requests import require_written
+from .schedule import Scheduler, by_leaves, by_numbers, by_state, frontier
 from .state import StateSpace
+from .state_forms import FROM_MATRIX, LABELS, TO_MATRIX, matrix_state
 from .step.discrete_step import STEPPING, Lowered, lowered
-from .titles import titles
 
 Place = tuple[str, tuple[str, int]]
 """The name of a number that is read, and its array and index."""

@@ -1,4 +1,4 @@
-"""What a reader of the emitted files must know: frames, and what each part of the state means."""
+"""What a reader of the emitted files must know: heads of files, frames, titles of numbers."""
 
 from __future__ import annotations
 
@@ -11,12 +11,16 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.relations import Relations, relations
 from ..language import rational as q
+from ..language.rational import Matrix
 from ..language.reserved import SPELT
 from ..language.show import show
 from ..record.as_json import decode
-from .heading import signed_entries
+from .languages import TargetLanguage
 from .options import Options
+from .program import Program
+from .reader import RecordReader
 from .slots import still_slots
+from .state import StateSpace
 
 
 def conventions(
@@ -241,3 +245,99 @@ def _input(group: Group, entry: Mapping[str, Any], places: Mapping[int, str]) ->
         return [f"Input {name}: a torque about the fixed point, in the body frame."]
     pair = "(zeta, w)" if group.stated.free_translations else "zeta"
     return [f"Input {name}: a covector of the Lie algebra; its power is <{name}, {pair}>."]
+
+
+# The text of the comment at the head of a file, line by line.
+
+BASIS = "State x and the basis E_a of the Lie algebra (e_ij: a single 1 in row i, column j):"
+
+
+def heading(
+    p: Program,
+    language: TargetLanguage,
+    parameters: Sequence[Mapping[str, str]],
+    cost: Mapping[str, str],
+) -> list[str]:
+    """Conventions, state, basis, parameters, inputs and cost; empty lines between them.
+
+    ``cost``: function → its operations in words; ``parameters``: name and text of each.
+    """
+    if p.on_torus:
+        return [*p.conventions, "", *_costs(language, cost)]
+    none = "" if p.parameters else " none, every number is in the code."
+    return [
+        *p.conventions,
+        "",
+        BASIS,
+        *listed("  x = (", p.state, ")", 88),
+        *(listed("  y = (", p.momenta, ")", 88) if p.momenta else ()),
+        *(f"  {line}" for line in basis_lines(p)),
+        "",
+        f"Parameters p:{none}",
+        *(
+            f"  p[{i}] {x['name']}" + (f": {x['text']}" if x["text"] else "")
+            for i, x in enumerate(parameters, language.first)
+        ),
+        *(["", *listed("Input u = (", p.inputs, ").", 84)] if p.inputs else ()),
+        "",
+        *_costs(language, cost, ", besides the frame" if p.framing else ""),
+    ]
+
+
+def _costs(language: TargetLanguage, cost: Mapping[str, str], besides: str = "") -> list[str]:
+    """What the functions cost."""
+    return [
+        f"Operations: constants {cost['constants']}{besides};",
+        f"            rhs{language.mutates} {cost['rhs']}; energy {cost['energy']}.",
+    ]
+
+
+def listed(before: str, names: Sequence[str], after: str, width: int) -> list[str]:
+    """The names with commas between ``before`` and ``after``, wrapped and aligned."""
+    lines = textwrap.wrap(", ".join(names), width, break_long_words=False)
+    return (before + f"\n{' ' * len(before)}".join(lines) + after).split("\n")
+
+
+def basis_lines(p: Program) -> list[str]:
+    """E_1, E_2, … in one line each: the entries that are not zero, counted from 1."""
+    sums = (" ".join(map("".join, signed_entries(e))) for e in p.basis)
+    return [f"E_{a} = {text}" for a, text in enumerate(sums, 1)]
+
+
+def signed_entries(m: Matrix) -> list[tuple[str, str]]:
+    """The sign and the size of each entry that is not zero, as a multiple of e_ij."""
+    return [
+        ("+" if x > 0 else "-", f"{'' if abs(x) == 1 else f'{abs(x)} '}e_{i}{j}")
+        for i, row in enumerate(m, 1)
+        for j, x in enumerate(row, 1)
+        if x
+    ]
+
+
+# Titles of the numbers of dx/dt: which equation of the record has them on its left side.
+
+
+def titles(reader: RecordReader) -> dict[int, str]:
+    """Index in dx/dt at which an equation's left side begins → label and equation."""
+    found = {}
+    for start, names in _beginnings(reader.space).items():
+        known = (reader.record.definition(name) for name in names)
+        if at := next(filter(None, known), None):
+            step, equation = at
+            found[start] = f"{step.key(equation)}: {show(equation.lhs)} = {show(equation.rhs)}"
+    return found
+
+
+def _beginnings(space: StateSpace) -> dict[int, tuple[str, ...]]:
+    """Index in dx/dt → the names by which the record may have what begins there."""
+    slots = space.entry_slots
+    if not space.slots:
+        carried = {space.group.dimension: ("Γ̇",)} if space.values["Γ"] else {}
+        return {0: ("ζ̇", "Ż"), **carried}
+    letters, before = [x.letter for x in slots], 4 if space.quaternion else 0
+    first = {x: before + letters.index(x) for x in dict.fromkeys(letters)}
+    if space.tangent:
+        return {len(slots) + i: ({"A": "α̇", "T": "τ̇"}[x],) for x, i in first.items()}
+    found: dict[int, tuple[str, ...]] = {i: ({"A": "Ȧ", "T": "Ṫ"}[x],) for x, i in first.items()}
+    found[before + len(slots)] = ("ζ̇", "Ż")
+    return found | ({len(space.names) - space.n: ("ẇ",)} if space.group.free_translations else {})

@@ -22,9 +22,9 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from . import dense
 from .graph import Graph, Node
-from .linearise import Varied
 from .program import Block
-from .quaternion import conjugate, multiplied
+from .schedule import Varied
+from .slots import conjugate, multiplied
 from .state import StateSpace
 
 TEXTS = {

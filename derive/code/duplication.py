@@ -15,10 +15,9 @@ from fractions import Fraction
 from math import factorial, prod
 
 from .graph import Graph, Node
-from .linearise import Varied
 from .naming import ClaimedNames
 from .program import EmittedFunction
-from .schedule import Scheduler
+from .schedule import Scheduler, Varied
 
 DUPLICATIONS, NEWTON_STEPS, ORDER = 6, 3, 11
 """What leaves an error below the rounding of doubles for semi-axes of ratios up to 1e8; of the

@@ -1,14 +1,10 @@
-"""Integrals over an ellipsoid in the code, with P(u) = u³ + I₁u² + I₂u + I₃: Ψ = ∫ P^(−½) du and
-Ψ_k = ∫ u^k P^(−3/2) du of self-gravity, all four by one call; ∫ u^k P^(−5/2) du, k = 0, …, 4, by
-another.
-
-As ∂P/∂I_i = u^(3−i), the derivatives of ∫ u^k P^(−s) du by I_i are −s ∫ u^(k+3−i) P^(−s−1) du.
-"""
+"""Integrals over an ellipsoid in the code, and the tension of a spring."""
 
 from __future__ import annotations
 
 from fractions import Fraction
 
+from ..language.tree import Tree
 from .graph import Graph, Node
 from .naming import name_of
 
@@ -55,3 +51,30 @@ def slopes(x: Node) -> list[tuple[Node, Node]]:
         (by, -s * _item(g, after, k + 3 - i + shift, [*bundle.args], label))
         for i, by in enumerate(bundle.args, 1)
     ]
+
+
+# The tension c(s − l)/s of a spring between ends at the distance s = √q, where l may be 0.
+#
+# As c − cl/s it is c where l is 0, if only s is not 0 there: then q is added to by as good as
+# nothing. Where l is not 0 nothing is added, and at distance 0 there is no direction and no
+# number.
+
+SLACK = {"double": Fraction(1, 10**37), "float": Fraction(1, 10**20)}
+"""Added to the square of a distance that may be 0; its root has a third power that is not 0.
+
+That of doubles is a number of 32 bits as well, for arrays of these.
+"""
+
+
+def tension(t: Tree) -> tuple[tuple[Tree, ...], Tree, Tree, Tree] | None:
+    """The factors of c, then s = √q, q and l of a spring's tension c(s − l)/s, l a parameter.
+
+    ``None`` for any other tree.
+    """
+    match t:
+        case ("div", ("mul", *factors), ("fun", "sqrt", q) as s):
+            for k, x in enumerate(factors):
+                match x:
+                    case ("add", a, ("mul", -1, ("par", _) as length)) if a == s:
+                        return (*factors[:k], *factors[k + 1 :]), s, q, length
+    return None

@@ -15,22 +15,19 @@ from ..language.limits import Refused
 from ..language.reserved import did_you_mean, near_name
 from ..language.templating import environment
 from ..record.record import Derivation
-from .collisions import hollowed, identifiers, without_collisions
+from .conventions import heading
 from .duplication import CONVERGED, DUPLICATIONS, SMALL_Y, Duplication
 from .duplication import NEWTON_STEPS as NEWTON_EACH
 from .ellipsoid import BUNDLES, SLOPES, is_integral
-from .heading import heading
-from .languages import LANGUAGES, TargetLanguage
+from .languages import LANGUAGES, SourcePrinter, Statements, TargetLanguage, comment
 from .naming import taken_prefix
 from .options import Options
-from .printers import SourcePrinter
 from .program import TOLERANCE, Program
-from .request import EmissionRequest
+from .requests import EmissionRequest, hollowed, identifiers, without_collisions
 from .signatures import ARRAYS, functions
-from .statements import Statements, comment
 from .step.algorithms import ALGORITHMS
-from .step.explicit_fields import METHODS
 from .step.step_numbers import IN_FLOAT, steps
+from .step.tableaux import METHODS
 from .torus.torus_program import Loops
 
 

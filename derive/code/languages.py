@@ -1,12 +1,118 @@
-"""The table of the languages of the emitted code: how each writes numbers, statements, comments."""
+"""The languages of the emitted code: how each writes numbers, statements, functions."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import re
+import textwrap
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import groupby
+from typing import Any
 
-from .printers import SourcePrinter, decimal
+from ..language.tree import nodes
+from .ellipsoid import BUNDLES, is_item
+from .program import (
+    Assignment,
+    Check,
+    EmittedFunction,
+    Expression,
+    Load,
+    LoweringError,
+    Section,
+    is_negated,
+)
+
+# Expressions as text: precedence and numbers, nothing else.
+
+SUM, PRODUCT, ATOM = 1, 2, 3
+
+
+@dataclass(frozen=True)
+class SourcePrinter:
+    """How a language writes a number, |x|, and 1 where x is 0, else 0.
+
+    ``integrals``: how a call of a function of integrals over an ellipsoid begins, of ``{prefix}``
+    and ``{function}``; ``item``: one of them, counted from ``first``.  The rest is common to all
+    that have + − * /.
+    """
+
+    number: Callable[[Fraction], str]
+    absolute: str = "abs"
+    function: Callable[[str], str] = str
+    none: str = "({} == 0)"
+    integrals: str = "{function}("
+    item: str = "{}[{}]"
+    first: int = 0
+    prefix: str = ""
+
+    def __call__(self, e: Expression) -> str:
+        """An expression as source text."""
+        return self._print(e)[0]
+
+    def _print(self, e: Expression) -> tuple[str, int]:
+        if isinstance(e, (int, Fraction)):
+            text = self.number(Fraction(e))
+            return text, ATOM if e >= 0 and "/" not in text else SUM
+        if isinstance(e, str):
+            return e, ATOM
+        op, *operands = e
+        if op == "fun" and is_item(e[1]):
+            return self.item.format(self(e[2]), int(e[1][-1]) + self.first), ATOM
+        if op == "fun" and e[1] in BUNDLES:
+            given = ", ".join(self(x) for x in e[2:])
+            return f"{self.integrals.format(prefix=self.prefix, function=e[1])}{given})", ATOM
+        if op == "fun":
+            return f"{self.function(e[1])}({self(e[2])})", ATOM
+        if op == "abs":
+            return f"{self.absolute}({self(e[1])})", ATOM
+        if op == "none":
+            return self.none.format(self(e[1])), ATOM
+        if op == "add" or is_negated(e):
+            return self._sum(operands if op == "add" else [e]), SUM
+        if op == "mul":
+            return "*".join(self._at(x, PRODUCT) for x in operands), PRODUCT
+        return f"{self._at(e[1], PRODUCT)}/{self._at(e[2], ATOM)}", PRODUCT
+
+    def _at(self, e: Expression, level: int) -> str:
+        text, own = self._print(e)
+        return text if own >= level else f"({text})"
+
+    def _sum(self, terms: Sequence[Any]) -> str:
+        text = ""
+        for term in terms:
+            sign, size = ("-", term[2]) if is_negated(term) else ("+", term)
+            shown = self._at(size, PRODUCT)
+            text += f" {sign} {shown}" if text else shown if sign == "+" else f"-{shown}"
+        return text
+
+
+def decimal(q: Fraction, suffix: str = "") -> str:
+    """The decimal literal nearest to q; a quotient of small integers stays one.
+
+    ``LoweringError`` for a number larger than 1e308.
+    """
+    try:
+        value = float(q)
+    except OverflowError:
+        raise LoweringError("a number of the equations is larger than 1e308; scale it") from None
+    short = Fraction(repr(value)) == q  # a decimal number such as 9.81
+    if short or max(abs(q.numerator), q.denominator) >= 10**6:
+        return f"{value!r}{suffix}"
+    return f"{float(q.numerator)!r}{suffix}/{float(q.denominator)!r}{suffix}"
+
+
+def wrapped(text: str, width: int, indent: str) -> str:
+    """The text broken before + and -, every line at most ``width`` wide where it can be."""
+    line, *terms = re.split(r" (?=[+-] )", text)
+    lines = []
+    for term in terms:
+        if len(line) + 1 + len(term) > width:
+            lines.append(line)
+            line = indent + term
+        else:
+            line = f"{line} {term}"
+    return "\n".join([*lines, line])
 
 
 @dataclass(frozen=True)
@@ -156,3 +262,220 @@ _LANGUAGES = (
 )
 LANGUAGES = {x.name: x for x in _LANGUAGES}
 """Name → language, as ``--lang`` takes them."""
+
+
+# Functions of a program as lines of a language, ready for its templates.
+
+TEXT, EQUATION = 96, 92
+
+
+@dataclass(frozen=True)
+class Statements:
+    """How one language writes the parts of a function, for ``double`` or ``float``."""
+
+    language: TargetLanguage
+    real: str
+    sizes: Mapping[str, int]
+    """Array → how many numbers it holds."""
+    prefix: str = ""
+
+    @property
+    def printer(self) -> SourcePrinter:
+        """What writes expressions."""
+        return replace(self.language.printer(self.real), prefix=self.prefix)
+
+    def function(self, f: EmittedFunction) -> dict[str, Any]:
+        """Name of a template's field → lines of text: loads, sections, outputs, checks."""
+        printer = self.printer
+        loads = [x for x in f.loads if x.array != "t"]
+        return {
+            "arrays": sorted({x.array for x in f.loads}),
+            "loads": [self._load(x, self.language.load) for x in loads if x.array != "u"],
+            "input_loads": [self._load(x, self.language.load) for x in loads if x.array == "u"],
+            "unpacked": {array: self._unpacked(array, f) for array in self.sizes},
+            "blocks": [self._block(x) for x in blocks(f)] if self.language.batch else [],
+            "sections": [self._section(s) for s in f.sections],
+            "outputs": [self._wrapped(printer(e), TEXT - 12) for e in f.outputs],
+            "titles": [self._comment(f.titles.get(i, "")) for i in range(len(f.outputs))],
+            "checks": [self._check(c) for c in f.checks],
+            "calls": sorted(f.calls()),
+            "operations": operations(f),
+        }
+
+    def part(self, f: EmittedFunction) -> dict[str, list[str]]:
+        """Statements and outputs of what is a part of a function."""
+        written = self.function(f)
+        lines = [x for s in written["sections"] for x in s["statements"]]
+        return {"statements": lines, "outputs": written["outputs"]}
+
+    def _wrapped(self, text: str, width: int) -> str:
+        """An expression on several lines where it is wider than ``width``."""
+        return wrapped(text, width, " " * 8).replace("\n", f"{self.language.continued}\n")
+
+    def _declared(self, name: str, text: str) -> str:
+        real = self.language.reals[self.real]
+        return self.language.declare.format(real=real, name=name, text=text)
+
+    def _load(self, x: Load, pattern: str) -> str:
+        index = x.index + self.language.first
+        return self._declared(x.name, pattern.format(array=x.array, index=index))
+
+    def _unpacked(self, array: str, f: EmittedFunction) -> str:
+        """The names of all entries of an array with commas, _ for those that are not read."""
+        names = ["_"] * self.sizes[array]
+        for x in f.loads:
+            if x.array == array:
+                names[x.index] = x.name
+        if all(name == "_" for name in names):
+            return ""
+        listed = ", ".join(names) + "," * (len(names) == 1)
+        return textwrap.fill(listed, TEXT - 8, subsequent_indent=" " * 8)
+
+    def _block(self, block: Block) -> dict[str, Any]:
+        loads = {"loads": block.loads, "output_loads": block.output_loads}
+        return {
+            **{name: self._loads(xs, self.language.load) for name, xs in loads.items()},
+            **{f"batch_{name}": self._loads(xs, self.language.batch) for name, xs in loads.items()},
+            **self._section(block.section),
+            "outputs": block.outputs,
+        }
+
+    def _loads(self, loads: Iterable[Load], pattern: str) -> list[str]:
+        """Loads of a batch by ``pattern``; constants are the same for each of its states."""
+        plain = self.language.load
+        return [
+            self._load(x, plain if x.array == "k" else pattern) for x in loads if x.array != "t"
+        ]
+
+    def _section(self, s: Section) -> dict[str, Any]:
+        cost = operations(EmittedFunction((), (s,), ()))
+        return {
+            "comment": self._comment(f"{s.label}: {cost}" if s.label else cost, s.equation),
+            "statements": [self._statement(v.name, v.expression) for v in s.values],
+        }
+
+    def _comment(self, *texts: str) -> list[str]:
+        """The lines of a comment; each text is cut at 200 letters."""
+        short = (comment(x if len(x) <= 200 else x[:197] + "...") for x in texts)
+        rows = [row for x in short for row in textwrap.wrap(x, EQUATION, break_long_words=False)]
+        if not rows:
+            return []
+        first, between, last = self.language.comment
+        lines = [first + rows[0], *(between + x for x in rows[1:])]
+        return [*lines[:-1], lines[-1] + last]
+
+    def _statement(self, name: str, expression: Any) -> str:
+        text = self.printer(expression)
+        if isinstance(expression, tuple) and expression[0] == "fun" and expression[1] in BUNDLES:
+            pattern = self.language.bundle or self.language.declare
+            return pattern.format(prefix=self.prefix, name=name, text=text)
+        if not self.language.parenthesised:
+            return self._declared(name, self._wrapped(text, TEXT - 22 - len(name)))
+        if len(text) + len(name) > TEXT - 8:
+            text = f"(\n        {self._wrapped(text, TEXT - 10)}\n    )"
+        return self._declared(name, text)
+
+    def _check(self, c: Check) -> dict[str, str]:
+        printer = self.printer
+        scale = printer(c.scale) if c.scale is not None else ""
+        value = printer(c.value)
+        value = f"({value})" if " " in value else value
+        scale = self._wrapped(scale, TEXT - 44 - len(value))
+        return {"value": value, "scale": f"({scale})" if "+" in scale else scale}
+
+
+def comment(text: str) -> str:
+    """Text that is safe inside a comment or a docstring of any language."""
+    plain = "".join(ch if ch.isprintable() else " " for ch in text).replace("\\", "/")
+    return plain.replace("*/", "* /").replace("/*", "/ *").replace('"""', "'''")
+
+
+def operations(f: EmittedFunction) -> str:
+    """The operation counts of a function in words."""
+    return ", ".join(f"{n} {name}" for name, n in f.operations().items() if n) or "none"
+
+
+# A function in an order that suits a processor: numbers loaded late, outputs computed early.
+#
+# Compilers keep the order of a source, more or less. A number loaded long before it is used takes
+# a register from others; an output left for the end keeps alive, or has read again, what it
+# reads. So each section loads what it is the first to use, and the outputs of an equation stand
+# as soon as half of what they read has been read: behind the values that the rest waits for,
+# whose latency they fill.
+
+
+@dataclass(frozen=True)
+class Block:
+    """Values of one section, then the outputs (by index) behind them, each with its loads."""
+
+    loads: tuple[Load, ...]
+    section: Section
+    output_loads: tuple[Load, ...]
+    outputs: tuple[int, ...]
+
+
+def blocks(f: EmittedFunction) -> list[Block]:
+    """The blocks of a function: every load, value and output once, after what it reads."""
+    left = list(f.loads)
+
+    def loads(read: set[str]) -> tuple[Load, ...]:
+        found = tuple(x for x in left if x.name in read)
+        left[:] = [x for x in left if x.name not in read]
+        return found
+
+    return [
+        Block(
+            loads(names([v.expression for v in section.values])),
+            section,
+            loads(names([f.outputs[i] for i in outputs])),
+            tuple(outputs),
+        )
+        for section, outputs in _placed(f)
+    ]
+
+
+def names(expressions: Iterable[Expression]) -> set[str]:
+    """The names that expressions read."""
+    return {x for e in expressions for x in nodes(e) if isinstance(x, str)}
+
+
+def _placed(f: EmittedFunction) -> list[tuple[Section, list[int]]]:
+    """The sections, cut where outputs are stored, each with the indices of these outputs."""
+    loaded = {x.name for x in f.loads}
+    read = [names([x]) for x in f.outputs]
+    pending = _equations(f)
+    known: set[str] = set()
+    seen: set[str] = set()
+    found = []
+    for section in f.sections:
+        values: list[Assignment] = []
+        for vector in _vectors(section.values):
+            values += vector
+            known |= {v.name for v in vector}
+            seen |= names([v.expression for v in vector]) & loaded
+            outputs = []
+            for equation in pending:
+                reads = loaded & {x for i in equation for x in read[i]}
+                if 2 * len(reads & seen) >= len(reads):
+                    ready = [i for i in equation if read[i] <= known | loaded]
+                    outputs += ready
+                    equation[:] = [i for i in equation if i not in ready]
+            if outputs:
+                found.append((Section(section.label, section.equation, tuple(values)), outputs))
+                values = []
+        if values:
+            found.append((Section(section.label, section.equation, tuple(values)), []))
+    rest = [i for equation in pending for i in equation]
+    return [*found, (Section("", "", ()), rest)] if rest else found
+
+
+def _equations(f: EmittedFunction) -> list[list[int]]:
+    """The indices of a function's outputs, grouped by the equation they come from."""
+    starts = sorted({0, *f.titles})
+    return [list(range(a, b)) for a, b in zip(starts, [*starts[1:], len(f.outputs)], strict=True)]
+
+
+def _vectors(values: Iterable[Assignment]) -> list[Sequence[Assignment]]:
+    """Consecutive values grouped by name stem: the entries of one vector or matrix each."""
+    stems = groupby(values, lambda v: re.sub(r"(_\d+)+$", "", v.name))
+    return [list(vector) for _, vector in stems]

@@ -19,14 +19,13 @@ from ..language.tree import Tree, mul
 from ..language.values import hat, wedge
 from ..record.record import Derivation, step_of
 from . import dense
-from .ellipsoid import PLACES, integral
+from .ellipsoid import PLACES, SLACK, integral, tension
 from .graph import PARAMETER, Graph, Node
 from .inverses import SMALL, Inverses
 from .naming import name_of
 from .options import Options
 from .program import LoweringError
 from .reader import RecordReader, Value, bound, matrix, scalar
-from .springs import SLACK, tension
 
 
 class Lowering:

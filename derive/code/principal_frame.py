@@ -1,12 +1,9 @@
-"""The principal frame in numbers: H, s, S and the parameters in it, from those of the problem.
-
-All is straight-line code but the axes of a few small symmetric matrices, which the emitted code
-finds by Jacobi's rotations: those of J, of K, of gravity, and of what holds a quaternion.
-"""
+"""The principal frame in numbers, and the change of a state to it and back."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -17,8 +14,73 @@ from ..language.reserved import suffixed
 from ..record.as_json import decode
 from . import dense
 from .graph import Node
-from .quaternion import conjugate, horn
+from .program import Turning
 from .reader import RecordReader, scalar
+from .slots import conjugate, horn, multiplied
+from .state import StateSpace
+
+# The body's tensor of inertia, and which parameters turn with the body's axes (paper, (35)).
+
+MOMENTS = tuple(f"J_{i}{j}" for i in (1, 2, 3) for j in range(i, 4))
+
+
+def inertia(reader: RecordReader) -> list[Node]:
+    """I_11, I_12, I_13, I_22, I_23, I_33 about the body's origin; empty where space is not R³."""
+    if not reader.group.turns_space or reader.record.definition("I") is None:
+        return []
+    tensor = reader.vector("I")
+    return [tensor[i][j] for i in range(3) for j in range(i, 3)]
+
+
+def turning(problem: Mapping[str, Any], parameters: Sequence[str]) -> Turning | None:
+    """How parameters change with the body's axes; ``None`` where they cannot express that.
+
+    ``problem`` as in the record; ``parameters``: the emitted ones, in order.
+    """
+    body = problem["body"]
+    at = {name: i for i, name in enumerate(parameters)}
+    if body["kind"] == "moments" and {*MOMENTS} <= {*at} - {*_parameters(problem)}:
+        places = [place["at"] for place in problem["places"]]
+        if "c_1" in at:
+            places.append([("par", f"c_{i}") for i in (1, 2, 3)])
+        matrix = tuple(at[name] for name in MOMENTS)
+    elif body["kind"] == "points":
+        places = [p["at"] for p in (*body["points"], *problem["places"])]
+        matrix = ()
+    else:
+        return None
+    vectors = _vectors(places, Counter(_parameters([problem, places])), at)
+    return None if vectors is None else Turning(vectors, matrix)
+
+
+def _vectors(
+    places: Sequence[Sequence[Any]], uses: Mapping[str, int], at: Mapping[str, int]
+) -> tuple[tuple[int, ...], ...] | None:
+    """The indices of the parameters of the places that are not 0; ``None`` unless each is three
+    parameters that stand nowhere else."""
+    found = []
+    for place in places:
+        names = [x[1] for x in place if isinstance(x, (list, tuple)) and x[0] == "par"]
+        if any(x != 0 for x in place):
+            # once in the problem, and once more in the list of places
+            if len(names) != 3 or any(uses[name] > 2 or name not in at for name in names):
+                return None
+            found.append(tuple(at[name] for name in names))
+    return tuple(found)
+
+
+def _parameters(data: Any) -> Iterator[str]:
+    """The names of all parameters in the trees of plain data, with repetitions."""
+    if isinstance(data, (list, tuple)):
+        if len(data) == 2 and data[0] == "par" and isinstance(data[1], str):
+            yield data[1]
+        else:
+            for x in data:
+                yield from _parameters(x)
+    elif isinstance(data, dict):
+        for x in data.values():
+            yield from _parameters(x)
+
 
 FRAME = "frame"
 """The label of what comes from no equation of the record but from the choice of the frame."""
@@ -217,3 +279,85 @@ class PrincipalFrame:
 
     def _named(self, name: str, m: Matrix) -> Matrix:
         return self.old.entries(m, name)
+
+
+# The change of a state, and of inputs, to the principal frame and back: (S g h⁻¹, h Z h⁻¹).
+
+
+def frame_changes(frame: PrincipalFrame, framed: RecordReader) -> dict[str, list[Node]]:
+    """Function name → outputs: ``into_frame``, ``out_of_frame``, and the same of inputs."""
+    there, x = _Map.of(frame), framed.space
+    back = there.inverse
+    found = {"into_frame": there.image(x), "out_of_frame": back.image(x)}
+    if framed.inputs:
+        found["inputs_into_frame"] = _inputs(frame, there, frame.scale)
+        found["inputs_out_of_frame"] = _inputs(frame, back, frame.unit)
+    return found
+
+
+@dataclass(frozen=True)
+class _Map:
+    """A change of frame r ↦ h r in the body and S in space; ``back`` = h⁻¹.
+
+    All are of the size of the group's matrices; ``quaternions``: those of S and of h⁻¹.
+    """
+
+    S: Matrix
+    h: Matrix
+    back: Matrix
+    quaternions: tuple[Any, ...]
+
+    @staticmethod
+    def of(frame: PrincipalFrame) -> _Map:
+        """The map into the principal frame: r ↦ H(r − s) in the body, S in space."""
+        num = frame.graph.num
+        S = frame.S or dense.numbers(frame.graph, q.identity(frame.n))
+        if not frame.affine:
+            return _Map(S, frame.H, frame.back, frame.quaternions)
+        shift = tuple((-x,) for (x,) in q.times(frame.H, frame.s))
+        still = ((num(0),),) * frame.n
+        whole = [(S, still), (frame.H, shift), (frame.back, frame.s)]
+        S, h, back = (q.bordered(m, column, num(1)) for m, column in whole)
+        return _Map(S, h, back, frame.quaternions)
+
+    @property
+    def inverse(self) -> _Map:
+        """The map out of the frame; S is a rotation, and where G translates it fixes the origin."""
+        back = tuple(conjugate(a) for a in self.quaternions)
+        return _Map(q.transposed(self.S), self.back, self.h, back)
+
+    def image(self, x: StateSpace) -> list[Node]:
+        """The numbers of the state in the other frame: S g h⁻¹, then h Z h⁻¹ (or S ġ h⁻¹)."""
+        element = q.times(self.S, q.times(x.element, self.back))
+        if x.tangent:
+            rate = q.times(self.S, q.times(x.rate, self.back))
+            return [*x.entries(element), *x.entries(rate)]
+        Z = q.times(q.times(self.h, x.hat(x.coordinates)), self.back)
+        velocity = x.read(Z)
+        if not x.quaternion:
+            return [*x.entries(element), *velocity]
+        left, right = self.quaternions
+        turned = multiplied(multiplied(left, x.q), right)
+        return [*turned, *x.entries(element), *velocity]
+
+
+def _inputs(frame: PrincipalFrame, there: _Map, scale: Node) -> list[Node]:
+    """The inputs in the other frame, in units of μ: forces h f (in the body) or S f (in space), and
+    covectors u″ with ⟨u″, h ξ h⁻¹⟩ = ⟨u, ξ⟩."""
+    old, g, n = frame.old, frame.graph, frame.n
+    found: list[Node] = []
+    forces = iter(old.forces)
+    for entry in old.record.problem["inputs"]:
+        if entry["kind"] == "covector":
+            found += _coadjoint(old.space, there, old.covector)
+            continue
+        turn = there.h if entry["frame"] == "body" else there.S
+        linear = tuple(row[:n] for row in turn[:n])
+        found += q.flatten(q.times(linear, next(forces)))
+    return [g.product((scale, x)) for x in found]
+
+
+def _coadjoint(x: StateSpace, there: _Map, u: list[Node]) -> list[Node]:
+    """The covector in the other frame: u″_a = Σ u_b (h⁻¹ E_a h)^b."""
+    moved = (q.times(q.times(there.back, x.member(a)), there.h) for a in range(x.group.dimension))
+    return [q.dot(u, x.read(e)) for e in moved]

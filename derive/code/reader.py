@@ -16,8 +16,7 @@ from .graph import Graph, Node
 from .naming import name_of
 from .options import Options
 from .program import LoweringError
-from .reduced_state import state_of
-from .velocity_in_space import by_velocity
+from .state_forms import by_velocity, state_of
 
 Value = Node | Matrix
 

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from math import prod
 from typing import Any
 
+from .languages import Statements
 from .program import Program
-from .statements import Statements
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,15 @@
-"""The layout of a group element in the state: which of its entries are numbers of it."""
+"""The layout of a group element in the state: entries, or a unit quaternion."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from ..algebra.groups import Group, constant_entries
+from ..language.rational import Matrix
 from ..language.reserved import suffixed
+from .graph import Graph, Node
 
 
 @dataclass(frozen=True)
@@ -60,3 +63,102 @@ def still_slots(group: Group) -> dict[Slot, Fraction]:
     known = constant_entries(group)
     places = {x: (x.row, group.n if x.letter == "T" else x.column) for x in layout(group)}
     return {x: known[at] for x, at in places.items() if at in known}
+
+
+# Unit quaternions, scalar first: r ↦ q r q̄ is the rotation A, and q̇ = ½ q ζ for Ȧ = A j(ζ).
+
+Quaternion = tuple[Any, ...]
+ROTATED = 3
+"""A quaternion is of the first 3 × 3 entries of a matrix."""
+
+
+def multiplied(a: Quaternion, b: Quaternion) -> Quaternion:
+    """Hamilton's product a b, in any ring."""
+    p, x, y, z = a
+    s, u, v, w = b
+    return (
+        p * s - x * u - y * v - z * w,
+        p * u + s * x + y * w - z * v,
+        p * v + s * y + z * u - x * w,
+        p * w + s * z + x * v - y * u,
+    )
+
+
+def conjugate(a: Quaternion) -> Quaternion:
+    """The conjugate (p, −x, −y, −z) of (p, x, y, z)."""
+    p, x, y, z = a
+    return (p, -x, -y, -z)
+
+
+def matrix_of(g: Graph, q: tuple[Node, ...]) -> Matrix:
+    """The rotation A of a unit quaternion q, A e = q e q̄, 3 × 3, entries named; q q̄ = 1 takes the
+    square of the scalar out of the diagonal."""
+    p, x, y, z = q
+    unit = multiplied((p, x, y, z), conjugate((p, x, y, z)))[0]
+    zero = g.num(0)
+    columns = []
+    for k in range(3):
+        e = tuple(g.num(int(i == k)) for i in range(3))
+        image = multiplied(multiplied((p, x, y, z), (zero, *e)), conjugate((p, x, y, z)))[1:]
+        column = list(image)
+        column[k] = column[k] - unit + 1
+        columns.append(column)
+    span = range(3)
+    return tuple(tuple(g.value(columns[j][i], f"A_{i + 1}{j + 1}") for j in span) for i in span)
+
+
+def horn(R: Matrix) -> Matrix:
+    """The symmetric 4 × 4 matrix of a rotation R whose eigenvalue 3, the largest, is at its
+    quaternion, scalar first (Horn 1987): 4 q q̄ − 1, for q as a column."""
+    (a, b, c), (d, e, f), (g, h, i) = R
+    return (
+        (a + e + i, h - f, c - g, d - b),
+        (h - f, a - e - i, b + d, c + g),
+        (c - g, b + d, e - a - i, f + h),
+        (d - b, c + g, f + h, i - a - e),
+    )
+
+
+def of_rotation(g: Graph, R: Matrix) -> list[Node]:
+    """The unit quaternion of a rotation R, its scalar not negative, without a branch.
+
+    Column i of 4 q q̄ is 4 q_i q. Added with the sign of q_i, up to one sign of them all, the
+    columns make 4 Σ |q_i| q, which is never small: half turns are turns like others.
+    """
+    columns = [
+        tuple(g.value(x + int(i == j), suffixed("N", i, j), "rotation") for j, x in enumerate(row))
+        for i, row in enumerate(horn(R))
+    ]
+
+    def joined(a: Quaternion, b: Quaternion, product: Node, name: str) -> Quaternion:
+        """a ± b by the sign of the product of their factors."""
+        sign = _sign(g, g.value(product, f"{name}_product", "rotation"))
+        sign = g.value(sign, f"{name}_sign", "rotation")
+        return tuple(
+            g.value(x + sign * y, suffixed(name, i), "rotation")
+            for i, (x, y) in enumerate(zip(a, b, strict=True))
+        )
+
+    first = joined(columns[0], columns[1], columns[0][1], "first")
+    second = joined(columns[2], columns[3], columns[2][3], "second")
+    whole = joined(first, second, Node.dot(first, second), "whole")
+    square = g.value(Node.dot(whole, whole), "square", "rotation")
+    scale = _sign(g, whole[0]) * g.recip(g.function("sqrt", square))
+    scale = g.value(scale, "scale", "rotation")
+    return [x * scale for x in whole]
+
+
+def _sign(g: Graph, x: Node) -> Node:
+    """1 where x ≥ 0, else −1."""
+    none = g.none(x)
+    return (x + none) * g.recip(g.absolute(x) + none)
+
+
+def axis(Z: Matrix) -> Matrix:
+    """The column ζ of a matrix that begins with j(ζ)."""
+    return ((Z[2][1],), (Z[0][2],), (Z[1][0],))
+
+
+def halves(column: Matrix) -> list[Node]:
+    """The entries of ½ ζ, for a column ζ."""
+    return [x * Fraction(1, 2) for (x,) in column]

@@ -20,8 +20,17 @@ from ..language.reserved import suffixed
 from . import dense
 from .graph import Graph, Node
 from .options import Options
-from .quaternion import ROTATED, axis, halves, matrix_of, multiplied
-from .slots import Slot, fixed_entries, layout, still_slots
+from .slots import (
+    ROTATED,
+    Slot,
+    axis,
+    fixed_entries,
+    halves,
+    layout,
+    matrix_of,
+    multiplied,
+    still_slots,
+)
 
 Seeds = dict[Node, Node]
 """A variation of the state: leaf → its derivative."""

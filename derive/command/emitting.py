@@ -14,7 +14,7 @@ from ..code.emit import emit, included, planned
 from ..code.languages import LANGUAGES
 from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 from ..code.program import Program
-from ..code.request import EmissionRequest, request_of
+from ..code.requests import EmissionRequest, request_of
 from ..language.limits import Refused
 from ..pipeline import program, require_program
 from ..problem.bodies import negative_stiffness_of

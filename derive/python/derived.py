@@ -296,7 +296,7 @@ class Derived:
         """
         from ..code.emit import EmitError
         from ..code.options import options_of
-        from ..code.request import EmissionRequest
+        from ..code.requests import EmissionRequest
         from ..command.emitting import allowances, made
         from ..command.writing import write
 

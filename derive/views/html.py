@@ -23,8 +23,7 @@ from ..printing.typeset import Formula, literal, plain
 from ..record.record import Derivation, Equation, Step
 from ..record.rules import RULES
 from .book import MOTION, REGULAR, BookPart, Passage, book, corrections, parameters
-from .entries import entries
-from .language import ENGLISH, Language
+from .language import ENGLISH, Language, entries
 from .latex import anchor
 from .layout import ROOM, Quantifiers, clause, quantifier, quantifiers
 from .outline import (

@@ -1,17 +1,24 @@
-"""Languages of the views: the messages of the record and of the views, from the catalogue."""
+"""Languages of the views: the messages of the record and of the views; numbered entries."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cache
+from itertools import groupby
 from pathlib import Path
 
+from ..language.show import show
+from ..language.tree import Tree
+from ..printing.line_breaking import display_width, measure
+from ..printing.tex import latex_tree
 from ..prose import LANGUAGES as LANGUAGES
 from ..prose import entries as steps
 from ..prose import read
 from ..record import rules, vocabulary
+from ..record.record import Equation
 from ..record.sentence import Prose, Sentence, filled, phrase
 
 CATALOGUE = Path(__file__).with_name("catalogue.txt")
@@ -72,10 +79,10 @@ def language(name: str) -> Language:
     """The language of a name in ``LANGUAGES``, with the messages of the catalogue."""
     if name == ENGLISH.name:
         return ENGLISH
-    return Language(name, {x["en"]: typeset(x[name]) for x in entries()})
+    return Language(name, {x["en"]: typeset(x[name]) for x in catalogue_entries()})
 
 
-def entries() -> list[dict[str, str]]:
+def catalogue_entries() -> list[dict[str, str]]:
     """The prose of the steps, the names and rules of the record, and the catalogue."""
     words = dict.fromkeys((*vocabulary.meanings(), *rules.names()))
     catalogue = ((en, *texts) for en, texts in read([CATALOGUE], LANGUAGES[1:]).items())
@@ -87,3 +94,121 @@ def typeset(french: str) -> str:
     for pattern, space in SPACES:
         french = re.sub(pattern, space, french)
     return french
+
+
+# The numbered entries of a step: equations one by one, short ones of a family by the row.
+
+TABLE, CELL, ROW = 4, 24, 72
+"""Above how many cells they stand side by side; the width, in letters, of a cell and a row."""
+WIDE_MATRIX, LETTER = 30.0, 10
+"""A matrix wider than WIDE (in em) has letters for its entries of more than LETTER letters."""
+SIMPLE = ("par", "entry", "matrix", "add", "mul")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """Equations under one number; ``first`` is the place of the first of them in the step.
+
+    ``where``: what letters in it stand for.
+    """
+
+    first: int
+    equations: tuple[Equation, ...]
+    where: tuple[Equation, ...] = ()
+
+    @property
+    def only(self) -> Equation | None:
+        """The equation of an entry that has one; else ``None``."""
+        return self.equations[0] if len(self.equations) == 1 else None
+
+
+def entries(equations: Sequence[Equation]) -> list[Entry]:
+    """The entries of a step; that a parameter is itself is not said beside other equations."""
+    numbered = list(enumerate(equations))
+    kept = [(k, e) for k, e in numbered if not _itself(e)] or numbered
+    found: list[Entry] = []
+    for row in rows(kept):
+        place = row[0][0] if found else 0
+        found.append(
+            _lettered(place, row[0][1]) if len(row) == 1 else Entry(place, equations_of(row))
+        )
+    return found
+
+
+Placed = tuple[int, Equation]
+
+
+def rows(equations: Iterable[Placed]) -> Iterator[list[Placed]]:
+    """The equations in rows: many short ones side by side, a few zeros in one row, others alone."""
+    for short, run in groupby(equations, key=lambda x: bool(cell(x[1]))):
+        members = [*run]
+        if short and len(members) > TABLE:
+            size = columns([e for _, e in members])
+            yield from (members[at : at + size] for at in range(0, len(members), size))
+            continue
+        for zero, part in groupby(members, key=lambda x: short and x[1].rhs == 0):
+            together = [*part]
+            yield from [together] if zero else ([x] for x in together)
+
+
+def equations_of(row: Sequence[Placed]) -> tuple[Equation, ...]:
+    """The equations of a row, without their places."""
+    return tuple(e for _, e in row)
+
+
+def _lettered(place: int, e: Equation) -> Entry:
+    """An equation as an entry; the long entries of a wide matrix get letters of their own."""
+    matrix = isinstance(e.rhs, tuple) and e.rhs[0] == "matrix"
+    if not matrix or not isinstance(e.lhs, str) or breadth(e.rhs) <= WIDE_MATRIX:
+        return Entry(place, (e,))
+    letters: dict[Tree, Tree] = {}
+
+    def letter(x: Tree, *index: int) -> Tree:
+        if display_width(show(x)) <= LETTER:
+            return x
+        return letters.setdefault(x, ("entry", e.lhs, *index))
+
+    rows = [
+        ("row", *(letter(x, i, j) for j, x in enumerate(row[1:], 1)))
+        if isinstance(row, tuple) and row[0] == "row"
+        else letter(row, i)
+        for i, row in enumerate(e.rhs[1:], 1)  # type: ignore[index]
+    ]
+    where = tuple(Equation(name, x) for x, name in letters.items())
+    return Entry(place, (replace(e, rhs=("matrix", *rows)),), where)
+
+
+def breadth(matrix: Tree) -> float:
+    """The width of a matrix in em: that of its columns, each entry on one line."""
+    rows = [row[1:] if row[0] == "row" else (row,) for row in matrix[1:]]  # type: ignore[index]
+    across = zip(*rows, strict=True)
+    return sum(max(measure(latex_tree(x)) for x in column) for column in across)
+
+
+def columns(cells: Sequence[Equation]) -> int:
+    """How many cells stand in a row: an even number, for families often come in pairs."""
+    return 4 if 4 * max(map(width, cells)) <= ROW else 2
+
+
+def width(e: Equation) -> int:
+    """The width of a cell in letters; a column vector is as wide as its widest entry."""
+    if isinstance(e.rhs, tuple) and e.rhs[0] == "matrix":
+        return display_width(f"{show(e.lhs)} = ") + max(display_width(show(x)) for x in e.rhs[1:])
+    return display_width(cell(e))
+
+
+def cell(e: Equation) -> str:
+    """The text of a short equation that names a number or an entry; empty for others."""
+    named = isinstance(e.lhs, tuple) and e.lhs[0] in ("at", "entry")
+    simple = isinstance(e.rhs, (str, int, Fraction)) or e.rhs[0] in SIMPLE
+    text = f"{show(e.lhs)} = {show(e.rhs)}"
+    return (
+        text
+        if named and simple and not (e.for_all or e.exists) and display_width(text) <= CELL
+        else ""
+    )
+
+
+def _itself(e: Equation) -> bool:
+    """Is it m = m, for a parameter m that has the name of what it is?"""
+    return isinstance(e.rhs, tuple) and e.rhs[0] == "par" and show(e.lhs) == show(e.rhs)

@@ -13,8 +13,7 @@ from ..printing.signs import Notation, tex_text
 from ..printing.tex import formula, guarded, joined, latex_tree, marked, paren, pieces
 from ..printing.typeset import Formula, literal, plain, text
 from ..record.record import Equation
-from .entries import Entry, entries
-from .language import ENGLISH, Language
+from .language import ENGLISH, Entry, Language, entries
 from .outline import domain, moving, quantified
 
 ROOM = 38.0

@@ -14,8 +14,7 @@ from ..record.as_json import decode
 from ..record.record import AMENDED, ANY_GROUP, FIELDS, Derivation, Equation, Step
 from ..record.sentence import Sentence, listed, phrase
 from ..schema.kinds import kinds
-from .entries import entries
-from .language import ENGLISH, Language
+from .language import ENGLISH, Language, entries
 
 CONVENTIONS = (
     "Bars are transposes and 1 is the identity. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for "

@@ -24,8 +24,7 @@ from ..printing.line_breaking import (
 from ..printing.sentences import QUOTED, between_dollars, dollars, prose
 from ..printing.signs import NO_BREAK, markdown_text
 from ..record.record import Derivation, Equation, Step, Symbol
-from .entries import TABLE, cell
-from .language import ENGLISH, Language
+from .language import ENGLISH, TABLE, Language, cell
 from .layout import blocks
 from .outline import (
     PAPER,

@@ -9,8 +9,7 @@ import subprocess
 import pytest
 
 from derive import derive
-from derive.code.blocks import blocks, names
-from derive.code.languages import LANGUAGES
+from derive.code.languages import LANGUAGES, blocks, names
 from derive.code.options import Options
 from derive.command.cli import main
 from derive.pipeline import program

@@ -9,7 +9,7 @@ from math import factorial
 
 import pytest
 
-from derive.code.step.compositions import weights
+from derive.code.step.tableaux import weights
 
 STAGES = {2: 1, 4: 5, 6: 9, 8: 17}
 SMALL, CLEAR = Decimal(10) ** -23, Decimal(10) ** -6

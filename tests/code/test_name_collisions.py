@@ -11,9 +11,8 @@ from functools import cache
 import pytest
 
 from derive import SE, SL, Gravity, Moments, Points, Potential, Problem, Spring, derive
-from derive.code.collisions import identifiers, without_collisions
-from derive.code.languages import LANGUAGES
-from derive.code.statements import Statements
+from derive.code.languages import LANGUAGES, Statements
+from derive.code.requests import identifiers, without_collisions
 from derive.pipeline import program
 from derive.problem.problem import ProblemError
 from tests.support.languages import Case

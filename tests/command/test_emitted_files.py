@@ -8,7 +8,7 @@ import pytest
 from derive import SE, Gravity, Points, Problem, derive
 from derive.code.languages import LANGUAGES
 from derive.code.options import CHOICES, REPEATED, Options
-from derive.code.request import EmissionRequest, request_of
+from derive.code.requests import EmissionRequest, request_of
 from derive.command.cli import main
 
 NEGATIVE = """

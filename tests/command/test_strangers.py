@@ -10,7 +10,7 @@ from time import process_time
 
 import pytest
 
-from derive.code.statements import comment
+from derive.code.languages import comment
 from derive.command.cli import main
 from derive.command.writing import StoppedError, one_line, time_limit
 from derive.language import limits
@@ -27,7 +27,7 @@ import resource, sys
 resource.setrlimit(resource.RLIMIT_DATA, (1 << 30, 1 << 30))
 resource.setrlimit(resource.RLIMIT_CPU, (30, 30))
 from derive.command.cli import main
-from derive.code.statements import comment
+from derive.code.languages import comment
 sys.exit(main(sys.argv[1:]))
 """
 

@@ -12,7 +12,7 @@ from tests.support.lagrangians import every_record
 from tests.support.walks import FLUIDS, NAMES, OTHERS, record
 
 ROOT = Path(prose.__file__).parents[1]
-ROOMS = [ROOT / room for room in ("walk", "symmetries", "reduction", "integrals", "equilibria")]
+ROOMS = [ROOT / room for room in ("walk", "search")]
 SIGNED = "_signed"
 ALSO = {"coadjoint": {"kernel"}, "energy_casimir": {"equilibrium"}}
 """In vectors the kernel is told where the coefficients vanish."""

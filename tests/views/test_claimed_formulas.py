@@ -7,9 +7,9 @@ from itertools import pairwise
 
 import pytest
 
-from derive.views.language import entries
+from derive.views.language import catalogue_entries
 
-ENTRIES = [(x["en"], x["fr"]) for x in entries()]
+ENTRIES = [(x["en"], x["fr"]) for x in catalogue_entries()]
 
 MARKS = r"[\u0300-\u036f]"
 LETTER = rf"(?:[A-Za-zÀ-ÖØ-öø-ÿœŒ](?!{MARKS}))"

@@ -3,9 +3,9 @@
 import re
 from itertools import chain
 
-from derive.views.language import entries
+from derive.views.language import catalogue_entries
 
-ENTRIES = [(x["en"], x["fr"]) for x in entries()]
+ENTRIES = [(x["en"], x["fr"]) for x in catalogue_entries()]
 DENIED = re.compile(r"\b(?:not|no|none|never|nothing|neither|nor|without|cannot)\b", re.I)
 NE = r"\b(?:ne |n[’'])"
 ONLY = re.compile(

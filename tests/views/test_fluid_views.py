@@ -6,7 +6,7 @@ import pytest
 
 from derive.printing.sentences import prose
 from derive.printing.signs import markdown_text
-from derive.views.language import entries
+from derive.views.language import catalogue_entries
 from derive.views.outline import assumed, moving
 from derive.views.rendering import FORMATS, notes, render
 from tests.support.walks import FLUIDS, record
@@ -53,7 +53,9 @@ def test_every_view_says_it_beside_the_equation(form, lang):
 @pytest.mark.parametrize("lang", ["en", "fr"])
 @pytest.mark.parametrize("escape", [None, markdown_text])
 def test_no_index_is_left_outside_a_formula(escape, lang):
-    shown = [prose(x[lang], *filter(None, [escape])) for x in entries() if "$" not in x["en"]]
+    shown = [
+        prose(x[lang], *filter(None, [escape])) for x in catalogue_entries() if "$" not in x["en"]
+    ]
     assert [x for x in shown if r"\_" in x] == []
 
 

@@ -28,7 +28,15 @@ from derive.schema.body_kinds import SOLIDS, MomentBody
 from derive.schema.kinds import kinds
 from derive.views import outline
 from derive.views.html import html
-from derive.views.language import ENGLISH, LANGUAGES, THIN, WIDE, Language, entries, language
+from derive.views.language import (
+    ENGLISH,
+    LANGUAGES,
+    THIN,
+    WIDE,
+    Language,
+    catalogue_entries,
+    language,
+)
 from derive.views.text import markdown, step_markdown, step_text, text
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
@@ -36,7 +44,7 @@ from tests.support.kinds import examples
 from tests.support.lagrangians import every_record
 
 ROOT = Path(__file__).parents[2] / "derive"
-ENTRIES = entries()
+ENTRIES = catalogue_entries()
 FRENCH = language("fr")
 THREE = Points((1, [1, 0]), (2, [0, 1]), (3, [0, 0]))
 LIFTS = Group("Lifts", [[[0, 0, 0], [0, 0, 1], [0, 0, 0]]], "affine")

@@ -15,8 +15,7 @@ from ...routines.python import Python
 from ...routines.rust import Rust
 from ...routines.source import Source
 from ..program import Program
-from .explicit_fields import GROWTH, METHODS, SAFETY
-from .tableaux import Tableau
+from .tableaux import GROWTH, METHODS, SAFETY, Tableau
 
 FOLDER = Path(routines.__file__).parent / "algorithms"
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from .discrete_step import DiscreteStep
-from .explicit_fields import METHODS
+from .tableaux import METHODS
 
 Number = Callable[[Fraction], str]
 

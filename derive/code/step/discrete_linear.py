@@ -11,9 +11,8 @@ from fractions import Fraction
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
-from ..graph import Node
-from ..linearise import Varied
-from ..rewrite import replaced
+from ..graph import Node, replaced
+from ..schedule import Varied
 from .discrete_ends import Centre, Ends, entries_of
 
 Functions = dict[str, list[Node]]

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from .. import dense
 from ..graph import Graph, Node
-from ..linearise import Varied
+from ..schedule import Varied
 
 SMALL = 3
 """Up to this size by the adjugate."""

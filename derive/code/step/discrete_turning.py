@@ -12,9 +12,8 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from .. import dense
-from ..graph import Node
-from ..linearise import Varied
-from ..rewrite import replaced
+from ..graph import Node, replaced
+from ..schedule import Varied
 from .discrete_ends import Centre, Ends, Given, column, entries_of
 from .discrete_newton import newton
 

@@ -12,11 +12,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ...language.tree import nodes
-from ..blocks import Block, blocks, names
 from ..ellipsoid import INTEGRALS, is_integral
-from ..printers import SourcePrinter
+from ..languages import Block, SourcePrinter, Statements, blocks, names
 from ..program import EmittedFunction, Expression, Load
-from ..statements import Statements
 
 OF_ONE, OF_EACH = ("t", "x", "u"), ("t", "x", "u", "k")
 """The arrays whose numbers are lanes: of the stages of one motion, and of a motion in each lane."""

@@ -6,15 +6,15 @@ import textwrap
 from itertools import groupby
 from typing import Any
 
+from ..languages import Statements
 from ..options import Options
 from ..program import KeptByGauss, Program
-from ..statements import Statements
 from .collocation import Collocation
 from .discrete_fields import written_step
-from .explicit_fields import GROWTH as EXPLICIT_GROWTH
-from .explicit_fields import SAFETY as EXPLICIT_SAFETY
-from .explicit_fields import explicit, fields_of
 from .lanes import OF_EACH, in_lanes, part_of
+from .tableaux import GROWTH as EXPLICIT_GROWTH
+from .tableaux import SAFETY as EXPLICIT_SAFETY
+from .tableaux import explicit, fields_of
 
 
 def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
@@ -140,7 +140,7 @@ def parts(p: Program) -> list[tuple[int, int]]:
 def gauss(coarse: bool) -> dict[str, Any]:
     """The numbers of Gauss's collocation, which round-trip as decimals: see ``Collocation``;
     ``coarse``: its stages apart, too, for Newton's method where there is a Jacobian."""
-    from .stage_modes import StageModes  # which alone needs mpmath
+    from .collocation import StageModes  # which alone needs mpmath
 
     method = Collocation()
     return {

@@ -1,18 +1,14 @@
-"""Explicit Runge–Kutta methods as data, in ``DIGITS`` digits.
-
-With rates f_i = f(t + c_i h, x + h Σ_j a_ij f_j), j < i, of the first ``stages`` rows, a step is
-x + h Σ_i b_i f_i, its error by the embedded weights h Σ_i (b_i − b̂_i) f_i, and the state at
-t + θh, 0 ≤ θ ≤ 1, is x + h Σ_i b_i(θ) f_i with the polynomials b_i(θ) = Σ_k d_ik θ^k, k ≥ 1, over
-all rows: those after ``stages`` are computed where somebody asks for it.
-"""
+"""Explicit Runge–Kutta methods and symmetric compositions as data, and their templates."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
+from fractions import Fraction
 from functools import cache
 from math import factorial
+from typing import Any
 
 from .collocation import DIGITS
 from .verner import ONE, ZERO, verner
@@ -109,3 +105,106 @@ def vern9() -> Tableau:
 def _listed(row: Mapping[int, Decimal], n: int) -> tuple[Decimal, ...]:
     """The numbers 1 … n of a row, 0 where it has none."""
     return tuple(row.get(j, ZERO) for j in range(1, n + 1))
+
+
+# Symmetric compositions of a symmetric step of order 2, which raise its order.
+#
+# Steps γ_1 h, …, γ_s h one after the other, γ_i = γ_(s+1−i) and Σ γ_i = 1, are one of a higher
+# order where Σ γ_i³ = 0, and so on. For order 4 these are Suzuki's five, for which there is a
+# formula (M. Suzuki, Physics Letters A 146 (1990), 319–323); for 6 and 8 the nine and the
+# seventeen of least size that W. Kahan and R.-C. Li found (*Composition constants for raising the
+# orders of unconventional schemes for ordinary differential equations*, Mathematics of
+# Computation 66 (1997), 1089–1099), to 26 decimals: digit by digit those of E. Hairer, C. Lubich
+# and G. Wanner, *Geometric Numerical Integration*, V.3.2, (3.12) and (3.14), as OrdinaryDiffEq.jl
+# (``KahanLi6``, ``KahanLi8``) and REBOUND's ``janus`` have them, too. A test holds them against
+# every order condition.
+
+FOUND = {
+    6: (
+        "0.39216144400731413927925056",
+        "0.33259913678935943859974864",
+        "-0.70624617255763935980996482",
+        "0.08221359629355080023149045",
+    ),
+    8: (
+        "0.13020248308889008087881763",
+        "0.56116298177510838456196441",
+        "-0.38947496264484728640807860",
+        "0.15884190655515560089621075",
+        "-0.39590389413323757733623154",
+        "0.18453964097831570709183254",
+        "0.25837438768632204729397911",
+        "0.29501172360931029887096624",
+    ),
+}
+"""Order → γ_1, γ_2, … before the one in the middle."""
+
+
+def weights(order: int) -> list[Decimal]:
+    """γ_1 … γ_s of the composition of an order, 2, 4, 6 or 8; their sum is 1."""
+    with localcontext() as context:
+        context.prec = DIGITS
+        if order == 2:
+            first: list[Decimal] = []
+        elif order == 4:
+            first = [1 / (4 - Decimal(4) ** (Decimal(1) / 3))] * 2
+        else:
+            first = [*map(Decimal, FOUND[order])]
+        return [*first, 1 - 2 * sum(first, Decimal(0)), *reversed(first)]
+
+
+# What the templates of explicit Runge–Kutta steps are filled with.
+
+METHODS: dict[str, tuple[Callable[[], Tableau], str]] = {
+    "rk4": (rk4, "Kutta's method of order 4"),
+    "vern9": (vern9, "Verner's pair of orders 9 and 8"),
+}
+"""Name of a step → its method, and what it is called."""
+
+GROWTH, SAFETY = 5.0, 0.9
+"""By how much a step may grow, and the part taken of what its error suggests."""
+
+
+def explicit(names: Iterable[str], number: Callable[[Fraction], str]) -> dict[str, Any] | None:
+    """The explicit ones of these steps, and the most stages of any; ``None`` without any."""
+    found = [fields_of(name, number) for name in names if name in METHODS]
+    if not found:
+        return None
+    return {
+        "methods": found,
+        "stages": max(len(method["main"]) for method in found),
+        "rows": max(method["rows"] for method in found),
+        "extra": any(method["extra"] for method in found),
+        "growth": GROWTH,
+        "safety": SAFETY,
+    }
+
+
+def fields_of(name: str, number: Callable[[Fraction], str]) -> dict[str, Any]:
+    """The numbers of a method as text.  ``main``, ``extra``: for each stage, of the step and of
+    dense output alone, its index, c, and the row of a; a row, b, and e = b − b̂ are pairs of an
+    index and a number that is not 0; ``rows``: how many there are with those of dense output."""
+    make, title = METHODS[name]
+    method = make()
+
+    def text(x: Decimal) -> str:
+        return number(Fraction(float(x)))
+
+    def terms(numbers: Sequence[Decimal]) -> list[tuple[int, str]]:
+        return [(j, text(x)) for j, x in enumerate(numbers) if x]
+
+    rows = [
+        (i, text(c), terms(row)) for i, (c, row) in enumerate(zip(method.c, method.a, strict=True))
+    ]
+    return {
+        "name": name,
+        "title": title,
+        "order": method.order,
+        "dense_order": method.dense_order,
+        "adaptive": bool(method.embedded),
+        "main": rows[: method.stages],
+        "extra": rows[method.stages :],
+        "b": terms(method.b),
+        "e": terms(method.error) if method.embedded else [],
+        "rows": len(method.legendre),
+    }

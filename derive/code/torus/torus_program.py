@@ -15,9 +15,9 @@ from typing import NamedTuple
 
 from ...algebra.structure import Place, Torus
 from ...record.record import Derivation
-from ..events import Event, table, values_of
 from ..factor import factored
 from ..graph import Graph, Node
+from ..kept import Event, table, values_of
 from ..naming import ClaimedNames
 from ..options import Options
 from ..program import EmittedFunction, Load, LoweringError, Program

@@ -1,0 +1,151 @@
+"""Other forms of a state: without an element, by velocity in space, with a matrix."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..algebra.groups import Group
+from ..language import rational as q
+from ..language.reserved import suffixed
+from ..language.tree import Tree, add, mul, nodes, replaced, terms
+from .graph import Graph, Node
+from .naming import ClaimedNames
+from .options import Options
+from .slots import ROTATED, of_rotation
+from .state import Component, Named, StateSpace
+
+# The state of a program without an element of the group: ζ, then what is carried along.
+
+
+class ReducedSpace(StateSpace):
+    """``values``: ζ, Γ; it has no slots, for there is no g."""
+
+    def __init__(self, graph: Graph, group: Group, problem: Mapping[str, Any]):
+        self.graph, self.group, self.standard, self.n = graph, group, group, group.n
+        self.right, self.held = problem["lagrangian"]["trivialisation"] == "right", ()
+        self.slots, self.still, self.quaternion, self.tangent = [], {}, False, False
+        self.names, self.values = [], {}
+        self.coordinates = [self._leaf(suffixed("zeta", a)) for a in self._span(group.dimension)]
+        carried = [
+            self._leaf(suffixed(x["name"], i))
+            for x in problem["advected"]
+            for i in self._span(x["size"])
+        ]
+        self.values["ζ"] = tuple((x,) for x in self.coordinates)
+        self.values["Γ"] = tuple((x,) for x in carried)
+
+    def velocity(self, component: Component) -> list[Node]:
+        """The accelerations ζ̇."""
+        return [component("ζ̇", a) for a in self._span(self.group.dimension)]
+
+    def rates(self, name: Named, component: Component, *, in_space: bool = False) -> list[Node]:
+        """ζ̇ and Γ̇."""
+        del in_space
+        carried = name("Γ̇") if self.values["Γ"] else ()
+        return [*self.velocity(component), *(x for (x,) in carried)]
+
+
+def state_of(
+    problem: Mapping[str, Any], graph: Graph, group: Group, options: Options
+) -> StateSpace:
+    """The state of a record's problem."""
+    if "advected" in problem:
+        return ReducedSpace(graph, group, problem)
+    own = problem.get("lagrangian", {})
+    right, held = own.get("trivialisation") == "right", own.get("held", ())
+    return StateSpace(graph, group, options, right=right, held=held)
+
+
+# Points by their velocity in space, ν = gZ, with ν = (Ȧ, Ṫ).
+#
+# Where A stretches, Z = g⁻¹ν and C = ĀA lose digits as the square of its condition; what is kept
+# is small beside their entries. In ν it is a sum of products of what is seen:
+#
+# h̃ = ½ Tr ν𝕁ν̄ + Ũ, p̃(δg) = Tr ν𝕁δḡ, 𝕁 = [[J, c], [c̄, m]].
+
+BACK: Tree = ("inv", "A")
+IN_SPACE = "ν𝕁ḡ"
+"""The matrix p with p̃(Yg) = Tr p Ȳ."""
+
+KINETIC: tuple[tuple[Tree, Tree], ...] = (
+    (("tr", ("mul", "Z", "J", ("T", "Z"), "C")), ("tr", ("mul", "ν", "J", ("T", "ν")))),
+    (("inner", ("mul", "C", "Z", "c"), "w"), ("inner", ("mul", "ν", "c"), "τ")),
+    (("inner", ("mul", "C", "w"), "w"), ("norm2", "τ")),
+)
+"""What the energy has of Z, w and C = ĀA, and the same by the linear part ν = AZ and τ = Aw."""
+
+
+def by_velocity(h: Tree, names: tuple[str, str]) -> Tree:
+    """The energy h̃ of points by the ``names`` of ν and τ, where it has C; else as it is."""
+    for inside, outside in KINETIC:
+        for old, new in zip(("ν", "τ"), names, strict=True):
+            outside = replaced(outside, old, new)
+        h = replaced(h, inside, outside)
+    return h
+
+
+def has_velocity(h: Tree) -> bool:
+    """Is the kinetic energy that of points on a group whose C does not drop out?"""
+    return replaced(h, KINETIC[0][0], 0) != h
+
+
+def in_space(quantity: Tree) -> Tree:
+    """⟨Π, η⟩ by ⟨ν𝕁ḡ, Y⟩ for the parts A⁻¹YA of η: what is kept, without an inverse."""
+    for pairing in nodes(quantity):
+        if isinstance(pairing, tuple) and pairing[:2] == ("inner", "Π"):
+            quantity = replaced(quantity, pairing, add(*map(_paired, terms(pairing[2]))))
+    return quantity
+
+
+def _paired(eta: Tree) -> Tree:
+    """⟨Π, η⟩ of one part of η."""
+    match eta:
+        case ("mul", back, *Y, "A") if back == BACK:
+            return ("inner", IN_SPACE, mul(*Y))
+    return ("inner", "Π", eta)
+
+
+# The door of a state that holds a quaternion: the same state with the matrix A in its place.
+
+LABELS = {"rotation": "4 q q̄, from A"}
+"""The label of what from_matrix computes, and what stands in a comment before it."""
+
+TO_MATRIX, FROM_MATRIX = "to_matrix", "from_matrix"
+
+
+@dataclass(frozen=True)
+class MatrixState:
+    """The state z = (A row by row, then what follows q in x); ``names``: of its numbers.
+
+    ``outputs``: function → what it computes; ``leaves``: the numbers of z.
+    """
+
+    names: tuple[str, ...]
+    outputs: dict[str, list[Node]]
+    leaves: tuple[Node, ...]
+
+    def places(self, names: ClaimedNames) -> dict[Node, tuple[str, tuple[str, int]]]:
+        """Where ``from_matrix`` reads its leaves; what is in x as well keeps its name."""
+        return {
+            leaf: (names.claim(leaf.data[1], " ".join(leaf.data)), ("z", i))
+            for i, leaf in enumerate(self.leaves)
+        }
+
+
+def matrix_state(x: StateSpace) -> MatrixState | None:
+    """The state with A in place of the quaternion; ``None`` where there is no quaternion."""
+    if not x.quaternion:
+        return None
+    g, span = x.graph, range(1, 4)
+    others = [g.leaf(name, "state") for name in x.names[len(x.q) :]]
+    R = tuple(tuple(g.leaf(suffixed("R", i, j), "matrix") for j in span) for i in span)
+    return MatrixState(
+        (*(suffixed("A", i, j) for i in span for j in span), *x.names[len(x.q) :]),
+        {
+            TO_MATRIX: [*(y for row in x.values["A"][:ROTATED] for y in row[:ROTATED]), *others],
+            FROM_MATRIX: [*of_rotation(g, R), *others],
+        },
+        (*q.flatten(R), *others),
+    )
