@@ -24,10 +24,9 @@ from .showing import (
     load_problem,
     ready_made,
     save,
-    save_record,
+    save_found,
     save_steps,
     steps_of,
-    told_steps,
 )
 from .writing import StoppedError, one_line, replacing_unencodable, time_limit, with_progress
 
@@ -69,10 +68,7 @@ def command_integrals(args: argparse.Namespace) -> int:
 
     problem = doubted(args.problem)
     chosen = {"at_defaults": args.at_defaults, "conditions": args.conditions}
-    record = integrals(problem, args.degree, **chosen)[1]
-    # the JSON is a whole record, which can be checked
-    new = () if args.format == "json" else told_steps(record)
-    save_steps(record, new, args)
+    save_found(integrals(problem, args.degree, **chosen)[1], "poisson", args)
     return 0
 
 
@@ -96,28 +92,25 @@ def command_equilibria(args: argparse.Namespace) -> int:
             f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "
             "most one other coordinate, 1 or -1: give one by --at NAME=NUMBER"
         )
-    new = () if args.format == "json" else told_steps(record, "equilibrium_1")
-    save_steps(record, new, args)
+    save_found(record, "equilibrium_1", args)
     return 0
 
 
 def command_symmetries(args: argparse.Namespace) -> int:
     """All symmetries of a problem's Lagrangian, and what the motion keeps by each."""
     from ..pipeline import symmetries
-    from ..search.symmetries.symmetry_steps import shown as about_symmetries
 
     problem, walked = derive(args.problem, **allowed(args))
-    save_record(symmetries(problem, walked).record, about_symmetries, args)
+    save_found(symmetries(problem, walked).record, "symmetries", args)
     return 0
 
 
 def command_reduction(args: argparse.Namespace) -> int:
     """Routh's reduction by symmetries that commute: effective potential, what is left to solve."""
     from ..pipeline import reduction
-    from ..search.reduction.told_reduction import shown
 
     problem, walked = derive(args.problem, **allowed(args))
-    save_record(reduction(problem, walked).record, shown, args)
+    save_found(reduction(problem, walked).record, "momentum_1", args)
     return 0
 
 

@@ -6,7 +6,7 @@ import argparse
 import os
 import shutil
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -152,20 +152,13 @@ def save_steps(record: Derivation, steps: Sequence[Step], args: argparse.Namespa
     save(shown, args.out, args.format)
 
 
-def save_record(
-    record: Derivation, own: Callable[[Derivation], list[Step]], args: argparse.Namespace
-) -> None:
-    """Write the steps of a record that are asked for, else its ``own``; in JSON all."""
-    steps = steps_of(record, args.labels)
+def save_found(record: Derivation, first: str, args: argparse.Namespace) -> None:
+    """Write the steps of a record that are asked for, else those of a search, from the ``first``
+    on; in JSON all, which can be checked."""
+    steps: Sequence[Step] = steps_of(record, getattr(args, "labels", ()))
     if not steps and args.format != "json":
-        steps = own(record)
+        steps = record.since(first)
     save_steps(record, steps, args)
-
-
-def told_steps(record: Derivation, first: str = "poisson") -> list[Step]:
-    """The steps of a record from one on: those that tell integrals, or equilibria."""
-    labels = [step.label for step in record.steps]
-    return [*record.steps[labels.index(f"{record.name}.{first}") :]]
 
 
 def steps_of(record: Derivation, labels: Sequence[str]) -> list[Step]:

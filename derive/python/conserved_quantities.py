@@ -1,121 +1,24 @@
-"""The symmetries of a problem as Python holds them; steps that print themselves."""
+"""The symmetries of a problem as Python holds them: their record, and functions of the state."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from ..check.form.hypotheses_checked import Verdict
 from ..language.show import show
 from ..language.tree import Tree
 from ..language.values import approximate
 from ..problem.fields import coordinates
 from ..problem.problem import Problem, ProblemError
-from ..record.record import Derivation, Equation, Step
+from ..record.record import Derivation
 from ..search.symmetries.found_symmetries import Found
 from ..search.symmetries.gradient import Floats, Tape
 from ..search.symmetries.symmetry import Symmetry
-
-# Steps and equations of a derivation that print themselves, in a notebook as formulas.
-
-
-@dataclass(frozen=True)
-class ShownEquation:
-    """An equation of a step: a pair of operator trees, shown as a formula in a notebook."""
-
-    equation: Equation
-    record: Derivation = field(compare=False)
-
-    def __repr__(self) -> str:
-        return f"<equation {self}>"
-
-    @property
-    def lhs(self) -> Any:
-        """The left side, an operator tree (:mod:`derive.language.tree`)."""
-        return self.equation.lhs
-
-    @property
-    def rhs(self) -> Any:
-        """The right side, an operator tree (:mod:`derive.language.tree`)."""
-        return self.equation.rhs
-
-    def __str__(self) -> str:
-        from ..views.text import equation_text
-
-        return equation_text(self.equation)
-
-    def latex(self, lang: str = "en") -> str:
-        """The formula in standard commands of LaTeX and amsmath, in lines that fit a page."""
-        from ..views.language import language
-        from ..views.text import formula
-
-        return formula([self.equation], self.record.symbols, language=language(lang))
-
-    def sympy(self) -> Any:
-        """The equation in SymPy, an ``Eq`` of scalars or of matrices."""
-        from .as_sympy import Translation
-
-        return Translation(self.record).equation(self.equation)
-
-    def _repr_latex_(self) -> str:
-        return f"$${self.latex()}$$"
-
-
-@dataclass(frozen=True)
-class Shown:
-    """A step of a derivation, which prints itself and shows its formulas in a notebook."""
-
-    step: Step
-    record: Derivation = field(compare=False)
-
-    def __repr__(self) -> str:
-        return f"<step {self.step.label}: {len(self.step.equations)} equations>"
-
-    @property
-    def equations(self) -> tuple[ShownEquation, ...]:
-        """Its equations, in order."""
-        return tuple(ShownEquation(e, self.record) for e in self.step.equations)
-
-    def sympy(self) -> tuple[Any, ...]:
-        """Its equations in SymPy, in order."""
-        from .as_sympy import Translation
-
-        translation = Translation(self.record)
-        return tuple(translation.equation(e) for e in self.step.equations)
-
-    def __str__(self) -> str:
-        from ..views.text import step_text
-
-        return step_text(self.step)
-
-    def markdown(self, lang: str = "en") -> str:
-        """The step in Markdown, its formulas between dollars."""
-        from ..views.language import language
-        from ..views.text import step_markdown
-
-        return step_markdown(self.step, self.record.symbols, language=language(lang))
-
-    def _repr_markdown_(self) -> str:
-        return self.markdown()
-
-
-# What Python holds that has a record of its own: it is checked.
-
-
-class Checked:
-    """Something with a ``record``, its derivation."""
-
-    record: Derivation
-
-    def check(self, seed: int | None = None) -> list[Verdict]:
-        """The verdicts of the checker on the record."""
-        from ..check.checker import check
-
-        return check(self.record, seed)
+from .shown import Finding, Shown
 
 
 @dataclass(frozen=True)
@@ -165,8 +68,10 @@ class Conserved:
 
 
 @dataclass(frozen=True)
-class SymmetriesOf(Checked):
+class SymmetriesOf(Finding):
     """All symmetries of a kind: a sequence of :class:`Conserved`; ``record``: their derivation."""
+
+    first = "symmetries"
 
     found: Found
     record: Derivation
@@ -188,12 +93,6 @@ class SymmetriesOf(Checked):
 
     def __iter__(self) -> Iterator[Conserved]:
         return (self[k] for k in range(len(self)))
-
-    def __str__(self) -> str:
-        from ..search.symmetries.symmetry_steps import shown
-        from ..views.rendering import render
-
-        return render(self.record, "text", steps=shown(self.record))
 
     @property
     def central(self) -> dict[tuple[int, int], Tree]:

@@ -13,8 +13,8 @@ from ..check.form.hypotheses_checked import Verdict
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
 from .api import in_keywords
-from .conserved_quantities import Shown
 from .quoted import loaded
+from .shown import Shown
 
 if TYPE_CHECKING:
     from ..figure.drawing import Scene

@@ -10,7 +10,6 @@ from typing import Any
 
 import sympy
 
-from ..check.form.hypotheses_checked import Verdict
 from ..language.reserved import suffixed
 from ..language.tree import Tree
 from ..language.univariate import Number
@@ -22,8 +21,8 @@ from ..search.equilibria.stability import Equilibrium
 from ..search.integrals.all_integrals import Condition, Found
 from ..search.reduction.routhian import Routhian
 from .api import in_keywords
-from .conserved_quantities import Checked, Shown, ShownEquation
 from .quoted import loaded
+from .shown import Finding, Shown, ShownEquation
 
 # The relative equilibria of a problem as Python holds them, and their record.
 
@@ -74,8 +73,10 @@ class Steady(Judged):
 
 
 @dataclass(frozen=True)
-class Near(Checked, Judged):
+class Near(Finding, Judged):
     """A relative equilibrium within a ``radius`` of decimals; ``record``: its derivation."""
+
+    first = "equilibrium_1"
 
     found: Enclosed
     record: Derivation
@@ -94,8 +95,10 @@ class Near(Checked, Judged):
 
 
 @dataclass(frozen=True)
-class Equilibria(Checked):
+class Equilibria(Finding):
     """Relative equilibria: a sequence of :class:`Steady`; ``record``: their derivation."""
+
+    first = "equilibrium_1"
 
     found: tuple[Equilibrium, ...]
     record: Derivation
@@ -114,9 +117,11 @@ class Equilibria(Checked):
 
 
 @dataclass(frozen=True)
-class Reduced(Checked):
+class Reduced(Finding):
     """Routh's reduction by symmetries that commute.  ``found``: all that is known of it;
     ``record``: its derivation."""
+
+    first = "momentum_1"
 
     found: Routhian
     record: Derivation
@@ -157,12 +162,6 @@ class Reduced(Checked):
         told = [s for s in self.record.steps if s.label.endswith(".quadrature")]
         return self._equation("quadrature", told[0].equations[0].lhs) if told else None
 
-    def __str__(self) -> str:
-        from ..search.reduction.told_reduction import shown
-        from ..views.rendering import render
-
-        return render(self.record, "text", steps=shown(self.record))
-
 
 # The first integrals of a problem as Python holds them: SymPy expressions, and the record.
 
@@ -201,7 +200,7 @@ class Special:
 
 
 @dataclass(frozen=True)
-class FirstIntegrals:
+class FirstIntegrals(Finding):
     """The Casimirs and the polynomial integrals of the reduced equations of a problem up to a
     degree, with its record, whose last steps tell them.
 
@@ -211,14 +210,12 @@ class FirstIntegrals:
     (Pi_3, True)
     """
 
+    first = "poisson"
     found: Found
     record: Derivation
 
     def __repr__(self) -> str:
         return f"<first integrals of {self.record.name}: {len(self.integrals)}>"
-
-    def __str__(self) -> str:
-        return self._rendered("text")
 
     @property
     def degree(self) -> int:
@@ -302,31 +299,6 @@ class FirstIntegrals:
         if self.p:
             return c.as_expr(*self.p)
         return sympy.Rational(int(c.numerator), int(c.denominator))
-
-    # -- the record ----------------------------------------------------------------------------
-
-    def check(self, seed: int | None = None) -> list[Verdict]:
-        """A verdict for the symbols and every step, as :meth:`Derived.check` gives them."""
-        from ..check.checker import check
-
-        return check(self.record, seed)
-
-    def markdown(self, lang: str = "en") -> str:
-        """The steps that tell the integrals in Markdown."""
-        return self._rendered("markdown", lang)
-
-    def latex(self, lang: str = "en") -> str:
-        """The same as a document for pdflatex."""
-        return self._rendered("latex", lang)
-
-    def _repr_markdown_(self) -> str:
-        return self.markdown()
-
-    def _rendered(self, form: str, lang: str = "en") -> str:
-        from ..command.showing import told_steps
-        from ..views.rendering import render
-
-        return render(self.record, form, lang, steps=told_steps(self.record))
 
 
 @in_keywords()

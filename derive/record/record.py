@@ -195,6 +195,10 @@ class Derivation:
                 return step
         raise KeyError(label)
 
+    def since(self, label: str) -> tuple[Step, ...]:
+        """The steps from one on, by its label, with or without the problem's name."""
+        return self.steps[self.steps.index(self[label]) :]
+
     @cached_property
     def remarks(self) -> frozenset[str]:
         """The labels of the steps that ``motion`` does not rest on; none without that step."""

@@ -229,3 +229,26 @@ def test_what_is_large_is_shown_in_one_line():
         assert len(repr(x)) < 80
         assert " at 0x" not in repr(x)
     assert repr(d.problem) == "<problem two_tops: SO(3) x SO(3)>"
+
+
+@pytest.mark.parametrize(
+    ("find", "said"),
+    [
+        (lambda: derive.first_integrals("so3", 2), "poisson"),
+        (lambda: derive.derive("so3").symmetries(), "symmetries"),
+        (lambda: derive.derive("lagrange_top").reduction(), "momentum_1"),
+        (lambda: derive.derive("euler_top").equilibria(), "equilibrium_1"),
+    ],
+)
+def test_what_a_search_found_shows_the_steps_that_tell_it(find, said):
+    """From the first that tells it on, in each notation; and its record is checked."""
+    found = find()
+    label = f"{found.record.name}.{said}"
+    before = [s.label for s in found.record.steps if s not in found.record.since(said)]
+    assert before
+    for text in (str(found), found.markdown(), found.latex()):
+        plain = text.replace("\\_", "_")
+        assert label in plain
+        assert f"{before[-1]} " not in plain
+    assert found._repr_markdown_() == found.markdown() != found.markdown("fr")
+    assert all(v.holds for v in found.check(1))

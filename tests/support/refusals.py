@@ -24,8 +24,6 @@ from derive.record.names import ROLES
 from derive.record.record import ANY_GROUP, COMMENTARY, RecordError
 from derive.record.rules import OFF_MOTION
 from derive.record.vocabulary import VOCABULARY
-from derive.search.reduction import told_reduction
-from derive.search.symmetries import symmetry_steps as of_symmetries
 from tests.support import record_forgeries, record_mutations
 from tests.support.corpus import DRIVEN_ON, READY, STARS, checker, record
 from tests.support.record_mutations import TWINS
@@ -57,7 +55,7 @@ def shown(name):
     """The steps of a record that no other has."""
     d, road = record(name), name.split(" ")[0]
     if road in ("symmetries", "reduced"):
-        return {"symmetries": of_symmetries, "reduced": told_reduction}[road].shown(d)
+        return d.since({"symmetries": "symmetries", "reduced": "momentum_1"}[road])
     if road == "ellipsoid":
         return [s for s in d.steps if s.label.split(".")[1] in OF_FLUIDS]
     return [s for s in d.steps if name in TEXTS or s.scope != ANY_GROUP]

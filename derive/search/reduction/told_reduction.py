@@ -351,9 +351,3 @@ def record_of(found: Found, general: Values) -> Reduction:
     data = problem_data(problem) | {"symmetries": [encode(x.displacement) for x in taken]}
     names = symbols(steps, problem, fields=len(taken))
     return Reduction(routhian, left, Derivation(data, names, steps))
-
-
-def shown(record: Derivation) -> list[Step]:
-    """The steps of the reduction."""
-    first = next(k for k, s in enumerate(record.steps) if s.label.endswith(".momentum_1"))
-    return [*record.steps[first:]]

@@ -43,12 +43,6 @@ def record_of(found: Found, general: Values) -> Derivation:
     return Derivation(problem_data(problem), symbols(done, problem), done)
 
 
-def shown(record: Derivation) -> list[Step]:
-    """The steps about the symmetries."""
-    first = next(k for k, s in enumerate(record.steps) if s.label.endswith(".symmetries"))
-    return [*record.steps[first:]]
-
-
 def _summary(found: Found, c: Chapter) -> Step:
     """How many symmetries there are, of which kind; and why the motion keeps something by each."""
     draft = c.draft("symmetries", "kernel")

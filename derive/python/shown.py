@@ -1,0 +1,122 @@
+"""Steps and equations of a derivation, and what a search found, which print themselves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+from ..check.form.hypotheses_checked import Verdict
+from ..record.record import Derivation, Equation, Step
+
+
+@dataclass(frozen=True)
+class ShownEquation:
+    """An equation of a step: a pair of operator trees, shown as a formula in a notebook."""
+
+    equation: Equation
+    record: Derivation = field(compare=False)
+
+    def __repr__(self) -> str:
+        return f"<equation {self}>"
+
+    @property
+    def lhs(self) -> Any:
+        """The left side, an operator tree (:mod:`derive.language.tree`)."""
+        return self.equation.lhs
+
+    @property
+    def rhs(self) -> Any:
+        """The right side, an operator tree (:mod:`derive.language.tree`)."""
+        return self.equation.rhs
+
+    def __str__(self) -> str:
+        from ..views.text import equation_text
+
+        return equation_text(self.equation)
+
+    def latex(self, lang: str = "en") -> str:
+        """The formula in standard commands of LaTeX and amsmath, in lines that fit a page."""
+        from ..views.language import language
+        from ..views.text import formula
+
+        return formula([self.equation], self.record.symbols, language=language(lang))
+
+    def sympy(self) -> Any:
+        """The equation in SymPy, an ``Eq`` of scalars or of matrices."""
+        from .as_sympy import Translation
+
+        return Translation(self.record).equation(self.equation)
+
+    def _repr_latex_(self) -> str:
+        return f"$${self.latex()}$$"
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A step of a derivation, which prints itself and shows its formulas in a notebook."""
+
+    step: Step
+    record: Derivation = field(compare=False)
+
+    def __repr__(self) -> str:
+        return f"<step {self.step.label}: {len(self.step.equations)} equations>"
+
+    @property
+    def equations(self) -> tuple[ShownEquation, ...]:
+        """Its equations, in order."""
+        return tuple(ShownEquation(e, self.record) for e in self.step.equations)
+
+    def sympy(self) -> tuple[Any, ...]:
+        """Its equations in SymPy, in order."""
+        from .as_sympy import Translation
+
+        translation = Translation(self.record)
+        return tuple(translation.equation(e) for e in self.step.equations)
+
+    def __str__(self) -> str:
+        from ..views.text import step_text
+
+        return step_text(self.step)
+
+    def markdown(self, lang: str = "en") -> str:
+        """The step in Markdown, its formulas between dollars."""
+        from ..views.language import language
+        from ..views.text import step_markdown
+
+        return step_markdown(self.step, self.record.symbols, language=language(lang))
+
+    def _repr_markdown_(self) -> str:
+        return self.markdown()
+
+
+class Finding:
+    """What a search found, with its ``record``: the derivation, whose steps from the ``first`` on
+    tell it.  In a notebook it shows these."""
+
+    first: ClassVar[str]
+    record: Derivation
+
+    def check(self, seed: int | None = None) -> list[Verdict]:
+        """A verdict for the symbols and every step, as :meth:`Derived.check` gives them."""
+        from ..check.checker import check
+
+        return check(self.record, seed)
+
+    def __str__(self) -> str:
+        return self._rendered("text")
+
+    def markdown(self, lang: str = "en") -> str:
+        """The steps that tell what was found, in Markdown."""
+        return self._rendered("markdown", lang)
+
+    def latex(self, lang: str = "en") -> str:
+        """The same as a document for pdflatex."""
+        return self._rendered("latex", lang)
+
+    def _repr_markdown_(self) -> str:
+        return self.markdown()
+
+    def _rendered(self, form: str, lang: str = "en") -> str:
+        from ..views.rendering import render
+
+        return render(self.record, form, lang, steps=self.record.since(self.first))
