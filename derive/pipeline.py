@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 
 # fmt: off
 # isort: off
-from .language.limits import (Refused)
-from .problem import (inertia)
+from .language.limits import Refused
+from .problem import inertia
 from .problem.principal import principal
 from .problem.problem import (Problem, ProblemError)
 from .record.record import Derivation

@@ -1,4 +1,11 @@
-"""Emitted C at work: compiled by the compiler at hand, loaded, called step by step."""
+"""Emitted C at work: compiled by the compiler at hand, loaded, called step by step.
+
+>>> import derive, numpy
+>>> f = derive.compile("so3", step="gauss")
+>>> m = f.begin(numpy.concatenate([numpy.eye(3).ravel(), [0.1, 0, 9]]))
+>>> m.move_to(2.0, tol=1e-12).t
+2.0
+"""
 
 from __future__ import annotations
 
@@ -75,10 +82,6 @@ def _compiler(requested: str | None) -> str:
 
 
 # A motion of compiled C under way: the emitted steps in time, called from Python.
-#
-# >>> import derive, numpy >>> f = derive.compile("so3", step="gauss") >>> m =
-# f.begin(numpy.concatenate([numpy.eye(3).ravel(), [0.1, 0, 9]])) >>> m.move_to(2.0, tol=1e-12).t
-# 2.0
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 Integers = np.ndarray[Any, np.dtype[np.intc]]

@@ -31,7 +31,7 @@ from ..schema.body_kinds import Body
 from ..schema.kind import Lagrangian
 from .run import Array, Run, known, read
 
-# The numbers that a motion starts with, as lists; start has them as arrays.
+# The numbers that a motion starts with, as lists; :class:`Start` has them as arrays.
 #
 # Unless something is said, the element is the identity, the velocity and the inputs are zero, and
 # the parameters have their defaults. What [initial] of the problem file says comes first, then

@@ -202,7 +202,7 @@ class Trajectory:
         return m.event
 
 
-# A motion of emitted Python under way, as that of motion_in_c is of C.
+# A motion of emitted Python under way, as that of ``motion.native`` is of C.
 
 
 class MotionInPython:

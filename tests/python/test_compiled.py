@@ -1,6 +1,7 @@
 """derive.compile: the emitted C from Python, ready for solve_ivp and other solvers."""
 
 import copy
+import doctest
 import multiprocessing
 import pickle
 import re
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 import derive
+from derive.motion import native
 from tests.support.emitted import import_python
 from tests.support.needs import needs
 
@@ -39,6 +41,10 @@ def test_it_is_the_emitted_python(top, tmp_path):
         dx, D = top.jacobian(0, x)
         assert np.allclose(dx, top.rhs(0, x))
         assert D.shape == (6, 6)
+
+
+def test_docstring():
+    assert doctest.testmod(native).failed == 0
 
 
 def test_results_are_not_overwritten(top):
