@@ -6,7 +6,7 @@ import ast
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
-from .printer import SUM, Lines, Printer
+from .printer import ATOM, SUM, Lines, Printer
 from .source import Type, arguments, is_stub
 
 STEPS = {"Step": "real", "Steps": "count"}
@@ -18,7 +18,7 @@ class C(Printer):
 
     spaced = False
     counter = "int"
-    words: ClassVar = {"True": "1", "False": "0", "INFINITY": "HUGE_VAL", "OK": "0"}
+    words: ClassVar = {"True": "1", "False": "0", "INFINITY": "HUGE_VAL", "OK": "0", "NOTHING": "0"}
     builtin: ClassVar = {
         "sqrt": "sqrt({})",
         "power": "pow({}, {})",
@@ -66,8 +66,7 @@ class C(Printer):
         self.defined.add(f.name)
         names = {x.id for x in ast.walk(f) if isinstance(x, ast.Name)}
         for later in self.source.routines.values():
-            had = is_stub(later) and later.name not in self.given["later"]
-            if later.name in names - self.defined and not had:
+            if later.name in names - self.defined and not is_stub(later):
                 self.defined.add(later.name)
                 self.types = {}
                 yield self.signature(later) + ";"
@@ -154,8 +153,9 @@ class C(Printer):
         match name:
             case "abs":
                 return f"{self.given['fabs']}({self.bare(given[0])})"
-            case "real":
-                return f"({self.real})" + self.at(given[0], SUM + 3)
+            case "real" | "whole":
+                kind = self.real if name == "real" else "int"
+                return f"({kind})" + self.at(given[0], ATOM)
             case "fused" | "in_memory":
                 had = {"fused": "fused", "in_memory": "IN_MEMORY"}[name]
                 return f"{self.prefix}_{had}({', '.join(map(self.bare, given))})"

@@ -20,12 +20,14 @@ class JavaScript(Printer):
         "True": "true",
         "False": "false",
         "INFINITY": "Infinity",
+        "NOTHING": "[]",
         "==": "===",
         "!=": "!==",
     }
     builtin: ClassVar = {
         "abs": "Math.abs({})",
         "real": "{:.}",
+        "whole": "Math.floor({})",
         "sqrt": "Math.sqrt({})",
         "power": "{:.}**({})",
         "fused": "({2} + {0:.}*{1:.})",

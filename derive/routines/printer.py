@@ -290,7 +290,8 @@ class Printer(ABC):
     def constant(self, value: Any) -> str:
         """A number or a truth value; whole numbers without a point in what is not ``spaced``, as
         they stand among others that are none."""
-        if not self.spaced and isinstance(value, float) and value == int(value):
+        whole = isinstance(value, float) and abs(value) < 1e15 and value == int(value)
+        if whole and not self.spaced:
             return str(int(value))
         return self.words.get(str(value)) or repr(value).replace("e-0", "e-")
 
@@ -365,7 +366,8 @@ class Printer(ABC):
     def loop_over(self, i: str, first: str, last: str, by: str, back: bool) -> str:
         """The same, of texts."""
         if back:
-            return f"for ({self.counter} {i} = {last} - 1; {i} >= {first}; --{i}) {{"
+            begin = str(int(last) - 1) if last.isdigit() else f"{last} - 1"
+            return f"for ({self.counter} {i} = {begin}; {i} >= {first}; --{i}) {{"
         step = f"++{i}" if by == "1" else f"{i} += {by}"
         return f"for ({self.counter} {i} = {first}; {i} < {last}; {step}) {{"
 

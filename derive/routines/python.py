@@ -14,11 +14,12 @@ class Python(Printer):
     """A module that needs NumPy alone."""
 
     close, end, otherwise = "", "", "else:"
-    words: ClassVar = {"True": "True", "False": "False", "INFINITY": "math.inf"}
+    words: ClassVar = {"True": "True", "False": "False", "INFINITY": "math.inf", "NOTHING": "()"}
     logic: ClassVar = {"and": "and", "or": "or", "not": "not "}
     builtin: ClassVar = {
         "abs": "abs({})",
         "real": "float({})",
+        "whole": "int({})",
         "sqrt": "math.sqrt({})",
         "power": "{:.} ** ({})",
         "fused": "({2} + {0:.} * {1:.})",
@@ -287,7 +288,7 @@ class Python(Printer):
         last = self.outside(given[-1]) if given else ""
         back = self.given["returned"].get(name)
         if back:
-            call = f"{back}({', '.join(map(self.outside, given[:-1]))})"
+            call = f"{back}{', '.join(map(self.outside, given[:-1]))})"
             return f"{last}[:] = {f'{call}.ravel()' if name == 'jacobian_raw' else call}"
         if name.endswith("_added"):  # one product of matrices takes less time than many sums
             b, f, to = map(self.outside, given)

@@ -10,10 +10,9 @@ from ..options import Options
 from ..program import KeptByGauss, Program
 from ..statements import Statements
 from .collocation import Collocation
-from .discrete_fields import written_step
 from .explicit_fields import GROWTH as EXPLICIT_GROWTH
+from .explicit_fields import METHODS, explicit, fields_of
 from .explicit_fields import SAFETY as EXPLICIT_SAFETY
-from .explicit_fields import explicit, fields_of
 from .lanes import OF_EACH, in_lanes, part_of
 
 
@@ -33,7 +32,7 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         else [],
         "adaptive": {*options.step} - {*FIXED},
         "explicit": (told := explicit(options.step, written.printer.number)),
-        "discrete": discrete(p, written, options),
+        "discrete": discrete(p, options),
         "held": "discrete" in options.step or "vern9" in options.step,
         "memory": memory(p, options, told["rows"] if told else 0),
         "names": options.step,
@@ -58,11 +57,17 @@ def sentences(found: KeptByGauss, *, energy_alone: bool) -> str:
     return f"{text}."
 
 
-def discrete(p: Program, written: Statements, options: Options) -> dict[str, Any] | None:
-    """The sums of the discrete step, where that is asked for."""
+def discrete(p: Program, options: Options) -> dict[str, Any] | None:
+    """The discrete step, where that is asked for, the ``counts`` of its arrays by their names, and
+    its ``number`` among the steps of a motion."""
     if p.discrete is None:
         return None
-    return written_step(p.discrete, written.printer.number, options.step)
+    return {
+        **vars(p.discrete),
+        "counts": [*p.discrete.sizes.items()],
+        "substeps": len(p.discrete.weights),
+        "number": 1 + sum(x in METHODS for x in options.step),
+    }
 
 
 def memory(p: Program, options: Options, stages: int) -> dict[str, int] | None:
