@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any, ClassVar
 
 from .printer import ATOM, SUM, Lines, Printer
-from .source import Type, arguments, is_stub
+from .source import LANES, Type, arguments, is_stub
 
 STEPS = {"Step": "real", "Steps": "count"}
 """Functions that are handed over: the type of their last argument, after a size of steps."""
@@ -97,7 +97,8 @@ class C(Printer):
         sizes = self.sizes(t)
         alone = f"{self.prefix}_RESTRICT " * (t.name == "lanes" and bool(t.sizes))
         const = "const " * (not t.written and not alone)
-        if len(sizes) > 1:
+        if len(sizes) > 1:  # with const an array of arrays is another type: tables alone are such
+            const *= t.name in LANES
             return f"{const}{self.kind(t)} (*{alone}{name}){''.join(f'[{n}]' for n in sizes[1:])}"
         by_place = bool(sizes) or self.is_record(t)
         return f"{const * by_place}{self.kind(t)} {'*' * by_place}{name}"
@@ -170,13 +171,13 @@ class C(Printer):
         text, own = self.outside(x), self.type_of(x)
         if self.is_record(kind):
             return text if text in self.arguments else f"&{text}"
+        if kind.name != "eight" or kind.written:
+            return text
         inner = "".join(f"[{n}]" for n in self.sizes(kind)[1:])
-        constant = text in self.arguments or text in map(self.name, self.source.tables)
-        if kind.name == "eight" and own and own.name == "lanes" and not inner:
-            return f"(const double *){text}"
-        if inner and not kind.written and kind.name != "lanes" and not constant:
-            return f"(const {self.kind(kind)} (*){inner}){text}"
-        return text
+        if inner and text not in (*self.arguments, *map(self.name, self.source.tables)):
+            return f"(const double (*){inner}){text}"
+        in_lanes = own is not None and own.name == "lanes" and not inner
+        return f"(const double *){text}" if in_lanes else text
 
     # -- lanes -------------------------------------------------------------------------------------
     def lane(self, x: ast.expr) -> str:

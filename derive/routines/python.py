@@ -33,9 +33,6 @@ class Python(Printer):
         super().__init__(source, given)
         self.rows: dict[str, str] = {}
         """The index of a loop that is over whole arrays → the part of them, "" for all."""
-        self.hoisted: dict[str, str] = {}
-        """Local table → its name before the routine."""
-        self.before: list[str] = []
         self.vectors: set[str] = set()
         """Names of such a loop that are one number for each index."""
 
@@ -65,10 +62,8 @@ class Python(Printer):
             yield pad + '"""' * (i == 0) + line + '"""' * (line is lines[-1])
 
     def function(self, f: ast.FunctionDef) -> Lines:
-        """A routine, after its tables."""
-        self.hoisted, self.before = {}, []
+        """A routine; of those that are public without warnings."""
         lines = [*super().function(f)]
-        yield from self.before
         if f.name in self.given["public"]:
             begin = lines.index(self.given["entry"][-1]) + 1
             lines[begin:] = [
