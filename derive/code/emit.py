@@ -15,22 +15,21 @@ from ..language.refused import Refused
 from ..language.templating import environment
 from ..record.record import Derivation
 from .collisions import hollowed, identifiers, without_collisions
-from .duplication import CONVERGED, DUPLICATIONS, SMALL_Y, Duplication
-from .duplication import NEWTON_STEPS as NEWTON_EACH
-from .ellipsoid import BUNDLES, SLOPES, is_integral
+from .ellipsoid import BUNDLES, is_integral
 from .heading import heading
 from .languages import LANGUAGES, TargetLanguage
 from .naming import taken_prefix
 from .options import Options
+from .printed_integrals import integrals
 from .printers import SourcePrinter
 from .program import TOLERANCE, Program
 from .request import EmissionRequest
 from .signatures import ARRAYS, functions
 from .statements import Statements, comment
-from .step.algorithms import ALGORITHMS
+from .step.algorithms import ALGORITHMS, PRINTERS
 from .step.explicit_fields import METHODS
 from .step.step_numbers import IN_FLOAT, steps
-from .torus.printed_sums import PRINTERS, printed_sums
+from .torus.printed_sums import printed_sums
 from .torus.torus_program import Loops
 
 
@@ -183,7 +182,7 @@ def _fields(
         "framing": _framing(p, written, sizes),
         "asks_for_zero": p.asks_for_zero,
         "calls": sorted({"sqrt" if is_integral(x) else x for x in called}),
-        "integrals": _integrals(written, [x for x in BUNDLES if x in called]),
+        "integrals": integrals(written, language, prefix, [x for x in BUNDLES if x in called]),
         "newton": _newton(p, real, printer),
         "momentum_range": p.momentum_range,
         "tolerance": printer.number(Fraction(TOLERANCE[real])),
@@ -197,29 +196,6 @@ def _fields(
     if p.loops:
         fields["loops"] = _loops(p.loops, language.name, printer, fields)
     return fields
-
-
-def _integrals(written: Statements, called: Sequence[str]) -> dict[str, Any] | None:
-    """The template fields of the functions of integrals over an ellipsoid; ``None`` without any."""
-    if not called:
-        return None
-    printer = written.printer
-    found: list[dict[str, Any]] = []
-    for name in called:
-        d = Duplication(second=name == SLOPES)
-        parts = {x: written.part(f) for x, f in d.functions().items()}
-        found.append(
-            {"name": name, "of": BUNDLES[name], "second": d.second, "carried": d.carried, **parts}
-        )
-    limits = {"small": printer.number(-SMALL_Y), "converged": printer.number(CONVERGED)}
-    most = max(len(f["whole"]["outputs"]) for f in found)
-    return {
-        "duplications": DUPLICATIONS,
-        "newton": NEWTON_EACH,
-        "most": most,
-        **limits,
-        "functions": found,
-    }
 
 
 NEWTON_STEPS, SMALL_CHANGE = 60, {"double": Fraction(1, 10**10), "float": Fraction(1, 10**4)}

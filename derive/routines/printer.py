@@ -204,6 +204,9 @@ class Printer(ABC):
                 yield pad + f"return {self.bare(x.value) if x.value else ''}".rstrip() + self.end
             case ast.Break() | ast.Continue():
                 yield pad + type(x).__name__.lower() + self.end
+            case ast.Expr(ast.Call(ast.Name("written"), [ast.Constant(part)])):
+                for line in self.given["written"][part]:
+                    yield pad + line.replace("\n", "\n" + pad[4:])
             case ast.Expr():
                 if text := self.bare(x.value):
                     yield pad + text + self.end

@@ -329,5 +329,8 @@ def _texts(
     }
 
 
+PRINTERS: dict[str, type[Printer]] = {"c": C, "rust": Rust, "javascript": JavaScript}
+"""The languages whose functions of plain numbers may have loops: in others such take arrays of any
+library, and are written by these."""
 ALGORITHMS = {"c": in_c, "rust": in_rust, "javascript": in_javascript, "python": in_python}
 """Language → the text of the algorithms of its steps."""

@@ -5,16 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ...routines.c import C
-from ...routines.javascript import JavaScript
-from ...routines.printer import Printer
-from ...routines.rust import Rust
 from ...routines.source import Source
-from ..step.algorithms import text_of
+from ..step.algorithms import PRINTERS, text_of
 from .torus_program import Loops
 
-PRINTERS: dict[str, type[Printer]] = {"c": C, "rust": Rust, "javascript": JavaScript}
-"""The languages that have them so; in others they are matrices of the language."""
 OF_MATRICES = ("rhs", "conserved")
 
 
