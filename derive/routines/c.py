@@ -6,8 +6,8 @@ import ast
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
-from .printer import SUM, Lines, Printer
-from .source import Type, arguments, is_stub
+from .printer import ATOM, SUM, Lines, Printer
+from .source import LANES, Type, arguments, is_stub
 
 STEPS = {"Step": "real", "Steps": "count"}
 """Functions that are handed over: the type of their last argument, after a size of steps."""
@@ -18,7 +18,7 @@ class C(Printer):
 
     spaced = False
     counter = "int"
-    words: ClassVar = {"True": "1", "False": "0", "INFINITY": "HUGE_VAL", "OK": "0"}
+    words: ClassVar = {"True": "1", "False": "0", "INFINITY": "HUGE_VAL", "OK": "0", "NOTHING": "0"}
     builtin: ClassVar = {
         "sqrt": "sqrt({})",
         "power": "pow({}, {})",
@@ -66,8 +66,7 @@ class C(Printer):
         self.defined.add(f.name)
         names = {x.id for x in ast.walk(f) if isinstance(x, ast.Name)}
         for later in self.source.routines.values():
-            had = is_stub(later) and later.name not in self.given["later"]
-            if later.name in names - self.defined and not had:
+            if later.name in names - self.defined and not is_stub(later):
                 self.defined.add(later.name)
                 self.types = {}
                 yield self.signature(later) + ";"
@@ -98,7 +97,8 @@ class C(Printer):
         sizes = self.sizes(t)
         alone = f"{self.prefix}_RESTRICT " * (t.name == "lanes" and bool(t.sizes))
         const = "const " * (not t.written and not alone)
-        if len(sizes) > 1:
+        if len(sizes) > 1:  # with const an array of arrays is another type: tables alone are such
+            const *= t.name in LANES
             return f"{const}{self.kind(t)} (*{alone}{name}){''.join(f'[{n}]' for n in sizes[1:])}"
         by_place = bool(sizes) or self.is_record(t)
         return f"{const * by_place}{self.kind(t)} {'*' * by_place}{name}"
@@ -152,10 +152,13 @@ class C(Printer):
 
     def called(self, name: str, given: Sequence[ast.expr]) -> str:
         match name:
+            case "sqrt" if self.real == "float":
+                return f"sqrtf({self.bare(given[0])})"
             case "abs":
                 return f"{self.given['fabs']}({self.bare(given[0])})"
-            case "real":
-                return f"({self.real})" + self.at(given[0], SUM + 3)
+            case "real" | "whole":
+                kind = self.real if name == "real" else "int"
+                return f"({kind})" + self.at(given[0], ATOM)
             case "fused" | "in_memory":
                 had = {"fused": "fused", "in_memory": "IN_MEMORY"}[name]
                 return f"{self.prefix}_{had}({', '.join(map(self.bare, given))})"
@@ -170,13 +173,13 @@ class C(Printer):
         text, own = self.outside(x), self.type_of(x)
         if self.is_record(kind):
             return text if text in self.arguments else f"&{text}"
+        if kind.name != "eight" or kind.written:
+            return text
         inner = "".join(f"[{n}]" for n in self.sizes(kind)[1:])
-        constant = text in self.arguments or text in map(self.name, self.source.tables)
-        if kind.name == "eight" and own and own.name == "lanes" and not inner:
-            return f"(const double *){text}"
-        if inner and not kind.written and kind.name != "lanes" and not constant:
-            return f"(const {self.kind(kind)} (*){inner}){text}"
-        return text
+        if inner and text not in (*self.arguments, *map(self.name, self.source.tables)):
+            return f"(const double (*){inner}){text}"
+        in_lanes = own is not None and own.name == "lanes" and not inner
+        return f"(const double *){text}" if in_lanes else text
 
     # -- lanes -------------------------------------------------------------------------------------
     def lane(self, x: ast.expr) -> str:

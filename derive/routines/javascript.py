@@ -1,5 +1,5 @@
 """Algorithms in JavaScript: lanes are parts of flat arrays; arrays that a routine works with are
-kept in the motion, as to make them takes long."""
+kept in the motion, or the module, as to make them takes long."""
 
 from __future__ import annotations
 
@@ -20,12 +20,14 @@ class JavaScript(Printer):
         "True": "true",
         "False": "false",
         "INFINITY": "Infinity",
+        "NOTHING": "[]",
         "==": "===",
         "!=": "!==",
     }
     builtin: ClassVar = {
         "abs": "Math.abs({})",
         "real": "{:.}",
+        "whole": "Math.floor({})",
         "sqrt": "Math.sqrt({})",
         "power": "{:.}**({})",
         "fused": "({2} + {0:.}*{1:.})",
@@ -38,20 +40,10 @@ class JavaScript(Printer):
 
     def __init__(self, source: Any, given: Any):
         super().__init__(source, given)
-        self.hoisted: dict[str, str] = {}
-        """Local table → its name before the routine."""
-        self.before: list[str] = []
         self.work: dict[str, int] = {}
         """Array that a routine works with → its place among those that a motion keeps."""
 
     # -- heads -------------------------------------------------------------------------------------
-    def function(self, f: ast.FunctionDef) -> Lines:
-        """A routine, after its tables."""
-        self.hoisted, self.before = {}, []
-        lines = [*super().function(f)]
-        yield from self.before
-        yield from lines
-
     def documented(self, f: ast.FunctionDef) -> Lines:
         if f.name not in self.given["public"]:
             yield from super().documented(f)
@@ -103,9 +95,18 @@ class JavaScript(Printer):
         if value is None:
             motion = next((a for a, t in self.arguments.items() if t.name == "Motion"), None)
             value = self.made(kind)
-            place = self.work.setdefault(f"{self.routine} {name}", len(self.work)) if motion else 0
-            value = f"({motion}.work[{place}] ??= {value})" if motion else value
+            if motion:
+                place = self.work.setdefault(f"{self.routine} {name}", len(self.work))
+                value = f"({motion}.work[{place}] ??= {value})"
+            elif kind.sizes:
+                return self.hoist(name, value)
         return f"{word} {name} = {value}"
+
+    def hoist(self, name: str, value: str) -> str:
+        """Have a local before the routine."""
+        self.hoisted[name] = f"{self.routine}_{name}"
+        self.before += self.wrapped(f"const {self.hoisted[name]} = {value};")
+        return ""
 
     def made(self, t: Type) -> str:
         """What a number, an array or a record is before it is computed."""
@@ -122,9 +123,7 @@ class JavaScript(Printer):
         return found
 
     def table(self, name: str, kind: Type, values: Any, depth: int = 0) -> str:
-        self.hoisted[name] = f"{self.routine}_{name}"
-        self.before += self.wrapped(f"const {self.hoisted[name]} = {self.rows(values, kind)};")
-        return ""
+        return self.hoist(name, self.rows(values, kind))
 
     def rows(self, values: Any, kind: Type) -> str:
         """Numbers, by rows; lanes one after the other."""

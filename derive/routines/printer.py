@@ -12,7 +12,14 @@ from typing import Any, ClassVar
 
 from .source import LANES, Given, Source, Type, arguments
 
-OPERATORS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.FloorDiv: "//"}
+OPERATORS = {
+    ast.Add: "+",
+    ast.Sub: "-",
+    ast.Mult: "*",
+    ast.Div: "/",
+    ast.FloorDiv: "//",
+    ast.Mod: "%",
+}
 COMPARED = {
     ast.Lt: "<",
     ast.LtE: "<=",
@@ -23,7 +30,7 @@ COMPARED = {
 }
 CHOICE, OR, AND, COMPARE, SUM, PRODUCT, UNARY, ATOM = range(8)
 """How closely an expression binds, from the least."""
-LEVELS = {"*": PRODUCT, "/": PRODUCT, "//": PRODUCT, "+": SUM, "-": SUM}
+LEVELS = {"*": PRODUCT, "/": PRODUCT, "//": PRODUCT, "%": PRODUCT, "+": SUM, "-": SUM}
 WIDTH = 110
 
 Lines = Iterator[str]
@@ -53,6 +60,9 @@ class Printer(ABC):
         self.types: dict[str, Type] = {}
         self.arguments: dict[str, Type] = {}
         self.lane_locals: set[str] = set()  # lanes that are known in one loop alone
+        self.hoisted: dict[str, str] = {}
+        """Local table, or array → its name before the routine, where a language has it there."""
+        self.before: list[str] = []
         self.of_lanes = self.in_lanes = False  # is the routine, or the statement, one for each?
 
     # -- routines and statements -------------------------------------------------------------------
@@ -62,6 +72,16 @@ class Printer(ABC):
 
     def function(self, f: ast.FunctionDef) -> Lines:
         """One routine: what it is for, its head, its body."""
+        body = self.body(f)
+        yield from self.before
+        yield from self.documented(f)
+        yield from self.head(f, Type.of(f.returns) if f.returns else None)
+        yield from body
+        yield from self.closed(0)
+
+    def body(self, f: ast.FunctionDef) -> list[str]:
+        """The lines of a routine after its head; what stands before that is in ``before``."""
+        self.hoisted, self.before = {}, []
         self.routine, self.arguments = f.name, arguments(f)
         self.types, self.lane_locals = dict(self.arguments), set()
         returns = Type.of(f.returns) if f.returns else None
@@ -69,11 +89,7 @@ class Printer(ABC):
         body = [*self.block(f.body[1:], 1)]
         read = "\n".join(body)
         unread = [x for x in self.arguments if not re.search(rf"\b{x}\b", read)]
-        yield from self.documented(f)
-        yield from self.head(f, returns)
-        yield from filter(None, map(self.unread, unread))
-        yield from body
-        yield from self.closed(0)
+        return [*filter(None, map(self.unread, unread)), *body]
 
     def documented(self, f: ast.FunctionDef) -> Lines:
         """What stands before a routine."""
@@ -188,6 +204,9 @@ class Printer(ABC):
                 yield pad + f"return {self.bare(x.value) if x.value else ''}".rstrip() + self.end
             case ast.Break() | ast.Continue():
                 yield pad + type(x).__name__.lower() + self.end
+            case ast.Expr(ast.Call(ast.Name("written"), [ast.Constant(part)])):
+                for line in self.given["written"][part]:
+                    yield pad + line.replace("\n", "\n" + pad[4:])
             case ast.Expr():
                 if text := self.bare(x.value):
                     yield pad + text + self.end
@@ -284,13 +303,14 @@ class Printer(ABC):
         left, right = self.at(x.left, level), self.at(x.right, level + 1)
         if op == "//":
             return self.quotient(left, right), level
-        gap = " " if self.spaced or level == SUM else ""
+        gap = " " if self.spaced or level == SUM or op == "%" else ""
         return f"{left}{gap}{op}{gap}{right}", level
 
     def constant(self, value: Any) -> str:
         """A number or a truth value; whole numbers without a point in what is not ``spaced``, as
         they stand among others that are none."""
-        if not self.spaced and isinstance(value, float) and value == int(value):
+        whole = isinstance(value, float) and abs(value) < 1e15 and value == int(value)
+        if whole and not self.spaced:
             return str(int(value))
         return self.words.get(str(value)) or repr(value).replace("e-0", "e-")
 
@@ -365,7 +385,8 @@ class Printer(ABC):
     def loop_over(self, i: str, first: str, last: str, by: str, back: bool) -> str:
         """The same, of texts."""
         if back:
-            return f"for ({self.counter} {i} = {last} - 1; {i} >= {first}; --{i}) {{"
+            begin = str(int(last) - 1) if last.isdigit() else f"{last} - 1"
+            return f"for ({self.counter} {i} = {begin}; {i} >= {first}; --{i}) {{"
         step = f"++{i}" if by == "1" else f"{i} += {by}"
         return f"for ({self.counter} {i} = {first}; {i} < {last}; {step}) {{"
 

@@ -14,11 +14,12 @@ class Python(Printer):
     """A module that needs NumPy alone."""
 
     close, end, otherwise = "", "", "else:"
-    words: ClassVar = {"True": "True", "False": "False", "INFINITY": "math.inf"}
+    words: ClassVar = {"True": "True", "False": "False", "INFINITY": "math.inf", "NOTHING": "()"}
     logic: ClassVar = {"and": "and", "or": "or", "not": "not "}
     builtin: ClassVar = {
         "abs": "abs({})",
         "real": "float({})",
+        "whole": "int({})",
         "sqrt": "math.sqrt({})",
         "power": "{:.} ** ({})",
         "fused": "({2} + {0:.} * {1:.})",
@@ -32,9 +33,6 @@ class Python(Printer):
         super().__init__(source, given)
         self.rows: dict[str, str] = {}
         """The index of a loop that is over whole arrays → the part of them, "" for all."""
-        self.hoisted: dict[str, str] = {}
-        """Local table → its name before the routine."""
-        self.before: list[str] = []
         self.vectors: set[str] = set()
         """Names of such a loop that are one number for each index."""
 
@@ -64,10 +62,8 @@ class Python(Printer):
             yield pad + '"""' * (i == 0) + line + '"""' * (line is lines[-1])
 
     def function(self, f: ast.FunctionDef) -> Lines:
-        """A routine, after its tables."""
-        self.hoisted, self.before = {}, []
+        """A routine; of those that are public without warnings."""
         lines = [*super().function(f)]
-        yield from self.before
         if f.name in self.given["public"]:
             begin = lines.index(self.given["entry"][-1]) + 1
             lines[begin:] = [
@@ -287,7 +283,7 @@ class Python(Printer):
         last = self.outside(given[-1]) if given else ""
         back = self.given["returned"].get(name)
         if back:
-            call = f"{back}({', '.join(map(self.outside, given[:-1]))})"
+            call = f"{back}{', '.join(map(self.outside, given[:-1]))})"
             return f"{last}[:] = {f'{call}.ravel()' if name == 'jacobian_raw' else call}"
         if name.endswith("_added"):  # one product of matrices takes less time than many sums
             b, f, to = map(self.outside, given)

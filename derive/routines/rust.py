@@ -23,6 +23,8 @@ class Rust(Printer):
         "NOT_FINITE": "Err(Stopped::NotFinite)",
         "NOT_CONVERGED": "Err(Stopped::NotConverged)",
         "EVENT": "Err(Stopped::AtEvent)",
+        "NO_SOLUTION": "Err(Stopped::NoSolution)",
+        "NOTHING": "[]",
         "SIZE_U": "N_INPUTS",
         "SIZE_K": "N_CONSTANTS",
     }
@@ -137,6 +139,8 @@ class Rust(Printer):
     def called(self, name: str, given: Sequence[ast.expr]) -> str:
         if name == "real":
             return f"({self.bare(given[0])}) as {self.real}"
+        if name == "whole":
+            return f"({self.bare(given[0])}) as usize"
         if name == "projected":
             return f"{self.outside(given[1])} = {self.given['project']}(&{self.outside(given[0])})"
         return super().called(name, given)

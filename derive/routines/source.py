@@ -7,7 +7,8 @@ module's annotated name a table of numbers.
 
 What is known when a file is written is written in capitals and is gone before anything is printed:
 conditions on it; ``for i in unrolled(N)``, whose body is repeated; ``weighted(ROW, f, s)``, the sum
-of the numbers of a row that are not 0, each times ``f[j][s]``.
+of the numbers of a row that are not 0, each times ``f[j][s]``.  ``written("part")`` are lines that
+the file brings.
 """
 
 from __future__ import annotations

@@ -85,6 +85,11 @@ def test_every_language_says_the_same(name, build):
     holds(name, build)
 
 
+@pytest.mark.parametrize("build", ["rust2021", "javascript"])
+def test_integrals_over_an_ellipsoid_are_those_of_c_to_the_bit(build):
+    case("ellipsoid").agrees(build, 1e-30)
+
+
 COMPILED = [(name, x) for name in PROBLEMS for x in BUILDS if x not in (*READ, "c")]
 
 

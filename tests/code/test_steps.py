@@ -124,6 +124,15 @@ def test_a_symmetric_step_goes_back(build, step):
     assert back.t == 0
 
 
+@each_build
+def test_the_discrete_step_is_that_of_c(build):
+    """Bit by bit; in JavaScript but for the rounding of functions, which engines do otherwise."""
+    commands = [("discrete", 0.05, 10), ("dense", 0.48, 0), ("discrete", -0.3, 2)]
+    found, known = moved(build, commands), moved("c", commands)
+    errors = [np.abs(a.x - b.x).max() for a, b in zip(found, known, strict=True)]
+    assert max(errors) <= (1e-15 if build == "javascript" else 0)
+
+
 COUNTED = {"vern9": (16, 16), "rk4": (4, 4), "discrete": (0, 0), "gauss": (16, 64)}
 """Step → between which numbers the evaluations of the rates for each are."""
 

@@ -136,6 +136,15 @@ def test_written_out_up_to_five():
     assert tables.names == {"conserved"}
 
 
+@pytest.mark.parametrize("build", [ONE_BUILD[x] for x in ("rust", "javascript")])
+def test_the_rates_are_those_of_c_to_the_bit(build):
+    x = np.random.default_rng(3).normal(size=9 * 9 - 1)
+    (known,), (found,) = (
+        library(y, fluid(9), step="rk4").follow([("rk4", 0.01, 3)], x) for y in ("c", build)
+    )
+    assert found.x.tolist() == known.x.tolist()
+
+
 @pytest.mark.parametrize("build", [ONE_BUILD[x] for x in STEPPED])
 def test_the_vorticity_is_measured_as_one(build):
     """Of a smooth flow, whose least modes are nothing but rounding, a tolerance is kept by steps

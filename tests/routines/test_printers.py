@@ -64,7 +64,7 @@ def test_python():
 
 def test_c(tmp_path):
     need("cc")
-    text = printed(C, prefix="a", fabs="fabs", inline="", later=set())
+    text = printed(C, prefix="a", fabs="fabs", inline="")
     head = "#include <math.h>\n#include <stddef.h>\n"
     (tmp_path / "a.c").write_text(head + text, encoding="utf-8")
     command = ["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "a.c"]
@@ -98,7 +98,7 @@ def test_javascript(tmp_path):
     ],
 )
 def test_what_is_no_routine_is_said(text, words):
-    given = {"prefix": "a", "real": "double", "fabs": "fabs", "inline": "", "later": set()}
+    given = {"prefix": "a", "real": "double", "fabs": "fabs", "inline": ""}
 
     def in_c():
         source = Source()

@@ -175,17 +175,17 @@ def meaning(N, text, folder):
     ("old", "new", "said"),
     [
         ("W_re, W_im);", "W_im, W_re);", "differs from the record's"),
-        ("re[j] = 0;", "", "no value"),
-        ("sums[d][s][0] += row_re", "sums[d][s][2] += row_re", "no value"),
-        ("j < 12; ++j) {\n        re[j]", "j < 13; ++j) {\n        re[j]", "outside of an array"),
+        ("ap[j] = 0;", "", "no value"),
+        ("sums[d][s][0] += re", "sums[d][s][2] += re", "no value"),
+        ("j < 12; ++j) {\n        ap[j]", "j < 13; ++j) {\n        ap[j]", "outside of an array"),
         ("++r", "--r", "not known here"),
-        ("d > 0 ? -5 : 1", "x[0] > 0 ? -5 : 1", "not known here"),
+        ("d > 0 ? 0 : 6", "x[0] > 0 ? 0 : 6", "not known here"),
         ("second/11", "second/12", "trace_2 differs"),
         ("i*n + s] = rate[i]", "s*n + i] = rate[i]", "rhs_batch"),
         ("return total;", "return total*t;", "the energy differs"),
-        ("column < r ? column - r + 11", "column < r ? (column - r) % 11", "negative"),
+        ("column < r ? column + 11 - r", "column < r ? (column - r) % 11", "negative"),
         ("double total = 0;", "double total;", "not known here"),
-        ("double W_re[11][12], W_im[11]", "double W_re[11][13], W_im[11]", "not known here"),
+        ("double W_re[11][12];", "double W_re[11][13];", "not known here"),
     ],
 )
 def test_what_is_wrong_is_said(old, new, said):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
+from math import comb
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from ...routines.python import Python
 from ...routines.rust import Rust
 from ...routines.source import Source
 from ..program import Program
+from .discrete_step import BASIS, STEPPING, VOLUME, DiscreteStep
 from .tableaux import GROWTH, METHODS, SAFETY, Tableau
 
 FOLDER = Path(routines.__file__).parent / "algorithms"
@@ -63,6 +65,7 @@ def known(p: Program, steps: Mapping[str, Any]) -> dict[str, Any]:
         "EXPLICIT_SAFETY": SAFETY,
         **_of_events(steps["watch"]),
         **_of_gauss(gauss),
+        **(_of_discrete(p.discrete, len(p.state)) if p.discrete else {}),
     }
 
 
@@ -102,6 +105,29 @@ def _of_gauss(gauss: Mapping[str, Any] | None) -> dict[str, Any]:
             else {}
         ),
     }
+
+
+def _of_discrete(d: DiscreteStep, state: int) -> dict[str, Any]:
+    """The numbers of the discrete step."""
+    return {
+        **{f"N_{name}": n for name, n in d.sizes.items()},
+        "N_GROUP": d.group,
+        "N_VELOCITY": state - d.group,
+        "N_SUBSTEPS": len(d.weights),
+        "SUBSTEPS": d.weights,
+        "COMPOSED": d.order > 2,
+        "ORDER": d.order,
+        "TURNS": bool(d.turns),
+        "BEGUN": bool(d.begun),
+        "BASIS": d.kind == BASIS,
+        "VOLUME": d.kind == VOLUME,
+        "NORM": float(d.norm),
+        "EXTRAPOLATED": EXTRAPOLATED,
+    }
+
+
+EXTRAPOLATED = [[float((-1) ** i * comb(n, i + 1)) for i in range(5)] for n in range(6)]
+"""The next value of a polynomial after n of them, by these, the last first."""
 
 
 def _of_method(method: Tableau, number: int) -> dict[str, Any]:
@@ -144,6 +170,8 @@ def source_of(given: dict[str, Any], steps: Mapping[str, Any]) -> Source:
         method = _of_method(METHODS[name][0](), number)
         source.read(text_of("runge_kutta").replace("METHOD", name), {**given, **method})
         given[f"{name}_DENSE"] = method["DENSE"]
+    if given["DISCRETE"]:
+        source.read(text_of("variational_step"), given)
     if given["EVENTS"]:
         source.read(text_of("event_search"), given)
     return source
@@ -153,10 +181,7 @@ def roots(steps: Mapping[str, Any]) -> list[str]:
     """The functions of a file that others call."""
     found = ["begin", "dense"] if steps["names"] else []
     for name in steps["names"]:
-        if name == "discrete":
-            found += ["moved", "hold", "rate"]
-        else:
-            found += [name, f"{name}_to"]
+        found += [name, f"{name}_to"]
     if steps["adaptive"]:
         found.append("towards")
     if steps["ensemble"]:
@@ -176,7 +201,6 @@ def in_c(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "real": fields["real"],
         "fabs": fields["fabs"],
         "inline": fields["inline"],
-        "later": {"discrete_within"} if steps["discrete"] else set(),
         "ENOUGH": f"{prefix}_ENOUGH",
         "NO_EVENT": -1,
     }
@@ -202,10 +226,11 @@ def in_rust(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         **{of: functions[x]["name"] for x, of in had.items() if x in functions},
         "project": functions["project"]["name"] if "project" in functions else "",
         "real": fields["real"],
+        **{f"N_{x}": f"N_{x}" for x in (p.discrete.sizes if p.discrete else ())},
         "INPUT_FUNCTIONS": False,
         "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] else 0,
         "NO_EVENT": 0,
-        "public": {*roots(steps), *moving} - {"towards", "begin", "dense", "moved", "hold", "rate"},
+        "public": {*roots(steps), *moving} - {"towards", "begin", "dense"},
         "begin": "begin_at",
         "dense": "dense_at",
         "item": [
@@ -236,7 +261,7 @@ def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         # a page shows what is kept: there the iteration goes to rounding
         "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] and not fields["short"] else 0.0,
         "NO_EVENT": -1,
-        "public": {*roots(steps)} - {"towards", "begin", "dense", "moved", "hold", "rate"},
+        "public": {*roots(steps)} - {"towards", "begin", "dense"},
         "begin": "begin_at",
         "dense": "dense_at",
         "status": "OK, or why not: then the motion stands where the last good step ended",
@@ -274,10 +299,11 @@ def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "N_EVENTS": len(p.events),
         "SIZE_U": len(p.inputs),
         "SIZE_K": len(p.constants),
-        "returned": {of: functions[x]["name"] for x, of in had.items() if x in functions},
+        "returned": {of: f"{functions[x]['name']}(" for x, of in had.items() if x in functions}
+        | {x: f"_of_numbers(_{x}, " for x in functions if x.startswith(STEPPING)},
         "ENOUGH": "ENOUGH",
         "NO_EVENT": "None",
-        "public": {*roots(steps)} - {"begin", "dense", "moved", "hold", "rate", "towards"},
+        "public": {*roots(steps)} - {"begin", "dense", "towards"},
         "named": {"towards", "gauss_step", "vern9_step", "first_step"},
         "begin": "_begin_at",
         "dense": "_dense_at",
@@ -302,5 +328,8 @@ def _texts(
     }
 
 
+PRINTERS: dict[str, type[Printer]] = {"c": C, "rust": Rust, "javascript": JavaScript}
+"""The languages whose functions of plain numbers may have loops: in others such take arrays of any
+library, and are written by these."""
 ALGORITHMS = {"c": in_c, "rust": in_rust, "javascript": in_javascript, "python": in_python}
 """Language → the text of the algorithms of its steps."""

@@ -10,11 +10,10 @@ from ..languages import Statements
 from ..options import Options
 from ..program import KeptByGauss, Program
 from .collocation import Collocation
-from .discrete_fields import written_step
 from .lanes import OF_EACH, in_lanes, part_of
 from .tableaux import GROWTH as EXPLICIT_GROWTH
+from .tableaux import METHODS, explicit, fields_of
 from .tableaux import SAFETY as EXPLICIT_SAFETY
-from .tableaux import explicit, fields_of
 
 
 def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
@@ -33,7 +32,7 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         else [],
         "adaptive": {*options.step} - {*FIXED},
         "explicit": (told := explicit(options.step, written.printer.number)),
-        "discrete": discrete(p, written, options),
+        "discrete": discrete(p, options),
         "held": "discrete" in options.step or "vern9" in options.step,
         "memory": memory(p, options, told["rows"] if told else 0),
         "names": options.step,
@@ -58,11 +57,17 @@ def sentences(found: KeptByGauss, *, energy_alone: bool) -> str:
     return f"{text}."
 
 
-def discrete(p: Program, written: Statements, options: Options) -> dict[str, Any] | None:
-    """The sums of the discrete step, where that is asked for."""
+def discrete(p: Program, options: Options) -> dict[str, Any] | None:
+    """The discrete step, where that is asked for, the ``counts`` of its arrays by their names, and
+    its ``number`` among the steps of a motion."""
     if p.discrete is None:
         return None
-    return written_step(p.discrete, written.printer.number, options.step)
+    return {
+        **vars(p.discrete),
+        "counts": [*p.discrete.sizes.items()],
+        "substeps": len(p.discrete.weights),
+        "number": 1 + sum(x in METHODS for x in options.step),
+    }
 
 
 def memory(p: Program, options: Options, stages: int) -> dict[str, int] | None:

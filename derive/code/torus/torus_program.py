@@ -7,6 +7,7 @@ which the program says its tables alone; the templates of each language have the
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
@@ -57,6 +58,11 @@ class Loops:
     sines: tuple[Fraction, ...]
     table: tuple[tuple[Term, ...], ...]
     operations: Mapping[str, str]
+
+    @property
+    def scale(self) -> Fraction:
+        """1/4π, as a double."""
+        return _rounded(1 / (4 * Fraction(math.pi)))
 
 
 def torus_program(
@@ -129,7 +135,9 @@ def require_on_torus(d: Derivation, chosen: Options) -> None:
 def _scratch(torus: Torus) -> tuple[str, ...]:
     N, h = torus.N, torus.half
     row, part = -(-N // 4) * 4, -(-(h + 1) // 4) * 4  # in C rows are of a multiple of four numbers
-    numbers = 5 * N * row + 2 * N * (h + 1) + 3 * row + 4 * (h + 1) * (h + 1 + part) + 2 * part
+    numbers = (
+        5 * N * row + 2 * N * (h + 1) + 5 * row + 4 * (h + 1) * (h + 1 + part) + 2 * (h + 2) * part
+    )
     kilobytes = -(-8 * numbers // 1024)
     return (
         f"The functions have no memory of their own: in C rhs takes {kilobytes} kB of the stack.",
@@ -184,7 +192,7 @@ def loops(torus: Torus, looped: Collection[str]) -> Loops:
     N, h = torus.N, torus.half
     turn, product = 4 * h * (h + 1) ** 2, 4 * N**3
     by_three = 3 * N**3  # products of complex numbers by three real ones
-    whole, in_c = 3 * turn + product, 3 * turn + by_three
+    whole, least = 3 * turn + product, 3 * turn + by_three
     table = tuple(_terms(torus, n) for n in torus.half_plane) if N <= TABLE else ()
     terms = sum(map(len, table))
     return Loops(
@@ -196,10 +204,10 @@ def loops(torus: Torus, looped: Collection[str]) -> Loops:
         {
             "rhs": f"{whole} mul, {whole} add, and {6 * N * N} of less order",
             "rhs by table": f"{8 * terms} mul, {4 * terms} add",
-            "rhs in C": f"{in_c} mul, {in_c} add, and {9 * N * N} of less order",
+            "rhs by three": f"{least} mul, {least} add, and {9 * N * N} of less order",
             "energy": f"{N * N - 1} mul, {N * N - 1} add, {(N * N - 1) // 2} div",
             "conserved": f"{turn + product} mul, {turn + product} add",
-            "conserved in C": f"{turn + by_three} mul, {turn + by_three} add",
+            "conserved by three": f"{turn + by_three} mul, {turn + by_three} add",
         },
     )
 
