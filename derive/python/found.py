@@ -76,7 +76,7 @@ class Steady(Judged):
 class Near(Finding, Judged):
     """A relative equilibrium within a ``radius`` of decimals; ``record``: its derivation."""
 
-    first = "equilibrium_1"
+    _first = "equilibrium_1"
 
     found: Enclosed
     record: Derivation
@@ -98,7 +98,7 @@ class Near(Finding, Judged):
 class Equilibria(Finding):
     """Relative equilibria: a sequence of :class:`Steady`; ``record``: their derivation."""
 
-    first = "equilibrium_1"
+    _first = "equilibrium_1"
 
     found: tuple[Equilibrium, ...]
     record: Derivation
@@ -121,7 +121,7 @@ class Reduced(Finding):
     """Routh's reduction by symmetries that commute.  ``found``: all that is known of it;
     ``record``: its derivation."""
 
-    first = "momentum_1"
+    _first = "momentum_1"
 
     found: Routhian
     record: Derivation
@@ -210,7 +210,7 @@ class FirstIntegrals(Finding):
     (Pi_3, True)
     """
 
-    first = "poisson"
+    _first = "poisson"
     found: Found
     record: Derivation
 

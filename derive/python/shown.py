@@ -90,10 +90,10 @@ class Shown:
 
 
 class Finding:
-    """What a search found, with its ``record``: the derivation, whose steps from the ``first`` on
+    """What a search found, with its ``record``: the derivation, whose steps from ``_first`` on
     tell it.  In a notebook it shows these."""
 
-    first: ClassVar[str]
+    _first: ClassVar[str]
     record: Derivation
 
     def check(self, seed: int | None = None) -> list[Verdict]:
@@ -119,4 +119,4 @@ class Finding:
     def _rendered(self, form: str, lang: str = "en") -> str:
         from ..views.rendering import render
 
-        return render(self.record, form, lang, steps=self.record.since(self.first))
+        return render(self.record, form, lang, steps=self.record.since(self._first))
