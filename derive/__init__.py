@@ -35,7 +35,7 @@ PLACES = dict.fromkeys(WORDS, "derive.python.api") | {
     **dict.fromkeys(("FirstIntegrals", "first_integrals"), "derive.python.found"),
     **dict.fromkeys(("Compiled", "CompileError", "compile"), "derive.python.compiled"),
     "StepError": "derive.motion.native",
-    "MotionError": "derive.motion.start",
+    "MotionError": "derive.motion.first_numbers",
     "EmitError": "derive.code.emit",
     "ProblemError": "derive.problem.problem",
     "Refused": "derive.language.limits",

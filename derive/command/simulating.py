@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from ..motion.driven import DAMPING, INPUTS, is_weightless
+from ..motion.emitted_code import parts
 from ..motion.ensemble import (
     Many,
     Part,
@@ -22,10 +24,11 @@ from ..motion.ensemble import (
     require_steps_of_an_ensemble,
 )
 from ..motion.ensemble_files import writer
+from ..motion.first_numbers import MotionError
 from ..motion.native import AT_EVENT
-from ..motion.run import Array, Run, format_of, parts, written
+from ..motion.run import Array, Run, format_of, written
 from ..motion.simulate import beginning, run
-from ..motion.start import DAMPING, INPUTS, MotionError, is_weightless, state_file
+from ..motion.start import state_file
 from ..motion.trajectory import STEPS, Method, instants
 from ..page.motion_page import motion_page
 from ..pipeline import motion_of, motion_of_many

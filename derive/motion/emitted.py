@@ -25,9 +25,11 @@ from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..schema.body_kinds import Body, GivenBody
 from ..schema.kind import Event, Lagrangian
+from .emitted_code import EmittedCode, base_units
+from .first_numbers import MotionError
 from .native import FLAGS, CSource, Motion, binding, binding_to_events, loaded, over_cores
-from .run import Array, EmittedCode, base_units
-from .start import MotionError, central_inertia, inertia_of
+from .run import Array
+from .start import central_inertia, inertia_of
 from .trajectory import MotionInPython, Moved
 
 

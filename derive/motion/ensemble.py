@@ -14,10 +14,11 @@ import numpy as np
 from ..language.expression import names
 from ..problem.problem import Problem
 from .emitted import Emitted
+from .first_numbers import MotionError
 from .native import AT_EVENT, CompileError, Integers, constants, ensemble
 from .run import Array
 from .simulate import require_values
-from .start import OFF_THE_GROUP, MotionError, Start, start
+from .start import OFF_THE_GROUP, Start, start
 from .trajectory import TOLERANCE, Method, instants, reflection, taken_to_group, unreached
 
 STEP = "vern9"

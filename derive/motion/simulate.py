@@ -17,10 +17,12 @@ from ..problem.inertia import fault_of_quadrics
 from ..problem.problem import Problem, points_of
 from ..schema.kinds.attraction import Attraction
 from ..schema.kinds.spring import Spring
+from .driven import drives
 from .emitted import Emitted
+from .first_numbers import MotionError
 from .native import CompileError, Motion
 from .run import Array, Run
-from .start import OFF_THE_GROUP, MotionError, Start, drives, start
+from .start import OFF_THE_GROUP, Start, start
 from .trajectory import (
     INTERRUPTED,
     Method,

@@ -16,9 +16,9 @@ from ..code.program import Block
 from ..code.step.step_numbers import FIXED
 from ..language.limits import STEPS_OF_A_MOTION
 from ..language.reserved import did_you_mean, near_name
+from .first_numbers import MotionError
 from .native import AT_EVENT, FAULTS, StepError
 from .run import Array, Happening
-from .start import MotionError
 
 # How a motion is followed: the step, and its size or its tolerance; when its states are kept.
 

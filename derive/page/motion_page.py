@@ -14,8 +14,9 @@ from ..code.emit import emit
 from ..code.options import Options
 from ..language.reserved import GREEK
 from ..language.templating import environment, folder
-from ..motion.run import EmittedCode, in_words
-from ..motion.start import FirstNumbers, drives, is_free, weight
+from ..motion.driven import drives, is_free, weight
+from ..motion.emitted_code import EmittedCode, in_words
+from ..motion.first_numbers import FirstNumbers
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..views.html import visible

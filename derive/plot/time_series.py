@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..language.reserved import by_letter, letter_and_suffix
-from ..motion.run import KEPT, Array, Column, Run, in_words
+from ..motion.emitted_code import KEPT, Column, in_words
+from ..motion.run import Array, Run
 from .body_pictures import attitude
 from .plot_sheet import COLOURS, label
 

@@ -35,7 +35,7 @@ from ..schema.table import Slot
 from .fields import tables
 from .file_reader import FileReader
 from .inertia import is_negative
-from .mesh import SolidError
+from .moments import SolidError
 from .problem import ProblemError
 from .solids import moments, together
 

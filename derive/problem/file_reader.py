@@ -22,7 +22,7 @@ from ..schema.kind import DIRECTIONS, SIDES, Advected
 from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
 from .fields import LIKE_A_PLACE, known_in_lagrangian, meant, state_names
-from .mesh import SolidError, first_moment, given_by, second_moment
+from .moments import SolidError, first_moment, given_by, second_moment
 from .problem import ProblemError, points_of
 from .solids import fault_of_quadric, rotation_about
 

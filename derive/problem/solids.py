@@ -21,7 +21,7 @@ from ..language.tree import Tree, add, coefficient, mul
 from ..language.values import approximate
 from ..schema.body_kinds import LAYERED, Moments, Solid
 from ..schema.table import Rows
-from .mesh import Row, SolidError
+from .moments import Row, SolidError
 
 SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
 TERMS_OF_DENSITY = 40

@@ -189,9 +189,10 @@ class Derived:
         ``vary``, drawn by (low, high) or ("normal", mean, deviation) from a ``seed`` (0); kept is
         the end, or ``points`` instants.  ``MotionError``, a ``ValueError``, says what is wrong.
         """
+        from ..motion.driven import is_weightless
         from ..motion.ensemble import require_an_ensemble
+        from ..motion.first_numbers import require_numbers
         from ..motion.simulate import run
-        from ..motion.start import is_weightless, require_numbers
         from ..motion.trajectory import STEPS, Method
         from ..pipeline import motion_of
         from .simulated import Simulated
@@ -243,8 +244,8 @@ class Derived:
     ) -> str:
         """A page of HTML in which the body moves from 0 to t, from a start as of ``simulate``; in
         English or in French (``fr``)."""
+        from ..motion.first_numbers import require_numbers
         from ..motion.simulate import beginning
-        from ..motion.start import require_numbers
         from ..motion.trajectory import Method, instants
         from ..page.motion_page import motion_page
         from ..pipeline import motion_of

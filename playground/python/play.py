@@ -186,8 +186,8 @@ class Play:
         motion keeps?"""
         from derive.code.emit import emit
         from derive.code.options import Options
-        from derive.motion.run import EmittedCode, base_units
-        from derive.motion.start import first_numbers
+        from derive.motion.emitted_code import EmittedCode, base_units
+        from derive.motion.first_numbers import first_numbers
         from derive.page.motion_page import data
         from derive.pipeline import moving_program
         from derive.views.language import language

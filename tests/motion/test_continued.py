@@ -7,8 +7,9 @@ import pytest
 
 import derive
 from derive.command.cli import main
+from derive.motion.first_numbers import MotionError
 from derive.motion.run import read, written
-from derive.motion.start import MotionError, continued
+from derive.motion.start import continued
 
 TOP = """
 name = "pushed"

@@ -6,9 +6,9 @@ import pytest
 import derive
 from derive.command.cli import main
 from derive.motion import native
+from derive.motion.first_numbers import MotionError
 from derive.motion.native import CompileError
 from derive.motion.run import read
-from derive.motion.start import MotionError
 from tests.problems.moving import BODY, WEIGHT
 from tests.support.needs import need, needs
 

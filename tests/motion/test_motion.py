@@ -11,8 +11,11 @@ import derive
 from derive.code.step.collocation import Collocation
 from derive.command.cli import main
 from derive.command.simulating import at_first, negative
-from derive.motion.run import Column, Run, in_order, read
-from derive.motion.start import MotionError, drives, exponential, inertia_of
+from derive.motion.driven import drives
+from derive.motion.emitted_code import Column, in_order
+from derive.motion.first_numbers import MotionError, exponential
+from derive.motion.run import Run, read
+from derive.motion.start import inertia_of
 from derive.motion.trajectory import Method, instants, taken_to_group
 from derive.pipeline import motion_of, walk
 from derive.problem.toml import problem_of

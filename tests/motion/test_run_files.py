@@ -9,7 +9,8 @@ import pytest
 from derive.command import simulating
 from derive.command.cli import main
 from derive.command.writing import WriteError, require_place
-from derive.motion.run import FORMATS, Column, Run, RunFileError, read, written
+from derive.motion.emitted_code import Column
+from derive.motion.run import FORMATS, Run, RunFileError, read, written
 from tests.support.needs import need
 
 COLUMNS = (Column("t", "time", "s"), Column("A_11", "state"), Column("energy", "energy", "J"))

@@ -22,7 +22,8 @@ from derive import (
 from derive.command.cli import COMMANDS, main
 from derive.language.reserved import near_name
 from derive.language.values import approximate
-from derive.motion.run import Column, Run, written
+from derive.motion.emitted_code import Column
+from derive.motion.run import Run, written
 from derive.problem.problem import ProblemError, data
 from derive.problem.toml import doubts, load
 from derive.python.api import Table

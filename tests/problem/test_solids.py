@@ -17,7 +17,8 @@ from derive.check.values.arithmetic import EvaluationError
 from derive.check.values.evaluate import Environment, evaluate
 from derive.language import rational as q
 from derive.language.tree import mul
-from derive.problem.mesh import MeshError, SolidError, mesh_moments, read
+from derive.problem.mesh import MeshError, mesh_moments, read
+from derive.problem.moments import SolidError
 from derive.problem.solids import moments, rotation_about, together, unit_moments
 from derive.schema.body_kinds import SOLIDS
 from tests.support.needs import needs

@@ -7,7 +7,7 @@ import pytest
 
 import derive
 from derive.code.emit import EmitError
-from derive.motion.start import MotionError
+from derive.motion.first_numbers import MotionError
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.python import api

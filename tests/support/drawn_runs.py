@@ -4,7 +4,8 @@ from functools import cache
 
 import numpy as np
 
-from derive.motion.run import Column, Run
+from derive.motion.emitted_code import Column
+from derive.motion.run import Run
 from derive.plot.pictures import KINDS
 from derive.plot.plot_sheet import sheet
 from tests.support.flows import emitted, flow

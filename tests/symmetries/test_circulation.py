@@ -5,7 +5,7 @@ import pytest
 
 import derive
 from derive import Problem, Solid
-from derive.motion.run import KEPT
+from derive.motion.emitted_code import KEPT
 from derive.pipeline import conserved_quantities
 from tests.support.walks import problem, record
 

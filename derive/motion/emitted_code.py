@@ -1,0 +1,136 @@
+"""A program with its record, and the columns of what a motion of it gives: nothing is run here."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from ..code.naming import own_prefix
+from ..code.program import Program
+from ..problem.problem import Problem
+from ..record.record import Derivation
+
+KEPT = {
+    "momentum": "linear momentum",
+    "angular_momentum": "angular momentum",
+    "body_momentum": "linear momentum in the body",
+    "body_angular_momentum": "angular momentum in the body",
+    "circulation": "circulation in the body",
+}
+
+
+def parts(name: str) -> tuple[str, int]:
+    """``angular_momentum_3`` → angular_momentum and 3; 0 where there is no number."""
+    base, number = re.fullmatch(r"(.*?)(?:_(\d+))?", name, re.DOTALL).groups()  # type: ignore[union-attr]
+    return base, int(number or 0)
+
+
+def in_order(names: Sequence[str]) -> list[int]:
+    """The places of names, those with one base together, where the first of them is, by number."""
+    bases = [parts(x)[0] for x in names]
+    return sorted(range(len(names)), key=lambda k: (bases.index(bases[k]), parts(names[k])[1]))
+
+
+def in_words(name: str, word: Callable[[str], str]) -> str:
+    """``angular_momentum_3`` → angular momentum 3, in the language of ``word``."""
+    base, number = re.fullmatch(r"(.*?)((?:_\d+)?)", name, re.DOTALL).groups()  # type: ignore[union-attr]
+    return word(KEPT.get(base, base.replace("_", " "))) + number.replace("_", " ")
+
+
+# A program with its record, and the columns of what a motion of it gives: nothing is run here.
+
+KINDS = ("time", "state", "energy", "conserved", "defect", "multiplier")
+"""What a column can be, in the order of a table."""
+
+UNITS = {"time": "s", "energy": "J", "multiplier": "J", "centre": "kg m"}
+UNITS |= dict.fromkeys(("momentum", "body_momentum"), "kg m/s")
+UNITS |= dict.fromkeys(("angular_momentum", "body_angular_momentum"), "kg m^2/s")
+"""Those of columns of a kind, and of the components of what is kept."""
+
+SI = re.compile("kg|m|s|A|K|mol|cd|rad|sr|Hz|N|Pa|J|W|C|V|F|Ω|ohm|S|Wb|T|H|lm|lx|Bq|Gy|Sv|kat")
+"""The units of SI, which go together without factors."""
+
+IN_SECONDS = re.compile(
+    "[fpnuµμmcdhkMGTP]?(g|m|rad|A|K|mol|N|Pa|J|W|C|V|F|T)|deg|°|t|in|ft|yd|mi|lbm?|lbf|slug|oz|kgf|L|%"
+)
+"""Other units, of which none has a time that is not in seconds."""
+
+FACTOR = re.compile(r"[^\W\d_⁰¹²³⁴-⁹]+|[°%]|\d[.\d]*\d")
+"""A unit in a product of powers, or a number that is none of their exponents."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a run: its name, what it is (of KINDS), its unit, empty where there is none."""
+
+    name: str
+    kind: str
+    unit: str = ""
+
+
+def base_units(problem: Problem) -> frozenset[str]:
+    """The base units in which the numbers of a problem are by those of its parameters: all of SI's
+    mechanics, the second alone where others stand beside SI, none where a time may be in
+    others."""
+    stated = [x.unit for x in problem.parameters.values() if x.unit]
+    factors = [x for unit in stated for x in FACTOR.findall(unit)]
+    if not stated or not all(SI.fullmatch(x) or IN_SECONDS.fullmatch(x) for x in factors):
+        return frozenset()
+    return frozenset(["kg", "m", "s"] if all(map(SI.fullmatch, factors)) else ["s"])
+
+
+@dataclass(frozen=True)
+class EmittedCode:
+    """A program and its record; the :func:`base_units` of the problem."""
+
+    program: Program
+    record: Derivation
+    base: frozenset[str]
+
+    @property
+    def name(self) -> str:
+        """That of the problem, for messages."""
+        return self.program.name
+
+    @property
+    def prefix(self) -> str:
+        """That of the emitted functions."""
+        return own_prefix(self.name)
+
+    @property
+    def kept(self) -> list[int]:
+        """The places of what is conserved beside the energy, which has a column of its own."""
+        names = self.program.conserved
+        return [k for k in in_order(names) if names[k] != "energy"]
+
+    def columns(self) -> tuple[Column, ...]:
+        """The columns of a run: time, state, then what :meth:`table` adds."""
+        has = self.program.functions
+        names = [("t", "time"), *((x, "state") for x in self.program.state), ("energy", "energy")]
+        names += [(self.program.conserved[k], "conserved") for k in self.kept]
+        names += [("defect", "defect")] * ("defect" in has)
+        names += [("multiplier", "multiplier")] * ("multiplier" in has)
+        return tuple(Column(x, kind, self._unit(x, kind)) for x, kind in names)
+
+    def _unit(self, name: str, kind: str) -> str:
+        if kind == "state":
+            unit = self._unit_of_state(name)
+        else:
+            unit = UNITS.get(parts(name)[0] if kind == "conserved" else kind, "")
+        return unit if {*FACTOR.findall(unit.replace("J", "kg m s"))} <= self.base else ""
+
+    def _unit_of_state(self, name: str) -> str:
+        """That of a place, of a velocity, and of ζ on an element of the basis: of one that does no
+        more than shift, whose columns are those of the rows that are 0 where the state has a T,
+        that of a velocity.  Where there are no matrices, none is known."""
+        if not name.startswith("zeta"):
+            return {"T": "m", "w": "m/s"}.get(name[0], "")
+        if self.program.state[0][0] not in "AT":
+            return ""
+        basis = self.program.basis
+        moved = range(len(basis[0]))
+        affine = any(x[0] == "T" for x in self.program.state)
+        shifted = {i for i in moved if affine and not any(any(E[i]) for E in basis)}
+        own = basis[int(name.rpartition("_")[2]) - 1]
+        return "1/s" if any(row[j] for row in own for j in moved if j not in shifted) else "m/s"

@@ -1,0 +1,172 @@
+"""The numbers that a motion starts with, as lists; :class:`.Start` has them as arrays."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from operator import add, mul
+from typing import Any, NamedTuple, SupportsFloat
+
+from ..code.program import Program
+from ..code.torus.lattice_state import turned
+from ..language.expression import names
+from ..language.limits import Refused
+from ..language.reserved import did_you_mean, near_name
+from ..language.tree import Tree
+from ..language.values import approximate
+from ..problem.fields import state_names
+from ..problem.problem import Problem
+from ..problem.stated_motion import named
+
+
+class MotionError(Refused, ValueError):
+    """A motion that cannot be started, or no method of it: the message says what to do."""
+
+
+class FirstNumbers(NamedTuple):
+    """The state, the parameters and the inputs in the order of the emitted code; all parameters by
+    name, with those that only [initial] and [[event]] have."""
+
+    x: list[float]
+    p: list[float]
+    u: list[float]
+    parameters: Mapping[str, float]
+
+
+def first_numbers(
+    program: Program,
+    problem: Problem,
+    given: Mapping[str, float],
+    exponent: Sequence[float] = (),
+) -> FirstNumbers:
+    """The start with some numbers ``given``, of the state, the parameters and the inputs by name;
+    the element of the group is exp of ``exponent``, coordinates in the basis of 𝔤.
+
+    ``MotionError`` for a name that means nothing, a parameter without a number, a number that is
+    none.
+    """
+    emitted = {name: default for name, default, _, _ in program.parameters}
+    apart = {name for name in named(problem) if name in problem.parameters}
+    defaults = emitted | {x: problem.parameters[x].default for x in sorted(apart - {*emitted})}
+    zero = dict.fromkeys((*program.inputs, *program.state), 0.0)
+    values: dict[str, float | None] = {**defaults, **zero}
+    _known(values, given, program.name)
+    values |= {name: x for name, x in given.items() if name in defaults}
+    numbers, stated = _stated(problem, values)
+    _known(zero, numbers, f"{program.name}, [initial],")
+    element = _at(problem, program, exponent if len(exponent) else stated)
+    if len(exponent):
+        if all(name in given for name in element):
+            first = next(iter(element))
+            raise MotionError(
+                f"{program.name}: exp and {first}, … both say where the body is: leave out one"
+            )
+        numbers = {name: x for name, x in numbers.items() if name not in element}
+    values |= element | numbers | dict(given)
+    missing = [name for name, value in values.items() if value is None]
+    if missing:
+        raise MotionError(
+            f"{program.name}: no value for {', '.join(missing)}: give --set {missing[0]}=NUMBER"
+        )
+    found = {name: float(value) for name, value in values.items() if value is not None}
+    x, p, u = (
+        [found[name] for name in listed] for listed in (program.state, emitted, program.inputs)
+    )
+    return FirstNumbers(x, p, u, {name: found[name] for name in defaults})
+
+
+def require_numbers(given: Any, exponent: Any, **single: Any) -> None:
+    """``MotionError`` for what is no number by name, no list of numbers, or no number or ``None``,
+    as Python may give them."""
+    if not isinstance(given, Mapping | None):
+        raise MotionError('start: expected numbers by name, as {"zeta_1": 0.5}')
+    if isinstance(exponent, str) or not isinstance(exponent, Iterable):
+        raise MotionError("exp: expected a list of numbers")
+    named = [*single.items(), *(given or {}).items(), *(("exp", x) for x in exponent)]
+    for name, x in named:
+        if not (isinstance(x, SupportsFloat) or (x is None and name in single)):
+            raise MotionError(f"{name}: expected a number, not {x!r:.40}")
+
+
+def _known(values: Collection[str], given: Mapping[str, float], where: str) -> None:
+    """``MotionError`` for a name that means nothing, and for a number that is none."""
+    for name, number in given.items():
+        if name not in values:
+            near = did_you_mean(near_name(name, [*values]), after=" ")
+            if components := [x for x in values if x.startswith(f"{name}_")]:
+                near = f"give its components {_listed(components)}; "
+            if name == "exp":
+                near = "a tilt is set by --exp, varied by a parameter that [initial] exp uses; "
+            if (other := turned(name)) in values:
+                near = f"ω̂(−𝐧) is the conjugate of ω̂(𝐧): give {other}; "
+            raise MotionError(
+                f"{where} has no {name[:40]!r}; {near}its numbers: {_listed([*values])}"
+            )
+        if not math.isfinite(number):
+            raise MotionError(f"{where}: {name} = {number} is no finite number")
+
+
+def _stated(
+    problem: Problem, values: Mapping[str, float | None]
+) -> tuple[dict[str, float], list[float]]:
+    """The numbers and the exponent of [initial], by the values of the parameters."""
+    known = {name: x for name, x in values.items() if x is not None}
+
+    def number(name: str, t: Tree) -> float:
+        found = approximate(t, known, float)
+        if found is None:
+            raise MotionError(
+                f"{problem.name}: initial, {name}: no finite number for these parameters: "
+                f"{', '.join(dict.fromkeys(names(t))) or 'there are none'}"
+            )
+        return found
+
+    numbers = {name: number(name, t) for name, t in problem.initial.numbers.items()}
+    return numbers, [number("exp", t) for t in problem.initial.exp]
+
+
+def _listed(names: Sequence[str], most: int = 30) -> str:
+    """Some names, the first and the last where there are too many for a line."""
+    short = [*names] if len(names) <= most else [*names[: most - 1], "…", names[-1]]
+    return ", ".join(short)
+
+
+def _at(problem: Problem, program: Program, exponent: Sequence[float]) -> dict[str, float]:
+    """Name → number of the entries of the element of the group, empty where the state has none."""
+    group = problem.group
+    if group is None or problem.advected is not None:
+        if len(exponent):
+            raise MotionError(f"{program.name}: its state has no element of a group: no exp")
+        return {}
+    basis = program.basis
+    if len(exponent) not in (0, len(basis)):
+        raise MotionError(
+            f"{program.name}: exp takes {len(basis)} numbers, the coordinates in the basis of the "
+            f"Lie algebra, not {len(exponent)}"
+        )
+    span = range(len(basis[0]))
+    terms = [*zip(exponent, basis, strict=False)]
+    g = exponential([[sum(a * float(E[i][j]) for a, E in terms) for j in span] for i in span])
+    places = state_names(group)
+    own = {x: t for x in program.state if isinstance(t := places.get(x), tuple) and t[1] == "A"}
+    return {name: g[t[2] - 1][t[3] - 1] for name, t in own.items()}
+
+
+def exponential(X: Sequence[Sequence[float]]) -> list[list[float]]:
+    """The exponential of a matrix: Taylor's series of X/2ˢ, of norm below ½, squared s times."""
+    size = max(sum(abs(x) for x in row) for row in X)
+    halvings = max(0, math.ceil(math.log2(size)) + 1) if size > 0 else 0
+    span = range(len(X))
+    term = [[float(i == j) for j in span] for i in span]
+    total = term
+    for k in range(1, 18):  # 2^-17/17! is below rounding
+        term = _product(term, [[x / (2**halvings * k) for x in row] for row in X])
+        total = [[*map(add, *rows)] for rows in zip(total, term, strict=True)]
+    for _ in range(halvings):
+        total = _product(total, total)
+    return total
+
+
+def _product(a: Sequence[Sequence[float]], b: Sequence[Sequence[float]]) -> list[list[float]]:
+    columns = [*zip(*b, strict=True)]
+    return [[sum(map(mul, row, column)) for column in columns] for row in a]
