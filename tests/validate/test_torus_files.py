@@ -22,8 +22,7 @@ from derive.problem.toml import problem_of
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
 from derive.validate.terms import CodeError
-from derive.validate.torus.exact_numbers import cosine
-from derive.validate.torus.torus_files import TorusClaims, agreement_of_module, compare_c
+from derive.validate.torus.torus_files import TorusClaims, agreement_of_module, compare_c, cosine
 from tests.support.needs import CC, need
 
 SIZES = (3, 5, 7, 9, 11, 13)
@@ -185,7 +184,7 @@ def meaning(N, text, folder):
         ("return total;", "return total*t;", "the energy differs"),
         ("column < r ? column - r + 11", "column < r ? (column - r) % 11", "negative"),
         ("double total = 0;", "double total;", "not known here"),
-        ("double W_re[11][12], W_im[11]", "double W_re[11][13], W_im[11]", "not known here"),
+        ("double W_re[11][12], W_im[11]", "double W_re[11][13], W_im[11]", "of another kind"),
     ],
 )
 def test_what_is_wrong_is_said(old, new, said):
