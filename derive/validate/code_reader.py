@@ -200,10 +200,12 @@ class Reader(ExpressionReader):
         while not self._ended:
             if returned:
                 self.unknown("a statement after the last")
+            start = self.at
             if self.took(*self.syntax.ignored):
+                self.unread += self.tokens[start : self.at]
                 if self.syntax.lines:
                     self.end()
-            elif not self._check(body):
+            elif not self._check():
                 returned = self._return(body)
                 if not returned:
                     self.statement(body)
@@ -295,7 +297,7 @@ class Reader(ExpressionReader):
         else:
             found = self.expression()
             if self.language == "python" and self.took(", tests"):
-                body.append(("check", ("tests",)))
+                self.unread.append(self.tokens[self.at - 1])
             body.append(("return", found))
         self.end()
         return True
@@ -306,8 +308,8 @@ class Reader(ExpressionReader):
             self.unknown()
         self.at += 1
 
-    def _check(self, body: list[Statement]) -> bool:
-        """Read an error check, a condition under which there is no value, where one stands here."""
+    def _check(self) -> bool:
+        """Pass an error check, a condition under which there is no value, where one stands here."""
         start, opened = self.at, self.syntax.body[0] or END
         under = self.word == "if"
         if self.language in ("c", "python") or not (under or self._throws()):
@@ -323,12 +325,12 @@ class Reader(ExpressionReader):
             self.take(self.syntax.body[1])
             if self.syntax.lines:
                 self.end()
-        words = tuple(x.text for x in self.tokens[start : self.at])
-        for i, x in enumerate(words):
+        for i in range(start, self.at):
+            x = self.tokens[i].text
             foreign = NAME.fullmatch(x) and not PURE.fullmatch(x) and x not in self.names
             if foreign or x in CHANGING:
-                self.unknown(f"{x} in an error check is not known here", start + i)
-        body.append(("check", words))
+                self.unknown(f"{x} in an error check is not known here", i)
+        self.unread += self.tokens[start : self.at]
         return True
 
     def _throws(self) -> bool:

@@ -15,16 +15,22 @@ from .chart import Chart
 from .compare import SIZE, Agreement, compare
 from .exact_points import NAME as INTEGRALS
 from .exact_points import Claims
-from .read_file import LANGUAGES, calls_of_cpp, read
+from .read_file import LANGUAGES, Beside, calls_of_cpp, read
 from .straight_line import error_checks
 from .syntax import SYNTAX, tokens
 from .terms import CodeError, DiffersError, Module
-from .torus.torus_files import TorusClaims, compare_c, compare_python
+from .torus.torus_files import (
+    TorusClaims,
+    beside_loops,
+    compare_loops,
+    compare_python,
+    has_known_loops,
+)
 
 Judge = Callable[[tuple[str, ...]], Agreement]
 """The verdict on files by their names."""
 UNREAD = "not validated: such a file is not read back"
-LOOPS = "not validated: of the loops of a fluid on the torus those of C and Python are read back"
+LOOPS = "not validated: its loops, which are not read back in this language"
 CALLED = "the C that it calls is given what it takes: "
 STEPPED = re.compile(r"^(class Motion:|pub struct Motion|export function begin\()", re.MULTILINE)
 UNSTEPPED = "not validated: steps in time, which are not read back"
@@ -90,10 +96,11 @@ class EmittedFiles:
         ending = names[-1].removeprefix(self.prefix)
         language = LANGUAGES.get(ending)
         unread = {"_steps.h": UNSTEPPED}.get(ending, "" if language else UNREAD)
-        if torus and language not in ("c", "cpp", "python"):
-            unread = unread or LOOPS
-        elif not self.as_given:
+        if not self.as_given:
             unread = unread or PRINCIPAL
+        elif torus and language in ("rust", "javascript", "julia"):
+            known = has_known_loops(names[-1], self.fresh or self.files, self.prefix)
+            unread = "" if known else LOOPS
         if unread:
             return Report(names, unread, read=False)
         if gone := [name for name in names if not self.files[name]]:
@@ -121,10 +128,8 @@ class EmittedFiles:
     def _calls(self, name: str) -> Sequence[str]:
         """The functions of C that C++ calls; ``DiffersError`` where it is not what is emitted."""
         found = calls_of_cpp(name, self.files[name], self.prefix)
-        if self.fresh is not None and self.files[name] != self.fresh[name]:
-            for here, wanted in zip_longest(*(words_of(x[name]) for x in (self.files, self.fresh))):
-                if here != wanted:
-                    raise DiffersError(f"{here or wanted!r} is not what is emitted")
+        if self.fresh is not None:
+            require_same(*(words_of(x[name]) for x in (self.files, self.fresh)))
         return found
 
     def _compared(self, claims: Claims, whole: str, names: tuple[str, ...]) -> Agreement:
@@ -134,7 +139,11 @@ class EmittedFiles:
         """The verdict on a file with loops; Python is run, and so must be what is emitted."""
         name = names[-1]
         if not name.endswith(".py"):
-            return compare_c(name, self.files, self.prefix, claims())
+            if self.fresh is not None:
+                require_same(
+                    *(beside_loops(name, x, self.prefix) for x in (self.files, self.fresh))
+                )
+            return compare_loops(name, self.files, self.prefix, claims())
         if self.fresh is None or self.files[name] != self.fresh[name]:
             raise DiffersError("it is not what is emitted, and so it is not run")
         return compare_python(self.files[name], claims())
@@ -145,13 +154,7 @@ class EmittedFiles:
         if self.fresh is None or all(self.files[x] == self.fresh[x] for x in names):
             return found.module
         wanted = read(names[-1], self._parts(names, self.fresh), self.prefix)
-        none = ("", None)
-        for (shown, here), (other, there) in zip_longest(
-            found.unread, wanted.unread, fillvalue=none
-        ):
-            if here != there:
-                told = f"{(shown or other)[:60]!r} is not read, and not what is emitted"
-                raise DiffersError(told)
+        require_same(found.unread, wanted.unread)
         both = [m.functions.get("constants") for m in (found.module, wanted.module)]
         if len({f and error_checks(f) for f in both}) > 1:
             raise DiffersError("constants: its error checks are not what is emitted")
@@ -162,9 +165,17 @@ class EmittedFiles:
         return {x: files[x] for x in names}
 
 
-def words_of(text: str) -> list[str]:
+def words_of(text: str) -> Beside:
     """The words of C++, without comments."""
-    return [x.text for x in tokens(SYNTAX["c"], text, "")]
+    return [(x.text, x.text) for x in tokens(SYNTAX["c"], text, "")]
+
+
+def require_same(found: Beside, wanted: Beside) -> None:
+    """``DiffersError`` where what is not read is not what is emitted."""
+    for (shown, here), (other, there) in zip_longest(found, wanted, fillvalue=("", None)):
+        if here != there:
+            told = f"{(shown or other)[:60]!r} is not read, and not what is emitted"
+            raise DiffersError(told)
 
 
 def as_text(v: Agreement) -> str:

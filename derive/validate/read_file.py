@@ -76,30 +76,40 @@ LOOP = re.compile(
 """What of emitted C is a loop that is not read, between two comments with its name."""
 
 
+Beside = Sequence[tuple[str, Any]]
+"""What of a file is not read: the line where it stands, or its name; a word and its column, or the
+text."""
+
+
 @dataclass(frozen=True)
 class Reading:
-    """What a file says, and what of it is not read: (the line, its words); ``CodeError`` says what
-    cannot be read, and in which line."""
+    """What a file says, and what of it is not read."""
 
     module: Module
-    unread: Sequence[tuple[str, Any]]
+    unread: Beside
 
 
 def read(name: str, files: Mapping[str, str], prefix: str) -> Reading:
-    """The reading of a file of an emission, in C with the header that it includes."""
+    """The reading of a file of an emission, in C with the header that it includes; ``CodeError``
+    says what cannot be read, and in which line."""
     language = LANGUAGES[PurePath(name).suffix]
     text = files[name]
     if language == "c":
         loops = [(m[1], m[0]) for x in files.values() for m in LOOP.finditer(x)]
         plain = {x: LOOP.sub(lambda m: blank(m[0]), text) for x, text in files.items()}
-        module, beside = read_c(name, plain, prefix)
-        return Reading(module, [*loops, *(("events", x.text) for x in beside)])
+        module, events = read_c(name, plain, prefix)
+        return Reading(module, [*loops, *(("events", x.text) for x in events)])
     cookie = re.compile(r"[ \t\f]*#.*?coding[:=]")
     if language == "python" and any(map(cookie.match, text.split("\n")[:2])):
         raise CodeError("a line that names an encoding is not read")
     reader = Reader(language, tokens(SYNTAX[language], text, name), prefix)
-    module, lines = reader.module(), text.split("\n")
-    return Reading(module, [(lines[x.line - 1].strip(), x[:2]) for x in reader.unread])
+    return Reading(reader.module(), beside(reader, text))
+
+
+def beside(reader: Reader, text: str) -> Beside:
+    """What a reader has left of a text."""
+    lines = text.split("\n")
+    return [(lines[x.line - 1].strip(), x[:2]) for x in reader.unread]
 
 
 def read_c(name: str, files: Mapping[str, str], prefix: str) -> tuple[Module, Sequence[Token]]:
@@ -111,7 +121,7 @@ def read_c(name: str, files: Mapping[str, str], prefix: str) -> tuple[Module, Se
         if [int(i) for i, _ in named] != list(range(found.sizes["PARAMETERS"])):
             raise CodeError("the parameters are not listed in order")
         found = replace(found, parameters=tuple(x for _, x in named))
-    return found, reader.unread
+    return found, reader.events
 
 
 def calls_of_cpp(name: str, text: str, prefix: str) -> tuple[str, ...]:
@@ -164,7 +174,12 @@ def blank(comment: str) -> str:
 
 
 class CReader(Reader):
-    """The reader of C, all of which is known, declarations, lists of names and functions."""
+    """The reader of C, all of which is known, declarations, lists of names and functions, but for
+    ``events``."""
+
+    def __init__(self, *given: Any):
+        super().__init__(*given)
+        self.events: list[Token] = []
 
     def module(self) -> Module:
         """All functions and lists of the file; ``CodeError`` for any other definition."""
@@ -194,7 +209,7 @@ class CReader(Reader):
             return False
         if not self.took(";"):
             self.take("{ … }")
-        self.unread += self.tokens[start : self.at]
+        self.events += self.tokens[start : self.at]
         return True
 
     def _function_named(self) -> str:
@@ -208,7 +223,7 @@ class CReader(Reader):
         """Read an enumeration of sizes, where one stands here."""
         start = self.at
         if self.near(2).startswith(f"{self.prefix}_AT_") and self.took("enum { … } ;"):
-            self.unread += self.tokens[start : self.at]
+            self.events += self.tokens[start : self.at]
             return True
         if not self.took("enum {"):
             return False

@@ -105,7 +105,7 @@ def error_checks(f: CodeFunction) -> Body:
         if s[0] == "set" and _unsmooth(s[2], tainted):
             tainted.add(s[1])
         named = s[0] == "set" and (s[1] in tainted or i > max(results, default=-1))
-        if named or (s[0] in ("if", "for", "return", "check") and i not in results):
+        if named or (s[0] in ("if", "for", "return") and i not in results):
             found.append(s)
     return tuple(found)
 

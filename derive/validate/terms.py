@@ -6,8 +6,7 @@ array, index)``, ``("neg", a)``, ``("add" | "sub" | "mul" | "div", a, b)``, ``("
 where a is 0, else 0, ``("list", a, …)``.
 
 A statement is a tuple: ``("set", name, a)``, ``("unpack", names, array)``, ``("store", array,
-index, a)``, ``("if", condition, body)``, ``("for", name, bound, body)`` from 0, ``("return", a)``,
-``("check", words)`` an error check, which changes no number.
+index, a)``, ``("if", condition, body)``, ``("for", name, bound, body)`` from 0, ``("return", a)``.
 """
 
 from __future__ import annotations
@@ -139,7 +138,7 @@ class Run:
                 done, value = self.body(s[3], inner)
                 if done:
                     return True, value
-        elif s[0] == "return":
+        else:
             return True, self.value(s[1], names)
         return False, None
 

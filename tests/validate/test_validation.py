@@ -513,6 +513,50 @@ def test_python_that_is_run_and_not_read_must_be_what_is_emitted(case):
     assert found.holds
 
 
+BESIDE = [
+    ("so3.py", "1e-13*size_I_1", "1e-3*size_I_1", "error checks"),
+    ("so3.rs", "1e-13*size_I_1", "1e-3*size_I_1", "error checks"),
+    ("so3.rs", "(x.to_bits() << 1) >> 1", "x.to_bits()", "not read, and not what is emitted"),
+    ("so3.rs", "margin <= 0.0", "margin < 0.0", "not read, and not what is emitted"),
+    ("so3.mjs", "if (x.length !== 12", "if (x.length === 12", "not what is emitted"),
+    ("so3.mjs", "    u ??= ZERO_INPUTS;\n", "", "not what is emitted"),
+    ("so3.mjs", "new Float64Array(12)", "new Float64Array(11)", "not what is emitted"),
+    ("so3.jl", "length(x) == 12", "length(x) >= 12", "not read, and not what is emitted"),
+    ("so3.jl", "rhs!(dx, x, k, t; u = control(x, t))", "rhs!(dx, x, k, t)", "not what is emitted"),
+    ("so3.hpp", "k.data(), u.data(), dx", "u.data(), k.data(), dx", "so3_rhs is not given what"),
+    ("so3.hpp", "return dx;", "return x;", "not what is emitted"),
+]
+
+
+@pytest.mark.parametrize(("file", "old", "new", "reason"), BESIDE)
+def test_what_is_not_read_must_be_what_is_emitted(file, old, new, reason):
+    options = Options()
+    compiled = program(problem("so3"), record("so3"), options)
+    files = emit(compiled, record("so3"), (*READ, "cpp"), "so3", options)
+    assert old in files[file]
+    changed = files | {file: files[file].replace(old, new, 1)}
+    for given in (files, changed):
+        found = EmittedFiles(given, "so3", Chart(), compiled.numbers(), fresh=files)
+        report = next(x for x in found.reports(record("so3")) if file in x.files)
+        assert report.holds == (given is files), report.text
+    assert reason in report.text
+
+
+def test_c_with_events_is_read_back(tmp_path, capsys):
+    """What is said of events is no claim of the record, and must be what is emitted."""
+    path = tmp_path / "so3.toml"
+    event = '\n[[event]]\nname = "level"\nwhen = "A_33 - 1/5"\n'
+    path.write_text((ROOT / "problems" / "so3.toml").read_text() + event, encoding="utf-8")
+    command = ["emit", str(path), "--step", "rk4", "--validate", "--out", str(tmp_path)]
+    assert main(command) == 0
+    c = tmp_path / "so3.c"
+    changed = c.read_text(encoding="utf-8").replace("A_33 - 0.2", "A_33 - 0.3")
+    c.write_text(changed, encoding="utf-8")
+    capsys.readouterr()
+    assert main([*command, "--check"]) == 1
+    assert "so3.c: DIFFERS: 'events' is not read, and not what" in capsys.readouterr().err
+
+
 REFUSING = {
     "all of them": ("if (so3_margin_1 <= 0*so3_margin_1)", "if (so3_margin_1 > 0*so3_margin_1)"),
     "without asking": ("if (!(p[i] - p[i] == 0))", "if (p[i] - p[i] == 0)"),

@@ -1,30 +1,29 @@
-"""Emitted C with loops, read into terms and run in a prime field.
-
-What C has as ``double`` is a residue modulo p here; what it has as ``int``, on which alone places
-and conditions may depend, is an integer.  So a function that is read is one rational function of
-what it is given.  An array has no value where nothing was written, nor outside of it.
+"""Emitted code with loops, read into terms.
 
 To the terms of straight-line code come, of expressions, ("item", array, i), ("field", row, name),
 ("call", name, …), ("cond", test, a, b), ("real", a), ("mod" | "and" | "or" | "ne" | "ge", a, b);
-of statements, ("declare", kind, name, a), ("array", name, sizes), ("table", name, rows), ("assign",
-sign, targets, a), ("if", test, body, otherwise), ("loop", declarations, name, bound, steps, body),
-("do", call).  A kind is "int", "size_t", "real", or the inner sizes of an array.
+of statements, ("declare", kind, name, a), ("array", name, sizes, number or ``None``), ("table",
+name, rows), ("assign", sign, targets, a), ("if", test, body, otherwise), ("loop", declarations,
+name, bound, steps, body), ("do", call).  A kind is "int", "size_t", "real", the inner sizes of an
+array, or ``None`` where the language does not say it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..code_expressions import NAME, SUMS
+from ..code_expressions import INTEGER, NAME, SUMS
+from ..code_reader import Reader
 from ..read_file import CReader
-from ..syntax import CONTRACT, Token
-from ..terms import Expression, Statement
+from ..syntax import CONTRACT
+from ..terms import CodeError, Expression, Statement
 
 Kind = Any
 WHOLE = ("int", "size_t")
 COMPARED = {"<": "lt", "<=": "le", ">": "gt", ">=": "ge", "==": "eq", "!=": "ne"}
+COMPARED |= {"===": "eq", "!==": "ne"}
 PRODUCTS = {"*": "mul", "/": "div", "%": "mod"}
 ASSIGNED = ("=", "+=", "-=", "*=")
 
@@ -41,72 +40,91 @@ class Routine:
     calls: set[str]
 
 
-class LoopReader(CReader):
+class LoopReader(Reader):
     """The reader of one file; ``routines``: its functions by name, ``tables``: its lists of
     numbers."""
 
-    def __init__(self, words: Iterable[Token], prefix: str):
-        super().__init__("c", words, prefix)
+    def __init__(self, *given: Any):
+        super().__init__(*given)
         self.types: dict[str, tuple[int, ...]] = {}
         self.kinds: dict[str, Kind] = {}
         self.routines: dict[str, Routine] = {}
         self.tables: list[Statement] = []
         self.calls: set[str] = set()
+        self.straight = False  # is the function read without loops?
+
+    def spelt(self, name: str) -> str:
+        """The name in this file of a function of the contract."""
+        return self._heads(name)[0].partition(" (")[0].split()[-1]
 
     # -- the file ----------------------------------------------------------------------------
 
-    def _further(self) -> bool:
-        """Read a type of arrays, a table, or a function of the file's own."""
-        if self.took("typedef real"):
-            name = self.next()
-            self.types[name] = self._sizes()
-            self.take(";")
-            return True
-        if self.took("static const"):
+    def _leave(self, read: set[str]) -> None:
+        """Pass a word that is not read, or a table or function of the file's own."""
+        start, kinds = self.at, dict(self.kinds)
+        try:
+            if not self._own():
+                super()._leave(read)
+        except CodeError:
+            self.at, self.kinds = start, kinds
+            super()._leave(read)
+
+    def _own(self) -> bool:
+        """Read a table of numbers, or a function, where one stands here."""
+        if self.tokens[self.at].column != 0:
+            return False
+        self.name = " "
+        if self.took("const"):
             self.at -= 1
             self._declaration(self.tables)
             return True
-        if not self.took("static") and self.near(1).removeprefix(f"{self.prefix}_") in CONTRACT:
+        if not self.took("fn", "function"):
             return False
-        returns = self._type()
-        self._routine(self.naming(), self._parameters(), returns)
+        self.writes = []
+        self._routine(self.naming(), self._parameters(), None)
         return True
 
     def function(self, name: str) -> None:
         """The statements of a function of the contract."""
+        spelt, plain = self.spelt(name), {"t": "real", "n": "size_t"}
+        self.straight = name == "constants" and self.language != "c"
+        if self.straight:
+            super().function(name)
+            f, self.straight = self.functions[name], False
+            arrays: list[tuple[str, Kind]] = [(x, ()) for x in f.arguments]
+            self.routines[spelt] = Routine(spelt, arrays, None, f.body, set())
+            return
         self.functions[name] = None  # type: ignore[assignment]
-        plain = {"t": "real", "n": "size_t"}
         arguments = [(x, plain.get(x, ())) for x in self.arguments]
-        returns = "int" if name == "constants" else "void" if self.writes else "real"
-        self._routine(f"{self.prefix}_{name}", arguments, returns)
+        returns = "int" if name == "constants" else None if self.writes else "real"
+        self._routine(spelt, arguments, returns)
 
     def _parameters(self) -> list[tuple[str, Kind]]:
         """The names and kinds of what a function takes."""
         self.take("(")
         found = []
         while not self.took(")"):
-            self.took("const")
-            kind = self._type()
-            if self.took("( *"):
-                name = self.naming()
-                self.take(")")
-                kind = self._sizes()
-            elif self.took("*"):
-                name, kind = self.naming(), ()
-            else:
-                name = self.naming()
-                kind = kind[1:] if isinstance(kind, tuple) else kind
-            found.append((name, kind))
+            found.append(self._parameter())
             if not self.took(",") and self.word != ")":
                 self.unknown()
         return found
 
+    def _parameter(self) -> tuple[str, Kind]:
+        name = self.naming()
+        if self.language != "rust":
+            return name, None
+        self.take(":")
+        pointer = self.took("& mut", "&")
+        kind = self._type()
+        return name, kind[1:] if pointer else kind
+
     def _routine(self, name: str, arguments: list[tuple[str, Kind]], returns: Kind) -> None:
         if name in self.routines:
-            self.unknown(f"the function {name} stands twice")
+            self.unknown(f"{name} is defined twice")
         outer = dict(self.kinds)
         self.kinds |= dict(arguments)
-        self.names, self.calls = {x for x, _ in arguments}, set()
+        self.arguments, self.calls = [x for x, _ in arguments], set()
+        self.names = {*self.arguments}
         self.take("{")
         body = self._block()
         self.kinds = outer
@@ -118,80 +136,63 @@ class LoopReader(CReader):
         """The kind that a type stands for: of a number, or the sizes of an array."""
         if self.took("real"):
             return "real"
-        if self.word in (*WHOLE, "void"):
-            return self.next()
-        if self.word not in self.types:
-            self.unknown()
-        return self.types[self.next()]
+        if self.took("usize", "bool"):
+            return "int"
+        self.take("[")
+        inner = self._type()
+        self.take(";")
+        size = self.integer() if INTEGER.fullmatch(self.word) else ("int", self.next())
+        self.take("]")
+        return (size[1], *(() if inner == "real" else inner))
 
-    def _sizes(self) -> tuple[int, ...]:
-        found = []
-        while self.took("["):
-            if self.word == "]":
-                found.append(0)
-            else:
-                found.append(self.integer()[1])
-            self.take("]")
-        return tuple(found)
-
-    def _declaration(self, body: list[Statement], *, loop: bool = False) -> None:
-        """Names with their values, or arrays without; whole numbers are constants, but in the head
-        of a loop."""
-        fixed = self.took("static")
-        constant = self.took("const")
-        base = self._fields() if self.took("struct {") else self._type()
-        while True:
-            pointer = self.took("* const")
-            name = self.naming()
-            if name in self.kinds:
-                self.unknown(f"{name} is declared twice")
-            sizes = self._sizes()
-            sizes += base if isinstance(base, tuple) else ()
-            if sizes and self.took("="):
-                body.append(self._table(name, base, sizes, constant=constant))
-            elif sizes:
-                body.append(("array", name, sizes))
-            elif isinstance(base, dict) or (base in WHOLE and not constant and not loop) or fixed:
-                self.unknown()
-            else:
-                kind = () if pointer else base
-                self.take("=")
-                body.append(("declare", kind, name, self.expression()))
-            self.kinds[name] = sizes or (() if pointer else base)
-            if not self.took(","):
-                break
+    def _declaration(self, body: list[Statement]) -> None:
+        """A name with its value, or an array of zeros."""
+        whole, kind = self.word == "const", None
+        self.take(self.word)
+        varies = (self.language == "rust" and self.took("mut")) or not whole
+        name = self.naming()
+        if name in self.kinds:
+            self.unknown(f"{name} is declared twice")
+        if self.language == "rust":
+            self.take(":")
+            kind = self._type()
+        elif varies:
+            kind = "real"
+        self.take("=")
+        if self.language == "rust" and isinstance(kind, tuple) and not whole:
+            if self._zeros() != kind:
+                self.unknown("an array of other sizes")
+            body.append(("array", name, kind, 0))
+        elif self.language == "javascript" and self.word in ("new", "Array"):
+            kind = self._zeros()
+            body.append(("array", name, kind, 0))
+        elif self.took("["):
+            rows = [("real", x) for x in self.listed("]")]
+            kind = (len(rows),)
+            body.append(("table", name, rows))
+        else:
+            body.append(("declare", kind, name, self.expression()))
+        self.kinds[name] = kind
         self.take(";")
 
-    def _fields(self) -> dict[str, Kind]:
-        """The fields of a structure, each with its kind."""
-        found = {}
-        while not self.took("}"):
-            kind = self._type()
-            found[self.naming()] = kind
-            while self.took(","):
-                found[self.naming()] = kind
-            self.take(";")
-        return found
-
-    def _table(self, name: str, base: Kind, sizes: tuple[int, ...], *, constant: bool) -> Statement:
-        """A list of numbers, or of rows of them."""
-        rows: list[Any] = []
-        self.take("{")
-        while not self.took("}"):
-            if isinstance(base, dict):
-                self.take("{")
-                entries = self.listed("}")
-                if len(entries) != len(base):
-                    self.unknown("a row with another number of entries")
-                pairs = zip(base.items(), entries, strict=True)
-                rows.append({field: (kind, x) for (field, kind), x in pairs})
-            else:
-                rows.append((base, self.expression()))
-            if not self.took(",") and self.word != "}":
-                self.unknown()
-        if not constant or len(sizes) != 1 or sizes[0] not in (0, len(rows)):
-            self.unknown(f"{name} has {len(rows)} entries")
-        return ("table", name, rows)
+    def _zeros(self) -> tuple[int, ...]:
+        """The sizes of an array that is made of zeros."""
+        if self.took("new real ("):
+            size = self.integer()[1]
+            self.take(")")
+            return (size,)
+        if self.took("Array . from ( { length :"):
+            size = self.integer()[1]
+            self.take("} , ( ) =>")
+            inner = self._zeros()
+            self.take(")")
+            return (size, *inner)
+        self.take("[")
+        inner = () if self.took("0.0") else self._zeros()
+        self.take(";")
+        size = self.integer()[1]
+        self.take("]")
+        return (size, *inner)
 
     # -- statements --------------------------------------------------------------------------
 
@@ -204,50 +205,100 @@ class LoopReader(CReader):
         return tuple(body)
 
     def _do(self, body: list[Statement]) -> None:
-        if self.took("( void ) argument ;"):
+        if self.took(*self.syntax.ignored) or self._refuses():
             return
-        if self.took("if ("):
+        if self.took("if"):
             body.append(self._branch())
-        elif self.took("for ("):
+        elif self.took("for"):
             body.append(self._repeat())
+        elif self.language == "javascript" and self.word == "return":
+            self._return(body)
         elif self.took("return"):
             body.append(("return", self.expression()))
             self.take(";")
-        elif self.word in ("static", "const", *WHOLE, *self.types, *self.syntax.reals):
+        elif self._declares:
             self._declaration(body)
         else:
-            body.append(self._assignment())
-            self.take(";")
+            self._assignment(body)
+
+    def _refuses(self) -> bool:
+        """Pass an error check of JavaScript, where one stands here."""
+        start = self.at
+        try:
+            return self.language == "javascript" and self.word == "if" and self._check()
+        except CodeError:
+            self.at = start
+            return False
+
+    @property
+    def _declares(self) -> bool:
+        return self.word in ("let", "const")
+
+    def _tested(self) -> Expression:
+        """A condition, and the bracket after it."""
+        if self.language != "rust":
+            self.take("(")
+        test = self.expression()
+        self.take("{" if self.language == "rust" else ") {")
+        return test
 
     def _branch(self) -> Statement:
-        test = self.expression()
-        self.take(") {")
-        then = self._block()
+        test, then = self._tested(), self._block()
         otherwise: tuple[Statement, ...] = ()
-        if self.took("else if ("):
+        if self.took("else if"):
             otherwise = (self._branch(),)
         elif self.took("else {"):
             otherwise = self._block()
         return ("if", test, then, otherwise)
 
     def _repeat(self) -> Statement:
-        """What follows ``for (``; the name that is tested must grow."""
-        outer, first = dict(self.kinds), list[Statement]()
-        self._declaration(first, loop=True)
-        name = self.word
-        if self._kind_of(("var", name)) not in WHOLE:
-            self.unknown()
-        self.at += 1
-        self.take("<")
-        bound = self._sum()
-        self.take(";")
-        steps = [self._step()]
-        while self.took(","):
-            steps.append(self._step())
-        self.take(") {")
+        """What follows ``for``; the name that is tested must grow."""
+        outer = dict(self.kinds)
+        if self.language == "rust":
+            first, name, bound, steps = self._range()
+        else:
+            self.take("(")
+            first = self._counters()
+            name = self.word
+            if self._kind_of(("var", name)) not in WHOLE:
+                self.unknown()
+            self.at += 1
+            self.take("<")
+            bound = self._sum()
+            self.take(";")
+            steps = [self._step()]
+            while self.took(","):
+                steps.append(self._step())
+            self.take(")")
+        self.take("{")
         body = self._block()
         self.kinds = outer
         return ("loop", tuple(first), name, bound, tuple(steps), body)
+
+    def _range(self) -> tuple[list[Statement], str, Expression, list[tuple[str, Expression]]]:
+        """``i in a..b``, or ``i in (a..b).step_by(n)``."""
+        name = self.naming()
+        self.take("in")
+        stepped = self.took("(")
+        start = self._sum()
+        self.take("..")
+        bound, step = self._sum(), ("int", 1)
+        if stepped:
+            self.take(") . step_by (")
+            step = self.integer()
+            self.take(")")
+        self.kinds[name] = "int"
+        return [("declare", "int", name, start)], name, bound, [(name, step)]
+
+    def _counters(self) -> list[Statement]:
+        """``let i = 0;`` of a loop."""
+        self.take("let")
+        name = self.naming()
+        self.take("=")
+        found = [("declare", "int", name, self.expression())]
+        self.kinds[name] = "int"
+        self.take(";")
+        return found
 
     def _step(self) -> tuple[str, Expression]:
         """What is added to a whole number at the end of each turn."""
@@ -261,28 +312,45 @@ class LoopReader(CReader):
             self.unknown()
         return name, added
 
-    def _assignment(self) -> Statement:
-        """A call, or what is assigned to a number, or to several the same."""
+    def _assignment(self, body: list[Statement]) -> None:
+        """A call, or what is assigned to a number, or to several the same; Rust's last expression,
+        which is returned."""
         targets = [self.expression()]
-        if targets[0][0] == "call" and self.word == ";":
-            return ("do", targets[0])
-        if self.word not in ASSIGNED:
-            self.unknown()
-        sign, value = self.next(), self.expression()
-        while sign == "=" and self.took("="):
+        if self.language == "rust" and self.word == "}":
+            body.append(("return", targets[0]))
+            return
+        if targets[0][0] == "call" and self.took(";"):
+            body.append(("do", targets[0]))
+            return
+        sign, value = self._assigned_to(targets[0]), self.expression()
+        while sign == "=" and self.word == "=":
             targets.append(value)
+            self._assigned_to(value)
             value = self.expression()
-        for target in targets:
-            if target[0] != "item" and self._kind_of(target) != "real":
-                self.unknown()
-        return ("assign", sign, tuple(targets), value)
+        body.append(("assign", sign, tuple(targets), value))
+        self.take(";")
+
+    def _assigned_to(self, target: Expression) -> str:
+        """The sign after what is assigned to, an entry of an array or a number that varies."""
+        varies = target[0] == "item" or self._kind_of(target) == "real"
+        if self.word not in ASSIGNED or not varies:
+            self.unknown()
+        return self.next()
 
     # -- expressions -------------------------------------------------------------------------
 
     def expression(self) -> Expression:
         """A choice of two, or less."""
+        if self.language == "rust" and self.took("if"):
+            test = self.expression()
+            self.take("{")
+            one = self.expression()
+            self.take("} else {")
+            other = self.expression()
+            self.take("}")
+            return ("cond", test, one, other)
         test = self._chain({"||": "or"}, lambda: self._chain({"&&": "and"}, self._comparison))
-        if not self.took("?"):
+        if self.language == "rust" or not self.took("?"):
             return test
         one = self.expression()
         self.take(":")
@@ -315,15 +383,25 @@ class LoopReader(CReader):
             return ("neg", self._signed())
         if self.took("!"):
             return ("not", self._signed())
-        if self.took("( real )"):
+        if self.language == "c" and self.took("( real )"):
             return ("real", self._signed())
-        return self._atom()
+        if self.language == "rust" and self.took("& mut", "&"):
+            return self._atom()
+        found = self._atom()
+        return ("real", found) if self.language == "rust" and self.took("as real") else found
+
+    def _literal(self) -> Expression:
+        return ("int", int(self.next())) if INTEGER.fullmatch(self.word) else super()._literal()
 
     def _call(self) -> Expression | None:
         return None if self.word in self.routines else super()._call()
 
     def _entry(self) -> Expression:
         """A name, or what is in the array or the row that it stands for."""
+        if self.straight:
+            return super()._entry()
+        if self.language != "c" and self.took("true", "false"):
+            return ("int", int(self.near(-1) == "true"))
         if not NAME.fullmatch(self.word):
             self.unknown()
         name = self.next()
@@ -336,7 +414,7 @@ class LoopReader(CReader):
             self.at -= 1
             self.unknown()
         found: Expression = ("var", name)
-        while self.word in ("[", "."):
+        while self.word == "[" or (self.language == "c" and self.word == "."):
             if self.took("."):
                 found = ("field", found, self.naming())
             else:
@@ -344,3 +422,123 @@ class LoopReader(CReader):
                 found = ("item", found, self.expression())
                 self.take("]")
         return found
+
+
+class CLoopReader(LoopReader, CReader):
+    """The reader of C, with its types."""
+
+    def spelt(self, name: str) -> str:
+        """The name in this file of a function of the contract."""
+        return f"{self.prefix}_{name}"
+
+    def _further(self) -> bool:
+        """Read a type of arrays, a table, or a function of the file's own."""
+        self.name = " "
+        if self.took("typedef real"):
+            name = self.next()
+            self.types[name] = self._sizes()
+            self.take(";")
+            return True
+        if self.took("static const"):
+            self.at -= 2
+            self._declaration(self.tables)
+            return True
+        if not self.took("static") and self.near(1).removeprefix(f"{self.prefix}_") in CONTRACT:
+            return False
+        returns = self._type()
+        self._routine(self.naming(), self._parameters(), None if returns == "void" else returns)
+        return True
+
+    def _parameter(self) -> tuple[str, Kind]:
+        self.took("const")
+        kind = self._type()
+        if self.took("( *"):
+            name = self.naming()
+            self.take(")")
+            return name, self._sizes()
+        pointer = self.took("*")
+        name = self.naming()
+        return name, () if pointer else kind[1:] if isinstance(kind, tuple) else kind
+
+    def _type(self) -> Kind:
+        if self.took("real"):
+            return "real"
+        if self.word in (*WHOLE, "void"):
+            return self.next()
+        if self.word not in self.types:
+            self.unknown()
+        return self.types[self.next()]
+
+    def _sizes(self) -> tuple[int, ...]:
+        found = []
+        while self.took("["):
+            found.append(0 if self.word == "]" else self.integer()[1])
+            self.take("]")
+        return tuple(found)
+
+    @property
+    def _declares(self) -> bool:
+        return self.word in ("static", "const", *WHOLE, *self.types, *self.syntax.reals)
+
+    def _counters(self) -> list[Statement]:
+        """The declaration in the head of a loop."""
+        found = list[Statement]()
+        self._declaration(found, loop=True)
+        return found
+
+    def _declaration(self, body: list[Statement], *, loop: bool = False) -> None:
+        """Names with their values, or arrays without; whole numbers are constants, but in the head
+        of a loop."""
+        fixed = self.took("static")
+        constant = self.took("const")
+        base = self._fields() if self.took("struct {") else self._type()
+        while True:
+            pointer = self.took("* const")
+            name = self.naming()
+            if name in self.kinds:
+                self.unknown(f"{name} is declared twice")
+            sizes = self._sizes() + (base if isinstance(base, tuple) else ())
+            if sizes and self.took("="):
+                body.append(self._table(name, base, sizes, constant=constant))
+            elif sizes:
+                body.append(("array", name, sizes, None))
+            elif isinstance(base, dict) or (base in WHOLE and not constant and not loop) or fixed:
+                self.unknown()
+            else:
+                self.take("=")
+                body.append(("declare", () if pointer else base, name, self.expression()))
+            self.kinds[name] = sizes or (() if pointer else base)
+            if not self.took(","):
+                break
+        self.take(";")
+
+    def _fields(self) -> dict[str, Kind]:
+        """The fields of a structure, each with its kind."""
+        found = {}
+        while not self.took("}"):
+            kind = self._type()
+            found[self.naming()] = kind
+            while self.took(","):
+                found[self.naming()] = kind
+            self.take(";")
+        return found
+
+    def _table(self, name: str, base: Kind, sizes: tuple[int, ...], *, constant: bool) -> Statement:
+        """A list of numbers, or of rows of them."""
+        rows: list[Any] = []
+        self.take("{")
+        while not self.took("}"):
+            rows.append(self._row(base) if isinstance(base, dict) else (base, self.expression()))
+            if not self.took(",") and self.word != "}":
+                self.unknown()
+        if not constant or len(sizes) != 1 or sizes[0] not in (0, len(rows)):
+            self.unknown(f"{name} has {len(rows)} entries")
+        return ("table", name, rows)
+
+    def _row(self, fields: Mapping[str, Kind]) -> dict[str, tuple[Kind, Expression]]:
+        self.take("{")
+        entries = self.listed("}")
+        if len(entries) != len(fields):
+            self.unknown("a row with another number of entries")
+        pairs = zip(fields.items(), entries, strict=True)
+        return {field: (kind, x) for (field, kind), x in pairs}

@@ -1,4 +1,10 @@
-"""C with loops, as it was read, run in a prime field."""
+"""Code with loops, as it was read, run in a prime field.
+
+What is a number of the language is a residue modulo p here; what it has as a whole number, on which
+alone places and conditions may depend, is an integer.  So a function that is read is one rational
+function of what it is given.  An array has no value outside of it, nor, in C, where nothing was
+written.
+"""
 
 from __future__ import annotations
 
@@ -14,13 +20,15 @@ Names = dict[str, Any]
 
 
 class Cells(dict[int, Any]):
-    """An array of these sizes; what is not written is not there."""
+    """An array of these sizes, of one number, or where nothing is there before it is written."""
 
-    def __init__(self, sizes: Sequence[int]):
+    def __init__(self, sizes: Sequence[int], number: Any = None):
         super().__init__()
         self.size, self.inner = sizes[0], tuple(sizes[1:])
         if self.inner:
-            self.update((i, Cells(self.inner)) for i in range(self.size))
+            self.update((i, Cells(self.inner, number)) for i in range(self.size))
+        elif number is not None:
+            self.update(dict.fromkeys(range(self.size), number))
 
     def __setitem__(self, i: int, value: Any) -> None:
         if self.inner or not 0 <= i < self.size:
@@ -52,10 +60,11 @@ class Loops(Run):
         elementary: Callable[[str, int], Any],
     ):
         def measured(name: str, x: Any) -> Any:
-            return elementary(name, Measured.of(x).value % p)
+            return Measured.of(elementary(name, Measured.of(x).value % p))
 
         super().__init__(measured, lambda text: Measured(literal(text)))
-        self.prefix, self.routines, self.p = reader.prefix, reader.routines, p
+        self.spelt, self.routines, self.p = reader.spelt, reader.routines, p
+        self.exact = reader.language == "javascript"  # are there no integers?
         self.stands_in: dict[str, Callable[..., Any]] = {}
         self.largest = 0  # the largest degree of a number that was given out
         self.tables: Names = {}
@@ -66,7 +75,7 @@ class Loops(Run):
         """What a function returns; ``CodeError`` where it has no value, or writes outside of an
         array."""
         try:
-            return self._called(f"{self.prefix}_{name}", arguments)
+            return self._called(self.spelt(name), arguments)
         except (LookupError, TypeError, AttributeError) as error:
             raise CodeError(f"{name}: no value: {error}") from None
         except CodeError as error:
@@ -87,8 +96,8 @@ class Loops(Run):
     @contextmanager
     def replaced(self, name: str, caller: str, f: Callable[..., Any]) -> Iterator[None]:
         """Another function in the place of one, if ``caller`` calls it."""
-        if f"{self.prefix}_{name}" in self.routines[f"{self.prefix}_{caller}"].calls:
-            self.stands_in = {f"{self.prefix}_{name}": f}
+        if self.spelt(name) in self.routines[self.spelt(caller)].calls:
+            self.stands_in = {self.spelt(name): f}
         try:
             yield
         finally:
@@ -105,7 +114,9 @@ class Loops(Run):
         return self._as(r.returns, value) if done else None
 
     def _as(self, kind: Kind, x: Any) -> Any:
-        """A value as one of a kind."""
+        """A value as one of a kind, where that is known."""
+        if kind is None:
+            return x
         if kind == "real" and isinstance(x, (int, Measured)):
             return Measured.of(x) % self.p
         if kind in WHOLE and isinstance(x, int):
@@ -121,7 +132,7 @@ class Loops(Run):
         if s[0] == "declare":
             names[s[2]] = self._as(s[1], self.value(s[3], names))
         elif s[0] == "array":
-            names[s[1]] = Cells(s[2])
+            names[s[1]] = Cells(s[2], s[3])
         elif s[0] == "table":
             names[s[1]] = dict(enumerate(map(self._row, s[2])))
         elif s[0] == "assign":
@@ -135,6 +146,10 @@ class Loops(Run):
         else:
             return super()._statement(s, names)
         return False, None
+
+    @staticmethod
+    def _array(name: str, names: Mapping[str, Any]) -> Any:
+        return names[name]
 
     def _row(self, row: Any) -> Any:
         if isinstance(row, dict):
@@ -191,10 +206,10 @@ class Loops(Run):
         if op in ("and", "or"):
             first = self._test(rest[0], names)
             return self._test(rest[1], names) if bool(first) == (op == "and") else first
-        if op in ("int", "lit", "fun"):
+        if op in ("int", "lit", "fun", "at"):
             return super().value(e, names)
         values = [self.value(x, names) for x in rest]
-        if op == "eq" and self.running == f"{self.prefix}_constants":
+        if op == "eq" and self.running == self.spelt("constants"):
             return int((Measured.of(values[0]) - values[1]).value % self.p == 0)
         if op == "real":
             return self._as(op, *values)
@@ -203,7 +218,7 @@ class Loops(Run):
         return OPERATIONS[op](*values)
 
     def _quotient(self, a: Any, b: Any) -> Measured:
-        if isinstance(a, int) and isinstance(b, int):
+        if isinstance(a, int) and isinstance(b, int) and not self.exact:
             raise CodeError("C cuts off a quotient of integers")
         if not Measured.of(b).value % self.p:
             raise CodeError("a division by zero")

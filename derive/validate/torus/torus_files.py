@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import reduce
+from pathlib import PurePath
 from random import Random
 from types import ModuleType
 from typing import Any
@@ -32,11 +33,12 @@ from ...language import rational as q
 from ...record.json_writer import to_json
 from ...record.record import Derivation
 from ..compare import SIZE, Agreement
-from ..read_file import words
+from ..read_file import LANGUAGES, Beside, beside, words
 from ..straight_line import Measured
+from ..syntax import SYNTAX, tokens
 from ..terms import CodeError, DiffersError
 from .exact_arrays import ExactArray, ExactLibrary
-from .loop_reader import LoopReader
+from .loop_reader import CLoopReader, LoopReader
 from .run_loops import Cells, Loops
 
 SCALE = 1 << 200
@@ -204,12 +206,38 @@ def agreement(claims: TorusClaims, call: Call, has: Callable[[str], bool]) -> Ag
     return Agreement(("constants", *functions), 1, 2 * DEGREE / SIZE, rounded, ())
 
 
-# -- C -------------------------------------------------------------------------------------------
+# -- loops, read -------------------------------------------------------------------------------
 
 
-def compare_c(name: str, files: Mapping[str, str], prefix: str, claims: TorusClaims) -> Agreement:
-    """The verdict on C, read with its loops."""
-    text = LoopReader(words(name, files, prefix), prefix)
+def loops_of(name: str, files: Mapping[str, str], prefix: str) -> LoopReader:
+    """The reader of a file with loops."""
+    language = LANGUAGES[PurePath(name).suffix]
+    if language == "c":
+        return CLoopReader(language, words(name, files, prefix), prefix)
+    return LoopReader(language, tokens(SYNTAX[language], files[name], name), prefix)
+
+
+def has_known_loops(name: str, files: Mapping[str, str], prefix: str) -> bool:
+    """Can a file be read with its loops?"""
+    try:
+        loops_of(name, files, prefix).module()
+    except CodeError:
+        return False
+    return True
+
+
+def beside_loops(name: str, files: Mapping[str, str], prefix: str) -> Beside:
+    """What of a file is not read."""
+    reader = loops_of(name, files, prefix)
+    reader.module()
+    return beside(reader, files[name])
+
+
+def compare_loops(
+    name: str, files: Mapping[str, str], prefix: str, claims: TorusClaims
+) -> Agreement:
+    """The verdict on a file, read with its loops."""
+    text = loops_of(name, files, prefix)
     module = text.module()
     reader = Loops(text, claims.p, claims.number, claims.elementary)
     dimension = len(claims.names)
