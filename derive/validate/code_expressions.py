@@ -16,6 +16,7 @@ from .terms import DECIMAL, CodeError, Expression
 SUMS, PRODUCTS = {"+": "add", "-": "sub"}, {"*": "mul", "/": "div"}
 COMPARED = {">": "gt", "<": "lt", "<=": "le", "==": "eq"}
 INTEGER = re.compile(r"0|[1-9][0-9]{0,6}")
+SIZE = re.compile(r"N_[A-Z]+|[0-9]+")
 NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 OPEN, CLOSE = ("(", "[", "{"), (")", "]", "}")
 words_of = cache(str.split)
@@ -94,6 +95,8 @@ class ExpressionReader:
         return at
 
     def _is(self, word: str, wanted: str) -> bool:
+        if wanted == "size":
+            return bool(SIZE.fullmatch(word))
         if wanted == "argument":
             return word in self.arguments
         if wanted != "real" or not word or word not in self.syntax.reals:

@@ -22,7 +22,7 @@ DEFINING = ("def", "class", "as", "import", "function", "const")
 REPEATING = ("velocity", "momentum_rhs")
 """Beside ``velocity_step`` these repeat it, in a loop, and are not read."""
 MADE = (
-    "new real ( … )",
+    "new real ( size )",
     "Vector { promote_type ( eltype ( p ) , Float64 ) } ( undef , N_CONSTANTS )",
     "Vector { promote_type ( eltype ( p ) , Float32 ) } ( undef , N_CONSTANTS )",
 )
@@ -76,7 +76,7 @@ class Reader(ExpressionReader):
     def _data(self) -> bool:
         """Read a list of names or numbers, or a size, where one stands here."""
         token, start = self.tokens[self.at], self.at
-        named = token.text in DATA or re.fullmatch("N_[A-Z]+", token.text)
+        named = token.text in DATA or token.text.startswith("N_")
         if not named or (self.near(-1) != "const" and token.column != 0):
             return False
         self.at += 1
@@ -88,7 +88,9 @@ class Reader(ExpressionReader):
         if token.text in self.values:
             self.unknown(f"{token.text} is defined twice", start)
         self.name = ""
-        self.values[token.text] = self.value()
+        self.values[token.text] = found = self.value()
+        if token.text not in DATA and not isinstance(found, Fraction):
+            self.unknown(f"{token.text} is no size", start)
         return True
 
     def value(self) -> Any:
@@ -114,6 +116,8 @@ class Reader(ExpressionReader):
             if not self.took(",") and self.word != closed:
                 self.unknown()
         if opened == "{" and self.language != "c":
+            if len(keys) != len(items) or not all(isinstance(x, Fraction) for x in items):
+                self.unknown("no numbers by their names")
             return dict(zip(keys, items, strict=True))
         return tuple(items)
 
@@ -126,9 +130,9 @@ class Reader(ExpressionReader):
 
     def _module(self) -> Module:
         stated = {x.removeprefix("N_"): int(n) for x, n in self.values.items() if x not in DATA}
-        lists = {x: self.values[x] for x in LISTS if x in self.values}
+        lists = {x: found for x in LISTS if isinstance(found := self.values.get(x), tuple)}
         for name in LISTS[:3]:
-            if not all(isinstance(x, str) for x in lists.setdefault(name, [0])):
+            if not all(isinstance(x, str) for x in lists.setdefault(name, (0,))):
                 raise CodeError(f"{name} is no tuple of names")
         counted = {x: len(found) for x, found in lists.items()}
         for x, n in stated.items():
@@ -136,6 +140,8 @@ class Reader(ExpressionReader):
                 raise CodeError(f"N_{x} is {n}, not {counted[x]}")
         sizes = {"CONSERVED": 0, **stated, **counted}
         basis, defaults = self.values.get("BASIS"), self.values.get("DEFAULTS")
+        if not isinstance(defaults, (dict, type(None))):
+            raise CodeError("DEFAULTS are no numbers by their names")
         state, parameters, inputs = (lists[x] for x in LISTS[:3])
         return Module(state, parameters, inputs, self.functions, sizes, defaults, basis)
 
@@ -254,7 +260,10 @@ class Reader(ExpressionReader):
             body.append(("set", name, self.expression()))
             return
         self.arguments.append(name)
-        if not self.took(*MADE):
+        start = self.at
+        if self.took(*MADE):
+            self.unread += self.tokens[start : self.at]
+        else:
             value = self.expression()
             if value[0] != "list":
                 self.unknown(f"{name} is no list of numbers")

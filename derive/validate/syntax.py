@@ -51,8 +51,8 @@ CONTRACT = {
 Heads = Callable[[str, str, list[str], list[str]], list[str]]
 """(function, prefix of the file, what it takes, what it writes) → its possible heads.
 
-In these and other patterns words are apart; ``real`` is a type of real numbers, ``…`` whatever
-stands up to the end of a bracket.
+In these and other patterns words are apart; ``real`` is a type of real numbers, ``size`` an
+integer or the name of a size, ``…`` whatever stands up to the end of a bracket.
 """
 
 
@@ -132,7 +132,7 @@ def _julia_heads(f: str, prefix: str, takes: list[str], writes: list[str]) -> li
 def _javascript_heads(f: str, prefix: str, takes: list[str], writes: list[str]) -> list[str]:
     del prefix
     arguments = ["u = null" if x == "u" else x for x in takes]
-    arguments += [f"{x} = new real ( … )" for x in writes if f != "constants"]
+    arguments += [f"{x} = new real ( size )" for x in writes if f != "constants"]
     return [f"function {f} ( {' , '.join(arguments)} )"]
 
 
@@ -169,7 +169,7 @@ SYNTAX: Mapping[str, Syntax] = {
         declaration="let",
         typed=": real",
         zero=("real :: from ( u8 :: from (", "== 0.0 ) )"),
-        ignored=("let _ = argument ;", "let _ = ( … ) ;"),
+        ignored=("let _ = argument ;",),
     ),
     "julia": Syntax(
         _julia_heads,

@@ -384,6 +384,8 @@ UNREAD = {
         ("1.0/I_d_3", "/* 2.0* */1.0/I_d_3", "'/'"),
         ("    let I_22:", "    if I_11 > 0.0 { I_11 = 1.0; }\n    let I_22:", "'I_11'"),
         ("    Ok(k)", "    Ok(p)", "'p'"),
+        ("let _ = t;", "let _ = (dx[0] = 0.0);", "'_'"),
+        ("N_STATE: usize = 12", "N_STATE: usize = 13", "N_STATE is 13, not 12"),
         ("        J_12,\n", "", "k[19] is not written"),
     ],
     "javascript": [
@@ -400,6 +402,8 @@ UNREAD = {
         ("if (x.length !== 12", "if (swap(k) || x.length !== 12", "swap in an error check"),
         ("    u ??= ZERO_INPUTS;", "    u = ZERO_INPUTS;", "'u'"),
         ("    return dx;", "    return x;", "'x'"),
+        ("dx = new Float64Array(12)", "dx = new Float64Array(k[0] = 1)", "other arguments"),
+        ("    c_1: 0.0,", "    c_1: c_2,", "','"),
         ("    return dx;", "    return\n    dx;", "in another line"),
         ("    return dx;\n", "", "not returned"),
         ("        J_12,\n", "", "k[19] is not written"),
@@ -420,6 +424,7 @@ UNREAD = {
         ("    k[1] = J_12\n", "    k[0] = J_12\n", "no place"),
         ("    k[1] = J_12\n", "    k[1] = J_12\n    return k\n", "after the last"),
         ("    return k\n", "    return p\n", "'p'"),
+        ("const N_STATE = 12", "const N_STATE = (12,)", "no size"),
         ("function rhs!(", "@inline function rhs!(", "not defined for itself"),
     ],
 }

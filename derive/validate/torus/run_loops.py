@@ -67,14 +67,15 @@ class Loops(Run):
         self.exact = reader.language == "javascript"  # are there no integers?
         self.stands_in: dict[str, Callable[..., Any]] = {}
         self.largest = 0  # the largest degree of a number that was given out
+        self.declared, self.running = tuple(reader.tables), ""
         self.tables: Names = {}
-        self.running = ""
-        self.body(tuple(reader.tables), self.tables)
 
     def call(self, name: str, *arguments: Any) -> Any:
         """What a function returns; ``CodeError`` where it has no value, or writes outside of an
         array."""
+        self.tables = {}
         try:
+            self.body(self.declared, self.tables)
             return self._called(self.spelt(name), arguments)
         except (LookupError, TypeError, AttributeError) as error:
             raise CodeError(f"{name}: no value: {error}") from None

@@ -38,7 +38,8 @@ from ..straight_line import Measured
 from ..syntax import SYNTAX, tokens
 from ..terms import CodeError, DiffersError
 from .exact_arrays import ExactArray, ExactLibrary
-from .loop_reader import CLoopReader, LoopReader
+from .loop_reader import LoopReader
+from .loops_in_c import CLoopReader
 from .run_loops import Cells, Loops
 
 SCALE = 1 << 200
