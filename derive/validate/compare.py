@@ -17,9 +17,10 @@ from typing import Any
 from ..record.json_writer import to_json
 from .chart import ReducedChart, StateChart
 from .discrete_functions import DiscreteFunctions
-from .exact_derivatives import ExactJacobians, MomentumFunctions
 from .exact_points import Claims, Point, WithIntegrals
 from .functions_of_state import (
+    ExactJacobians,
+    MomentumFunctions,
     compare_attitude,
     compare_conserved,
     compare_drift,
