@@ -367,6 +367,6 @@ def add_writing_options(emit: argparse.ArgumentParser) -> None:
     emit.add_argument("--check", action="store_true", help=current)
     names = "print the names of the files, a line each, and write nothing (for builds)"
     emit.add_argument("--names", action="store_true", help=names)
-    about = "read the C and Python back before they are written (with --check: those on disk), "
+    about = "read the files back before they are written (with --check: those on disk), "
     about += "hold them against the record"
     emit.add_argument("--validate", action="store_true", help=f"{about}; exit 1 if they differ")

@@ -163,8 +163,7 @@ def validated(
 ) -> list[Report]:
     """Whether the files that can be read back equal the record, a line on stderr for each.
 
-    ``fresh``: what is emitted now.  ``MissingParserError`` when there is C among them and no parser
-    of it.
+    ``fresh``: what is emitted now.
     """
     from ..validate import emission
     from ..validate.chart import Chart

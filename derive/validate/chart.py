@@ -1,12 +1,13 @@
 """The numbers of a state in the order of the contract, from a group element and its velocity.
 
 Computed here from the matrices alone: A row by row or column by column, then T, factor after
-factor; or a unit quaternion for A; then the coordinates of Z = g⁻¹ġ, or the entries of ġ.
+factor; or a unit quaternion for A; then the coordinates of Z = g⁻¹ġ, or the entries of ġ.  Without
+an element of the group, ζ, then what is carried along.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -192,3 +193,30 @@ def half_product(p: Numbers, zeta: Numbers) -> Numbers:
         s * c + x * b - y * a,
     )
     return tuple(r / 2 for r in rates)
+
+
+@dataclass(frozen=True)
+class ReducedChart(StateChart):
+    """The chart of a problem with the key ``advected``: names and sizes of what it says."""
+
+    advected: tuple[tuple[str, int], ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """ζ, then the entries of each quantity in order."""
+        turns = (named("zeta", a) for a in range(self.group.dimension))
+        return (*turns, *(named(x, i) for x, size in self.advected for i in range(size)))
+
+    def with_carried(self, Z: Matrix, carried: Any) -> Numbers:
+        """The numbers of the state at Z and Γ; or the rates, from Ż and Γ̇."""
+        return (*self.group.nearest(Z), *(q.flatten(carried) if self.advected else ()))
+
+
+def chart_of(group: Group, chart: Chart, problem: Mapping[str, Any]) -> StateChart:
+    """The chart of a record's problem."""
+    if "advected" not in problem:
+        own = problem.get("lagrangian", {})
+        held = tuple(own.get("held", ()))
+        return StateChart(group, chart, own.get("trivialisation") == "right", held)
+    carried = tuple((x["name"], x["size"]) for x in problem["advected"])
+    return ReducedChart(group, chart, advected=carried)

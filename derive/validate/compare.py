@@ -1,4 +1,4 @@
-"""The functions of an emitted file against the record: equal at exact points, without tolerance.
+"""The functions and lists of an emitted file against the record, without tolerance.
 
 A rational function that is not zero vanishes at a random point with probability at most
 degree / size (Schwartz–Zippel); points are added until all of them at once are improbable enough.
@@ -15,22 +15,54 @@ from random import Random
 from typing import Any
 
 from ..record.as_json import to_json
-from .attitude import compare_attitude, exact_root
-from .chart import StateChart
-from .conservation import compare_conserved
-from .declarations import DiffersError, compare_names
-from .degree_bounds import Measured, MeasuredElementary
+from .chart import ReducedChart, StateChart
 from .discrete_functions import DiscreteFunctions
-from .ellipsoid_integrals import WithIntegrals
-from .emitted_file import Machine, Module
-from .exact_points import Claims, Point
-from .jacobians import ExactJacobians
-from .literals import Literals
-from .momentum_functions import MomentumFunctions
-from .projection import compare_drift, is_named
-from .reduced_chart import ReducedChart
-from .straight_line import require_straight_line, summands, tested_parameters
-from .terms import Array, CodeError, run
+from .exact_points import Claims, Point, WithIntegrals
+from .functions_of_state import (
+    ExactJacobians,
+    MomentumFunctions,
+    compare_attitude,
+    compare_conserved,
+    compare_drift,
+    exact_root,
+    is_named,
+)
+from .straight_line import (
+    Measured,
+    MeasuredElementary,
+    require_straight_line,
+    summands,
+    tested_parameters,
+)
+from .terms import Array, CodeError, DiffersError, Literals, Machine, Module, run
+
+
+def compare_names(m: Module, claims: Claims) -> None:
+    """``DiffersError`` where one of the lists is not what record and chart make it."""
+    for what, names in (("state", claims.state.names), ("inputs", claims.inputs)):
+        if (getattr(m, what) or names) != names:
+            raise DiffersError(f"the names of {what} are not {', '.join(names) or 'none'}")
+    declared, listed = claims.record.problem["parameters"], m.parameters or ()
+    if listed != tuple(x for x in declared if x in listed):
+        raise DiffersError("the parameters are not those of the record, in its order")
+    sizes = {
+        "STATE": len(claims.state.names),
+        "INPUTS": len(claims.inputs),
+        "PARAMETERS": len(listed),
+        "ALGEBRA": claims.group.dimension,
+    }
+    if "q_0" in claims.state.names:
+        sizes["MATRIX"] = len(claims.state.names) + 5  # nine entries for four
+    for what, size in sizes.items():
+        if m.sizes.get(what, size) != size:
+            raise DiffersError(f"the size {what} is {m.sizes[what]}, not {size}")
+    recorded = {x: declared[x]["default"] for x in listed}
+    defaults = {x: value for x, value in recorded.items() if value is not None}
+    if m.defaults is not None and {x: float(y) for x, y in m.defaults.items()} != defaults:
+        raise DiffersError("the defaults of the parameters are not those of the record")
+    if m.basis is not None and m.basis != claims.state.group.basis:
+        raise DiffersError("the basis is not that of the record")
+
 
 SIZE = 2**128
 """The random integers of a point are of at most this absolute value."""

@@ -22,9 +22,8 @@ from ..check.values.arithmetic import EPS, part
 from ..language import rational as q
 from ..language.rational import Matrix
 from .chart import EPSILON, StateChart, axis
-from .emitted_file import Machine
 from .exact_points import Point
-from .terms import Array
+from .terms import Array, Machine
 
 Call = Callable[..., dict[str, list[Any]]]
 Require = Callable[[str, Sequence[str], Sequence[Any], Sequence[Any]], None]

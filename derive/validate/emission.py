@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator, Mapping
+import re
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, partial
@@ -12,20 +13,26 @@ from itertools import zip_longest
 from ..record.record import Derivation
 from .chart import Chart
 from .compare import SIZE, Agreement, compare
-from .declarations import DiffersError
-from .ellipsoid_integrals import NAME as INTEGRALS
-from .emitted_file import Module
+from .exact_points import NAME as INTEGRALS
 from .exact_points import Claims
-from .read_c import read_c
-from .read_python import read_python, unread_statements
-from .run_time_text import loops, without_loops
+from .read_file import LANGUAGES, Beside, calls_of_cpp, read
 from .straight_line import error_checks
-from .terms import CodeError
-from .torus.torus_files import TorusClaims, compare_c, compare_python
+from .syntax import SYNTAX, tokens
+from .terms import CodeError, DiffersError, Module
+from .torus.torus_files import (
+    TorusClaims,
+    beside_loops,
+    compare_loops,
+    compare_python,
+    has_known_loops,
+)
 
 Judge = Callable[[tuple[str, ...]], Agreement]
 """The verdict on files by their names."""
-UNREAD = "not validated: only C and Python are read back"
+UNREAD = "not validated: such a file is not read back"
+LOOPS = "not validated: its loops, which are not read back in this language"
+CALLED = "the C that it calls is given what it takes: "
+STEPPED = re.compile(r"^(class Motion:|pub struct Motion|export function begin\()", re.MULTILINE)
 UNSTEPPED = "not validated: steps in time, which are not read back"
 UNPROVED = "; not validated, for it is a loop: Carlson's duplication, which gives the integrals"
 UNCHECKED = "not validated: what constants refuses"
@@ -54,8 +61,7 @@ class EmittedFiles:
     roundings of.
 
     ``as_given``: is the body in the frame of the file, not in its principal frame?
-    ``fresh``: what is emitted now, if the files are others; the Python that is not read must equal
-    it.
+    ``fresh``: what is emitted now, if the files are others; what of them is not read must equal it.
     """
 
     files: Mapping[str, str]
@@ -66,15 +72,15 @@ class EmittedFiles:
     fresh: Mapping[str, str] | None = None
 
     def reports(self, d: Derivation) -> list[Report]:
-        """The results, one for each file, or for a header with its source; ``MissingParserError``
-        where C cannot be parsed."""
+        """The results, one for each file, or for a header with its source."""
         whole = "".join(self.files.values())  # all of one emission are tried at the same points
-        if "torus" in d.problem:
+        torus = "torus" in d.problem
+        if torus:
             on_torus = cache(lambda: TorusClaims(d, whole, self.numbers))
             judge = partial(self._on_torus, on_torus)
         else:
             judge = partial(self._compared, Claims(d, self.chart, SIZE), whole)
-        return [self._report(names, judge) for names in self._groups()]
+        return [self._report(names, judge, torus=torus) for names in self._groups()]
 
     def _groups(self) -> Iterator[tuple[str, ...]]:
         """The names of files read together: a header with its source, others one by one."""
@@ -85,16 +91,22 @@ class EmittedFiles:
             elif name != source or header not in self.files:
                 yield (name,)
 
-    def _report(self, names: tuple[str, ...], judge: Judge) -> Report:
-        if names[-1] == f"{self.prefix}_steps.h":
-            return Report(names, UNSTEPPED, read=False)
-        if names[-1] not in (f"{self.prefix}{end}" for end in (".h", ".c", ".py")):
-            return Report(names, UNREAD, read=False)
+    def _report(self, names: tuple[str, ...], judge: Judge, *, torus: bool) -> Report:
+        ending = names[-1].removeprefix(self.prefix)
+        language = LANGUAGES.get(ending)
+        unread = {"_steps.h": UNSTEPPED}.get(ending, "" if language else UNREAD)
         if not self.as_given:
-            return Report(names, PRINCIPAL, read=False)
+            unread = unread or PRINCIPAL
+        elif torus and language in ("rust", "javascript", "julia"):
+            known = has_known_loops(names[-1], self.fresh or self.files, self.prefix)
+            unread = "" if known else LOOPS
+        if unread:
+            return Report(names, unread, read=False)
         if gone := [name for name in names if not self.files[name]]:
             return Report(names, f"cannot be read back: {gone[0]} is empty or missing", holds=False)
         try:
+            if language == "cpp":
+                return Report(names, CALLED + ", ".join(self._calls(names[-1])), read=False)
             verdict = judge(names)
         except DiffersError as error:
             return Report(names, f"DIFFERS: {error}", holds=False)
@@ -102,13 +114,22 @@ class EmittedFiles:
             return Report(names, f"cannot be read back: {error}", holds=False)
         except RecursionError:
             return Report(names, "cannot be read back: nested too deeply", holds=False)
-        called = (f"{self.prefix}_{INTEGRALS}(", f"def _{INTEGRALS}(")
-        loop = any(x in self.files[name] for x in called for name in names)
-        stepped = "\nclass Motion:" in self.files[names[-1]]
-        text = as_text(verdict) + UNPROVED * loop + f"; {UNSTEPPED}" * stepped
+        text = as_text(verdict)
+        loop = re.compile(rf"\b({self.prefix}|def |fn |function )_?{INTEGRALS}\(")
+        if any(loop.search(self.files[name]) for name in names):
+            text += UNPROVED
+        if STEPPED.search(self.files[names[-1]]):
+            text += f"; {UNSTEPPED}"
         if self.fresh is None:
             text += f"; {UNCHECKED}"
         return Report(names, text)
+
+    def _calls(self, name: str) -> Sequence[str]:
+        """The functions of C that C++ calls; ``DiffersError`` where it is not what is emitted."""
+        found = calls_of_cpp(name, self.files[name], self.prefix)
+        if self.fresh is not None:
+            require_same(*(words_of(x[name]) for x in (self.files, self.fresh)))
+        return found
 
     def _compared(self, claims: Claims, whole: str, names: tuple[str, ...]) -> Agreement:
         return compare(self._module(names), claims, self.numbers, whole)
@@ -117,45 +138,43 @@ class EmittedFiles:
         """The verdict on a file with loops; Python is run, and so must be what is emitted."""
         name = names[-1]
         if not name.endswith(".py"):
-            return compare_c(name, self.files, self.prefix, claims())
+            if self.fresh is not None and self.files[name] != self.fresh[name]:
+                require_same(
+                    *(beside_loops(name, x, self.prefix) for x in (self.files, self.fresh))
+                )
+            return compare_loops(name, self.files, self.prefix, claims())
         if self.fresh is None or self.files[name] != self.fresh[name]:
             raise DiffersError("it is not what is emitted, and so it is not run")
         return compare_python(self.files[name], claims())
 
     def _module(self, names: tuple[str, ...]) -> Module:
-        if names[-1].endswith(".py"):
-            self._same_unread(names[-1])
-            return read_python(names[-1], self.files[names[-1]])
-        if self.fresh is not None:
-            for name in names:
-                here, wanted = loops(self.files[name]), loops(self.fresh[name])
-                if other := next(
-                    (x for x in {**wanted, **here} if here.get(x) != wanted.get(x)), ""
-                ):
-                    raise DiffersError(f"{other} is not read, and not what is emitted")
-        module = self._read_c(names[-1], self.files)
-        if self.fresh is not None and any(self.files[x] != self.fresh[x] for x in names):
-            fresh = self._read_c(names[-1], self.fresh)
-            both = [m.functions["constants"] for m in (module, fresh) if "constants" in m.functions]
-            if len({error_checks(f) for f in both}) > 1:
-                raise DiffersError("constants: its error checks are not what is emitted")
-        return module
+        """The module in files, of which what is not read must be what is emitted."""
+        found = read(names[-1], self._parts(names, self.files), self.prefix)
+        if self.fresh is None or all(self.files[x] == self.fresh[x] for x in names):
+            return found.module
+        wanted = read(names[-1], self._parts(names, self.fresh), self.prefix)
+        require_same(found.unread, wanted.unread)
+        both = [m.functions.get("constants") for m in (found.module, wanted.module)]
+        if len({f and error_checks(f) for f in both}) > 1:
+            raise DiffersError("constants: its error checks are not what is emitted")
+        return found.module
 
-    def _read_c(self, name: str, files: Mapping[str, str]) -> Module:
-        """The module in a C file without the loops that are not read."""
-        read = {x: without_loops(text) for x, text in files.items()}
-        return read_c(name, read, self.prefix)
+    @staticmethod
+    def _parts(names: tuple[str, ...], files: Mapping[str, str]) -> dict[str, str]:
+        return {x: files[x] for x in names}
 
-    def _same_unread(self, name: str) -> None:
-        """``DiffersError`` where Python that is run but not read is not what is emitted."""
-        if self.fresh is None:
-            return
-        versions = (self.files, self.fresh)
-        statements = (unread_statements(name, files[name]) for files in versions)
-        for here, wanted in zip_longest(*statements):
-            if here != wanted:
-                shown = (here or wanted or "").split("\n")[0][:60]
-                raise DiffersError(f"{shown!r} is not read, and not what is emitted")
+
+def words_of(text: str) -> Beside:
+    """The words of C++, without comments."""
+    return [(x.text, x.text) for x in tokens(SYNTAX["c"], text, "")]
+
+
+def require_same(found: Beside, wanted: Beside) -> None:
+    """``DiffersError`` where what is not read is not what is emitted."""
+    for (shown, here), (other, there) in zip_longest(found, wanted, fillvalue=("", None)):
+        if here != there:
+            told = f"{(shown or other)[:60]!r} is not read, and not what is emitted"
+            raise DiffersError(told)
 
 
 def as_text(v: Agreement) -> str:

@@ -2,12 +2,16 @@
 
 The record's equations of motion and its energy are evaluated as the checker does it, by what their
 names mean for the points of the body; π is the double next to it, as in the code.
+
+Integrals over an ellipsoid are functions, whose values are those of the checker, sums over the same
+random places as in the record.  The emitted function that computes them, by an iteration, is not
+read: of its numbers nothing is known here but the arguments.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -16,6 +20,7 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..algebra.samplers import Sampler, Source, affine, by_cayley
+from ..check.kinds.self_gravity_checked import at_invariants, nodes
 from ..check.trials.trial_points import AnyModel, TrialPoints, model_at, names_at
 from ..check.values.arithmetic import EvaluationError
 from ..check.values.draws import Locus, largest_degree
@@ -24,8 +29,8 @@ from ..check.values.residue import Degree, DegreeSource, degrees
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..record.record import Derivation, Equation, RecordError
-from .chart import Chart, Numbers
-from .reduced_chart import ReducedChart, chart_of
+from .chart import Chart, Numbers, ReducedChart, chart_of
+from .straight_line import Measured
 from .terms import CodeError
 
 PI = Fraction(math.pi)
@@ -222,3 +227,40 @@ def rational_quaternions(group: Group) -> Sampler:
         return q.times(a, a)
 
     return affine(turns, group.n) if group.affine else turns
+
+
+NAME = "ellipsoid"
+BUNDLES = {
+    NAME: ((0, 1), (0, 3), (1, 3), (2, 3)),
+    f"{NAME}_slopes": tuple((k, 5) for k in range(5)),
+}
+"""Function → the exponents k and 2s of its integrals ∫ u^k P^(−s) du."""
+MOST = 5
+"""So many has one at most."""
+
+
+@dataclass(frozen=True)
+class WithIntegrals:
+    """Elementary functions, and those of ``BUNDLES`` of three numbers, of whose results
+    ``ellipsoid_k`` is one; ``drawn``: random numbers by a name and k; ``measured``: do numbers
+    carry degrees?"""
+
+    elementary: Callable[[str, Any], Any]
+    drawn: Callable[[str, int], Any]
+    measured: bool = False
+
+    def __call__(self, name: str, *x: Any) -> Any:
+        """The value of a function."""
+        if name in BUNDLES:
+            return BUNDLES[name], x
+        if not name.startswith(NAME):
+            return self.elementary(name, *x)
+        pairs = ((self._number(w), self._number(u)) for w, u in nodes(self.drawn))
+        ((exponents, invariants),), place = x, int(name.removeprefix(f"{NAME}_"))
+        if place >= len(exponents):
+            raise CodeError(f"of the integrals there is none at place {place}")
+        k, halves = exponents[place]
+        return at_invariants(pairs, invariants, k, halves, lambda y: self.elementary("sqrt", y))
+
+    def _number(self, x: Any) -> Any:
+        return Measured(x, 1) if self.measured else x

@@ -1,13 +1,17 @@
-"""The requirement that emitted functions are straight-line programs.
+"""The requirements of a proof at random points: one rational function, of a degree that is known.
 
-A proof at random points needs one rational function everywhere; a branch could be one thing at the
-points that are tried and another elsewhere. A size |x| or a comparison may serve the checks of
-``constants``, ``defect`` is a sum of sizes, and ``from_matrix`` asks for signs.
+Emitted functions must be straight-line programs: a branch could be one thing at the points that are
+tried and another elsewhere.  A size |x| or a comparison may serve the checks of ``constants``,
+``defect`` is a sum of sizes, and ``from_matrix`` asks for signs.  Numbers carry a bound on the
+degree of the rational function whose value they are, which a Schwartz–Zippel bound asks for.
+Denominators are multiplied, never brought to a common one: the degrees are too large, which is
+safe.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 from .terms import Body, CodeError, CodeFunction
@@ -95,13 +99,13 @@ def error_checks(f: CodeFunction) -> Body:
     """What in a function serves its checks alone: conditions, what depends on sizes, and what is
     named when all results are stored."""
     tainted: set[str] = set()
-    stored = [i for i, s in enumerate(f.body) if s[0] == "store"]
+    results = [i for i, s in enumerate(f.body) if s[0] == "store" or s[1][0] == "list"]
     found = []
     for i, s in enumerate(f.body):
         if s[0] == "set" and _unsmooth(s[2], tainted):
             tainted.add(s[1])
-        named = s[0] == "set" and (s[1] in tainted or i > max(stored, default=-1))
-        if named or s[0] in ("if", "for", "return"):
+        named = s[0] == "set" and (s[1] in tainted or i > max(results, default=-1))
+        if named or (s[0] in ("if", "for", "return") and i not in results):
             found.append(s)
     return tuple(found)
 
@@ -132,3 +136,80 @@ def _unsmooth(e: Any, tainted: set[str]) -> bool:
     if e[0] in UNSMOOTH or (e[0] == "var" and e[1] in tainted):
         return True
     return any(_unsmooth(x, tainted) for x in e)
+
+
+class Measured:
+    """A value, with bounds on the degrees of numerator and denominator in the random integers."""
+
+    __slots__ = ("den", "num", "value")
+
+    def __init__(self, value: Any, num: int = 0, den: int = 0):
+        self.value, self.num, self.den = value, num, den
+
+    @staticmethod
+    def of(x: Any) -> Measured:
+        """The number x as a constant function, unless it is measured already."""
+        return x if isinstance(x, Measured) else Measured(x)
+
+    @property
+    def degree(self) -> int:
+        """The bound on the degree of numerator and denominator together."""
+        return self.num + self.den
+
+    def __add__(self, other: Any) -> Measured:
+        b = Measured.of(other)
+        num = max(self.num + b.den, b.num + self.den)
+        return Measured(self.value + b.value, num, self.den + b.den)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Measured:
+        return Measured(-self.value, self.num, self.den)
+
+    def __sub__(self, other: Any) -> Measured:
+        return self + -Measured.of(other)
+
+    def __rsub__(self, other: Any) -> Measured:
+        return Measured.of(other) + -self
+
+    def __mul__(self, other: Any) -> Measured:
+        b = Measured.of(other)
+        return Measured(self.value * b.value, self.num + b.num, self.den + b.den)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Measured:
+        b = Measured.of(other)
+        return self * Measured(1 / Fraction(b.value), b.den, b.num)
+
+    def __rtruediv__(self, other: Any) -> Measured:
+        return Measured.of(other) / self
+
+    def __mod__(self, p: int) -> Measured:
+        return Measured(self.value % p, self.num, self.den)
+
+    def inverse(self, p: int) -> Measured:
+        """The inverse modulo a prime p."""
+        return Measured(pow(self.value, -1, p), self.den, self.num)
+
+    def __eq__(self, other: object) -> bool:
+        return bool(self.value == Measured.of(other).value)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+class MeasuredElementary:
+    """The elementary functions of measured numbers: at each argument a number drawn for itself.
+
+    ``calls``: how often they were called; ``largest``: the largest degree of an argument.
+    """
+
+    def __init__(self, values: Any):
+        self.values = values
+        self.calls, self.largest = 0, 0
+
+    def __call__(self, name: str, x: Any) -> Measured:
+        """The value of a function, of degree 1 whatever the argument."""
+        x = Measured.of(x)
+        self.calls, self.largest = self.calls + 1, max(self.largest, x.degree)
+        return Measured(self.values(name, Fraction(x.value)), 1)

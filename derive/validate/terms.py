@@ -1,4 +1,4 @@
-"""Emitted code as terms, and the value of terms over any ring.
+"""Emitted code as terms, an emitted file as data, and the values of terms over any ring.
 
 An expression is a tuple: ``("lit", text)`` a decimal, ``("int", n)``, ``("var", name)``, ``("at",
 array, index)``, ``("neg", a)``, ``("add" | "sub" | "mul" | "div", a, b)``, ``("abs", a)``,
@@ -12,19 +12,18 @@ index, a)``, ``("if", condition, body)``, ``("for", name, bound, body)`` from 0,
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
 from ..check.values.arithmetic import part
-from ..language.limits import Refused
 
 Expression = tuple[Any, ...]
 Statement = tuple[Any, ...]
 Body = tuple[Statement, ...]
 Elementary = Callable[..., Any]
-Literal = Callable[[str], Fraction]
+Literal = Callable[[str], Any]
 
 DECIMAL = re.compile(r"[0-9]{1,40}(\.[0-9]{0,40}(e[+-]?[0-9]{1,3})?|e[+-]?[0-9]{1,3})")
 """The form of a decimal number without sign or suffix."""
@@ -34,14 +33,14 @@ class CodeError(ValueError):
     """Code that cannot be read, or that has no value: the message says which."""
 
 
+class DiffersError(CodeError):
+    """The code is readable and says something else than the record: the message says where."""
+
+
 def plain_text(text: str) -> None:
     """``CodeError`` for control characters, which not all readers take or show alike."""
     if control := next((c for c in text if ord(c) < 32 and c not in "\n\t"), ""):
         raise CodeError(f"the character {control!r} is not read")
-
-
-class MissingParserError(Refused):
-    """The parser of a language is not installed: the message says how to get it."""
 
 
 @dataclass(frozen=True)
@@ -214,3 +213,89 @@ OPERATIONS: dict[str, Callable[..., Any]] = {
     "not": lambda a: not a,
     "list": lambda *a: list(a),
 }
+
+
+Names = tuple[str, ...] | None
+
+
+@dataclass(frozen=True)
+class Module:
+    """An emitted file: the names of state, parameters and inputs, ``None`` where it has no such
+    list, and its functions.
+
+    ``sizes``: STATE, ALGEBRA, PARAMETERS, CONSTANTS, INPUTS. ``defaults`` and ``basis`` where the
+    file has them.
+    """
+
+    state: Names
+    parameters: Names
+    inputs: Names
+    functions: Mapping[str, CodeFunction]
+    sizes: Mapping[str, int]
+    defaults: Mapping[str, Any] | None = None
+    basis: Any = field(default=None)
+
+
+@dataclass(frozen=True)
+class Machine:
+    """An interpreter of the functions of a module; ``elementary`` and ``literal`` give the values
+    of elementary functions and decimals."""
+
+    module: Module
+    elementary: Elementary
+    literal: Literal
+
+    def call(self, name: str, arguments: Mapping[str, Any], **sizes: int) -> dict[str, list[Any]]:
+        """The arrays that a function computes, by their names in C; ``sizes``: how long each is.
+
+        C writes into the arrays, Python returns all numbers in one list. ``CodeError`` where one is
+        missing.
+        """
+        f = self.module.functions.get(name)
+        if f is None:
+            raise CodeError("there is no such function")
+        empty = {x: Array.empty(size, x) for x, size in sizes.items() if x in f.arguments}
+        value = run(f, {**arguments, **empty}, self.elementary, self.literal)
+        if not empty:
+            return _returned(value, sizes)
+        return {x: array.whole() for x, array in empty.items()}
+
+
+def _returned(value: Any, sizes: Mapping[str, int]) -> dict[str, list[Any]]:
+    """The returned numbers, cut into arrays of these sizes."""
+    if not isinstance(value, list):
+        value = [value]
+    if len(value) != sum(sizes.values()) or any(x is None or isinstance(x, list) for x in value):
+        raise CodeError(f"it does not return {sum(sizes.values())} numbers")
+    found, start = {}, 0
+    for x, size in sizes.items():
+        found[x] = value[start : start + size]
+        start += size
+    return found
+
+
+class Literals:
+    """The values of decimals, as a function of their text.
+
+    A decimal is read as it stands, unless it is the double next to one of the numbers ``exact``,
+    which has no shorter decimal, as 0.8377580409572781 to 4π/15: then it stands for that number,
+    and is listed in ``rounded``.
+    """
+
+    def __init__(self, exact: Iterable[Fraction]):
+        self.nearest: dict[float, set[Fraction]] = {}
+        for x in exact:
+            self.nearest.setdefault(abs(float(x)), set()).add(abs(x))
+        self.rounded: set[str] = set()
+
+    def __call__(self, text: str) -> Fraction:
+        """The value of a decimal without sign, as a fraction."""
+        value = Fraction(text)
+        try:
+            found = self.nearest.get(float(value), set())
+        except OverflowError:
+            found = set()
+        if value in found or len(found) != 1:
+            return value
+        self.rounded.add(text)
+        return next(iter(found))

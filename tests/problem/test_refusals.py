@@ -17,7 +17,7 @@ from derive.pipeline import program
 from derive.problem.problem import ProblemError
 from derive.record.as_json import from_json, to_json
 from derive.record.record import Equation, RecordError
-from derive.validate.read_c import read_c
+from derive.validate.read_file import read
 from derive.validate.terms import CodeError
 from tests.support.walks import SEED, problem, record
 
@@ -111,34 +111,34 @@ def so3():
 
 
 IN_C = [
-    ("#include <math.h>", "#include <math.h>\ntypedef int whole;", "Typedef"),
-    ("#include <math.h>", "#include <math.h>\nconst double table[] = {1.0};", "Decl"),
-    ("#include <math.h>", "#include <math.h>\nenum { other };", "Enumerator"),
-    ("#include <math.h>", "#include <math.h>\nenum { other = 0x10 };", "Enumerator"),
-    ("#include <math.h>", "#include <math.h>\nenum { other = 'a' };", "a character is not read"),
-    ("#include <math.h>", "#include <math.h>\n#if 1\n", "unknown condition|without #endif"),
-    ("#include <math.h>", "#include <math.h>\n#ifdef __cplusplus\n", "under a condition"),
-    ("#include <math.h>", "#include <math.h>\n#error no\n", "unknown directive"),
-    ("const double I_11 =", "const long I_11 =", "TypeDecl"),
-    ("const double I_11 =", "const unsigned long I_11 =", "TypeDecl"),
-    ("const double I_11 =", "const double *I_11 =", "PtrDecl"),
-    ("    k[0] = J_12;\n", "    for (;;) k[0] = J_12;\n", "For"),
-    ("    k[0] = J_12;\n", "    if (k) k[0] = J_12;\n", "Assignment"),
-    ("    k[0] = J_12;\n", "    k[p] = J_12;\n", "ID in so3.c"),
-    ("    k[0] = J_12;\n", "    J_12 = 1.0;\n", "Assignment"),
-    ("    k[0] = J_12;\n", "    return;\n", "Return"),
+    ("#include <math.h>", "#include <math.h>\ntypedef int whole;", "'typedef'"),
+    ("#include <math.h>", "#include <math.h>\nconst double table[] = {1.0};", "'const'"),
+    ("#include <math.h>", "#include <math.h>\nenum { other };", "'other'"),
+    ("#include <math.h>", "#include <math.h>\nenum { other = 0x10 };", "'other'"),
+    ("#include <math.h>", "#include <math.h>\nenum { other = 'a' };", "'other'"),
+    ("#include <math.h>", "#include <math.h>\n#if 1\n", "the directive"),
+    ("#include <math.h>", "#include <math.h>\n#ifdef __cplusplus\n", "the directive"),
+    ("#include <math.h>", "#include <math.h>\n#error no\n", "the directive"),
+    ("const double I_11 =", "const long I_11 =", "'const'"),
+    ("const double I_11 =", "const unsigned long I_11 =", "'const'"),
+    ("const double I_11 =", "const double *I_11 =", "'.' is not"),
+    ("    k[0] = J_12;\n", "    for (;;) k[0] = J_12;\n", "';'"),
+    ("    k[0] = J_12;\n", "    if (k) k[0] = J_12;\n", "'.' is not"),
+    ("    k[0] = J_12;\n", "    k[p] = J_12;\n", "'p'"),
+    ("    k[0] = J_12;\n", "    J_12 = 1.0;\n", "'J_12'"),
+    ("    k[0] = J_12;\n", "    return;\n", "';'"),
     ("double so3_energy(", "double so3_other(", "not known here"),
-    ("    k[0] = J_12;\n", "    k[0] = J_12\n#ifndef __GNUC__\n+ 1.0\n#endif\n;", "under a cond"),
+    ("    k[0] = J_12;\n", "    k[0] = J_12\n#ifndef __GNUC__\n+ 1.0\n#endif\n;", "the directive"),
     ("    k[0] = J_12;\n", "    k[0] = J_12 // see\r + 1.0\n;", "'.r' is not read"),
     ("    k[0] = J_12;\n", "    k[0] = J_12 + (50000*50000 - 2500000000.0);\n", "integers"),
-    ("    k[0] = J_12;\n", "    k[0*0] = J_12;\n", "BinaryOp"),
-    ("    k[0] = J_12;\n", "    static const double a = 1.0;\n    k[0] = a;\n", "Decl"),
+    ("    k[0] = J_12;\n", "    k[0*0] = J_12;\n", "a product of integers"),
+    ("    k[0] = J_12;\n", "    static const double a = 1.0;\n    k[0] = a;\n", "'static'"),
     ("#include <math.h>", "#include <math.h>\n#pragma redefine_extname sqrt cbrt", "directive"),
-    ("#include <math.h>", "#include <math.h>\n#define y_H\n", "unknown macro"),
-    ("#include <math.h>", "#include <math.h>\nint so3_constants();\n", "Decl"),
-    ('    "A_11",', '    [0] = "A_11",', "Decl"),
-    ('    "A_11",', "    A_11,", "Decl"),
-    ("1.0/I_d_3", "sqrt()/I_d_3", "FuncCall"),
+    ("#include <math.h>", "#include <math.h>\n#define y_H\n", "the directive"),
+    ("#include <math.h>", "#include <math.h>\nint so3_constants();\n", "other arguments"),
+    ('    "A_11",', '    [0] = "A_11",', "'='"),
+    ('    "A_11",', "    A_11,", "','"),
+    ("1.0/I_d_3", "sqrt()/I_d_3", "'.' is not"),
     ("u[0*n + s]", "n*1.0", "n stands"),
 ]
 
@@ -148,14 +148,14 @@ def test_c_that_is_not_read(old, new, reason):
     text = so3()["so3.c"]
     assert old in text
     with pytest.raises(CodeError, match=reason):
-        read_c("so3.c", {**so3(), "so3.c": text.replace(old, new, 1)}, "so3")
+        read("so3.c", {**so3(), "so3.c": text.replace(old, new, 1)}, "so3")
 
 
 def test_a_function_of_c_that_stands_twice():
     text = so3()["so3.c"]
     start = text.index("double so3_energy(")
-    with pytest.raises(CodeError, match="stands twice"):
-        read_c("so3.c", {**so3(), "so3.c": text + text[start:]}, "so3")
+    with pytest.raises(CodeError, match="defined twice"):
+        read("so3.c", {**so3(), "so3.c": text + text[start:]}, "so3")
 
 
 def test_tables_from_python():

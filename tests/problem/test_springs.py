@@ -11,9 +11,9 @@ from derive.pipeline import program
 from derive.problem.toml import problem_of
 from derive.validate.chart import Chart
 from derive.validate.compare import compare
-from derive.validate.declarations import DiffersError
 from derive.validate.exact_points import Claims
-from derive.validate.read_c import read_c
+from derive.validate.read_file import read
+from derive.validate.terms import DiffersError
 from tests.support.emitted import compile_c, import_python
 from tests.support.needs import CC, need, needs
 
@@ -193,7 +193,7 @@ def test_what_holds_for_other_lengths_alone_is_refused(case, tmp_path):
     files = d.emit(tmp_path, ["c"])
     claims = Claims(d.record, Chart(), 2**64)
     numbers = program(d.problem, d.record).numbers()
-    assert compare(read_c("tied.c", files, "tied"), claims, numbers).points >= 2
+    assert compare(read("tied.c", files, "tied").module, claims, numbers).points >= 2
     old, new, before, after = FAULTS[case]
     text = files["tied.c"]
     assert old in text
@@ -201,4 +201,4 @@ def test_what_holds_for_other_lengths_alone_is_refused(case, tmp_path):
     assert before in text[start:]
     wrong = text[:start].replace(old, new) + text[start:].replace(f"{before}", after, 2)
     with pytest.raises(DiffersError):
-        compare(read_c("tied.c", {**files, "tied.c": wrong}, "tied"), claims, numbers)
+        compare(read("tied.c", {**files, "tied.c": wrong}, "tied").module, claims, numbers)

@@ -62,7 +62,7 @@ def test_what_one_is_told_to_install_is_this():
             assert name in (".", PROJECT["name"]), place
             assert extra in PROJECT["optional-dependencies"], place
     named = {(place, extra) for place, name, extra in told if name == PROJECT["name"]}
-    assert {("options.md", "validate"), ("problem-file.md", "mesh"), ("mesh.py", "mesh")} < named
+    assert {("problem-file.md", "mesh"), ("mesh.py", "mesh")} < named
 
 
 # ---------------------------------------------------------------- requirements-dev.lock

@@ -1,4 +1,4 @@
-"""Single changes of emitted C and Python: signs, products, terms, names, indices, numbers.
+"""Single changes of emitted code: signs, products, terms, names, indices, numbers.
 
 Left alone are comments, the error checks of ``constants`` and what is computed for these alone.
 """
@@ -11,10 +11,36 @@ CHANGED = "constants|rhs|rhs_batch|energy|project|defect|to_matrix|from_matrix"
 BODIES = {
     "c": r"^\w[^\n;]*?_({})\([^;{{]*?\)\n\{{\n(.*?)^\}}",
     "python": r"^def _({})\([^)]*\):\n(.*?)(?=^def |\Z)",
+    "rust": r"^(?:pub )?fn ({})\([^{{]*\{{\n(.*?)^\}}",
+    "javascript": r"^(?:export )?function ({})\(.*?\) \{{\n(.*?)^\}}",
+    "julia": r"^function ({})!?\([^\n]*\)\n(.*?)^end",
 }
-CHECKS = {"c": r"    if \(.*", "python": r"    tests = \[.*?^    \]$|, tests$"}
-COMMENTS = {"c": r"/\*.*?\*/|^#[^\n]*", "python": r"#[^\n]*"}
-WORDS = "const double float return int for void size_t xp fabs abs sqrt s n _ p x k u dx out t"
+FAILING = {
+    "rust": r"    if [^\n]*\{$.*?^    \}$|    let _ = [^\n]*;$",
+    "javascript": r"    if \(.*?^    \}$|    u \?\?= ZERO_INPUTS;$",
+    "julia": r"    if .*?^    end$|^    (?:length|all)\(.*?throw\([^\n]*$|^    u = u [^\n]*$",
+}
+"""What of a function is an error check, or for inputs that are not given."""
+CHECKS = {
+    "c": r"    if \(.*",
+    "python": r"    tests = \[.*?^    \]$|, tests$",
+    "rust": r"    let margins: .*?^    \];$",
+    "javascript": r"    const margins = .*?^    \];$",
+    "julia": r"    margins = .*?^    \)$",
+}
+"""What of ``constants`` serves its error checks."""
+COMMENTS = {
+    "c": r"/\*.*?\*/|^#[^\n]*",
+    "python": r"#[^\n]*",
+    "rust": r"//[^\n]*",
+    "javascript": r"//[^\n]*",
+    "julia": r"#[^\n]*",
+}
+LINES = ("python", "julia")
+"""Languages in which the end of a line ends a statement."""
+WORDS = "const double float return int for void size_t xp fabs abs sqrt s n _ p x k u dx out t "
+WORDS += "let f64 f32 Math of N_CONSTANTS Ok Float64Array end nothing"
+DECLARING = ("double", "float", "const", "let")
 KEPT = frozenset(WORDS.split(" "))
 
 
@@ -50,6 +76,7 @@ def mutants(text, language, module, names=CHANGED):
     for found in re.finditer(BODIES[language].format(names), text, re.MULTILINE | re.DOTALL):
         function, (start, _) = found[1], found.span(2)
         body = blank(COMMENTS[language], found[2])
+        body = blank(FAILING[language], body) if language in FAILING else body
         if function == "constants":
             body = blank(CHECKS[language], body)
         body = blank(r"\(void\)\w+;", body)
@@ -66,9 +93,9 @@ def mutants(text, language, module, names=CHANGED):
 
 def statement(body, place, language):
     """The name that the statement around a place sets; empty for other statements."""
-    if language == "c":
+    if language not in LINES:
         begin = max(body.rfind(";", 0, place), body.rfind("{", 0, place)) + 1
-        found = re.match(r"\s*const \w+ (\w+) =", body[begin:])
+        found = re.match(r"\s*(?:const double|const float|const|let) (\w+)(: \w+)? =", body[begin:])
     else:
         found = [*re.finditer(r"^    (\w+) = |^    [(]", body[: place + 1], re.MULTILINE)][-1:]
         found = found[0] if found else None
@@ -94,9 +121,9 @@ def changes(body, tokens, i, names, language):
     elif re.fullmatch(r"[0-9]+\.[0-9]*(e[+-]?[0-9]+)?", token):
         yield "number", repr(2 * float(token)), len(token)
         yield "number", repr(math.nextafter(float(token), math.inf)), len(token)
-    elif token.isdigit() and language == "c":
+    elif token.isdigit() and language != "python":
         yield "index", str(int(token) + 1), len(token)
-    elif token in names and before not in ("double", "float") and after not in ("[", "="):
+    elif token in names and before not in DECLARING and after not in ("[", "=", ":"):
         other = names[names.index(token) - 1]  # one that stands before, so that it has a value
         if other != token:
             yield "name", other, len(token)

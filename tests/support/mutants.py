@@ -12,7 +12,7 @@ from collections import Counter
 
 from tests.support import faults, printing_mutations
 from tests.support.refusals import TABLE
-from tests.validate.test_validation import MUTATED, tried
+from tests.validate.test_validation import MUTATED, READ, tried
 
 
 def records():
@@ -34,7 +34,7 @@ def programs():
     print("program            caught  of changes  (and change nothing)")
     total = Counter()
     for name in MUTATED:
-        for language in ("c", "python"):
+        for language in READ:
             _, whole, same, passed = tried(name, language)
             total.update(caught=whole - len(passed), all=whole, same=same)
             shown = f"{name}, {language}"

@@ -21,8 +21,8 @@ from tests.support.walks import record
 
 SHOW, TREES, TYPESET = "language.show", "printing.tex", "printing.typeset"
 LETTERS, TEXT, LAYOUT, HTML = "printing.letters", "views.text", "views.layout", "views.html"
-NAMES, INLINE, SIGNS = "printing.spelling", "printing.inline", "printing.signs"
-GLUE, MACROS, ENTRIES = "printing.juxtaposition", "printing.macros", "views.entries"
+NAMES, INLINE, SIGNS = "printing.letters", "printing.sentences", "printing.signs"
+GLUE, MACROS, ENTRIES = "printing.letters", "printing.letters", "views.language"
 
 MUTATIONS = {
     "text: Σ of a sum without brackets": (

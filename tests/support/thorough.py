@@ -199,7 +199,7 @@ KEPT = {
     "validate/test_validation.py::test_every_change_of_the_code_is_refused": 1,
     "validate/test_validation.py::test_every_ready_made_problem_equals_its_record": 3,
     "validate/test_validation.py::test_python_that_is_run_and_not_read_must_be_what_is_emitted": 5,
-    "validate/test_validation.py::test_python_with_steps_in_time_equals_the_record": 4,
+    "validate/test_validation.py::test_code_with_steps_in_time_equals_the_record": 4,
     "views/test_html.py::test_in_a_browser": 1,
     "views/test_language.py::test_no_english_is_left": 12,
     "views/test_language.py::test_records_read_back_say_the_same": 0,

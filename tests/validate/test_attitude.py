@@ -5,9 +5,8 @@ import pytest
 from derive.validate.chart import Chart
 from derive.validate.compare import Comparison
 from derive.validate.exact_points import Claims
-from derive.validate.literals import Literals
-from derive.validate.read_c import read_c
-from derive.validate.terms import CodeError
+from derive.validate.read_file import read
+from derive.validate.terms import CodeError, Literals
 from tests.support.code_mutations import mutants, statement
 from tests.support.walks import record
 from tests.validate.test_validation import SMALL, emitted
@@ -18,7 +17,7 @@ OWN = ("to_matrix", "from_matrix")
 
 def module(text):
     files, *_ = emitted("so3", **QUATERNION)
-    return read_c("so3.c", files | {"so3.c": text}, "so3")
+    return read("so3.c", files | {"so3.c": text}, "so3").module
 
 
 @pytest.fixture(scope="module")

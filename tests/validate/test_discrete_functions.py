@@ -15,12 +15,13 @@ from derive.validate.chart import Chart
 from derive.validate.compare import compare
 from derive.validate.emission import EmittedFiles
 from derive.validate.exact_points import Claims
-from derive.validate.read_c import read_c
-from derive.validate.read_python import read_python
+from derive.validate.read_file import read
 from derive.validate.terms import CodeError
 from tests.support.code_mutations import mutants
 from tests.support.corpus import DRIVEN
+from tests.validate.test_validation import ENDS
 
+READ = ("c", "python", "rust", "javascript")
 KINDS = {
     "so3": "step_force, step_guess, step_newton",
     "se3": "step_force, step_guess, step_newton",
@@ -49,7 +50,7 @@ def emitted(name, layout="row"):
         problem = derive.derive(name).problem
     record = walk(problem)
     compiled = program(problem, record, options)
-    files = emit(compiled, record, ("c", "python"), "own", options)
+    files = emit(compiled, record, READ, "own", options)
     return record, files, compiled.numbers()
 
 
@@ -58,9 +59,9 @@ def emitted(name, layout="row"):
 def test_the_functions_of_a_step_are_read_back(name, layout):
     record, files, numbers = emitted(name, layout)
     reports = EmittedFiles(files, "own", Chart(layout), numbers).reports(record)
-    read = [x for x in reports if x.read]
-    assert len(read) == 2
-    for report in read:
+    found = [x for x in reports if x.read]
+    assert len(found) == len(READ)
+    for report in found:
         assert report.holds, report.text
         assert KINDS[name] in report.text
         assert "step_momentum, step_velocity, step_force" in report.text
@@ -69,10 +70,8 @@ def test_the_functions_of_a_step_are_read_back(name, layout):
 def compared(name, language, text):
     """Compare a changed file with the record."""
     record, files, numbers = emitted(name)
-    if language == "c":
-        module = read_c("own.c", {**files, "own.c": text}, "own")
-    else:
-        module = read_python("own.py", text)
+    file = f"own{ENDS[language]}"
+    module = read(file, {**files, file: text}, "own").module
     compare(module, Claims(record, Chart(), 2**64), numbers, "", 1e-3)
     return module
 
@@ -83,10 +82,10 @@ def transposed(text):
 
 
 @pytest.mark.no_cover
-@pytest.mark.parametrize("language", ["c", "python"])
+@pytest.mark.parametrize("language", READ)
 @pytest.mark.parametrize("name", ["so3", "se3", "sl3", "gl3", "so4", "SE(3)"])
 def test_a_change_of_a_function_of_a_step_is_refused(name, language):
-    text = emitted(name)[1][f"own.{'c' if language == 'c' else 'py'}"]
+    text = emitted(name)[1][f"own{ENDS[language]}"]
     module = compared(name, language, text)
     found = [*mutants(text, language, module, r"step_\w+")]
     assert {x for x, *_ in found} >= {"step_momentum", "step_force", "step_end", "step_velocity"}

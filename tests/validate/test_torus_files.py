@@ -21,9 +21,17 @@ from derive.pipeline import program, walk
 from derive.problem.toml import problem_of
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
+from derive.validate.straight_line import Measured
+from derive.validate.syntax import SYNTAX, tokens
 from derive.validate.terms import CodeError
-from derive.validate.torus.exact_numbers import cosine
-from derive.validate.torus.torus_files import TorusClaims, agreement_of_module, compare_c
+from derive.validate.torus.loop_reader import LoopReader
+from derive.validate.torus.run_loops import Cells, Loops
+from derive.validate.torus.torus_files import (
+    TorusClaims,
+    agreement_of_module,
+    compare_loops,
+    cosine,
+)
 from tests.support.needs import CC, need
 
 SIZES = (3, 5, 7, 9, 11, 13)
@@ -41,7 +49,7 @@ TURNED += (("COSINES", "SINES"), ("SINES", "COSINES"), ("_SUMS", "_ENTRIES"), ("
 def emission(N, **chosen):
     algebra, inertia = {"of": "torus", "N": N}, {"operator": "laplacian"}
     p = problem_of({"name": "fluid", "algebra": algebra, "inertia": inertia})
-    d, options = walk(p), Options(conserved=True, **chosen)
+    d, options = walk(p), Options(**{"conserved": True} | chosen)
     compiled = program(p, d, options)
     return d, compiled, emit(compiled, d, ("c", "python"), "fluid", options)
 
@@ -70,7 +78,7 @@ def held(N, name, text):
     if name.endswith(".py"):
         agreement_of_module(run(text), claims(N))
     else:
-        compare_c(name, emission(N)[2] | {name: text}, "fluid", claims(N))
+        compare_loops(name, emission(N)[2] | {name: text}, "fluid", claims(N))
 
 
 def changes(text, begin, end):
@@ -185,7 +193,7 @@ def meaning(N, text, folder):
         ("return total;", "return total*t;", "the energy differs"),
         ("column < r ? column + 11 - r", "column < r ? (column - r) % 11", "negative"),
         ("double total = 0;", "double total;", "not known here"),
-        ("double W_re[11][12];", "double W_re[11][13];", "not known here"),
+        ("double W_re[11][12];", "double W_re[11][13];", "of another kind"),
     ],
 )
 def test_what_is_wrong_is_said(old, new, said):
@@ -193,6 +201,118 @@ def test_what_is_wrong_is_said(old, new, said):
     assert old in text
     with pytest.raises(CodeError, match=said):
         held(11, "fluid.c", text.replace(old, new))
+
+
+@pytest.mark.parametrize("N", [3, 5])
+def test_what_is_written_out_is_read_in_other_languages(N):
+    """And of Julia, whose functions of matrices are not read, that is said."""
+    d, compiled, _ = emission(N, conserved=False)
+    files = emit(compiled, d, ("rust", "javascript", "julia"), "fluid", Options())
+    given = Chart(), compiled.numbers(), True, files
+    rust, javascript, julia = EmittedFiles(files, "fluid", *given).reports(d)
+    for report in (rust, javascript):
+        assert report.holds, report.text
+        assert report.text.startswith("constants, rhs, energy equal the record at 1 exact point;")
+    assert not julia.read
+    assert "its loops, which are not read back" in julia.text
+    for file in ("fluid.rs", "fluid.mjs"):
+        start = files[file].index("fn rhs" if file == "fluid.rs" else "function rhs")
+        changed = files[file][:start] + files[file][start:].replace("re_1_0*im", "im_1_0*im", 1)
+        assert changed != files[file]
+        found = EmittedFiles(files | {file: changed}, "fluid", *given).reports(d)
+        assert [x.holds for x in found] == [file != "fluid.rs", file != "fluid.mjs", True]
+
+
+LISTS = {
+    "rust": "pub const {}: [&str; N] = [];\n",
+    "javascript": "export const {} = Object.freeze([]);\n",
+}
+LOOPS = {
+    "rust": """const WEIGHTS: [f64; 3] = [1.0, 2.0, 0.5];
+fn entries(x: &[f64; N_STATE], twice: bool, found: &mut [[f64; 2]; 2]) {
+    for i in 0..2 {
+        for j in (0..2).step_by(1) {
+            let s: usize = if i + j < 2 { i + j } else { i + j - 1 };
+            found[i][j] = if twice && s > 0 { 2.0 * x[i] } else { -x[j] / (s + 1) as f64 };
+        }
+    }
+}
+pub fn energy(t: f64, x: &[f64; N_STATE], k: &[f64; N_CONSTANTS]) -> f64 {
+    let mut found: [[f64; 2]; 2] = [[0.0; 2]; 2];
+    let mut total: f64 = 0.0;
+    entries(x, true, &mut found);
+    for i in 0..2 {
+        for j in 0..2 {
+            total += WEIGHTS[i + j] * found[i][j];
+        }
+    }
+    return total;
+}
+""",
+    "javascript": """const WEIGHTS = [1, 2, 0.5];
+function entries(x, twice, found) {
+    for (let i = 0; i < 2; ++i) {
+        for (let j = 0; j < 2; j += 1) {
+            const s = i + j < 2 ? i + j : i + j - 1;
+            found[i][j] = twice && s > 0 ? 2*x[i] : -x[j]/(s + 1);
+        }
+    }
+}
+export function energy(t, x, k) {
+    const found = Array.from({ length: 2 }, () => new Float64Array(2));
+    let total = 0;
+    entries(x, true, found);
+    for (let i = 0; i < 2; ++i) {
+        for (let j = 0; j < 2; ++j) {
+            total += WEIGHTS[i + j]*found[i][j];
+        }
+    }
+    return total;
+}
+""",
+}
+WRONG = [
+    ("rust", "i in 0..2", "i in 0..3", "no value"),
+    ("rust", "[[0.0; 2]; 2];", "[[0.0; 2]; 3];", "other sizes"),
+    ("rust", "-x[j] / (s + 1) as f64", "-x[j] / (s / 2) as f64", "quotient of integers"),
+    ("rust", "let s: usize = if i", "let s: usize = if x[0] > 0.0 && i", "depends on numbers"),
+    ("rust", "let s: usize = if", "let s: f64 = if", "depends on numbers"),
+    ("rust", "entries(x, true", "entries(x, 1.5", "of another kind"),
+    ("rust", "total += WEIGHTS", "total -= other + WEIGHTS", "'other'"),
+    ("javascript", "j += 1", "j += 0", "may not end"),
+    ("javascript", "j += 1", "--j", "'entries'"),
+    ("javascript", "new Float64Array(2)", "new Float64Array(1)", "outside of an array"),
+    ("javascript", "s > 0 ?", "x[s] > 0 ?", "depends on numbers"),
+    ("javascript", "found[i][j] =", "found[x[0]][j] =", "no value"),
+    ("javascript", "WEIGHTS[i + j]", "WEIGHTS[(i + j)/2]", "no value"),
+    ("javascript", "const s = i + j < 2", "const s = Math.min(i, j) < 2", "'entries'"),
+    ("javascript", "let total = 0", "const total = 0", "'.='"),
+]
+
+
+def energy_of(language, text):
+    """What a text with loops computes, modulo a prime, of x = (3, 5)."""
+    text = "".join(map(LISTS[language].format, ("STATE", "PARAMETERS", "INPUTS"))) + text
+    reader = LoopReader(language, tokens(SYNTAX[language], text, "loops"))
+    reader.module()
+    p = 2**61 - 1
+    loops = Loops(reader, p, lambda x: int(10 * float(x)) * pow(10, -1, p) % p, None)
+    x = Cells([2])
+    x.update({0: Measured(3), 1: Measured(5)})
+    return loops.numbers([loops.call("energy", Measured(0), x, Cells([0]))])[0]
+
+
+@pytest.mark.parametrize("language", LOOPS)
+def test_loops_of_other_languages_are_read(language):
+    """found is ((−3, 6), (10, 10)), with weights 1, 2, 2 and 1/2."""
+    assert energy_of(language, LOOPS[language]) == -3 + 2 * 6 + 2 * 10 + 5
+
+
+@pytest.mark.parametrize(("language", "old", "new", "said"), WRONG)
+def test_what_is_not_known_of_loops_is_an_error(language, old, new, said):
+    assert old in LOOPS[language]
+    with pytest.raises(CodeError, match=said):
+        energy_of(language, LOOPS[language].replace(old, new, 1))
 
 
 def test_python_that_is_not_emitted_is_not_run():

@@ -3,6 +3,10 @@ field.
 
 The record's own sums over the lattice are evaluated there, for every point of the lattice.  C is
 read, loops and all; Python, which must be what is emitted, word for word, is run with exact arrays.
+
+The decimals of a file are residues: cosines, sines and what they are multiplied by.  A decimal that
+is the double next to one of these irrational numbers stands for it; any other for itself.  The
+numbers are computed here in whole numbers of SCALE, by Machin's formula and by Taylor's series.
 """
 
 from __future__ import annotations
@@ -12,13 +16,14 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import reduce
+from pathlib import PurePath
 from random import Random
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 
-from ...algebra.structure import Place
+from ...algebra.structure import Place, Torus
 from ...check.torus.elements import torus_of
 from ...check.torus.torus_model import TorusModel, environment
 from ...check.values.arithmetic import EvaluationError
@@ -28,13 +33,99 @@ from ...language import rational as q
 from ...record.as_json import to_json
 from ...record.record import Derivation
 from ..compare import SIZE, Agreement
-from ..declarations import DiffersError
-from ..degree_bounds import Measured
-from ..read_c import parsed_c
-from ..terms import CodeError
+from ..read_file import LANGUAGES, Beside, beside, words
+from ..straight_line import Measured
+from ..syntax import SYNTAX, tokens
+from ..terms import CodeError, DiffersError
 from .exact_arrays import ExactArray, ExactLibrary
-from .exact_numbers import ExactNumbers
-from .loops_in_c import LoopReader
+from .loop_reader import LoopReader
+from .loops_in_c import CLoopReader
+from .run_loops import Cells, Loops
+
+SCALE = 1 << 200
+TABLE = 9
+"""The largest N of which a file may have a table of the terms, with products as decimals."""
+
+
+def arctan_of_inverse(n: int) -> int:
+    """arctan 1/n."""
+    total, power, k = 0, SCALE // n, 1
+    while power:
+        total += power // k if k % 4 == 1 else -(power // k)
+        power, k = power // n**2, k + 2
+    return total
+
+
+PI = 4 * (4 * arctan_of_inverse(5) - arctan_of_inverse(239))
+
+
+def cosine(turns: Fraction) -> Fraction:
+    """cos 2π·turns, within 1e-50."""
+    turns = (turns + Fraction(1, 2)) % 1 - Fraction(1, 2)
+    square = (2 * PI * turns.numerator // turns.denominator) ** 2 // SCALE
+    total = term = SCALE
+    k = 0
+    while term:
+        k += 2
+        term = -term * square // SCALE // (k * (k - 1)) if abs(term) > 1 else 0
+        total += term
+    return Fraction(total, SCALE)
+
+
+class ExactNumbers:
+    """The values of decimals at one point; ``rounded``: the texts that stood for another number.
+
+    ``given``: the fractions that decimals may stand for.
+    """
+
+    def __init__(self, model: TorusModel, given: tuple[Fraction, ...] = ()):
+        self.p, self.rounded = model.roots.p, set[str]()
+        self.nearest: dict[float, int] = {}
+        self.twofold: set[float] = set()
+        for x in given:
+            self._add(x, self.residue(x))
+        waves = model.elementary.waves
+        N, pi = model.torus.N, Fraction(PI, SCALE)
+        by_pi = self.residue(Fraction(1)) * pow(model.pi.n, -1, self.p)
+        for k in range(N):
+            self._add(cosine(Fraction(k, N)), int(waves["cos"][k]))
+            self._add(cosine(Fraction(k, N) - Fraction(1, 4)), int(waves["sin"][k]))
+        self._add(1 / (4 * pi), by_pi * pow(4, -1, self.p))
+        for weight in weights(model.torus) if N <= TABLE else ():
+            for k in range(1, N):
+                size = weight * Fraction(N, 2)
+                sine = cosine(Fraction(k, N) - Fraction(1, 4))
+                self._add(size * sine / pi, self.residue(size) * int(waves["sin"][k]) * by_pi)
+
+    def residue(self, x: Fraction) -> int:
+        """Of a fraction."""
+        return x.numerator * pow(x.denominator, -1, self.p) % self.p
+
+    def _add(self, x: Fraction, value: int) -> None:
+        """Let the double next to x, without sign, stand for a value."""
+        size, value = abs(float(x)), (value if x > 0 else -value) % self.p
+        if size < 2.0**-60:
+            return
+        if self.nearest.setdefault(size, value) != value:
+            self.twofold.add(size)
+
+    def __call__(self, text: str) -> int:
+        """The value of a decimal without sign."""
+        value = Fraction(text)
+        size = float(value)
+        if size not in self.nearest or size in self.twofold:
+            return self.residue(value)
+        found = self.nearest[size]
+        if found != self.residue(value):
+            self.rounded.add(text)
+        return found
+
+
+def weights(torus: Torus) -> set[Fraction]:
+    """1/|m|² − 1/|k|² for all m and k."""
+    squares = {a * a + b * b for a, b in torus.places}
+    return {Fraction(1, x) - Fraction(1, y) for x in squares for y in squares if x < y}
+
 
 BOUND = 1e-30
 """A false pass must be less probable."""
@@ -116,29 +207,55 @@ def agreement(claims: TorusClaims, call: Call, has: Callable[[str], bool]) -> Ag
     return Agreement(("constants", *functions), 1, 2 * DEGREE / SIZE, rounded, ())
 
 
-# -- C -------------------------------------------------------------------------------------------
+# -- loops, read -------------------------------------------------------------------------------
 
 
-def compare_c(name: str, files: Mapping[str, str], prefix: str, claims: TorusClaims) -> Agreement:
-    """The verdict on C, read with its loops."""
-    c, tree = parsed_c(name, files, prefix)
-    reader = LoopReader(c, prefix, claims.p, claims.number, claims.elementary)
-    module = reader.module(tree)
+def loops_of(name: str, files: Mapping[str, str], prefix: str) -> LoopReader:
+    """The reader of a file with loops."""
+    language = LANGUAGES[PurePath(name).suffix]
+    if language == "c":
+        return CLoopReader(language, words(name, files, prefix), prefix)
+    return LoopReader(language, tokens(SYNTAX[language], files[name], name), prefix)
+
+
+def has_known_loops(name: str, files: Mapping[str, str], prefix: str) -> bool:
+    """Can a file be read with its loops?"""
+    try:
+        loops_of(name, files, prefix).module()
+    except CodeError:
+        return False
+    return True
+
+
+def beside_loops(name: str, files: Mapping[str, str], prefix: str) -> Beside:
+    """What of a file is not read."""
+    reader = loops_of(name, files, prefix)
+    reader.module()
+    return beside(reader, files[name])
+
+
+def compare_loops(
+    name: str, files: Mapping[str, str], prefix: str, claims: TorusClaims
+) -> Agreement:
+    """The verdict on a file, read with its loops."""
+    text = loops_of(name, files, prefix)
+    module = text.module()
+    reader = Loops(text, claims.p, claims.number, claims.elementary)
     dimension = len(claims.names)
     _require_lists(module.state, module.sizes, dimension, claims)
     size = max(module.sizes["CONSTANTS"], 0)
-    k: dict[int, Any] = {}
-    if reader.call("constants", {}, k):
+    k, none = Cells([size]), Cells([0])
+    if reader.call("constants", none, k):
         raise DiffersError("constants: it refuses what has no parameters")
     reader.written(k, size, "k")
     t = Measured(Random(claims.p).randrange(claims.p), 1)
 
     def call(f: str, x: Sequence[int]) -> Sequence[int]:
-        given, out = measured(x), dict[int, Any]()
+        given, out = measured(x), Cells([dimension if f == "rhs" else len(POWERS)])
         if f == "energy":
             return reader.numbers([reader.call(f, t, given, k)])
         if f == "rhs":
-            reader.call(f, t, given, k, {}, out)
+            reader.call(f, t, given, k, none, out)
         else:
             reader.call(f, t, given, k, out)
         return reader.written(out, dimension if f == "rhs" else len(POWERS), f)
@@ -152,12 +269,14 @@ def compare_c(name: str, files: Mapping[str, str], prefix: str, claims: TorusCla
     return replace(found, bound=bound)
 
 
-def measured(x: Sequence[int]) -> dict[int, Measured]:
+def measured(x: Sequence[int]) -> Cells:
     """Numbers that are drawn, by their places."""
-    return {i: Measured(y, 1) for i, y in enumerate(x)}
+    found = Cells([len(x)])
+    found.update((i, Measured(y, 1)) for i, y in enumerate(x))
+    return found
 
 
-def _compare_batch(reader: LoopReader, claims: TorusClaims, t: Any, k: Mapping[int, Any]) -> None:
+def _compare_batch(reader: Loops, claims: TorusClaims, t: Any, k: Cells) -> None:
     """``rhs_batch`` on some states beside ``rhs``: an index is made of n and s by sums and products
     alone, so that three counts tell two apart.
 
@@ -174,12 +293,12 @@ def _compare_batch(reader: LoopReader, claims: TorusClaims, t: Any, k: Mapping[i
         for count in (1, 2, 3):
             states = [[random.randrange(p) for _ in claims.x] for _ in range(count)]
             both = measured([x for row in zip(*states, strict=True) for x in row])
-            out: dict[int, Any] = {}
-            reader.call("rhs_batch", count, t, both, k, {}, out)
+            out, none = Cells([count * size]), Cells([0])
+            reader.call("rhs_batch", count, t, both, k, none, out)
             rates = reader.written(out, count * size, "rhs_batch")
             for s, x in enumerate(states):
-                one: dict[int, Any] = {}
-                reader.call("rhs", t, measured(x), k, {}, one)
+                one = Cells([size])
+                reader.call("rhs", t, measured(x), k, none, one)
                 if rates[s::count] != reader.written(one, size, "rhs"):
                     raise DiffersError("rhs_batch: a state of several has other rates than alone")
 
