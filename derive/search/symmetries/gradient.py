@@ -153,7 +153,7 @@ class Functions:
         """A point of c² ± s² = 1 by the tangent u of half its argument, and s/c."""
         u = self.source.randint(1, 1)
         above, below = 1 - sign * u * u, 1 + sign * u * u
-        values = (2 * u / below, above / below, 2 * u / above)
+        values: tuple[Residues, ...] = (2 * u / below, above / below, 2 * u / above)
         self.known += [(other, x, y) for other, y in zip(names, values, strict=True)]
         return values[names.index(name)]
 
