@@ -11,6 +11,8 @@ from random import Random
 from struct import Struct
 from typing import Any
 
+from ..language.rings import RingElement
+
 Row = Sequence[int]
 """Residues."""
 Rows = list[list[int]]
@@ -172,7 +174,7 @@ def _is_strong_prime(p: int, base: int) -> bool:
     return pow(base, p // 2, p) in (1, p - 1)
 
 
-class Residues:
+class Residues(RingElement):
     """Residues modulo p at some points; ``values``: a list, from 0 to p − 1, one for each point."""
 
     __slots__ = ("_inverse", "p", "values")
@@ -199,8 +201,6 @@ class Residues:
         c = residue_of(other, p)
         return self.like([(x + c) % p for x in self.values]) if c else self
 
-    __radd__ = __add__
-
     def __neg__(self) -> Residues:
         return self.like([-x % self.p for x in self.values])
 
@@ -211,9 +211,6 @@ class Residues:
             return self.like([(x - y) % p for x, y in pairs])
         return self.__add__(-other)
 
-    def __rsub__(self, other: Any) -> Residues:
-        return (-self).__add__(other)
-
     def __mul__(self, other: Any) -> Residues:
         p = self.p
         if isinstance(other, Residues):
@@ -223,8 +220,6 @@ class Residues:
             return self.like([x * y % p for x, y in pairs])
         c = residue_of(other, p)
         return self.like([x * c % p for x in self.values]) if c != 1 else self
-
-    __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> Residues:
         if isinstance(other, Residues):

@@ -12,6 +12,7 @@ from math import isqrt
 from ..language import rational as q
 from ..language.rational import Matrix
 from .groups import Group
+from .structure import Span
 
 Vector = tuple[Fraction, ...]
 """The entries of a matrix row by row, and of a map r ↦ A r + T those of T after them."""
@@ -74,36 +75,9 @@ def relations(g: Group) -> Relations:
 # -- spaces of vectors ---------------------------------------------------------------------------
 
 
-class _Span:
-    """A linear space of vectors that grows; ``rows``: a basis in echelon form, sparse, by the place
-    of the first entry, which is 1."""
-
-    def __init__(self) -> None:
-        self.rows: dict[int, dict[int, Fraction]] = {}
-
-    def rest(self, v: Iterable[Fraction]) -> dict[int, Fraction]:
-        """What is left of a vector, sparse, when its first entries are eliminated."""
-        rest = {i: x for i, x in enumerate(v) if x}
-        while rest and (first := min(rest)) in self.rows:
-            lead = rest[first]
-            for i, x in self.rows[first].items():
-                rest[i] = rest.get(i, Fraction(0)) - lead * x
-                if not rest[i]:
-                    del rest[i]
-        return rest
-
-    def add(self, v: Iterable[Fraction]) -> bool:
-        """Add a vector to the space; true if it was not in it."""
-        rest = self.rest(v)
-        if rest:
-            first = min(rest)
-            self.rows[first] = {i: x / rest[first] for i, x in rest.items()}
-        return bool(rest)
-
-
 def _kernel(space: Sequence[Vector], value: Callable[[Vector], Sequence[Fraction]]) -> list[Vector]:
     """A basis of the vectors of a space where a linear function vanishes."""
-    span, found = _Span(), []
+    span, found = Span(), []
     for v in space:
         image = tuple(value(v))
         rest = span.rest((*image, *v))
@@ -124,7 +98,7 @@ def _matrix_of(v: Vector, n: int) -> Matrix:
 
 def _associative_hull(g: Group) -> list[Vector]:
     """A basis, in echelon form, of E₀, which products of matrices of 𝔤 span."""
-    n, most, span = g.n, g.n * (g.n + g.affine), _Span()
+    n, most, span = g.n, g.n * (g.n + g.affine), Span()
     found: list[Matrix] = []
 
     def take(e: Matrix) -> None:
@@ -256,7 +230,7 @@ def _complex_structure(linear: Sequence[Matrix], hull: Sequence[Vector], n: int)
                 q.minus(_product(_matrix_of(S, n), e), _product(e, _matrix_of(S, n)))
             ),  # type: ignore[misc]
         )
-    span = _Span()
+    span = Span()
     moving = [K for K in (_traceless(_matrix_of(v, n)) for v in centre) if span.add(q.flatten(K))]
     if len(moving) != 1:
         return ()
@@ -270,7 +244,7 @@ def _complex_structure(linear: Sequence[Matrix], hull: Sequence[Vector], n: int)
 
 def _complex_basis(K: Matrix) -> Matrix:
     """The matrix P with the columns v₁ … v_m, Kv₁ … Kv_m, a complex basis and its images."""
-    n, chosen = len(K), _Span()
+    n, chosen = len(K), Span()
     first: list[Vector] = []
     for v in q.identity(n):
         if chosen.add(v):

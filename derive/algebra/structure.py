@@ -206,23 +206,37 @@ def _blocks(parts: Sequence[Matrix]) -> Matrix:
     return tuple(found)
 
 
+class Span:
+    """A linear space of vectors that grows; ``rows``: a basis in echelon form, sparse, by the place
+    of the first entry, which is 1."""
+
+    def __init__(self) -> None:
+        self.rows: dict[int, dict[int, Fraction]] = {}
+
+    def rest(self, v: Iterable[Fraction]) -> dict[int, Fraction]:
+        """What is left of a vector, sparse, when its first entries are eliminated."""
+        rest = {i: x for i, x in enumerate(v) if x}
+        while rest and (first := min(rest)) in self.rows:
+            lead = rest[first]
+            for i, x in self.rows[first].items():
+                rest[i] = rest.get(i, Fraction(0)) - lead * x
+                if not rest[i]:
+                    del rest[i]
+        return rest
+
+    def add(self, v: Iterable[Fraction]) -> bool:
+        """Add a vector to the space; true if it was not in it."""
+        rest = self.rest(v)
+        if rest:
+            first = min(rest)
+            self.rows[first] = {i: x / rest[first] for i, x in rest.items()}
+        return bool(rest)
+
+
 def rank(matrices: Sequence[Matrix]) -> int:
-    """How many of the matrices are independent; by elimination on the entries that are not 0."""
-    left = [{k: x for k, x in enumerate(q.flatten(m)) if x} for m in matrices]
-    found = 0
-    while left:
-        row = left.pop()
-        if not row:
-            continue
-        found += 1
-        lead = next(iter(row))
-        for other in left:
-            if factor := other.get(lead, Fraction(0)) / row[lead]:
-                for k, x in row.items():
-                    other[k] = other.get(k, Fraction(0)) - factor * x
-                    if not other[k]:
-                        del other[k]
-    return found
+    """How many of the matrices are independent."""
+    span = Span()
+    return sum(span.add(q.flatten(m)) for m in matrices)
 
 
 def _translations(brackets: Brackets, dimension: int) -> Iterator[tuple[Matrix, ...]]:

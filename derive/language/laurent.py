@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 
+from .rings import FieldElement
 from .tree import Tree, add, mul, names, plain, replaced
 
 Monomial = tuple[tuple[Tree, int], ...]
@@ -21,7 +22,7 @@ class OverlongError(ValueError):
     """A tree that has too many terms when it is multiplied out."""
 
 
-class Laurent:
+class Laurent(FieldElement):
     """A sum of q · monomial with exponents in Z; only a monomial can be divided by.
 
     >>> x, y = Laurent.symbol("x"), Laurent.symbol("y")
@@ -55,17 +56,6 @@ class Laurent:
     def __add__(self, other: Laurent | Fraction | int) -> Laurent:
         return _summed((*self.terms.items(), *Laurent.of(other).terms.items()))
 
-    __radd__ = __add__
-
-    def __neg__(self) -> Laurent:
-        return Laurent({m: -q for m, q in self.terms.items()})
-
-    def __sub__(self, other: Laurent | Fraction | int) -> Laurent:
-        return self + (-Laurent.of(other))
-
-    def __rsub__(self, other: Fraction | int) -> Laurent:
-        return Laurent.of(other) - self
-
     def __mul__(self, other: Laurent | Fraction | int) -> Laurent:
         right = Laurent.of(other).terms
         if not self.terms or not right:
@@ -77,14 +67,6 @@ class Laurent:
             (_product(m, n) if m else n, q if p is ONE else p if q is ONE else p * q)
             for m, p, n, q in pairs
         )
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Laurent | Fraction | int) -> Laurent:
-        return self * Laurent.of(other).reciprocal()
-
-    def __rtruediv__(self, other: Fraction | int) -> Laurent:
-        return other * self.reciprocal()
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, (Laurent, Fraction, int)):
@@ -100,6 +82,8 @@ class Laurent:
             raise ZeroDivisionError("only a monomial has an inverse here")
         ((m, q),) = self.terms.items()
         return Laurent({tuple((s, -e) for s, e in m): 1 / q})
+
+    inverse = property(reciprocal)
 
 
 def _summed(terms: Iterable[tuple[Monomial, Fraction]]) -> Laurent:
@@ -142,7 +126,7 @@ def polynomial(t: Tree) -> Laurent:
     if isinstance(t, tuple) and t[0] == "div":
         below = polynomial(t[2])
         if len(below.terms) == 1:
-            return polynomial(t[1]) / below
+            return polynomial(t[1]) * below.reciprocal()
     return Laurent.symbol(t)
 
 

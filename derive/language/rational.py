@@ -87,12 +87,12 @@ def minus(a: Matrix, b: Matrix) -> Matrix:
     return plus(a, scaled(-1, b))
 
 
-def transposed(a: Matrix) -> Matrix:
+def transposed(a: Sequence[Sequence[Any]]) -> Matrix:
     """The transpose of a matrix."""
     return tuple(zip(*a, strict=True))
 
 
-def times(a: Matrix, b: Matrix) -> Matrix:
+def times(a: Sequence[Sequence[Any]], b: Sequence[Sequence[Any]]) -> Matrix:
     """The product a b of matrices; numbers that have a way of their own to it, a static method
     ``product`` of rows and columns, are asked for it."""
     columns = transposed(b)

@@ -10,6 +10,7 @@ from itertools import pairwise
 from math import isqrt, sqrt
 from typing import Any
 
+from .rings import FieldElement
 from .tree import Tree, add, mul, plain
 from .values import value
 
@@ -26,7 +27,7 @@ class RootError(ValueError):
 
 
 @total_ordering
-class Quadratic:
+class Quadratic(FieldElement):
     """The number a + b√d, with b not 0; numbers with different d have no sum."""
 
     __slots__ = ("a", "b", "d")
@@ -48,17 +49,8 @@ class Quadratic:
         y = self._with(other)
         return NotImplemented if y is None else number(self.a + y[0], self.b + y[1], self.d)
 
-    __radd__ = __add__
-
     def __neg__(self) -> Quadratic:
         return Quadratic(-self.a, -self.b, self.d)
-
-    def __sub__(self, other: Any) -> Any:
-        y = self._with(other)
-        return NotImplemented if y is None else number(self.a - y[0], self.b - y[1], self.d)
-
-    def __rsub__(self, other: Any) -> Any:
-        return -self + other
 
     def __mul__(self, other: Any) -> Any:
         y = self._with(other)
@@ -66,8 +58,6 @@ class Quadratic:
             return NotImplemented
         c, e = y
         return number(self.a * c + self.b * e * self.d, self.a * e + self.b * c, self.d)
-
-    __rmul__ = __mul__
 
     @property
     def norm(self) -> Fraction:
@@ -83,21 +73,6 @@ class Quadratic:
     def inverse(self) -> Quadratic:
         """1 over the number."""
         return Quadratic(self.a / self.norm, -self.b / self.norm, self.d)
-
-    def __truediv__(self, other: Any) -> Any:
-        if isinstance(other, Quadratic):
-            return self * other.inverse
-        y = self._with(other)
-        return NotImplemented if y is None else Quadratic(self.a / y[0], self.b / y[0], self.d)
-
-    def __rtruediv__(self, other: Any) -> Any:
-        return self.inverse * other
-
-    def __pow__(self, n: int) -> Any:
-        base, found = (self if n >= 0 else self.inverse), Fraction(1)
-        for _ in range(abs(n)):
-            found = base * found
-        return found
 
     def __eq__(self, other: object) -> bool:
         same = isinstance(other, Quadratic) and other.d == self.d

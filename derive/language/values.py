@@ -6,8 +6,10 @@ A value is a scalar of any ring, or a matrix as a tuple of rows (a vector is one
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Callable, Mapping
 from fractions import Fraction
+from functools import reduce
 from typing import Any
 
 from . import rational as q
@@ -47,6 +49,19 @@ def value(
         return OPERATIONS[t[0]](*parts)
 
     return fold(at)(t)
+
+
+def arithmetic(t: tuple[Any, ...], of: Callable[[Tree], Value]) -> Value:
+    """The value of a sum, a product, a quotient or a power in any ring, by the values ``of`` its
+    operands; ``ValueError`` for any other operator."""
+    op = t[0]
+    if op in ("add", "mul"):
+        return reduce(operator.add if op == "add" else operator.mul, map(of, t[1:]))
+    if op == "div":
+        return of(t[1]) / of(t[2])
+    if op == "pow":
+        return of(t[1]) ** t[2]
+    raise ValueError(f"no value for the operator {op!r}")
 
 
 def approximate(

@@ -31,7 +31,7 @@ from ..schema.kind import (
     StatedGroup,
 )
 from ..schema.kinds import kinds
-from ..schema.table import Slot
+from ..schema.table import ACTIONS, Slot
 from .fields import tables
 from .file_reader import FileReader
 from .inertia import is_negative
@@ -119,7 +119,7 @@ def group_of(data: Mapping[str, Any], reader: FileReader) -> tuple[Group | None,
         raise ProblemError(f"key 'group': {error}") from None
     if named and "action" not in data:
         return named, named.action
-    action = reader.action(Slot(data, "action", "file"))
+    action = reader.choice(Slot(data, "action", "file"), ACTIONS)
     if named and action != named.action:
         raise ProblemError(f"key 'action': {named.name} acts by {named.action} maps")
     return named, action

@@ -18,7 +18,7 @@ from ..language.reserved import PLACE
 from ..language.tree import Tree, nodes, replaced, subtrees
 from ..language.values import approximate
 from ..schema.body_kinds import LAYERED, Body, GivenBody, Place, Point, PointBody, is_ellipsoid
-from ..schema.kind import DIRECTIONS, SIDES, Advected
+from ..schema.kind import SIDES, Advected
 from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
 from .fields import LIKE_A_PLACE, known_in_lagrangian, meant, state_names
@@ -360,10 +360,6 @@ class FileReader(TableReader):
         """An expression of the state, the parameters and the time."""
         return self.in_time(self.value(slot), slot.path)
 
-    def direction(self, slot: Slot) -> str:
-        """From where 0 is reached."""
-        return self.choice(slot, DIRECTIONS)
-
     def flag(self, slot: Slot) -> bool:
         """True or false."""
         return bool(self.value(slot, bool))
@@ -404,8 +400,7 @@ class FileReader(TableReader):
 
     def quadric(self, slot: Slot) -> Rows:
         """A symmetric matrix of the size of the space, positive definite where that is known."""
-        n = self.moving().n
-        found = self.rows(self.value(slot), n, n, slot.path)
+        found = super().quadric(slot)
         if fault := fault_of_quadric(found, {}):
             raise ProblemError(f"{slot.path}: {fault}")
         return found

@@ -9,8 +9,9 @@ from fractions import Fraction
 from functools import cache
 from typing import Any, ClassVar
 
-from ..algebra.exact_kernel import PRIMES, ResidueSource
+from ..algebra.exact_kernel import PRIMES, Residues, ResidueSource, fraction_of
 from ..algebra.groups import Group, constant_entries
+from ..language import rational as q
 from ..language.derivatives import DIVISOR_PRIMES, derivative, product, quotient, residue
 from ..language.tree import Tree, add, fold, mul, nodes, plain
 
@@ -172,38 +173,18 @@ def held(directions: Sequence[Direction]) -> tuple[int, ...]:
 
 def _kernel(rows: list[list[int]], p: int) -> tuple[Direction, ...] | None:
     """The vectors that a matrix modulo p sends to 0, as fractions; ``None`` where they are none."""
-    size, pivots = len(rows), list[int]()
-    for column in range(size):
-        r = len(pivots)
-        found = next((i for i in range(r, size) if rows[i][column]), None)
-        if found is None:
-            continue
-        rows[r], rows[found] = rows[found], rows[r]
-        scale = pow(rows[r][column], -1, p)
-        rows[r] = [x * scale % p for x in rows[r]]
-        for i in range(size):
-            if i != r and (factor := rows[i][column]):
-                rows[i] = [(x - factor * y) % p for x, y in zip(rows[i], rows[r], strict=True)]
-        pivots.append(column)
-    directions = []
-    for free in (c for c in range(size) if c not in pivots):
-        vector = [Fraction(int(c == free)) for c in range(size)]
-        for r, column in enumerate(pivots):
-            fraction = _fraction(-rows[r][free] % p, p)
-            if fraction is None:
-                return None
-            vector[column] = fraction
-        directions.append(tuple(vector))
-    return tuple(directions)
+    found: list[Direction] = []
+    for vector in q.nullspace(q.matrix([[Residues([x], p) for x in row] for row in rows])):
+        residues = (x.values[0] if isinstance(x, Residues) else int(x) for x in vector)
+        numbers = [fraction_of(x, p) for x in residues]
+        small = [
+            x for x in numbers if x is not None and max(abs(x.numerator), x.denominator) <= SMALL
+        ]
+        if len(small) < len(numbers):
+            return None
+        found.append(tuple(small))
+    return tuple(found)
 
 
 SMALL = 10**6
-
-
-def _fraction(x: int, p: int) -> Fraction | None:
-    """The fraction a/b of small numbers that is x modulo p, by Euclid's algorithm."""
-    a, b, c, d = p, x, 0, 1
-    while b > SMALL:
-        quotient = a // b
-        a, b, c, d = b, a - quotient * b, d, c - quotient * d
-    return Fraction(b, d) if abs(d) <= SMALL else None
+"""Larger numbers has no direction."""

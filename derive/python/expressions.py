@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -77,14 +77,32 @@ def _values(f: EmittedFunction, arrays: Mapping[str, Sequence[Any]]) -> list[Any
     return [_expression(e, found) for e in f.outputs]
 
 
-def _expression(e: Expression, found: Mapping[str, Any]) -> Any:
-    if isinstance(e, (int, Fraction)):
-        return _number(Fraction(e))
-    if isinstance(e, str):
+def _number(q: Fraction) -> Any:
+    """A number of a program as SymPy has it: a fraction, a fraction of π, or a decimal."""
+    for unit, name in ((Fraction(1), sympy.Integer(1)), (PI, sympy.pi)):
+        part = q / unit
+        if part.denominator < LARGEST:
+            return sympy.Rational(part.numerator, part.denominator) * name
+    return sympy.Float(q.numerator / q.denominator)
+
+
+def _expression(
+    e: Expression | Tree,
+    found: Mapping[Any, Any],
+    number: Callable[[Fraction], sympy.Expr] = _number,
+) -> Any:
+    """An expression of a program, or a tree, by what its names stand for."""
+    if e in found:
         return found[e]
+    if isinstance(e, (int, Fraction)):
+        return number(Fraction(e))
     if e[0] == "none":  # of a spring: what it is added to is exact without it
         return sympy.Integer(0)
-    operands = [_expression(x, found) for x in e[2 if e[0] == "fun" else 1 :]]
+    if e[0] == "par":
+        return sympy.Symbol(e[1], real=True)
+    if e[0] == "pow":
+        return _expression(e[1], found, number) ** e[2]
+    operands = [_expression(x, found, number) for x in e[2 if e[0] == "fun" else 1 :]]
     if e[0] == "div":
         return operands[0] / operands[1]
     if e[0] == "fun" and e[1] in BUNDLES:
@@ -95,15 +113,6 @@ def _expression(e: Expression, found: Mapping[str, Any]) -> Any:
     return getattr(sympy, e[1] if e[0] == "fun" else own[e[0]])(*operands)
 
 
-def _number(q: Fraction) -> Any:
-    """A number of a program as SymPy has it: a fraction, a fraction of π, or a decimal."""
-    for unit, name in ((Fraction(1), sympy.Integer(1)), (PI, sympy.pi)):
-        part = q / unit
-        if part.denominator < LARGEST:
-            return sympy.Rational(part.numerator, part.denominator) * name
-    return sympy.Float(q.numerator / q.denominator)
-
-
 # A conserved quantity as a SymPy expression, by L̃, its derivatives, and matrices.
 
 
@@ -112,14 +121,18 @@ def expression(s: Symmetry, found: Found) -> sympy.Expr:
     found.require_whole()
     group = s.group
     symbols = {tree: sympy.Symbol(x, real=True) for x, tree in found.state.items()}
-    symbols["t"] = sympy.Symbol("t", real=True)
-    L = _of(found.lagrangian.L, symbols)
+    symbols |= {"t": sympy.Symbol("t", real=True), "π": sympy.pi}
+
+    def of(t: Tree) -> Any:
+        return _expression(t, symbols, _rational)
+
+    L = of(found.lagrangian.L)
     zeta = [symbols[x] for x in coordinates(group)]
     momenta = [sympy.diff(L, x) for x in zeta]
     energy = sum((p * z for p, z in zip(momenta, zeta, strict=True)), sympy.Integer(0)) - L
 
     def matrix(m: Any) -> sympy.Matrix:
-        return sympy.Matrix([[_of(x, symbols) for x in row] for row in m])
+        return sympy.Matrix([[of(x) for x in row] for row in m])
 
     g, (Y, X) = matrix(element(group)), map(matrix, s.matrices)
     if s.entries is not None:
@@ -128,32 +141,11 @@ def expression(s: Symmetry, found: Found) -> sympy.Expr:
         eta = g.adjugate() * Y * g / g.det() - X
     else:
         eta = Y - g * X * g.adjugate() / g.det()
-    total = -_of(s.tau, symbols) * energy - _of(s.F, symbols)
+    total = -of(s.tau) * energy - of(s.F)
     for a, p in enumerate(momenta):
         terms = group.coordinate_terms(a)
         total += p * sum(_rational(Fraction(c)) * eta[i, j] for c, i, j in terms)
     return total
-
-
-def _of(t: Tree, symbols: Mapping[Tree, sympy.Symbol]) -> Any:
-    """A tree as a SymPy expression."""
-    if t in symbols:
-        return symbols[t]
-    if isinstance(t, (int, Fraction)):
-        return _rational(Fraction(t))
-    if t == "π":
-        return sympy.pi
-    assert isinstance(t, tuple)
-    if t[0] == "par":
-        return sympy.Symbol(t[1], real=True)
-    if t[0] == "pow":
-        return _of(t[1], symbols) ** int(t[2])
-    if t[0] == "fun":
-        return getattr(sympy, t[1])(_of(t[2], symbols))
-    parts = [_of(x, symbols) for x in t[1:]]
-    if t[0] == "div":
-        return parts[0] / parts[1]
-    return {"add": sympy.Add, "mul": sympy.Mul}[t[0]](*parts)
 
 
 def _rational(x: Fraction) -> sympy.Rational:

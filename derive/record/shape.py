@@ -17,7 +17,7 @@ from ..language.tree import Tree, replaced
 from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
 from ..schema.kind import GROUP, INPUTS, Advected, Damping, Fluid, Lagrangian, Torus
 from ..schema.kinds import kinds
-from ..schema.table import DETERMINANT, Rows, Slot, Table
+from ..schema.table import ACTIONS, DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
 from .record import CONVENTIONS
 
@@ -80,7 +80,7 @@ class _RecordReader(TableReader):
         for key in ("title", "group", "name"):
             self.text(self.top(key))
         self.identifier(data["name"], "name")
-        self.action(self.top("action"))
+        self.choice(self.top("action"), ACTIONS)
         self.value(self.top("homogeneous"), bool)
         n = self.value(self.top("n"))
         most = TORUS if "torus" in data else 2 * self.longest
@@ -350,11 +350,6 @@ class _RecordReader(TableReader):
         """A matrix; of the size of the space where that is known."""
         value = self.value(slot, list)
         return self.rows(value, len(value), len(value), slot.path)
-
-    def quadric(self, slot: Slot) -> Rows:
-        """A matrix of the size of the space."""
-        n = self.space(slot)
-        return self.rows(self.value(slot), n, n, slot.path)
 
     def vertices(self, slot: Slot) -> Rows:
         """Any number of points."""

@@ -95,11 +95,10 @@ class StatedGroup(Table):
 # What a file says of motions that are followed, and no record of equations has: events.
 
 Watched = Annotated[Tree, Key("watched", trees=True)]
-Direction = Annotated[str, Key("direction")]
+Direction = Annotated[str, Key("word", words=("both", "rising", "falling"))]
 Flag = Annotated[bool, Key("flag")]
-"""An expression of the state, the time and the parameters; one of DIRECTIONS; true or false."""
-
-DIRECTIONS = ("both", "rising", "falling")
+"""An expression of the state, the time and the parameters; from where 0 is reached; true or
+false."""
 
 
 class Event(Table):
@@ -184,15 +183,9 @@ INPUTS: dict[str, type[CovectorInput] | type[ForceInput]] = {
 
 # A fluid whose displacements keep the volume: a problem without matrices.
 
-Density = Annotated[str, Key("density")]
-"""One of DENSITIES."""
-
-Forces = Annotated[str, Key("field_of_force")]
-"""One of FORCES."""
-
-DENSITIES = ("homogeneous", "advected")
+Density = Annotated[str, Key("word", words=("homogeneous", "advected"))]
 """Everywhere the same; or from place to place another, which the fluid carries along."""
-FORCES = ("none", "potential")
+Forces = Annotated[str, Key("word", words=("none", "potential"))]
 """None; or per unit mass, −grad V of any function V of the place."""
 GROUP = "SDiff"
 """The displacements that keep the volume."""
@@ -212,7 +205,8 @@ class Fluid(Table):
 Lettered = Annotated[Tree, Key("lettered", trees=True)]
 Coordinates = Annotated[tuple[Tree, ...], Key("coordinates", 1, trees=True)]
 Operator = Annotated[tuple[tuple[Tree, ...], ...], Key("operator", 2, trees=True)]
-Side = Annotated[str, Key("side")]
+SIDES = ("left", "right")
+Side = Annotated[str, Key("word", words=SIDES)]
 Held = Annotated[tuple[int, ...], Key("held", 1, keys=())]
 """An expression in the time and the names of the state; one for each coordinate of 𝔤; a symmetric
 matrix of these; the side on which velocities are carried to 𝔤; numbers of coordinates, which no
@@ -245,7 +239,6 @@ class Inertia(Table):
 SECTIONS: dict[str, type[Lagrangian] | type[Inertia]] = {
     x.section: x for x in (Lagrangian, Inertia)
 }
-SIDES = ("left", "right")
 
 
 # A Lie algebra whose group moves no points, and what it carries along: advected quantities.

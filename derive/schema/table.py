@@ -56,7 +56,7 @@ class Key:
     record says it by null, and a file not at all, where there is none; ``told``: in a record.
     ``mass``: in units of mass, by which the principal frame scales it; ``positive``: may not be
     negative but where that is allowed; ``zero``: a length that may be 0; ``own``: what another
-    table is.
+    table is; ``words``: those that it may have.
     """
 
     type: str
@@ -69,6 +69,7 @@ class Key:
     positive: bool = False
     zero: bool = False
     own: Any = None
+    words: tuple[str, ...] = ()
 
 
 Row = tuple[Tree, ...]
@@ -121,8 +122,9 @@ R³, or none."""
 Name = Annotated[str, Key("name")]
 Letters = Annotated[str, Key("letters")]
 Text = Annotated[str, Key("text")]
-Frame = Annotated[str, Key("frame")]
-Action = Annotated[str, Key("action")]
+Frame = Annotated[str, Key("word", words=("space", "body"))]
+ACTIONS = ("linear", "affine")
+Action = Annotated[str, Key("word", words=ACTIONS)]
 Default = Annotated[float | None, Key("number", null=True)]
 Basis = Annotated[tuple[tuple[tuple[Fraction, ...], ...], ...], Key("basis", 2)]
 """A name of code; one of any letters, digits and _; text; space or body; linear or affine; a number

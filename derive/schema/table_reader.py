@@ -13,7 +13,7 @@ from typing import Any, ClassVar, TypeVar
 from ..language.limits import MAGNITUDE, TEXT, TORUS
 from ..language.reserved import WORDS, taken
 from ..language.tree import Tree
-from .kind import DENSITIES, FORCES, SIDES, Input, Parameter
+from .kind import Input, Parameter
 from .table import Rows, Slot, Table, hint
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
@@ -132,25 +132,9 @@ class TableReader(ABC):
             raise self.fail(f"{slot.where}: key {slot.key!r} must be one of {told}")
         return str(value)
 
-    def frame(self, slot: Slot) -> str:
-        """Space or body."""
-        return self.choice(slot, ("space", "body"))
-
-    def action(self, slot: Slot) -> str:
-        """How a group acts."""
-        return self.choice(slot, ("linear", "affine"))
-
-    def side(self, slot: Slot) -> str:
-        """The side on which velocities are carried to 𝔤."""
-        return self.choice(slot, SIDES)
-
-    def density(self, slot: Slot) -> str:
-        """That of a fluid."""
-        return self.choice(slot, DENSITIES)
-
-    def field_of_force(self, slot: Slot) -> str:
-        """That on a fluid."""
-        return self.choice(slot, FORCES)
+    def word(self, slot: Slot) -> str:
+        """One of those that the key may have."""
+        return self.choice(slot, slot.about.words)
 
     def name(self, slot: Slot) -> str:
         """A name that every emitted language can take."""
@@ -261,6 +245,11 @@ class TableReader(ABC):
     @abstractmethod
     def dimension(self, slot: Slot) -> int | None:
         """Of the space in which the vector under a key is; none where that is not known."""
+
+    def quadric(self, slot: Slot) -> Rows:
+        """A matrix of the size of the space."""
+        n = self.space(slot)
+        return self.rows(self.value(slot), n, n, slot.path)
 
     def vector(self, slot: Slot) -> tuple[Tree, ...]:
         """A vector of the space of the points."""

@@ -9,6 +9,7 @@ from functools import lru_cache
 from operator import add, mul
 from typing import Any
 
+from ...language.rings import RingElement
 from ..values.arithmetic import EvaluationError, Nilpotent
 from ..values.residue import Graded, Residue, _degree_of_product, _degree_of_sum, _residue
 
@@ -28,7 +29,7 @@ degree 2; its orders 1, s and s² say in turn that their coefficients vanish, as
 have no relation at s = 0."""
 
 
-class Function:
+class Function(RingElement):
     """A function on a space: exponents → coefficients, in any ring."""
 
     __slots__ = ("space", "terms")
@@ -58,22 +59,12 @@ class Function:
             total[m] = total[m] + x if m in total else x
         return Function(here, total)
 
-    __radd__ = __add__
-
-    def __neg__(self) -> Function:
-        return Function(self.space, {m: -x for m, x in self.terms.items()})
-
-    def __sub__(self, other: Any) -> Any:
-        return self + (-other)
-
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, Nilpotent):
             return NotImplemented
         if not isinstance(other, Function):
             return Function(self.space, {m: x * other for m, x in self.terms.items()})
         return Function(self._same(other), _product(self.terms, other.terms))
-
-    __rmul__ = __mul__
 
     def _same(self, other: Function) -> Any:
         """The common space; that of the other where one is a number."""

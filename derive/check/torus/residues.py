@@ -10,6 +10,7 @@ from operator import add, mul, neg
 from random import Random
 from typing import Any
 
+from ...language.rings import FieldElement
 from ..values.arithmetic import EvaluationError
 from ..values.residue import (
     BITS,
@@ -27,7 +28,7 @@ from ..values.residue import (
 NUMBERS = (int, Fraction, Residue)
 
 
-class Residues:
+class Residues(FieldElement):
     """Residues ``a`` modulo p, one for each point, of which products alone are reduced."""
 
     __slots__ = ("a", "p")
@@ -49,34 +50,17 @@ class Residues:
             NotImplemented if each is None else Residues([x % p for x in map(mul, self.a, each)], p)
         )
 
-    __rmul__ = __mul__
-
     def __add__(self, other: Any) -> Any:
         each = self._each(other)
         return NotImplemented if each is None else Residues([*map(add, self.a, each)], self.p)
 
-    __radd__ = __add__
-
     def __neg__(self) -> Any:
         return Residues([*map(neg, self.a)], self.p)
-
-    def __sub__(self, other: Any) -> Any:
-        return self + -other
-
-    def __rsub__(self, other: Any) -> Any:
-        return -self + other
 
     @property
     def inverse(self) -> Residues:
         """1 over each; ``ZeroDivisionError`` where one is 0."""
         return Residues([_inverse(x, self.p) for x in self.a], self.p)
-
-    def __truediv__(self, other: Any) -> Any:
-        many = isinstance(other, (Residues, Multiples))
-        return self * (other.inverse if many else Fraction(1) / other)
-
-    def __rtruediv__(self, other: Any) -> Any:
-        return self.inverse * other
 
     def __eq__(self, other: object) -> bool:
         """The same at all points?"""
@@ -95,7 +79,7 @@ class Residues:
         return Residue(sum(self.a), self.p)
 
 
-class Multiples:
+class Multiples(FieldElement):
     """Whole numbers ``k``, one for each point, times a ``unit``, modulo p."""
 
     __slots__ = ("k", "p", "unit")
@@ -125,8 +109,6 @@ class Multiples:
             return Multiples(self.k, self.p, self.unit * other)
         return NotImplemented
 
-    __rmul__ = __mul__
-
     def __add__(self, other: Any) -> Any:
         if isinstance(other, Multiples) and self.unit == other.unit:
             return Multiples([*map(add, self.k, other.k)], self.p, self.unit)
@@ -134,24 +116,6 @@ class Multiples:
             n = int(other)
             return Multiples([x + n for x in self.k], self.p)
         return self.residues + other
-
-    __radd__ = __add__
-
-    def __neg__(self) -> Any:
-        return self * -1
-
-    def __sub__(self, other: Any) -> Any:
-        return self + -other
-
-    def __rsub__(self, other: Any) -> Any:
-        return -self + other
-
-    def __truediv__(self, other: Any) -> Any:
-        many = isinstance(other, (Residues, Multiples))
-        return self * (other.inverse if many else Fraction(1) / other)
-
-    def __rtruediv__(self, other: Any) -> Any:
-        return self.inverse * other
 
     def __eq__(self, other: object) -> bool:
         """The same at all points?"""

@@ -9,6 +9,7 @@ from typing import Any
 from ...language import rational as q
 from ...language.limits import DEGREE
 from ...language.rational import Matrix, dot
+from ...language.rings import FieldElement
 
 # Arithmetic of values: scalars of any ring, and matrices of them as tuples of rows.
 
@@ -207,7 +208,7 @@ def power(x: Value, n: Value) -> Value:
 EPS, EPS_PRIME, ETA = 1, 2, 4
 
 
-class Nilpotent:
+class Nilpotent(FieldElement):
     """Element of Q[ε, ε′, η] / (ε², ε′², η²)."""
 
     __slots__ = ("parts",)
@@ -253,17 +254,6 @@ class Nilpotent:
             parts[mask] = parts[mask] + x if mask in parts else x
         return Nilpotent(parts)
 
-    __radd__ = __add__
-
-    def __neg__(self) -> Nilpotent:
-        return Nilpotent({mask: -x for mask, x in self.parts.items()})
-
-    def __sub__(self, other: Any) -> Nilpotent:
-        return self + (-Nilpotent.of(other))
-
-    def __rsub__(self, other: Any) -> Nilpotent:
-        return Nilpotent.of(other) - self
-
     def __mul__(self, other: Any) -> Nilpotent:
         if not isinstance(other, Nilpotent):
             return Nilpotent({mask: x * other for mask, x in self.parts.items()})
@@ -275,24 +265,16 @@ class Nilpotent:
                     parts[mask] = parts[mask] + product if mask in parts else product
         return Nilpotent(parts)
 
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Any) -> Nilpotent:
-        return self * (_inverse(other) if isinstance(other, Nilpotent) else Fraction(1) / other)
-
-    def __rtruediv__(self, other: Any) -> Nilpotent:
-        return Nilpotent.of(other) * _inverse(self)
-
-
-def _inverse(x: Nilpotent) -> Nilpotent:
-    """1/x by the geometric series, which ends."""
-    base = x.part(0)
-    small = Nilpotent({k: -v / base for k, v in x.parts.items() if k})
-    result = power = Nilpotent({0: 1 / base})
-    for _ in range(3):
-        power = power * small
-        result = result + power
-    return result
+    @property
+    def inverse(self) -> Nilpotent:
+        """1/x by the geometric series, which ends."""
+        base = self.part(0)
+        small = Nilpotent({k: -v / base for k, v in self.parts.items() if k})
+        result = power = Nilpotent({0: 1 / base})
+        for _ in range(3):
+            power = power * small
+            result = result + power
+        return result
 
 
 def part(x: Any, mask: int) -> Any:

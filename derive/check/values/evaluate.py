@@ -92,56 +92,42 @@ def _of_head(t: tuple[Any, ...], env: Environment) -> Value:
     try:
         if op in STRUCTURAL:
             return STRUCTURAL[op](t, env)
-        return OPERATIONS[op](*(evaluate(x, env) for x in t[1:]), env=env)
+        return OPERATIONS[op](*(evaluate(x, env) for x in t[1:]))
     except (IndexError, TypeError, ZeroDivisionError) as error:
         raise EvaluationError(f"{op}: {error}") from error
 
 
-def _add(*terms: Value, env: Environment) -> Value:
-    del env
-    total = terms[0]
-    for term in terms[1:]:
-        total = plus(total, term)
-    return total
-
-
-def _mul(*factors: Value, env: Environment) -> Value:
-    del env
+def _mul(*factors: Value) -> Value:
     scalars = [x for x in factors if not is_matrix(x)]
     matrices = [x for x in factors if is_matrix(x)]
-    product = matrices[0] if matrices else Fraction(1)
-    for x in matrices[1:]:
-        product = times(product, x)
-    for x in scalars:
-        product = times(x, product)
-    return product
+    product = reduce(times, matrices or [Fraction(1)])
+    return reduce(lambda y, x: times(x, y), scalars, product)
 
 
-OPERATIONS: dict[str, Callable[..., Value]] = {
-    "add": _add,
-    "mul": _mul,
-    "div": lambda a, b, env: times(a, reciprocal(b)),
-    "T": lambda x, env: transpose(x),
-    "tr": lambda x, env: trace(x),
-    "det": lambda x, env: determinant(x),
-    "inv": lambda x, env: inverse(x),
-    "one": lambda env: q.scaled(env.unit, q.identity(env.size)),
-    "inner": lambda a, b, env: inner(a, b),
-    "metric": lambda m, a, b, env: inner(a, b, m),
-    "norm2": lambda *x, env: inner(x[-1], x[-1], x[0] if len(x) == 2 else None),
-    "bracket": lambda a, b, env: plus(times(a, b), times(Fraction(-1), times(b, a))),
-    "wedge": lambda a, b, env: wedge(a, b),
-    "hat": lambda a, env: hat(a),
-    "row": lambda *x, env: tuple(map(number, x)),
-    "matrix": lambda *rows, env: _matrix(rows),
-    "pow": lambda x, n, env: power(x, n),
-}
-
-
-def _matrix(rows: tuple[Any, ...]) -> Value:
+def _matrix(*rows: Any) -> Value:
     if len({len(row) for row in rows}) != 1:
         raise EvaluationError("the rows of a matrix must be of one length")
     return rows
+
+
+OPERATIONS: dict[str, Callable[..., Value]] = {
+    "add": lambda *terms: reduce(plus, terms),
+    "mul": _mul,
+    "div": lambda a, b: times(a, reciprocal(b)),
+    "T": transpose,
+    "tr": trace,
+    "det": determinant,
+    "inv": inverse,
+    "inner": inner,
+    "metric": lambda m, a, b: inner(a, b, m),
+    "norm2": lambda *x: inner(x[-1], x[-1], x[0] if len(x) == 2 else None),
+    "bracket": lambda a, b: plus(times(a, b), times(Fraction(-1), times(b, a))),
+    "wedge": wedge,
+    "hat": hat,
+    "row": lambda *x: tuple(map(number, x)),
+    "matrix": _matrix,
+    "pow": power,
+}
 
 
 def _sum(t: tuple[Any, ...], env: Environment) -> Value:
@@ -283,6 +269,7 @@ def _parameter(t: tuple[Any, ...], env: Environment) -> Value:
 
 
 STRUCTURAL: dict[str, Callable[[tuple[Any, ...], Environment], Value]] = {
+    "one": lambda t, env: q.scaled(env.unit, q.identity(env.size)),
     "sum": _sum,
     "at": _at,
     "entry": _entry,

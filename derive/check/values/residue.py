@@ -11,6 +11,7 @@ from random import Random
 from typing import Any, NamedTuple
 
 from ...language.rational import Matrix, flatten
+from ...language.rings import FieldElement
 from ...language.univariate import Quadratic
 
 # Rational numbers by their residues modulo a large random prime.
@@ -63,7 +64,7 @@ def _residue(x: Any, p: int) -> int:
     return int(a) if b == 1 else _quotient(a, b, p)
 
 
-class Residue:
+class Residue(FieldElement):
     """The residue n of a rational number modulo a prime p: an element of the field F_p."""
 
     __slots__ = ("n", "p")
@@ -97,29 +98,18 @@ class Residue:
         y = other.n if isinstance(other, Residue) else self._other(other)
         return NotImplemented if y is None else Residue(self.n + y, self.p)
 
-    __radd__ = __add__
-
     def __sub__(self, other: Any) -> Any:
         y = other.n if isinstance(other, Residue) else self._other(other)
         return NotImplemented if y is None else Residue(self.n - y, self.p)
-
-    def __rsub__(self, other: Any) -> Any:
-        y = self._other(other)
-        return NotImplemented if y is None else Residue(y - self.n, self.p)
 
     def __mul__(self, other: Any) -> Any:
         y = other.n if isinstance(other, Residue) else self._other(other)
         return NotImplemented if y is None else Residue(self.n * y, self.p)
 
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Any) -> Any:
-        y = self._other(other)
-        return NotImplemented if y is None else Residue(self.n * _inverse(y, self.p), self.p)
-
-    def __rtruediv__(self, other: Any) -> Any:
-        y = self._other(other)
-        return NotImplemented if y is None else Residue(y * _inverse(self.n, self.p), self.p)
+    @property
+    def inverse(self) -> Residue:
+        """1 over the number."""
+        return Residue(_inverse(self.n, self.p), self.p)
 
     def __neg__(self) -> Residue:
         return Residue(-self.n, self.p)
@@ -248,7 +238,7 @@ def _factor(g: Grade) -> Factor:
     return next(_number), g
 
 
-class Graded:
+class Graded(FieldElement):
     """A number of which the degree alone is known; equal to itself alone."""
 
     __slots__ = ("_inverse", "degree")
@@ -264,8 +254,6 @@ class Graded:
             return NotImplemented
         return Graded(_degree_of_sum(self.degree, CONSTANT)) if other else self
 
-    __radd__ = __sub__ = __rsub__ = __add__
-
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, Graded):
             return Graded(_degree_of_product(self.degree, other.degree))
@@ -273,23 +261,10 @@ class Graded:
             return NotImplemented
         return self if other else Fraction(0)
 
-    __rmul__ = __mul__
-
     def __neg__(self) -> Graded:
         return self
 
     __abs__ = __neg__
-
-    def __truediv__(self, other: Any) -> Any:
-        if isinstance(other, Graded):
-            return self * other.inverse
-        return self * (Fraction(1) / other) if isinstance(other, PLAIN) else NotImplemented
-
-    def __rtruediv__(self, other: Any) -> Any:
-        return self.inverse * other
-
-    def __pow__(self, n: int) -> Any:
-        return reduce(lambda x, y: x * y, [self if n > 0 else self.inverse] * abs(n), Fraction(1))
 
     @property
     def inverse(self) -> Graded:

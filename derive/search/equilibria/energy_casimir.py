@@ -17,6 +17,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
+from ...language.rational import times, transposed
 from ...language.univariate import Number, Quadratic, number
 from ..integrals.lie_poisson import Polynomial
 from .equilibrium_points import About, Expansion, Matrix
@@ -40,7 +41,7 @@ def leaf(about: About) -> Leaf:
     n = len(about.at)
     rows, pivots = reduced_rows(kernel(about.tensor, n), n)
     free = tuple(i for i in range(n) if i not in pivots)
-    basis: Matrix = [[Fraction(int(i == j)) for j in free] for i in range(n)]
+    basis: list[Vector] = [[Fraction(int(i == j)) for j in free] for i in range(n)]
     for p, row in zip(pivots, rows, strict=True):
         basis[p] = [-row[j] for j in free]
     return Leaf(rows, pivots, free, basis)
@@ -142,7 +143,7 @@ def _simple(low: Fraction, high: Fraction) -> Fraction:
     return middle
 
 
-def _second(multipliers: Vector, energy: Expansion, kept: Sequence[Expansion]) -> Matrix:
+def _second(multipliers: Sequence[Number], energy: Expansion, kept: Sequence[Expansion]) -> Matrix:
     """The second derivatives of F."""
     n = len(energy.second)
     return [
@@ -157,7 +158,7 @@ def _second(multipliers: Vector, energy: Expansion, kept: Sequence[Expansion]) -
 
 def restricted(second: Matrix, on: Leaf) -> Matrix:
     """P̄QP."""
-    return product(transposed(on.basis), product(second, on.basis))
+    return times(transposed(on.basis), times(second, on.basis))
 
 
 def _form(multipliers: Vector, energy: Expansion, kept: Sequence[Expansion], on: Leaf) -> Form:
@@ -172,7 +173,7 @@ def _form(multipliers: Vector, energy: Expansion, kept: Sequence[Expansion], on:
     value = energy.value + sum(c * e.value for c, e in pairs)
     expansion = Expansion(value, [Fraction(0)] * n, second, higher)
     squares = [(d / 2, _spread(row, on.free, n)) for d, row in diagonalised(restricted(second, on))]
-    across = product(second, on.basis) if on.free else [[] for _ in range(n)]
+    across = times(second, on.basis)
     mixed = []
     for p in on.pivots:
         row = _spread(across[p], on.free, n)
@@ -187,14 +188,14 @@ def _form(multipliers: Vector, energy: Expansion, kept: Sequence[Expansion], on:
 def along_the_orbit(about: About, on: Leaf) -> Matrix:
     """The second derivatives of H along the coadjoint orbit, modulo the stabiliser, in the basis P
     of T: ω(Mv, w) for the linearised rates M, where ω(Λξ, Λη) = ⟨Λξ, η⟩."""
-    image = product([e.slope for e in about.rates], on.basis)  # MP
+    image = times([e.slope for e in about.rates], on.basis)  # MP
     columns = transposed(about.tensor)
     covectors = []
     for v in transposed(on.basis):
         found = solutions(columns, v)
         assert found  # the image of Λ
         covectors.append([-x for x in found[0]])
-    return product(covectors, image)
+    return times(covectors, image)
 
 
 def _spread(row: Sequence[Number], places: Sequence[int], n: int) -> Vector:
@@ -229,19 +230,6 @@ def diagonalised(q: Matrix) -> list[tuple[Number, Vector]]:
 
 
 # -- linear algebra over Q or Q(√d) -------------------------------------------------------------
-
-
-def product(a: Matrix, b: Matrix) -> Matrix:
-    """ab."""
-    columns = transposed(b)
-    return [
-        [sum((x * y for x, y in zip(r, c, strict=True)), Fraction(0)) for c in columns] for r in a
-    ]
-
-
-def transposed(a: Matrix) -> Matrix:
-    """ā."""
-    return [[*column] for column in zip(*a, strict=True)]
 
 
 def field_of(rows: Matrix) -> Any:
@@ -310,7 +298,7 @@ def reduced_rows(rows: Matrix, columns: int) -> tuple[Matrix, tuple[int, ...]]:
     return _plain(echelon)[: len(pivots)], tuple(pivots)
 
 
-def solutions(vectors: Matrix, target: Vector) -> tuple[Vector, Matrix] | None:
+def solutions(vectors: Matrix, target: Sequence[Number]) -> tuple[Vector, Matrix] | None:
     """One solution c of Σ c_j v_j = target, and a basis of those of Σ c_j v_j = 0."""
     m = len(vectors)
     rows = [[*(v[i] for v in vectors), x] for i, x in enumerate(target)]

@@ -20,7 +20,7 @@ from .entries_of_elements import Conditions, numbers
 Point = tuple[Number, ...]
 Elements = Sequence[Conditions]
 """What the entries of g at a point satisfy, in every factor of the group."""
-Matrix = list[list[Number]]
+Matrix = Sequence[Sequence[Number]]
 
 
 class NoEquilibriumError(Refused, ValueError):

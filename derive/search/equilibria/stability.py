@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
+from ...language.rational import times
 from ...language.univariate import Number, RealRoots, grows, real_roots
 from ..integrals.all_integrals import Found
 from ..integrals.lie_poisson import ONE, LiePoisson
@@ -28,7 +29,6 @@ from .energy_casimir import (
     form,
     leaf,
     number_of,
-    product,
     signs,
 )
 from .equilibrium_points import About, Elements, Matrix, attained, given, tried
@@ -131,7 +131,7 @@ def judged(whole: Found, about: About, elements: Elements) -> Equilibrium:
     over = about.algebra.over_the_field
     found = form(about, on, [*map(over, whole.casimirs), *map(over, whole.integrals)])
     slopes = [e.slope for e in about.rates]
-    image = product(slopes, on.basis) if on.free else []
+    image = times(slopes, on.basis)
     linear = [image[i] for i in on.free]
     characteristic = polynomial(linear)
     regular = whole.proved.proved and len(on.free) == whole.proved.rank

@@ -12,6 +12,7 @@ from math import lcm, prod
 from random import Random
 from typing import Any
 
+from ...algebra.exact_kernel import pivots
 from ...language.limits import Refused
 from .lie_poisson import (
     PRIMES,
@@ -341,21 +342,6 @@ class Search:
 
 def _independent(rows: Rows, width: int, p: int) -> list[tuple[int, Exponents]]:
     """The keys of rows that span all rows modulo p, short rows first."""
-    reduced: dict[int, dict[int, int]] = {}
-    chosen = []
-    for key, row in sorted(rows.items(), key=lambda x: (len(x[1]), x[0])):
-        left = {j: x % p for j, x in row.items() if x % p}
-        while left:
-            lead = min(left)
-            if lead not in reduced:
-                inverse = pow(left[lead], -1, p)
-                reduced[lead] = {j: x * inverse % p for j, x in left.items()}
-                chosen.append(key)
-                break
-            factor = left[lead]
-            for j, x in reduced[lead].items():
-                left[j] = (left.get(j, 0) - factor * x) % p
-            left = {j: x for j, x in left.items() if x}
-        if len(chosen) == width - 1:
-            break
-    return chosen
+    keys = sorted(rows, key=lambda x: (len(rows[x]), x))
+    columns = ([int(rows[x].get(j, 0) % p) for x in keys] for j in range(width))
+    return [keys[k] for k in pivots(columns, len(keys), p)][: width - 1]

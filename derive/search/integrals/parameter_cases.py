@@ -9,6 +9,7 @@ from itertools import product
 from math import lcm, prod
 from typing import Any
 
+from ...algebra.exact_kernel import kernel
 from ...language import rational as q
 from .lie_poisson import ONE, Algebra, Exponents, LiePoisson, Polynomial
 
@@ -325,25 +326,6 @@ def _integral_weights(rows: Sequence[Row], n: int) -> Iterator[tuple[int, ...]]:
 
 
 def _reflections(rows: Sequence[Row], n: int) -> Iterator[tuple[int, ...]]:
-    """A basis of the weights modulo 2, by elimination."""
-    reduced: list[tuple[int, list[int]]] = []
-    for row in rows:
-        left = [x % 2 for x in row]
-        for lead, other in reduced:
-            if left[lead]:
-                left = [x ^ y for x, y in zip(left, other, strict=True)]
-        if any(left):
-            lead = left.index(1)
-            reduced = [
-                (k, [x ^ y for x, y in zip(r, left, strict=True)] if r[lead] else r)
-                for k, r in reduced
-            ]
-            reduced.append((lead, left))
-    leads = {k for k, _ in reduced}
-    for free in (j for j in range(n + 2) if j not in leads):
-        x = [0] * (n + 2)
-        x[free] = 1
-        for k, r in reduced:
-            x[k] = r[free]
-        if any(x[:n]):
-            yield tuple(x[:n])
+    """A basis of the weights modulo 2."""
+    basis, _ = kernel(([x % 2 for x in row] for row in rows), n + 2, 2)
+    return (tuple(x[:n]) for x in basis if any(x[:n]))

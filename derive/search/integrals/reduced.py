@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
-from functools import reduce
 from typing import Any, NoReturn
 
 from ...algebra.groups import Group, constant_entries
 from ...language.limits import Refused
 from ...language.tree import Tree, add, mul, nodes, replaced
+from ...language.values import arithmetic
 from ...problem.moved_entries import settled
 from ...problem.problem import Problem
 from .lie_poisson import ONE, Exponents, LiePoisson, plain, powers, sorted_terms
@@ -267,7 +266,7 @@ class _Symbolic:
             if t[0] == "pow":
                 x = at(t[1])
                 return x ** t[2] if t[2] >= 0 else self.reciprocal(x) ** -t[2]
-            return reduce(operator.add if t[0] == "add" else operator.mul, map(at, t[1:]))
+            return arithmetic(t, at)
 
         return at(t)
 

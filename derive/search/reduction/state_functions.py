@@ -11,6 +11,7 @@ from typing import Any
 from ...algebra.exact_kernel import PRIMES, ResidueSource, kernel, rational
 from ...algebra.groups import Group
 from ...language.tree import Tree, add, mul, nodes
+from ...language.values import arithmetic
 from ..symmetries.conditions import EXTRA
 from ..symmetries.scalar_lagrangian import entries
 
@@ -68,16 +69,7 @@ class StateFunctions:
         if isinstance(t, (int, Fraction)):
             return self.field(self.field.domain(t.numerator, t.denominator))
         assert isinstance(t, tuple)
-        if t[0] == "pow":
-            return self.of(t[1]) ** t[2]
-        parts = map(self.of, t[1:])
-        if t[0] == "div":
-            above, below = parts
-            return above / below
-        total = next(parts)
-        for x in parts:
-            total = total + x if t[0] == "add" else total * x
-        return total
+        return arithmetic(t, self.of)
 
     # -- on the group --------------------------------------------------------------------------
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
+from functools import reduce
 from typing import Any, Protocol
 
 from ...algebra.exact_kernel import Residues, ResidueSource
 from ...language.derivatives import DERIVATIVES
 from ...language.tree import Tree
+from ...language.values import arithmetic
 
 Number = Any
 """A residue at each point, or floats."""
@@ -91,10 +94,8 @@ class Tape:
                 values.append(source.constant(data))
             elif op == "leaf":
                 values.append(leaves[data])
-            elif op == "add":
-                values.append(_summed(a))
-            elif op == "mul":
-                values.append(_multiplied(a))
+            elif op in ("add", "mul"):
+                values.append(reduce(operator.add if op == "add" else operator.mul, a))
             elif op == "div":
                 values.append(a[0] / a[1])
             elif op == "pow":
@@ -152,7 +153,7 @@ class Functions:
         """A point of c² ± s² = 1 by the tangent u of half its argument, and s/c."""
         u = self.source.randint(1, 1)
         above, below = 1 - sign * u * u, 1 + sign * u * u
-        values = (2 * u / below, above / below, 2 * u / above)
+        values: tuple[Residues, ...] = (2 * u / below, above / below, 2 * u / above)
         self.known += [(other, x, y) for other, y in zip(names, values, strict=True)]
         return values[names.index(name)]
 
@@ -223,28 +224,14 @@ class Evaluated:
             if isinstance(t, (int, Fraction)):
                 return self.source.constant(t)
             assert isinstance(t, tuple)
-            if t[0] == "pow":
-                return at(t[1]) ** int(t[2])
-            if t[0] == "fun":
-                return self.found.value(t[1], at(t[2]))
-            a = [*map(at, t[1:])]
-            if t[0] == "div":
-                return a[0] / a[1]
-            return _summed(a) if t[0] == "add" else _multiplied(a)
+            return self.found.value(t[1], at(t[2])) if t[0] == "fun" else arithmetic(t, at)
 
         return at(slope)
 
 
-def _summed(a: list[Number]) -> Number:
-    total = a[0]
-    for x in a[1:]:
-        total = total + x
-    return total
-
-
 def _others(a: list[Number], fixed: list[Number]) -> list[Number | None]:
     """For each of some factors the product of the others, and of what is fixed; ``None`` for 1."""
-    before = [_multiplied(fixed) if fixed else None]
+    before = [reduce(operator.mul, fixed) if fixed else None]
     for x in a[:-1]:
         before.append(x if before[-1] is None else before[-1] * x)
     found: list[Number | None] = []
@@ -253,10 +240,3 @@ def _others(a: list[Number], fixed: list[Number]) -> list[Number | None]:
         found.append(after if y is None else y if after is None else y * after)
         after = x if after is None else x * after
     return found[::-1]
-
-
-def _multiplied(a: list[Number]) -> Number:
-    total = a[0]
-    for x in a[1:]:
-        total = total * x
-    return total
