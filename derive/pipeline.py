@@ -50,14 +50,14 @@ if TYPE_CHECKING:
     from .language.univariate import Number
     from .motion.emitted import Emitted, OneDegree
     from .search.equilibria.enclosed_points import Enclosed
-    from .search.equilibria.entries_of_elements import Conditions
+    from .search.equilibria.entries_of_elements import EntryConditions
     from .search.equilibria.stability import Equilibrium
-    from .search.integrals.all_integrals import Found
+    from .search.integrals.all_integrals import IntegralsFound
     from .search.reduction.told_reduction import Reduction
     from .search.symmetries.symmetry_steps import Symmetries
 
 ANY_GROUP = (
-    Stage("lagrangian", "a c", "Lagrangian", lagrangian.lagrangian),
+    Stage("lagrangian", "a c", "PointLagrangian", lagrangian.lagrangian),
     Stage("pullback", "lagrangian a c", "Pullback", lagrangian.pullback),
     Stage("unique", "lagrangian pullback.moments a c", "Step", orbit.unique),
     Stage("cartan", "pullback a c", "Cartan", cartan.cartan),
@@ -77,7 +77,7 @@ ANY_GROUP = (
 
 MATRICES = (
     Stage("general", "a pullback.moment_work trivial derivative momenta",
-          "General", specialisation.General),
+          "AnyGroup", specialisation.AnyGroup),
     Stage("body", "problem lagrangian a c", "Steps", body.body_step),
     Stage("brackets", "group c", "Steps", coordinates.bracket_step),
     Stage("bodies", "problem", "Bodies", inertia.invariant),
@@ -85,11 +85,12 @@ MATRICES = (
     Stage("plain", "group", "Alphabet", alphabet.of_matrices),
     Stage("tetrahedron", "problem group c", "Steps", orbit.tetrahedron),
     Stage("potentials", "problem plain c", "Potentials", potentials.potentials),
-    Stage("special", "general group potentials c bodies?", "Special", specialisation.specialise),
+    Stage("special", "general group potentials c bodies?",
+          "KernelOnGroup", specialisation.specialise),
     Stage("external", "problem special.letters special.C c_u",
           "External", inputs.external_matrices),
-    Stage("driven", "special external?", "Special", specialisation.with_external),
-    Stage("centred", "driven c_u", "Centred", separation.eliminate_translation, "affine"),
+    Stage("driven", "special external?", "KernelOnGroup", specialisation.with_external),
+    Stage("centred", "driven c_u", "Barycentric", separation.eliminate_translation, "affine"),
     Stage("solution", "driven centred? group c c_u", "Solution", solution.solution),
     Stage("fluid", "problem group potentials driven solution c_u",
           "Steps", dirichlet.fluid_steps),
@@ -283,7 +284,7 @@ def both_trivialisations(record: Derivation) -> Derivation:
 
 def integrals(
     problem: Problem, degree: int = 4, *, at_defaults: bool = False, conditions: bool = False
-) -> tuple[Found, Derivation]:
+) -> tuple[IntegralsFound, Derivation]:
     """The polynomial integrals of the reduced equations of a problem up to a degree, and its record
     with the steps that tell them; of points by their Lagrangian as one expression.
 
@@ -345,7 +346,7 @@ def _of_variables(problem: Problem, values: Mapping[str, Number]) -> dict[str, N
     return {coordinate(own[x]) if x in entries else x: v for x, v in values.items()}
 
 
-def _elements(problem: Problem, whole: Found) -> tuple[Conditions, ...]:
+def _elements(problem: Problem, whole: IntegralsFound) -> tuple[EntryConditions, ...]:
     """What the entries of g satisfy that are among the variables of the reduced equations."""
     from .search.equilibria.entries_of_elements import conditions
 

@@ -174,26 +174,26 @@ def _is_strong_prime(p: int, base: int) -> bool:
     return pow(base, p // 2, p) in (1, p - 1)
 
 
-class Residues(RingElement):
+class ResidueVector(RingElement):
     """Residues modulo p at some points; ``values``: a list, from 0 to p − 1, one for each point."""
 
     __slots__ = ("_inverse", "p", "values")
 
     def __init__(self, values: list[int], p: int):
         self.values, self.p = values, p
-        self._inverse: Residues | None = None
+        self._inverse: ResidueVector | None = None
 
-    def like(self, values: list[int]) -> Residues:
+    def like(self, values: list[int]) -> ResidueVector:
         """Other residues modulo the same prime."""
-        return Residues(values, self.p)
+        return ResidueVector(values, self.p)
 
-    def at(self, places: Sequence[int]) -> Residues:
+    def at(self, places: Sequence[int]) -> ResidueVector:
         """The same number at some of the points."""
         return self.like([self.values[k] for k in places])
 
-    def __add__(self, other: Any) -> Residues:
+    def __add__(self, other: Any) -> ResidueVector:
         p = self.p
-        if isinstance(other, Residues):
+        if isinstance(other, ResidueVector):
             if not (self and other):
                 return self if self else other
             pairs = zip(self.values, other.values, strict=True)
@@ -201,19 +201,19 @@ class Residues(RingElement):
         c = residue_of(other, p)
         return self.like([(x + c) % p for x in self.values]) if c else self
 
-    def __neg__(self) -> Residues:
+    def __neg__(self) -> ResidueVector:
         return self.like([-x % self.p for x in self.values])
 
-    def __sub__(self, other: Any) -> Residues:
+    def __sub__(self, other: Any) -> ResidueVector:
         p = self.p
-        if isinstance(other, Residues):
+        if isinstance(other, ResidueVector):
             pairs = zip(self.values, other.values, strict=True)
             return self.like([(x - y) % p for x, y in pairs])
         return self.__add__(-other)
 
-    def __mul__(self, other: Any) -> Residues:
+    def __mul__(self, other: Any) -> ResidueVector:
         p = self.p
-        if isinstance(other, Residues):
+        if isinstance(other, ResidueVector):
             if not (self and other):
                 return self.like([0] * len(self.values))
             pairs = zip(self.values, other.values, strict=True)
@@ -221,15 +221,15 @@ class Residues(RingElement):
         c = residue_of(other, p)
         return self.like([x * c % p for x in self.values]) if c != 1 else self
 
-    def __truediv__(self, other: Any) -> Residues:
-        if isinstance(other, Residues):
+    def __truediv__(self, other: Any) -> ResidueVector:
+        if isinstance(other, ResidueVector):
             return self * other.inverse()
         return self * pow(residue_of(other, self.p), -1, self.p)
 
-    def __rtruediv__(self, other: Any) -> Residues:
+    def __rtruediv__(self, other: Any) -> ResidueVector:
         return self.inverse().__mul__(other)
 
-    def __pow__(self, n: int) -> Residues:
+    def __pow__(self, n: int) -> ResidueVector:
         if n == 2:
             return self * self
         p, base = self.p, self if n >= 0 else self.inverse()
@@ -237,7 +237,7 @@ class Residues(RingElement):
 
     def __eq__(self, other: object) -> bool:
         """Is it the same at every point?"""
-        if isinstance(other, Residues):
+        if isinstance(other, ResidueVector):
             return self.values == other.values
         c = residue_of(other, self.p)
         return all(x == c for x in self.values)
@@ -249,36 +249,38 @@ class Residues(RingElement):
         return any(self.values)
 
     @staticmethod
-    def dot(a: Iterable[Any], b: Iterable[Any]) -> Residues:
+    def dot(a: Iterable[Any], b: Iterable[Any]) -> ResidueVector:
         """Σ a_i b_i, of which some are rational numbers: what is 0 or 1 costs nothing, and the sum
         alone is reduced."""
         pairs = [*zip(a, b, strict=True)]
-        p, count = next((x.p, len(x.values)) for xy in pairs for x in xy if isinstance(x, Residues))
+        p, count = next(
+            (x.p, len(x.values)) for xy in pairs for x in xy if isinstance(x, ResidueVector)
+        )
         total, constant = [0] * count, 0
         for x, y in pairs:
-            if not isinstance(x, Residues):
+            if not isinstance(x, ResidueVector):
                 x, y = y, x
             if not (x and y):
                 continue
             products: Iterable[int]
-            if isinstance(y, Residues):
+            if isinstance(y, ResidueVector):
                 products = map(mul, x.values, y.values)
-            elif isinstance(x, Residues):
+            elif isinstance(x, ResidueVector):
                 c = residue_of(y, p)
                 products = x.values if c == 1 else (c * v for v in x.values)
             else:
                 constant += residue_of(x, p) * residue_of(y, p)
                 continue
             total = [*map(add, total, products)]
-        return Residues([(x + constant) % p for x in total], p)
+        return ResidueVector([(x + constant) % p for x in total], p)
 
-    def inverse(self) -> Residues:
+    def inverse(self) -> ResidueVector:
         """1/x at each point; 0 where x is 0."""
         if self._inverse is None:
             self._inverse = self.like([pow(x, -1, self.p) if x else 0 for x in self.values])
         return self._inverse
 
-    def root(self) -> Residues:
+    def root(self) -> ResidueVector:
         """A square root at each point that has one, a number of no meaning at the others."""
         return self ** ((self.p + 1) // 4)
 
@@ -293,20 +295,20 @@ def residue_of(x: Any, p: int) -> int:
     return x.numerator * pow(x.denominator, -1, p) % p
 
 
-class ResidueSource:
+class ResidueVectorSource:
     """A source of random residues at a number of points, from a seed: the whole field whatever the
     range that is asked for."""
 
     def __init__(self, p: int, points: int, seed: int):
         self.p, self.points, self.random = p, points, Random(seed)
 
-    def randint(self, a: int, b: int, /) -> Residues:
+    def randint(self, a: int, b: int, /) -> ResidueVector:
         """A random number, one at each point; Python promises the same ``random`` of a seed in
         every version."""
         del a, b
         random, most = self.random.random, self.p - 1
-        return Residues([1 + int(random() * most) for _ in range(self.points)], self.p)
+        return ResidueVector([1 + int(random() * most) for _ in range(self.points)], self.p)
 
-    def constant(self, x: Any) -> Residues:
+    def constant(self, x: Any) -> ResidueVector:
         """A rational number at all points."""
-        return Residues([residue_of(x, self.p)] * self.points, self.p)
+        return ResidueVector([residue_of(x, self.p)] * self.points, self.p)

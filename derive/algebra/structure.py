@@ -292,7 +292,7 @@ Place = tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Torus:
+class TorusLattice:
     """The lattice of one odd N; ``half``: the largest size of a coordinate of a representative."""
 
     N: int

@@ -16,7 +16,7 @@ from .conventions import conventions, titles
 from .drift import TEXTS, drift, matrices
 from .factor import factored
 from .graph import Node, reachable
-from .kept import Event, Kept, table, values
+from .kept import EmittedEvent, EmittedQuantities, table, values
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
@@ -53,7 +53,7 @@ def assemble(
     options: Options | None = None,
     framed: Derivation | None = None,
     kept: Mapping[str, Tree] | None = None,
-    events: Sequence[Event] = (),
+    events: Sequence[EmittedEvent] = (),
     discrete: Derivation | None = None,
 ) -> Program:
     """The program of a record; ``LoweringError`` when the record has no solved equations.
@@ -119,7 +119,7 @@ def _of_state(
     lowering: Lowering,
     chosen: Options,
     kept: Mapping[str, Tree],
-    events: Sequence[Event],
+    events: Sequence[EmittedEvent],
     discrete: Derivation | None,
 ) -> tuple[dict[str, list[Node]], MomentumState | None, Lowered | None]:
     """Name → outputs of the functions of the state; the state with momenta; the discrete step."""
@@ -143,7 +143,7 @@ def _added(
     if lowering.reader.options.multiplier:
         found["multiplier"] = [lowering.reader.number("θ")]
     if kept:
-        found["conserved"] = Kept(lowering).of(kept)
+        found["conserved"] = EmittedQuantities(lowering).of(kept)
     return {name: factored(lowering.graph, nodes) for name, nodes in found.items()}
 
 

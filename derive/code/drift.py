@@ -23,7 +23,7 @@ from ..language.rational import Matrix
 from . import dense
 from .graph import Graph, Node
 from .program import Block
-from .schedule import Varied
+from .schedule import Directional
 from .slots import conjugate, multiplied
 from .state import StateSpace
 
@@ -49,7 +49,7 @@ def drift(x: StateSpace) -> dict[str, list[Node]]:
         return {}
     if x.tangent:
         here, there = leaves[: len(leaves) // 2], leaves[len(leaves) // 2 :]
-        moving = Varied(g, dict(zip(here, there, strict=True)), "t")
+        moving = Directional(g, dict(zip(here, there, strict=True)), "t")
         pairs = zip(here, there, strict=True)
         images |= {rate: moving.of(images.get(y, y)) for y, rate in pairs}
         residuals += [moving.of(y) for y in residuals]

@@ -17,7 +17,7 @@ from math import factorial, prod
 from .graph import Graph, Node
 from .naming import ClaimedNames
 from .program import EmittedFunction
-from .schedule import Scheduler, Varied
+from .schedule import Directional, Scheduler
 
 DUPLICATIONS, NEWTON_STEPS, ORDER = 6, 3, 11
 """What leaves an error below the rounding of doubles for semi-axes of ratios up to 1e8; of the
@@ -170,7 +170,7 @@ class Duplication:
         return self._leaf(f"h_{min(i, j) + 1}{max(i, j) + 1}")
 
     def _by(self, seeds: Seeds, x: Node) -> Node:
-        return Varied(self.g, seeds, "").of(x)
+        return Directional(self.g, seeds, "").of(x)
 
     def _hessian(self, gradient: list[Node], along: list[Seeds]) -> list[Node]:
         """The second derivatives, where they are asked for."""

@@ -21,11 +21,11 @@ from .lower import Lowering
 from .options import Options
 from .program import LoweringError, Watched
 from .reader import matrix, scalar
-from .schedule import Varied
+from .schedule import Directional
 from .state_forms import BACK, IN_SPACE, has_velocity, in_space, state_of
 
 
-class Kept:
+class EmittedQuantities:
     """The values of such quantities, as nodes of the graph of one program."""
 
     def __init__(self, lowering: Lowering):
@@ -89,7 +89,7 @@ class Kept:
             return tuple(self._body_momentum(a) for a in span)
         if "lagrangian" in self.reader.record.problem:
             return tuple(scalar(self.reader.member(("at", "Π", a + 1))) for a in span)
-        slopes = (Varied(self.graph, self.space.faster(a), f"zeta_{a + 1}") for a in span)
+        slopes = (Directional(self.graph, self.space.faster(a), f"zeta_{a + 1}") for a in span)
         found = [self._opened(x.of(self.energy)) for x in slopes]
         return tuple(self.graph.value(x, f"momentum_{a}", "") for a, x in enumerate(found, 1))
 
@@ -154,7 +154,7 @@ UNWATCHED = "gauss_jax"
 """The step whose motions do not stop at events."""
 
 
-class Event(Protocol):
+class EmittedEvent(Protocol):
     """An instant at which the expression ``when`` changes its sign, in a ``direction`` of
     DIRECTIONS."""
 
@@ -175,12 +175,12 @@ class Event(Protocol):
         """Does the motion end there?"""
 
 
-def table(events: Sequence[Event]) -> tuple[Watched, ...]:
+def table(events: Sequence[EmittedEvent]) -> tuple[Watched, ...]:
     """What a program says of them."""
     return tuple(Watched(x.name, DIRECTIONS[x.direction], x.terminal) for x in events)
 
 
-def watched(name: str, events: Sequence[Event], chosen: Options) -> Sequence[Event]:
+def watched(name: str, events: Sequence[EmittedEvent], chosen: Options) -> Sequence[EmittedEvent]:
     """The events at which the steps of an emission stop; ``LoweringError`` where none are written
     for its state."""
     if not {*chosen.step} - {UNWATCHED}:
@@ -192,7 +192,7 @@ def watched(name: str, events: Sequence[Event], chosen: Options) -> Sequence[Eve
     return events
 
 
-def values(lowering: Lowering, events: Sequence[Event]) -> list[Node]:
+def values(lowering: Lowering, events: Sequence[EmittedEvent]) -> list[Node]:
     """The expressions of the events; ``LoweringError`` for a name that means nothing.
 
     Numbers of the state are known by the names that they have as emitted, and by those of the state
@@ -208,7 +208,7 @@ def values(lowering: Lowering, events: Sequence[Event]) -> list[Node]:
 
 
 def values_of(
-    problem: str, events: Sequence[Event], graph: Graph, state: Mapping[str, Node]
+    problem: str, events: Sequence[EmittedEvent], graph: Graph, state: Mapping[str, Node]
 ) -> list[Node]:
     """The same of numbers of the state that have no matrices and no parameters beside them."""
     numbers: dict[str, Node] = {
@@ -223,7 +223,7 @@ def values_of(
     return factored(graph, found)
 
 
-def _require_known(problem: str, event: Event, known: Collection[str]) -> None:
+def _require_known(problem: str, event: EmittedEvent, known: Collection[str]) -> None:
     for name in names(event.when):
         if name not in known:
             near = did_you_mean(near_name(name, [*known]), after=" ").rstrip()

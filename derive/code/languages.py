@@ -331,7 +331,7 @@ class Statements:
         listed = ", ".join(names) + "," * (len(names) == 1)
         return textwrap.fill(listed, TEXT - 8, subsequent_indent=" " * 8)
 
-    def _block(self, block: Block) -> dict[str, Any]:
+    def _block(self, block: SectionValues) -> dict[str, Any]:
         loads = {"loads": block.loads, "output_loads": block.output_loads}
         return {
             **{name: self._loads(xs, self.language.load) for name, xs in loads.items()},
@@ -405,7 +405,7 @@ def operations(f: EmittedFunction) -> str:
 
 
 @dataclass(frozen=True)
-class Block:
+class SectionValues:
     """Values of one section, then the outputs (by index) behind them, each with its loads."""
 
     loads: tuple[Load, ...]
@@ -414,7 +414,7 @@ class Block:
     outputs: tuple[int, ...]
 
 
-def blocks(f: EmittedFunction) -> list[Block]:
+def blocks(f: EmittedFunction) -> list[SectionValues]:
     """The blocks of a function: every load, value and output once, after what it reads."""
     left = list(f.loads)
 
@@ -424,7 +424,7 @@ def blocks(f: EmittedFunction) -> list[Block]:
         return found
 
     return [
-        Block(
+        SectionValues(
             loads(names([v.expression for v in section.values])),
             section,
             loads(names([f.outputs[i] for i in outputs])),

@@ -14,7 +14,7 @@ from ..language.reserved import suffixed
 from ..record.as_json import decode
 from . import dense
 from .graph import Node
-from .program import Turning
+from .program import AxesTurning
 from .reader import RecordReader, scalar
 from .slots import conjugate, horn, multiplied
 from .state import StateSpace
@@ -32,7 +32,7 @@ def inertia(reader: RecordReader) -> list[Node]:
     return [tensor[i][j] for i in range(3) for j in range(i, 3)]
 
 
-def turning(problem: Mapping[str, Any], parameters: Sequence[str]) -> Turning | None:
+def turning(problem: Mapping[str, Any], parameters: Sequence[str]) -> AxesTurning | None:
     """How parameters change with the body's axes; ``None`` where they cannot express that.
 
     ``problem`` as in the record; ``parameters``: the emitted ones, in order.
@@ -50,7 +50,7 @@ def turning(problem: Mapping[str, Any], parameters: Sequence[str]) -> Turning | 
     else:
         return None
     vectors = _vectors(places, Counter(_parameters([problem, places])), at)
-    return None if vectors is None else Turning(vectors, matrix)
+    return None if vectors is None else AxesTurning(vectors, matrix)
 
 
 def _vectors(

@@ -157,7 +157,7 @@ class KeptByGauss:
 
 
 @dataclass(frozen=True)
-class Turning:
+class AxesTurning:
     """How parameters turn with the axes of the body: their indices.
 
     ``vectors``: three for each vector; ``matrix``: six for the symmetric J, or none.
@@ -202,7 +202,7 @@ class Program:
     basis: tuple[tuple[tuple[Fraction, ...], ...], ...]
     functions: Mapping[str, EmittedFunction]
     translates: bool = False
-    turning: Turning | None = None
+    turning: AxesTurning | None = None
     framing: Framing | None = None
     variation: str = "g eta"
     """What δg is by η, in comments."""

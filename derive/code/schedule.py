@@ -226,7 +226,7 @@ def _weight(x: Node) -> int:
 # of η, δζ.
 
 
-class Varied:
+class Directional:
     """Directional derivatives of nodes, named ``d_…_name``; ``seeds``: leaf → its derivative."""
 
     def __init__(self, graph: Graph, seeds: Mapping[Node, Node], name: str):
@@ -275,8 +275,8 @@ def by_state(space: StateSpace, accelerations: list[Node]) -> list[Node]:
     """The matrix, 2N × 2N by rows, of (η, δζ) ↦ (η̇, δζ̇); ``accelerations``: ζ̇ (and ẇ)."""
     g, d = space.graph, space.group.dimension
     span = range(d)
-    turned = [Varied(g, space.along(a), f"eta_{a + 1}") for a in span]
-    sped = [Varied(g, space.faster(a), f"zeta_{a + 1}") for a in span]
+    turned = [Directional(g, space.along(a), f"eta_{a + 1}") for a in span]
+    sped = [Directional(g, space.faster(a), f"zeta_{a + 1}") for a in span]
     rows = [
         [*(x if space.right else -x for x in row), *(g.num(int(a == b)) for b in span)]
         for a, row in enumerate(_adjoint(space))
@@ -288,14 +288,14 @@ def by_state(space: StateSpace, accelerations: list[Node]) -> list[Node]:
 def by_leaves(space: StateSpace, accelerations: list[Node], leaves: Sequence[Node]) -> list[Node]:
     """∂(η̇, ζ̇)/∂leaves, for inputs or parameters: 2N × len(leaves) by rows, the first N 0."""
     g, d = space.graph, space.group.dimension
-    varied = [Varied(g, {x: g.num(1)}, str(x.data[1])) for x in leaves]
+    varied = [Directional(g, {x: g.num(1)}, str(x.data[1])) for x in leaves]
     zeros = [g.num(0)] * (d * len(leaves))
     return zeros + [v.of(x) for x in accelerations for v in varied]
 
 
 def by_numbers(graph: Graph, rates: list[Node], state: Sequence[Node]) -> list[Node]:
     """∂ẋ/∂x by rows, of the numbers of the state as they are stored, on the group and off it."""
-    varied = [Varied(graph, {x: graph.num(1)}, str(x.data[1])) for x in state]
+    varied = [Directional(graph, {x: graph.num(1)}, str(x.data[1])) for x in state]
     return [v.of(x) for x in rates for v in varied]
 
 

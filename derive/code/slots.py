@@ -13,7 +13,7 @@ from .graph import Graph, Node
 
 
 @dataclass(frozen=True)
-class Slot:
+class StateSlot:
     """One number of the state: entry (row, column), from 0, of the matrix A or the vector T."""
 
     name: str
@@ -22,7 +22,7 @@ class Slot:
     column: int = 0
 
 
-def layout(group: Group, columns: bool = False) -> list[Slot]:
+def layout(group: Group, columns: bool = False) -> list[StateSlot]:
     """The slots of a group element kept as matrices; ``columns``: column by column."""
     if not group.factors:
         return _factor(group, "", 0, group.affine, columns)
@@ -34,18 +34,18 @@ def layout(group: Group, columns: bool = False) -> list[Slot]:
     ]
 
 
-def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> list[Slot]:
+def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> list[StateSlot]:
     """The slots of a factor, its block at ``offset``; ``apart``: T is a vector, no column of A."""
     span = range(g.n)
     pairs = [(j, i) if columns else (i, j) for i in span for j in span]
     slots = [
-        Slot(suffixed(f"A{mark}", i + 1, j + 1), "A", offset + i, offset + j) for i, j in pairs
+        StateSlot(suffixed(f"A{mark}", i + 1, j + 1), "A", offset + i, offset + j) for i, j in pairs
     ]
     if g.affine:
         slots += [
-            Slot(suffixed(f"T{mark}", i + 1), "T", i)
+            StateSlot(suffixed(f"T{mark}", i + 1), "T", i)
             if apart
-            else Slot(suffixed(f"T{mark}", i + 1), "A", offset + i, offset + g.n)
+            else StateSlot(suffixed(f"T{mark}", i + 1), "A", offset + i, offset + g.n)
             for i in span
         ]
     return slots
@@ -58,7 +58,7 @@ def fixed_entries(group: Group) -> dict[tuple[int, int], int]:
     }
 
 
-def still_slots(group: Group) -> dict[Slot, Fraction]:
+def still_slots(group: Group) -> dict[StateSlot, Fraction]:
     """Slot → the number that it is in all of the group, of those that never vary."""
     known = constant_entries(group)
     places = {x: (x.row, group.n if x.letter == "T" else x.column) for x in layout(group)}

@@ -22,7 +22,7 @@ from .graph import Graph, Node
 from .options import Options
 from .slots import (
     ROTATED,
-    Slot,
+    StateSlot,
     axis,
     fixed_entries,
     halves,
@@ -87,12 +87,12 @@ class StateSpace:
             self.values["T"] = placed["T"]
 
     @property
-    def entry_slots(self) -> list[Slot]:
+    def entry_slots(self) -> list[StateSlot]:
         """Those of the entries of A and T that the state holds, beside a quaternion those of T."""
         turned = self.slots[: ROTATED**2] if self.quaternion else ()
         return [x for x in self.slots if x not in turned]
 
-    def _placed(self, mark: str, slots: list[Slot]) -> dict[str, Matrix]:
+    def _placed(self, mark: str, slots: list[StateSlot]) -> dict[str, Matrix]:
         """New leaves in their places of A and T; ``mark`` for the entries of ġ."""
         span, num = range(self.n), self.graph.num
         leaves = {(x.letter, x.row, x.column): self._leaf(x.name + mark) for x in slots}

@@ -16,10 +16,10 @@ import numpy as np
 from ..motion.driven import DAMPING, INPUTS, is_weightless
 from ..motion.emitted_code import parts
 from ..motion.ensemble import (
-    Many,
+    EnsembleMotions,
     Part,
     Plan,
-    Varied,
+    VariedNumber,
     require_an_ensemble,
     require_steps_of_an_ensemble,
 )
@@ -251,7 +251,7 @@ def plan_of(args: argparse.Namespace, start: dict[str, Any]) -> Plan:
     require_steps_of_an_ensemble(args.method, args.dt, args.order)
     chosen = {} if args.tol is None else {"tol": args.tol}
     points = 1 if args.points is None else args.points
-    varied = tuple(Varied(*x) for x in args.vary or ())
+    varied = tuple(VariedNumber(*x) for x in args.vary or ())
     seed = args.seed or 0
     return Plan(args.ensemble, varied, args.t, points, seed=seed, **chosen, **start)
 
@@ -261,7 +261,7 @@ def command_ensemble(
 ) -> int:
     """Run ``derive simulate --ensemble``: its exit code."""
     plan = plan_of(args, start)
-    many = Many(motion_of_many(problem, record), problem, plan)
+    many = EnsembleMotions(motion_of_many(problem, record), problem, plan)
     if not all(x.terminal for x in problem.events):
         text = "events that are not terminal are not looked for in an ensemble"
         print(f"derive: warning: {problem.name}: {text}", file=sys.stderr)
@@ -287,7 +287,7 @@ def command_ensemble(
 
 
 @contextmanager
-def kept(many: Many, out: str) -> Iterator[Callable[[Part], None]]:
+def kept(many: EnsembleMotions, out: str) -> Iterator[Callable[[Part], None]]:
     """What writes the parts to a file, or, where none is named, nowhere."""
     if not out:
         yield lambda part: None
@@ -325,7 +325,7 @@ class Tally:
         return self.origin + mean, np.sqrt(np.maximum(self.squares / self.count[0] - mean**2, 0))
 
 
-def ensemble_summary(many: Many, tally: Tally) -> list[str]:
+def ensemble_summary(many: EnsembleMotions, tally: Tally) -> list[str]:
     """What an ensemble says of itself, in lines."""
     facts, plan = many.facts, many.plan
     span = f"{plan.n} motions, t = 0 … {many.t[-1]:g}"

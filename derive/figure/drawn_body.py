@@ -53,7 +53,7 @@ class BodyPart:
     centre: Vector | None = None
 
 
-class Numbers:
+class ExpressionValues:
     """The values of a problem's expressions, at defaults of parameters or sample values."""
 
     def __init__(self, problem: Mapping[str, Any]) -> None:
@@ -103,7 +103,7 @@ def _sample_value(k: int) -> float:
     return round(0.4 + 0.8 * (0.618034 * k % 1.0), 3)
 
 
-def parts(problem: Mapping[str, Any], value: Numbers) -> list[BodyPart]:
+def parts(problem: Mapping[str, Any], value: ExpressionValues) -> list[BodyPart]:
     """The parts of the body, one for each factor of the group; none for a text about any group
     or a given Lagrangian."""
     body = problem["body"]
@@ -142,7 +142,9 @@ def _centre(points: Iterable[tuple[float, Vector]]) -> Vector | None:
     return x, y, z
 
 
-def _moments(problem: Mapping[str, Any], value: Numbers) -> tuple[float, Sequence[Any], Any]:
+def _moments(
+    problem: Mapping[str, Any], value: ExpressionValues
+) -> tuple[float, Sequence[Any], Any]:
     """The mass m as a number, c and J as expressions of the record."""
     body = problem["body"]
     if body["kind"] == "given":
@@ -153,7 +155,7 @@ def _moments(problem: Mapping[str, Any], value: Numbers) -> tuple[float, Sequenc
     return value.of(["par", "m"]), [["par", f"c_{i}"] for i in span], rows
 
 
-def _solid(data: Mapping[str, Any], value: Numbers) -> DrawnSolid:
+def _solid(data: Mapping[str, Any], value: ExpressionValues) -> DrawnSolid:
     sizes: dict[str, Any] = {}
     for key, size in data["sizes"].items():
         if key == "faces":

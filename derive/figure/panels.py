@@ -25,7 +25,7 @@ from .drawn_body import (
     ORIGIN,
     UNITS,
     BodyPart,
-    Numbers,
+    ExpressionValues,
     Segment,
     Vector,
     View,
@@ -59,7 +59,7 @@ class Panel:
     First ``look`` at it, then set ``scale`` and ``offset``.
     """
 
-    def __init__(self, part: BodyPart, problem: Mapping[str, Any], value: Numbers) -> None:
+    def __init__(self, part: BodyPart, problem: Mapping[str, Any], value: ExpressionValues) -> None:
         self.part, self.value = part, value
         self.scale, self.offset = 1.0, (0.0, 0.0)
         self.at: dict[int, Vector] = {i: r for i, (_, r) in part.points.items()} | part.places

@@ -14,7 +14,18 @@ from ..record.record import Derivation
 from ..record.sentence import Prose, say
 from ..schema.kinds import kinds
 from .drawing import Box, Label, Point, Scene, arrow, from_segment
-from .drawn_body import FLAT, ORIGIN, Numbers, Vector, View, Wish, parts, placed, plus, ranked
+from .drawn_body import (
+    FLAT,
+    ORIGIN,
+    ExpressionValues,
+    Vector,
+    View,
+    Wish,
+    parts,
+    placed,
+    plus,
+    ranked,
+)
 from .panels import Panel, Sheet, draw, shows_centre
 
 GRAVITY = "γ"
@@ -38,7 +49,7 @@ Spring = tuple[End, End, Any]
 def scene(d: Derivation) -> Scene | None:
     """The figure of a record's body; ``None`` for a text without a body."""
     problem = d.problem
-    value = Numbers(problem)
+    value = ExpressionValues(problem)
     panels = [Panel(part, problem, value) for part in parts(problem, value)]
     if not panels:
         return None
@@ -60,7 +71,7 @@ def scene(d: Derivation) -> Scene | None:
     return _finished(sheet, str(problem.get("title") or d.name), caption)
 
 
-def _gravity(problem: Mapping[str, Any], value: Numbers) -> Vector:
+def _gravity(problem: Mapping[str, Any], value: ExpressionValues) -> Vector:
     """The sum of the accelerations of gravity, its first three coordinates."""
     total = ORIGIN
     for p in problem["potentials"]:
@@ -183,7 +194,7 @@ def _finished(sheet: Sheet, title: str, caption: Prose) -> Scene:
 
 
 def _caption(
-    problem: Mapping[str, Any], value: Numbers, panels: Sequence[Panel], falls: bool
+    problem: Mapping[str, Any], value: ExpressionValues, panels: Sequence[Panel], falls: bool
 ) -> Prose:
     """The sentences of the caption: what the drawing does not say by itself."""
     sentences: list[Prose] = [

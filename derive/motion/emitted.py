@@ -16,7 +16,7 @@ from ..code.emit import emit, problem_hash
 from ..code.options import Options
 from ..code.program import Program
 from ..code.step.step_numbers import FIXED
-from ..figure.drawn_body import Numbers, parts
+from ..figure.drawn_body import ExpressionValues, parts
 from ..figure.shapes import Curve, Shape
 from ..language.reserved import suffixed
 from ..language.tree import Tree, replaced
@@ -30,7 +30,7 @@ from .first_numbers import MotionError
 from .native import FLAGS, CSource, Motion, binding, binding_to_events, loaded, over_cores
 from .run import Array
 from .start import central_inertia, inertia_of
-from .trajectory import MotionInPython, Moved
+from .trajectory import MotionInPython, MotionUnderWay
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ class Emitted(EmittedCode):
             files["steps.c"] = binding(name, (), ensemble=True)
         return loaded(over_cores(CSource(self.name, tuple(files.items()), None, FLAGS)))
 
-    def motion(self, k: Array, u: Array, x: Array, *, compiled: bool) -> Moved:
+    def motion(self, k: Array, u: Array, x: Array, *, compiled: bool) -> MotionUnderWay:
         """The motion that is in the state x at time 0, in C or in Python."""
         if compiled:
             names = tuple(x.name for x in self.events)
@@ -187,7 +187,9 @@ def outline(problem: Mapping[str, Any], parameters: Mapping[str, float]) -> dict
         name: {**dict(about), "default": parameters.get(name, about["default"])}
         for name, about in problem["parameters"].items()
     }
-    found = parts({**problem, "parameters": declared}, Numbers({**problem, "parameters": declared}))
+    found = parts(
+        {**problem, "parameters": declared}, ExpressionValues({**problem, "parameters": declared})
+    )
     if len(found) != 1 or found[0].size != 3:
         return {}
     (body,) = found

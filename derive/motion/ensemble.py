@@ -132,7 +132,7 @@ class Plan:
     """
 
     n: int
-    varied: tuple[Varied, ...]
+    varied: tuple[VariedNumber, ...]
     duration: float
     points: int = 1
     tol: float = TOLERANCE
@@ -163,7 +163,7 @@ class Plan:
         return found[1:] if self.points == 1 else found
 
 
-class Many:
+class EnsembleMotions:
     """The motions of a plan: ``parts``, in order, each when it is asked for; ``facts``.
 
     ``MotionError`` where there is no compiler, for names that mean nothing, and for starts that are
@@ -172,7 +172,9 @@ class Many:
 
     def __init__(self, code: Emitted, problem: Problem, plan: Plan):
         self.code, self.problem, self.plan, self.t = code, problem, plan, plan.times
-        first = dict(zip(plan.names, Draws(plan.varied, plan.seed).next(1)[0], strict=True))
+        first = dict(
+            zip(plan.names, ParameterDraws(plan.varied, plan.seed).next(1)[0], strict=True)
+        )
         self.first = self._start(first)
         stated = {name for t in problem.initial.trees() for name in names(t)}
         require_values(code, self.first)
@@ -235,7 +237,7 @@ class Many:
     def parts(self, stopped: Callable[[], bool] = lambda: False) -> Iterator[Part]:
         """The motions, ``size`` at a time; where they are ``stopped`` no more, the last time those
         that are done."""
-        draws = Draws(self.plan.varied, self.plan.seed)
+        draws = ParameterDraws(self.plan.varied, self.plan.seed)
         for first in range(0, self.plan.n, self.size):
             yield self._part(first, draws.next(min(self.size, self.plan.n - first)), stopped)
 
@@ -339,7 +341,7 @@ class Many:
 
 
 @dataclass(frozen=True)
-class Varied:
+class VariedNumber:
     """A number by name, uniform between ``a`` and ``b``, or ``normal`` with mean ``a`` and standard
     deviation ``b``.
 
@@ -371,14 +373,14 @@ class Varied:
         return self.a + (self.b - self.a) * source.random(n)
 
 
-def laws(given: Mapping[str, Any]) -> tuple[Varied, ...]:
+def laws(given: Mapping[str, Any]) -> tuple[VariedNumber, ...]:
     """Name → (low, high) or ("normal", mean, deviation), as Python gives it."""
     if not isinstance(given, Mapping):
         raise MotionError('vary: expected laws by name, as {"zeta_1": (0, 0.5)}')
     return tuple(_law(name, x) for name, x in given.items())
 
 
-def _law(name: str, numbers: Sequence[Any]) -> Varied:
+def _law(name: str, numbers: Sequence[Any]) -> VariedNumber:
     try:
         normal = len(numbers) == 3 and numbers[0] == "normal"
         a, b = map(float, numbers[normal:])
@@ -386,14 +388,14 @@ def _law(name: str, numbers: Sequence[Any]) -> Varied:
         raise MotionError(
             f'{name} is varied by (low, high) or ("normal", mean, deviation), not {numbers!r:.40}'
         ) from None
-    return Varied(name, a, b, normal)
+    return VariedNumber(name, a, b, normal)
 
 
-class Draws:
+class ParameterDraws:
     """The numbers of one motion after the other: each name has a source of its own, so that they
     are the same whatever the size of the parts in which they are drawn."""
 
-    def __init__(self, varied: Sequence[Varied], seed: int):
+    def __init__(self, varied: Sequence[VariedNumber], seed: int):
         self._each = [(x, np.random.default_rng([seed, k])) for k, x in enumerate(varied)]
 
     def next(self, n: int) -> Array:

@@ -107,7 +107,7 @@ SLIVER = 1e-9
 """The part of a step below which nothing is left of a time."""
 
 
-class Moved(Protocol):
+class MotionUnderWay(Protocol):
     """A motion under way, in C or in Python."""
 
     @property
@@ -150,7 +150,7 @@ class Trajectory:
     """A motion under way, and the events that ``happened`` on it; ``ends``: name of an event →
     does the motion end there?"""
 
-    def __init__(self, motion: Moved, method: Method, ends: Mapping[str, bool]):
+    def __init__(self, motion: MotionUnderWay, method: Method, ends: Mapping[str, bool]):
         self.motion, self.method, self.ends = motion, method, ends
         self.happened: list[Happening] = []
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ..algebra.groups import Group
-from ..figure.drawn_body import UNITS, Numbers
+from ..figure.drawn_body import UNITS, ExpressionValues
 from ..problem.fields import state_names
 
 DIGITS = 4
@@ -166,7 +166,7 @@ def _solid(solid: Mapping[str, Any], problem: Mapping[str, Any]) -> Data:
     kind, s = solid["kind"], solid["sizes"]
     R, shift = solid["rotation"] or UNITS, solid["shift"] or [0, 0, 0]
     if kind == "mesh":
-        return _mesh(solid, Numbers(problem))
+        return _mesh(solid, ExpressionValues(problem))
     if "quadric" in s:
         return {"shape": "ball", "quadric": s["quadric"], "shift": shift}
     if kind == "tetrahedron":
@@ -209,7 +209,7 @@ def _product(x: Data, y: Data) -> Data:
     return 0 if x == 0 else y if x == 1 else ["mul", x, y]
 
 
-def _mesh(solid: Mapping[str, Any], value: Numbers) -> Data:
+def _mesh(solid: Mapping[str, Any], value: ExpressionValues) -> Data:
     """A mesh with its places at the defaults, thinned out where it has very many faces."""
     import numpy as np
 

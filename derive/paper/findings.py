@@ -33,7 +33,7 @@ HOLDS = {SIGN: "with −dϖ for dϖ, −ω for ω", OMISSION: "where there are n
 
 
 @dataclass(frozen=True)
-class Finding:
+class PaperFinding:
     """What became of one numbered equation.
 
     ``verdict``: one of :data:`VERDICTS`; ``equations``: those that are false as printed.
@@ -73,17 +73,17 @@ class Sparse(Random):
         return 0 if zero and a <= 0 <= b else super().randint(a, b)
 
 
-def compare(records: Sequence[Derivation]) -> list[Finding]:
+def compare(records: Sequence[Derivation]) -> list[PaperFinding]:
     """A finding for each of the numbered equations, by the records of :data:`PROBLEMS`."""
     return list(findings(records))
 
 
-def findings(records: Sequence[Derivation]) -> Iterator[Finding]:
+def findings(records: Sequence[Derivation]) -> Iterator[PaperFinding]:
     """The findings of :func:`compare`, one after the other."""
     return (_finding(p, records) for p in PAPER)
 
 
-def amendments(numbers: Container[int]) -> list[Finding]:
+def amendments(numbers: Container[int]) -> list[PaperFinding]:
     """The findings of the given numbers, known to be false as printed, without the records."""
     found = []
     for p in PAPER:
@@ -91,7 +91,7 @@ def amendments(numbers: Container[int]) -> list[Finding]:
             tried = ((e, _counterexample(p, e, 5)) for e in p.equations)
             false, example = next((e, x) for e, x in tried if x is not None)
             what = (_cause(p), p.reads, None, example, p.remark, (false,))
-            found.append(Finding(p.number, *what))
+            found.append(PaperFinding(p.number, *what))
     return found
 
 
@@ -156,13 +156,13 @@ def _meaningless(model: Model) -> dict[str, Any]:
     return {"f′": Z, "φ′": ((Z[2][1],), (Z[0][2],), (Z[1][0],))}
 
 
-def _finding(p: Printed, records: Sequence[Derivation]) -> Finding:
+def _finding(p: Printed, records: Sequence[Derivation]) -> PaperFinding:
     false = [e for e in p.equations if not holds(p, e)]
     verdict = _cause(p) if false else CONFIRMED if p.claim else DEFINITION
     counterexample = _counterexample(p, false[0]) if false else None
     assert bool(false) == (counterexample is not None), f"({p.number}) at small values"
     derived = _derived(p, records)
-    return Finding(p.number, verdict, p.reads, derived, counterexample, p.remark, tuple(false))
+    return PaperFinding(p.number, verdict, p.reads, derived, counterexample, p.remark, tuple(false))
 
 
 def _derived(p: Printed, records: Iterable[Derivation]) -> str | None:

@@ -18,7 +18,7 @@ Needs = tuple[tuple[str, Callable[[Any], bool]], ...]
 
 
 @dataclass(frozen=True)
-class Kind:
+class PictureKind:
     """A kind of picture: ``draw(figure, run, word)`` on a sheet of a ``size``, in inches; what it
     ``needs``.  Those of an ensemble are drawn, and measured, with the columns that are chosen after
     all else."""
@@ -48,12 +48,12 @@ ROTATION = ("a group of rotations of R³, SO(3) or SE(3)", _rotates)
 ATTITUDE = ("columns A_11 … A_33", _columns(*body_pictures.ATTITUDE))
 
 KINDS = {
-    "state": Kind(
+    "state": PictureKind(
         time_series.state,
         (("columns of the state", lambda run: run.states.shape[1] > 0),),
         time_series.size_of_state,
     ),
-    "energy": Kind(
+    "energy": PictureKind(
         time_series.energy,
         (
             (
@@ -63,8 +63,8 @@ KINDS = {
         ),
         time_series.size_of_energy,
     ),
-    "axes": Kind(body_pictures.axes, (ROTATION, ATTITUDE), _sized(4.2, 4.4)),
-    "polhode": Kind(
+    "axes": PictureKind(body_pictures.axes, (ROTATION, ATTITUDE), _sized(4.2, 4.4)),
+    "polhode": PictureKind(
         body_pictures.polhode,
         (
             ROTATION,
@@ -77,7 +77,7 @@ KINDS = {
         ),
         _sized(7.0, 3.9),
     ),
-    "body": Kind(
+    "body": PictureKind(
         body_pictures.body,
         (
             ATTITUDE,
@@ -88,7 +88,7 @@ KINDS = {
         ),
         _sized(8.0, 2.2),
     ),
-    "potential": Kind(
+    "potential": PictureKind(
         time_series.potential,
         (
             (
@@ -98,7 +98,7 @@ KINDS = {
         ),
         _sized(5.0, 3.4),
     ),
-    "spheroid": Kind(
+    "spheroid": PictureKind(
         time_series.spheroid,
         (
             ATTITUDE,
@@ -107,14 +107,14 @@ KINDS = {
         ),
         _sized(7.5, 3.0),
     ),
-    "vorticity": Kind(
+    "vorticity": PictureKind(
         time_series.vorticity,
         (("columns re_1_0, im_1_0, … of the torus", _columns("re_1_0", "im_1_0")),),
         _sized(7.0, 3.3),
     ),
 }
 ENSEMBLE_KINDS = {
-    "spread": Kind(
+    "spread": PictureKind(
         ensemble_pictures.spread,
         (
             (
@@ -124,7 +124,7 @@ ENSEMBLE_KINDS = {
         ),
         ensemble_pictures.size_of_spread,
     ),
-    "ends": Kind(
+    "ends": PictureKind(
         ensemble_pictures.ends,
         (("a motion that reached the end, or an event", ensemble_pictures.fits_ends),),
         ensemble_pictures.size_of_ends,
@@ -177,7 +177,7 @@ def plot_energies(
         return written(figure, name, mark)
 
 
-def _chosen(kinds: Mapping[str, Kind], run: Any, kind: str, what: str) -> list[str]:
+def _chosen(kinds: Mapping[str, PictureKind], run: Any, kind: str, what: str) -> list[str]:
     """The kinds that are drawn of a run, or of an ensemble."""
     fitting = [x for x, own in kinds.items() if not own.lacks(run)]
     there = f"there are {', '.join(fitting)}" if fitting else "nothing else can be drawn of it"
@@ -202,7 +202,11 @@ def _chosen(kinds: Mapping[str, Kind], run: Any, kind: str, what: str) -> list[s
 
 
 def _sheet_of(
-    kinds: Mapping[str, Kind], chosen: list[str], run: Any, word: Any, columns: tuple[Any, ...]
+    kinds: Mapping[str, PictureKind],
+    chosen: list[str],
+    run: Any,
+    word: Any,
+    columns: tuple[Any, ...],
 ) -> Any:
     """A figure with some kinds, one below the other."""
     sizes = [kinds[kind].size(run, *columns) for kind in chosen]

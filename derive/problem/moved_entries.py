@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import cache
 from typing import Any, ClassVar
 
-from ..algebra.exact_kernel import PRIMES, Residues, ResidueSource, fraction_of
+from ..algebra.exact_kernel import PRIMES, ResidueVector, ResidueVectorSource, fraction_of
 from ..algebra.groups import Group, constant_entries
 from ..language import rational as q
 from ..language.derivatives import DIVISOR_PRIMES, derivative, product, quotient, residue
@@ -19,7 +19,7 @@ Entry = tuple[Any, ...]
 """An entry of a letter, as a tree."""
 
 
-class Moved(ABC):
+class MovedEntries(ABC):
     """The entries of a ``letter``, and their rates, those of another."""
 
     letter: ClassVar[str]
@@ -47,7 +47,7 @@ class Moved(ABC):
 
 
 @dataclass(frozen=True)
-class EntriesOfElement(Moved):
+class EntriesOfElement(MovedEntries):
     """Those of g, with δg = g E_a on the left, E_a g on the right."""
 
     letter = "A"
@@ -95,7 +95,7 @@ def vanishes_on(group: Group, t: Tree) -> bool:
     if not named or not group.has_inner_samples:
         return vanishes(settled(t, group))
     for k, p in enumerate(PRIMES):
-        source = ResidueSource(p, 1, k)
+        source = ResidueVectorSource(p, 1, k)
         g = group.sample_inside(source, 1)
         rows = tuple(tuple((source.constant(0) + x).values[0] for x in row) for row in g)
         if residue(_with_entries(t, rows), p):
@@ -174,8 +174,8 @@ def held(directions: Sequence[Direction]) -> tuple[int, ...]:
 def _kernel(rows: list[list[int]], p: int) -> tuple[Direction, ...] | None:
     """The vectors that a matrix modulo p sends to 0, as fractions; ``None`` where they are none."""
     found: list[Direction] = []
-    for vector in q.nullspace(q.matrix([[Residues([x], p) for x in row] for row in rows])):
-        residues = (x.values[0] if isinstance(x, Residues) else int(x) for x in vector)
+    for vector in q.nullspace(q.matrix([[ResidueVector([x], p) for x in row] for row in rows])):
+        residues = (x.values[0] if isinstance(x, ResidueVector) else int(x) for x in vector)
         numbers = [fraction_of(x, p) for x in residues]
         small = [
             x for x in numbers if x is not None and max(abs(x.numerator), x.denominator) <= SMALL

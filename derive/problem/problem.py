@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..algebra.groups import Group
-from ..algebra.structure import Torus
+from ..algebra.structure import TorusLattice
 from ..language.limits import Refused
 from ..language.tree import Tree
 from ..schema.body_kinds import AnyBody, Body, MomentBody, NoBody, Place, Point
@@ -71,7 +71,7 @@ class Problem:
     signed: bool = False
     lagrangian: Lagrangian | None = None
     advected: tuple[Advected, ...] | None = None
-    torus: Torus | None = None
+    torus: TorusLattice | None = None
     fluid: Fluid | None = None
     initial: Initial = field(default_factory=Initial)
     events: tuple[Event, ...] = ()

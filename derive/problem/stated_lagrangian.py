@@ -13,7 +13,7 @@ from ..algebra.stated_groups import carrying, group_of_basis
 from ..algebra.structure import (
     Algebra,
     Brackets,
-    Torus,
+    TorusLattice,
     as_text,
     brackets_of,
     faithful,
@@ -153,7 +153,7 @@ def torus_problem(data: Mapping[str, Any], reader: FileReader) -> Problem:
     algebra = reader.whole(StatedTorus, data["algebra"], "algebra")
     if algebra.of != "torus":
         raise ProblemError(f'algebra, of: with N it is "torus", not {algebra.of[:40]!r}')
-    torus = Torus(algebra.N)
+    torus = TorusLattice(algebra.N)
     if "inertia" not in data:
         raise ProblemError('the torus needs its inertia: give [inertia] operator = "laplacian"')
     given = reader.whole(TorusInertia, data["inertia"], "inertia")

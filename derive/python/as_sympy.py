@@ -30,7 +30,7 @@ from ..record.record import Derivation, Equation
 from ..record.vocabulary import VOCABULARY
 from ..views.outline import named_numbers
 from ..views.text import clashing
-from .sympy_matrices import Applied, Hat, MatrixSum, Member, scalar_member
+from .sympy_matrices import FunctionValue, Hat, MatrixSum, Member, scalar_member
 
 OF_A_FLUID = (FIELD, FUNCTION_ON_SPACE, OPERATOR, TENSOR)
 OF_ITS_ARGUMENT = ("δ", "δ′", "∫", "d/dt")
@@ -181,7 +181,7 @@ class Translation:
             result = next(x[-1] for x in self._types(head) if x[0] == "function")
             shape = None if result == SCALAR else self.shape(result)
         if shape:
-            return Applied(head, values, *shape)
+            return FunctionValue(head, values, *shape)
         return sympy.Function(head, commutative=True)(*values)
 
     def function(self, name: str, x: Tree) -> Any:

@@ -95,7 +95,7 @@ class Names(NamedTuple):
         return cls(*named, defaults, steps, *sizes, unread, program.blocks)
 
 
-class Values(NamedTuple):
+class CompiledValues(NamedTuple):
     """The numbers that stay from call to call: parameters, constants, inputs. They are replaced as
     a whole: a call under way keeps those that it has."""
 
@@ -115,7 +115,7 @@ class Buffers:
         whole = np.zeros(int(ends[-1]) + len(names.state))
         self.now, self.x, self.u, self.k, dx = np.split(whole, ends)
         self.copy = dx.copy
-        self.values: Values | None = None  # those that u and k hold
+        self.values: CompiledValues | None = None  # those that u and k hold
         in_c = (ctypes.c_double * len(whole)).from_buffer(whole)  # type: ignore[arg-type]
         self.run = partial(run, ctypes.byref(in_c))
 
@@ -130,13 +130,13 @@ class Compiled(InMomenta):
     where it is loaded.
     """
 
-    def __init__(self, names: Names, source: CSource, values: Values | None = None):
+    def __init__(self, names: Names, source: CSource, values: CompiledValues | None = None):
         self.STATE, self.INPUTS, self.PARAMETERS = names.state, names.inputs, tuple(names.defaults)
         self.CONSERVED, self.REDUCED = names.conserved, names.reduced
         self.STEPS = names.steps
         self._names, self._source, self._library = names, source, loaded(source)
         p, k, u = map(np.zeros, (len(self.PARAMETERS), names.constants, len(self.INPUTS)))
-        self._values = values or Values(p, k, u, ready=False)
+        self._values = values or CompiledValues(p, k, u, ready=False)
         self._replacing = Lock()
         # rhs takes less time than to let go of the interpreter's lock and to take it again
         self._run = ctypes.PyDLL(None, handle=self._library._handle).derive_rhs
@@ -173,7 +173,7 @@ class Compiled(InMomenta):
         _fill(mine.u, values.u if u is None else u)
         mine.values = values if u is None else None
 
-    def _in_use(self) -> Values:
+    def _in_use(self) -> CompiledValues:
         """The numbers in use; ``ValueError`` where parameters have no value yet."""
         values = self._values
         if not values.ready:

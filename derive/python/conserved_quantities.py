@@ -15,7 +15,7 @@ from ..language.values import approximate
 from ..problem.fields import coordinates
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
-from ..search.symmetries.found_symmetries import Found
+from ..search.symmetries.found_symmetries import SymmetriesFound
 from ..search.symmetries.gradient import Floats, Tape
 from ..search.symmetries.symmetry import Symmetry
 from .shown import Finding, Shown
@@ -31,7 +31,7 @@ class Conserved:
 
     symmetry: Symmetry
     step: Shown
-    found: Found
+    found: SymmetriesFound
 
     @property
     def kind(self) -> str:
@@ -73,7 +73,7 @@ class SymmetriesOf(Finding):
 
     _first = "symmetries"
 
-    found: Found
+    found: SymmetriesFound
     record: Derivation
 
     @property

@@ -222,13 +222,13 @@ class Derived:
         begin: Mapping[str, Any],
         how: Mapping[str, Any],
     ) -> SimulatedEnsemble:
-        from ..motion.ensemble import Many, Plan, laws, require_steps_of_an_ensemble
+        from ..motion.ensemble import EnsembleMotions, Plan, laws, require_steps_of_an_ensemble
         from ..pipeline import motion_of_many
         from .simulated import SimulatedEnsemble
 
         require_steps_of_an_ensemble(**how)
         plan = Plan(n, laws(vary), t, points, tol, seed, **begin)
-        many = Many(motion_of_many(self.problem, self.record), self.problem, plan)
+        many = EnsembleMotions(motion_of_many(self.problem, self.record), self.problem, plan)
         return SimulatedEnsemble.of(many.whole([*many.parts()]))
 
     @in_keywords()

@@ -15,7 +15,7 @@ from ..code.program import EmittedFunction, Expression, Program
 from ..language.tree import Tree
 from ..problem.fields import coordinates
 from ..problem.moved_entries import element
-from ..search.symmetries.found_symmetries import Found
+from ..search.symmetries.found_symmetries import SymmetriesFound
 from ..search.symmetries.symmetry import Symmetry
 
 LARGEST = 10**6
@@ -116,7 +116,7 @@ def _expression(
 # A conserved quantity as a SymPy expression, by L̃, its derivatives, and matrices.
 
 
-def expression(s: Symmetry, found: Found) -> sympy.Expr:
+def expression(s: Symmetry, found: SymmetriesFound) -> sympy.Expr:
     """⟨Π, η⟩ − τh̃ − F in real symbols with the names of the emitted state; not simplified."""
     found.require_whole()
     group = s.group

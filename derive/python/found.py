@@ -18,7 +18,7 @@ from ..record.record import Derivation
 from ..search.equilibria.enclosed_points import Enclosed
 from ..search.equilibria.equilibrium_points import coordinate
 from ..search.equilibria.stability import Equilibrium
-from ..search.integrals.all_integrals import Condition, Found
+from ..search.integrals.all_integrals import Condition, IntegralsFound
 from ..search.reduction.routhian import Routhian
 from .api import in_keywords
 from .quoted import loaded
@@ -211,7 +211,7 @@ class FirstIntegrals(Finding):
     """
 
     _first = "poisson"
-    found: Found
+    found: IntegralsFound
     record: Derivation
 
     def __repr__(self) -> str:

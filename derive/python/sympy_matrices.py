@@ -56,7 +56,7 @@ def scalar_member(template: str) -> Any:
     return type(template.format("").strip("_"), (sympy.Function,), own)
 
 
-class Applied(sympy.MatrixExpr):  # type: ignore[misc]
+class FunctionValue(sympy.MatrixExpr):  # type: ignore[misc]
     """Value of a function that is a matrix of rows × columns: δ(r), ξ(X)."""
 
     def __new__(cls, name: Any, arguments: Any, rows: Any, columns: Any) -> Any:

@@ -13,7 +13,7 @@ from itertools import groupby
 from unicodedata import normalize
 
 from ..language.tree import Tree, names
-from ..paper.findings import OMISSION, SIGN, VERDICTS, Finding
+from ..paper.findings import OMISSION, SIGN, VERDICTS, PaperFinding
 from ..printing.line_breaking import WIDTH
 from ..record.record import ACTIONS, ANY_GROUP, Derivation, Step, Symbol
 from ..record.sentence import english, say
@@ -171,7 +171,7 @@ class Passage:
 
 
 def corrections(
-    parts: Sequence[BookPart], findings: Sequence[Finding], language: Language
+    parts: Sequence[BookPart], findings: Sequence[PaperFinding], language: Language
 ) -> dict[str, dict[int, list[Passage]]]:
     """Label of a step → number of the paper → its correction, at the first step that has it."""
     left = {f.number: f for f in findings}
@@ -183,7 +183,7 @@ def corrections(
     return found
 
 
-def _passages(f: Finding, language: Language) -> Iterator[Passage]:
+def _passages(f: PaperFinding, language: Language) -> Iterator[Passage]:
     """A correction: what was printed, how it is true, what is wrong, values that show it."""
     formulas: list[tuple[Tree, ...]] = []
 
@@ -228,7 +228,7 @@ TOTAL = (
 HEADS = ("printed", "derived", "holds", "but for", "remark")
 
 
-def as_json(findings: Sequence[Finding]) -> str:
+def as_json(findings: Sequence[PaperFinding]) -> str:
     """The findings as JSON: a list of objects, one for each numbered equation."""
     data = [
         {
@@ -245,7 +245,9 @@ def as_json(findings: Sequence[Finding]) -> str:
     return json.dumps(data, ensure_ascii=False, indent=1) + "\n"
 
 
-def as_text(findings: Sequence[Finding], language: Language = ENGLISH, width: int = WIDTH) -> str:
+def as_text(
+    findings: Sequence[PaperFinding], language: Language = ENGLISH, width: int = WIDTH
+) -> str:
     """The findings as text, a paragraph each, its lines of ``width`` columns at most; what is false
     with its correction."""
     lines, word = [], language.word
@@ -264,7 +266,7 @@ def as_text(findings: Sequence[Finding], language: Language = ENGLISH, width: in
     return "\n".join([*lines, "", *textwrap.wrap(word(TOTAL, **numbers), width)]) + "\n"
 
 
-def _example(f: Finding, language: Language) -> str:
+def _example(f: PaperFinding, language: Language) -> str:
     """The values at which a printed equation is false, and its two sides there."""
     *point, (_, left), (_, right) = (f.counterexample or {}).items()
     values = ",  ".join(" = ".join(x) for x in grouped(point))

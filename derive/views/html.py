@@ -13,7 +13,7 @@ from ..figure.drawing import svg
 from ..figure.scene import scene
 from ..language.templating import environment
 from ..language.tree import Tree
-from ..paper.findings import Finding
+from ..paper.findings import PaperFinding
 from ..printing.letters import NAMES, standard
 from ..printing.line_breaking import groups, measure
 from ..printing.sentences import between_dollars, inline, prose, spelt
@@ -65,7 +65,7 @@ def html(
     notation: Notation | None = None,
     *,
     language: Language = ENGLISH,
-    findings: Sequence[Finding] = (),
+    findings: Sequence[PaperFinding] = (),
     moving: Mapping[str, str] | None = None,
     pictures: Mapping[str, str] | None = None,
 ) -> str:
@@ -84,7 +84,7 @@ def fragment(
     notation: Notation | None = None,
     *,
     language: Language = ENGLISH,
-    findings: Sequence[Finding] = (),
+    findings: Sequence[PaperFinding] = (),
 ) -> Iterator[str]:
     """What a page shows of the walk of records, to stand in another page with the style sheet
     ``page.css``: in pieces, each made when it is asked for, which end where an article does."""
@@ -106,7 +106,7 @@ def _shown(
     records: Sequence[Derivation],
     chosen: Notation,
     language: Language,
-    findings: Sequence[Finding],
+    findings: Sequence[PaperFinding],
     beside: tuple[Mapping[str, str], Mapping[str, str]] = ({}, {}),
 ) -> Fields:
     """What the templates show of the walk of records; ``beside``: the pages and the pictures that

@@ -12,7 +12,7 @@ from ..figure.drawing import Scene, tikz
 from ..figure.scene import scene
 from ..language.templating import environment
 from ..language.tree import Tree
-from ..paper.findings import Finding
+from ..paper.findings import PaperFinding
 from ..printing.letters import definitions, parameter, styled
 from ..printing.sentences import between_dollars, dollars, prose
 from ..printing.signs import Notation, tex_text
@@ -50,7 +50,7 @@ def latex(
     notation: Notation | None = None,
     *,
     language: Language = ENGLISH,
-    findings: Sequence[Finding] = (),
+    findings: Sequence[PaperFinding] = (),
     pictures: Mapping[str, str] | None = None,
 ) -> str:
     """A document for pdflatex; every equation bears its label.
@@ -100,7 +100,7 @@ def fragment(
     d: Derivation | Sequence[Derivation],
     *,
     language: Language = ENGLISH,
-    findings: Sequence[Finding] = (),
+    findings: Sequence[PaperFinding] = (),
 ) -> str:
     """The steps alone, for a document with the macros of :func:`package`.
 
@@ -135,7 +135,7 @@ class _Writer:
 
     parts: Sequence[BookPart]
     language: Language
-    findings: Sequence[Finding]
+    findings: Sequence[PaperFinding]
     pictures: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property

@@ -12,7 +12,7 @@ from ..printing.line_breaking import WIDTH
 from ..record.record import Derivation, Symbol
 
 if TYPE_CHECKING:
-    from ..paper.findings import Finding
+    from ..paper.findings import PaperFinding
     from ..printing.signs import Notation
     from ..record.record import Step
     from .language import Language
@@ -201,7 +201,7 @@ def unprinted(records: Sequence[Derivation]) -> str:
     return unknown_to_tex("".join(words))
 
 
-def corrections(records: Sequence[Derivation]) -> list[Finding]:
+def corrections(records: Sequence[Derivation]) -> list[PaperFinding]:
     """The findings about the numbers that these records have and the paper prints otherwise."""
     from ..paper.findings import amendments
     from ..record.record import AMENDED

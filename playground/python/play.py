@@ -27,7 +27,7 @@ from derive.command.cli import main
 from derive.command.showing import derive
 from derive.command.writing import one_line
 from derive.language.limits import Refused
-from derive.paper.findings import Finding
+from derive.paper.findings import PaperFinding
 from derive.problem.stated_motion import faults
 from derive.record.record import AMENDED, Derivation
 
@@ -221,7 +221,7 @@ class Later:
             raise NotYet(f"No module named {name!r}")
 
 
-def corrections(record: Derivation) -> list[Finding]:
+def corrections(record: Derivation) -> list[PaperFinding]:
     """Those of the print, which are the same for every problem, and were found when this was
     built."""
     numbers = {n for step in record.steps for n in step.paper} & AMENDED

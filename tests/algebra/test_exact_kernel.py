@@ -8,8 +8,8 @@ import sympy
 
 from derive.algebra.exact_kernel import (
     PRIMES,
-    Residues,
-    ResidueSource,
+    ResidueVector,
+    ResidueVectorSource,
     echelon,
     fraction_of,
     kernel,
@@ -76,7 +76,7 @@ def test_a_long_fraction_needs_more_primes():
 
 
 def test_residues_compute_as_numbers():
-    x, y = (Residues([a, b], P) for a, b in ((3, 5), (7, 11)))
+    x, y = (ResidueVector([a, b], P) for a, b in ((3, 5), (7, 11)))
     for found, expected in (
         (x + y, (10, 16)),
         (x - 1, (2, 4)),
@@ -88,7 +88,7 @@ def test_residues_compute_as_numbers():
         (-x, (-3, -5)),
         (x * 0 + y, (7, 11)),
         (
-            Residues.dot([x, 2, y, 3, 0], [y, x, Fraction(1, 3), 5, x]),
+            ResidueVector.dot([x, 2, y, 3, 0], [y, x, Fraction(1, 3), 5, x]),
             (21 + 6 + Fraction(7, 3) + 15, 55 + 10 + Fraction(11, 3) + 15),
         ),
     ):
@@ -96,7 +96,7 @@ def test_residues_compute_as_numbers():
 
 
 def test_roots_are_roots():
-    source = ResidueSource(P, 100, 3)
+    source = ResidueVectorSource(P, 100, 3)
     x = source.randint(1, 1)
     square = x * x
     root = square.root()

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from derive.check.fluid.curves import curve
 from derive.check.fluid.exact_functions import Function
-from derive.check.fluid.fluid_spaces import Ball, Torus
+from derive.check.fluid.fluid_spaces import Ball, FlatTorus
 
 K = ((0.3, -1.1), (0.7, 0.4), (-0.5, 0.9))
 CORNERS = ((0.2, 0.1), (1.3, -0.4), (0.6, 1.5))
@@ -32,7 +32,7 @@ def number(f):
 def test_a_polygon():
     """∮ f ds and ∮ ⟨c, dγ⟩ of exponentials, between corners that are places."""
     draw = drawing()
-    space = Torus(K)
+    space = FlatTorus(K)
     polygon = curve(space, space.moved(), draw, level=False)
     after = [*CORNERS[1:], CORNERS[0]]
     polygon.edges = [
@@ -67,7 +67,7 @@ def test_a_level():
     """On a polygon of a level the first exponential is constant: only the others are left."""
     draw = drawing()
     for k in (K, tuple((*x, 0.3) for x in K)):
-        space = Torus(k)
+        space = FlatTorus(k)
         polygon = curve(space, space.moved(), draw, level=True)
         assert all(abs(dot(k[0], edge)) < 1e-12 for edge in polygon.edges)
         layered = polygon.of_space(space.layered(draw))

@@ -8,7 +8,7 @@ import pytest
 import sympy
 
 from derive.check.fluid.exact_functions import Function, divergence, dot
-from derive.check.fluid.fluid_spaces import Ball, Torus, on_boundary
+from derive.check.fluid.fluid_spaces import Ball, FlatTorus, on_boundary
 
 COORDINATES = sympy.symbols("x y z")
 VOLUME = Fraction(7, 3)
@@ -81,7 +81,7 @@ def test_a_rotation_is_one():
 @pytest.mark.parametrize("count", [3, 4, 5])
 def test_fields_have_modes_of_any_frequencies(count):
     """n fields those of n that are any, n + 1 fields those of any with the sum 0."""
-    space = Torus(tuple((Fraction(j), Fraction(j * j)) for j in range(1, count + 1)))
+    space = FlatTorus(tuple((Fraction(j), Fraction(j * j)) for j in range(1, count + 1)))
     modes = {*space.modes}
     free = [tuple(int(i == j) for i in range(count)) for j in range(count)]
     for n in range(1, count + 1):
@@ -97,7 +97,7 @@ def test_three_fields_differ_in_three_directions():
     """Tr (∇u)³ of a field on T³ is not 0, and its mean is; in a ball neither is."""
     draw = drawing()
     k = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-    for space in (Torus(k), Ball(3)):
+    for space in (FlatTorus(k), Ball(3)):
         u = space.solenoidal(draw)
         jacobian = [[f.d(j) for j in range(3)] for f in u]
         trace = Function(space, {})
@@ -109,7 +109,7 @@ def test_three_fields_differ_in_three_directions():
 
 
 def test_a_volume_is_any():
-    for space in (Torus(((1, 2), (3, 5)), VOLUME), Ball(3, VOLUME)):
+    for space in (FlatTorus(((1, 2), (3, 5)), VOLUME), Ball(3, VOLUME)):
         one = Function(space, {(0,) * space.length: Fraction(1)})
         assert [*one.mean().terms.values()] == [VOLUME]
         assert space.moved().volume == VOLUME

@@ -10,7 +10,7 @@ import pytest
 from derive.check.checker import Checker, check
 from derive.check.lagrangian.lagrangian_model import LagrangianModel
 from derive.check.lagrangian.reduced_by_symmetries import concludes_velocity, unforced_velocity
-from derive.check.trials.model import Direction, Model
+from derive.check.trials.model import Model, TangentVector
 from derive.language import rational as q
 from derive.record.as_json import from_json, to_data
 from derive.record.record import ANY_GROUP, Equation, Hypothesis, RecordError
@@ -163,7 +163,7 @@ def test_the_metric_tells_the_velocity_of_a_vector_of_the_kernel(name):
         away = g.vee(q.minus(model.motion.xi, model.Z))
         still = q.scaled(0, model.Z)
         for row, e in zip(model.metric, g.basis, strict=True):
-            found = model.exterior(model.motion, Direction(Fraction(0), still, e))
+            found = model.exterior(model.motion, TangentVector(Fraction(0), still, e))
             assert found == -sum(x * y for x, y in zip(row, away, strict=True))
 
 

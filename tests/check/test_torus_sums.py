@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from derive.algebra.structure import Torus
+from derive.algebra.structure import TorusLattice
 from derive.check.torus.torus_model import TorusModel, environment
 from derive.check.values.arithmetic import EvaluationError
 from derive.check.values.draws import difference, index_bindings
@@ -19,7 +19,7 @@ from derive.record.record import Equation
 
 @pytest.mark.parametrize("N", [3, 5])
 def test_at_once_is_one_after_the_other(N):
-    env = environment(TorusModel(Torus(N), Random(1), 2**40))
+    env = environment(TorusModel(TorusLattice(N), Random(1), 2**40))
     slowly = replace(env, at_once=None)
     algebra, inertia = {"of": "torus", "N": N}, {"operator": "laplacian"}
     d = walk(problem_of({"name": "fluid", "algebra": algebra, "inertia": inertia}))
@@ -53,7 +53,7 @@ def test_at_once_is_one_after_the_other(N):
     ],
 )
 def test_other_sums_are_refused(term):
-    env = environment(TorusModel(Torus(5), Random(1), 2**40))
+    env = environment(TorusModel(TorusLattice(5), Random(1), 2**40))
     with pytest.raises(EvaluationError):
         evaluate(("sum", "𝐦", term), env)
 
@@ -89,7 +89,7 @@ TRUE = {
 
 @pytest.mark.parametrize("name", TRUE)
 def test_what_is_said_of_any_point(name):
-    env = environment(TorusModel(Torus(5), Random(1), 2**40))
+    env = environment(TorusModel(TorusLattice(5), Random(1), 2**40))
     slowly = replace(env, at_once=None)
     equation = Equation(*TRUE[name])
     assert difference(equation, env) == difference(equation, slowly) == ""
@@ -107,7 +107,7 @@ def only_at_the_corners(n, half):
 
 @pytest.mark.parametrize("N", [7, 11])
 def test_four_of_all_places_are_enough(N):
-    env = environment(TorusModel(Torus(N), Random(1), 2**40))
+    env = environment(TorusModel(TorusLattice(N), Random(1), 2**40))
     corner, n = only_at_the_corners("𝐧", N // 2), ("call", "ω̂", "𝐧")
     right = Equation(n, mul(("norm2", "𝐧"), ("call", "ζ", "𝐧")))
     assert difference(right, env) == ""

@@ -13,7 +13,7 @@ import derive
 from derive.command.cli import main
 from derive.command.simulating import Tally, kept
 from derive.motion import ensemble as of_parts
-from derive.motion.ensemble import Draws, Varied
+from derive.motion.ensemble import ParameterDraws, VariedNumber
 from derive.pipeline import motion_of
 from derive.python.simulated import SimulatedEnsemble
 from tests.problems.line import FALLING
@@ -56,9 +56,9 @@ def test_each_motion_is_that_of_a_run(so3, some):
 
 
 def test_what_is_drawn_is_by_its_law_whatever_the_parts():
-    laws = (Varied("a", -1.0, 3.0), Varied("b", 2.0, 0.5, normal=True))
-    whole = Draws(laws, 5).next(20000)
-    parts = Draws(laws, 5)
+    laws = (VariedNumber("a", -1.0, 3.0), VariedNumber("b", 2.0, 0.5, normal=True))
+    whole = ParameterDraws(laws, 5).next(20000)
+    parts = ParameterDraws(laws, 5)
     assert np.array_equal(whole, np.concatenate([parts.next(n) for n in (1, 4999, 15000)]))
     a, b = whole.T
     assert -1 <= a.min() < -0.99
@@ -67,7 +67,7 @@ def test_what_is_drawn_is_by_its_law_whatever_the_parts():
     assert abs(a.mean() - 1) < 5 * 4 / np.sqrt(12 * 20000)
     assert abs(b.mean() - 2) < 5 * 0.5 / np.sqrt(20000)
     assert abs(b.std() / 0.5 - 1) < 0.03
-    assert not np.array_equal(whole, Draws(laws, 6).next(20000))
+    assert not np.array_equal(whole, ParameterDraws(laws, 6).next(20000))
 
 
 def test_an_ensemble_in_parts_is_the_same(so3, some, monkeypatch):
@@ -145,8 +145,8 @@ def test_no_more_than_a_part_is_in_memory(so3, tmp_path, monkeypatch):
     """NumPy tells tracemalloc of its arrays."""
     small(monkeypatch, 256)
     out = tmp_path / "e.npz"
-    plan = of_parts.Plan(8192, (Varied("zeta_1", 0.0, 1.0),), 1e-3, 40)
-    many = of_parts.Many(motion_of(so3.problem, so3.record), so3.problem, plan)
+    plan = of_parts.Plan(8192, (VariedNumber("zeta_1", 0.0, 1.0),), 1e-3, 40)
+    many = of_parts.EnsembleMotions(motion_of(so3.problem, so3.record), so3.problem, plan)
     tracemalloc.start()
     with kept(many, str(out)) as add:
         for part in many.parts():
@@ -196,7 +196,7 @@ def test_a_file_that_is_no_ensemble_is_told(some, tmp_path, capsys):
 @pytest.mark.parametrize("ending", [".npz", ".csv"])
 def test_ctrl_c_keeps_what_is_done(ending, tmp_path, capsys, monkeypatch):
     small(monkeypatch)
-    made, calls = of_parts.Many._follow, []
+    made, calls = of_parts.EnsembleMotions._follow, []
 
     def interrupted(self, *given):
         calls.append(given)
@@ -204,7 +204,7 @@ def test_ctrl_c_keeps_what_is_done(ending, tmp_path, capsys, monkeypatch):
             os.kill(os.getpid(), signal.SIGINT)
         return made(self, *given)
 
-    monkeypatch.setattr(of_parts.Many, "_follow", interrupted)
+    monkeypatch.setattr(of_parts.EnsembleMotions, "_follow", interrupted)
     before = signal.getsignal(signal.SIGINT)
     out = tmp_path / f"e{ending}"
     asked = ["--t", "1", "--ensemble", "40", *OPTIONS, "--out", str(out)]

@@ -128,7 +128,7 @@ def test_ctrl_c_within_a_part_keeps_what_is_done_of_it(ending, tmp_path, capsys,
     monkeypatch.setattr(of_parts, "SECONDS", 1e-9)
     monkeypatch.setattr(of_parts, "TOGETHER", 4)
     monkeypatch.setattr("os.cpu_count", lambda: 1)
-    made, calls = of_parts.Many._follow, []
+    made, calls = of_parts.EnsembleMotions._follow, []
 
     def interrupted(self, *given):
         calls.append(given)
@@ -136,7 +136,7 @@ def test_ctrl_c_within_a_part_keeps_what_is_done_of_it(ending, tmp_path, capsys,
             os.kill(os.getpid(), signal.SIGINT)
         return made(self, *given)
 
-    monkeypatch.setattr(of_parts.Many, "_follow", interrupted)
+    monkeypatch.setattr(of_parts.EnsembleMotions, "_follow", interrupted)
     out = tmp_path / f"e{ending}"
     asked = ["simulate", "so3", "--t", "1", "--ensemble", "40", *OPTIONS, "--out", str(out)]
     stop = 3
@@ -155,7 +155,7 @@ def test_ctrl_c_within_a_part_keeps_what_is_done_of_it(ending, tmp_path, capsys,
 def test_a_second_ctrl_c_ends_at_once(tmp_path, monkeypatch):
     """And leaves no file."""
     monkeypatch.setattr("os.cpu_count", lambda: 1)
-    made = of_parts.Many._follow
+    made = of_parts.EnsembleMotions._follow
 
     def interrupted(self, *given):
         os.kill(os.getpid(), signal.SIGINT)
@@ -163,7 +163,7 @@ def test_a_second_ctrl_c_ends_at_once(tmp_path, monkeypatch):
         made(self, *given)
         raise AssertionError("it goes on")
 
-    monkeypatch.setattr(of_parts.Many, "_follow", interrupted)
+    monkeypatch.setattr(of_parts.EnsembleMotions, "_follow", interrupted)
     asked = ["simulate", "so3", "--t", "1", "--ensemble", "40", *OPTIONS]
     assert main([*asked, "--out", str(tmp_path / "e.npz")]) == 130
     assert not [*tmp_path.iterdir()]

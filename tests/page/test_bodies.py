@@ -9,7 +9,7 @@ import derive
 from derive.code.emit import emit
 from derive.code.options import Options
 from derive.command.showing import load_problem, ready_made
-from derive.figure.drawn_body import Numbers
+from derive.figure.drawn_body import ExpressionValues
 from derive.language.values import approximate
 from derive.page.moving_body import moving_body
 from derive.pipeline import motion_of
@@ -210,7 +210,7 @@ def test_a_solid_is_drawn_with_its_volume_and_its_centre(kind):
     problem = problem_of({"name": "x", "group": "SO(3)", "solid": [solid]})
     data, state = problem_data(problem), [*state_names(problem.group)]
     (drawn,) = moving_body(data, problem.group, state)["parts"][0]["solids"]
-    number = Numbers(data)
+    number = ExpressionValues(data)
     columns = np.array([number.vector(x) for x in drawn["columns"]])
     moments = problem.body.moments()
     m, *c = (approximate(x, {}) for x in (moments.m, *moments.c))

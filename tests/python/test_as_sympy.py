@@ -22,7 +22,7 @@ from derive.check.values.evaluate import _range, evaluate
 from derive.language.derivatives import DERIVATIVES
 from derive.language.expression import parse
 from derive.python.as_sympy import Translation
-from derive.python.sympy_matrices import Applied
+from derive.python.sympy_matrices import FunctionValue
 from tests.support.emitted import import_python
 from tests.support.walks import NAMES, OTHERS
 
@@ -108,7 +108,7 @@ def test_how_many_need_no_function():
     """The figures of docs/sympy.md: functions are those that SymPy does not know, as ϖ(δy)."""
     names = [x for x in (*NAMES, *OTHERS) if x != "zeitlin"]  # sums over a lattice
     found = [eq for x in names for eq in equations_of(derive.derive(x))]
-    plain = [eq for eq in found if not eq.atoms(AppliedUndef, Applied)]
+    plain = [eq for eq in found if not eq.atoms(AppliedUndef, FunctionValue)]
     assert all(isinstance(eq, sympy.Eq) for eq in found)
     page = (ROOT / "docs" / "sympy.md").read_text(encoding="utf-8")
     assert f"all {len(found)} equations" in page.replace("\n", " ")

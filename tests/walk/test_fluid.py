@@ -14,7 +14,7 @@ from derive.algebra import forms
 from derive.algebra.calculus import reduce
 from derive.algebra.words import word
 from derive.check.checker import checker_of
-from derive.check.fluid.fluid_spaces import Torus
+from derive.check.fluid.fluid_spaces import FlatTorus
 from derive.command.showing import load_problem
 from derive.language.show import show
 from derive.language.tree import names as names_in
@@ -305,7 +305,7 @@ def test_a_pair_along_a_curve_is_read_either_way():
 
 def test_fields_with_a_divergence_break_what_rests_on_it(monkeypatch):
     """So that each of these steps is tried where it needs its hypothesis."""
-    monkeypatch.setattr(Torus, "solenoidal", lambda self, draw: self.any_field(draw))
+    monkeypatch.setattr(FlatTorus, "solenoidal", lambda self, draw: self.any_field(draw))
     d = record("ideal_fluid")
     checker = checker_of(d.problem, SEED)
     broken = {s.label.partition(".")[2] for s in d.steps if not checker.check(s).holds}

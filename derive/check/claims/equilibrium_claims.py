@@ -28,7 +28,7 @@ from .exact_spectra import (
 )
 from .integral_claims import Judge
 from .modular_values import SecondOrder, about, expansion
-from .reduced_system import Place, ReducedSystem
+from .reduced_system import ReducedSystem, ResiduePoint
 
 Coordinates = tuple[tuple[Tree, Number], ...]
 POINTS = ("equilibrium.at", "equilibrium.origin")
@@ -45,7 +45,7 @@ def coordinates(claim: Claim) -> Coordinates:
     return (*found,)
 
 
-def point_of(system: ReducedSystem, step: Step) -> Equilibrium:
+def point_of(system: ReducedSystem, step: Step) -> ClaimedEquilibrium:
     """The point that a step speaks of; ``RecordError`` for none or several."""
     steps = (step, *(system.record[x] for x in step.uses))
     for s in steps[:1], steps[1:]:
@@ -115,7 +115,7 @@ def kept(system: ReducedSystem, step: Step) -> Tree:
     roots = {x for t in others for x in nodes(t) if isinstance(x, tuple) and x[0] == "fun"}
     # it has rational coefficients in place of roots: kept for any of them, if for a random one
     at = {**here.at} | {x: system.random.randrange(system.prime) for x in roots}
-    if others and Place(system, at).bracket(add(*others), system.energy):
+    if others and ResiduePoint(system, at).bracket(add(*others), system.energy):
         raise RecordError("the left side is not kept")
     return equation.lhs
 
@@ -145,7 +145,7 @@ def _form(system: ReducedSystem, step: Step, claim: Claim) -> str:
     return "" if written == found else f"{written[0]} and {written[1]} are written"
 
 
-def _square(here: Equilibrium, term: SecondOrder) -> int:
+def _square(here: ClaimedEquilibrium, term: SecondOrder) -> int:
     """The sign of a term that is a square on the leaf; 0 for what vanishes there to the second
     order; ``RecordError`` for any other."""
     if any(term.slope.values()):
@@ -279,7 +279,7 @@ JUDGES: dict[str, Judge] = {
 # tangent space of the leaf, the image of Λ; −MΛ those of ω(Mv, v), since ω(Λξ, Λη) = ⟨Λξ, η⟩.
 
 
-class Equilibrium:
+class ClaimedEquilibrium:
     """A point of a system, by its coordinates that are not 0."""
 
     def __init__(self, system: ReducedSystem, point: Mapping[Tree, Number]):
@@ -418,6 +418,8 @@ class Equilibrium:
 
 
 @lru_cache(maxsize=8)
-def equilibrium(system: ReducedSystem, point: tuple[tuple[Tree, Number], ...]) -> Equilibrium:
+def equilibrium(
+    system: ReducedSystem, point: tuple[tuple[Tree, Number], ...]
+) -> ClaimedEquilibrium:
     """The point of a system, computed once for all that is said of it."""
-    return Equilibrium(system, dict(point))
+    return ClaimedEquilibrium(system, dict(point))

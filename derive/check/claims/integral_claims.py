@@ -14,13 +14,13 @@ from .exact_spectra import signature
 from .modular_values import value
 from .no_more import (
     Completeness,
-    TooLargeError,
+    TooManyMonomialsError,
     along_every_field,
     along_the_motion,
     degree,
     monomials,
 )
-from .reduced_system import Place, ReducedSystem, rates_of
+from .reduced_system import ReducedSystem, ResiduePoint, rates_of
 
 Judge = Callable[[ReducedSystem, Step, Claim], str]
 
@@ -90,7 +90,7 @@ def _generic_fault(system: ReducedSystem, claim: Claim) -> str:
 def _large(system: ReducedSystem, step: Step, claim: Claim) -> str:
     try:
         monomials(weights(system), number(claim["degree"]))
-    except TooLargeError:
+    except TooManyMonomialsError:
         return "" if claim.kind == "casimirs.all_large" else _generic_fault(system, claim)
     return "it is small enough to be computed again"
 
@@ -118,7 +118,7 @@ def _dependent(system: ReducedSystem, step: Step, claim: Claim) -> str:
 # -- rank and involution ------------------------------------------------------------------------
 
 
-def _size_fault(here: Place, claim: Claim) -> str:
+def _size_fault(here: ResiduePoint, claim: Claim) -> str:
     """Why the rank, the dimension or half the rank are not those that are claimed."""
     rank, size = here.poisson_rank, len(here.system.variables)
     told = dict(claim.values)
@@ -129,7 +129,7 @@ def _size_fault(here: Place, claim: Claim) -> str:
     return "" if told.get("half", Fraction(rank, 2)) == Fraction(rank, 2) else f"half of {rank}"
 
 
-def in_involution(here: Place, f: Sequence[Tree], several: int) -> tuple[Tree, ...] | None:
+def in_involution(here: ResiduePoint, f: Sequence[Tree], several: int) -> tuple[Tree, ...] | None:
     """So many of some functions that are in involution and independent on the leaves; ``None``
     where there are none."""
 
@@ -201,7 +201,7 @@ def _multiple(system: ReducedSystem, step: Step, claim: Claim) -> str:
     return "" if kept else "they are no multiples of it"
 
 
-def _complete_there(there: Place, step: Step, claim: Claim) -> str:
+def _complete_there(there: ResiduePoint, step: Step, claim: Claim) -> str:
     """The rank, and half as many in involution among all integrals and those of a step."""
     if reason := _size_fault(there, claim):
         return reason
@@ -296,7 +296,7 @@ def _elsewhere(system: ReducedSystem, step: Step, claim: Claim) -> str:
             continue
         try:
             more = Completeness(system, own, most, known, [*at.items()]).fault(*along)
-        except TooLargeError:
+        except TooManyMonomialsError:
             return ""  # the sentence says "at best"
         if more:
             where = ", ".join(f"{show(x)} = {n}" for x, n in at.items())

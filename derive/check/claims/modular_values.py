@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from ...algebra.exact_kernel import ResidueSource, residue_of
+from ...algebra.exact_kernel import ResidueVectorSource, residue_of
 from ...language import rational as q
 from ...language.tree import Tree
 from ...language.univariate import Number, value_of
@@ -131,7 +131,7 @@ class Functions:
     """The functions at the points of a source; roots are true at those that are ``valid``, or any
     numbers without ``roots``."""
 
-    def __init__(self, source: ResidueSource, *, roots: bool):
+    def __init__(self, source: ResidueVectorSource, *, roots: bool):
         self.source, self.p, self.roots = source, source.p, roots
         self.valid = [True] * source.points
         self.known: dict[tuple[str, Any], Any] = {}

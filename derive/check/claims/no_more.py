@@ -9,7 +9,7 @@ from itertools import islice
 from math import lcm
 from operator import add, mul
 
-from ...algebra.exact_kernel import PRIMES, Residues, ResidueSource, pivots
+from ...algebra.exact_kernel import PRIMES, ResidueVector, ResidueVectorSource, pivots
 from ...language.tree import Tree, operands
 from ...record.sentence import MONOMIALS
 from .modular_values import Value, value
@@ -18,7 +18,7 @@ from .reduced_system import ReducedSystem
 Exponents = tuple[int, ...]
 
 
-class TooLargeError(ValueError):
+class TooManyMonomialsError(ValueError):
     """More monomials than are tried."""
 
 
@@ -42,21 +42,21 @@ def degree(t: Tree, weights: Mapping[Tree, Fraction]) -> Fraction:
 
 
 def monomials(weights: Sequence[Fraction], most: Fraction) -> list[Exponents]:
-    """The exponents of monomials, or of products, of a degree above 0, up to one; ``TooLargeError``
-    for too many."""
+    """The exponents of monomials, or of products, of a degree above 0, up to one;
+    ``TooManyMonomialsError`` for too many."""
     unit = lcm(*(w.denominator for w in weights))
     found: list[tuple[Exponents, int]] = [((), int(most * unit))]
     for w in map(int, (w * unit for w in weights)):
         longer = (((*e, k), left - k * w) for e, left in found for k in range(left // w + 1))
         found = [*islice(longer, MONOMIALS + 1)]
         if len(found) > MONOMIALS:
-            raise TooLargeError(f"more than {MONOMIALS} monomials")
+            raise TooManyMonomialsError(f"more than {MONOMIALS} monomials")
     return [e for e, _ in found if any(e)]
 
 
 def support(t: Tree, place: Mapping[Tree, int]) -> frozenset[Exponents]:
-    """The exponents of the monomials of which a polynomial is made; ``TooLargeError`` for too
-    many."""
+    """The exponents of the monomials of which a polynomial is made; ``TooManyMonomialsError`` for
+    too many."""
     if t in place:
         return frozenset([tuple(int(k == place[t]) for k in place.values())])
     parts = [support(x, place) for x in operands(t)]
@@ -69,7 +69,7 @@ def support(t: Tree, place: Mapping[Tree, int]) -> frozenset[Exponents]:
 
 def _product(a: frozenset[Exponents], b: frozenset[Exponents]) -> frozenset[Exponents]:
     if len(a) * len(b) > MONOMIALS:
-        raise TooLargeError(f"more than {MONOMIALS} monomials")
+        raise TooManyMonomialsError(f"more than {MONOMIALS} monomials")
     return frozenset(tuple(map(add, x, y)) for x in a for y in b)
 
 
@@ -131,7 +131,7 @@ class Completeness:
         at: dict[Tree, Value] = {x: random.randrange(1, p) for x in self.system.parameters}
         for letter, t in self.values:
             at[letter] = value(t, at, p)
-        source = ResidueSource(p, several, random.getrandbits(64))
+        source = ResidueVectorSource(p, several, random.getrandbits(64))
         return at | {x: source.randint(1, p) for x in self.system.variables}
 
     def kernel(self, apart: Sequence[Sequence[Exponents]], rates: Rates, p: int) -> int:
@@ -163,25 +163,30 @@ class Completeness:
         return more == known
 
 
-Rates = Callable[[Mapping[Tree, Value], int], Mapping[int, Residues]]
+Rates = Callable[[Mapping[Tree, Value], int], Mapping[int, ResidueVector]]
 """The values that a derivation has on the variables at points, by their numbers."""
 
 
 def _rank(
-    block: Sequence[Exponents], x: Sequence[Residues], slopes: Sequence[Residues | None], p: int
+    block: Sequence[Exponents],
+    x: Sequence[ResidueVector],
+    slopes: Sequence[ResidueVector | None],
+    p: int,
 ) -> int:
     """The rank of the values D(x^e) = x^e Σ e_i ẋ_i/x_i at points for the monomials of a block."""
     few = range(len(block) + SPARE)
     powers = _powers([y.at(few) for y in x], block)
     own = [None if y is None else y.at(few) for y in slopes]
-    nothing, rows = Residues([0] * len(few), p), []
+    nothing, rows = ResidueVector([0] * len(few), p), []
     for e in block:
         rate = sum((y * k for k, y in zip(e, own, strict=True) if k and y), nothing)
         rows.append((_monomial(powers, e) * rate).values)
     return len(pivots(rows, len(few), p))
 
 
-def _powers(x: Sequence[Residues], exponents: Sequence[Exponents]) -> list[list[Residues]]:
+def _powers(
+    x: Sequence[ResidueVector], exponents: Sequence[Exponents]
+) -> list[list[ResidueVector]]:
     """The powers of numbers, from the first on, that monomials need."""
     found = []
     for k, y in enumerate(x):
@@ -192,7 +197,7 @@ def _powers(x: Sequence[Residues], exponents: Sequence[Exponents]) -> list[list[
     return found
 
 
-def _monomial(powers: Sequence[Sequence[Residues]], e: Exponents) -> Residues:
+def _monomial(powers: Sequence[Sequence[ResidueVector]], e: Exponents) -> ResidueVector:
     return reduce(mul, (own[k - 1] for own, k in zip(powers, e, strict=True) if k))
 
 
@@ -204,8 +209,8 @@ def along_the_motion(system: ReducedSystem) -> tuple[Images, Rates]:
     place = {x: k for k, x in enumerate(system.variables)}
     images = {k: support(t, place) for k, t in enumerate(system.rates) if t != 0}
 
-    def rates(at: Mapping[Tree, Value], p: int) -> Mapping[int, Residues]:
-        nothing = Residues([0] * len(at[system.variables[0]].values), p)
+    def rates(at: Mapping[Tree, Value], p: int) -> Mapping[int, ResidueVector]:
+        nothing = ResidueVector([0] * len(at[system.variables[0]].values), p)
         return {k: nothing + value(t, at, p) for k, t in enumerate(system.rates) if t != 0}
 
     return [images], rates
@@ -220,11 +225,11 @@ def along_every_field(system: ReducedSystem) -> tuple[Images, Rates]:
     for (i, j), form in system.tensor.forms.items():
         images[j][i] = frozenset(one if k is None else unit[k] for k in form)
 
-    def rates(at: Mapping[Tree, Value], p: int) -> Mapping[int, Residues]:
+    def rates(at: Mapping[Tree, Value], p: int) -> Mapping[int, ResidueVector]:
         x = [at[y] for y in system.variables]
-        source = ResidueSource(p, len(x[0].values), system.random.getrandbits(64))
+        source = ResidueVectorSource(p, len(x[0].values), system.random.getrandbits(64))
         w = [source.randint(1, p) for _ in x]
-        found: dict[int, Residues] = {}
+        found: dict[int, ResidueVector] = {}
         for (i, j), c in system.tensor.at(x, p).items():
             found[i] = found[i] + w[j] * c if i in found else w[j] * c
         return found

@@ -70,18 +70,20 @@ class ReducedSystem:
         """A prime of 256 bits: numbers that differ have other residues."""
         return random_prime(self.random)
 
-    def place(self, level: Tree | None = None, values: Iterable[tuple[Tree, Tree]] = ()) -> Place:
+    def place(
+        self, level: Tree | None = None, values: Iterable[tuple[Tree, Tree]] = ()
+    ) -> ResiduePoint:
         """A random point; on the ``level`` where a polynomial vanishes; with these ``values`` of
         some parameters."""
         p = self.prime
         at = {x: self.random.randrange(1, p) for x in (*self.parameters, *self.variables)}
         for letter, t in values:
             at[letter] = value(t, at, p)
-        found = Place(self, at)
+        found = ResiduePoint(self, at)
         return found if level is None else found.on(level)
 
     @cached_property
-    def anywhere(self) -> Place:
+    def anywhere(self) -> ResiduePoint:
         """A random point, the same for all claims."""
         return self.place()
 
@@ -104,7 +106,7 @@ class ReducedSystem:
 
 
 @dataclass(frozen=True)
-class Place:
+class ResiduePoint:
     """Values of the variables and the parameters of a system, modulo a large prime."""
 
     system: ReducedSystem
@@ -115,13 +117,15 @@ class Place:
         """The prime."""
         return self.system.prime
 
-    def on(self, level: Tree) -> Place:
+    def on(self, level: Tree) -> ResiduePoint:
         """The point with another value of the first variable in which a polynomial is linear, so
         that it vanishes; ``RecordError`` where there is none."""
         for x in self.system.variables:
             a, b, c = (value(level, {**self.at, x: k}, self.p) for k in range(3))
             if (a - 2 * b + c) % self.p == 0 and (b - a) % self.p:
-                return Place(self.system, {**self.at, x: -a * pow(b - a, -1, self.p) % self.p})
+                return ResiduePoint(
+                    self.system, {**self.at, x: -a * pow(b - a, -1, self.p) % self.p}
+                )
         raise RecordError(f"no point is known where {show(level)[:80]} vanishes")
 
     @cached_property

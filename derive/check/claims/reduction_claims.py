@@ -8,7 +8,7 @@ from itertools import pairwise
 from math import prod
 from random import Random
 
-from ...algebra.exact_kernel import PRIMES, ResidueSource
+from ...algebra.exact_kernel import PRIMES, ResidueVectorSource
 from ...language import rational as q
 from ...language.show import show
 from ...language.tree import Tree, nodes, operands, terms
@@ -248,7 +248,7 @@ def _determined(c: ClaimedRecord, stated: Sequence[Tree]) -> bool:
     letters = _every_leaf([*stated, *(x for row in rows for x in row)])
     at = _random((x for x in letters if not _is(x, "entry")), c.random, p)
     for _ in range(3):
-        source = ResidueSource(p, 1, c.random.getrandbits(64))
+        source = ResidueVectorSource(p, 1, c.random.getrandbits(64))
         g = c.group.sample_inside(source, 1)
         for i, row in enumerate(g, 1):
             for j, x in enumerate(row, 1):

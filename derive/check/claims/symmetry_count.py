@@ -12,7 +12,14 @@ from operator import mul
 from random import Random
 from typing import Any, NamedTuple
 
-from ...algebra.exact_kernel import Residues, ResidueSource, kernel, pivots, primes_from, residue_of
+from ...algebra.exact_kernel import (
+    ResidueVector,
+    ResidueVectorSource,
+    kernel,
+    pivots,
+    primes_from,
+    residue_of,
+)
 from ...algebra.groups import Group
 from ...language import rational as q
 from ...language.tree import Tree, add, neg, nodes, operands, terms
@@ -78,7 +85,7 @@ class SymmetryCount:
         letters = dict.fromkeys([*self.parameters, *(x for x in seen if _is_parameter(x))])
         parameters = {x: self.random.randrange(1, p) for x in letters}
         points = self._points(len(listed) + SPARE, parameters, p)
-        functions = Functions(ResidueSource(p, 1, self._seed()), roots=self.true_roots)
+        functions = Functions(ResidueVectorSource(p, 1, self._seed()), roots=self.true_roots)
         rows = [[x.kept_by(field, parameters, functions) for x in points] for field in listed]
         one = [1] * len(points)
         return len(pivots([one, *rows], len(one), p)) - 1
@@ -112,7 +119,7 @@ class SymmetryCount:
         """A basis of the pairs (Y, X) with g⁻¹Yg − X in 𝔤 for all g."""
         size, rows = self.group.size, list[list[int]]()
         normal = [_residues(m, p) for m in self.group.normal_space]
-        source = ResidueSource(p, 2 * size**2 // max(1, len(normal)) + SPARE, self._seed())
+        source = ResidueVectorSource(p, 2 * size**2 // max(1, len(normal)) + SPARE, self._seed())
         for g, back in zip(*self._sampled(source), strict=True):
             for m in normal:
                 pulled = _times(_times(_transposed(back), m, p), _transposed(g), p)
@@ -123,22 +130,22 @@ class SymmetryCount:
     def _seed(self) -> int:
         return self.random.getrandbits(64)
 
-    def _sampled(self, source: ResidueSource) -> tuple[list[Square], list[Square]]:
+    def _sampled(self, source: ResidueVectorSource) -> tuple[list[Square], list[Square]]:
         """Random elements with their inverses."""
         zero = source.constant(0)
         g = [[(zero + x).values for x in row] for row in self.group.sample_inside(source, 1)]
         each = [[[x[k] for x in row] for row in g] for k in range(source.points)]
         return each, [_inverse(x, source.p) for x in each]
 
-    def _points(self, several: int, parameters: Mapping[Tree, int], p: int) -> list[Point]:
+    def _points(self, several: int, parameters: Mapping[Tree, int], p: int) -> list[JetPoint]:
         """So many points of R × G × 𝔤; ``UnluckyError`` for fewer."""
         count = several if self.oversampling == 1 else self.oversampling * several * 5 // 4 + SPARE
-        source = ResidueSource(p, count, self._seed())
+        source = ResidueVectorSource(p, count, self._seed())
         g, back = self._sampled(source)
         t, *zeta = (source.randint(1, p) for _ in range(self.group.dimension + 1))
-        leaves: dict[Tree, Residues] = {"t": t}
+        leaves: dict[Tree, ResidueVector] = {"t": t}
         for i, j in self.entries:
-            leaves["entry", "A", i + 1, j + 1] = Residues([x[i][j] for x in g], p)
+            leaves["entry", "A", i + 1, j + 1] = ResidueVector([x[i][j] for x in g], p)
         leaves |= {("entry", "ζ", a): x for a, x in enumerate(zeta, 1)}
         at: dict[Tree, Any] = {**parameters}
         at |= {
@@ -155,9 +162,9 @@ class SymmetryCount:
         if len(valid) < several:
             raise UnluckyError
 
-        def at_point(k: int) -> Point:
+        def at_point(k: int) -> JetPoint:
             own, derived = ([x[k] for x in y] for y in (drawn, slopes))
-            return Point(self, p, g[k], back[k], own, derived, values[k])
+            return JetPoint(self, p, g[k], back[k], own, derived, values[k])
 
         return [*map(at_point, valid)]
 
@@ -171,7 +178,7 @@ class Listed(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Point:
+class JetPoint:
     """A point modulo p: g, g⁻¹, the values of t, the entries of g and ζ, the slopes of L̃ by these,
     and L̃."""
 

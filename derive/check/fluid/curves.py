@@ -8,12 +8,12 @@ from typing import Any
 
 from ..values.arithmetic import EvaluationError
 from .exact_functions import Edges, Exponents, Field, Function
-from .fluid_spaces import Ball, Torus, crossed, substituted
+from .fluid_spaces import Ball, FlatTorus, crossed, substituted
 
 CORNERS = 3
 
 
-class Curve:
+class ClosedCurve:
     """A closed curve in ``space``, and that of the ``points`` that the displacement takes there."""
 
     space: Any
@@ -50,10 +50,10 @@ class Curve:
         return found
 
 
-class Polygon(Curve):
+class Polygon(ClosedCurve):
     """A polygon on a torus; on one of a ``level`` the first frequency is constant."""
 
-    def __init__(self, space: Torus, points: Torus, draw: Any, *, level: bool):
+    def __init__(self, space: FlatTorus, points: FlatTorus, draw: Any, *, level: bool):
         self.space, self.points, self.level = space, points, level
         self.edges = [self._edge(draw) for _ in range(CORNERS)]
         corners = [[draw() for _ in space.frequencies] for _ in range(CORNERS)]
@@ -127,7 +127,7 @@ class Polygon(Curve):
         return tuple(Function(self, {(0,) * self.length: Edges(x)}) for x in columns)
 
 
-class Laurent(Curve):
+class LaurentCurve(ClosedCurve):
     """A curve in a ball, Σ a_n zⁿ with |n| ≤ 2, with the exponents of z, 0, … and s."""
 
     def __init__(self, space: Ball, points: Ball, draw: Any):
@@ -157,8 +157,8 @@ class Laurent(Curve):
         return tuple(x.d(0) for x in self.place)
 
 
-def curve(space: Any, points: Any, draw: Any, *, level: bool) -> Curve:
+def curve(space: Any, points: Any, draw: Any, *, level: bool) -> ClosedCurve:
     """A random closed curve; on a torus one of a ``level``, if it is to be."""
-    if isinstance(space, Torus):
+    if isinstance(space, FlatTorus):
         return Polygon(space, points, draw, level=level)
-    return Laurent(space, points, draw)
+    return LaurentCurve(space, points, draw)

@@ -29,7 +29,7 @@ from .exact_functions import (
     times,
     trace,
 )
-from .fluid_model import Direction, FluidModel, gradient, mean
+from .fluid_model import FluidModel, FluidVariation, gradient, mean
 from .fluid_spaces import on_boundary
 
 ALONG_CURVE = ("mul", "Γ", "u")
@@ -128,7 +128,7 @@ class FluidValues:
             raise EvaluationError(f"{head} has {count} arguments, not {len(arguments)}")
         return function(self, *arguments)
 
-    def direction(self, t: Tree) -> tuple[bool, Direction]:
+    def direction(self, t: Tree) -> tuple[bool, FluidVariation]:
         """A variation by its name: is it δ′ of the family, and its vector."""
         model = self.model
         at = model.at

@@ -30,9 +30,9 @@ from ..values.arithmetic import EvaluationError
 from ..values.draws import as_text
 from ..values.residue import DegreeSource, ResidueSource, common_degree, random_prime, with_slots
 from .field_values import FluidValues
-from .fluid_model import FluidModel, Locus
+from .fluid_model import FluidLocus, FluidModel
 from .fluid_sides import BOUNDARY, LEAST, MORE, MOST_FIELDS, Reach, kind_of, needed, pairs, too_much
-from .fluid_spaces import Ball, Torus
+from .fluid_spaces import Ball, FlatTorus
 
 # The declared symbols of a record about a fluid against its steps.
 
@@ -129,9 +129,9 @@ def role(usage: Usage, key: str) -> str:
 # The checker of a record about a fluid: every equation at random exact fields on T², T³, the disc
 # and the ball.
 
-SPACES: dict[str, tuple[type[Torus] | type[Ball], int]] = {
-    "T²": (Torus, 2),
-    "T³": (Torus, 3),
+SPACES: dict[str, tuple[type[FlatTorus] | type[Ball], int]] = {
+    "T²": (FlatTorus, 2),
+    "T³": (FlatTorus, 3),
     "disc": (Ball, 2),
     "ball": (Ball, 3),
 }
@@ -154,7 +154,7 @@ SMALL = 3
 
 
 @dataclass(frozen=True)
-class Place:
+class FluidTrial:
     """A model, and its values."""
 
     model: FluidModel
@@ -171,11 +171,11 @@ class FluidChecker:
         self.advected = problem["fluid"]["density"] == "advected"
         self.forced = problem["fluid"]["forces"] == "potential"
         self._prime: int | None = None
-        self._places: dict[tuple[str, Locus, int, int], Place] = {}
+        self._places: dict[tuple[str, FluidLocus, int, int], FluidTrial] = {}
 
     # -- points --------------------------------------------------------------------------------
 
-    def source(self, name: str, at: Locus, size: int) -> Source:
+    def source(self, name: str, at: FluidLocus, size: int) -> Source:
         """Residues modulo a random prime; plain integers for a ``size`` that is small, degrees
         for 0."""
         if not size:
@@ -187,10 +187,12 @@ class FluidChecker:
             self._prime = random_prime(Random(f"{self.seed} prime"))
         return ResidueSource(random, self._prime)
 
-    def place(self, name: str, at: Locus, size: int = SIZE, reach: Reach = LEAST) -> Place:
+    def place(
+        self, name: str, at: FluidLocus, size: int = SIZE, reach: Reach = LEAST
+    ) -> FluidTrial:
         """A random point on a space, by its name."""
         shape, dimension = SPACES[name]
-        extent = reach.fields if shape is Torus else reach.derivatives
+        extent = reach.fields if shape is FlatTorus else reach.derivatives
         key = name, at, size, extent
         if key not in self._places:
             source = self.source(name, at, size)
@@ -203,16 +205,16 @@ class FluidChecker:
                 return with_slots(draw(), 0)
 
             space: Any = None
-            if shape is Torus:
+            if shape is FlatTorus:
                 k = tuple(tuple(length() for _ in range(dimension)) for _ in range(extent))
-                space = Torus(k, length())
+                space = FlatTorus(k, length())
             else:
                 space = Ball(dimension, length(), extent)
             model = FluidModel(space, draw, at, advected=self.advected, forced=self.forced)
-            self._places[key] = Place(model, FluidValues(model))
+            self._places[key] = FluidTrial(model, FluidValues(model))
         return self._places[key]
 
-    def spaces(self, equation: Equation, at: Locus) -> tuple[str, ...]:
+    def spaces(self, equation: Equation, at: FluidLocus) -> tuple[str, ...]:
         """The names of the spaces on which an equation is tried: with a boundary, if it is of
         one; tori, where a level of the density has polygons."""
         used = {*names(equation.lhs), *names(equation.rhs)}
@@ -220,7 +222,7 @@ class FluidChecker:
             return TORI
         return BALLS if used & BOUNDARY else tuple(SPACES)
 
-    def reach(self, equation: Equation, at: Locus) -> Reach:
+    def reach(self, equation: Equation, at: FluidLocus) -> Reach:
         """What points are to tell apart where an equation is tried; ``EvaluationError`` where it is
         more than they can."""
         inside = BOUNDARY.isdisjoint({*names(equation.lhs), *names(equation.rhs)})
@@ -229,7 +231,7 @@ class FluidChecker:
             raise EvaluationError(MORE.format("fields"))
         return found
 
-    def degree(self, equation: Equation, at: Locus, reach: Reach) -> int:
+    def degree(self, equation: Equation, at: FluidLocus, reach: Reach) -> int:
         """The degree of an equation in all that is drawn, of numerators and denominators."""
         return max(
             (
@@ -277,7 +279,7 @@ class FluidChecker:
             found = max(found, self.degree(e, at, reach))
         return found + 1
 
-    def difference(self, equation: Equation, name: str, at: Locus, reach: Reach) -> str:
+    def difference(self, equation: Equation, name: str, at: FluidLocus, reach: Reach) -> str:
         """How the sides of an equation differ on a space; "" if they agree."""
         try:
             if all(x == y for x, y in pairs(equation, self.place(name, at, SIZE, reach).values)):
@@ -309,7 +311,7 @@ class FluidChecker:
         return kind_of(self.place(name, locus_of(step)).values.of(t))
 
 
-def locus_of(step: Step, equation: Equation | None = None) -> Locus:
+def locus_of(step: Step, equation: Equation | None = None) -> FluidLocus:
     """Where a step is to hold; ``RecordError`` for what is given and cannot be tried."""
     told = set()
     for e in step.given:
@@ -318,7 +320,7 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
         told.add(GIVEN[e])
     if ("δ′t" in told) != ("η′" in told):
         raise RecordError("δ′t = 0 and η′ = 0 are given together")
-    return Locus(
+    return FluidLocus(
         contracted="contracted" in told,
         vertical="η′" in told,
         along="along" in told,

@@ -18,7 +18,7 @@ Fields = tuple[Any, ...]
 
 
 @dataclass(frozen=True)
-class Locus:
+class FluidLocus:
     """The points at which a step is to hold. ``contracted``: δt = 1, and X is the vector of δ;
     ``vertical``: δ′t = 0 and η′ = 0; ``along``: η(X) = u; ``lift``: X is the tangent of any lift,
     and the vector of δ′; ``free``: u̇ is any field of the algebra, and that of X; ``level``: ϑ
@@ -34,7 +34,7 @@ class Locus:
 
 
 @dataclass(frozen=True)
-class Direction:
+class FluidVariation:
     """A tangent vector: δt, η with δg = η ∘ g, and δu."""
 
     time: Any
@@ -46,26 +46,26 @@ class FluidModel:
     """A point on a space; ``draw``: gives new numbers; ``advected``: is the density any series
     1 + sθ? ``forced``: is there a potential per unit mass, any function?"""
 
-    def __init__(self, space: Any, draw: Any, at: Locus, *, advected: bool, forced: bool):
+    def __init__(self, space: Any, draw: Any, at: FluidLocus, *, advected: bool, forced: bool):
         self.space, self.draw, self.at, self.advected = space, draw, at, advected
         self.points = space.moved()
         self.one = Function(space, {(0,) * space.length: Fraction(1)})
         self.theta = space.layered(draw) if at.one_level else space.level(draw)
         self.V = space.energy(draw) if forced else self.one * 0
         self.u = self.solenoidal()
-        self.first = Direction(self.number(), self.solenoidal(), self.solenoidal())
-        self.second = Direction(self.number(), self.solenoidal(), self.solenoidal())
-        self.mixed = Direction(self.number(), self.solenoidal(), self.solenoidal())
+        self.first = FluidVariation(self.number(), self.solenoidal(), self.solenoidal())
+        self.second = FluidVariation(self.number(), self.solenoidal(), self.solenoidal())
+        self.mixed = FluidVariation(self.number(), self.solenoidal(), self.solenoidal())
         self.moved_field = self._moved_field()
         self.any_pressure = space.function(draw)
         self.free_acceleration = self.solenoidal()
         self.acceleration = self.free_acceleration if at.free else self.motion[0]
         if at.along:
-            self.first = Direction(self.one, self.u, self.acceleration)
+            self.first = FluidVariation(self.one, self.u, self.acceleration)
         if at.contracted:
             self.first = replace(self.first, time=self.one)
         if at.lift:
-            self.second = Direction(self.one, self.u, self.free_acceleration)
+            self.second = FluidVariation(self.one, self.u, self.free_acceleration)
         if at.vertical:
             nothing = tuple(x * 0 for x in self.u)
             self.second = replace(self.second, time=self.one * 0, displacement=nothing)
@@ -200,7 +200,7 @@ class FluidModel:
         """⟨p, ν⟩ − L."""
         return self.momentum(nu, nu) - self.lagrangian(nu, mask)
 
-    def cartan(self, direction: Direction) -> Any:
+    def cartan(self, direction: FluidVariation) -> Any:
         """ϖ of a tangent vector."""
         moved = [self.at_points(x) for x in direction.displacement]
         nu = [part(x, 0) for x in self.nu]

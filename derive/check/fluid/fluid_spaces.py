@@ -28,7 +28,7 @@ AUTOMORPHISMS = {2: ((2, 1), (1, 1)), 3: ((1, 1, 0), (0, 1, 1), (1, 1, 1))}
 """A matrix of SL(d, Z), the displacement where all others begin."""
 
 
-class Torus:
+class FlatTorus:
     """One with ``frequencies`` in its d dimensions, of any ``volume``."""
 
     bounded = False
@@ -119,16 +119,16 @@ class Torus:
                 x[(*m, 0)] = y
         return tuple(Function(self, x) for x in modes)
 
-    def moved(self) -> Torus:
+    def moved(self) -> FlatTorus:
         """The torus of the points, which x ↦ g₀x takes to this one: k·g₀x = (ḡ₀k)·x."""
         g = AUTOMORPHISMS[self.dimension]
         columns = range(self.dimension)
         turned = (
             tuple(sum(k[i] * g[i][j] for i in columns) for j in columns) for k in self.frequencies
         )
-        return Torus(tuple(turned), self.volume)
+        return FlatTorus(tuple(turned), self.volume)
 
-    def carried(self, f: Function, points: Torus) -> Function:
+    def carried(self, f: Function, points: FlatTorus) -> Function:
         """f ∘ g₀."""
         return Function(points, f.terms)
 

@@ -8,7 +8,7 @@ from ...language.tree import Tree, names
 
 
 @dataclass(frozen=True)
-class Kind:
+class ArgumentKind:
     """What an argument of a function may be: one of the trees ``letters``; ``family``: or a member
     of that family at a time, as r_i(t); ``polynomial``: or a polynomial in Π_a and the entries of
     A or Γ; ``less``: or one of the trees less a function of t and A; ``members``: or a member of
@@ -24,29 +24,29 @@ class Kind:
     applied: tuple[str, str] = ("", "")
 
 
-VARIATION = Kind("a variation δy, δ′y or X", ("δy", "δ′y", "X"))
-TWO_ELEMENTS = Kind("a variation δy or δ′y", ("δy", "δ′y"))
-AT_ONE_TIME = Kind("a variation δx or δ′x, at constant time", ("δx", "δ′x"))
-MOTION = Kind("X", ("X",))
-TIME = Kind("t", ("t",))
-LINEAR = Kind(
+VARIATION = ArgumentKind("a variation δy, δ′y or X", ("δy", "δ′y", "X"))
+TWO_ELEMENTS = ArgumentKind("a variation δy or δ′y", ("δy", "δ′y"))
+AT_ONE_TIME = ArgumentKind("a variation δx or δ′x, at constant time", ("δx", "δ′x"))
+MOTION = ArgumentKind("X", ("X",))
+TIME = ArgumentKind("t", ("t",))
+LINEAR = ArgumentKind(
     "a variation or a velocity of A, or 0",
     (0, "α", "δA", "δ′A", ("mul", "A", "ξ"), ("mul", "A", "ξ′"), ("mul", "A", "Z")),
 )
-TRANSLATION = Kind(
+TRANSLATION = ArgumentKind(
     "a variation or a velocity of T, or 0",
     (0, "τ", "δT", "δ′T", ("mul", "A", "η"), ("mul", "A", "η′"), ("mul", "A", "w")),
 )
-FIRST_FIELD, SECOND_FIELD = Kind("ξ", ("ξ",)), Kind("ξ′ or δ′Z", ("ξ′", "δ′Z"))
-CARRYING = Kind("ξ or Z", ("ξ", "Z"))
-SITE = Kind(
+FIRST_FIELD, SECOND_FIELD = ArgumentKind("ξ", ("ξ",)), ArgumentKind("ξ′ or δ′Z", ("ξ′", "δ′Z"))
+CARRYING = ArgumentKind("ξ or Z", ("ξ", "Z"))
+SITE = ArgumentKind(
     "a point of the lattice",
     (
         *("𝐧", "𝐦", ("mul", -1, "𝐧"), ("add", "𝐦", "𝐧"), ("add", "𝐧", ("mul", -1, "𝐦"))),
         *(("mul", -1, "𝐦"), ("add", "𝐧", "𝐦"), ("add", "𝐦", ("mul", -1, "𝐧"))),
     ),
 )
-COORDINATE = Kind("a coordinate of a point of the lattice", (*range(-2, 3),))
+COORDINATE = ArgumentKind("a coordinate of a point of the lattice", (*range(-2, 3),))
 NUMBERED = {"ω̂": (COORDINATE, COORDINATE)}
 """The functions of the lattice that may be taken at a point by its coordinates, which are small."""
 ON_TORUS: tuple[Tree, ...] = (
@@ -54,7 +54,7 @@ ON_TORUS: tuple[Tree, ...] = (
     *(("call", "ω̂", a, b) for a in COORDINATE.letters for b in COORDINATE.letters),
     *(("tr", ("mul", *["W"] * k)) for k in (2, 3, 4)),
 )
-FORM = Kind(
+FORM = ArgumentKind(
     "ϖ(δy), less a function or not, r_i(t), v_i, or a polynomial in Π_a and entries of A or Γ",
     (("call", "ϖ", "δy"), *ON_TORUS),
     "r",
@@ -64,26 +64,28 @@ FORM = Kind(
 )
 MOVED_PLACE: Tree = ("call", "g", "r")
 PER_DENSITY: tuple[Tree, ...] = (("div", "σ_r", "ρ_r"), ("div", "p_r", "ρ_r"))
-INTEGRAND = Kind(
+INTEGRAND = ArgumentKind(
     "1, r, r r̄, p_r, σ_r/ρ_r, p_r/ρ_r, ‖v‖² or ⟨v, δ(g(r))⟩",
     (
         *(1, "r", "p_r", ("mul", "r", ("T", "r")), *PER_DENSITY),
         *(("norm2", "v"), ("inner", "v", ("call", "δ", MOVED_PLACE))),
     ),
 )
-PLACE = Kind("r", ("r",))
-INVARIANTS = tuple(Kind(x, (x,)) for x in ("I_1", "I_2", "I_3"))
-VARIED = Kind(
+PLACE = ArgumentKind("r", ("r",))
+INVARIANTS = tuple(ArgumentKind(x, (x,)) for x in ("I_1", "I_2", "I_3"))
+VARIED = ArgumentKind(
     "r_i(t), g(r), ξ′, η′, L̃, L_d, U_0, U_1, ϖ(X), 𝒥_i or 𝒜_i(ξ′)",
     ("ξ′", "η′", "L̃", "L_d", "U_0", "U_1", MOVED_PLACE, ("call", "ϖ", "X")),
     "r",
     members="𝒥",
     applied=("𝒜", "ξ′"),
 )
-VARIED_PRIME = Kind("r_i(t), ξ, η, 𝒥_i or 𝒜_i(ξ)", ("ξ", "η"), "r", members="𝒥", applied=("𝒜", "ξ"))
-ALONG_FIELDS = Kind("ξ, ξ′ or Z", ("ξ", "ξ′", "Z"))
+VARIED_PRIME = ArgumentKind(
+    "r_i(t), ξ, η, 𝒥_i or 𝒜_i(ξ)", ("ξ", "η"), "r", members="𝒥", applied=("𝒜", "ξ")
+)
+ALONG_FIELDS = ArgumentKind("ξ, ξ′ or Z", ("ξ", "ξ′", "Z"))
 
-HEADS: dict[str, tuple[Kind, ...]] = {
+HEADS: dict[str, tuple[ArgumentKind, ...]] = {
     "ϖ": (VARIATION,),
     "dϖ": (VARIATION, VARIATION),
     **dict.fromkeys(("Θ⁺", "Θ⁻"), (TWO_ELEMENTS,)),
@@ -122,7 +124,7 @@ def is_polynomial(t: Tree) -> bool:
     return t[0] == "par" or t[:2] in (("at", "Π"), ("entry", "A"), ("entry", "Γ"))
 
 
-MOVED: dict[str, tuple[Kind, ...]] = {
+MOVED: dict[str, tuple[ArgumentKind, ...]] = {
     "r": (TIME,),
     "𝒜": (ALONG_FIELDS,),
     "d𝒜": (VARIATION, VARIATION),

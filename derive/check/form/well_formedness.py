@@ -22,7 +22,7 @@ from .function_signatures import (
     RATES,
     SOLVED,
     TRANSLATION,
-    Kind,
+    ArgumentKind,
     is_polynomial,
 )
 
@@ -141,7 +141,7 @@ def _call_fault(head: Tree, arguments: tuple[Tree, ...], affine: bool) -> str:
     return ""
 
 
-def _kinds_of(head: Tree) -> tuple[Kind, ...] | None:
+def _kinds_of(head: Tree) -> tuple[ArgumentKind, ...] | None:
     """The kinds of the arguments that a head takes; ``None`` for what is no head."""
     if isinstance(head, str):
         return HEADS.get(head)
@@ -149,7 +149,7 @@ def _kinds_of(head: Tree) -> tuple[Kind, ...] | None:
     return MOVED.get(head[1]) if member and isinstance(head, tuple) else None
 
 
-def _is_of(kind: Kind, x: Tree) -> bool:
+def _is_of(kind: ArgumentKind, x: Tree) -> bool:
     if x in kind.letters or (kind.polynomial and is_polynomial(x)):
         return True
     if kind.less and isinstance(x, tuple) and x[0] == "add" and x[1] in kind.letters:

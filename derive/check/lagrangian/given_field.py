@@ -13,7 +13,7 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, nodes
 from ...record.record import RecordError
-from ..trials.model import Direction
+from ..trials.model import TangentVector
 from ..values.arithmetic import EPS, EvaluationError, is_matrix, nilpotent, part
 from ..values.evaluate import Environment, evaluate
 
@@ -23,7 +23,7 @@ from ..values.evaluate import Environment, evaluate
 # equation is used.
 
 
-class Place(Protocol):
+class GroupPoint(Protocol):
     """A point of the evolution space of a Lagrangian, and how vectors are carried to 𝔤 there."""
 
     t: Any
@@ -76,7 +76,7 @@ class GivenField:
         if any(x not in ARGUMENTS for x in nodes(self.displacement) if isinstance(x, str)):
             raise RecordError("a field δA is a function of t and A")
 
-    def at(self, model: Place, t: Any, g: Matrix) -> tuple[Any, Matrix]:
+    def at(self, model: GroupPoint, t: Any, g: Matrix) -> tuple[Any, Matrix]:
         """δt and δA at a point, which may be nilpotent."""
         env = replace(model.expressions, names={"π": model.pi, "t": t, "A": g})
         moved = evaluate(self.displacement, env)
@@ -86,12 +86,12 @@ class GivenField:
             moved = q.scaled(Fraction(0), model.g)
         return evaluate(self.time, env), moved
 
-    def carried(self, model: Place, t: Any, g: Matrix, back: Matrix) -> tuple[Any, Matrix]:
+    def carried(self, model: GroupPoint, t: Any, g: Matrix, back: Matrix) -> tuple[Any, Matrix]:
         """δt, and δA carried to 𝔤."""
         time, moved = self.at(model, t, g)
         return time, model.carried(g, back, moved)
 
-    def direction(self, model: Place) -> Direction:
+    def direction(self, model: GroupPoint) -> TangentVector:
         """The variation at the point of the model; ``EvaluationError`` where it is not tangent to
         the group, or δt not constant."""
         back = inverse(model.g)
@@ -105,9 +105,9 @@ class GivenField:
             raise RecordError("δt of a field is constant")
         if not model.graded and None in map(model.group.vee, (xi, velocity)):
             raise EvaluationError("the field is not tangent to the group")
-        return Direction(time, xi, velocity)
+        return TangentVector(time, xi, velocity)
 
-    def rate(self, model: Place, subtracted: tuple[Tree, ...]) -> Any:
+    def rate(self, model: GroupPoint, subtracted: tuple[Tree, ...]) -> Any:
         """d/dt of ϖ of the field, and of functions of t and A added to it, along the motion."""
         e = nilpotent(EPS)
         t, g = model.t + e, model.moved(model.g, model.along(EPS))

@@ -14,7 +14,7 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from ...record.as_json import decode
-from ..trials.model import Direction
+from ..trials.model import TangentVector
 from ..values.arithmetic import (
     EPS,
     EPS_PRIME,
@@ -83,7 +83,7 @@ class LagrangianModel(Draws):
             self.advected = CarriedAlong(problem, group, self.side)
             self.advected.start = tuple((self.draw(),) for _ in self.advected.rows)
         self.first, self.second, self.mixed = (
-            Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
+            TangentVector(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
         )
         self._restrict(at)
         self.given = [
@@ -97,7 +97,7 @@ class LagrangianModel(Draws):
         self.vector = None
         if at.contracted or at.along or at.free_acceleration:
             velocity = self.Z if at.along else self.algebra()
-            self.vector = Direction(Fraction(1), velocity, self.algebra())
+            self.vector = TangentVector(Fraction(1), velocity, self.algebra())
         if at.contracted and self.vector is not None:
             self.first = self.vector
         self.free_acceleration, self.driven = at.free_acceleration, at.driven
@@ -112,7 +112,7 @@ class LagrangianModel(Draws):
         if at.still:
             self.first = replace(self.first, time=Fraction(0))
         if at.vanishing:
-            self.second = Direction(
+            self.second = TangentVector(
                 Fraction(0) if "time" in at.vanishing else self.second.time,
                 nothing if "linear" in at.vanishing else self.second.xi,
                 self.second.velocity,
@@ -195,7 +195,7 @@ class LagrangianModel(Draws):
                 h, back = q.times(step, h), q.times(back, undo)
         return h, back
 
-    def family(self, a: Direction, b: Direction) -> Family:
+    def family(self, a: TangentVector, b: TangentVector) -> Family:
         """A two-parameter family with the derivatives a and b; its mixed part is any."""
         e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
         t = self.t + e * a.time + f * b.time + e * f * self.mixed.time
@@ -218,12 +218,12 @@ class LagrangianModel(Draws):
 
     # -- the forms -----------------------------------------------------------------------------
 
-    def cartan(self, a: Direction) -> Any:
+    def cartan(self, a: TangentVector) -> Any:
         """ϖ(δ) at the point."""
         pushed = self.momentum(self.t, self.g, self.Z, a.xi)
         return self.indices(part(pushed - self.energy(self.t, self.g, self.Z) * a.time, 0), PAIRED)
 
-    def exterior(self, a: Direction, b: Direction) -> Any:
+    def exterior(self, a: TangentVector, b: TangentVector) -> Any:
         """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family."""
         family = self.family(a, b)
         t, g, Z, *_ = family
@@ -300,9 +300,9 @@ class LagrangianModel(Draws):
         return self.as_letter(self.group.hat([row[0] for row in found]))
 
     @property
-    def motion(self) -> Direction:
+    def motion(self) -> TangentVector:
         """X, with δt = 1: the direction of the motion, or the random vector that stands for it."""
-        return self.vector or Direction(Fraction(1), self.Z, self.acceleration)
+        return self.vector or TangentVector(Fraction(1), self.Z, self.acceleration)
 
 
 def part_in(x: Any, mask: int) -> Any:

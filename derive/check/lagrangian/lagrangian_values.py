@@ -13,7 +13,7 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, nodes
 from ..trials.meaning import NameValues, Values
-from ..trials.model import Direction
+from ..trials.model import TangentVector
 from ..values.arithmetic import EPS, EPS_PRIME, ETA, EvaluationError, nilpotent, part
 from ..values.evaluate import Environment, evaluate
 from . import reduced_by_symmetries
@@ -177,7 +177,7 @@ def _families(model: LagrangianModel) -> dict[str, dict[tuple[int, ...], Any]]:
 def _functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
     first, second = model.first, model.second
 
-    def direction(name: str) -> Direction:
+    def direction(name: str) -> TangentVector:
         if name == "X":
             return model.motion
         full = second if "′" in name else first

@@ -11,7 +11,7 @@ from typing import Any
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...record.record import Equation, Step
-from ..trials.model import Direction, Model
+from ..trials.model import Model, TangentVector
 from ..values.arithmetic import EPS, EPS_PRIME, EvaluationError, derivative_in, part
 from ..values.draws import part_of_velocity
 from ..values.evaluate import Environment
@@ -26,7 +26,7 @@ from .lagrangian_model import Family, LagrangianModel
 
 
 @dataclass(frozen=True)
-class Place:
+class ReducedPoint:
     """A time, an element, its inverse and a velocity, which may all be nilpotent, and what the
     fields are there."""
 
@@ -87,17 +87,17 @@ class Place:
         return pushed - self.model.energy(self.t, self.g, self.Z) * time
 
 
-def here(model: LagrangianModel) -> Place:
+def here(model: LagrangianModel) -> ReducedPoint:
     """The point of a model."""
-    return Place(model, model.t, model.g, inverse(model.g), model.Z)
+    return ReducedPoint(model, model.t, model.g, inverse(model.g), model.Z)
 
 
-def on_family(model: LagrangianModel, family: Family) -> Place:
+def on_family(model: LagrangianModel, family: Family) -> ReducedPoint:
     """The points of a family."""
     t, g, Z, _, undone = family
     start = inverse(model.g)
     back = q.times(undone, start) if model.side == "left" else q.times(start, undone)
-    return Place(model, t, g, back, Z)
+    return ReducedPoint(model, t, g, back, Z)
 
 
 def values(model: LagrangianModel) -> dict[str, Any]:
@@ -126,7 +126,7 @@ def families(model: LagrangianModel) -> dict[str, dict[tuple[int, ...], Any]]:
 
 
 def functions(
-    model: LagrangianModel, direction: Callable[[str], Direction]
+    model: LagrangianModel, direction: Callable[[str], TangentVector]
 ) -> dict[str, Callable[..., Any]]:
     """𝒜, d𝒜, ϖ_h and its derivative."""
     if not model.symmetries:
@@ -146,13 +146,16 @@ def functions(
 
     def derived(head: Any, arguments: Any, env: Environment) -> Any:
         one, two = map(direction, arguments)
-        return exterior(model, one, two, Place.routh_form)
+        return exterior(model, one, two, ReducedPoint.routh_form)
 
     return {"𝒜": connection, "d𝒜": curvature, "ϖ_h": form, "dϖ_h": derived}
 
 
 def exterior(
-    model: LagrangianModel, a: Direction, b: Direction, form: Callable[[Place, Any, Matrix], Any]
+    model: LagrangianModel,
+    a: TangentVector,
+    b: TangentVector,
+    form: Callable[[ReducedPoint, Any, Matrix], Any],
 ) -> Any:
     """δ[form(δ′)] − δ′[form(δ)] on a family; ``form``: of δt and ξ at its points."""
     family = model.family(a, b)
@@ -204,8 +207,8 @@ def unforced_velocity(model: Model | LagrangianModel) -> str:
     """
     x, y = model.mixed.xi, model.second.velocity
     nothing = q.scaled(Fraction(0), y)
-    moving = Direction(Fraction(1), q.plus(model.Z, x), model.first.velocity)
-    paired = model.exterior(moving, Direction(Fraction(0), nothing, y))
+    moving = TangentVector(Fraction(1), q.plus(model.Z, x), model.first.velocity)
+    paired = model.exterior(moving, TangentVector(Fraction(0), nothing, y))
     row, column = (q.column(model.group.nearest(z)) for z in (x, y))
     ((metric,),) = q.times(q.times(q.transposed(row), model.metric), column)
     if paired != -metric:

@@ -12,12 +12,12 @@ from typing import Any, Protocol
 
 from ...algebra.groups import Group
 from ...algebra.samplers import Source
-from ...algebra.structure import Torus
+from ...algebra.structure import TorusLattice
 from ...language import rational as q
 from ...language.rational import Matrix
 from ..values.arithmetic import EvaluationError, Many, Shape
 from ..values.residue import Residue, _residue
-from .residues import Multiples, Residues, RootsOfUnity
+from .residues import LatticeResidues, Multiples, RootsOfUnity
 
 # The matrices T(𝐧) at all points of the lattice at once, between other matrices.
 #
@@ -33,7 +33,7 @@ Places = list[int]
 class Lattice(Protocol):
     """The torus, its roots of unity, and sums Σ a(𝐧) T(𝐧) over its points: a model of it."""
 
-    torus: Torus
+    torus: TorusLattice
     roots: RootsOfUnity
 
     @property
@@ -48,7 +48,7 @@ class Lattice(Protocol):
 
 
 @dataclass(frozen=True)
-class Term:
+class LatticeTerm:
     """``left`` a(𝐧) T(𝐧) ``right``, where no matrix is 1."""
 
     places: Places
@@ -60,7 +60,7 @@ class Term:
 class Elements(Many):
     """A sum of terms, of the basis of a ``model`` of the torus."""
 
-    def __init__(self, model: Lattice, terms: Sequence[Term]):
+    def __init__(self, model: Lattice, terms: Sequence[LatticeTerm]):
         self.model, self.terms = model, terms
 
     @property
@@ -95,10 +95,10 @@ class Elements(Many):
         """The transposes: that of T(n₁, n₂) is T(n₁, −n₂)."""
         N = self.model.torus.N
 
-        def turned(t: Term) -> Term:
+        def turned(t: LatticeTerm) -> LatticeTerm:
             places = [n - n % N + -n % N for n in t.places]
             left, right = (q.transposed(x) if x else None for x in (t.right, t.left))
-            return Term(places, t.factor, left, right)
+            return LatticeTerm(places, t.factor, left, right)
 
         return self._with(turned)
 
@@ -108,7 +108,7 @@ class Elements(Many):
         for t in self.terms:
             around = _product(t.right, t.left) or q.identity(N)
             a = [_residue(x, p) for row in self.model.coefficients(around) for x in row]
-            found = Residues([N * a[-(n // N) % N * N + -n % N] % p for n in t.places], p)
+            found = LatticeResidues([N * a[-(n // N) % N * N + -n % N] % p for n in t.places], p)
             total = found * t.factor + total
         return total
 
@@ -117,7 +117,7 @@ class Elements(Many):
         found: Any = (_product(_product(t.left, self._summed(t)), t.right) for t in self.terms)
         return reduce(q.plus, found)
 
-    def _summed(self, t: Term, weights: Sequence[int] | None = None) -> Matrix:
+    def _summed(self, t: LatticeTerm, weights: Sequence[int] | None = None) -> Matrix:
         """Σ a(𝐧) T(𝐧) over the points, with weights or without."""
         N, p = self.model.torus.N, self.model.roots.p
         grid = [0] * (N * N)
@@ -141,9 +141,9 @@ class Elements(Many):
         """Σ w(𝐧) x a(𝐧) T(𝐧) y."""
         return sum(map(self._number_of, self.terms))
 
-    def _number_of(self, t: Term) -> int:
+    def _number_of(self, t: LatticeTerm) -> int:
         drawn, p = self.model.drawn, self.model.roots.p
-        if isinstance(t.factor, (Residues, Multiples)):
+        if isinstance(t.factor, (LatticeResidues, Multiples)):
             if t.left is None is t.right:  # x T(𝐧) y is known
                 each = map(mul, _numbers(t.factor, p), map(drawn.each.__getitem__, t.places))
                 return _dot(drawn.weights, each)
@@ -202,7 +202,7 @@ class Drawn:
         """Σ w(𝐧) T(𝐧), made once."""
         key = tuple(places)
         if key not in self.sums:
-            self.sums[key] = of._summed(Term(places), self.weights)
+            self.sums[key] = of._summed(LatticeTerm(places), self.weights)
         return self.sums[key]
 
     def once(self, product: Callable[..., list[int]], *of: Any) -> list[int]:
@@ -242,7 +242,7 @@ def _numbers(factor: Any, p: int) -> Any:
     """A factor at each point, as integers."""
     if isinstance(factor, Multiples):
         factor = factor.residues
-    return factor.a if isinstance(factor, Residues) else repeat(_residue(factor, p))
+    return factor.a if isinstance(factor, LatticeResidues) else repeat(_residue(factor, p))
 
 
 def _product(a: Matrix | None, b: Matrix | None) -> Matrix | None:
@@ -253,12 +253,12 @@ def _product(a: Matrix | None, b: Matrix | None) -> Matrix | None:
 # The torus of a record's problem, and its group.
 
 
-def torus_of(problem: Mapping[str, Any]) -> Torus:
+def torus_of(problem: Mapping[str, Any]) -> TorusLattice:
     """The torus of a record's problem."""
-    return Torus(problem["torus"]["N"])
+    return TorusLattice(problem["torus"]["N"])
 
 
-def group_of_torus(torus: Torus) -> Group:
+def group_of_torus(torus: TorusLattice) -> Group:
     """SU(N) by its name and size, without a table of a basis, or elements."""
 
     def none(random: Source, size: int) -> Matrix:

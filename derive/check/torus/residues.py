@@ -28,7 +28,7 @@ from ..values.residue import (
 NUMBERS = (int, Fraction, Residue)
 
 
-class Residues(FieldElement):
+class LatticeResidues(FieldElement):
     """Residues ``a`` modulo p, one for each point, of which products alone are reduced."""
 
     __slots__ = ("a", "p")
@@ -40,27 +40,31 @@ class Residues(FieldElement):
         """Another number at each point."""
         if isinstance(other, Multiples):
             other = other.residues
-        if isinstance(other, Residues):
+        if isinstance(other, LatticeResidues):
             return other.a
         return repeat(_residue(other, self.p)) if isinstance(other, NUMBERS) else None
 
     def __mul__(self, other: Any) -> Any:
         p, each = self.p, self._each(other)
         return (
-            NotImplemented if each is None else Residues([x % p for x in map(mul, self.a, each)], p)
+            NotImplemented
+            if each is None
+            else LatticeResidues([x % p for x in map(mul, self.a, each)], p)
         )
 
     def __add__(self, other: Any) -> Any:
         each = self._each(other)
-        return NotImplemented if each is None else Residues([*map(add, self.a, each)], self.p)
+        return (
+            NotImplemented if each is None else LatticeResidues([*map(add, self.a, each)], self.p)
+        )
 
     def __neg__(self) -> Any:
-        return Residues([*map(neg, self.a)], self.p)
+        return LatticeResidues([*map(neg, self.a)], self.p)
 
     @property
-    def inverse(self) -> Residues:
+    def inverse(self) -> LatticeResidues:
         """1 over each; ``ZeroDivisionError`` where one is 0."""
-        return Residues([_inverse(x, self.p) for x in self.a], self.p)
+        return LatticeResidues([_inverse(x, self.p) for x in self.a], self.p)
 
     def __eq__(self, other: object) -> bool:
         """The same at all points?"""
@@ -91,13 +95,13 @@ class Multiples(FieldElement):
         self.k, self.p, self.unit = k, p, unit
 
     @property
-    def residues(self) -> Residues:
+    def residues(self) -> LatticeResidues:
         """The same, each as one number."""
         n, p = _residue(self.unit, self.p), self.p
-        return Residues([x * n % p for x in self.k], p)
+        return LatticeResidues([x * n % p for x in self.k], p)
 
     @property
-    def inverse(self) -> Residues:
+    def inverse(self) -> LatticeResidues:
         """1 over each; ``ZeroDivisionError`` where one is 0."""
         return self.residues.inverse
 
@@ -123,7 +127,7 @@ class Multiples(FieldElement):
 
     __hash__ = None  # type: ignore[assignment]
 
-    dot = Residues.dot
+    dot = LatticeResidues.dot
 
     def total(self) -> Any:
         """The sum of all of them."""
@@ -198,8 +202,8 @@ class Turns:
             return Graded(CONSTANT)
         if isinstance(x, Multiples) and x.unit / self.step in self.counts:
             wave, N, k = self.waves[name], self.roots.N, self.counts[x.unit / self.step]
-            return Residues([wave[k * n % N] for n in x.k], self.roots.p)
-        if isinstance(x, Residues) or x not in self.turns:
+            return LatticeResidues([wave[k * n % N] for n in x.k], self.roots.p)
+        if isinstance(x, LatticeResidues) or x not in self.turns:
             raise EvaluationError("an angle on the torus is a multiple of 2π/N")
         return self.value(name, self.turns[x])
 

@@ -14,15 +14,15 @@ from random import Random
 from typing import Any
 
 from ...algebra.samplers import Source
-from ...algebra.structure import Place, Torus
+from ...algebra.structure import Place, TorusLattice
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from ..values.arithmetic import EvaluationError
 from ..values.evaluate import Environment, evaluate
 from ..values.residue import DegreeSource, _residue
-from .elements import Drawn, Elements, Places, Term, Wave
-from .residues import Multiples, Residues, RootsOfUnity, Turns
+from .elements import Drawn, Elements, LatticeTerm, Places, Wave
+from .residues import LatticeResidues, Multiples, RootsOfUnity, Turns
 
 KEPT = 64
 """The most T(n) that are kept."""
@@ -37,9 +37,9 @@ class TorusModel:
     """One point: ζ(n) at random, and with it W, P, Z and Π; ``free``: is Ẇ any, not that of the
     motion?"""
 
-    def __init__(self, torus: Torus, source: Source, size: int, *, free: bool = False):
+    def __init__(self, torus: TorusLattice, source: Source, size: int, *, free: bool = False):
         graded = isinstance(source, DegreeSource)
-        self.torus = torus = Torus(LEAST) if graded else torus
+        self.torus = torus = TorusLattice(LEAST) if graded else torus
         assert graded or isinstance(source, Random)
         self.roots = RootsOfUnity(torus.N, None if graded else source)  # type: ignore[arg-type]
         self.source, self.size, self.graded = source, size, graded
@@ -120,14 +120,14 @@ def environment(model: TorusModel) -> Environment:
     return _environment(model, model.W)
 
 
-def _place(torus: Torus, given: tuple[Tree, ...], env: Environment) -> Place | Places:
+def _place(torus: TorusLattice, given: tuple[Tree, ...], env: Environment) -> Place | Places:
     """A point of the lattice, given as one or by its two coordinates; or all at once."""
     found = [evaluate(x, env) for x in given]
     if len(found) == 1:
         if not isinstance(found[0], tuple) or len(found[0]) != 2:
             raise EvaluationError("a point of the lattice is expected")
         found = [row[0] for row in found[0]]
-    if any(isinstance(x, (Multiples, Residues)) for x in found):
+    if any(isinstance(x, (Multiples, LatticeResidues)) for x in found):
         x, y = (_coordinates(torus, x) for x in found)
         N = torus.N
         return [a % N * N + b % N for a, b in zip(x, y, strict=True)]
@@ -135,11 +135,11 @@ def _place(torus: Torus, given: tuple[Tree, ...], env: Environment) -> Place | P
     return torus.representative((int(x), int(y)))
 
 
-def _coordinates(torus: Torus, x: Any) -> Sequence[int]:
+def _coordinates(torus: TorusLattice, x: Any) -> Sequence[int]:
     """A coordinate of all points at once, of which some may be the same."""
     if isinstance(x, Multiples) and x.unit == 1:
         return x.k
-    if isinstance(x, (Multiples, Residues)):
+    if isinstance(x, (Multiples, LatticeResidues)):
         raise EvaluationError("whole numbers are expected on the lattice")
     return [int(x)] * len(torus.places)
 
@@ -154,12 +154,12 @@ def _of_grid(model: TorusModel, grid: Callable[[], Matrix]) -> Callable[[Any], A
     def value(n: Place | Places) -> Any:
         if isinstance(n, tuple):
             return grid()[n[0]][n[1]]
-        return Residues([*map(residues().__getitem__, n)], model.roots.p)
+        return LatticeResidues([*map(residues().__getitem__, n)], model.roots.p)
 
     return value
 
 
-def _half_square(torus: Torus, a: Callable[[Place], Any], power: int) -> Any:
+def _half_square(torus: TorusLattice, a: Callable[[Place], Any], power: int) -> Any:
     """½ Σ |n|²ᵖ a(n) a(−n)."""
     terms = (
         a(n) * a((-n[0], -n[1])) * (Fraction(n[0] ** 2 + n[1] ** 2) ** power / 2)
@@ -180,7 +180,7 @@ def _environment(model: TorusModel, W: Matrix) -> Environment:
         return ((zero, *first), *rest)
 
     def basis(n: Place | Places) -> Any:
-        return model.basis(n) if isinstance(n, tuple) else Elements(model, [Term(n)])
+        return model.basis(n) if isinstance(n, tuple) else Elements(model, [LatticeTerm(n)])
 
     vorticity = _of_grid(model, coefficients)
 

@@ -215,7 +215,7 @@ def integrated(f: Function, low: Any, high: Any, degree: int) -> Any:
 
 
 @dataclass(frozen=True)
-class Layers:
+class LayeredDensity:
     """The density of an ellipsoid in Rⁿ by the level."""
 
     density: Function
@@ -223,7 +223,7 @@ class Layers:
     n: int
 
     @classmethod
-    def of(cls, model: Draws, solid: Mapping[str, Any]) -> Layers:
+    def of(cls, model: Draws, solid: Mapping[str, Any]) -> LayeredDensity:
         """Those of a solid of the record."""
         tree, known = decode(solid["density"], "body"), model.expressions
 
@@ -358,7 +358,7 @@ def _moments_of_solid(model: Draws, data: Mapping[str, Any]) -> tuple[Fraction, 
         return _moments_of_quadric(model, data)
     sizes = {k: x if k == "faces" else value(x) for k, x in data["sizes"].items()}
     V, f, S = slice_moments(data["kind"], sizes, model.pi)
-    density, outer = Layers.of(model, data).means
+    density, outer = LayeredDensity.of(model, data).means
     R = value(data["rotation"]) if data.get("rotation") else q.identity(3)
     shift = value(data["shift"]) if data.get("shift") else (Fraction(0),) * 3
     s, turned = q.column(shift), q.times(R, q.column(f))
@@ -384,7 +384,7 @@ def _moments_of_quadric(model: Draws, data: Mapping[str, Any]) -> tuple[Any, Vec
     take = model.elementary.written if written else model.elementary
     root = take("sqrt", q.determinant(Q))
     V, f, S = quadric_moments(Q, root, model.pi)
-    density, outer = Layers.of(model, data).means
+    density, outer = LayeredDensity.of(model, data).means
     return density * V, f, q.scaled(outer, S)
 
 

@@ -16,7 +16,7 @@ from ...record.as_json import decode
 from ..form.function_signatures import PER_DENSITY
 from ..values.arithmetic import EvaluationError, plus, times
 from ..values.evaluate import Environment, evaluate
-from .equimomental import Layers, volume_of
+from .equimomental import LayeredDensity, volume_of
 from .model import Model
 from .momenta import axial
 from .point_masses import Vector, damping_members, outer_sum, scaled_each
@@ -306,7 +306,7 @@ def _pressures(model: Model, solid: Any, Q: Matrix, rate: Matrix, r: Matrix) -> 
     """p_0 and p_r by what is pushed along the ray of r, ∫ρ ds times the ⟨r, Ā(α̇ − f)r⟩ over
     2⟨r, Q r⟩ that all its places have, f the force per mass, whose moments are those of all
     forces; the level, the density, that integral and κ_Q."""
-    layers, level = Layers.of(model, solid), _form(Q, r)
+    layers, level = LayeredDensity.of(model, solid), _form(Q, r)
     _, _, J = model.moments
     back = q.inverse(J)
     assert back is not None
@@ -333,7 +333,7 @@ def over_volume(model: Model, name: str, middle: Any) -> Any:
     """∫ σ_r dx or ∫ p_r dx of one ellipsoid in layers; p is a multiple of σ, and ``middle`` its
     value in the middle."""
     (solid,) = model.problem["body"]["solids"]
-    layers = Layers.of(model, solid)
+    layers = LayeredDensity.of(model, solid)
     whole = volume_of(model, solid) * layers.mean(layers.above, layers.degree + 1)
     return whole if name == "σ_r" else whole * middle / layers.above(Fraction(0))
 

@@ -33,7 +33,7 @@ from .force_balance import (
     place_values,
     solution_values,
 )
-from .model import Direction, Model
+from .model import Model, TangentVector
 from .momenta import (
     ON_TANGENT,
     action_varied,
@@ -206,7 +206,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
     first, second = model.first, model.second
 
     @cache
-    def direction(name: str) -> Direction:
+    def direction(name: str) -> TangentVector:
         if name == "X":
             return model.motion
         full = second if "′" in name else first

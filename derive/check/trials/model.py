@@ -36,7 +36,7 @@ from .point_masses import (
 
 
 @dataclass(frozen=True)
-class Direction:
+class TangentVector:
     """A tangent vector of the evolution space: δt, and the matrices ξ̂ = g⁻¹δg, δẐ in 𝔤."""
 
     time: Any
@@ -80,7 +80,7 @@ class Model(Body):
         self.any_potential = AnyPotential(self, self.t, self.moved(self.g)) if generic else None
         self.Z = self.algebra()
         self.first, self.second, self.mixed = (
-            Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
+            TangentVector(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
         )
         if at.vanishing:
             time = Fraction(0) if TIME in at.vanishing else self.second.time
@@ -126,11 +126,11 @@ class Model(Body):
             total = q.plus(total, q.scaled(self.draw(), self.group.hat(weights)))
         return total
 
-    def _motion_like(self, along: Collection[str]) -> Direction:
+    def _motion_like(self, along: Collection[str]) -> TangentVector:
         """X, with δt = 1 and the velocity of the motion in the parts ``along``, any in others."""
         free = self._without_parts(along, self.first.xi if self.at.contracted else self.algebra())
         xi = q.plus(self.Z, free) if along else free
-        return Direction(Fraction(1), xi, self.algebra())
+        return TangentVector(Fraction(1), xi, self.algebra())
 
     @cached_property
     def nu(self) -> Matrix:
@@ -159,7 +159,7 @@ class Model(Body):
         """h̃ = p̃(ν) − L̃."""
         return self.momentum(nu, nu) - self.lagrangian(t, g, nu)
 
-    def family(self, a: Direction, b: Direction) -> tuple[Any, Matrix, Matrix]:
+    def family(self, a: TangentVector, b: TangentVector) -> tuple[Any, Matrix, Matrix]:
         """t, g and Z on a two-parameter family with these directions, to first order in each.
 
         The mixed part is arbitrary: dϖ does not depend on it, but δξ′ and δ′ξ do.
@@ -169,7 +169,7 @@ class Model(Body):
             self._families[key] = (a, b), self._family(a, b)
         return self._families[key][1]
 
-    def _family(self, a: Direction, b: Direction) -> tuple[Any, Matrix, Matrix]:
+    def _family(self, a: TangentVector, b: TangentVector) -> tuple[Any, Matrix, Matrix]:
         e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
         t = self.t + e * a.time + f * b.time + e * f * self.mixed.time
         Z = self.Z
@@ -187,7 +187,7 @@ class Model(Body):
         """g₀⁻¹g on the two-parameter family of δ and δ′, a matrix of nilpotent numbers."""
         return self.displaced(self.first, self.second)
 
-    def displaced(self, a: Direction, b: Direction) -> Matrix:
+    def displaced(self, a: TangentVector, b: TangentVector) -> Matrix:
         """g₀⁻¹g = (1 + εξ_a)(1 + ε′ξ_b)(1 + εε′ξ_mixed) on the family of the directions a and b."""
         e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
         g = one = q.identity(self.s)
@@ -195,12 +195,12 @@ class Model(Body):
             g = q.times(g, q.plus(one, q.scaled(weight, xi)))
         return g
 
-    def cartan(self, a: Direction) -> Any:
+    def cartan(self, a: TangentVector) -> Any:
         """ϖ(δ) at the point."""
         momentum = self.momentum(self.nu, q.times(self.g, a.xi))
         return part(momentum - self.energy(self.t, self.g, self.nu) * a.time, 0)
 
-    def exterior(self, a: Direction, b: Direction) -> Any:
+    def exterior(self, a: TangentVector, b: TangentVector) -> Any:
         """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family."""
         t, g, Z = self.family(a, b)
         nu = q.times(g, Z)
@@ -301,6 +301,6 @@ class Model(Body):
         return self.as_indeterminates(self.solve_metric(covector), 2 * RATE_SLOTS)
 
     @property
-    def motion(self) -> Direction:
+    def motion(self) -> TangentVector:
         """X, with δt = 1: the direction of the motion, or the random vector that stands for it."""
-        return self.vector or Direction(Fraction(1), self.Z, self.acceleration)
+        return self.vector or TangentVector(Fraction(1), self.Z, self.acceleration)

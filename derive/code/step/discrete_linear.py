@@ -12,7 +12,7 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from ..graph import Node, replaced
-from ..schedule import Varied
+from ..schedule import Directional
 from .discrete_ends import Centre, Ends, entries_of
 
 Functions = dict[str, list[Node]]
@@ -93,7 +93,7 @@ def volume(
     left = g.num(0)
     for c in reversed(begun):
         left = left * theta + c
-    slope = Varied(g, {theta: e.one}, "theta").of(left)
+    slope = Directional(g, {theta: e.one}, "theta").of(left)
     alpha = own.alpha
     det: Tree = ("det", f"{own.letter}_1")
     off, by = (_along(e, det, own.A, m) for m in (alpha, along))
@@ -127,7 +127,7 @@ def _coefficients(e: Ends, p: Node, x: Node) -> list[Node]:
     for k in range(4):
         factorial *= max(k, 1)
         found.append(replaced(p, still) * Fraction(1, factorial))
-        p = Varied(e.graph, {x: e.one}, f"{k}").of(p)
+        p = Directional(e.graph, {x: e.one}, f"{k}").of(p)
     return found
 
 
@@ -135,4 +135,4 @@ def _along(e: Ends, det: Tree, at: Matrix, change: Matrix) -> Node:
     """The derivative of det at an element along a change of it."""
     pairs = zip(entries_of(at), entries_of(change), strict=True)
     seeds = {x: y for x, y in pairs if x.op == "leaf"}
-    return Varied(e.graph, seeds, "along").of(e.number(det))
+    return Directional(e.graph, seeds, "along").of(e.number(det))

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from .. import dense
 from ..graph import Graph, Node
-from ..schedule import Varied
+from ..schedule import Directional
 
 SMALL = 3
 """Up to this size by the adjugate."""
@@ -18,7 +18,7 @@ SMALL = 3
 def newton(g: Graph, left: Sequence[Node], unknowns: Sequence[Node], label: str) -> list[Node]:
     """By what the unknowns of equations ``left`` = 0 are too large, and the determinant of the
     derivative, after that; ``label``: the key of what is solved."""
-    varied = [Varied(g, {x: g.num(1)}, str(x.data[1])) for x in unknowns]
+    varied = [Directional(g, {x: g.num(1)}, str(x.data[1])) for x in unknowns]
     return change(g, [[v.of(y) for v in varied] for y in left], left, label)
 
 

@@ -13,7 +13,7 @@ from ...language.rational import Matrix
 from ...language.tree import Tree
 from .. import dense
 from ..graph import Node, replaced
-from ..schedule import Varied
+from ..schedule import Directional
 from .discrete_ends import Centre, Ends, Given, column, entries_of
 from .discrete_newton import newton
 
@@ -79,7 +79,7 @@ def _at_rest(e: Ends, zeta: Matrix) -> Matrix:
     leaves = e.leaves("short", 3)
     found = entries_of(_momentum(e, e.one, column(leaves)))
     seeds = {y: z * HALF for y, (z,) in zip(leaves, zeta, strict=True)}
-    along, still = Varied(e.graph, seeds, "zeta"), dict.fromkeys(leaves, e.graph.num(0))
+    along, still = Directional(e.graph, seeds, "zeta"), dict.fromkeys(leaves, e.graph.num(0))
     return column([replaced(along.of(y), still) for y in found])
 
 

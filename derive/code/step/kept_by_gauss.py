@@ -19,7 +19,7 @@ from operator import add, mul
 from typing import Any
 from zlib import crc32
 
-from ...algebra.exact_kernel import PRIMES, Residues, ResidueSource, Rows, kernel, pivots
+from ...algebra.exact_kernel import PRIMES, ResidueVector, ResidueVectorSource, Rows, kernel, pivots
 from ...language import rational as q
 from ...language.tree import nodes
 from ..ellipsoid import BUNDLES
@@ -52,7 +52,7 @@ def kept_by_gauss(
     spanned = _Points(functions, sizes, n + len(pairs) + MORE)
     weights = [spanned.draw() for _ in range(n - 1)]
     weights.append(1 - reduce(add, weights))
-    x = [Residues.dot(weights, coordinate.values) for coordinate in some]
+    x = [ResidueVector.dot(weights, coordinate.values) for coordinate in some]
     f = [*spanned.values("rhs", x), spanned.source.constant(1)]
     x.append(spanned.t)
     rates = [x[i] * f[j] + f[i] * x[j] for i, j in pairs]
@@ -63,13 +63,13 @@ def kept_by_gauss(
     place = _on_the_group(space, here)
     on = [*place, here.t]
     of_state = [*on, *(on[i] * on[j] for i, j in pairs)]
-    values = [Residues.dot(row, of_state) for row in quadratics]
+    values = [ResidueVector.dot(row, of_state) for row in quadratics]
     columns = [*values, here.source.constant(1), *here.values(numbers, place)]
     vectors, free = kernel(_rows(columns), len(columns), P)
     first = len(values) + 1
-    listed = [Residues(row, P) for row in quadratics]
+    listed = [ResidueVector(row, P) for row in quadratics]
     relations = [
-        Residues.dot(x[: first - 1], listed).values
+        ResidueVector.dot(x[: first - 1], listed).values
         for x, c in zip(vectors, free, strict=True)
         if c < first
     ]
@@ -86,24 +86,24 @@ class _Points:
     def __init__(
         self, functions: Mapping[str, EmittedFunction], sizes: Mapping[str, int], points: int
     ):
-        self.source, self.functions = ResidueSource(P, points, 1), functions
+        self.source, self.functions = ResidueVectorSource(P, points, 1), functions
         zero = self.source.constant(0)
         self.t = self.draw()
-        body = ResidueSource(P, sizes["p"], 2).randint(0, 1)  # the same for all points
+        body = ResidueVectorSource(P, sizes["p"], 2).randint(0, 1)  # the same for all points
         p = [self.source.constant(v) for v in body.values]
         self.arrays = {"p": p, "u": [zero] * sizes["u"], "t": [self.t]}
         self.arrays["k"] = self._evaluated(functions["constants"])
 
-    def draw(self) -> Residues:
+    def draw(self) -> ResidueVector:
         """A random number at each point."""
         return self.source.randint(0, 1)
 
-    def values(self, name: str, x: Sequence[Residues]) -> list[Residues]:
+    def values(self, name: str, x: Sequence[ResidueVector]) -> list[ResidueVector]:
         """What a function gives at some states."""
         self.arrays["x"] = [*x]
         return self._evaluated(self.functions[name])
 
-    def _evaluated(self, f: EmittedFunction) -> list[Residues]:
+    def _evaluated(self, f: EmittedFunction) -> list[ResidueVector]:
         known: dict[str, Any] = {x.name: self.arrays[x.array][x.index] for x in f.loads}
         for section in f.sections:
             for v in section.values:
@@ -119,23 +119,25 @@ class _Points:
             return self._any_function(str(e[-2]), self._value(e[-1], known))
         parts = [self._value(x, known) for x in e[1:]]
         if e[0] == "none":
-            return Residues([int(x == 0) for x in (parts[0] + self.source.constant(0)).values], P)
+            return ResidueVector(
+                [int(x == 0) for x in (parts[0] + self.source.constant(0)).values], P
+            )
         if e[0] == "div":
             return parts[0] / parts[1]
         return reduce({"add": add, "mul": mul}[e[0]], parts)
 
-    def _any_function(self, name: str, x: Any) -> Residues:
+    def _any_function(self, name: str, x: Any) -> ResidueVector:
         """A function of no property but that it is one; of the name alone."""
-        shifted: Residues = x + self.source.constant(crc32(name.encode()))
+        shifted: ResidueVector = x + self.source.constant(crc32(name.encode()))
         return shifted ** (P // 3 + len(name))
 
 
-def _on_the_group(space: StateSpace, at: _Points) -> list[Residues]:
+def _on_the_group(space: StateSpace, at: _Points) -> list[ResidueVector]:
     """Random states on the group, in the form of a state."""
     if not space.slots:
         return [at.draw() for _ in space.names]
     zero = at.source.constant(0)
-    turned: list[Residues] = []
+    turned: list[ResidueVector] = []
     if space.quaternion:
         v = [at.draw() for _ in range(3)]
         square = reduce(add, (x * x for x in v))
@@ -157,12 +159,12 @@ def _dimension(space: StateSpace) -> int:
     return 2 * space.group.dimension - len([*space.held])
 
 
-def _rows(columns: Sequence[Residues]) -> Iterator[tuple[int, ...]]:
+def _rows(columns: Sequence[ResidueVector]) -> Iterator[tuple[int, ...]]:
     """A matrix by its columns."""
     return zip(*(x.values for x in columns), strict=True)
 
 
-def _slopes(relations: Rows, on: Sequence[Residues], pairs: Sequence[tuple[int, int]]) -> Rows:
+def _slopes(relations: Rows, on: Sequence[ResidueVector], pairs: Sequence[tuple[int, int]]) -> Rows:
     """The derivatives by the state of some quadratics, by rows, at the first point."""
     n, x = len(on), [value.values[0] for value in on]
     slopes = []

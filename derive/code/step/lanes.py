@@ -13,7 +13,7 @@ from typing import Any
 
 from ...language.tree import nodes
 from ..ellipsoid import INTEGRALS, is_integral
-from ..languages import Block, SourcePrinter, Statements, blocks, names
+from ..languages import SectionValues, SourcePrinter, Statements, blocks, names
 from ..program import EmittedFunction, Expression, Load
 
 OF_ONE, OF_EACH = ("t", "x", "u"), ("t", "x", "u", "k")
@@ -75,7 +75,7 @@ class LaneStatements(Statements):
         """The blocks of a function: lines of loads and statements, (index, text) of outputs."""
         return [self._lane_block(b, f) for b in blocks(f)]
 
-    def _lane_block(self, b: Block, f: EmittedFunction) -> dict[str, Any]:
+    def _lane_block(self, b: SectionValues, f: EmittedFunction) -> dict[str, Any]:
         own = [(v.name, self.in_lanes(v.expression)) for v in b.section.values]
         outputs = [(i, self.in_lanes(self._lane(f.outputs[i]))) for i in b.outputs]
         return {

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from ...algebra.structure import Place, Torus
+from ...algebra.structure import Place, TorusLattice
 
 
-def names(torus: Torus) -> tuple[str, ...]:
+def names(torus: TorusLattice) -> tuple[str, ...]:
     """Those of the numbers of the state: re_1_0, im_1_0, …; m for a minus sign."""
     found = ("_".join(str(x).replace("-", "m") for x in n) for n in torus.half_plane)
     return tuple(f"{part}_{x}" for x in found for part in ("re", "im"))
 
 
-def position(torus: Torus, n: Place) -> tuple[int, bool]:
+def position(torus: TorusLattice, n: Place) -> tuple[int, bool]:
     """Where Re ω̂(n) stands in the state, Im being next to it; and is ω̂(n) the conjugate?"""
     first, second = torus.representative(n)
     turned = second < 0 or (second == 0 and first < 0)
@@ -27,7 +27,7 @@ def turned(name: str) -> str:
     return "_".join((part, *opposite))
 
 
-def described(torus: Torus) -> tuple[str, ...]:
+def described(torus: TorusLattice) -> tuple[str, ...]:
     """The state in words, for the head of a file."""
     h = torus.half
     return (

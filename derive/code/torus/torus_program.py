@@ -14,11 +14,11 @@ from decimal import Decimal, localcontext
 from fractions import Fraction
 from typing import NamedTuple
 
-from ...algebra.structure import Place, Torus
+from ...algebra.structure import Place, TorusLattice
 from ...record.record import Derivation
 from ..factor import factored
 from ..graph import Graph, Node
-from ..kept import Event, table, values_of
+from ..kept import EmittedEvent, table, values_of
 from ..naming import ClaimedNames
 from ..options import Options
 from ..program import EmittedFunction, Load, LoweringError, Program
@@ -66,7 +66,10 @@ class Loops:
 
 
 def torus_program(
-    d: Derivation, torus: Torus, options: Options | None = None, events: Sequence[Event] = ()
+    d: Derivation,
+    torus: TorusLattice,
+    options: Options | None = None,
+    events: Sequence[EmittedEvent] = (),
 ) -> Program:
     """The program of a record on the torus; ``LoweringError`` for an option that it has not.
     ``events``: what is watched on a motion."""
@@ -132,7 +135,7 @@ def require_on_torus(d: Derivation, chosen: Options) -> None:
             )
 
 
-def _scratch(torus: Torus) -> tuple[str, ...]:
+def _scratch(torus: TorusLattice) -> tuple[str, ...]:
     N, h = torus.N, torus.half
     row, part = -(-N // 4) * 4, -(-(h + 1) // 4) * 4  # in C rows are of a multiple of four numbers
     numbers = (
@@ -147,7 +150,9 @@ def _scratch(torus: Torus) -> tuple[str, ...]:
 # -- written out ---------------------------------------------------------------------------------
 
 
-def _written_out(d: Derivation, torus: Torus) -> tuple[dict[str, EmittedFunction], tuple[str, ...]]:
+def _written_out(
+    d: Derivation, torus: TorusLattice
+) -> tuple[dict[str, EmittedFunction], tuple[str, ...]]:
     """The functions of the record's equations, term by term, and the names of the constants."""
     graph = Graph()
     state = _leaves(graph, torus)
@@ -167,7 +172,7 @@ def _written_out(d: Derivation, torus: Torus) -> tuple[dict[str, EmittedFunction
     return functions, constants
 
 
-def _leaves(graph: Graph, torus: Torus) -> dict[str, Node]:
+def _leaves(graph: Graph, torus: TorusLattice) -> dict[str, Node]:
     return {x: graph.leaf(x, "state") for x in names(torus)}
 
 
@@ -175,7 +180,7 @@ def _places(claimed: ClaimedNames, state: Mapping[str, Node]) -> dict[Node, tupl
     return {x: (claimed.claim(name, name), ("x", i)) for i, (name, x) in enumerate(state.items())}
 
 
-def _watched(name: str, torus: Torus, events: Sequence[Event]) -> EmittedFunction:
+def _watched(name: str, torus: TorusLattice, events: Sequence[EmittedEvent]) -> EmittedFunction:
     """What becomes 0 at each event."""
     graph, claimed = Graph(), ClaimedNames()
     state = _leaves(graph, torus)
@@ -187,7 +192,7 @@ def _watched(name: str, torus: Torus, events: Sequence[Event]) -> EmittedFunctio
 # -- loops ---------------------------------------------------------------------------------------
 
 
-def loops(torus: Torus, looped: Collection[str]) -> Loops:
+def loops(torus: TorusLattice, looped: Collection[str]) -> Loops:
     """The tables for one N."""
     N, h = torus.N, torus.half
     turn, product = 4 * h * (h + 1) ** 2, 4 * N**3
@@ -212,7 +217,7 @@ def loops(torus: Torus, looped: Collection[str]) -> Loops:
     )
 
 
-def _terms(torus: Torus, n: Place) -> tuple[Term, ...]:
+def _terms(torus: TorusLattice, n: Place) -> tuple[Term, ...]:
     """The terms of dω̂(n)/dt, m and n − m together: their sines are opposite."""
     found = []
     for m in torus.places:
@@ -252,7 +257,7 @@ def _cosine(turns: Fraction) -> Fraction:
         return Fraction(total)
 
 
-def _looped(torus: Torus) -> dict[str, EmittedFunction]:
+def _looped(torus: TorusLattice) -> dict[str, EmittedFunction]:
     """Functions of which only what they read and how much they write is said here."""
 
     def hollow(count: int) -> EmittedFunction:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any, NamedTuple
 
-from ...algebra.structure import Place, Torus
+from ...algebra.structure import Place, TorusLattice
 from ...language.tree import Tree, mul
 from ..graph import Graph, Node
 from ..program import LoweringError
@@ -25,7 +25,7 @@ class Complex(NamedTuple):
 class WrittenOut:
     """Trees of the record as pairs of nodes; ``leaves``: the numbers of the state."""
 
-    def __init__(self, torus: Torus, graph: Graph, leaves: list[Node]):
+    def __init__(self, torus: TorusLattice, graph: Graph, leaves: list[Node]):
         self.torus, self.graph, self.leaves = torus, graph, leaves
         self.pi = graph.product((graph.num(4), graph.function("atan", graph.num(1))))
 

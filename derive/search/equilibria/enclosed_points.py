@@ -10,7 +10,7 @@ from typing import Any
 
 from ...language import rational as q
 from ...language.univariate import Number, Quadratic
-from ..integrals.all_integrals import Found
+from ..integrals.all_integrals import IntegralsFound
 from ..integrals.lie_poisson import LiePoisson, Polynomial, plain
 from .energy_casimir import diagonalised, signs
 from .entries_of_elements import Line, numbers
@@ -54,7 +54,7 @@ class Enclosed:
         return "stable" if 0 in self.signature else "unstable" if self.grows else "open"
 
 
-def enclosed(whole: Found, values: Mapping[str, Number], on: Elements) -> Enclosed:
+def enclosed(whole: IntegralsFound, values: Mapping[str, Number], on: Elements) -> Enclosed:
     """The equilibrium near a point, on its level of the Casimirs, where those of the entries of g
     have the values of the group; ``NoEquilibriumError`` where none is found or enclosed, or it is
     not proved that an element of the group has its entries, which satisfy ``on``."""
@@ -246,7 +246,7 @@ def near_the_group(
     is proved: what is constant on the group is a combination of the Casimirs."""
     one = (0,) * len(about.at)
     levels = [{**f, one: f.get(one, 0) - c} for f, c in zip(kept, level, strict=True)]
-    at = [Ball(rational(x), radius) for x in about.at]
+    at = [Disc(rational(x), radius) for x in about.at]
     return all(
         (x.sufficient or (x.open and x.attained(about.at) and invertible(_balls(x.entries, at))))
         and all(_spanned(f, group_value(about.system, f, Fraction(0)), levels) for f in x.constant)
@@ -265,8 +265,8 @@ def _spanned(f: Polynomial, value: Number, levels: Sequence[Polynomial]) -> bool
     return q.rank(q.matrix(rows)) == q.rank(q.matrix(rows[:-1]))
 
 
-def _balls(matrix: Sequence[Line], at: Sequence[Ball]) -> Balls:
-    return [[*row] for row in numbers(matrix, at, lambda c: Ball(Fraction(c)))]
+def _balls(matrix: Sequence[Line], at: Sequence[Disc]) -> Balls:
+    return [[*row] for row in numbers(matrix, at, lambda c: Disc(Fraction(c)))]
 
 
 def independent(rows: Balls) -> bool:
@@ -281,27 +281,27 @@ def invertible(a: Balls) -> bool:
     return abs(found.mid) > found.off
 
 
-def determinant(a: Balls) -> Ball:
+def determinant(a: Balls) -> Disc:
     """The determinant of a square matrix."""
-    return characteristic(a)[-1] * Ball(Fraction((-1) ** len(a)))
+    return characteristic(a)[-1] * Disc(Fraction((-1) ** len(a)))
 
 
 # -- instability ---------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
-class Ball:
+class Disc:
     """The numbers at a distance of at most ``off`` from ``mid``."""
 
     mid: Fraction
     off: Fraction = Fraction(0)
 
-    def __add__(self, other: Ball) -> Ball:
-        return Ball(self.mid + other.mid, self.off + other.off)
+    def __add__(self, other: Disc) -> Disc:
+        return Disc(self.mid + other.mid, self.off + other.off)
 
-    def __mul__(self, other: Ball) -> Ball:
+    def __mul__(self, other: Disc) -> Disc:
         off = abs(self.mid) * other.off + abs(other.mid) * self.off + self.off * other.off
-        return Ball(self.mid * other.mid, off)
+        return Disc(self.mid * other.mid, off)
 
     @property
     def positive(self) -> bool:
@@ -314,7 +314,7 @@ class Ball:
         return self.mid + self.off < 0
 
 
-Balls = list[list[Ball]]
+Balls = list[list[Disc]]
 
 
 def grows(about: About, kept: Sequence[Polynomial], radius: Fraction) -> bool:
@@ -325,14 +325,14 @@ def grows(about: About, kept: Sequence[Polynomial], radius: Fraction) -> bool:
     borders = [_slopes(about.expansion(f), radius) for f in kept]
     tensor = [
         [
-            Ball(rational(x), radius * sum(map(abs, about.system.bracket(i, j).values())))
+            Disc(rational(x), radius * sum(map(abs, about.system.bracket(i, j).values())))
             for j, x in enumerate(row)
         ]
         for i, row in enumerate(about.tensor)
     ]
     whole = [[*row, *(b[i] for b in borders)] for i, row in enumerate(tensor)]
     whole += [
-        [*(Ball(-x.mid, x.off) for x in b), *[Ball(Fraction(0))] * len(kept)] for b in borders
+        [*(Disc(-x.mid, x.off) for x in b), *[Disc(Fraction(0))] * len(kept)] for b in borders
     ]
     inverse = q.inverse(q.matrix([[x.mid for x in row] for row in whole]))
     if inverse is None or contraction(inverse, [[x.off for x in row] for row in whole]) >= 1:
@@ -341,20 +341,20 @@ def grows(about: About, kept: Sequence[Polynomial], radius: Fraction) -> bool:
     return any(x.negative for x in coefficients) or _breaks_newton(coefficients)
 
 
-def _slopes(e: Expansion, radius: Fraction) -> list[Ball]:
+def _slopes(e: Expansion, radius: Fraction) -> list[Disc]:
     """The first derivatives of a polynomial within a radius."""
     found = []
     for j, x in enumerate(e.slope):
         terms = ((m, c) for m, c in terms_of(e).items() if sum(m) > 1 and m[j])
         off = sum((abs(c) * m[j] * radius ** (sum(m) - 1) for m, c in terms), Fraction(0))
-        found.append(Ball(rational(x), off))
+        found.append(Disc(rational(x), off))
     return found
 
 
-def characteristic(a: Balls) -> list[Ball]:
+def characteristic(a: Balls) -> list[Disc]:
     """The characteristic polynomial from the highest power (Faddeev and Le Verrier)."""
     places = range(len(a))
-    zero, found = Ball(Fraction(0)), [Ball(Fraction(1))]
+    zero, found = Disc(Fraction(0)), [Disc(Fraction(1))]
     power: Balls = [[zero] * len(a) for _ in places]
     for k in range(1, len(a) + 1):
         inside = [[power[i][j] + (found[-1] if i == j else zero) for j in places] for i in places]
@@ -362,17 +362,17 @@ def characteristic(a: Balls) -> list[Ball]:
             [sum((a[i][m] * inside[m][j] for m in places), zero) for j in places] for i in places
         ]
         trace = sum((power[i][i] for i in places), zero)
-        found.append(trace * Ball(Fraction(-1, k)))
+        found.append(trace * Disc(Fraction(-1, k)))
     return found
 
 
-def _breaks_newton(c: Sequence[Ball]) -> bool:
+def _breaks_newton(c: Sequence[Disc]) -> bool:
     """Is c_j² (j)(d − j) < c_{j−1} c_{j+1} (j + 1)(d − j + 1) for some j, surely?"""
     d = len(c) - 1
     return any(
         (
-            c[j] * c[j] * Ball(Fraction(j * (d - j)))
-            + c[j - 1] * c[j + 1] * Ball(Fraction(-(j + 1) * (d - j + 1)))
+            c[j] * c[j] * Disc(Fraction(j * (d - j)))
+            + c[j - 1] * c[j + 1] * Disc(Fraction(-(j + 1) * (d - j + 1)))
         ).negative
         for j in range(1, d)
     )

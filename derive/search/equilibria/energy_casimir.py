@@ -48,7 +48,7 @@ def leaf(about: About) -> Leaf:
 
 
 @dataclass(frozen=True)
-class Form:
+class EnergyCasimirForm:
     """F about an equilibrium.  ``multipliers``: λ; ``squares``: the d_k with the ℓ_k, rows over all
     coordinates; ``mixed``: the m_j, likewise; ``whole``: is Q definite beyond T, too?"""
 
@@ -70,7 +70,7 @@ def signs(squares: Sequence[tuple[Number, Vector]]) -> tuple[int, int]:
     return positive, len(squares) - positive
 
 
-def form(about: About, on: Leaf, conserved: Sequence[Polynomial]) -> Form | None:
+def form(about: About, on: Leaf, conserved: Sequence[Polynomial]) -> EnergyCasimirForm | None:
     """The form, its free multipliers chosen such that it is definite on T where one of them can
     make it so; ``None`` where no multipliers make dF = 0."""
     energy = about.expansion(about.algebra.hamiltonian)
@@ -79,7 +79,7 @@ def form(about: About, on: Leaf, conserved: Sequence[Polynomial]) -> Form | None
     if choices is None:
         return None
     start, freedom = choices
-    first: Form | None = None
+    first: EnergyCasimirForm | None = None
     for multipliers in _tried(start, freedom, energy, kept, on):
         found = _form(multipliers, energy, kept, on)
         first = first or found
@@ -88,7 +88,7 @@ def form(about: About, on: Leaf, conserved: Sequence[Polynomial]) -> Form | None
     return first
 
 
-def definite(found: Form, on: Leaf) -> bool:
+def definite(found: EnergyCasimirForm, on: Leaf) -> bool:
     """Is the form definite on the tangent space of the leaf?"""
     return len(on.free) in found.signature
 
@@ -161,7 +161,9 @@ def restricted(second: Matrix, on: Leaf) -> Matrix:
     return times(transposed(on.basis), times(second, on.basis))
 
 
-def _form(multipliers: Vector, energy: Expansion, kept: Sequence[Expansion], on: Leaf) -> Form:
+def _form(
+    multipliers: Vector, energy: Expansion, kept: Sequence[Expansion], on: Leaf
+) -> EnergyCasimirForm:
     second = _second(multipliers, energy, kept)
     n = len(second)
     pairs = [*zip(multipliers, kept, strict=True)]
@@ -182,7 +184,7 @@ def _form(multipliers: Vector, energy: Expansion, kept: Sequence[Expansion], on:
         mixed.append(row)
     signs = [d for d, _ in diagonalised(second)]
     whole = len(signs) == n and len({d > 0 for d in signs}) == 1
-    return Form((*multipliers,), expansion, squares, mixed, whole)
+    return EnergyCasimirForm((*multipliers,), expansion, squares, mixed, whole)
 
 
 def along_the_orbit(about: About, on: Leaf) -> Matrix:

@@ -36,7 +36,7 @@ class Minor:
 
 
 @dataclass(frozen=True)
-class Conditions:
+class EntryConditions:
     """What the entries of g satisfy in a factor of the group.  ``constant``: polynomials that have
     their values at 1; ``independent``: matrices with independent rows; ``positive``: those with a
     positive determinant.
@@ -92,7 +92,7 @@ def numbers(
     return tuple(tuple(map(value, row)) for row in matrix)
 
 
-def conditions(system: LiePoisson, group: Group, *, left: bool) -> tuple[Conditions, ...]:
+def conditions(system: LiePoisson, group: Group, *, left: bool) -> tuple[EntryConditions, ...]:
     """The conditions of every factor of a group in which entries of g are variables; ``left``: is
     it Z = g⁻¹ġ?"""
     found = []
@@ -105,12 +105,12 @@ def conditions(system: LiePoisson, group: Group, *, left: bool) -> tuple[Conditi
         inside = {k: x for k, x in places.items() if all(0 <= i < factor.size for i in x)}
         if inside:
             found.append(
-                _Reader(factor, inside, offset, len(system.variables)).conditions(left=left)
+                _EntryReader(factor, inside, offset, len(system.variables)).conditions(left=left)
             )
     return tuple(found)
 
 
-class _Reader:
+class _EntryReader:
     """The entries of an element of a factor, by those that are variables."""
 
     def __init__(
@@ -154,7 +154,7 @@ class _Reader:
         rest = start - sum((c for c, (i, j) in pairs if i == j), Fraction(0))
         return found | ({ONE: rest} if rest else {})
 
-    def conditions(self, *, left: bool) -> Conditions:
+    def conditions(self, *, left: bool) -> EntryConditions:
         """All of them."""
         n, kept = self.factor.n, self.kept
         whole = [row[:n] for row in self.entries[:n]]
@@ -180,7 +180,7 @@ class _Reader:
         ]
         if full and not (kept.none and not self.factor.larger):
             positive.append(Minor(whole, "the determinant of g"))
-        return Conditions(
+        return EntryConditions(
             tuple(f for f in constant if any(map(any, f))),
             tuple(self._named(*x) for x in lines if x[1]),
             tuple(positive),

@@ -14,11 +14,11 @@ from ...language.limits import Refused
 from ...language.reserved import suffixed
 from ...language.tree import Tree
 from ...language.univariate import Number, value_of
-from ..integrals.lie_poisson import ONE, Algebra, LiePoisson, Polynomial
-from .entries_of_elements import Conditions, numbers
+from ..integrals.lie_poisson import ONE, LiePoisson, PoissonPolynomials, Polynomial
+from .entries_of_elements import EntryConditions, numbers
 
 Point = tuple[Number, ...]
-Elements = Sequence[Conditions]
+Elements = Sequence[EntryConditions]
 """What the entries of g at a point satisfy, in every factor of the group."""
 Matrix = Sequence[Sequence[Number]]
 
@@ -46,7 +46,7 @@ class About:
     at: Point
 
     @property
-    def algebra(self) -> Algebra:
+    def algebra(self) -> PoissonPolynomials:
         """The ring of the polynomials."""
         return self.system.algebra
 

@@ -17,11 +17,11 @@ from functools import cached_property
 
 from ...language.rational import times
 from ...language.univariate import Number, RealRoots, grows, real_roots
-from ..integrals.all_integrals import Found
+from ..integrals.all_integrals import IntegralsFound
 from ..integrals.lie_poisson import ONE, LiePoisson
 from ..integrals.reduced import NotReducedError
 from .energy_casimir import (
-    Form,
+    EnergyCasimirForm,
     Leaf,
     along_the_orbit,
     diagonalised,
@@ -44,7 +44,7 @@ class Equilibrium:
 
     about: About
     leaf: Leaf
-    form: Form | None
+    form: EnergyCasimirForm | None
     linear: Matrix
     characteristic: tuple[Number, ...]
     squares: RealRoots
@@ -105,7 +105,7 @@ class Equilibrium:
         return max((x.real for x in found), default=0.0)
 
 
-def require_numbers(whole: Found) -> None:
+def require_numbers(whole: IntegralsFound) -> None:
     """``NotReducedError`` where parameters have no numbers."""
     if whole.system.parameters:
         reason = "π is none: of a density that is a mass over a volume, it cancels"
@@ -115,7 +115,7 @@ def require_numbers(whole: Found) -> None:
 
 
 def equilibria_of(
-    whole: Found, values: Mapping[str, Number], on: Elements
+    whole: IntegralsFound, values: Mapping[str, Number], on: Elements
 ) -> tuple[Equilibrium, ...]:
     """The equilibrium at a point, or those among the points that are tried where none is given;
     ``NotReducedError`` where parameters have no numbers.  ``on``: what entries of g satisfy."""
@@ -125,7 +125,7 @@ def equilibria_of(
     return tuple(judged(whole, about, on) for about in found)
 
 
-def judged(whole: Found, about: About, elements: Elements) -> Equilibrium:
+def judged(whole: IntegralsFound, about: About, elements: Elements) -> Equilibrium:
     """An equilibrium with what is proved of it."""
     on = leaf(about)
     over = about.algebra.over_the_field

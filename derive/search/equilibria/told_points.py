@@ -11,16 +11,16 @@ from ...language.univariate import tree as plain
 from ...record.record import Equation, Step
 from ...record.sentence import Prose
 from ...walk.chapter import Chapter, Draft, say
-from ..integrals.all_integrals import Found
+from ..integrals.all_integrals import IntegralsFound
 from ..integrals.told_integrals import rate
 from .enclosed_points import Enclosed, less
-from .energy_casimir import Form, Leaf
+from .energy_casimir import EnergyCasimirForm, Leaf
 from .equilibrium_points import About, Expansion
 from .stability import Equilibrium
 
 
 def told(
-    whole: Found,
+    whole: IntegralsFound,
     found: Sequence[Equilibrium],
     steps: Sequence[Step],
     c: Chapter,
@@ -42,7 +42,9 @@ def told(
     return tuple(told_steps)
 
 
-def told_enclosed(whole: Found, x: Enclosed, steps: Sequence[Step], c: Chapter) -> tuple[Step, ...]:
+def told_enclosed(
+    whole: IntegralsFound, x: Enclosed, steps: Sequence[Step], c: Chapter
+) -> tuple[Step, ...]:
     """Two steps: the rates about the decimals, and the energy with multiples of the Casimirs."""
     by_label = {s.label: s for s in steps}
     reduced, kept, integrals = (
@@ -61,7 +63,7 @@ def told_enclosed(whole: Found, x: Enclosed, steps: Sequence[Step], c: Chapter) 
     return rates, _enclosure(whole, x, (*made_from, rates), c)
 
 
-def _enclosure(whole: Found, x: Enclosed, made_from: Iterable[Step], c: Chapter) -> Step:
+def _enclosure(whole: IntegralsFound, x: Enclosed, made_from: Iterable[Step], c: Chapter) -> Step:
     """The Casimirs less their values on the level, and the energy with multiples of them."""
     draft = c.draft("enclosure_1", "enclosure")
     draft.depends_on(*made_from)
@@ -178,7 +180,12 @@ def _power(x: Tree, k: int) -> Tree:
 
 
 def _form(
-    whole: Found, x: Equilibrium, form: Form, label: str, made_from: Iterable[Step], c: Chapter
+    whole: IntegralsFound,
+    x: Equilibrium,
+    form: EnergyCasimirForm,
+    label: str,
+    made_from: Iterable[Step],
+    c: Chapter,
 ) -> Step:
     """The energy with multiples of what is kept: a constant, squares, and what vanishes on the
     leaf."""
@@ -200,7 +207,7 @@ def _form(
     return draft.step([equation], prose + _verdict(draft, x))
 
 
-def _beside(on: Leaf, form: Form, away: Sequence[Tree]) -> list[Tree]:
+def _beside(on: Leaf, form: EnergyCasimirForm, away: Sequence[Tree]) -> list[Tree]:
     """The products n_j m_j, which vanish on the tangent space of the leaf."""
     return [_product(n, m, away) for n, m in zip(on.equations, form.mixed, strict=True) if any(m)]
 

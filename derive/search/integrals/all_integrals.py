@@ -10,8 +10,8 @@ from random import Random
 from typing import Any, TypeVar
 
 from ...language.limits import tell
-from .degree_search import Point, Search, UnluckyError, blocks, point, unknowns
-from .lie_poisson import Algebra, Level, LiePoisson, Polynomial, rank_modulo
+from .degree_search import PolynomialSearch, PrimePoint, UnluckyPrimeError, blocks, point, unknowns
+from .lie_poisson import Level, LiePoisson, PoissonPolynomials, Polynomial, rank_modulo
 from .parameter_cases import Case, Cases, Grading, grading
 
 ATTEMPTS = 6
@@ -44,7 +44,7 @@ class Condition:
 
 
 @dataclass(frozen=True)
-class Conditions:
+class ParameterConditions:
     """The ``conditions`` on the parameters, all but those within the ``unsolved``: cases with a
     polynomial where it vanishes."""
 
@@ -54,7 +54,7 @@ class Conditions:
 
 
 @dataclass(frozen=True)
-class Found:
+class IntegralsFound:
     """Casimirs and integrals, polynomials of the ring of the algebra (over Z in the variables and
     the parameters), of at most a ``degree`` in the ``grading``.
 
@@ -71,10 +71,10 @@ class Found:
     fresh: tuple[bool, ...]
     proved: Integrability
     levels: tuple[OnLevel, ...] = ()
-    conditions: Conditions | None = None
+    conditions: ParameterConditions | None = None
 
 
-def found(system: LiePoisson, degree: int) -> Found:
+def found(system: LiePoisson, degree: int) -> IntegralsFound:
     """All Casimirs and integrals up to a degree, for generic values of the parameters.
 
     Each is verified by exact brackets; that there are no more is proved, too.
@@ -86,33 +86,33 @@ def casimirs(system: LiePoisson, degree: int) -> list[Any]:
     """All Casimirs up to a degree, whatever the energy is."""
     algebra, by = system.algebra, grading(system)
     every = [algebra.along(j) for j in range(algebra.size)]
-    return _lucky(system, lambda at: _all(Search(algebra, by, every, at), degree, []))
+    return _lucky(system, lambda at: _all(PolynomialSearch(algebra, by, every, at), degree, []))
 
 
-def _lucky(system: LiePoisson, searched: Callable[[Point], T]) -> T:
+def _lucky(system: LiePoisson, searched: Callable[[PrimePoint], T]) -> T:
     """What is found at the first point of the parameters that is like a generic one."""
     for attempt in range(ATTEMPTS):
         try:
             return searched(point(system.algebra, attempt))
-        except UnluckyError:
+        except UnluckyPrimeError:
             continue
     raise ArithmeticError("no point of the parameters modulo a prime is like a generic one")
 
 
-def _found(system: LiePoisson, degree: int, at: Point) -> Found:
+def _found(system: LiePoisson, degree: int, at: PrimePoint) -> IntegralsFound:
     algebra, by = system.algebra, grading(system)
     blocks(by, Fraction(degree))  # the largest first: too large a degree is refused at once
-    every = Search(algebra, by, [algebra.along(j) for j in range(algebra.size)], at)
-    flow = Search(algebra, by, [algebra.flow], at)
+    every = PolynomialSearch(algebra, by, [algebra.along(j) for j in range(algebra.size)], at)
+    flow = PolynomialSearch(algebra, by, [algebra.flow], at)
     casimirs = _all(every, degree, [])
     integrals = _all(flow, degree, [*casimirs, algebra.energy])
     proved = integrability(algebra, casimirs, integrals, at)
     new = fresh(algebra, casimirs, integrals, at)
-    whole = Found(system, degree, by, (*casimirs,), (*integrals,), (*new,), proved)
+    whole = IntegralsFound(system, degree, by, (*casimirs,), (*integrals,), (*new,), proved)
     return whole if proved.complete else _with_levels(whole, flow)
 
 
-def _all(search: Search, degree: int, known: Sequence[Any]) -> list[Any]:
+def _all(search: PolynomialSearch, degree: int, known: Sequence[Any]) -> list[Any]:
     """The polynomials found degree by degree that are none in the ``known`` and those before."""
     over = search.algebra.over_the_field
     found: list[Any] = []
@@ -134,7 +134,7 @@ def degrees(by: Grading, most: int) -> Iterator[Fraction]:
     return (Fraction(k, unit) for k in range(1, most * unit + 1))
 
 
-def _with_levels(whole: Found, flow: Search) -> Found:
+def _with_levels(whole: IntegralsFound, flow: PolynomialSearch) -> IntegralsFound:
     """The same, with the integrals on levels of its Casimirs."""
     algebra = whole.system.algebra
     levels = []
@@ -176,10 +176,10 @@ class Integrability:
 
 
 def integrability(
-    algebra: Algebra,
+    algebra: PoissonPolynomials,
     casimirs: Sequence[Any],
     integrals: Sequence[Any],
-    at: Point,
+    at: PrimePoint,
     level: Level | None = None,
 ) -> Integrability:
     """What is proved by these Casimirs and integrals beside H; on a level of a Casimir alone, where
@@ -194,10 +194,10 @@ def integrability(
 
 
 @dataclass(frozen=True)
-class Place:
+class PoissonPoint:
     """A point of the variables, modulo a prime, at a point of the parameters."""
 
-    at: Point
+    at: PrimePoint
     x: tuple[int, ...]
 
     def differential(self, f: Polynomial) -> list[int]:
@@ -217,23 +217,23 @@ def _lower(e: tuple[int, ...], i: int) -> tuple[int, ...]:
     return (*e[:i], e[i] - 1, *e[i + 1 :])
 
 
-def _place(algebra: Algebra, at: Point, level: Level | None) -> Place:
+def _place(algebra: PoissonPolynomials, at: PrimePoint, level: Level | None) -> PoissonPoint:
     """A point, the same at every run; on the level, where a Casimir vanishes that is linear in its
     leading variable."""
     random = Random("independence")
     x = [random.randrange(1, at.p) for _ in range(algebra.size)]
     if level is not None:
         i = level.lead.index(1)
-        without = Place(at, (*x[:i], 0, *x[i + 1 :]))
+        without = PoissonPoint(at, (*x[:i], 0, *x[i + 1 :]))
         terms = {e: c % at.p for e, c in level.rest.items()}
         total = sum(c * without.monomial(e) for e, c in terms.items())
         factor = without.monomial(_lower(level.lead, i))
         x[i] = total * pow(factor, -1, at.p) % at.p
-    return Place(at, tuple(x))
+    return PoissonPoint(at, tuple(x))
 
 
 def _independent(
-    place: Place, f: Any, before: Sequence[list[int]] = ()
+    place: PoissonPoint, f: Any, before: Sequence[list[int]] = ()
 ) -> list[tuple[int, list[int]]]:
     """The polynomials whose differentials are independent of those before, by their numbers, with
     these differentials."""
@@ -246,7 +246,9 @@ def _independent(
     return chosen
 
 
-def fresh(algebra: Algebra, known: Sequence[Any], f: Sequence[Any], at: Point) -> list[bool]:
+def fresh(
+    algebra: PoissonPolynomials, known: Sequence[Any], f: Sequence[Any], at: PrimePoint
+) -> list[bool]:
     """For each polynomial: is it functionally independent of H, the known and those before?"""
     over, place = algebra.over_the_field, _place(algebra, at, None)
     start = [row for _, row in _independent(place, [*map(over, known), algebra.energy])]
@@ -254,7 +256,7 @@ def fresh(algebra: Algebra, known: Sequence[Any], f: Sequence[Any], at: Point) -
     return [k in chosen for k, _ in enumerate(f)]
 
 
-def poisson_rank(algebra: Algebra, place: Place) -> int:
+def poisson_rank(algebra: PoissonPolynomials, place: PoissonPoint) -> int:
     """The rank of the Poisson tensor at a point."""
     n = algebra.size
     rows = [[0] * n for _ in range(n)]
@@ -269,7 +271,7 @@ def poisson_rank(algebra: Algebra, place: Place) -> int:
 class _Involution:
     """Which pairs of H and some integrals, by their places, are in involution."""
 
-    algebra: Algebra
+    algebra: PoissonPolynomials
     integrals: Sequence[Any]
     level: Level | None
     known: dict[tuple[int, int], bool] = field(default_factory=dict)

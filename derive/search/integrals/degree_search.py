@@ -16,9 +16,9 @@ from ...algebra.exact_kernel import pivots
 from ...language.limits import Refused
 from .lie_poisson import (
     PRIMES,
-    Algebra,
     Exponents,
     Level,
+    PoissonPolynomials,
     Polynomial,
     kernel_modulo,
     kernel_vector,
@@ -39,7 +39,7 @@ class TooLargeError(Refused, ValueError):
     """A linear system over the limits: the message says its size."""
 
 
-class UnluckyError(Exception):
+class UnluckyPrimeError(Exception):
     """Modulo this prime, at these values of the parameters, there are more solutions than over the
     field: another prime has not."""
 
@@ -49,7 +49,7 @@ Residues = dict[Exponents, int]
 
 
 @dataclass(frozen=True)
-class Point:
+class PrimePoint:
     """A prime, and values of the parameters modulo it."""
 
     p: int
@@ -67,9 +67,9 @@ class Point:
         return self._polynomial(c.numer) * self.inverse(self._polynomial(c.denom)) % self.p
 
     def inverse(self, x: int) -> int:
-        """1/x; ``UnluckyError`` where the prime divides x."""
+        """1/x; ``UnluckyPrimeError`` where the prime divides x."""
         if not x % self.p:
-            raise UnluckyError
+            raise UnluckyPrimeError
         return pow(x, -1, self.p)
 
     def _polynomial(self, f: Any) -> int:
@@ -80,11 +80,11 @@ class Point:
         return total % self.p
 
 
-def point(algebra: Algebra, attempt: int) -> Point:
+def point(algebra: PoissonPolynomials, attempt: int) -> PrimePoint:
     """The point of an attempt: the same at every run."""
     p = PRIMES[attempt % len(PRIMES)]
     random = Random(f"integrals {attempt}")
-    return Point(p, tuple(random.randrange(1, p) for _ in algebra.letters))
+    return PrimePoint(p, tuple(random.randrange(1, p) for _ in algebra.letters))
 
 
 # -- monomials ----------------------------------------------------------------------------------
@@ -256,22 +256,22 @@ def times(f: Polynomial, g: Polynomial, p: int) -> Polynomial:
 
 
 @dataclass(frozen=True)
-class Search:
+class PolynomialSearch:
     """The search of polynomials on which derivations vanish, at one point of the parameters.
 
     ``derivations``: for each, i → its value on x_i, over the field.  ``level``: they are to vanish
     where a Casimir does, and polynomials count as equal that are equal there.
     """
 
-    algebra: Algebra
+    algebra: PoissonPolynomials
     grading: Grading
     derivations: Sequence[Mapping[int, Polynomial]]
-    at: Point
+    at: PrimePoint
     level: Level | None = None
 
     def of_degree(self, degree: Fraction, known: Sequence[Polynomial]) -> list[Any]:
         """Polynomials of the ring that span, with the products of the ``known``, all on which the
-        derivations vanish; ``UnluckyError`` where one of them is of this point alone."""
+        derivations vanish; ``UnluckyPrimeError`` where one of them is of this point alone."""
         p = self.at.p
         basis = [(self.at.residues(f), self.grading.largest(f)) for f in known]
         exactly = self.grading.homogeneous
@@ -291,7 +291,7 @@ class Search:
 
     def lifted(self, support: Sequence[Exponents]) -> Any:
         """The polynomial of the ring in these monomials on which the derivations vanish, verified
-        over the field; ``UnluckyError`` where there is none."""
+        over the field; ``UnluckyPrimeError`` where there is none."""
         algebra, field = self.algebra, self.algebra.field
         rows = self._rows(support, self._at_point)
         exact = self._rows(support, self.derivations)
@@ -300,15 +300,15 @@ class Search:
             few = _independent(rows, len(support), self.at.p)
             found = kernel_vector([exact[i] for i in few], len(support), field)
             if found is None:
-                raise UnluckyError
+                raise UnluckyPrimeError
             vector = found
         f = algebra.cleared(dict(zip(support, vector, strict=True)))
         own = algebra.over_the_field(f)
         if not self.at.residues(own):  # else it is the vector of the kernel modulo the prime
-            raise UnluckyError
+            raise UnluckyPrimeError
         for row in exact.values():
             if sum((x * own[support[j]] for j, x in row.items()), field.zero) != 0:
-                raise UnluckyError
+                raise UnluckyPrimeError
         return f
 
     @cached_property

@@ -43,12 +43,12 @@ class LiePoisson:
         return {k: -c for k, c in self.brackets.get((j, i), {}).items()}
 
     @cached_property
-    def algebra(self) -> Algebra:
+    def algebra(self) -> PoissonPolynomials:
         """The ring in which brackets are computed."""
-        return Algebra(self)
+        return PoissonPolynomials(self)
 
 
-class Algebra:
+class PoissonPolynomials:
     """The polynomials of Lie–Poisson equations: of integrals in the ring Z[x, parameters]; of H and
     of its flow, exponents of x → coefficients in the field Q(parameters).
 
@@ -263,7 +263,7 @@ def powers(names: Sequence[Tree], exponents: Exponents) -> list[Tree]:
 class Level:
     """The polynomials modulo a Casimir over Z with leading coefficient 1 or −1."""
 
-    def __init__(self, algebra: Algebra, casimir: Any):
+    def __init__(self, algebra: PoissonPolynomials, casimir: Any):
         size = algebra.size
         terms = {m[:size]: int(c) for m, c in casimir.items()}
         self.casimir, self.lead = casimir, max(terms)
@@ -272,7 +272,7 @@ class Level:
         self.normal = cache(self._normal)
 
     @staticmethod
-    def possible(algebra: Algebra, casimir: Any) -> bool:
+    def possible(algebra: PoissonPolynomials, casimir: Any) -> bool:
         """Is it without parameters, of leading coefficient 1 or −1, with a linear factor in that
         term, and can it vanish: has every term a momentum?  Casimirs of the entries of g alone
         have the values that the group gives them."""

@@ -11,7 +11,7 @@ from typing import Any
 
 from ...algebra.exact_kernel import kernel
 from ...language import rational as q
-from .lie_poisson import ONE, Algebra, Exponents, LiePoisson, Polynomial
+from .lie_poisson import ONE, Exponents, LiePoisson, PoissonPolynomials, Polynomial
 
 Values = dict[int, Any]
 """The place of a letter → its value in the field, in the other letters."""
@@ -33,7 +33,7 @@ class Cases:
     ``units``: polynomials that vanish nowhere, the factors of the denominators of H.
     """
 
-    def __init__(self, algebra: Algebra):
+    def __init__(self, algebra: PoissonPolynomials):
         self.field, self.ring = algebra.field, algebra.field.field.ring
         self.positive = {*_positive(algebra)}
         below = (c.denom for c in algebra.hamiltonian.values())
@@ -201,7 +201,7 @@ class Cases:
         return len({s for _, s in signs}) == 2
 
 
-def _positive(algebra: Algebra) -> Iterable[int]:
+def _positive(algebra: PoissonPolynomials) -> Iterable[int]:
     """The letters q with c/q, c > 0, as the coefficient of the square of a momentum in H."""
     for a in range(algebra.system.momenta):
         e = tuple(2 * (i == a) for i in range(algebra.size))

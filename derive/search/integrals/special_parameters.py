@@ -8,8 +8,23 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from .all_integrals import ATTEMPTS, Condition, Conditions, Found, degrees, integrability
-from .degree_search import Search, TooLargeError, UnluckyError, blocks, point, products, system_rows
+from .all_integrals import (
+    ATTEMPTS,
+    Condition,
+    IntegralsFound,
+    ParameterConditions,
+    degrees,
+    integrability,
+)
+from .degree_search import (
+    PolynomialSearch,
+    TooLargeError,
+    UnluckyPrimeError,
+    blocks,
+    point,
+    products,
+    system_rows,
+)
 from .lie_poisson import Exponents, LiePoisson, Polynomial
 from .parameter_cases import Case, Cases
 
@@ -26,7 +41,7 @@ Sparse = dict[int, Any]
 """A row: unknown → polynomial in the parameters."""
 
 
-def conditions(whole: Found) -> Conditions:
+def conditions(whole: IntegralsFound) -> ParameterConditions:
     """The conditions under which there are more integrals, up to the degree of what is found;
     ``TooLargeError`` where there are too many parameters, unknowns or cases."""
     algebra = whole.system.algebra
@@ -52,17 +67,17 @@ def conditions(whole: Found) -> Conditions:
                     drop.search(matrix, v)
     widest = [x for x in drop.there if not drop.known(x.case, but=x)]
     unsolved = [(x, f) for x, f in drop.unsolved if not drop.known(x)]
-    return Conditions(cases, (*widest,), (*unsolved,))
+    return ParameterConditions(cases, (*widest,), (*unsolved,))
 
 
-def _equations(whole: Found, block: Sequence[Exponents]) -> list[Sparse]:
+def _equations(whole: IntegralsFound, block: Sequence[Exponents]) -> list[Sparse]:
     """{F, H} = 0 over the parameters: a row for each equation."""
     rows = system_rows(block, [whole.system.algebra.flow]).values()
     return [_cleared(row) for row in rows if any(row.values())]
 
 
 def _products(
-    whole: Found, block: Sequence[Exponents], known: Sequence[Polynomial], degree: Fraction
+    whole: IntegralsFound, block: Sequence[Exponents], known: Sequence[Polynomial], degree: Fraction
 ) -> list[Sparse]:
     """The products of what is known of a degree that are in a block: a row for each monomial."""
     place = {e: j for j, e in enumerate(block)}
@@ -93,7 +108,7 @@ class _Drop:
     order in no letter, which every choice of pivots has; ``work``: products of terms so far.
     """
 
-    def __init__(self, whole: Found, cases: Cases):
+    def __init__(self, whole: IntegralsFound, cases: Cases):
         self.whole, self.cases = whole, cases
         self.there: list[Condition] = []
         self.unsolved: list[tuple[Case, Any]] = []
@@ -225,7 +240,7 @@ class _Drop:
 # -- the integrals in a case ----------------------------------------------------------------------
 
 
-def system_in(whole: Found, cases: Cases, case: Case) -> LiePoisson:
+def system_in(whole: IntegralsFound, cases: Cases, case: Case) -> LiePoisson:
     """The equations in a case, in the letters that are left."""
     algebra, system = whole.system.algebra, whole.system
     solved = {system.parameters[j] for j, _ in case.solved}
@@ -237,7 +252,7 @@ def system_in(whole: Found, cases: Cases, case: Case) -> LiePoisson:
     )
 
 
-def condition(whole: Found, cases: Cases, case: Case, degree: Fraction) -> Condition:
+def condition(whole: IntegralsFound, cases: Cases, case: Case, degree: Fraction) -> Condition:
     """What there is in a case beside the generic integrals, verified over its letters."""
     system = system_in(whole, cases, case)
     algebra, generic = system.algebra, whole.system.algebra
@@ -251,10 +266,10 @@ def condition(whole: Found, cases: Cases, case: Case, degree: Fraction) -> Condi
     for attempt in range(ATTEMPTS):
         at = point(algebra, attempt)
         try:
-            search = Search(algebra, whole.grading, [algebra.flow], at)
+            search = PolynomialSearch(algebra, whole.grading, [algebra.flow], at)
             new = search.of_degree(degree, [f for f in known if f])
             proved = integrability(algebra, casimirs, [*integrals, *new], at)
-        except UnluckyError:
+        except UnluckyPrimeError:
             continue
         return Condition(case, degree, system, (*new,), proved)
     raise ArithmeticError("no point of the parameters modulo a prime is like a generic one")

@@ -12,9 +12,17 @@ from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ...record.sentence import MONOMIALS, Prose
 from ...walk.chapter import Chapter, Draft, say
-from .all_integrals import Condition, Conditions, Found, Integrability, OnLevel, casimirs, found
+from .all_integrals import (
+    Condition,
+    Integrability,
+    IntegralsFound,
+    OnLevel,
+    ParameterConditions,
+    casimirs,
+    found,
+)
 from .degree_search import TooLargeError, how_many, unknowns
-from .lie_poisson import Algebra, Level, LiePoisson
+from .lie_poisson import Level, LiePoisson, PoissonPolynomials
 from .parameter_cases import Case, grading
 from .reduced import NotReducedError, reduced, without_energy
 
@@ -22,7 +30,7 @@ from .reduced import NotReducedError, reduced, without_energy
 
 
 def told(
-    whole: Found, steps: Sequence[Step], c: Chapter, *, driven: bool = False
+    whole: IntegralsFound, steps: Sequence[Step], c: Chapter, *, driven: bool = False
 ) -> tuple[Step, ...]:
     """The reduced equations, the Casimirs, the integrals, and those on levels, as steps of a
     chapter; ``steps``: of the walk of the problem, which may be ``driven`` by inputs."""
@@ -39,7 +47,7 @@ def told(
     return tuple(found)
 
 
-def _reduced(whole: Found, made_from: Iterable[Step], c: Chapter, *, driven: bool) -> Step:
+def _reduced(whole: IntegralsFound, made_from: Iterable[Step], c: Chapter, *, driven: bool) -> Step:
     """h̃ and the rates, as functions of the variables."""
     algebra, system = whole.system.algebra, whole.system
     draft = c.draft("poisson", "reduction")
@@ -53,7 +61,7 @@ def _reduced(whole: Found, made_from: Iterable[Step], c: Chapter, *, driven: boo
     return draft.step(equations, prose + (say("poisson.undriven") if driven else ()))
 
 
-def _weights(whole: Found, draft: Draft) -> Prose:
+def _weights(whole: IntegralsFound, draft: Draft) -> Prose:
     """How degrees count, where not all variables are of degree 1."""
     momenta, weights = whole.system.momenta, whole.grading.degree
     entries = {*weights[momenta:]}
@@ -75,7 +83,7 @@ def _kept(trees: Iterable[Tree]) -> list[Equation]:
     return [Equation(("call", "d/dt", t), 0) for t in trees]
 
 
-def _casimirs(whole: Found, reduced: Step, c: Chapter) -> Step:
+def _casimirs(whole: IntegralsFound, reduced: Step, c: Chapter) -> Step:
     draft = c.draft("casimirs", "Poisson bracket")
     draft.depends_on(reduced)
     prose = draft.claim("casimirs.kept")
@@ -83,13 +91,13 @@ def _casimirs(whole: Found, reduced: Step, c: Chapter) -> Step:
     return draft.step(_kept(map(whole.system.algebra.tree, whole.casimirs)), prose)
 
 
-def _large(whole: Found) -> str:
+def _large(whole: IntegralsFound) -> str:
     """How the key of a sentence ends that is not computed again for its size."""
     weights = whole.grading.degree
     return "_large" if how_many(weights, Fraction(whole.degree), exactly=False) > MONOMIALS else ""
 
 
-def _integrals(whole: Found, reduced: Step, c: Chapter) -> Step:
+def _integrals(whole: IntegralsFound, reduced: Step, c: Chapter) -> Step:
     algebra = whole.system.algebra
     draft = c.draft("first_integrals", "Poisson bracket")
     draft.depends_on(reduced)
@@ -99,7 +107,7 @@ def _integrals(whole: Found, reduced: Step, c: Chapter) -> Step:
     return draft.step(_kept(trees), prose)
 
 
-def _said(whole: Found, draft: Draft) -> Prose:
+def _said(whole: IntegralsFound, draft: Draft) -> Prose:
     """What is proved of the integrals."""
     several = bool(whole.integrals)
     prose = say("first_integrals.several" if several else "first_integrals.energy")
@@ -143,7 +151,7 @@ def _integrability(proved: Integrability, draft: Draft) -> Prose:
 # -- on a level ---------------------------------------------------------------------------------
 
 
-def _on_level(whole: Found, on: OnLevel, reduced: Step, k: int, c: Chapter) -> Step:
+def _on_level(whole: IntegralsFound, on: OnLevel, reduced: Step, k: int, c: Chapter) -> Step:
     """The integrals where a Casimir vanishes: their rates are multiples of it."""
     algebra = whole.system.algebra
     draft = c.draft("level" if not k else f"level_{k + 1}", "Poisson bracket")
@@ -168,7 +176,9 @@ def _on_level(whole: Found, on: OnLevel, reduced: Step, k: int, c: Chapter) -> S
 # it vanishes in the case p = s.
 
 
-def told_conditions(whole: Found, found: Conditions, reduced: Step, c: Chapter) -> list[Step]:
+def told_conditions(
+    whole: IntegralsFound, found: ParameterConditions, reduced: Step, c: Chapter
+) -> list[Step]:
     """A step for each condition, with the integrals that there are under it."""
     return [
         _under(whole, found, x, reduced, f"condition_{k}", c)
@@ -177,7 +187,12 @@ def told_conditions(whole: Found, found: Conditions, reduced: Step, c: Chapter) 
 
 
 def _under(
-    whole: Found, found: Conditions, x: Condition, reduced: Step, label: str, c: Chapter
+    whole: IntegralsFound,
+    found: ParameterConditions,
+    x: Condition,
+    reduced: Step,
+    label: str,
+    c: Chapter,
 ) -> Step:
     draft = c.draft(label, "Poisson bracket")
     draft.depends_on(reduced)
@@ -193,7 +208,7 @@ def _under(
     return draft.step(equations, prose)
 
 
-def _rate(whole: Found, found: Conditions, x: Condition, f: Any) -> Tree:
+def _rate(whole: IntegralsFound, found: ParameterConditions, x: Condition, f: Any) -> Tree:
     """The rate for all parameters, as a sum of multiples of what vanishes in the case."""
     algebra, own = whole.system.algebra, x.system.algebra
     terms = {e: algebra.number(own.number_tree(c)) for e, c in own.over_the_field(f).items()}
@@ -213,20 +228,20 @@ def _rate(whole: Found, found: Conditions, x: Condition, f: Any) -> Tree:
     return add(*summed)
 
 
-def solved_letter(algebra: Algebra, j: int, value: Any) -> tuple[Tree, Tree]:
+def solved_letter(algebra: PoissonPolynomials, j: int, value: Any) -> tuple[Tree, Tree]:
     """A letter and its value, as trees."""
     name = algebra.system.parameters[j]
     return name if name == "π" else ("par", name), algebra.number_tree(value)
 
 
-def case_tree(algebra: Algebra, case: Case, *beside: Any) -> Tree:
+def case_tree(algebra: PoissonPolynomials, case: Case, *beside: Any) -> Tree:
     """The equations of a case: letters, each with its value; and others ``beside``, that vanish."""
     rows = [solved_letter(algebra, j, value) for j, value in case.solved]
     rows += [(algebra.number_tree(algebra.field(f)), 0) for f in beside]
     return ("matrix", *(("row", *x) for x in rows))
 
 
-def all_conditions(whole: Found, found: Conditions, draft: Draft) -> Prose:
+def all_conditions(whole: IntegralsFound, found: ParameterConditions, draft: Draft) -> Prose:
     """What is said of all conditions together."""
     algebra, degree = whole.system.algebra, whole.degree
     cases = [case_tree(algebra, x.case) for x in found.conditions]
@@ -303,7 +318,7 @@ def _numbered(base: str, trees: Iterable[Tree]) -> dict[str, Tree]:
     return {f"{base}_{k}": t for k, t in enumerate(trees, 1)}
 
 
-def nonlinear(f: Any, whole: Found) -> bool:
+def nonlinear(f: Any, whole: IntegralsFound) -> bool:
     """Is a polynomial of degree 2 or more in the momenta?"""
     momenta = whole.system.momenta
     return any(sum(m[:momenta]) > 1 for m in f)

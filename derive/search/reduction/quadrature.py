@@ -10,7 +10,7 @@ from typing import Any
 
 from ...language.tree import Tree
 from ...problem.problem import ProblemError
-from ..symmetries.found_symmetries import Found, axis, named
+from ..symmetries.found_symmetries import SymmetriesFound, axis, named
 from ..symmetries.scalar_lagrangian import full
 from ..symmetries.symmetry import Symmetry
 from .routhian import Routhian
@@ -19,7 +19,7 @@ from .state_functions import Element, entries_in
 # Which symmetries a reduction is by: of L̃ itself, without time, each commuting with the others.
 
 
-def chosen(found: Found) -> tuple[Symmetry, ...]:
+def chosen(found: SymmetriesFound) -> tuple[Symmetry, ...]:
     """The symmetries that are taken; ``ProblemError`` where there is none.
 
     They are taken in turn, kind by kind, of several axes the last first; listed in their order.
@@ -40,7 +40,7 @@ def _fits(x: Symmetry) -> bool:
     return x.exact and x.tau == 0 and not any(map(full, x.moving))
 
 
-def _why_not(found: Found) -> str:
+def _why_not(found: SymmetriesFound) -> str:
     """Why no symmetry fits, in words."""
     others = [x for x in found.symmetries if x.kind != "time"]
     if not others:
@@ -53,7 +53,7 @@ def _why_not(found: Found) -> str:
 # Do the symmetries of a problem leave one degree of freedom, and what are their momenta called?
 
 
-def leaves_one(found: Found) -> bool:
+def leaves_one(found: SymmetriesFound) -> bool:
     """Do the symmetries that a reduction takes leave one degree of freedom?"""
     problem = found.problem
     assert problem.group is not None
@@ -62,7 +62,7 @@ def leaves_one(found: Found) -> bool:
     return left == 1
 
 
-def momenta_of(found: Found) -> tuple[str, ...]:
+def momenta_of(found: SymmetriesFound) -> tuple[str, ...]:
     """The names of 𝒥_1, 𝒥_2, … of the symmetries that a reduction takes."""
     names = dict(zip(map(id, found.symmetries), named(found), strict=True))
     return tuple(names[id(x)] for x in chosen(found))

@@ -12,7 +12,7 @@ from ...language.tree import Tree, add, neg, nodes, plain, terms
 from ...problem.fields import coordinates
 from ...problem.moved_entries import EntriesOfElement, element
 from ...problem.problem import ProblemError
-from ..symmetries.found_symmetries import Found
+from ..symmetries.found_symmetries import SymmetriesFound
 from ..symmetries.scalar_lagrangian import full
 from ..symmetries.symmetry import Symmetry
 from .state_functions import Element, StateFunctions, entries_in
@@ -48,7 +48,7 @@ class Square:
 class Routhian:
     """The reduction of a problem by some of its symmetries."""
 
-    def __init__(self, found: Found, chosen: Sequence[Symmetry]):
+    def __init__(self, found: SymmetriesFound, chosen: Sequence[Symmetry]):
         problem = found.problem
         assert problem.group is not None
         assert problem.lagrangian is not None

@@ -8,7 +8,7 @@ from itertools import combinations_with_replacement
 from math import comb, gcd, isqrt, lcm
 from typing import Any
 
-from ...algebra.exact_kernel import PRIMES, ResidueSource, kernel, rational
+from ...algebra.exact_kernel import PRIMES, ResidueVectorSource, kernel, rational
 from ...algebra.groups import Group
 from ...language.tree import Tree, add, mul, nodes
 from ...language.values import arithmetic
@@ -151,7 +151,7 @@ class StateFunctions:
         self, these: Sequence[int], listed: Sequence[Exponents], p: int
     ) -> Iterator[tuple[int, ...]]:
         """The monomials at random elements, a row for each of these."""
-        source = ResidueSource(p, len(listed) + EXTRA, 6)
+        source = ResidueVectorSource(p, len(listed) + EXTRA, 6)
         g = self.group.sample_inside(source, 1)
         at = [source.constant(0) + g[i][j] for i, j in (self.places[self.leaves[k]] for k in these)]
         columns = []

@@ -16,7 +16,7 @@ from ...walk.lie.any_lagrangian import AnyLagrangian
 from ...walk.lie.expressed import of_element
 from ...walk.spine.head import problem_data, symbols
 from ...walk.spine.lagrangian import supposing_all
-from ..symmetries.found_symmetries import Found
+from ..symmetries.found_symmetries import SymmetriesFound
 from ..symmetries.symmetry import Symmetry
 from .quadrature import Quadrature, chosen, quadrature_of
 from .routhian import Routhian, Square
@@ -334,7 +334,7 @@ class Reduction:
     record: Derivation
 
 
-def record_of(found: Found, general: Values) -> Reduction:
+def record_of(found: SymmetriesFound, general: Values) -> Reduction:
     """The record of a reduction; ``general``: the road of any Lagrangian.  ``ProblemError`` where
     there is nothing to reduce by."""
     problem, group = found.problem, found.problem.group

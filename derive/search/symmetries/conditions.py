@@ -8,7 +8,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
 
-from ...algebra.exact_kernel import PRIMES, Residues, ResidueSource, Rows, kernel, pivots, rational
+from ...algebra.exact_kernel import (
+    PRIMES,
+    ResidueVector,
+    ResidueVectorSource,
+    Rows,
+    kernel,
+    pivots,
+    rational,
+)
 from ...algebra.groups import Group
 from ...language import rational as q
 from ...language.rational import Matrix
@@ -75,13 +83,13 @@ def _values(field: TangentField, group: Group) -> list[int]:
 
 def _at_all(x: object, points: int) -> list[int]:
     """The values of a number at the points, 0 where it is none of them."""
-    return x.values if isinstance(x, Residues) else [0] * points
+    return x.values if isinstance(x, ResidueVector) else [0] * points
 
 
 @cache
 def _element(group: Group, points: int, p: int = PRIMES[0]) -> Matrix:
     """An element of the group at each of so many points."""
-    source = ResidueSource(p, points, 1)
+    source = ResidueVectorSource(p, points, 1)
     zero = source.constant(0)
     return tuple(tuple(zero + x for x in row) for row in group.sample_inside(source, 1))
 
@@ -101,7 +109,7 @@ def _mixed(group: Group) -> list[TangentField]:
 def _tangency(group: Group, p: int) -> list[tuple[int, ...]]:
     """A row at each point of the group for the entries of Y and X: Tr N̄(g⁻¹Yg − X), which
     vanishes for every N normal to 𝔤; N is random there."""
-    span, source = range(group.size), ResidueSource(p, 2 * group.size**2 + EXTRA, 2)
+    span, source = range(group.size), ResidueVectorSource(p, 2 * group.size**2 + EXTRA, 2)
     g = _element(group, source.points, p)
     N = q.scaled(source.constant(0), q.identity(group.size))
     for normal in group.normal_space:
@@ -126,7 +134,7 @@ def _without_scaling(field: TangentField, group: Group) -> TangentField:
     return TangentField(Y, X)
 
 
-def inverse(g: Matrix, source: ResidueSource) -> Matrix:
+def inverse(g: Matrix, source: ResidueVectorSource) -> Matrix:
     """g⁻¹ at each of the points."""
     one = tuple(tuple(source.constant(int(x)) for x in row) for row in q.identity(len(g)))
     found = q.solve(g, one)
@@ -183,7 +191,7 @@ def unknowns(group: Group) -> Unknowns:
     return Unknowns((*((x,) for x in singles), *pairs), tangent_fields(group))
 
 
-class Conditions:
+class SymmetryConditions:
     """The system of a problem with a scalar Lagrangian."""
 
     def __init__(self, problem: Problem):
@@ -230,10 +238,12 @@ class Conditions:
         """Those of some random values of the parameters that leave enough points."""
         drawn = self.parameters.drawn(count, p, 2 * seed)
         count = len(drawn["π"])
-        source = ResidueSource(p, count * points, 2 * seed + 1)
-        values = {x: Residues([c for c in v for _ in range(points)], p) for x, v in drawn.items()}
+        source = ResidueVectorSource(p, count * points, 2 * seed + 1)
+        values = {
+            x: ResidueVector([c for c in v for _ in range(points)], p) for x, v in drawn.items()
+        }
         found = Functions(source, true_roots=self.true_roots)
-        point = Point(self, source, values, found)
+        point = SamplePoints(self, source, values, found)
         enough: dict[int, list[int]] = {}
         for k in range(count):
             valid = [i for i in range(k * points, (k + 1) * points) if found.valid[i]]
@@ -249,14 +259,14 @@ class Conditions:
         ]
 
 
-class Point:
+class SamplePoints:
     """Random points of a problem: t, g, Z and the derivatives of L̃ there."""
 
     def __init__(
         self,
-        system: Conditions,
-        source: ResidueSource,
-        parameters: Mapping[Tree, Residues],
+        system: SymmetryConditions,
+        source: ResidueVectorSource,
+        parameters: Mapping[Tree, ResidueVector],
         found: Functions,
     ):
         group, self.unknowns, self.side = system.group, system.unknowns, system.side
@@ -268,18 +278,18 @@ class Point:
         zeta = [source.randint(1, 1) for _ in group.basis]
         self.Z: Matrix = tuple(tuple(zero + x for x in row) for row in group.hat(zeta))
         self.places = entries(group)
-        leaves: dict[Tree, Residues] = {"t": self.t, **parameters}
+        leaves: dict[Tree, ResidueVector] = {"t": self.t, **parameters}
         leaves |= dict(zip(coordinates(group), zeta, strict=True))
         leaves |= {x: self.g[i][j] for x, (i, j) in self.places.items()}
         self.leaves = leaves
         self.group, self.evaluated = group, system.tape.at(leaves, source, found)
 
-    def at(self, places: Sequence[int]) -> Point:
+    def at(self, places: Sequence[int]) -> SamplePoints:
         """Some of the points, all in their order: before what is computed when it is asked for."""
         if len(places) == self.source.points:
             return self
         found = copy(self)
-        found.source = ResidueSource(self.source.p, len(places), 0)  # of constants alone
+        found.source = ResidueVectorSource(self.source.p, len(places), 0)  # of constants alone
         found.t = self.t.at(places)
         found.g, found.Z = (
             tuple(tuple(x.at(places) for x in row) for row in m) for m in (self.g, self.Z)
@@ -289,7 +299,7 @@ class Point:
         return found
 
     @cached_property
-    def slopes(self) -> Mapping[Tree, Residues]:
+    def slopes(self) -> Mapping[Tree, ResidueVector]:
         """The derivatives of L̃."""
         return self.evaluated.gradient()
 
@@ -330,7 +340,7 @@ class Point:
         turned = q.bracket(self.P, q.transposed(self.Z))  # ⟨Π, [X, Z]⟩ = Tr X‾[P, Z̄]
         return (Y, q.minus(X, turned)) if self.side == "left" else (q.plus(Y, turned), X)
 
-    def column(self, k: int) -> Residues:
+    def column(self, k: int) -> ResidueVector:
         """The coefficient of an unknown in δL̃ − dF/dt."""
         first, count = self.unknowns.first_field, len(self.unknowns.fields)
         if k < first:
@@ -341,10 +351,10 @@ class Point:
             return later + self._contracted(self.pairing, field)
         if k < first + 2 * count:
             return self._contracted(self.change, self.unknowns.fields[k - first - count])
-        rate: Residues = self.slopes.get("t", self.source.constant(0))
+        rate: ResidueVector = self.slopes.get("t", self.source.constant(0))
         return rate
 
-    def _rate(self, monomial: Monomial) -> Residues:
+    def _rate(self, monomial: Monomial) -> ResidueVector:
         """d/dt of a monomial along ġ."""
         total = self.source.constant(0)
         for k, x in enumerate(monomial):
@@ -354,14 +364,14 @@ class Point:
             total = total + slope
         return total
 
-    def _speed(self, x: Tree) -> Residues:
+    def _speed(self, x: Tree) -> ResidueVector:
         if x == "t":
             return self.source.constant(1)
         i, j = self.places[x]
-        speed: Residues = self.velocity[i][j]
+        speed: ResidueVector = self.velocity[i][j]
         return speed
 
-    def _contracted(self, by: tuple[Matrix, Matrix], field: TangentField) -> Residues:
+    def _contracted(self, by: tuple[Matrix, Matrix], field: TangentField) -> ResidueVector:
         """Tr M̄Y − Tr N̄X."""
         total = self.source.constant(0)
         for sign, weights, matrix in ((1, by[0], field.Y), (-1, by[1], field.X)):

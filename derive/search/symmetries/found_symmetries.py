@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
-from ...algebra.exact_kernel import Residues, ResidueSource, kernel
+from ...algebra.exact_kernel import ResidueVector, ResidueVectorSource, kernel
 from ...algebra.groups import Group
 from ...code.graph import Graph
 from ...code.options import Options
@@ -23,7 +23,7 @@ from ...record.record import Derivation
 from ...schema.body_kinds import Place, Point
 from ...schema.kind import Lagrangian
 from ...schema.kinds.self_gravity import SelfGravity
-from .conditions import Conditions, TangentField
+from .conditions import SymmetryConditions, TangentField
 from .scalar_lagrangian import (
     Integrand,
     by_state,
@@ -34,7 +34,7 @@ from .scalar_lagrangian import (
     varying,
     with_scalar_lagrangian,
 )
-from .search import Search
+from .search import SymmetrySearch
 from .symmetry import Symmetry, of_solution
 
 # The brackets of symmetries, and dϖ of two that commute: the cocycle of the conserved quantities.
@@ -46,20 +46,20 @@ from .symmetry import Symmetry, of_solution
 # that of (t K − f) and (t K′ − f′) it would be {K, K′}, kept together with t²{K, K′} + t h, h a
 # function on the group; so {K, K′} = h = 0. The symmetries are therefore a Lie algebra.
 
-Vector = list[Residues]
+Vector = list[ResidueVector]
 """Coordinates, each for all values of the parameters."""
 
 
 class Brackets:
     """The brackets of the symmetries that a search has found, for each value of the parameters."""
 
-    def __init__(self, search: Search):
+    def __init__(self, search: SymmetrySearch):
         self.search, self.p = search, search.p
         unknowns = search.system.unknowns
         self.fields = unknowns.fields
         first, count = unknowns.first_field, len(self.fields)
         _, table = search.samples
-        zero = Residues([0] * len(search.samples[0]), self.p)
+        zero = ResidueVector([0] * len(search.samples[0]), self.p)
         whole = [
             [x.get(k, zero) for k in range(first, unknowns.count)]
             for x in (dict(zip(search.support, row, strict=True)) for row in table)
@@ -72,7 +72,7 @@ class Brackets:
         """The coordinates of the brackets of the tangent fields, for those that are not 0: of
         (Y, X) and (Y′, X′) it is ([Y′, Y], [X′, X])."""
         group, p = self.search.system.group, self.p
-        source = ResidueSource(p, 2 * group.size**2, 5)
+        source = ResidueVectorSource(p, 2 * group.size**2, 5)
         g = group.sample_inside(source, 1)
         basis = [_values(x, g, source) for x in self.fields]
         count, brackets = len(self.fields), dict[tuple[int, int], TangentField]()
@@ -135,7 +135,7 @@ def _along(field: Symmetry, other: Symmetry) -> Tree:
     return add(*found)
 
 
-def _values(field: TangentField, g: Matrix, source: ResidueSource) -> list[int]:
+def _values(field: TangentField, g: Matrix, source: ResidueVectorSource) -> list[int]:
     """The values of a field at the points, in one list."""
     value = q.minus(q.times(field.Y, g), q.times(g, field.X))
     zero = source.constant(0)
@@ -162,7 +162,7 @@ class Central:
 
 
 @dataclass(frozen=True)
-class Found:
+class SymmetriesFound:
     """``problem``: with L̃ as one expression; ``functions``: those in L̃ whose values were taken for
     any numbers; ``state``: the numbers of the state in the emitted code, by their names, and what
     they are; ``commuting``: the pairs of symmetries, by their places, whose bracket is 0."""
@@ -198,7 +198,9 @@ class Found:
         return len(self.symmetries)
 
 
-def symmetries_of(problem: Problem, record: Derivation, *, of_integrand: bool = False) -> Found:
+def symmetries_of(
+    problem: Problem, record: Derivation, *, of_integrand: bool = False
+) -> SymmetriesFound:
     """All symmetries of a problem; ``ProblemError`` where it has no Lagrangian of its own.
 
     ``of_integrand``: may L̃ have the integrand of an integral in its place?
@@ -207,8 +209,8 @@ def symmetries_of(problem: Problem, record: Derivation, *, of_integrand: bool = 
     integrand = Integrand.beside(problem.parameters) if integral else None
     scalar = with_scalar_lagrangian(problem, record, integrand)
     of_points = problem.lagrangian is None
-    system = Conditions(scalar)
-    search, state = Search(system), emitted_state(problem)
+    system = SymmetryConditions(scalar)
+    search, state = SymmetrySearch(system), emitted_state(problem)
     found = [of_solution(x, system.unknowns, system.group, system.side) for x in search.solutions()]
     told = [k for k, x in enumerate(found) if not says_nothing(x, scalar)]
     if integrand:
@@ -216,7 +218,9 @@ def symmetries_of(problem: Problem, record: Derivation, *, of_integrand: bool = 
     order = sorted(told, key=lambda k: (ORDER.index(found[k].kind), -k))
     listed = tuple(found[k] for k in order)
     if not listed:
-        return Found(scalar, (), system.open_functions, (), state, (), integrand, of_points)
+        return SymmetriesFound(
+            scalar, (), system.open_functions, (), state, (), integrand, of_points
+        )
     commuting = [(i, j) for i, j in Brackets(search).commuting() if {i, j} <= {*told}]
     pairs = [
         _oriented(order.index(i), order.index(j), number)
@@ -225,12 +229,12 @@ def symmetries_of(problem: Problem, record: Derivation, *, of_integrand: bool = 
     ]
     central = tuple(sorted(pairs, key=lambda x: (x.first, x.second)))
     places = tuple(frozenset((order.index(i), order.index(j))) for i, j in commuting)
-    return Found(
+    return SymmetriesFound(
         scalar, listed, system.open_functions, central, state, places, integrand, of_points
     )
 
 
-def kept_with_damping(problem: Problem, record: Derivation) -> Found:
+def kept_with_damping(problem: Problem, record: Derivation) -> SymmetriesFound:
     """The symmetries of L̃ whose quantities the motion of a damped problem keeps: they shift no
     instant and move damped points r_i by constants w_i, 0 or not.  The forces −κ_i v_i change what
     is kept by the symmetry at the rate −Σ κ_i ⟨v_i, w_i⟩, so that with Σ κ_i ⟨r_i, w_i⟩ it is kept
@@ -326,7 +330,7 @@ CIRCULATION = "circulation"
 """What is kept by a relabelling of a body that its group deforms, be it a turn or not."""
 
 
-def named(found: Found) -> dict[str, Tree]:
+def named(found: SymmetriesFound) -> dict[str, Tree]:
     """Name → the quantity, in Π_a, h̃, t, the entries of g and the parameters.
 
     ``momentum_1`` …: along an axis, if all of a kind are; else numbered; alone without a number.

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any, Protocol
 
-from ...algebra.exact_kernel import Residues, ResidueSource
+from ...algebra.exact_kernel import ResidueVector, ResidueVectorSource
 from ...language.derivatives import DERIVATIVES
 from ...language.tree import Tree
 from ...language.values import arithmetic
@@ -119,12 +119,12 @@ class Functions:
     ``valid``: the points at which all roots are true.
     """
 
-    def __init__(self, source: ResidueSource, *, true_roots: bool = True):
+    def __init__(self, source: ResidueVectorSource, *, true_roots: bool = True):
         self.source, self.true_roots = source, true_roots
-        self.known: list[tuple[str, Residues, Residues]] = []
+        self.known: list[tuple[str, ResidueVector, ResidueVector]] = []
         self.valid = [True] * source.points
 
-    def value(self, name: str, x: Residues) -> Residues:
+    def value(self, name: str, x: ResidueVector) -> ResidueVector:
         """The value of a function at x, the same at the same x."""
         for other, at, value in self.known:
             if other == name and at == x:
@@ -143,17 +143,19 @@ class Functions:
         self.known.append((name, x, value))
         return value
 
-    def at(self, places: Sequence[int], source: ResidueSource) -> Functions:
+    def at(self, places: Sequence[int], source: ResidueVectorSource) -> Functions:
         """The same at some of the points; ``source``: of so many."""
         found = Functions(source, true_roots=self.true_roots)
         found.known = [(name, x.at(places), y.at(places)) for name, x, y in self.known]
         return found
 
-    def _on_curve(self, names: tuple[str, ...], sign: int, name: str, x: Residues) -> Residues:
+    def _on_curve(
+        self, names: tuple[str, ...], sign: int, name: str, x: ResidueVector
+    ) -> ResidueVector:
         """A point of c² ± s² = 1 by the tangent u of half its argument, and s/c."""
         u = self.source.randint(1, 1)
         above, below = 1 - sign * u * u, 1 + sign * u * u
-        values: tuple[Residues, ...] = (2 * u / below, above / below, 2 * u / above)
+        values: tuple[ResidueVector, ...] = (2 * u / below, above / below, 2 * u / above)
         self.known += [(other, x, y) for other, y in zip(names, values, strict=True)]
         return values[names.index(name)]
 
@@ -164,7 +166,7 @@ class Evaluated:
     def __init__(self, tape: Tape, values: list[Number], source: Numbers, found: Values):
         self.tape, self.values, self.source, self.found = tape, values, source, found
 
-    def at(self, places: Sequence[int], source: ResidueSource) -> Evaluated:
+    def at(self, places: Sequence[int], source: ResidueVectorSource) -> Evaluated:
         """The same, of residues, at some of the points; ``source``: of so many."""
         assert isinstance(self.found, Functions)
         values = [x.at(places) for x in self.values]

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import count
 
-from ...algebra.exact_kernel import PRIMES, Residues, ResidueSource, primes_from
+from ...algebra.exact_kernel import PRIMES, ResidueVector, ResidueVectorSource, primes_from
 from ...algebra.families import on_homogeneous
 from ...algebra.groups import Group
 from ...code.ellipsoid import is_item
@@ -181,7 +181,7 @@ class ParameterValues:
 
     def _good(self) -> Iterator[int]:
         for p, _ in zip(primes_from(PRIMES[0]), range(MOST_PRIMES), strict=False):
-            source = ResidueSource(p, 1, 0)
+            source = ResidueVectorSource(p, 1, 0)
             found = Functions(source)
             for x in self.roots_of_numbers:
                 Tape(x).at({}, source, found)
@@ -191,9 +191,9 @@ class ParameterValues:
     def drawn(self, count: int, p: int, seed: int) -> dict[Tree, list[int]]:
         """Up to so many values of each at which its roots are true: residues."""
         many = count << (len(self.roots) - len(self.roots_of_numbers))
-        source = ResidueSource(p, many, seed)
+        source = ResidueVectorSource(p, many, seed)
         found = Functions(source)
-        values: dict[Tree, Residues] = {x: source.randint(1, 1) for x in self.letters}
+        values: dict[Tree, ResidueVector] = {x: source.randint(1, 1) for x in self.letters}
         for x in self.functions:
             values[x] = Tape(x).at(values, source, found).value
         valid = [k for k, holds in enumerate(found.valid) if holds][:count]
@@ -201,9 +201,9 @@ class ParameterValues:
 
     def at(self, t: Tree, values: Mapping[Tree, int], p: int) -> int:
         """The residue of an expression in parameters, by values of what it is made of."""
-        source = ResidueSource(p, 1, 0)
+        source = ResidueVectorSource(p, 1, 0)
         leaves = {x: source.constant(v) for x, v in values.items()}
-        found: Residues = Tape(t, self.functions).at(leaves, source, Functions(source)).value
+        found: ResidueVector = Tape(t, self.functions).at(leaves, source, Functions(source)).value
         return found.values[0]
 
 

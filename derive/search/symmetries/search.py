@@ -10,10 +10,18 @@ from itertools import chain, combinations, combinations_with_replacement
 from math import gcd, lcm
 from random import Random
 
-from ...algebra.exact_kernel import Residues, Rows, echelon, fraction_of, kernel, pivots, rational
+from ...algebra.exact_kernel import (
+    ResidueVector,
+    Rows,
+    echelon,
+    fraction_of,
+    kernel,
+    pivots,
+    rational,
+)
 from ...language.tree import Tree, add, coefficient, mul, plain, terms
 from ...problem.problem import ProblemError
-from .conditions import Conditions
+from .conditions import SymmetryConditions
 from .gradient import Tape
 from .scalar_lagrangian import by_state, of_parameters
 
@@ -22,17 +30,17 @@ SAMPLES = 60
 
 
 @dataclass(frozen=True)
-class Solution:
+class SymmetrySolution:
     """The unknowns of one symmetry that do not vanish: column → coefficient, an expression in the
     parameters."""
 
     coefficients: Mapping[int, Tree]
 
 
-class Search:
+class SymmetrySearch:
     """The kernel of the conditions of a problem: its support, and its value for any parameters."""
 
-    def __init__(self, system: Conditions):
+    def __init__(self, system: SymmetryConditions):
         self.system, self.primes = system, system.parameters.primes
         self.p = self.primes[0]
         self._others: dict[int, tuple[dict[Tree, int], Rows]] = {}
@@ -62,13 +70,13 @@ class Search:
         return [vector(basis, x, p) for x in self.shapes] if self.shapes else basis
 
     @cached_property
-    def samples(self) -> tuple[list[dict[Tree, int]], list[list[Residues]]]:
+    def samples(self) -> tuple[list[dict[Tree, int]], list[list[ResidueVector]]]:
         """Values of the parameters, and the kernel, symmetries × support, for all of them."""
         found = self.at(2, 2)
         if found[0][1] != found[1][1]:
             found += self.at(SAMPLES, 3)
         rows = zip(*(basis for _, basis in found), strict=True)
-        table = [[Residues([*x], self.p) for x in zip(*row, strict=True)] for row in rows]
+        table = [[ResidueVector([*x], self.p) for x in zip(*row, strict=True)] for row in rows]
         return [x for x, _ in found], table
 
     @cached_property
@@ -76,12 +84,12 @@ class Search:
         """The residues of the quantities that depend on parameters alone, for each sample."""
         trees = quantities(self.system.tape, of_parameters)
         values = self.samples[0]
-        return {t: Residues([self._value(t, x) for x in values], self.p) for t in trees}
+        return {t: ResidueVector([self._value(t, x) for x in values], self.p) for t in trees}
 
     def _value(self, t: Tree, values: Mapping[Tree, int]) -> int:
         return self.system.parameters.at(t, values, self.p)
 
-    def solutions(self) -> list[Solution]:
+    def solutions(self) -> list[SymmetrySolution]:
         """The symmetries: in the order of their last columns, or those with many zeros if only
         these are found as functions of the parameters; ``ProblemError`` if none are."""
         found = [self._solution(k) for k in range(len(self.free))]
@@ -94,11 +102,11 @@ class Search:
             )
         return [x for x in found if x is not None]
 
-    def _sparse_solutions(self) -> list[Solution | None]:
+    def _sparse_solutions(self) -> list[SymmetrySolution | None]:
         """Independent ones among vectors with many zeros, as far as they are found."""
         tried = sparse(self._first(), self.p)
         self._choose(tried)
-        rows, found, chosen = self._first(), list[Solution | None](), list[int]()
+        rows, found, chosen = self._first(), list[SymmetrySolution | None](), list[int]()
         for k in range(len(tried)):
             rank = independent([rows[i] for i in (*chosen, k)], self.p)
             if rank and (x := self._solution(k)):
@@ -117,7 +125,7 @@ class Search:
         del self.samples
         self._others.clear()
 
-    def _solution(self, k: int) -> Solution | None:
+    def _solution(self, k: int) -> SymmetrySolution | None:
         found = {}
         for j, (column, x) in enumerate(zip(self.support, self.samples[1][k], strict=True)):
             if x:
@@ -128,7 +136,7 @@ class Search:
                 if quotient is None:
                     return None
                 found[column] = quotient
-        return Solution(_without_divisors(found, self.system.unknowns.first_field))
+        return SymmetrySolution(_without_divisors(found, self.system.unknowns.first_field))
 
     def _constant(self, k: int, j: int) -> Quotient | None:
         """The number that a coefficient is for all parameters, by as many primes as it needs:
@@ -187,7 +195,7 @@ def _without_divisors(found: Mapping[int, tuple[Tree, Tree]], first: int) -> dic
 # rational functions of small degree. What is found has agreed at more values than it has
 # coefficients.
 
-Samples = Residues
+Samples = ResidueVector
 """The residues of a number, one for each of the values of the parameters."""
 
 SPARE = 6

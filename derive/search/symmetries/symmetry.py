@@ -12,7 +12,7 @@ from ...language.tree import Tree, add, coefficient, mul, neg, nodes, plain, ter
 from ...problem.moved_entries import Rows
 from .conditions import Monomial, Unknowns
 from .scalar_lagrangian import Entries, by_state, conjugated, full, matrix, negative, plus
-from .search import Solution
+from .search import SymmetrySolution
 
 ON_FORM: Tree = ("call", "ϖ", "δy")
 
@@ -178,7 +178,9 @@ class Symmetry:
         return plus(left, negative(right)) if left and right else None
 
 
-def of_solution(solution: Solution, unknowns: Unknowns, group: Group, side: str) -> Symmetry:
+def of_solution(
+    solution: SymmetrySolution, unknowns: Unknowns, group: Group, side: str
+) -> Symmetry:
     """The symmetry with these coefficients."""
     first, count = unknowns.first_field, len(unknowns.fields)
     parts: list[list[tuple[Tree, int]]] = [[], []]

@@ -13,7 +13,7 @@ from ...walk.lie.any_lagrangian import AnyLagrangian
 from ...walk.lie.expressed import of_element
 from ...walk.spine.head import problem_data, symbols
 from ...walk.spine.lagrangian import supposing_all
-from .found_symmetries import Central, Found
+from .found_symmetries import Central, SymmetriesFound
 from .symmetry import ON_FORM, Symmetry
 
 
@@ -21,11 +21,11 @@ from .symmetry import ON_FORM, Symmetry
 class Symmetries:
     """The symmetries of a problem, and their record."""
 
-    found: Found
+    found: SymmetriesFound
     record: Derivation
 
 
-def record_of(found: Found, general: Values) -> Derivation:
+def record_of(found: SymmetriesFound, general: Values) -> Derivation:
     """The record of the symmetries of a problem; ``general``: the road of any Lagrangian."""
     problem, group = found.problem, found.problem.group
     assert group is not None
@@ -43,7 +43,7 @@ def record_of(found: Found, general: Values) -> Derivation:
     return Derivation(problem_data(problem), symbols(done, problem), done)
 
 
-def _summary(found: Found, c: Chapter) -> Step:
+def _summary(found: SymmetriesFound, c: Chapter) -> Step:
     """How many symmetries there are, of which kind; and why the motion keeps something by each."""
     draft = c.draft("symmetries", "kernel")
     modulo = bool(found.lagrangian.held)
@@ -76,7 +76,7 @@ def _symmetry(
     return draft.step(equations, prose, where=field)
 
 
-def _central(found: Found, pair: Central, whole: Step, c: Chapter) -> Step:
+def _central(found: SymmetriesFound, pair: Central, whole: Step, c: Chapter) -> Step:
     """Two symmetries that commute, and the number that dϖ of them is."""
     names = [f"conserved_{k + 1}" for k in (pair.first, pair.second)]
     draft = c.draft("_and_".join(names), "exterior derivative")

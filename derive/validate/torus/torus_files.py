@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from ...algebra.structure import Place, Torus
+from ...algebra.structure import Place, TorusLattice
 from ...check.torus.elements import torus_of
 from ...check.torus.torus_model import TorusModel, environment
 from ...check.values.arithmetic import EvaluationError
@@ -121,7 +121,7 @@ class ExactNumbers:
         return found
 
 
-def weights(torus: Torus) -> set[Fraction]:
+def weights(torus: TorusLattice) -> set[Fraction]:
     """1/|m|² − 1/|k|² for all m and k."""
     squares = {a * a + b * b for a, b in torus.places}
     return {Fraction(1, x) - Fraction(1, y) for x in squares for y in squares if x < y}

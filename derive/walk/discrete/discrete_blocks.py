@@ -122,7 +122,7 @@ def _definitions(a: DiscreteAlphabet, b: Blocks) -> list[Equation]:
 
 
 @dataclass(frozen=True)
-class Centred:
+class BarycentricPart:
     """The linear parts about the centre of mass: what vanishes paired with A₁ξ, with the moments
     ``metric``."""
 
@@ -131,7 +131,9 @@ class Centred:
     steps: tuple[Step, ...]
 
 
-def about_the_centre(stage: BlockMotion, a: Alphabet, resultant: Expr, c: Chapter) -> Centred:
+def about_the_centre(
+    stage: BlockMotion, a: Alphabet, resultant: Expr, c: Chapter
+) -> BarycentricPart:
     """H ⋉ Rⁿ: the centre of mass R moves by itself, and the linear parts about it.
 
     A displacement (ξ, η − m⁻¹ξc) leaves the centre where it is for η = 0; ``resultant``: f₁.
@@ -165,7 +167,7 @@ def about_the_centre(stage: BlockMotion, a: Alphabet, resultant: Expr, c: Chapte
     goes = moving.step(
         (Equation(b.R[2].name, moving.tree(solved, b.notation)),), say("translation.discrete")
     )
-    return Centred(naming.mark(linear).of(stage.linear), metric, (named, goes))
+    return BarycentricPart(naming.mark(linear).of(stage.linear), metric, (named, goes))
 
 
 # SO(3) in a unit quaternion: W = 1 + 2q j(x) + 2 j(x)² for a step of (q, x), and hM in it.
@@ -178,7 +180,7 @@ HALF = Fraction(1, 2)
 
 
 @dataclass(frozen=True)
-class Turning:
+class QuaternionTurning:
     """Two steps W and their momenta M by the moments ``metric``: ``momentum``: that of W₁,
     ``before``: that of W₀ after it, ``force``: what the forces add; all three skew."""
 
@@ -190,7 +192,7 @@ class Turning:
     metric: Letter
 
 
-def in_quaternions(t: Turning, notation: WordNotation, c: Chapter) -> tuple[Step, ...]:
+def in_quaternions(t: QuaternionTurning, notation: WordNotation, c: Chapter) -> tuple[Step, ...]:
     """The quaternions of the steps W, their momenta and the motion in them."""
     inertia = Letter("I" + t.metric.name.removeprefix("J"), 3, 3, 1)
     q, x = ([Letter(f"{s}_{k}", *size) for k in range(2)] for s, size in (("q", ()), ("x", (3,))))

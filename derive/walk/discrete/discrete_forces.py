@@ -18,7 +18,7 @@ from ..chapter import Chapter, WalkError, enumerated, say
 from ..given.body import body_step
 from ..given.inputs import acts, damping_coefficients, external_matrices, where_given
 from ..given.potentials import Potentials, potentials
-from ..matrices.conserved import Kept, kept_momenta
+from ..matrices.conserved import ConservedMomentum, kept_momenta
 from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
 from ..spine.lagrangian import sum_over
 from .discrete_blocks import Blocks
@@ -223,7 +223,7 @@ def conserved(
     return (draft.step((*definitions, *laws), prose),)
 
 
-def _names(x: Kept) -> tuple[str, str]:
+def _names(x: ConservedMomentum) -> tuple[str, str]:
     return ("ℓ_0", "ℓ_1") if x.turning else ("p_0", "p_1")
 
 

@@ -16,7 +16,13 @@ from ..chapter import Chapter, WalkError, say
 from ..matrices.solution import MULTIPLIER
 from ..matrices.specialisation import turns_whole
 from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter, inverse_tree
-from .discrete_blocks import BlockMotion, Blocks, Turning, about_the_centre, in_quaternions
+from .discrete_blocks import (
+    BlockMotion,
+    Blocks,
+    QuaternionTurning,
+    about_the_centre,
+    in_quaternions,
+)
 from .discrete_forces import HALF, DiscreteForces, Outside
 from .discrete_road import DiscreteAlphabet, DiscreteMotion, opened, respelled, stepped
 
@@ -254,7 +260,7 @@ def _rotations(motion: LinearMotion, group: Group, c: Chapter) -> tuple[Step, ..
     steps = named, telling.step((last,), say("motion.moser_veselov"))
     if not group.turns_space or drag:
         return steps
-    turned = Turning(W, M, momentum, before, force, motion.metric)
+    turned = QuaternionTurning(W, M, momentum, before, force, motion.metric)
     return (*steps, *in_quaternions(turned, notation, c))
 
 

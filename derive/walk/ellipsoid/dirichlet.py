@@ -34,7 +34,7 @@ from ..chapter import Chapter, Draft, say
 from ..given.potentials import Potentials
 from ..kinds.self_gravity_walked import GradientLetter
 from ..matrices.solution import MULTIPLIER, Solution
-from ..matrices.specialisation import Special
+from ..matrices.specialisation import KernelOnGroup
 from ..spine.alphabet import cancel_scalar, cancelling, inverse_letter
 from ..spine.cartan import body_rule
 from ..spine.lagrangian import sum_over
@@ -48,7 +48,7 @@ class FluidBody:
 
     problem: Problem
     potentials: Potentials
-    special: Special
+    special: KernelOnGroup
     found: Solution
     c: Chapter
 
@@ -142,7 +142,7 @@ def fluid_steps(
     problem: Problem,
     group: Group,
     potentials: Potentials,
-    special: Special,
+    special: KernelOnGroup,
     found: Solution,
     c: Chapter,
 ) -> tuple[Step, ...]:
@@ -178,7 +178,7 @@ class _Fluid(FluidBody):
     def ellipsoid(self, solid: Solid, shape: Tree) -> tuple[Step, ...]:
         """Its moments, the pressure at every point, and the integral of that."""
         if is_layered(solid.density):
-            return Layers(self, solid.density).steps(shape)
+            return LayeredFluid(self, solid.density).steps(shape)
         quadric = self._moments(shape)
         pressure = self._pressure(solid.density, quadric)
         return quadric, pressure, self._total(solid.density, quadric, pressure)
@@ -345,7 +345,7 @@ class _Fluid(FluidBody):
 # σ = ∫ρ ds from s to 1,   ∂σ/∂r = −2ρ Q r,   Q J = κ 1,   2κ = ∫ σ dx,   p = θσ/(2κ)
 
 
-class Layers:
+class LayeredFluid:
     """A fluid whose ellipsoid has a ``density`` by levels."""
 
     def __init__(self, fluid: FluidBody, density: Tree) -> None:

@@ -18,7 +18,7 @@ from ...record.sentence import Prose, Sentence, listed
 from ...schema.body_kinds import GivenBody, MomentBody, Moments, PointBody, Solid
 from ..chapter import Chapter, Draft, phrase, say, say_signed
 from ..spine.alphabet import Alphabet
-from ..spine.lagrangian import Lagrangian, of_moments
+from ..spine.lagrangian import PointLagrangian, of_moments
 from .potentials import column, embedded
 
 # The numbers of the body: moments as parameters, given or integrated, or points; other places.
@@ -40,7 +40,7 @@ SIZES = ("radius", "outer", "inner", "sides", "semi_axes", "quadric", "height", 
 
 def body_step(
     problem: Problem,
-    points: Lagrangian | None,
+    points: PointLagrangian | None,
     a: Alphabet,
     c: Chapter,
 ) -> tuple[Step, ...]:
@@ -164,7 +164,7 @@ def _integrals(solids: tuple[Solid, ...], c: Chapter) -> Step:
 # its velocity in space, are functions on the body.
 
 
-def continuum(points: Lagrangian, a: Alphabet, c: Chapter) -> Step:
+def continuum(points: PointLagrangian, a: Alphabet, c: Chapter) -> Step:
     """The step that says g(r), v, L, ϖ and h̃ of a body with a measure of mass, as integrals
     (36)–(38)."""
     draft = c.draft("continuum", "definition")

@@ -14,7 +14,7 @@ from ...language.tree import Tree, add, mul, names, neg, plain
 from ...problem.fields import coordinates
 from ...problem.moved_entries import (
     EntriesOfElement,
-    Moved,
+    MovedEntries,
     along,
     hessian,
     null_directions,
@@ -37,7 +37,7 @@ class Basis:
     """``moved``: the entries on which L̃ depends; ``rates``: equations that say how they move with
     time, which the step ``last`` has found."""
 
-    moved: Moved
+    moved: MovedEntries
     rates: tuple[Equation, ...]
     last: Step
     brackets: tuple[Step, ...]

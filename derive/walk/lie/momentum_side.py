@@ -18,7 +18,7 @@ from ...language.rational import Matrix
 from ...language.reserved import suffixed
 from ...language.tree import Tree, add, mul, neg, nodes, plain
 from ...problem.fields import coordinates
-from ...problem.moved_entries import Entry, Moved
+from ...problem.moved_entries import Entry, MovedEntries
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...schema.kind import Advected
@@ -144,7 +144,7 @@ NAMED = 6
 
 
 @dataclass(frozen=True)
-class EntriesOfAdvected(Moved):
+class EntriesOfAdvected(MovedEntries):
     """Those of Γ, with δΓ = ``sign`` ρ(ξ)Γ; ``matrices``: ρ(E_a)."""
 
     letter = "Γ"

@@ -182,7 +182,7 @@ def conserved_steps(
 
 
 @dataclass(frozen=True)
-class Kept:
+class ConservedMomentum:
     """A momentum that motions keep, ℓ (``turning``) or p: what vanishes of its rate, and in
     words."""
 
@@ -191,14 +191,16 @@ class Kept:
     law: Prose
 
 
-def kept_momenta(group: Group, v: Potentials, b: Alphabet, *, vectors: bool) -> list[Kept]:
+def kept_momenta(
+    group: Group, v: Potentials, b: Alphabet, *, vectors: bool
+) -> list[ConservedMomentum]:
     """The momenta of rotations and translations of space that are kept; ``vectors``: ℓ is one."""
     found = []
     if _turned(group) and (rate := _turning(v, b, vectors=vectors)) is not None:
-        found.append(Kept(True, rate, say(f"conserved.{_turning_law(rate)}")))
+        found.append(ConservedMomentum(True, rate, say(f"conserved.{_turning_law(rate)}")))
     if (rate := _shifting(group, v, b)) is not None:
         law = "momentum" if rate == "ṗ" else "across_gravity"
-        found.append(Kept(False, rate, say(f"conserved.{law}")))
+        found.append(ConservedMomentum(False, rate, say(f"conserved.{law}")))
     return found
 
 

@@ -22,7 +22,7 @@ from ..given.potentials import Potentials
 from ..vectors.rotation import Torque, diagonal
 from .coordinates import Balance, solved, told
 from .separation import constant, linear
-from .specialisation import Special
+from .specialisation import KernelOnGroup
 from .substitution import UNKNOWN, PutIn, element, symbols
 
 LARGEST = 6
@@ -37,8 +37,8 @@ def of_matrices(
     group: Group,
     body: Steps,
     v: Potentials,
-    special: Special,
-    driven: Special,
+    special: KernelOnGroup,
+    driven: KernelOnGroup,
     external: External | None,
     motion: Step,
     points: Steps,

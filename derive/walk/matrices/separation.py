@@ -20,7 +20,7 @@ from ..given.potentials import U_Q, Potentials, column
 from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
 from ..spine.principle import AND
 from .coordinates import Balance, depends
-from .specialisation import Special
+from .specialisation import KernelOnGroup
 
 # When a motion separates into those of the linear parts and of the centre of mass (Exercise 2).
 #
@@ -113,7 +113,7 @@ def _prose(problem: Problem, *, decided: bool, rest: bool, pointwise: bool) -> P
 
 
 @dataclass(frozen=True)
-class Centred:
+class Barycentric:
     """The linear problem that is left: ``inertial`` in ξ′ with ``metric`` J_c, and its ``force``.
 
     ``acceleration``: ẇ, as the record has it; ``rate``: the same on words in r_c and w.
@@ -133,7 +133,7 @@ def central_moments(b: Alphabet) -> tuple[Letter, Expr]:
     return Letter("J_c", b.n, b.n, 1), word(b.J) - word(inverse_letter(b.m)) * first * first.bar
 
 
-def eliminate_translation(stage: Special, c: Chapter) -> Centred:
+def eliminate_translation(stage: KernelOnGroup, c: Chapter) -> Barycentric:
     """The equations of the linear parts about the centre of mass, with ẇ solved for; and their
     step."""
     b, draft = stage.letters, c.draft("elimination", "elimination")
@@ -177,7 +177,7 @@ def eliminate_translation(stage: Special, c: Chapter) -> Centred:
     )
     rate = tidy(substitute(-free, {b.c: from_centre[b.c]}))
     inertial, force, rate = (draft.mark(e) for e in (inertial, force, rate))
-    return Centred(inertial, force, metric, solved, rate, (step,))
+    return Barycentric(inertial, force, metric, solved, rate, (step,))
 
 
 # A product of groups H ⋉ Rⁿ with skew H: each factor is seen from its centre of mass.

@@ -18,8 +18,8 @@ from ..chapter import Chapter, Draft, say, say_signed
 from ..spine.alphabet import Alphabet, cancelling, inverse_letter
 from ..spine.cartan import cauchy_green, rates
 from .coordinates import coordinates_step
-from .separation import CentralEquations, Centred, seen_from_centres
-from .specialisation import Special
+from .separation import Barycentric, CentralEquations, seen_from_centres
+from .specialisation import KernelOnGroup
 
 # The kernel through the normal space of 𝔤 in gl(n): one multiplier, or none.
 #
@@ -36,7 +36,7 @@ def multiplier_steps(
     group: Group,
     b: Alphabet,
     c: Chapter,
-    centred: Centred | None = None,
+    centred: Barycentric | None = None,
 ) -> tuple[Step, ...]:
     """The steps ``multiplier``, ``motion`` and ``space``: Ż and θ from  Tr ξ′ (residue − force)‾ =
     0,  with J (or J_c) as ``metric``."""
@@ -165,7 +165,7 @@ def mass_steps(
     place: Step,
     b: Alphabet,
     c: Chapter,
-    centred: Centred | None = None,
+    centred: Barycentric | None = None,
     *,
     balanced: bool = True,
     central: CentralEquations | None = None,
@@ -242,7 +242,7 @@ class Solution:
 
 
 def solution(
-    stage: Special, centred: Centred | None, group: Group, here: Chapter, c: Chapter
+    stage: KernelOnGroup, centred: Barycentric | None, group: Group, here: Chapter, c: Chapter
 ) -> Solution:
     """The acceleration from ``stage.inertial`` = the work of ``stage.forces``, or from what is left
     of it once the translation is eliminated, for every ξ′ in 𝔤; ``c``: here, where inputs act."""

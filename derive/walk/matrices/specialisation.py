@@ -43,7 +43,7 @@ from .isometry import (
 
 
 @dataclass(frozen=True)
-class General:
+class AnyGroup:
     """What is known of every group of one action; ``cartan`` and ``exterior`` are carried to 𝔤.
 
     ``moment_work``: −dŨ(δg) by the moments of forces.
@@ -57,7 +57,7 @@ class General:
 
 
 @dataclass(frozen=True)
-class Special:
+class KernelOnGroup:
     """The kernel for one problem, unsolved: ``inertial``: dϖ(X, δ′) without the work of the
     ``forces`` on ξ′ (and η′).
 
@@ -85,7 +85,7 @@ def letters_of(group: Group, *, signed: bool) -> Alphabet:
     return Alphabet(group.n, affine=group.affine, **known)
 
 
-def with_external(stage: Special, external: External | None) -> Special:
+def with_external(stage: KernelOnGroup, external: External | None) -> KernelOnGroup:
     """The same kernel with the forces from outside dϖ added to those on ξ′ (and η′)."""
     b, forces = stage.letters, dict(stage.forces)
     if external:
@@ -96,8 +96,8 @@ def with_external(stage: Special, external: External | None) -> Special:
 
 
 def specialise(
-    road: General, group: Group, v: Potentials, c: Chapter, bodies: Bodies | None
-) -> Special:
+    road: AnyGroup, group: Group, v: Potentials, c: Chapter, bodies: Bodies | None
+) -> KernelOnGroup:
     """The forms, forces and energy of a problem, with their steps; ``bodies``: those whose metric
     is left-invariant."""
     b = letters_of(group, signed=road.letters.signed)
@@ -146,7 +146,7 @@ def specialise(
         *(coadjoint_steps(road.momenta, b, whole, c) if turns_whole(group) else ()),
         motion,
     )
-    return Special(free, whole, free.respell(inertial), forces, steps, (last,), bodies)
+    return KernelOnGroup(free, whole, free.respell(inertial), forces, steps, (last,), bodies)
 
 
 def turns_whole(group: Group) -> bool:
@@ -210,7 +210,7 @@ def _kept(group: Group, *, stays: bool = True) -> Prose:
 def _derived(
     momentum: Expr,
     energy: Expr,
-    road: General,
+    road: AnyGroup,
     v: Potentials,
     a: Alphabet,
     brackets: Mapping[Letter, Expr],
@@ -223,7 +223,7 @@ def _derived(
 
 
 def _exterior(
-    domega: Expr, road: General, a: Alphabet, varying: Draft, by_bracket: Iterable[Tree]
+    domega: Expr, road: AnyGroup, a: Alphabet, varying: Draft, by_bracket: Iterable[Tree]
 ) -> tuple[Contraction, Step]:
     """dϖ ready to be contracted, and its step, with the potential of the problem; also as it is
     written ``by_bracket``."""

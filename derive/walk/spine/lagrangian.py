@@ -132,7 +132,7 @@ POINT = read("rᵢ(t)")
 
 
 @dataclass(frozen=True)
-class Lagrangian:
+class PointLagrangian:
     """The Lagrangian of the points, on words: ``kinetic``: the summand ½ m_i ⟨v_i, v_i⟩, with v_i
     given by ``velocity``.
 
@@ -160,7 +160,7 @@ def velocities(position: Expr, a: Alphabet) -> tuple[Expr, Expr]:
     return velocity, variation
 
 
-def lagrangian(a: Alphabet, c: Chapter) -> Lagrangian:
+def lagrangian(a: Alphabet, c: Chapter) -> PointLagrangian:
     """L, and the places and velocities that an element of the group and a tangent vector give to
     the points."""
     first = c.draft("lagrangian", "definition")
@@ -191,7 +191,7 @@ def lagrangian(a: Alphabet, c: Chapter) -> Lagrangian:
         ),
     )
     velocity, variation = varied.mark(velocity), varied.mark(variation)
-    return Lagrangian(first.mark(kinetic), v_i, position, velocity, variation, steps)
+    return PointLagrangian(first.mark(kinetic), v_i, position, velocity, variation, steps)
 
 
 def _moved(a: Alphabet) -> Prose:
@@ -213,12 +213,12 @@ def indexed_tree(e: Expr, v_i: Letter, a: Alphabet, v: Tree = "") -> Tree:
     return tree_of(e, metrics(display=display))
 
 
-def moving_tree(stage: Lagrangian, a: Alphabet) -> Tree:
+def moving_tree(stage: PointLagrangian, a: Alphabet) -> Tree:
     """The tree of the summand ½ m_i ‖v_i‖², with the velocity of the motion for v_i."""
     return indexed_tree(stage.kinetic, stage.v_i, a, indexed_tree(stage.velocity, stage.v_i, a))
 
 
-def kinetic_of_motion(stage: Lagrangian) -> Expr:
+def kinetic_of_motion(stage: PointLagrangian) -> Expr:
     """The summand ½ m_i ⟨v_i, v_i⟩ on words, with the velocity of the motion for v_i."""
     return substitute(stage.kinetic, {stage.v_i: stage.velocity})
 
@@ -250,7 +250,7 @@ class Pullback:
     steps: tuple[Step, ...]
 
 
-def pulled_back(stage: Lagrangian, moments: Moments, a: Alphabet) -> Expr:
+def pulled_back(stage: PointLagrangian, moments: Moments, a: Alphabet) -> Expr:
     """L̃ + Ũ = Σ_i ½ m_i ‖α r_i + τ‖²: the velocities put in, and the sum carried out."""
     return sum_over(kinetic_of_motion(stage), {a.m_i, a.r_i}, moments)
 
@@ -291,7 +291,7 @@ def _moment(weights: tuple[Letter, ...], w: Word, members: set[Letter], moments:
     return sign * trace(expr_of_word(middle) * second)
 
 
-def pullback(stage: Lagrangian, a: Alphabet, c: Chapter) -> Pullback:
+def pullback(stage: PointLagrangian, a: Alphabet, c: Chapter) -> Pullback:
     """L̃: the motion put into L and summed over the points; then the force on the group."""
     moments, definitions = _moments(a, c)
     draft = c.draft("pullback", "pull-back")
@@ -329,7 +329,7 @@ def _moments(a: Alphabet, c: Chapter) -> tuple[Moments, Step]:
     return {key: draft.mark(word(x)) for key, x in table.items()}, step
 
 
-def _force(stage: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Moments, Step]:
+def _force(stage: PointLagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Moments, Step]:
     """−dŨ(δg) by the forces on the points, F_i = −∂U/∂r_i, a sum like that of the moments; the
     table of their moments, and the step."""
     table = {(a.F_i, a.r_i): word(a.N), (a.F_i,): word(a.F)}

@@ -29,7 +29,7 @@ from ..matrices.coordinates import at_constant_time, factored_tree
 from .alphabet import Alphabet, cancelling, inverse_letter
 from .cartan import DOMEGA, Cartan, body_rule, cauchy_green, natural_variations, primed, primes
 from .kernel import Kernel
-from .lagrangian import Lagrangian, Moments, sum_over
+from .lagrangian import Moments, PointLagrangian, sum_over
 
 # The body on an orbit of the group: what tells g_t (8), and what becomes of distances (1)(6).
 #
@@ -37,7 +37,7 @@ from .lagrangian import Lagrangian, Moments, sum_over
 # instant, tell which; and the distance of two of them changes through C = ĀA alone.
 
 
-def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Step:
+def unique(points: PointLagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Step:
     """The step that tells A, and for an affine action T, by sums over the points where they are."""
     draft = c.draft("unique", "pull-back")
     centre = Letter("m⁻¹c", a.n)
@@ -62,7 +62,7 @@ def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Ste
     return draft.step(equations, _prose(a), (8,))
 
 
-def _summed(points: Lagrangian, arm: Expr, moments: Moments, a: Alphabet) -> Expr:
+def _summed(points: PointLagrangian, arm: Expr, moments: Moments, a: Alphabet) -> Expr:
     """The sum over the points Σ m_i r_i(t) x̄ for a vector x = ``arm`` of each, or Σ m_i r_i(t) for
     x = 1."""
     tested = Letter("Y", a.n, arm.rows)
@@ -95,7 +95,7 @@ def _equations(d: Draft, square: Expr, varied: Expr, a: Alphabet) -> tuple[Equat
     )
 
 
-def distances(points: Lagrangian, a: Alphabet, c: Chapter) -> Distances:
+def distances(points: PointLagrangian, a: Alphabet, c: Chapter) -> Distances:
     """‖r_i(t) − r_j(t)‖² by C, and half its variation, with their step."""
     draft = c.draft("distances", "trivialisation")
     other = Letter("r_j", a.n)
@@ -124,7 +124,7 @@ def rigid(general: Distances, unit: Expr, a: Alphabet, c: Chapter) -> Step:
     )
 
 
-def unaligned(points: Lagrangian, unit: Expr, b: Alphabet, c: Chapter) -> Step:
+def unaligned(points: PointLagrangian, unit: Expr, b: Alphabet, c: Chapter) -> Step:
     """The step that tells g where the points are not all on one line: A(x ∧ y) = Ax ∧ Ay, of places
     or of their differences, for a matrix of determinant 1 with ĀA = 1.
     """

@@ -18,7 +18,7 @@ from ..chapter import Chapter, Draft, phrase, say, say_signed
 from ..matrices.coordinates import factored_tree
 from .alphabet import Alphabet
 from .cartan import Cartan, natural_variations, primes
-from .lagrangian import Lagrangian, Pullback, indexed_tree, sum_over, vertical_metric
+from .lagrangian import PointLagrangian, Pullback, indexed_tree, sum_over, vertical_metric
 
 # dϖ(X, ·) for an unknown vector X with δt = 1, and what its vertical part says of X.
 #
@@ -231,7 +231,7 @@ class Principle:
 
 
 def principle(
-    points: Lagrangian, pulled: Pullback, form: Cartan, a: Alphabet, c: Chapter
+    points: PointLagrangian, pulled: Pullback, form: Cartan, a: Alphabet, c: Chapter
 ) -> Principle:
     """The variation of the action by dϖ, and what dϖ is there, d’Alembert's principle: the steps
     ``extremal`` and ``dalembert``."""
@@ -314,12 +314,12 @@ def _rate(form: Expr, work: Expr, a: Alphabet) -> Expr:
     return derivation(form, rate.get)
 
 
-def _acceleration(points: Lagrangian, a: Alphabet) -> Expr:
+def _acceleration(points: PointLagrangian, a: Alphabet) -> Expr:
     """α̇ r_i + τ̇."""
     return substitute(points.velocity, {p.velocity: word(p.acceleration) for p in a.parts})
 
 
-def _work(points: Lagrangian, a: Alphabet) -> tuple[Expr, Tree]:
+def _work(points: PointLagrangian, a: Alphabet) -> tuple[Expr, Tree]:
     """⟨m_i r̈_i − F_i, δr_i − v_i δt⟩ on words, with the acceleration at hand; and as written."""
     acceleration = _acceleration(points, a)
     varied = Letter("δr_i", a.n)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ...algebra.structure import Place, Torus
+from ...algebra.structure import Place, TorusLattice
 from ...algebra.words import Expr, Letter
 from ...language.tree import Tree, add, mul
 from ...record.record import Equation, Step
@@ -179,35 +179,35 @@ Term = tuple[str, str, int]
 
 
 @dataclass(frozen=True)
-class Form:
+class LatticeForm:
     """The sum over n of some terms, each with its unit."""
 
     terms: Mapping[Term, Unit]
 
-    def __add__(self, other: Form) -> Form:
+    def __add__(self, other: LatticeForm) -> LatticeForm:
         total = dict(self.terms)
         for t, u in other.terms.items():
             total[t] = total[t] + u if t in total else u
-        return Form({t: u for t, u in total.items() if u.q})
+        return LatticeForm({t: u for t, u in total.items() if u.q})
 
-    def __sub__(self, other: Form) -> Form:
+    def __sub__(self, other: LatticeForm) -> LatticeForm:
         return self + other.times(-1)
 
-    def times(self, unit: Unit | Fraction | int) -> Form:
+    def times(self, unit: Unit | Fraction | int) -> LatticeForm:
         """The same times a number."""
-        return Form({t: u * unit for t, u in self.terms.items()})
+        return LatticeForm({t: u * unit for t, u in self.terms.items()})
 
-    def put(self, name: str, image: Coefficient) -> Form:
+    def put(self, name: str, image: Coefficient) -> LatticeForm:
         """The form with another coefficient for a function."""
-        total = Form({})
+        total = LatticeForm({})
         for (a, b, p), u in self.terms.items():
             first, second = (image if x == name else Coefficient(x) for x in (a, b))
             total += paired(first.times(u, p), second)
         return total
 
-    def varied(self, name: str, variation: str) -> Form:
+    def varied(self, name: str, variation: str) -> LatticeForm:
         """δ of the form by the product rule, δa being the variation of one function a."""
-        total = Form({})
+        total = LatticeForm({})
         for (a, b, p), u in self.terms.items():
             for x, other in ((a, b), (b, a)):
                 if x == name:
@@ -227,7 +227,7 @@ class Form:
         (found,) = self.terms.items()
         return found
 
-    def over(self, other: Form) -> Unit:
+    def over(self, other: LatticeForm) -> Unit:
         """The number that it is of another form; ``ValueError`` where it is no multiple."""
         (term, u), (there, v) = self.only, other.only
         if term != there:
@@ -240,15 +240,15 @@ class Form:
         return u.times(summed(Coefficient(a, ONE, p).at, of(b, minus(N))))
 
 
-def paired(x: Coefficient, y: Coefficient) -> Form:
+def paired(x: Coefficient, y: Coefficient) -> LatticeForm:
     """Σ of the one at n times the other at −n."""
     a, b = sorted((x.name, y.name))
-    return Form({(a, b, x.power + y.power): x.unit * y.unit})
+    return LatticeForm({(a, b, x.power + y.power): x.unit * y.unit})
 
 
-def traced(e: Expr, elements: Mapping[Letter, Coefficient], order: int) -> Form:
+def traced(e: Expr, elements: Mapping[Letter, Coefficient], order: int) -> LatticeForm:
     """A sum of traces of products of two letters, which stand for elements of su(N)."""
-    total = Form({})
+    total = LatticeForm({})
     for (traces, rest), c in e.terms.items():
         (((x, bar), (y, other)),) = traces
         if rest or bar != other:
@@ -273,7 +273,7 @@ def modes(phase: Phase, stream: Coefficient, rate: Unit, motion: Step, c: Chapte
     """dω̂(n)/dt for one of n and −n, of Ẇ = rate · [W, P]; ``stream``: P by ω̂."""
     draft = c.draft("modes", "evaluation")
     draft.depends_on(motion)
-    torus, found = Torus(phase.N), commutator(Torus(phase.N), stream.power)
+    torus, found = TorusLattice(phase.N), commutator(TorusLattice(phase.N), stream.power)
     unit = rate * stream.unit * phase.bracket(M, N)[0]
     told = [
         Equation(("call", "d/dt", at(n)), total(phase, unit, found[n])) for n in torus.half_plane
@@ -281,7 +281,7 @@ def modes(phase: Phase, stream: Coefficient, rate: Unit, motion: Step, c: Chapte
     return draft.step(told, say("modes.torus"))
 
 
-def commutator(torus: Torus, power: int) -> Mapping[Place, Terms]:
+def commutator(torus: TorusLattice, power: int) -> Mapping[Place, Terms]:
     """What stands before ω̂(m) ω̂(k) in Σ sin(2π m∧k/N) ω̂(m) |k|²ᵖ ω̂(k) T(m + k), by m + k."""
     found: dict[Place, dict[int, dict[Pair, Fraction]]] = {}
     for m in torus.places:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ...algebra.calculus import derivation, gradient, substitute
-from ...algebra.structure import Torus
+from ...algebra.structure import TorusLattice
 from ...algebra.words import Expr, Letter, inner, trace, word
 from ...language.tree import mul
 from ...problem.problem import Problem
@@ -17,7 +17,7 @@ from ..spine.alphabet import Alphabet
 from .lattice import (
     LARGEST,
     Coefficient,
-    Form,
+    LatticeForm,
     M,
     N,
     Phase,
@@ -43,23 +43,23 @@ def inertia(a: Coefficient) -> Coefficient:
 
 
 @dataclass(frozen=True)
-class Fluid:
+class ZeitlinFluid:
     """What the inertia operator and the trace form make of the coefficients ζ, for one N.
 
     ``lagrangian``, ``energy``: L̃ by ζ and h̃ by ω̂; ``slope``: ω̂ by ζ; ``momentum``: Π of W̄;
     ``scale``: N/4πi; ``stream``: P; ``velocity``: Z of P.
     """
 
-    lagrangian: Form
+    lagrangian: LatticeForm
     slope: Coefficient
     momentum: Unit
-    energy: Form
+    energy: LatticeForm
     stream: Coefficient
     velocity: Unit
     scale: Unit
 
 
-def fluid_of(torus: Torus, a: Alphabet) -> Fluid:
+def fluid_of(torus: TorusLattice, a: Alphabet) -> ZeitlinFluid:
     """From ½⟨𝔸Z, Z⟩: δL̃ = ⟨Π, δZ⟩, h̃ = ⟨Π, Z⟩ − L̃, 𝔸P = −W."""
     scale = Unit(Fraction(4, torus.N), 1, 1).inverse
     zeta, varied, vorticity = (Coefficient(x) for x in ("ζ", "δζ", "ω̂"))
@@ -73,7 +73,7 @@ def fluid_of(torus: Torus, a: Alphabet) -> Fluid:
     energy = (whole.times(momentum) - L).put("ω̂", slope).put("ζ", by_vorticity)
     stream = inertia(Coefficient("P")).times(-1).solved_for("ω̂")
     velocity = by_vorticity.times(scale).over(stream)
-    return Fluid(L, slope, momentum, energy, stream, velocity, scale)
+    return ZeitlinFluid(L, slope, momentum, energy, stream, velocity, scale)
 
 
 def torus_steps(
@@ -95,7 +95,7 @@ def torus_steps(
     return first, algebra, lagrangian, momenta, flow, energy, turning, motion, *told, kept
 
 
-def _basis(phase: Phase, fluid: Fluid, general: AnyLagrangian, c: Chapter) -> Step:
+def _basis(phase: Phase, fluid: ZeitlinFluid, general: AnyLagrangian, c: Chapter) -> Step:
     draft = c.draft("coordinates", "coordinates")
     draft.depends_on(general["second_order"])
     product = mul(of("T", M), of("T", N))
@@ -118,13 +118,13 @@ def _algebra(phase: Phase, basis: Step, c: Chapter) -> Step:
     return draft.step([bracket], say("algebra.torus"))
 
 
-def _lagrangian(fluid: Fluid, general: AnyLagrangian, basis: Step, c: Chapter) -> Step:
+def _lagrangian(fluid: ZeitlinFluid, general: AnyLagrangian, basis: Step, c: Chapter) -> Step:
     draft = c.draft("lagrangian", "definition")
     draft.depends_on(general["momenta"], basis)
     return draft.step([Equation("L̃", fluid.lagrangian.tree())], say("lagrangian.torus"))
 
 
-def _momenta(fluid: Fluid, made_from: tuple[Step, ...], c: Chapter) -> Step:
+def _momenta(fluid: ZeitlinFluid, made_from: tuple[Step, ...], c: Chapter) -> Step:
     """ω̂(n), the derivative along ζ(−n), of which δZ is a multiple of T(−n); W, and Π by it."""
     draft = c.draft("momenta", "fibre derivative")
     draft.depends_on(*made_from)
@@ -140,7 +140,7 @@ def _momenta(fluid: Fluid, made_from: tuple[Step, ...], c: Chapter) -> Step:
     )
 
 
-def _stream(fluid: Fluid, momenta: Step, c: Chapter) -> Step:
+def _stream(fluid: ZeitlinFluid, momenta: Step, c: Chapter) -> Step:
     draft = c.draft("stream", "inversion")
     draft.depends_on(momenta)
     return draft.step(
@@ -149,13 +149,13 @@ def _stream(fluid: Fluid, momenta: Step, c: Chapter) -> Step:
     )
 
 
-def _energy(fluid: Fluid, made_from: tuple[Step, ...], c: Chapter) -> Step:
+def _energy(fluid: ZeitlinFluid, made_from: tuple[Step, ...], c: Chapter) -> Step:
     draft = c.draft("energy", "Legendre transform")
     draft.depends_on(*made_from)
     return draft.step([Equation("h̃", fluid.energy.tree())], say("energy.torus"))
 
 
-def coadjoint_rate(fluid: Fluid, epsilon: int, a: Alphabet) -> Unit:
+def coadjoint_rate(fluid: ZeitlinFluid, epsilon: int, a: Alphabet) -> Unit:
     """What Ẇ is of [W, P]: ⟨Π̇, ξ′⟩ = ε⟨Π, [Z, ξ′]⟩, Π is a multiple of W̄, Z one of P; ξ′ is any."""
     Z, xi = word(a.Z.velocity), word(a.Z.xi_prime)
     turned = epsilon * inner(word(W).bar, Z * xi - xi * Z)
@@ -171,7 +171,7 @@ def _coadjoint(rate: Unit, general: AnyLagrangian, made_from: tuple[Step, ...], 
 
 
 def _motion(
-    phase: Phase, fluid: Fluid, rate: Unit, made_from: tuple[Step, ...], c: Chapter
+    phase: Phase, fluid: ZeitlinFluid, rate: Unit, made_from: tuple[Step, ...], c: Chapter
 ) -> Step:
     """The coefficient at T(n) of Ẇ."""
     draft = c.draft("motion", "solution")
@@ -183,7 +183,9 @@ def _motion(
     )
 
 
-def _kept(fluid: Fluid, torus: Torus, made_from: tuple[Step, ...], c: Chapter) -> Step:
+def _kept(
+    fluid: ZeitlinFluid, torus: TorusLattice, made_from: tuple[Step, ...], c: Chapter
+) -> Step:
     """The energy, and Tr Wᵏ: traces of a product with a bracket of one of its factors."""
     draft = c.draft("conserved", "conservation")
     draft.depends_on(*made_from)

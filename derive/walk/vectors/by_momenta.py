@@ -14,9 +14,9 @@ from ...record.record import Equation, Step
 from ..chapter import Chapter, Draft, say
 from ..given.inputs import External
 from ..matrices.isometry import without_cauchy_green
-from ..matrices.separation import Centred, central_moments
+from ..matrices.separation import Barycentric, central_moments
 from ..matrices.solution import MULTIPLIERS, basis_member, direction_of
-from ..matrices.specialisation import General, Special
+from ..matrices.specialisation import AnyGroup, KernelOnGroup
 from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
 from ..spine.kernel import MomentumForm
 from .euler import CENTRAL, VectorForm, from_centre, pairs_of, simplified, spun, vector_tree
@@ -122,9 +122,9 @@ def _row(block: Expr, i: int) -> list[Tree]:
 
 
 def of_matrices(
-    general: General,
-    driven: Special,
-    centred: Centred | None,
+    general: AnyGroup,
+    driven: KernelOnGroup,
+    centred: Barycentric | None,
     group: Group,
     c: Chapter,
     c_u: Chapter,
@@ -153,7 +153,7 @@ def _of_basis(*members: Letter) -> WordNotation:
 
 
 def _velocity(
-    draft: Draft, own: Balance, centred: Centred | None, group: Group, b: Alphabet
+    draft: Draft, own: Balance, centred: Barycentric | None, group: Group, b: Alphabet
 ) -> list[Equation]:
     """The velocity by Π_a (and p_b), through the normal space of 𝔤 or by the mass matrix; nothing
     where each factor is seen from its centre of mass."""
@@ -236,7 +236,7 @@ def _covector(group: Group) -> Tree:
     return ("matrix", *rows)
 
 
-def _matrix_rates(general: MomentumForm, driven: Special, own: Balance, c: Chapter) -> Step:
+def _matrix_rates(general: MomentumForm, driven: KernelOnGroup, own: Balance, c: Chapter) -> Step:
     """The step of 𝕁_ab, Π̇_a (and ṗ_b)."""
     draft, b = c.draft("poisson_tensor", "Poisson tensor"), driven.letters
     Pi, Z, w, xi = b.Pi.momentum, word(b.Z.velocity), b.w.velocity, b.Z.xi_prime

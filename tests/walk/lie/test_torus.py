@@ -8,7 +8,7 @@ from random import Random
 import numpy as np
 import pytest
 
-from derive.algebra.structure import Torus
+from derive.algebra.structure import TorusLattice
 from derive.algebra.words import Letter, trace, word
 from derive.check.checker import Checker, check
 from derive.command.cli import main
@@ -221,9 +221,9 @@ def test_without_inertia():
 def test_coefficients_follow_from_the_inertia_operator(monkeypatch):
     """With 2|n|² in its place: ω̂ and L̃ twice, P and h̃ by ω̂ half, and the motion half as fast."""
     a = Alphabet("n", affine=False)
-    one = vorticity.fluid_of(Torus(7), a)
+    one = vorticity.fluid_of(TorusLattice(7), a)
     monkeypatch.setattr(vorticity, "inertia", lambda x: x.times(2, 1))
-    two = vorticity.fluid_of(Torus(7), a)
+    two = vorticity.fluid_of(TorusLattice(7), a)
     assert (two.slope, two.stream) == (one.slope.times(2), one.stream.times(Fraction(1, 2)))
     assert two.lagrangian == one.lagrangian.times(2)
     assert two.energy == one.energy.times(Fraction(1, 2))
@@ -232,7 +232,7 @@ def test_coefficients_follow_from_the_inertia_operator(monkeypatch):
 
 def test_forms_are_sums_over_the_lattice():
     """δ, a gradient and a substitution, beside sums of numbers."""
-    random, places = Random(0), Torus(5).places
+    random, places = Random(0), TorusLattice(5).places
     square = {n: n[0] ** 2 + n[1] ** 2 for n in places}
     values = {x: {n: random.randint(1, 99) for n in places} for x in ("a", "b", "c")}
 
@@ -263,7 +263,7 @@ def test_the_trace_form_is_that_of_matrices():
     N, rng = 5, np.random.default_rng(0)
     clock, shift = np.diag(np.exp(4j * np.pi * np.arange(N) / N)), np.roll(np.eye(N), 1, axis=1)
     power = np.linalg.matrix_power
-    values = {x: {n: rng.normal() for n in Torus(N).places} for x in "XY"}
+    values = {x: {n: rng.normal() for n in TorusLattice(N).places} for x in "XY"}
 
     def element(x):
         return sum(
@@ -277,6 +277,8 @@ def test_the_trace_form_is_that_of_matrices():
     X, Y = (Letter(x, "n", "n") for x in "XY")
     form = traced(trace(word(X, Y)), {X: Coefficient("X"), Y: Coefficient("Y")}, N)
     ((x, y, p), u), found = form.only, np.trace(element("X") @ element("Y"))
-    expected = float(u.q) * sum(values[x][n] * values[y][-n[0], -n[1]] for n in Torus(N).places)
+    expected = float(u.q) * sum(
+        values[x][n] * values[y][-n[0], -n[1]] for n in TorusLattice(N).places
+    )
     assert p == 0
     assert abs(found - expected) < 1e-12 * abs(expected) + 1e-12
