@@ -1,12 +1,14 @@
 """Entries of g that are one number in all of a group are numbers: in what is refused, in what is
 shown, and in what is kept; against elements made by exponentials."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
 import derive
 from derive.language.tree import nodes
-from derive.problem.moved_entries import element
+from derive.problem.moved_entries import element, null_directions
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 
@@ -127,3 +129,14 @@ def test_the_other_momentum_is_kept_by_what_the_group_relates():
 def test_division_by_an_entry_that_is_0_is_told():
     with pytest.raises(ProblemError, match="divides by an entry of g that is 0 on UT"):
         derived("UT(3)", "{} - 1/A_21")
+
+
+def test_null_directions_are_those_that_are_null_everywhere():
+    """Fractions of small numbers; of what varies, or is longer, none is told."""
+    a, half = ("par", "a"), Fraction(-3, 2)
+    assert null_directions([[4, 6], [6, 9]]) == ((half, 1),)
+    assert null_directions([[("mul", 4, a), ("mul", 6, a)], [6, 9]]) == ((half, 1),)
+    assert null_directions([[1, 0], [0, a]]) == ()
+    assert null_directions([[1, a], [a, ("pow", a, 2)]]) is None
+    assert null_directions([[1, 10**6], [10**6, 10**12]]) == ((-(10**6), 1),)
+    assert null_directions([[1, 10**6 + 1], [1, 10**6 + 1]]) is None
