@@ -26,13 +26,9 @@ from derive.problem.stated_motion import of_points
 from derive.problem.toml import TOP
 from derive.schema.body_kinds import SOLIDS, Point
 from derive.schema.kind import (
-    DENSITIES,
-    DIRECTIONS,
-    FORCES,
     INPUTS,
     REPRESENTATIONS,
     SECTIONS,
-    SIDES,
     Damping,
     Event,
     Fluid,
@@ -117,6 +113,7 @@ def schema() -> dict[str, object]:
     single = {"parameters", "body", "algebra", "group", "fluid", "initial", *SECTIONS}
     potentials, inputs = kinds(), dict(INPUTS)
     own = [*potentials.values(), *inputs.values(), *SOLIDS.values(), *(x for _, x in STATED)]
+    few = {k: x.words for table in own for k, x in table.keys().items() if x.words}
     return {
         "top": sorted(TOP),
         "single": sorted(single),
@@ -126,7 +123,8 @@ def schema() -> dict[str, object]:
         "input": {x: [*own.names()] for x, own in inputs.items()},
         "solid": {x: [*own.names()] for x, own in SOLIDS.items()},
         "lists": sorted({x for table in own for x in vectors(table)}),
-        "values": VALUES,
+        "values": {k: x.words for table in own for k, x in table.keys().items() if x.words}
+        | OTHERS,
         "named": [x for _, x in named_groups()],
         "groups": {x: moved(group(x), f.meaning) for f, x in named_groups()},
     }
@@ -138,17 +136,8 @@ STATED: tuple[tuple[str, type[Table]], ...] = (
     *(("fluid", Fluid), *SECTIONS.items()),
 )
 """The tables of one kind."""
-VALUES = {
-    "trivialisation": SIDES,
-    "direction": DIRECTIONS,
-    "frame": ("space", "body"),
-    "action": ("linear", "affine"),
-    "moments": ("symbolic",),
-    "representation": REPRESENTATIONS,
-    "density": DENSITIES,
-    "forces": FORCES,
-}
-"""The values of a key that has few; ``density`` is that of a fluid."""
+OTHERS = {"moments": ("symbolic",), "representation": REPRESENTATIONS}
+"""The values of keys that have few, but in no table."""
 
 
 def vectors(own: type[Table]) -> set[str]:
