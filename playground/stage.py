@@ -123,8 +123,7 @@ def schema() -> dict[str, object]:
         "input": {x: [*own.names()] for x, own in inputs.items()},
         "solid": {x: [*own.names()] for x, own in SOLIDS.items()},
         "lists": sorted({x for table in own for x in vectors(table)}),
-        "values": {k: x.words for table in own for k, x in table.keys().items() if x.words}
-        | OTHERS,
+        "values": few | OTHERS,
         "named": [x for _, x in named_groups()],
         "groups": {x: moved(group(x), f.meaning) for f, x in named_groups()},
     }
