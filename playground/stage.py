@@ -21,7 +21,6 @@ from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
 from derive.command.showing import READY, ready_made
 from derive.language.limits import TABLES
-from derive.page.motion_page import SCRIPTS
 from derive.problem.stated_motion import of_points
 from derive.problem.toml import TOP
 from derive.schema.body_kinds import SOLIDS, Point
@@ -41,6 +40,7 @@ from derive.schema.kinds import kinds
 from derive.schema.table import Table
 from derive.views.language import language
 from derive.views.outline import system, title
+from derive.views.page.motion_page import SCRIPTS
 
 HERE = Path(__file__).parent
 LIBRARIES, LATER = ("jinja2", "markupsafe"), ("mpmath", "sympy")

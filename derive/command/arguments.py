@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from .. import __version__
 from ..language.reserved import did_you_mean, near_name
-from ..plot.kinds_told import told_kinds
 from ..schema.table import nearest
+from ..views.plot.kinds_told import told_kinds
 from ..views.rendering import FORMATS
 from .writing import STDOUT, one_line
 
@@ -329,8 +329,8 @@ def add_reading_options(
 ) -> None:
     """Add the options of ``walk`` and its like and of ``notes``: problems, format, language,
     notations."""
-    from ..printing.signs import NOTATIONS
     from ..views.language import LANGUAGES
+    from ..views.printing.signs import NOTATIONS
 
     for one in (*walks, *searched):
         one.add_argument("problem", help="a ready-made name or a .toml file")

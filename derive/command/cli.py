@@ -169,11 +169,11 @@ def command_simulate(args: argparse.Namespace) -> int:
 def command_plot(args: argparse.Namespace) -> int:
     """Draw a run of a motion, or several: .svg, .pdf or .png (needs matplotlib)."""
     from ..motion.ensemble_files import read_either
-    from ..plot.ensemble_pictures import plot_precision
-    from ..plot.kinds_told import PRECISION
-    from ..plot.pictures import plot, plot_energies
-    from ..plot.plot_sheet import ending
     from ..views.language import language
+    from ..views.plot.ensemble_pictures import plot_precision
+    from ..views.plot.kinds_told import PRECISION
+    from ..views.plot.pictures import plot, plot_energies
+    from ..views.plot.plot_sheet import ending
     from .writing import write
 
     ending(args.out)
@@ -247,10 +247,10 @@ def _trial_text(v: Verdict) -> str:
 
 def command_paper(args: argparse.Namespace) -> int:
     """The paper's numbered equations against the derivation."""
-    from ..paper import findings as paper
-    from ..paper.printed import PAPER
     from ..views.book import as_json, as_text
     from ..views.language import language
+    from ..views.paper import findings as paper
+    from ..views.paper.printed import PAPER
 
     records = [derive(name)[1] for name in paper.PROBLEMS]
     findings = list(with_progress(paper.findings(records), len(PAPER), "equations"))

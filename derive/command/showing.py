@@ -13,10 +13,10 @@ from typing import Any
 from ..algebra.families import FAMILIES
 from ..language.limits import Refused
 from ..language.reserved import did_you_mean, near_name
-from ..printing.line_breaking import WIDTH
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation, Step
 from ..schema.table import nearest
+from ..views.printing.line_breaking import WIDTH
 from ..views.rendering import render, unprinted
 from .writing import as_in_a_file, one_line
 

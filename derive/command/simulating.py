@@ -30,12 +30,12 @@ from ..motion.run import Array, Run, format_of, written
 from ..motion.simulate import beginning, run
 from ..motion.start import state_file
 from ..motion.trajectory import STEPS, Method, instants
-from ..page.motion_page import motion_page
 from ..pipeline import motion_of, motion_of_many
-from ..plot.pictures import plot
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..views.language import language
+from ..views.page.motion_page import motion_page
+from ..views.plot.pictures import plot
 from ..views.rendering import NOTES, RenderError, notes, pdf
 from .showing import UsageError, allowed, derive, discrete_walk, notation, warn_of_letters
 from .writing import growing, heard, one_line, require_place, with_progress, write

@@ -16,8 +16,6 @@ from ..code.emit import emit, problem_hash
 from ..code.options import Options
 from ..code.program import Program
 from ..code.step.step_numbers import FIXED
-from ..figure.drawn_body import ExpressionValues, parts
-from ..figure.shapes import Curve, Shape
 from ..language.reserved import suffixed
 from ..language.tree import Tree, replaced
 from ..language.values import value
@@ -25,6 +23,8 @@ from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..schema.body_kinds import Body, GivenBody
 from ..schema.kind import Event, Lagrangian
+from ..views.figure.drawn_body import ExpressionValues, parts
+from ..views.figure.shapes import Curve, Shape
 from .emitted_code import EmittedCode, base_units
 from .first_numbers import MotionError
 from .native import FLAGS, CSource, Motion, binding, binding_to_events, loaded, over_cores

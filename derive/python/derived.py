@@ -17,7 +17,7 @@ from .quoted import loaded
 from .shown import Shown
 
 if TYPE_CHECKING:
-    from ..figure.drawing import Scene
+    from ..views.figure.drawing import Scene
     from .as_sympy import Translation
     from .conserved_quantities import SymmetriesOf
     from .expressions import Expressions
@@ -36,7 +36,7 @@ class Figure:
 
     def svg(self) -> str:
         """The drawing as SVG text, a file of its own or an element of a page."""
-        from ..figure.drawing import svg
+        from ..views.figure.drawing import svg
 
         return svg(self.scene)
 
@@ -84,7 +84,7 @@ class Derived:
 
     def figure(self) -> Figure | None:
         """The drawing of the body; ``None`` where the problem has no body."""
-        from ..figure.scene import scene
+        from ..views.figure.scene import scene
 
         drawn = scene(self.record)
         return Figure(drawn) if drawn else None
@@ -247,9 +247,9 @@ class Derived:
         from ..motion.first_numbers import require_numbers
         from ..motion.simulate import beginning
         from ..motion.trajectory import Method, instants
-        from ..page.motion_page import motion_page
         from ..pipeline import motion_of
         from ..views.language import language as named
+        from ..views.page.motion_page import motion_page
 
         require_numbers(start, exp, t=t, tol=tol)
         code = motion_of(replace(self.problem, events=()), self.record, weightless=True)

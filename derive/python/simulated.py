@@ -17,8 +17,8 @@ from .api import in_keywords
 def _drawn(
     run: Run | Ensemble, path: Path, kind: str, lang: str, columns: Sequence[str] = ()
 ) -> Path:
-    from ..plot.pictures import plot
     from ..views.language import language
+    from ..views.plot.pictures import plot
 
     words = language(lang)
     with in_keywords():

@@ -2,9 +2,9 @@
 
 A message is an English sentence, or a part of one, with places ``{name}``; views have it in other
 languages under that very text.  A claim is what a sentence of a step says beside the step's
-equations: it has the key of its sentence in :mod:`derive.prose` and a value, a tree, for each place
-that is filled by one; ``("row", …)`` lists several.  The sentence is its rendering, and nothing
-that :data:`CLAIMS` lists is said without one: ``derive check`` computes every claim again.
+equations: it has the key of its sentence in :mod:`derive.record.prose` and a value, a tree, for
+each place that is filled by one; ``("row", …)`` lists several.  The sentence is its rendering, and
+nothing that :data:`CLAIMS` lists is said without one: ``derive check`` computes every claim again.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any
 from ..language.limits import SENTENCE
 from ..language.show import in_sentence
 from ..language.tree import Tree
-from ..prose import message, messages
+from .prose import message, messages
 
 PLACE = re.compile(r"\{([a-z]+)\}")
 
@@ -221,8 +221,9 @@ def rendered(claim: Claim, **phrases: Sentence) -> Sentence:
 
 
 def fault(prose: Prose, claims: tuple[Claim, ...]) -> str:
-    """A sentence that is no message of :mod:`derive.prose`, or has words in the place of a formula,
-    or is a claim and among none of these, or a claim that no sentence is; "" where they agree."""
+    """A sentence that is no message of :mod:`derive.record.prose`, or has words in the place of a
+    formula, or is a claim and among none of these, or a claim that no sentence is; "" where they
+    agree."""
     parts = [*_parts(prose)]
     if strange := next((x.message for x in parts if x.message not in messages()), ""):
         return f"a sentence that is none of derive's: {_quoted(strange)}"

@@ -13,13 +13,13 @@ from itertools import groupby
 from unicodedata import normalize
 
 from ..language.tree import Tree, names
-from ..paper.findings import OMISSION, SIGN, VERDICTS, PaperFinding
-from ..printing.line_breaking import WIDTH
 from ..record.record import ACTIONS, ANY_GROUP, Derivation, Step, Symbol
 from ..record.sentence import english, say
 from ..record.vocabulary import VOCABULARY
 from .language import ENGLISH, Language
 from .outline import system, title
+from .paper.findings import OMISSION, SIGN, VERDICTS, PaperFinding
+from .printing.line_breaking import WIDTH
 
 VARIATIONS = ("δ′", "δ")
 RATE = "\u0307"

@@ -9,20 +9,13 @@ from functools import cache, cached_property, lru_cache, partial
 from html import escape
 from typing import Any
 
-from ..figure.drawing import svg
-from ..figure.scene import scene
 from ..language.templating import environment
 from ..language.tree import Tree
-from ..paper.findings import PaperFinding
-from ..printing.letters import NAMES, standard
-from ..printing.line_breaking import groups, measure
-from ..printing.sentences import between_dollars, inline, prose, spelt
-from ..printing.signs import Notation
-from ..printing.tex import Cut, cut_up, formula, joined
-from ..printing.typeset import Formula, literal, plain
 from ..record.record import Derivation, Equation, Step
 from ..record.rules import RULES
 from .book import MOTION, REGULAR, BookPart, Passage, book, corrections, parameters
+from .figure.drawing import svg
+from .figure.scene import scene
 from .language import ENGLISH, Language, entries
 from .latex import anchor
 from .layout import ROOM, Quantifiers, clause, quantifier, quantifiers
@@ -40,6 +33,13 @@ from .outline import (
     subtitle,
     title,
 )
+from .paper.findings import PaperFinding
+from .printing.letters import NAMES, standard
+from .printing.line_breaking import groups, measure
+from .printing.sentences import between_dollars, inline, prose, spelt
+from .printing.signs import Notation
+from .printing.tex import Cut, cut_up, formula, joined
+from .printing.typeset import Formula, literal, plain
 
 PHONE = 16.0
 """The width, in em, above which what cannot be broken moves in a box of its own on a phone."""

@@ -12,14 +12,14 @@ from pathlib import Path
 
 from ..language.show import show
 from ..language.tree import Tree
-from ..printing.line_breaking import display_width, measure
-from ..printing.tex import latex_tree
-from ..prose import LANGUAGES as LANGUAGES
-from ..prose import entries as steps
-from ..prose import read
 from ..record import rules, vocabulary
+from ..record.prose import LANGUAGES as LANGUAGES
+from ..record.prose import entries as steps
+from ..record.prose import read
 from ..record.record import Equation
 from ..record.sentence import Prose, Sentence, filled, phrase
+from .printing.line_breaking import display_width, measure
+from .printing.tex import latex_tree
 
 CATALOGUE = Path(__file__).with_name("catalogue.txt")
 POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")

@@ -8,17 +8,12 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 from itertools import accumulate, pairwise
 
-from ..figure.drawing import Scene, tikz
-from ..figure.scene import scene
 from ..language.templating import environment
 from ..language.tree import Tree
-from ..paper.findings import PaperFinding
-from ..printing.letters import definitions, parameter, styled
-from ..printing.sentences import between_dollars, dollars, prose
-from ..printing.signs import Notation, tex_text
-from ..printing.tex import latex_tree
 from ..record.record import Derivation, Step
 from .book import MOTION, REGULAR, BookPart, Passage, book, corrections, parameters, steps
+from .figure.drawing import Scene, tikz
+from .figure.scene import scene
 from .language import ENGLISH, Language
 from .layout import blocks
 from .outline import (
@@ -35,6 +30,11 @@ from .outline import (
     subtitle,
     title,
 )
+from .paper.findings import PaperFinding
+from .printing.letters import definitions, parameter, styled
+from .printing.sentences import between_dollars, dollars, prose
+from .printing.signs import Notation, tex_text
+from .printing.tex import latex_tree
 
 __all__ = ["fragment", "latex", "latex_tree", "package"]
 

@@ -7,14 +7,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from ..printing.line_breaking import Line, fill, measure
-from ..printing.sentences import spelt
-from ..printing.signs import Notation, tex_text
-from ..printing.tex import formula, guarded, joined, latex_tree, marked, paren, pieces
-from ..printing.typeset import Formula, literal, plain, text
 from ..record.record import Equation
 from .language import ENGLISH, Entry, Language, entries
 from .outline import domain, moving, quantified
+from .printing.line_breaking import Line, fill, measure
+from .printing.sentences import spelt
+from .printing.signs import Notation, tex_text
+from .printing.tex import formula, guarded, joined, latex_tree, marked, paren, pieces
+from .printing.typeset import Formula, literal, plain, text
 
 ROOM = 38.0
 """The width of an equation in em, its number aside."""

@@ -9,12 +9,12 @@ from typing import Any
 from ..language.show import in_sentence
 from ..language.tree import names, nodes
 from ..language.tree import names as names_in
-from ..printing.letters import names_of
 from ..record.as_json import decode
 from ..record.record import AMENDED, ANY_GROUP, FIELDS, Derivation, Equation, Step
 from ..record.sentence import Sentence, listed, phrase
 from ..schema.kinds import kinds
 from .language import ENGLISH, Language, entries
+from .printing.letters import names_of
 
 CONVENTIONS = (
     "Bars are transposes and 1 is the identity. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for "

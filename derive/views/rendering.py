@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..language.limits import Refused
-from ..printing.line_breaking import WIDTH
 from ..record.record import Derivation, Symbol
+from .printing.line_breaking import WIDTH
 
 if TYPE_CHECKING:
-    from ..paper.findings import PaperFinding
-    from ..printing.signs import Notation
     from ..record.record import Step
     from .language import Language
+    from .paper.findings import PaperFinding
+    from .printing.signs import Notation
 
 
 # A record to be read beside the other trivialisation: what holds for any Lagrangian, step by step
@@ -110,8 +110,8 @@ def render(
 
     :class:`RenderError` for a format that is none, and for choices that do not go together.
     """
-    from ..printing.signs import Notation
     from .language import language
+    from .printing.signs import Notation
 
     if form not in FORMATS:
         raise RenderError(f"no format {form[:40]!r}; there are {', '.join(FORMATS)}")
@@ -161,10 +161,10 @@ def notes(
     ``moving``: the pages that a web page links to, by the names of the records; ``pictures``: files
     of pictures of their motions, which are shown.
     """
-    from ..printing.signs import Notation
     from . import latex
     from .html import html
     from .language import language
+    from .printing.signs import Notation
 
     if ending not in NOTES:
         raise RenderError(f"no notes end in {ending[:40]!r}; they end in {', '.join(NOTES)}")
@@ -192,7 +192,7 @@ def notes(
 
 def unprinted(records: Sequence[Derivation]) -> str:
     """The characters of titles, units and meanings that LaTeX shows as question marks."""
-    from ..printing.signs import unknown_to_tex
+    from .printing.signs import unknown_to_tex
 
     words = [str(d.problem["title"]) for d in records]
     for d in records:
@@ -203,8 +203,8 @@ def unprinted(records: Sequence[Derivation]) -> str:
 
 def corrections(records: Sequence[Derivation]) -> list[PaperFinding]:
     """The findings about the numbers that these records have and the paper prints otherwise."""
-    from ..paper.findings import amendments
     from ..record.record import AMENDED
+    from .paper.findings import amendments
 
     numbers = {n for d in records for step in d.steps for n in step.paper} & AMENDED
     return amendments(numbers) if numbers else []

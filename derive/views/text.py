@@ -9,20 +9,6 @@ from functools import partial
 from itertools import groupby
 
 from ..language.show import in_quotes, show, show_name, unclear
-from ..printing.letters import names_of, standard
-from ..printing.line_breaking import (
-    COMMA,
-    FACTOR,
-    MARK,
-    SUM,
-    WEDGE,
-    WIDTH,
-    Piece,
-    display_width,
-    fill,
-)
-from ..printing.sentences import QUOTED, between_dollars, dollars, prose
-from ..printing.signs import NO_BREAK, markdown_text
 from ..record.record import Derivation, Equation, Step, Symbol
 from .language import ENGLISH, TABLE, Language, cell
 from .layout import blocks
@@ -42,6 +28,20 @@ from .outline import (
     subtitle,
     title,
 )
+from .printing.letters import names_of, standard
+from .printing.line_breaking import (
+    COMMA,
+    FACTOR,
+    MARK,
+    SUM,
+    WEDGE,
+    WIDTH,
+    Piece,
+    display_width,
+    fill,
+)
+from .printing.sentences import QUOTED, between_dollars, dollars, prose
+from .printing.signs import NO_BREAK, markdown_text
 
 MARGIN, EQUATION, INSIDE = 2, 6, 4
 NAME = 8

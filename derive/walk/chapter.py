@@ -15,8 +15,8 @@ from ..algebra.word_trees import PLAIN, WordNotation, tree_of
 from ..algebra.words import Expr
 from ..language.tree import Tree
 from ..problem.problem import ProblemError
-from ..prose import message
 from ..record import sentence
+from ..record.prose import message
 from ..record.record import ANY_GROUP, Equation, Hypothesis, Step
 from ..record.sentence import Claim, Prose, Sentence, listed, rendered
 from ..record.uses import position_of

@@ -23,7 +23,7 @@ FIRST, LATER = Path("/first"), Path("/later")
 NEEDED = (
     "derive/templates/html/",
     "derive/problems/",
-    "derive/prose/",
+    "derive/record/prose/",
     "derive/views/",
     "amendments.pickle",
 )
@@ -79,8 +79,8 @@ def compiled(folder: Path, optimize: int = 0) -> None:
 def walked() -> set[str]:
     """The files that walks load."""
     sys.path.insert(0, str(FIRST))
-    from derive.paper.findings import amendments
     from derive.record.record import AMENDED
+    from derive.views.paper.findings import amendments
 
     (FIRST / "amendments.pickle").write_bytes(pickle.dumps(amendments(AMENDED)))
     for name in [x for x in sys.modules if x.startswith("derive")]:

@@ -27,9 +27,9 @@ from derive.command.cli import main
 from derive.command.showing import derive
 from derive.command.writing import one_line
 from derive.language.limits import Refused
-from derive.paper.findings import PaperFinding
 from derive.problem.stated_motion import faults
 from derive.record.record import AMENDED, Derivation
+from derive.views.paper.findings import PaperFinding
 
 Tell = Callable[[str, str], None]
 FOLDER = Path("/problem")
@@ -167,7 +167,7 @@ class Play:
     def motion(self, text: str, lang: str) -> None:
         """The emitted JavaScript, and what the page of a motion is told; of what it keeps the
         energy alone, so that the body moves at once."""
-        from derive.page.motion_page import pieces
+        from derive.views.page.motion_page import pieces
 
         with self.refusals():
             source, page = self.moved(text, lang, sought=False)
@@ -188,9 +188,9 @@ class Play:
         from derive.code.options import Options
         from derive.motion.emitted_code import EmittedCode, base_units
         from derive.motion.first_numbers import first_numbers
-        from derive.page.motion_page import data
         from derive.pipeline import moving_program
         from derive.views.language import language
+        from derive.views.page.motion_page import data
 
         self.read(text)
         made, _ = moving_program(self.problem, self.record, sought=sought)

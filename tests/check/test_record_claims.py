@@ -18,8 +18,8 @@ from derive.check.trials.trial_points import group_of
 from derive.language.tree import add, mul
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.prose import message
 from derive.record.as_json import from_json, to_json
+from derive.record.prose import message
 from derive.record.sentence import CLAIMS, Claim, Sentence
 from derive.search.integrals import told_integrals
 from tests.problems import PROBLEMS

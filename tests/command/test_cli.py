@@ -11,8 +11,8 @@ import pytest
 
 from derive.command.cli import main
 from derive.command.showing import ready_made
-from derive.printing.line_breaking import display_width
 from derive.record.as_json import to_data, to_json
+from derive.views.printing.line_breaking import display_width
 from derive.views.rendering import FORMATS
 from tests.support.needs import CC, needs
 from tests.support.walks import record

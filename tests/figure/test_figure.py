@@ -14,13 +14,13 @@ from xml.etree import ElementTree
 
 import pytest
 
-from derive.figure.drawing import Scene, Stroke, svg, tikz
-from derive.figure.drawn_body import overlap
-from derive.figure.scene import WIDTH, scene
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.as_json import from_json, to_json
 from derive.record.record import Derivation
+from derive.views.figure.drawing import Scene, Stroke, svg, tikz
+from derive.views.figure.drawn_body import overlap
+from derive.views.figure.scene import WIDTH, scene
 from tests.support.tex import compiled
 from tests.support.walks import record as ready_made_record
 

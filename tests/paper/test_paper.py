@@ -10,10 +10,10 @@ import sympy
 
 from derive.command.cli import main
 from derive.language.show import show
-from derive.paper import findings as paper
-from derive.paper.findings import VERDICTS
-from derive.paper.printed import PAPER
 from derive.record.record import AMENDED
+from derive.views.paper import findings as paper
+from derive.views.paper.findings import VERDICTS
+from derive.views.paper.printed import PAPER
 from derive.views.text import text
 from tests.support.walks import record
 

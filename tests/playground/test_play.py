@@ -12,9 +12,9 @@ from derive.code.options import Options
 from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.motion.simulate import beginning
-from derive.page.motion_page import data
 from derive.pipeline import motion_of
 from derive.views.language import language
+from derive.views.page.motion_page import data
 from tests.fuzz.corpus import problems
 from tests.support.played import PENDULUM, UNKNOWN_KEY, Played, text_of, unzipped
 from tests.support.playground_site import asked

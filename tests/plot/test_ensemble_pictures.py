@@ -9,13 +9,13 @@ from derive.command.cli import main
 from derive.motion.ensemble import Ensemble, Part
 from derive.motion.ensemble_files import writer
 from derive.motion.native import AT_EVENT
-from derive.plot.body_pictures import ATTITUDE
-from derive.plot.ensemble_pictures import POINTS, differing, quantiles
-from derive.plot.kinds_told import OVERVIEW
-from derive.plot.pictures import ENSEMBLE_KINDS, plot
-from derive.plot.plot_sheet import FORMATS, PlotError, sheet
 from derive.python.simulated import SimulatedEnsemble
 from derive.views.language import language
+from derive.views.plot.body_pictures import ATTITUDE
+from derive.views.plot.ensemble_pictures import POINTS, differing, quantiles
+from derive.views.plot.kinds_told import OVERVIEW
+from derive.views.plot.pictures import ENSEMBLE_KINDS, plot
+from derive.views.plot.plot_sheet import FORMATS, PlotError, sheet
 from tests.support.needs import needs
 
 pytestmark = needs("the module matplotlib")

@@ -8,12 +8,12 @@ import pytest
 
 from derive.command.cli import main
 from derive.motion.run import Run, written
-from derive.plot import kinds_told
-from derive.plot.body_pictures import VIEW, in_math, projected
-from derive.plot.kinds_told import OVERVIEW, PRECISION
-from derive.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
-from derive.plot.plot_sheet import FORMATS, PlotError, label, look, settled, with_mark
 from derive.views.language import language
+from derive.views.plot import kinds_told
+from derive.views.plot.body_pictures import VIEW, in_math, projected
+from derive.views.plot.kinds_told import OVERVIEW, PRECISION
+from derive.views.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
+from derive.views.plot.plot_sheet import FORMATS, PlotError, label, look, settled, with_mark
 from tests.support.drawn_runs import figure_of, fitting, run_of, simulated, texts, words_of
 from tests.support.needs import needs
 

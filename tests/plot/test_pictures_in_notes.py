@@ -5,7 +5,7 @@ import re
 import pytest
 
 from derive.command.cli import main
-from derive.plot.pictures import plot
+from derive.views.plot.pictures import plot
 from tests.support.needs import need, needs
 from tests.support.walks import derived
 

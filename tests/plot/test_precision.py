@@ -8,12 +8,12 @@ import pytest
 
 from derive.command.cli import main
 from derive.motion.run import Run
-from derive.plot.ensemble_pictures import of_runs, table
-from derive.plot.kinds_told import PRECISION
-from derive.plot.pictures import plot_energies
-from derive.plot.plot_sheet import PlotError, sheet
-from derive.plot.time_series import energies
 from derive.python.simulated import Simulated
+from derive.views.plot.ensemble_pictures import of_runs, table
+from derive.views.plot.kinds_told import PRECISION
+from derive.views.plot.pictures import plot_energies
+from derive.views.plot.plot_sheet import PlotError, sheet
+from derive.views.plot.time_series import energies
 from tests.support.drawn_runs import plain_run, simulated
 from tests.support.needs import needs
 from tests.support.pages import blocks, commands

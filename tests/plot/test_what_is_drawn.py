@@ -7,14 +7,14 @@ import pytest
 
 from derive.motion.emitted import curve, turning_points
 from derive.motion.run import Run
-from derive.plot.body_pictures import _ellipsoid, drawn, hull, levels, unstable
-from derive.plot.kinds_told import OVERVIEW
-from derive.plot.pictures import KINDS, plot
-from derive.plot.plot_sheet import label
-from derive.plot.time_series import followed, maps, section
 from derive.problem.toml import problem_of
 from derive.python.derived import derive
 from derive.views.language import language
+from derive.views.plot.body_pictures import _ellipsoid, drawn, hull, levels, unstable
+from derive.views.plot.kinds_told import OVERVIEW
+from derive.views.plot.pictures import KINDS, plot
+from derive.views.plot.plot_sheet import label
+from derive.views.plot.time_series import followed, maps, section
 from tests.support.drawn_runs import (
     curves,
     figure_of,

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from derive import prose
+import derive
+from derive.record import prose
 from derive.record.sentence import Sentence
 from tests.support.lagrangians import every_record
 from tests.support.walks import FLUIDS, NAMES, OTHERS, record
 
-ROOT = Path(prose.__file__).parents[1]
+ROOT = Path(derive.__file__).parent
 ROOMS = [ROOT / room for room in ("walk", "search")]
 SIGNED = "_signed"
 ALSO = {"coadjoint": {"kernel"}, "energy_casimir": {"equilibrium"}}
@@ -74,7 +75,7 @@ def says_what_stands_under_its_label(found):
 
 def test_no_label_is_told_in_two_files():
     files = ("general", "rotations", "matrices", "material", "first_integrals")
-    parts = [prose.read([ROOT / "prose" / f"{x}.txt"]) for x in files]
+    parts = [prose.read([ROOT / "record" / "prose" / f"{x}.txt"]) for x in files]
     labels = [label for part in parts for label in {x.split(".")[0] for x in part}]
     assert sorted({*labels}) == sorted(labels)
 

@@ -4,16 +4,16 @@ import random
 from functools import partial
 
 from derive.language.show import show
-from derive.printing.letters import standard, styled
-from derive.printing.sentences import dollars, prose
-from derive.printing.signs import Notation, markdown_text, tex_text
-from derive.printing.tex import formula, latex_tree
 from derive.views import html
 from derive.views import latex as latex_view
 from derive.views import text as markdown_view
 from derive.views import text as text_view
 from derive.views.language import language
 from derive.views.outline import assumed, latex_names
+from derive.views.printing.letters import standard, styled
+from derive.views.printing.sentences import dollars, prose
+from derive.views.printing.signs import Notation, markdown_text, tex_text
+from derive.views.printing.tex import formula, latex_tree
 from tests.readers import latex, markdown, mathml, sentence, text
 from tests.readers.formula import Letters, UnreadableError, canonical, letters_of, value
 from tests.support import random_trees

@@ -6,8 +6,8 @@ import numpy as np
 
 from derive.motion.emitted_code import Column
 from derive.motion.run import Run
-from derive.plot.pictures import KINDS
-from derive.plot.plot_sheet import sheet
+from derive.views.plot.pictures import KINDS
+from derive.views.plot.plot_sheet import sheet
 from tests.support.flows import emitted, flow
 from tests.support.walks import derived
 

@@ -55,7 +55,7 @@ def module():
 @cache
 def amendments():
     """What :mod:`playground.python.pack` writes when the playground is built."""
-    from derive.paper.findings import amendments as found
+    from derive.views.paper.findings import amendments as found
 
     return pickle.dumps(found(AMENDED))
 

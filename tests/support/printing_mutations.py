@@ -219,7 +219,7 @@ def changed(module, old, new):
 def _forget():
     """What functions of the printers remember."""
     for name, module in [*sys.modules.items()]:
-        if name.startswith("derive.printing."):
+        if name.startswith("derive.views.printing."):
             for x in vars(module).values():
                 getattr(x, "cache_clear", int)()
 

@@ -4,10 +4,10 @@ import re
 
 import pytest
 
-from derive.printing.sentences import prose
-from derive.printing.signs import markdown_text
 from derive.views.language import catalogue_entries
 from derive.views.outline import assumed, moving
+from derive.views.printing.sentences import prose
+from derive.views.printing.signs import markdown_text
 from derive.views.rendering import FORMATS, notes, render
 from tests.support.walks import FLUIDS, record
 

@@ -7,13 +7,13 @@ from html.parser import HTMLParser
 
 import pytest
 
-from derive.paper.findings import amendments
-from derive.printing.sentences import inline, spelt
-from derive.printing.signs import Notation
-from derive.printing.tex import formula
 from derive.record.record import AMENDED
 from derive.views.html import html
 from derive.views.language import language
+from derive.views.paper.findings import amendments
+from derive.views.printing.sentences import inline, spelt
+from derive.views.printing.signs import Notation
+from derive.views.printing.tex import formula
 from tests.support.needs import need
 from tests.support.playground_site import chromium
 from tests.support.walks import record

@@ -6,7 +6,7 @@ import subprocess
 import pytest
 
 from derive.command.cli import main
-from derive.printing.letters import DEFINED
+from derive.views.printing.letters import DEFINED
 from tests.problems import READY
 from tests.support.needs import needs
 from tests.support.tex import compiled

@@ -5,7 +5,7 @@ import random
 import pytest
 
 from derive.language.show import unclear
-from derive.printing.letters import names_of, parameter
+from derive.views.printing.letters import names_of, parameter
 from derive.views.rendering import FORMATS
 from tests.readers.read import PAGES, READERS, faults, misread
 from tests.support import printing_mutations, random_trees

@@ -6,11 +6,11 @@ from functools import cache
 import pytest
 
 from derive.language.show import show_name
-from derive.printing.sentences import QUOTED
 from derive.record.sentence import Sentence
 from derive.views.html import html
 from derive.views.language import language
 from derive.views.latex import latex
+from derive.views.printing.sentences import QUOTED
 from derive.views.text import markdown, text
 from tests.readers.formula import letters_of
 from tests.readers.read import misread_sentences

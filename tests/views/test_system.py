@@ -4,9 +4,9 @@ import tomllib
 
 import pytest
 
-from derive.figure.scene import scene
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
+from derive.views.figure.scene import scene
 from derive.views.html import html
 from derive.views.language import language
 from derive.views.latex import latex

@@ -12,17 +12,17 @@ import pytest
 from derive.language.read import read
 from derive.language.show import show
 from derive.pipeline import discrete, walk
-from derive.printing.letters import names_of, parameter, transposed
-from derive.printing.line_breaking import Piece, display_width, fill
-from derive.printing.sentences import prose
-from derive.printing.signs import Notation, markdown_text, tex_text, unknown_to_tex
-from derive.printing.tex import FormulaPrinter, latex_tree
 from derive.problem.toml import load
 from derive.record.record import Derivation, Equation, Step, Symbol
 from derive.record.sentence import say
 from derive.views.language import language
 from derive.views.latex import anchor, breakable, labels, latex
 from derive.views.outline import printed
+from derive.views.printing.letters import names_of, parameter, transposed
+from derive.views.printing.line_breaking import Piece, display_width, fill
+from derive.views.printing.sentences import prose
+from derive.views.printing.signs import Notation, markdown_text, tex_text, unknown_to_tex
+from derive.views.printing.tex import FormulaPrinter, latex_tree
 from derive.views.rendering import FORMATS, NOTES, RenderError, notes, render
 from derive.views.text import markdown, text
 from tests.support.tex import compiled

@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 
 import derive
-from derive import prose
 from derive.check.checker import check
 from derive.pipeline import general_road, walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
+from derive.record import prose
 from derive.record.as_json import from_json, to_json
 from derive.record.mass_signs import SUPPOSED
 from derive.record.record import ANY_GROUP, OF_MASSES

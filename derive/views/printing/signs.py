@@ -6,7 +6,7 @@ import re
 import unicodedata
 from dataclasses import dataclass
 
-from ..language.reserved import GREEK
+from ...language.reserved import GREEK
 
 # The choices of notation that a reader has.
 

@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..language.reserved import did_you_mean, near_name
-from ..motion.ensemble import Ensemble
-from ..motion.run import Run
+from ...language.reserved import did_you_mean, near_name
+from ...motion.ensemble import Ensemble
+from ...motion.run import Run
 from . import body_pictures, ensemble_pictures, time_series
 from .kinds_told import OVERVIEW, PRECISION
 from .plot_sheet import PlotError, ending, look, sheet, written

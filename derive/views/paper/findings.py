@@ -10,16 +10,16 @@ from functools import lru_cache
 from random import Random
 from typing import Any
 
-from ..algebra.families import group
-from ..check.trials.meaning import environment
-from ..check.trials.model import Model
-from ..check.trials.trial_points import SIZE
-from ..check.values.draws import Locus, difference
-from ..check.values.evaluate import Environment, evaluate
-from ..language import rational as q
-from ..language.show import show
-from ..language.tree import Tree, names, neg
-from ..record.record import Derivation, Equation
+from ...algebra.families import group
+from ...check.trials.meaning import environment
+from ...check.trials.model import Model
+from ...check.trials.trial_points import SIZE
+from ...check.values.draws import Locus, difference
+from ...check.values.evaluate import Environment, evaluate
+from ...language import rational as q
+from ...language.show import show
+from ...language.tree import Tree, names, neg
+from ...record.record import Derivation, Equation
 from .printed import PAPER, Printed
 
 # What became of a numbered equation of the paper, as data: nothing is computed here.

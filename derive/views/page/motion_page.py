@@ -10,22 +10,22 @@ import re
 from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ..code.emit import emit
-from ..code.options import Options
-from ..language.reserved import GREEK
-from ..language.templating import environment, folder
-from ..motion.driven import drives, is_free, weight
-from ..motion.emitted_code import EmittedCode, in_words
-from ..motion.first_numbers import FirstNumbers
-from ..problem.problem import Problem
-from ..record.record import Derivation
-from ..views.html import visible
-from ..views.language import ENGLISH, Language
-from ..views.outline import capitalised, subtitle, title
+from ...code.emit import emit
+from ...code.options import Options
+from ...language.reserved import GREEK
+from ...language.templating import environment, folder
+from ...motion.driven import drives, is_free, weight
+from ...motion.emitted_code import EmittedCode, in_words
+from ...motion.first_numbers import FirstNumbers
+from ...problem.problem import Problem
+from ...record.record import Derivation
+from ..html import visible
+from ..language import ENGLISH, Language
+from ..outline import capitalised, subtitle, title
 from .moving_body import Data, element, moving_body
 
 if TYPE_CHECKING:
-    from ..motion.start import Start
+    from ...motion.start import Start
 
 WORDS = {
     "play": "play",

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..motion.run import Array, Run
+from ...motion.run import Array, Run
 from .plot_sheet import COLOURS, FONT, PlotError, beside, label
 
 # Curves on ellipsoids and spheres: hidden parts thin; tips of axes.

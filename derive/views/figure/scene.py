@@ -10,9 +10,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from ..record.record import Derivation
-from ..record.sentence import Prose, say
-from ..schema.kinds import kinds
+from ...record.record import Derivation
+from ...record.sentence import Prose, say
+from ...schema.kinds import kinds
 from .drawing import Box, Label, Point, Scene, arrow, from_segment
 from .drawn_body import (
     FLAT,

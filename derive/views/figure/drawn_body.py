@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from itertools import combinations, pairwise
 from typing import Any
 
-from ..language.values import approximate
-from ..record.as_json import decode
+from ...language.values import approximate
+from ...record.as_json import decode
 from .drawing import Box, Dot, Label, Point, Stroke, from_segment
 
 Vector = tuple[float, float, float]

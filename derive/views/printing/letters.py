@@ -9,11 +9,11 @@ from fractions import Fraction
 from functools import lru_cache, partial
 from typing import Any
 
-from ..language.reserved import GREEK
-from ..language.show import ATOM, SUM
-from ..language.tree import Tree
-from ..record.record import Symbol
-from ..record.vocabulary import VOCABULARY
+from ...language.reserved import GREEK
+from ...language.show import ATOM, SUM
+from ...language.tree import Tree
+from ...record.record import Symbol
+from ...record.vocabulary import VOCABULARY
 from .signs import STYLED, Notation, tex_text
 from .typeset import (
     BEFORE_FACTOR,

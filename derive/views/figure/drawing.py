@@ -10,10 +10,10 @@ from html import escape
 from itertools import groupby
 from textwrap import wrap
 
+from ...record.sentence import Prose
 from ..printing.letters import parameter
 from ..printing.line_breaking import display_width
 from ..printing.signs import SYMBOLS
-from ..record.sentence import Prose
 
 Point = tuple[float, float]
 Box = tuple[float, float, float, float]

@@ -12,8 +12,8 @@ from fractions import Fraction
 from functools import reduce
 from operator import add
 
-from ..language.show import ATOM, FIELD_OPERATORS, PRODUCT, SUM, has_norm, signed, swallows
-from ..language.tree import Tree
+from ...language.show import ATOM, FIELD_OPERATORS, PRODUCT, SUM, has_norm, signed, swallows
+from ...language.tree import Tree
 from .letters import NAMES, named, number, outside, parameter, separator, transposed
 from .line_breaking import Piece, fill, measure
 from .sentences import formula_ok, spelt

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ..algebra.groups import Group
+from ...algebra.groups import Group
+from ...problem.fields import state_names
 from ..figure.drawn_body import UNITS, ExpressionValues
-from ..problem.fields import state_names
 
 DIGITS = 4
 """Of the places of a mesh."""

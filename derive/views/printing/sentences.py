@@ -6,7 +6,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Mapping
 
-from ..record.vocabulary import VOCABULARY
+from ...record.vocabulary import VOCABULARY
 from .letters import NAMES, named, quoted
 from .letters import NAMES as KNOWN
 from .signs import (

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from ..language.reserved import by_letter, letter_and_suffix
-from ..motion.emitted_code import KEPT, Column, in_words
-from ..motion.run import Array, Run
+from ...language.reserved import by_letter, letter_and_suffix
+from ...motion.emitted_code import KEPT, Column, in_words
+from ...motion.run import Array, Run
 from .body_pictures import attitude
 from .plot_sheet import COLOURS, label
 

@@ -11,9 +11,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 
-from ..language.read import read
-from ..language.tree import Tree
-from ..record.record import Equation, stated
+from ...language.read import read
+from ...language.tree import Tree
+from ...record.record import Equation, stated
 
 ALWAYS = {"Σ ": "Σᵢ ", "(t, g, ν)": "", " ∈ so(3)": "", "(δx)": "(δy)"}
 """Parts of prints, and what they mean everywhere: sums run over the points, dϖ and ϖ are of y."""

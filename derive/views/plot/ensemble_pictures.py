@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from ..language.reserved import did_you_mean, near_name
-from ..motion.ensemble import Ensemble
-from ..motion.run import MARK, Array, Run, read
+from ...language.reserved import did_you_mean, near_name
+from ...motion.ensemble import Ensemble
+from ...motion.run import MARK, Array, Run, read
 from .body_pictures import ATTITUDE
 from .plot_sheet import COLOURS, PlotError, ending, label, look, sheet, written
 from .time_series import with_unit

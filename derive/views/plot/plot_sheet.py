@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ..language.limits import Refused
-from ..language.reserved import GREEK, letter_and_suffix
-from ..motion.run import Array
+from ...language.limits import Refused
+from ...language.reserved import GREEK, letter_and_suffix
+from ...motion.run import Array
 
 FORMATS: dict[str, dict[str, Any]] = {
     ".svg": {"metadata": {"Date": None, "Creator": None}},
