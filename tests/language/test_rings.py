@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from derive.check.torus.residues import Multiples, Residues
+from derive.check.torus.residues import LatticeResidues, Multiples
 from derive.check.values.arithmetic import Nilpotent
 from derive.check.values.residue import Residue
 from derive.language.laurent import Laurent
@@ -17,7 +17,7 @@ NUMBERS = {
     "laurent": Laurent.symbol("x") * Fraction(2, 3),
     "nilpotent": Nilpotent({0: Fraction(2), 1: Fraction(3), 2: Fraction(1, 2)}),
     "residue": Residue(17, P),
-    "residues": Residues([1, 2, 3], P),
+    "residues": LatticeResidues([1, 2, 3], P),
     "multiples": Multiples([1, -2, 3], P, Fraction(1, 3)),
 }
 
