@@ -19,10 +19,10 @@ from tests.readers.read import PAGES, faults, misread, misread_sentences
 from tests.support import random_trees
 from tests.support.walks import record
 
-SHOW, TREES, TYPESET = "language.show", "printing.tex", "printing.typeset"
-LETTERS, TEXT, LAYOUT, HTML = "printing.letters", "views.text", "views.layout", "views.html"
-NAMES, INLINE, SIGNS = "printing.letters", "printing.sentences", "printing.signs"
-GLUE, MACROS, ENTRIES = "printing.letters", "printing.letters", "views.language"
+SHOW, TREES, TYPESET = "language.show", "views.printing.tex", "views.printing.typeset"
+LETTERS, TEXT, LAYOUT, HTML = "views.printing.letters", "views.text", "views.layout", "views.html"
+NAMES, INLINE, SIGNS = "views.printing.letters", "views.printing.sentences", "views.printing.signs"
+GLUE, MACROS, ENTRIES = "views.printing.letters", "views.printing.letters", "views.language"
 
 MUTATIONS = {
     "text: Σ of a sum without brackets": (
