@@ -153,7 +153,7 @@ MUTATIONS = {
     "sentences: an exponent lost": (
         INLINE, 'raised(_open(found, "^"), spelt(exponent, notation, names))', "found"),
     "sentences: a root of nothing": (
-        INLINE, "root(spelt(under_root, notation, names))", 'Formula("")'),
+        INLINE, "root(spelt(inside or called, notation, names))", 'Formula("")'),
     "sentences: an accent for another": (SIGNS, r'"\u0303": r"\tilde"', r'"\u0303": r"\hat"'),
 }  # fmt: skip
 """What is changed → the module, its source, and what stands there instead."""
