@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations, pairwise
-from typing import Any
+from typing import Any, TypeVar
 
 from ..language import rational as q
 from ..language.rational import Matrix
 
 # Matrices of which most entries are 0, as place → entry: those of a basis of a Lie algebra.
 
+K = TypeVar("K")
 Sparse = Mapping[tuple[int, int], Any]
 
 
@@ -24,13 +25,13 @@ def sparse(m: Matrix) -> Sparse:
 
 def commutator(a: Sparse, b: Sparse) -> Sparse:
     """ab − ba."""
-    return _sum_of_entries([*_product(a, b), *((at, -x) for at, x in _product(b, a))])
+    return _sum([*_product(a, b), *((at, -x) for at, x in _product(b, a))])
 
 
 def combined(weights: Sequence[Any], basis: Sequence[Sparse]) -> Sparse:
     """Σ w_a E_a."""
     pairs = zip(weights, basis, strict=True)
-    return _sum_of_entries((at, w * x) for w, e in pairs if w for at, x in e.items())
+    return _sum((at, w * x) for w, e in pairs if w for at, x in e.items())
 
 
 def _product(a: Sparse, b: Sparse) -> Iterable[tuple[tuple[int, int], Any]]:
@@ -42,11 +43,12 @@ def _product(a: Sparse, b: Sparse) -> Iterable[tuple[tuple[int, int], Any]]:
             yield (i, j), x * y
 
 
-def _sum_of_entries(terms: Iterable[tuple[tuple[int, int], Any]]) -> Sparse:
-    total: dict[tuple[int, int], Any] = {}
-    for at, x in terms:
-        total[at] = total.get(at, 0) + x
-    return {at: x for at, x in total.items() if x}
+def _sum(terms: Iterable[tuple[K, Any]]) -> dict[K, Any]:
+    """The terms with those of one key together, without what is 0."""
+    total: dict[K, Any] = {}
+    for key, x in terms:
+        total[key] = total.get(key, 0) + x
+    return {key: x for key, x in total.items() if x}
 
 
 Combination = Mapping[int, Fraction]
@@ -103,8 +105,9 @@ def require_jacobi(brackets: Brackets, dimension: int) -> None:
     for triple in combinations(range(dimension), 3):
         a, b, c = triple
         left = _sum(
-            _with(brackets, brackets.get(pair, {}), last)
+            term
             for pair, last in (((a, b), c), ((b, c), a), ((c, a), b))
+            for term in _with(brackets, brackets.get(pair, {}), last).items()
         )
         if left:
             names = ", ".join(f"E_{x + 1}" for x in triple)
@@ -117,15 +120,7 @@ def require_jacobi(brackets: Brackets, dimension: int) -> None:
 def _with(brackets: Brackets, x: Combination, b: int) -> Combination:
     """[x, E_b]."""
     terms = ((k, c) for k, c in x.items())
-    return _sum({j: c * y for j, y in brackets.get((k, b), {}).items()} for k, c in terms)
-
-
-def _sum(parts: Iterable[Combination]) -> Combination:
-    total: dict[int, Fraction] = {}
-    for part in parts:
-        for k, x in part.items():
-            total[k] = total.get(k, Fraction(0)) + x
-    return {k: x for k, x in total.items() if x}
+    return _sum((j, c * y) for k, c in terms for j, y in brackets.get((k, b), {}).items())
 
 
 def as_text(x: Combination) -> str:

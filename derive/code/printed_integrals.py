@@ -10,7 +10,7 @@ from ..routines.source import Source, Type
 from .duplication import CONVERGED, DUPLICATIONS, NEWTON_STEPS, SMALL_Y, Duplication
 from .ellipsoid import BUNDLES, SLOPES
 from .languages import Statements, TargetLanguage
-from .step.algorithms import PRINTERS, text_of
+from .step.algorithms import PRINTERS, real_of_work, text_of
 
 REAL = Type("real")
 
@@ -51,7 +51,7 @@ def _printed(
         "SMALL_Y": float(-SMALL_Y),
         "CONVERGED": float(CONVERGED),
         "prefix": prefix,
-        "real": "Float64Array" if language.name == "javascript" else language.reals[real],
+        "real": real_of_work(language.name, language.reals[real]),
         "written": lines,
     }
     source = Source()

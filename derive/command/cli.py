@@ -68,7 +68,7 @@ def command_integrals(args: argparse.Namespace) -> int:
 
     problem = doubted(args.problem)
     chosen = {"at_defaults": args.at_defaults, "conditions": args.conditions}
-    save_found(integrals(problem, args.degree, **chosen)[1], "poisson", args)
+    save_found(integrals(problem, args.degree, **chosen)[1], args)
     return 0
 
 
@@ -92,7 +92,7 @@ def command_equilibria(args: argparse.Namespace) -> int:
             f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "
             "most one other coordinate, 1 or -1: give one by --at NAME=NUMBER"
         )
-    save_found(record, "equilibrium_1", args)
+    save_found(record, args)
     return 0
 
 
@@ -101,7 +101,7 @@ def command_symmetries(args: argparse.Namespace) -> int:
     from ..pipeline import symmetries
 
     problem, walked = derive(args.problem, **allowed(args))
-    save_found(symmetries(problem, walked).record, "symmetries", args)
+    save_found(symmetries(problem, walked).record, args)
     return 0
 
 
@@ -110,7 +110,7 @@ def command_reduction(args: argparse.Namespace) -> int:
     from ..pipeline import reduction
 
     problem, walked = derive(args.problem, **allowed(args))
-    save_found(reduction(problem, walked).record, "momentum_1", args)
+    save_found(reduction(problem, walked).record, args)
     return 0
 
 

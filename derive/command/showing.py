@@ -16,6 +16,7 @@ from ..language.reserved import did_you_mean, near_name
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation, Step
 from ..schema.table import nearest
+from ..search import FIRST
 from ..views.printing.line_breaking import WIDTH
 from ..views.rendering import render, unprinted
 from .writing import as_in_a_file, one_line
@@ -152,12 +153,12 @@ def save_steps(record: Derivation, steps: Sequence[Step], args: argparse.Namespa
     save(shown, args.out, args.format)
 
 
-def save_found(record: Derivation, first: str, args: argparse.Namespace) -> None:
-    """Write the steps of a record that are asked for, else those of a search, from the ``first``
-    on; in JSON all, which can be checked."""
+def save_found(record: Derivation, args: argparse.Namespace) -> None:
+    """Write the steps of a record that are asked for, else those that tell what the search of the
+    command found; in JSON all, which can be checked."""
     steps: Sequence[Step] = steps_of(record, getattr(args, "labels", ()))
     if not steps and args.format != "json":
-        steps = record.since(first)
+        steps = record.since(FIRST[args.command])
     save_steps(record, steps, args)
 
 

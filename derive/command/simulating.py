@@ -395,8 +395,6 @@ def pages_of_motions(
     has no motion."""
     from ..motion.trajectory import Method
 
-    pass  # GONE
-
     if args.discrete or out.suffix != ".html":
         raise UsageError("--motion: pages are linked from notes FILE.html, without --discrete")
     chosen: tuple[Any, ...] = args.motion, Method(), args.lang
@@ -409,8 +407,6 @@ def pictures_of_motions(
 ) -> dict[str, bytes]:
     """File → the picture of the motion of a problem, one for each; ``Refused`` where one has no
     motion."""
-    pass  # GONE
-
     if args.discrete or args.fragment or out.suffix == ".sty":
         raise UsageError("--picture: notes have pictures without --discrete, --fragment and .sty")
     ending = ".svg" if out.suffix == ".html" else ".pdf"

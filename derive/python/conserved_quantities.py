@@ -71,7 +71,7 @@ class Conserved:
 class SymmetriesOf(Finding):
     """All symmetries of a kind: a sequence of :class:`Conserved`; ``record``: their derivation."""
 
-    _first = "symmetries"
+    _search = "symmetries"
 
     found: SymmetriesFound
     record: Derivation

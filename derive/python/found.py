@@ -76,7 +76,7 @@ class Steady(Judged):
 class Near(Finding, Judged):
     """A relative equilibrium within a ``radius`` of decimals; ``record``: its derivation."""
 
-    _first = "equilibrium_1"
+    _search = "equilibria"
 
     found: Enclosed
     record: Derivation
@@ -98,7 +98,7 @@ class Near(Finding, Judged):
 class Equilibria(Finding):
     """Relative equilibria: a sequence of :class:`Steady`; ``record``: their derivation."""
 
-    _first = "equilibrium_1"
+    _search = "equilibria"
 
     found: tuple[Equilibrium, ...]
     record: Derivation
@@ -121,7 +121,7 @@ class Reduced(Finding):
     """Routh's reduction by symmetries that commute.  ``found``: all that is known of it;
     ``record``: its derivation."""
 
-    _first = "momentum_1"
+    _search = "reduction"
 
     found: Routhian
     record: Derivation
@@ -210,7 +210,7 @@ class FirstIntegrals(Finding):
     (Pi_3, True)
     """
 
-    _first = "poisson"
+    _search = "integrals"
     found: IntegralsFound
     record: Derivation
 

@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 from ..check.form.hypotheses_checked import Verdict
 from ..record.record import Derivation, Equation, Step
+from ..search import FIRST
 
 
 @dataclass(frozen=True)
@@ -90,10 +91,10 @@ class Shown:
 
 
 class Finding:
-    """What a search found, with its ``record``: the derivation, whose steps from ``_first`` on
-    tell it.  In a notebook it shows these."""
+    """What a ``_search`` found, with its ``record``: the derivation, whose last steps tell it; in a
+    notebook it shows these."""
 
-    _first: ClassVar[str]
+    _search: ClassVar[str]
     record: Derivation
 
     def check(self, seed: int | None = None) -> list[Verdict]:
@@ -119,4 +120,4 @@ class Finding:
     def _rendered(self, form: str, lang: str = "en") -> str:
         from ..views.rendering import render
 
-        return render(self.record, form, lang, steps=self.record.since(self._first))
+        return render(self.record, form, lang, steps=self.record.since(FIRST[self._search]))

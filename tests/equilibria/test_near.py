@@ -15,7 +15,7 @@ from derive.command.cli import main
 from derive.language.tree import add, replaced
 from derive.record.as_json import from_json, to_json
 from derive.search.equilibria import enclosed_points
-from derive.search.equilibria.enclosed_points import Disc, characteristic
+from derive.search.equilibria.enclosed_points import RealBall, characteristic
 from tests.support.coadjoint_orbits import hat, match, orbit_signature
 from tests.support.lagrangians import LINE, bent, heavy, lagrangian, squares
 from tests.support.walks import SEED, repeated
@@ -199,7 +199,7 @@ def test_a_polynomial_of_too_many_terms_is_none(power):
 def test_a_characteristic_polynomial_is_enclosed():
     rng = np.random.default_rng(2)
     a = rng.integers(-5, 6, size=(4, 4))
-    balls = characteristic([[Disc(Fraction(int(x)), Fraction(1, 100)) for x in r] for r in a])
+    balls = characteristic([[RealBall(Fraction(int(x)), Fraction(1, 100)) for x in r] for r in a])
     assert [float(x.mid) for x in balls] == pytest.approx(np.poly(a))
     for _ in range(20):
         moved = np.poly(a + rng.uniform(-1, 1, size=(4, 4)) / 100)

@@ -6,6 +6,7 @@ import tomllib
 from importlib import metadata
 from pathlib import Path
 
+import pytest
 from packaging.requirements import Requirement
 from packaging.version import Version
 
@@ -38,6 +39,21 @@ def test_what_they_bring_is_small():
             needed = [Requirement(x) for x in metadata.requires(name) or []]
             stack += [x.name.lower() for x in needed if x.marker is None or x.marker.evaluate()]
     assert found == {"jinja2", "numpy", "sympy", "mpmath", "markupsafe"}
+
+
+@pytest.mark.skipif(not (ROOT / ".git").exists(), reason="this is no checkout of git")
+def test_nothing_lies_about():
+    """At the top are these files alone, and no other is a program or large."""
+    known = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True)
+    files = [ROOT / x for x in known.stdout.decode().split("\0") if x]
+    assert {x.name for x in files if x.parent == ROOT} == {
+        *(".gitignore", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "Makefile", "README.md"),
+        *("SECURITY.md", "pyproject.toml", "requirements-dev.lock"),
+    }
+    for path in files:
+        assert path.stat().st_size < 10**6, path
+        with path.open("rb") as file:
+            assert file.read(4) != b"\x7fELF", path
 
 
 def test_the_command_is_in_the_package():

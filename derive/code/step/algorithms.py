@@ -331,5 +331,12 @@ def _texts(
 PRINTERS: dict[str, type[Printer]] = {"c": C, "rust": Rust, "javascript": JavaScript}
 """The languages whose functions of plain numbers may have loops: in others such take arrays of any
 library, and are written by these."""
+
+
+def real_of_work(language: str, real: str) -> str:
+    """The type of the numbers that such a function works with: in JavaScript always double."""
+    return "Float64Array" if language == "javascript" else real
+
+
 ALGORITHMS = {"c": in_c, "rust": in_rust, "javascript": in_javascript, "python": in_python}
 """Language → the text of the algorithms of its steps."""

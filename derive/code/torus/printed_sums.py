@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...routines.source import Source
-from ..step.algorithms import PRINTERS, text_of
+from ..step.algorithms import PRINTERS, real_of_work, text_of
 from .torus_program import Loops
 
 OF_MATRICES = ("rhs", "conserved")
@@ -31,7 +31,7 @@ def printed_sums(language: str, loops: Loops, fields: Mapping[str, Any]) -> dict
         "COSINES": [*map(float, loops.cosines)],
         "SINES": [*map(float, loops.sines)],
         "prefix": prefix,
-        "real": "Float64Array" if language == "javascript" else fields["real"],
+        "real": real_of_work(language, fields["real"]),
         "inline": f"{prefix}_FUNCTION" if fields["header"] else "static",
         "public": (),
         "item": ["#[allow(clippy::all, clippy::pedantic)]", "#[rustfmt::skip]"],

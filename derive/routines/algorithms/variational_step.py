@@ -1,8 +1,8 @@
 """The step of the discrete motion: what a momentum tells, by Newton's method on what is lowered."""
 
 
-class Door:
-    """What a motion has at the door to a step."""
+class Node:
+    """What a motion has at a node, between two steps."""
 
     momentum: real[N_MOMENTA]
     force: real[N_MOMENTA]  # what is added to it in a unit of time
@@ -76,19 +76,19 @@ def force_at(
         step_force(t, x, k, u, to)
 
 
-def at_door(
+def at_node(
     m: Motion,
     t: real,
     x: real[N_STATE],
     k: real[N_CONSTANTS],
     u: real[N_INPUTS],
-    door: out[Door],
+    node: out[Node],
 ):
-    """The door at a state, with no step before it."""
-    step_momentum(x, k, door.momentum)
-    force_at(m, t, x, k, u, door.force)
+    """The node at a state, with no step before it."""
+    step_momentum(x, k, node.momentum)
+    force_at(m, t, x, k, u, node.force)
     if TURNS:
-        door.known = 0
+        node.known = 0
 
 
 def turned_by(v: out[real[N_UNKNOWNS]], s: real[N_TURNS]) -> flag:
@@ -188,18 +188,18 @@ def found_step(
     k: real[N_CONSTANTS],
     q: real[N_LOADED],
     substep: index,
-    door: out[Door],
+    node: out[Node],
     end: out[real[N_MOVED]],
 ) -> flag:
     """The same, begun where the polynomial of the last steps leads, or anew."""
     continued: table[real, 6, 5] = EXTRAPOLATED
     s: real[N_TURNS]
     there: var[flag] = False
-    if door.known > 0:
+    if node.known > 0:
         for a in range(N_TURNS):
             total: var[real] = 0.0
-            for i in range(door.known):
-                total += continued[door.known][i] * door.found[substep][i][a]
+            for i in range(node.known):
+                total += continued[node.known][i] * node.found[substep][i][a]
             s[a] = total
         there = by_newton(x, k, q, True, s, end)
     if not there:
@@ -207,8 +207,8 @@ def found_step(
         if not by_newton(x, k, q, False, s, end):
             return False
     for i in reversed(range(4)):
-        door.found[substep][i + 1][:] = door.found[substep][i]
-    door.found[substep][0][:] = s
+        node.found[substep][i + 1][:] = node.found[substep][i]
+    node.found[substep][0][:] = s
     return True
 
 
@@ -221,27 +221,27 @@ def substep_to(
     u: real[N_INPUTS],
     h: real,
     substep: index,
-    door: out[Door],
+    node: out[Node],
     X: out[real[N_STATE]],
     sum: out[real[N_STATE]],
 ) -> flag:
-    """A step h of order 2 from X = x + low + sum to the time t, through a door.  Is there such a step?"""
+    """A step h of order 2 from X = x + low + sum to the time t, from a node to the next.  Is there such a step?"""
     q: real[N_LOADED]
     end: real[N_MOVED]
     for i in range(N_MOMENTA):
-        q[i] = h * (door.momentum[i] + h / 2.0 * door.force[i])
+        q[i] = h * (node.momentum[i] + h / 2.0 * node.force[i])
     q[N_MOMENTA] = h
     if TURNS:
-        if not found_step(X, k, q, substep, door, end):
+        if not found_step(X, k, q, substep, node, end):
             return False
     else:
         step_end(X, k, q, NOTHING, end)
     for i in range(N_GROUP):
         sum[i] += end[i]
         X[i] = x[i] + (low[i] + sum[i])
-    force_at(m, t, X, k, u, door.force)
+    force_at(m, t, X, k, u, node.force)
     for i in range(N_MOMENTA):
-        door.momentum[i] = end[N_GROUP + i] / h + h / 2.0 * door.force[i]
+        node.momentum[i] = end[N_GROUP + i] / h + h / 2.0 * node.force[i]
     return True
 
 
@@ -253,10 +253,10 @@ def discrete_sum(
     k: real[N_CONSTANTS],
     u: real[N_INPUTS],
     h: real,
-    door: out[Door],
+    node: out[Node],
     sum: out[real[N_STATE]],
 ) -> flag:
-    """What a step h adds to the state x + low at time t, through a door.  Is there such a step?"""
+    """What a step h adds to the state x + low at time t, from a node to the next.  Is there such a step?"""
     X: real[N_STATE]
     q: real[N_LOADED]
     velocity: real[N_VELOCITY]
@@ -268,15 +268,15 @@ def discrete_sum(
         end: var[real] = t
         for n in range(N_SUBSTEPS):
             end += part[n] * h
-            if not substep_to(m, end, x, low, k, u, part[n] * h, n, door, X, sum):
+            if not substep_to(m, end, x, low, k, u, part[n] * h, n, node, X, sum):
                 return False
     else:
-        if not substep_to(m, t + h, x, low, k, u, h, 0, door, X, sum):
+        if not substep_to(m, t + h, x, low, k, u, h, 0, node, X, sum):
             return False
     if TURNS:
-        door.known += 1 if door.known < 5 else 0
+        node.known += 1 if node.known < 5 else 0
     for i in range(N_MOMENTA):
-        q[i] = door.momentum[i]
+        q[i] = node.momentum[i]
     q[N_MOMENTA] = h
     step_velocity(X, k, q, velocity)
     for i in range(N_VELOCITY):
@@ -291,14 +291,14 @@ def discrete(
     NO_SOLUTION: there is none of this size; m is as it was."""
     X: real[N_STATE]
     sum: real[N_STATE]
-    door: Door
+    node: Node
     hold(m, k, u)
     for i in range(N_STATE):
         X[i] = m.x[i] + m.low[i]
-    at_door(m, m.t + m.t_low, X, k, u, door)
+    at_node(m, m.t + m.t_low, X, k, u, node)
     made: var[count] = 0
     while made < n:
-        if not discrete_sum(m, m.t + m.t_low, m.x, m.low, k, u, h, door, sum):
+        if not discrete_sum(m, m.t + m.t_low, m.x, m.low, k, u, h, node, sum):
             return NO_SOLUTION
         if not moved(m, h, sum):
             return NOT_FINITE
@@ -313,12 +313,12 @@ def discrete_within(m: Motion, theta: real, to: out[real[N_STATE]]):
     t: real = m.t + m.t_low - m.h
     none: real[N_STATE]
     sum: real[N_STATE]
-    door: Door
+    node: Node
     for i in range(N_STATE):
         none[i] = 0.0
-    at_door(m, t, m.start, m.k, m.u, door)
+    at_node(m, t, m.start, m.k, m.u, node)
     there: flag = abs(theta) > 1e-12 and discrete_sum(
-        m, t, m.start, none, m.k, m.u, theta * m.h, door, sum
+        m, t, m.start, none, m.k, m.u, theta * m.h, node, sum
     )
     for i in range(N_STATE):
         to[i] = m.start[i] + (sum[i] if there else theta * (m.x[i] - m.start[i]))

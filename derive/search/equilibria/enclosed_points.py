@@ -246,7 +246,7 @@ def near_the_group(
     is proved: what is constant on the group is a combination of the Casimirs."""
     one = (0,) * len(about.at)
     levels = [{**f, one: f.get(one, 0) - c} for f, c in zip(kept, level, strict=True)]
-    at = [Disc(rational(x), radius) for x in about.at]
+    at = [RealBall(rational(x), radius) for x in about.at]
     return all(
         (x.sufficient or (x.open and x.attained(about.at) and invertible(_balls(x.entries, at))))
         and all(_spanned(f, group_value(about.system, f, Fraction(0)), levels) for f in x.constant)
@@ -265,8 +265,8 @@ def _spanned(f: Polynomial, value: Number, levels: Sequence[Polynomial]) -> bool
     return q.rank(q.matrix(rows)) == q.rank(q.matrix(rows[:-1]))
 
 
-def _balls(matrix: Sequence[Line], at: Sequence[Disc]) -> Balls:
-    return [[*row] for row in numbers(matrix, at, lambda c: Disc(Fraction(c)))]
+def _balls(matrix: Sequence[Line], at: Sequence[RealBall]) -> Balls:
+    return [[*row] for row in numbers(matrix, at, lambda c: RealBall(Fraction(c)))]
 
 
 def independent(rows: Balls) -> bool:
@@ -281,27 +281,27 @@ def invertible(a: Balls) -> bool:
     return abs(found.mid) > found.off
 
 
-def determinant(a: Balls) -> Disc:
+def determinant(a: Balls) -> RealBall:
     """The determinant of a square matrix."""
-    return characteristic(a)[-1] * Disc(Fraction((-1) ** len(a)))
+    return characteristic(a)[-1] * RealBall(Fraction((-1) ** len(a)))
 
 
 # -- instability ---------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
-class Disc:
+class RealBall:
     """The numbers at a distance of at most ``off`` from ``mid``."""
 
     mid: Fraction
     off: Fraction = Fraction(0)
 
-    def __add__(self, other: Disc) -> Disc:
-        return Disc(self.mid + other.mid, self.off + other.off)
+    def __add__(self, other: RealBall) -> RealBall:
+        return RealBall(self.mid + other.mid, self.off + other.off)
 
-    def __mul__(self, other: Disc) -> Disc:
+    def __mul__(self, other: RealBall) -> RealBall:
         off = abs(self.mid) * other.off + abs(other.mid) * self.off + self.off * other.off
-        return Disc(self.mid * other.mid, off)
+        return RealBall(self.mid * other.mid, off)
 
     @property
     def positive(self) -> bool:
@@ -314,7 +314,7 @@ class Disc:
         return self.mid + self.off < 0
 
 
-Balls = list[list[Disc]]
+Balls = list[list[RealBall]]
 
 
 def grows(about: About, kept: Sequence[Polynomial], radius: Fraction) -> bool:
@@ -325,14 +325,15 @@ def grows(about: About, kept: Sequence[Polynomial], radius: Fraction) -> bool:
     borders = [_slopes(about.expansion(f), radius) for f in kept]
     tensor = [
         [
-            Disc(rational(x), radius * sum(map(abs, about.system.bracket(i, j).values())))
+            RealBall(rational(x), radius * sum(map(abs, about.system.bracket(i, j).values())))
             for j, x in enumerate(row)
         ]
         for i, row in enumerate(about.tensor)
     ]
     whole = [[*row, *(b[i] for b in borders)] for i, row in enumerate(tensor)]
     whole += [
-        [*(Disc(-x.mid, x.off) for x in b), *[Disc(Fraction(0))] * len(kept)] for b in borders
+        [*(RealBall(-x.mid, x.off) for x in b), *[RealBall(Fraction(0))] * len(kept)]
+        for b in borders
     ]
     inverse = q.inverse(q.matrix([[x.mid for x in row] for row in whole]))
     if inverse is None or contraction(inverse, [[x.off for x in row] for row in whole]) >= 1:
@@ -341,20 +342,20 @@ def grows(about: About, kept: Sequence[Polynomial], radius: Fraction) -> bool:
     return any(x.negative for x in coefficients) or _breaks_newton(coefficients)
 
 
-def _slopes(e: Expansion, radius: Fraction) -> list[Disc]:
+def _slopes(e: Expansion, radius: Fraction) -> list[RealBall]:
     """The first derivatives of a polynomial within a radius."""
     found = []
     for j, x in enumerate(e.slope):
         terms = ((m, c) for m, c in terms_of(e).items() if sum(m) > 1 and m[j])
         off = sum((abs(c) * m[j] * radius ** (sum(m) - 1) for m, c in terms), Fraction(0))
-        found.append(Disc(rational(x), off))
+        found.append(RealBall(rational(x), off))
     return found
 
 
-def characteristic(a: Balls) -> list[Disc]:
+def characteristic(a: Balls) -> list[RealBall]:
     """The characteristic polynomial from the highest power (Faddeev and Le Verrier)."""
     places = range(len(a))
-    zero, found = Disc(Fraction(0)), [Disc(Fraction(1))]
+    zero, found = RealBall(Fraction(0)), [RealBall(Fraction(1))]
     power: Balls = [[zero] * len(a) for _ in places]
     for k in range(1, len(a) + 1):
         inside = [[power[i][j] + (found[-1] if i == j else zero) for j in places] for i in places]
@@ -362,17 +363,17 @@ def characteristic(a: Balls) -> list[Disc]:
             [sum((a[i][m] * inside[m][j] for m in places), zero) for j in places] for i in places
         ]
         trace = sum((power[i][i] for i in places), zero)
-        found.append(trace * Disc(Fraction(-1, k)))
+        found.append(trace * RealBall(Fraction(-1, k)))
     return found
 
 
-def _breaks_newton(c: Sequence[Disc]) -> bool:
+def _breaks_newton(c: Sequence[RealBall]) -> bool:
     """Is c_j² (j)(d − j) < c_{j−1} c_{j+1} (j + 1)(d − j + 1) for some j, surely?"""
     d = len(c) - 1
     return any(
         (
-            c[j] * c[j] * Disc(Fraction(j * (d - j)))
-            + c[j - 1] * c[j + 1] * Disc(Fraction(-(j + 1) * (d - j + 1)))
+            c[j] * c[j] * RealBall(Fraction(j * (d - j)))
+            + c[j - 1] * c[j + 1] * RealBall(Fraction(-(j + 1) * (d - j + 1)))
         ).negative
         for j in range(1, d)
     )

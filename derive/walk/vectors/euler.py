@@ -1,4 +1,4 @@
-"""SO(3) and SE(3) in vectors: dϖ by the momenta in the body, its kernel, Euler’s equations."""
+"""SO(3) and SE(3) in vectors: dϖ by the momenta in the body, its kernel, Euler's equations."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""so(3) ≅ R³ by j(X)Y = X ∧ Y (33): skew letters read as vectors, the metric of J as I’s (32)."""
+"""so(3) ≅ R³ by j(X)Y = X ∧ Y (33): skew letters read as vectors, the metric of J as I's (32)."""
 
 from __future__ import annotations
 
