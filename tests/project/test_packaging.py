@@ -41,6 +41,7 @@ def test_what_they_bring_is_small():
     assert found == {"jinja2", "numpy", "sympy", "mpmath", "markupsafe"}
 
 
+@needs("git")
 @pytest.mark.skipif(not (ROOT / ".git").exists(), reason="this is no checkout of git")
 def test_nothing_lies_about():
     """At the top are these files alone, and no other is a program or large."""
