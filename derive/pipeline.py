@@ -53,7 +53,7 @@ if TYPE_CHECKING:
     from .search.equilibria.entries_of_elements import EntryConditions
     from .search.equilibria.stability import Equilibrium
     from .search.integrals.all_integrals import IntegralsFound
-    from .search.reduction.told_reduction import Reduction
+    from .search.reduction.reduction_steps import Reduction
     from .search.symmetries.symmetry_steps import Symmetries
 
 ANY_GROUP = (
@@ -292,8 +292,8 @@ def integrals(
     ``conditions``: with those on the parameters under which there are more.
     """
     from .search.integrals.all_integrals import found
+    from .search.integrals.integral_steps import told
     from .search.integrals.reduced import reduced, require_group, with_defaults
-    from .search.integrals.told_integrals import told
     from .search.symmetries.scalar_lagrangian import with_scalar_lagrangian
 
     require_group(problem)
@@ -319,8 +319,8 @@ def equilibrium_near(
     """The equilibrium of a problem near a point, enclosed, and the record of its integrals up to a
     degree with the steps that tell it; parameters have their defaults."""
     from .search.equilibria.enclosed_points import enclosed
+    from .search.equilibria.equilibrium_steps import told_enclosed
     from .search.equilibria.stability import require_numbers
-    from .search.equilibria.told_points import told_enclosed
 
     whole, record = integrals(problem, degree, at_defaults=True)
     try:
@@ -361,8 +361,8 @@ def equilibria(
     """The relative equilibrium of a problem at a point, or those among some points where no values
     are given, and the record of its integrals up to a degree with the steps that tell them;
     parameters have their defaults."""
+    from .search.equilibria.equilibrium_steps import told
     from .search.equilibria.stability import equilibria_of
-    from .search.equilibria.told_points import told
 
     whole, record = integrals(problem, degree, at_defaults=True)
     try:
@@ -391,7 +391,7 @@ def symmetries(problem: Problem, record: Derivation) -> Symmetries:
 def reduction(problem: Problem, record: Derivation) -> Reduction:
     """Routh's reduction of a problem by symmetries that commute, by its record, and a record of it;
     ``ProblemError`` where there is nothing to reduce by."""
-    from .search.reduction.told_reduction import record_of
+    from .search.reduction.reduction_steps import record_of
     from .search.symmetries.found_symmetries import symmetries_of
 
     found = symmetries_of(problem, record)
@@ -401,7 +401,7 @@ def reduction(problem: Problem, record: Derivation) -> Reduction:
 def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree]:
     """Name → what the motion keeps: by each symmetry, else by Casimirs and integrals up to degree
     4 of the reduced equations; of these what no symmetry gives stands beside symmetries, too."""
-    from .search.integrals.told_integrals import first_integrals
+    from .search.integrals.integral_steps import first_integrals
     from .search.symmetries.found_symmetries import kept_with_damping, named, symmetries_of
 
     if problem.damping:
@@ -485,7 +485,7 @@ def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
     entry of g; else ``None``."""
     from .motion.emitted import OneDegree
     from .search.reduction.quadrature import leaves_one, momenta_of
-    from .search.reduction.told_reduction import record_of
+    from .search.reduction.reduction_steps import record_of
     from .search.symmetries.found_symmetries import symmetries_of
 
     try:
@@ -515,7 +515,7 @@ def program(
     """The program of a problem; in its principal frame that is the program of another problem.
     ``weightless``: with what is conserved, also that which is where gravity is 0."""
     from .code.assemble import assemble
-    from .code.kept import watched
+    from .code.watched_functions import watched
 
     require_program(problem, record, options)
     events = watched(problem.name, problem.events, options) if options else ()
@@ -538,10 +538,10 @@ def program(
 def require_program(problem: Problem, record: Derivation, options: Options | None = None) -> None:
     """Refuse options that exclude one another or the problem, before anything is made of it:
     ``LoweringError``, or ``ProblemError`` where it has no code, or no such frame."""
-    from .code.kept import watched
     from .code.options import Options
     from .code.requests import require_written
     from .code.torus.torus_program import require_on_torus
+    from .code.watched_functions import watched
 
     chosen = options or Options()
     watched(problem.name, problem.events, chosen)

@@ -21,7 +21,7 @@ from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
 from derive.command.showing import READY, ready_made
 from derive.language.limits import TABLES
-from derive.problem.stated_motion import of_points
+from derive.problem.motion_tables import of_points
 from derive.problem.toml import TOP
 from derive.schema.body_kinds import SOLIDS, Point
 from derive.schema.kind import (

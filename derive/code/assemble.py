@@ -16,7 +16,6 @@ from .conventions import conventions, titles
 from .drift import TEXTS, drift, matrices
 from .factor import factored
 from .graph import Node, reachable
-from .kept import EmittedEvent, EmittedQuantities, table, values
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
@@ -29,6 +28,7 @@ from .schedule import Scheduler, by_leaves, by_numbers, by_state, frontier
 from .state import StateSpace
 from .state_forms import FROM_MATRIX, LABELS, TO_MATRIX, matrix_state
 from .step.discrete_step import STEPPING, Lowered, lowered
+from .watched_functions import EmittedEvent, EmittedQuantities, table, values
 
 Place = tuple[str, tuple[str, int]]
 """The name of a number that is read, and its array and index."""
@@ -59,7 +59,7 @@ def assemble(
     """The program of a record; ``LoweringError`` when the record has no solved equations.
 
     ``framed``: the record of the problem in its principal frame, if the code is to be in that.
-    ``kept``: what the motion keeps, by names, as :mod:`derive.code.kept` takes it.
+    ``kept``: what the motion keeps, by names, as :mod:`derive.code.watched_functions` takes it.
     ``events``: what is watched on a motion. ``discrete``: its record, where its step is wanted.
     """
     chosen = options or Options()
@@ -157,7 +157,7 @@ def _kept_by_gauss(
     """What the step keeps of which that is asked for."""
     if "gauss" not in chosen.step:
         return None
-    from .step.kept_by_gauss import kept_by_gauss
+    from .step.gauss_invariants import kept_by_gauss
 
     sizes = {"p": parameters, "u": len(lowering.reader.inputs)}
     return kept_by_gauss(functions, lowering.reader.space, sizes, conserved)

@@ -148,7 +148,7 @@ class Block:
 
 @dataclass(frozen=True)
 class KeptByGauss:
-    """What ``step.kept_by_gauss`` finds: the names of what is kept to rounding, and of what the
+    """What ``step.gauss_invariants`` finds: the names of what is kept to rounding, and of what the
     motion keeps beside; is the group kept so?"""
 
     exact: tuple[str, ...]

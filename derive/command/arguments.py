@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from .. import __version__
 from ..language.reserved import did_you_mean, near_name
 from ..schema.table import nearest
-from ..views.plot.kinds_told import told_kinds
+from ..views.plot.kind_descriptions import told_kinds
 from ..views.rendering import FORMATS
 from .writing import STDOUT, one_line
 

@@ -171,7 +171,7 @@ def command_plot(args: argparse.Namespace) -> int:
     from ..motion.ensemble_files import read_either
     from ..views.language import language
     from ..views.plot.ensemble_pictures import plot_precision
-    from ..views.plot.kinds_told import PRECISION
+    from ..views.plot.kind_descriptions import PRECISION
     from ..views.plot.pictures import plot, plot_energies
     from ..views.plot.plot_sheet import ending
     from .writing import write

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from ..motion.driven import DAMPING, INPUTS, is_weightless
 from ..motion.emitted_code import parts
+from ..motion.energy_sources import DAMPING, INPUTS, is_weightless
 from ..motion.ensemble import (
     EnsembleMotions,
     Part,

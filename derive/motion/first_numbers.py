@@ -15,8 +15,8 @@ from ..language.reserved import did_you_mean, near_name
 from ..language.tree import Tree
 from ..language.values import approximate
 from ..problem.fields import state_names
+from ..problem.motion_tables import named
 from ..problem.problem import Problem
-from ..problem.stated_motion import named
 
 
 class MotionError(Refused, ValueError):

@@ -17,8 +17,8 @@ from ..problem.inertia import fault_of_quadrics
 from ..problem.problem import Problem, points_of
 from ..schema.kinds.attraction import Attraction
 from ..schema.kinds.spring import Spring
-from .driven import drives
 from .emitted import Emitted
+from .energy_sources import drives
 from .first_numbers import MotionError
 from .native import CompileError, Motion
 from .run import Array, Run

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..algebra.families import group, on_homogeneous
 from ..algebra.groups import Group
-from ..algebra.stated_groups import group_of_basis
+from ..algebra.user_groups import group_of_basis
 from ..schema.body_kinds import (
     SOLIDS,
     Body,

@@ -22,13 +22,13 @@ from ..schema.kinds import kinds
 from ..schema.table import Table, nearest
 from . import inertia
 from .bodies import body, forces, group_of, negative_stiffness_of
+from .entries_on_orbit import hessian, vanishes
 from .fields import LIKE_A_PLACE, coordinates, used_at
 from .file_reader import FileReader
 from .inertia import impossible, negative_mass
-from .moved_entries import hessian, vanishes
+from .lagrangian_tables import carried_group, lagrangian, on_torus, torus_problem
+from .motion_tables import KEYS, faults, named, named_twice, stated_motion
 from .problem import Problem, ProblemError
-from .stated_lagrangian import carried_group, lagrangian, on_torus, torus_problem
-from .stated_motion import KEYS, faults, named, named_twice, stated_motion
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
 TOP |= {"damping", "solid", "algebra", "advected", "fluid", *SECTIONS, *KEYS}

@@ -136,7 +136,7 @@ class SymmetriesOf(Finding):
         return {x: float(value) for x, value in found.items() if value is not None}
 
     def _entries(self, leaves: Mapping[Tree, Any]) -> list[list[Any]]:
-        from ..problem.moved_entries import element
+        from ..problem.entries_on_orbit import element
 
         group = self.problem.group
         assert group is not None

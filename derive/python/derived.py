@@ -189,7 +189,7 @@ class Derived:
         ``vary``, drawn by (low, high) or ("normal", mean, deviation) from a ``seed`` (0); kept is
         the end, or ``points`` instants.  ``MotionError``, a ``ValueError``, says what is wrong.
         """
-        from ..motion.driven import is_weightless
+        from ..motion.energy_sources import is_weightless
         from ..motion.ensemble import require_an_ensemble
         from ..motion.first_numbers import require_numbers
         from ..motion.simulate import run

@@ -13,8 +13,8 @@ import sympy
 from ..code.ellipsoid import BUNDLES, is_item
 from ..code.program import EmittedFunction, Expression, Program
 from ..language.tree import Tree
+from ..problem.entries_on_orbit import element
 from ..problem.fields import coordinates
-from ..problem.moved_entries import element
 from ..search.symmetries.found_symmetries import SymmetriesFound
 from ..search.symmetries.symmetry import Symmetry
 

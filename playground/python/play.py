@@ -27,7 +27,7 @@ from derive.command.cli import main
 from derive.command.showing import derive
 from derive.command.writing import one_line
 from derive.language.limits import Refused
-from derive.problem.stated_motion import faults
+from derive.problem.motion_tables import faults
 from derive.record.record import AMENDED, Derivation
 from derive.views.paper.findings import PaperFinding
 

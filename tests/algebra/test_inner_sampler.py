@@ -7,7 +7,7 @@ import pytest
 
 from derive.algebra.families import group, so_basis
 from derive.algebra.samplers import inner_sampler, one_parameter
-from derive.algebra.stated_groups import group_of_basis
+from derive.algebra.user_groups import group_of_basis
 from derive.language import rational as q
 
 

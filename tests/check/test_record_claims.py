@@ -21,7 +21,7 @@ from derive.problem.toml import problem_of
 from derive.record.as_json import from_json, to_json
 from derive.record.prose import message
 from derive.record.sentence import CLAIMS, Claim, Sentence
-from derive.search.integrals import told_integrals
+from derive.search.integrals import integral_steps
 from tests.problems import PROBLEMS
 from tests.support import walks
 from tests.support.lagrangians import (
@@ -113,7 +113,7 @@ def unsolved():
 def large(name, **how):
     """A record whose claims are too large to be computed again."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(told_integrals, "MONOMIALS", MONOMIALS)
+        patch.setattr(integral_steps, "MONOMIALS", MONOMIALS)
         return first_integrals(name, 2, **how).record
 
 

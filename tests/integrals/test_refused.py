@@ -10,8 +10,8 @@ from derive.problem.toml import load, problem_of
 from derive.search.integrals import all_integrals
 from derive.search.integrals.all_integrals import found
 from derive.search.integrals.degree_search import TooLargeError
+from derive.search.integrals.integral_steps import first_integrals
 from derive.search.integrals.reduced import NotReducedError, reduced
-from derive.search.integrals.told_integrals import first_integrals
 from tests.support.lagrangians import lagrangian
 
 SQUARE = "zeta_1^2 + zeta_2^2 + zeta_3^2"

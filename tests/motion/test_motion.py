@@ -11,8 +11,8 @@ import derive
 from derive.code.step.collocation import Collocation
 from derive.command.cli import main
 from derive.command.simulating import at_first, negative
-from derive.motion.driven import drives
 from derive.motion.emitted_code import Column, in_order
+from derive.motion.energy_sources import drives
 from derive.motion.first_numbers import MotionError, exponential
 from derive.motion.run import Run, read
 from derive.motion.start import inertia_of

@@ -13,7 +13,7 @@ from derive.python.simulated import SimulatedEnsemble
 from derive.views.language import language
 from derive.views.plot.body_pictures import ATTITUDE
 from derive.views.plot.ensemble_pictures import POINTS, differing, quantiles
-from derive.views.plot.kinds_told import OVERVIEW
+from derive.views.plot.kind_descriptions import OVERVIEW
 from derive.views.plot.pictures import ENSEMBLE_KINDS, plot
 from derive.views.plot.plot_sheet import FORMATS, PlotError, sheet
 from tests.support.needs import needs

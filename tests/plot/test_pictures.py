@@ -9,9 +9,9 @@ import pytest
 from derive.command.cli import main
 from derive.motion.run import Run, written
 from derive.views.language import language
-from derive.views.plot import kinds_told
+from derive.views.plot import kind_descriptions
 from derive.views.plot.body_pictures import VIEW, in_math, projected
-from derive.views.plot.kinds_told import OVERVIEW, PRECISION
+from derive.views.plot.kind_descriptions import OVERVIEW, PRECISION
 from derive.views.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
 from derive.views.plot.plot_sheet import FORMATS, PlotError, label, look, settled, with_mark
 from tests.support.drawn_runs import figure_of, fitting, run_of, simulated, texts, words_of
@@ -22,8 +22,8 @@ FRENCH = language("fr").word
 
 
 def test_the_help_tells_every_kind(capsys):
-    assert [*kinds_told.KINDS] == [*KINDS]
-    assert [*kinds_told.ENSEMBLE_KINDS] == [*ENSEMBLE_KINDS]
+    assert [*kind_descriptions.KINDS] == [*KINDS]
+    assert [*kind_descriptions.ENSEMBLE_KINDS] == [*ENSEMBLE_KINDS]
     with pytest.raises(SystemExit):
         main(["plot", "--help"])
     text = " ".join(capsys.readouterr().out.split())

@@ -10,7 +10,7 @@ from derive.command.cli import main
 from derive.motion.run import Run
 from derive.python.simulated import Simulated
 from derive.views.plot.ensemble_pictures import of_runs, table
-from derive.views.plot.kinds_told import PRECISION
+from derive.views.plot.kind_descriptions import PRECISION
 from derive.views.plot.pictures import plot_energies
 from derive.views.plot.plot_sheet import PlotError, sheet
 from derive.views.plot.time_series import energies

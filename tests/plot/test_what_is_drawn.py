@@ -11,7 +11,7 @@ from derive.problem.toml import problem_of
 from derive.python.derived import derive
 from derive.views.language import language
 from derive.views.plot.body_pictures import _ellipsoid, drawn, hull, levels, unstable
-from derive.views.plot.kinds_told import OVERVIEW
+from derive.views.plot.kind_descriptions import OVERVIEW
 from derive.views.plot.pictures import KINDS, plot
 from derive.views.plot.plot_sheet import label
 from derive.views.plot.time_series import followed, maps, section

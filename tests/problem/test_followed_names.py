@@ -5,7 +5,7 @@ import pytest
 from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.pipeline import program, walk
-from derive.problem.stated_motion import faults, numbers_followed
+from derive.problem.motion_tables import faults, numbers_followed
 from derive.problem.toml import load
 from tests.problems import READY, moving
 

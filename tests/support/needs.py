@@ -48,6 +48,7 @@ PACKAGES = {
     "pdflatex": TEX,
     "pdftoppm": "poppler-utils",
     "chromium": "chromium",
+    "git": "git",
     "faketime": "faketime",
     "the locale fr_FR": "locales",
 }

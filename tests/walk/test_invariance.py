@@ -13,7 +13,7 @@ import pytest
 from derive import pipeline
 from derive.algebra.families import group, on_homogeneous
 from derive.algebra.relations import changes, for_every_body
-from derive.algebra.stated_groups import group_of_basis, nilpotent
+from derive.algebra.user_groups import group_of_basis, nilpotent
 from derive.language import rational as q
 from derive.language.laurent import OverlongError, vanishes
 from derive.language.tree import names

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any, Protocol
 
 from ...algebra.groups import Group
-from ...algebra.stated_groups import block
+from ...algebra.user_groups import block
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, nodes

@@ -8,7 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from ...algebra.stated_groups import block
+from ...algebra.user_groups import block
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, nodes

@@ -11,8 +11,8 @@ from typing import Any
 from ...algebra.families import LARGEST, group, on_homogeneous, turning_about_a_point
 from ...algebra.groups import Group
 from ...algebra.samplers import Source
-from ...algebra.stated_groups import blocks_apart, group_of_basis, of_matrices
 from ...algebra.structure import rank
+from ...algebra.user_groups import blocks_apart, group_of_basis, of_matrices
 from ...language import rational as q
 from ...language.show import show
 from ...language.tree import Tree, nodes

@@ -18,11 +18,11 @@ from ...algebra.structure import Place, TorusLattice
 from ...record.record import Derivation
 from ..factor import factored
 from ..graph import Graph, Node
-from ..kept import EmittedEvent, table, values_of
 from ..naming import ClaimedNames
 from ..options import Options
 from ..program import EmittedFunction, Load, LoweringError, Program
 from ..schedule import Scheduler, Source, frontier
+from ..watched_functions import EmittedEvent, table, values_of
 from .lattice_state import described, names, position
 from .written_out import WrittenOut
 

@@ -18,7 +18,7 @@ from typing import Any
 from ...algebra.groups import Group, told_entries
 from ...algebra.relations import Relations, relations
 from ...algebra.samplers import minimal_polynomial
-from ...algebra.stated_groups import nilpotent
+from ...algebra.user_groups import nilpotent
 from ...language import rational as q
 from ...language.univariate import real_roots
 from ..integrals.lie_poisson import ONE, LiePoisson, Polynomial

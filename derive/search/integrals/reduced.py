@@ -11,7 +11,7 @@ from ...algebra.groups import Group, constant_entries
 from ...language.limits import Refused
 from ...language.tree import Tree, add, mul, nodes, replaced
 from ...language.values import arithmetic
-from ...problem.moved_entries import settled
+from ...problem.entries_on_orbit import settled
 from ...problem.problem import Problem
 from .lie_poisson import ONE, Exponents, LiePoisson, plain, powers, sorted_terms
 

@@ -9,8 +9,8 @@ from operator import truediv
 from typing import Any
 
 from ...language.tree import Tree, add, neg, nodes, plain, terms
+from ...problem.entries_on_orbit import EntriesOfElement, element
 from ...problem.fields import coordinates
-from ...problem.moved_entries import EntriesOfElement, element
 from ...problem.problem import ProblemError
 from ..symmetries.found_symmetries import SymmetriesFound
 from ..symmetries.scalar_lagrangian import full

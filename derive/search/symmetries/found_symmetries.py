@@ -16,8 +16,8 @@ from ...code.state import StateSpace
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, add, coefficient, mul, neg, nodes, terms
+from ...problem.entries_on_orbit import along, element, hessian, null_directions
 from ...problem.fields import coordinates
-from ...problem.moved_entries import along, element, hessian, null_directions
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Derivation
 from ...schema.body_kinds import Place, Point

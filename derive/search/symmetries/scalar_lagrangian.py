@@ -20,8 +20,8 @@ from ...language.derivatives import product
 from ...language.laurent import OverlongError, grouped, polynomial
 from ...language.show import show
 from ...language.tree import Tree, add, mul, neg, nodes, operands, plain
+from ...problem.entries_on_orbit import Rows, element
 from ...problem.fields import coordinates
-from ...problem.moved_entries import Rows, element
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Derivation
 from ...schema.kind import Lagrangian, Parameter

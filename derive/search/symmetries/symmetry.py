@@ -9,7 +9,7 @@ from fractions import Fraction
 from ...algebra.groups import Group
 from ...language.derivatives import product
 from ...language.tree import Tree, add, coefficient, mul, neg, nodes, plain, terms
-from ...problem.moved_entries import Rows
+from ...problem.entries_on_orbit import Rows
 from .conditions import Monomial, Unknowns
 from .scalar_lagrangian import Entries, by_state, conjugated, full, matrix, negative, plus
 from .search import SymmetrySolution

@@ -14,8 +14,8 @@ from ...code.emit import emit
 from ...code.options import Options
 from ...language.reserved import GREEK
 from ...language.templating import environment, folder
-from ...motion.driven import drives, is_free, weight
 from ...motion.emitted_code import EmittedCode, in_words
+from ...motion.energy_sources import drives, is_free, weight
 from ...motion.first_numbers import FirstNumbers
 from ...problem.problem import Problem
 from ...record.record import Derivation

@@ -10,7 +10,7 @@ from ...language.reserved import did_you_mean, near_name
 from ...motion.ensemble import Ensemble
 from ...motion.run import Run
 from . import body_pictures, ensemble_pictures, time_series
-from .kinds_told import OVERVIEW, PRECISION
+from .kind_descriptions import OVERVIEW, PRECISION
 from .plot_sheet import PlotError, ending, look, sheet, written
 
 Needs = tuple[tuple[str, Callable[[Any], bool]], ...]

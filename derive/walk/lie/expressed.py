@@ -11,8 +11,7 @@ from ...language.derivatives import derivative
 from ...language.laurent import OverlongError, collected
 from ...language.read import read
 from ...language.tree import Tree, add, mul, names, neg, plain
-from ...problem.fields import coordinates
-from ...problem.moved_entries import (
+from ...problem.entries_on_orbit import (
     EntriesOfElement,
     MovedEntries,
     along,
@@ -20,6 +19,7 @@ from ...problem.moved_entries import (
     null_directions,
     vanishes_on,
 )
+from ...problem.fields import coordinates
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed

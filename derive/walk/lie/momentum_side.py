@@ -10,15 +10,15 @@ from typing import Any
 from ...algebra.calculus import derivation
 from ...algebra.forms import left, strip_left
 from ...algebra.groups import Group
-from ...algebra.stated_groups import block
 from ...algebra.structure import brackets_of, faithful
+from ...algebra.user_groups import block
 from ...algebra.words import Letter, word
 from ...language.derivatives import derivative
 from ...language.rational import Matrix
 from ...language.reserved import suffixed
 from ...language.tree import Tree, add, mul, neg, nodes, plain
+from ...problem.entries_on_orbit import Entry, MovedEntries
 from ...problem.fields import coordinates
-from ...problem.moved_entries import Entry, MovedEntries
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...schema.kind import Advected

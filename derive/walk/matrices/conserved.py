@@ -12,7 +12,7 @@ from ...algebra.words import Expr, Letter, inner, one, word, zero
 from ...language import rational as q
 from ...language.derivatives import product
 from ...language.tree import Tree, add, mul, names, neg
-from ...problem.moved_entries import vanishes
+from ...problem.entries_on_orbit import vanishes
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ...record.sentence import Prose

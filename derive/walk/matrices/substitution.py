@@ -13,7 +13,7 @@ from ...language import rational as q
 from ...language.laurent import Laurent, OverlongError, polynomial, written
 from ...language.tree import Tree, nodes, operands, replaced
 from ...language.values import LARGEST_POWER, OPERATIONS, Value
-from ...problem.moved_entries import element as entries_of
+from ...problem.entries_on_orbit import element as entries_of
 from ...record.record import Equation
 
 # The values of names in the numbers and parameters of a problem: Laurent polynomials, also as the

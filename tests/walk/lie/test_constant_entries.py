@@ -8,7 +8,7 @@ import pytest
 
 import derive
 from derive.language.tree import nodes
-from derive.problem.moved_entries import element, null_directions
+from derive.problem.entries_on_orbit import element, null_directions
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 

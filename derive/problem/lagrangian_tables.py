@@ -9,7 +9,6 @@ from typing import Any
 
 from ..algebra.families import group, on_homogeneous
 from ..algebra.groups import Group
-from ..algebra.stated_groups import carrying, group_of_basis
 from ..algebra.structure import (
     Algebra,
     Brackets,
@@ -20,6 +19,7 @@ from ..algebra.structure import (
     require_jacobi,
     require_representation,
 )
+from ..algebra.user_groups import carrying, group_of_basis
 from ..language.derivatives import derivative
 from ..language.expression import names
 from ..language.limits import CARRIED, ROWS, TABLE
@@ -37,9 +37,7 @@ from ..schema.kind import (
     TorusInertia,
 )
 from ..schema.table import Slot
-from .fields import coordinates, no_entry, undeclared, used_at
-from .file_reader import FileReader
-from .moved_entries import (
+from .entries_on_orbit import (
     Direction,
     EntriesOfElement,
     along,
@@ -50,9 +48,11 @@ from .moved_entries import (
     vanishes,
     vanishes_on,
 )
+from .fields import coordinates, no_entry, undeclared, used_at
+from .file_reader import FileReader
+from .motion_tables import KEYS as MOTION
+from .motion_tables import stated_motion
 from .problem import Problem, ProblemError
-from .stated_motion import KEYS as MOTION
-from .stated_motion import stated_motion
 
 # The algebra of a problem file that moves no points: its brackets, and what it carries along.
 

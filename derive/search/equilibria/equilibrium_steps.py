@@ -12,7 +12,7 @@ from ...record.record import Equation, Step
 from ...record.sentence import Prose
 from ...walk.chapter import Chapter, Draft, say
 from ..integrals.all_integrals import IntegralsFound
-from ..integrals.told_integrals import rate
+from ..integrals.integral_steps import rate
 from .enclosed_points import Enclosed, less
 from .energy_casimir import EnergyCasimirForm, Leaf
 from .equilibrium_points import About, Expansion
