@@ -11,7 +11,7 @@ import numpy as np
 
 from derive.code.naming import name_of
 from derive.language.reserved import suffixed
-from derive.pipeline import program
+from derive.programs import program
 from derive.python.compiled import Compiled
 
 from .measure import Worst, errors, taken

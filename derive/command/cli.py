@@ -64,7 +64,7 @@ def command_walk(args: argparse.Namespace) -> int:
 
 def command_integrals(args: argparse.Namespace) -> int:
     """Find the polynomial first integrals of the reduced equations of a problem."""
-    from ..pipeline import integrals
+    from ..searches import integrals
 
     problem = doubted(args.problem)
     chosen = {"at_defaults": args.at_defaults, "conditions": args.conditions}
@@ -74,7 +74,7 @@ def command_integrals(args: argparse.Namespace) -> int:
 
 def command_equilibria(args: argparse.Namespace) -> int:
     """Find relative equilibria of the reduced equations of a problem, and their stability."""
-    from ..pipeline import equilibria, equilibrium_near
+    from ..searches import equilibria, equilibrium_near
 
     if args.near and args.at:
         raise UsageError("--at is exact and --near is not: give one of them")
@@ -98,7 +98,7 @@ def command_equilibria(args: argparse.Namespace) -> int:
 
 def command_symmetries(args: argparse.Namespace) -> int:
     """All symmetries of a problem's Lagrangian, and what the motion keeps by each."""
-    from ..pipeline import symmetries
+    from ..searches import symmetries
 
     problem, walked = derive(args.problem, **allowed(args))
     save_found(symmetries(problem, walked).record, args)
@@ -107,7 +107,7 @@ def command_symmetries(args: argparse.Namespace) -> int:
 
 def command_reduction(args: argparse.Namespace) -> int:
     """Routh's reduction by symmetries that commute: effective potential, what is left to solve."""
-    from ..pipeline import reduction
+    from ..searches import reduction
 
     problem, walked = derive(args.problem, **allowed(args))
     save_found(reduction(problem, walked).record, args)
@@ -265,7 +265,7 @@ def command_paper(args: argparse.Namespace) -> int:
 def command_build(args: argparse.Namespace) -> int:
     """Make all of generated/ again."""
     from ..code.emit import emit
-    from ..pipeline import program
+    from ..programs import program
     from ..views.rendering import render
     from .writing import write
 

@@ -16,9 +16,9 @@ from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 from ..code.program import Program
 from ..code.requests import EmissionRequest, request_of
 from ..language.limits import Refused
-from ..pipeline import program, require_program
 from ..problem.bodies import negative_stiffness_of
 from ..problem.problem import Problem, ProblemError
+from ..programs import program, require_program
 from ..record.record import Derivation
 from .showing import UsageError, allowed, derive
 from .writing import REMEDY, STDOUT, stale, text_on_disk

@@ -30,8 +30,8 @@ from ..motion.run import Array, Run, format_of, written
 from ..motion.simulate import beginning, run
 from ..motion.start import state_file
 from ..motion.trajectory import STEPS, Method, instants
-from ..pipeline import motion_of, motion_of_many
 from ..problem.problem import Problem
+from ..programs import motion_of, motion_of_many
 from ..record.record import Derivation
 from ..views.language import language
 from ..views.page.motion_page import motion_page

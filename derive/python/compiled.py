@@ -39,8 +39,8 @@ from ..motion.native import (
 )
 from ..motion.start import OFF_THE_GROUP
 from ..motion.trajectory import reflection
-from ..pipeline import program
 from ..problem.problem import Problem, ProblemError
+from ..programs import program
 from .derived import Derived, derive
 from .simulated import InMomenta
 

@@ -118,8 +118,8 @@ class Derived:
         ``{"Pi_1": "sqrt(3)/2"}``, or those among some points; parameters have their defaults.
         ``degree``: of the integrals that are searched.  ``ValueError`` where it is none, or for
         what is no such number."""
-        from ..pipeline import equilibria
         from ..search.equilibria.equilibrium_points import number_from
+        from ..searches import equilibria
         from .found import Equilibria
 
         values = {x: number_from(str(v)) for x, v in (at or {}).items()}
@@ -128,8 +128,8 @@ class Derived:
     def equilibrium_near(self, at: Mapping[str, Fraction | int | str], *, degree: int = 4) -> Near:
         """The relative equilibrium near a point with these coordinates, on its level of the
         Casimirs up to a ``degree``, enclosed; ``ValueError`` where none is."""
-        from ..pipeline import equilibrium_near
         from ..search.equilibria.equilibrium_points import number_from
+        from ..searches import equilibrium_near
         from .found import Near
 
         values = {x: number_from(str(v)) for x, v in at.items()}
@@ -138,7 +138,7 @@ class Derived:
     def symmetries(self) -> SymmetriesOf:
         """All symmetries of L̃ of a kind, and what the motion keeps by each; ``ProblemError`` where
         there is no Lagrangian."""
-        from ..pipeline import symmetries
+        from ..searches import symmetries
         from .conserved_quantities import SymmetriesOf
 
         found = symmetries(self.problem, self.record)
@@ -147,7 +147,7 @@ class Derived:
     def reduction(self) -> Reduced:
         """Routh's reduction by symmetries that commute; ``ProblemError`` where there is nothing to
         reduce by."""
-        from ..pipeline import reduction
+        from ..searches import reduction
         from .found import Reduced
 
         found = reduction(self.problem, self.record)
@@ -194,7 +194,7 @@ class Derived:
         from ..motion.first_numbers import require_numbers
         from ..motion.simulate import run
         from ..motion.trajectory import STEPS, Method
-        from ..pipeline import motion_of
+        from ..programs import motion_of
         from .simulated import Simulated
 
         require_numbers(
@@ -223,7 +223,7 @@ class Derived:
         how: Mapping[str, Any],
     ) -> SimulatedEnsemble:
         from ..motion.ensemble import EnsembleMotions, Plan, laws, require_steps_of_an_ensemble
-        from ..pipeline import motion_of_many
+        from ..programs import motion_of_many
         from .simulated import SimulatedEnsemble
 
         require_steps_of_an_ensemble(**how)
@@ -247,7 +247,7 @@ class Derived:
         from ..motion.first_numbers import require_numbers
         from ..motion.simulate import beginning
         from ..motion.trajectory import Method, instants
-        from ..pipeline import motion_of
+        from ..programs import motion_of
         from ..views.language import language as named
         from ..views.page.motion_page import motion_page
 
@@ -271,7 +271,7 @@ class Derived:
 
     def expressions(self) -> Expressions:
         """The equations of motion in coordinates, as SymPy expressions."""
-        from ..pipeline import program
+        from ..programs import program
         from .expressions import expressions
 
         found = program(self.problem, self.record)

@@ -316,7 +316,7 @@ def first_integrals(
     is for generic values of them; ``conditions``: special values with more are found, too.
     ``ProblemError``, ``NotReducedError`` say what is wrong.
     """
-    from ..pipeline import integrals
+    from ..searches import integrals
 
     problem = loaded(problem)
     chosen = {"at_defaults": at_defaults, "conditions": conditions}

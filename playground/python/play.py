@@ -188,7 +188,7 @@ class Play:
         from derive.code.options import Options
         from derive.motion.emitted_code import EmittedCode, base_units
         from derive.motion.first_numbers import first_numbers
-        from derive.pipeline import moving_program
+        from derive.programs import moving_program
         from derive.views.language import language
         from derive.views.page.motion_page import data
 

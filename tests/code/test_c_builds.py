@@ -12,7 +12,7 @@ from derive import derive
 from derive.code.languages import LANGUAGES, blocks, names
 from derive.code.options import Options
 from derive.command.cli import main
-from derive.pipeline import program
+from derive.programs import program
 from tests.support.needs import need, needs
 
 BARE = """

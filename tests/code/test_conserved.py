@@ -16,8 +16,8 @@ from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.language.limits import Refused
 from derive.language.rational import times, transposed
-from derive.pipeline import program
 from derive.problem.toml import problem_of
+from derive.programs import program
 from derive.python.derived import derive
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles

@@ -8,10 +8,11 @@ from derive.code.emit import EmitError
 from derive.code.languages import LANGUAGES
 from derive.code.options import Options
 from derive.code.program import LoweringError
-from derive.pipeline import program, walk
+from derive.pipeline import walk
 from derive.problem.principal import principal
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
+from derive.programs import program
 from tests.code.test_forms import given, started
 from tests.support.library import STRICT, built, emission, library, module_of
 from tests.support.needs import CC, needs, present

@@ -16,8 +16,9 @@ from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.code.options import Options
 from derive.command.cli import main
-from derive.pipeline import program, walk
+from derive.pipeline import walk
 from derive.problem.toml import problem_of
+from derive.programs import program
 from tests.oracles import general
 from tests.support.emitted import import_python
 

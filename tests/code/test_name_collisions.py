@@ -13,8 +13,8 @@ import pytest
 from derive import SE, SL, Gravity, Moments, Points, Potential, Problem, Spring, derive
 from derive.code.languages import LANGUAGES, Statements
 from derive.code.requests import identifiers, without_collisions
-from derive.pipeline import program
 from derive.problem.problem import ProblemError
+from derive.programs import program
 from tests.support.languages import Case
 from tests.support.library import BUILDS, ONE_BUILD
 from tests.support.needs import needs

@@ -12,7 +12,7 @@ from derive.code.emit import emit, planned
 from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, REPEATED, Options
 from derive.language.limits import Refused
-from derive.pipeline import program, require_program
+from derive.programs import program, require_program
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
 from tests.support.languages import Case

@@ -16,7 +16,7 @@ import derive
 from derive.code.emit import EmitError
 from derive.code.options import Options
 from derive.command.cli import main
-from derive.pipeline import program
+from derive.programs import program
 from tests.problems import thrown
 from tests.problems.line import FALLING
 from tests.problems.moving import BODY

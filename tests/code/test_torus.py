@@ -10,8 +10,9 @@ from scipy.integrate import solve_ivp
 
 from derive import derive
 from derive.code.options import Options
-from derive.pipeline import program, walk
+from derive.pipeline import walk
 from derive.problem.toml import problem_of
+from derive.programs import program
 from tests.oracles import torus
 from tests.support.emitted import compile_c, import_python
 from tests.support.library import ONE_BUILD, STEPPED, library

@@ -12,11 +12,11 @@ from derive.algebra.families import group
 from derive.algebra.groups import constant_entries
 from derive.check.claims.entries_checked import decided as checked
 from derive.language.univariate import root
-from derive.pipeline import equilibria
 from derive.record.sentence import english
 from derive.search.equilibria.entries_of_elements import conditions
 from derive.search.equilibria.equilibrium_points import About, attained, off_the_group
 from derive.search.integrals.reduced import without_energy
+from derive.searches import equilibria
 from tests.support.lagrangians import LINE, LINES, LORENTZ, lagrangian, squares
 
 

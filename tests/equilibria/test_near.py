@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
-from derive import ProblemError, derive, pipeline
+from derive import ProblemError, derive, searches
 from derive.algebra.families import group
 from derive.check.checker import Checker
 from derive.check.claims.enclosure import enclosure_fault
@@ -105,13 +105,13 @@ def forged(monkeypatch, problem, near, value=None, changed=None):
 
         monkeypatch.setattr(enclosed_points, "group_value", other)
     if changed:
-        found = pipeline.integrals
+        found = searches.integrals
 
         def integrals(*args, **options):
             whole, record = found(*args, **options)
             return replace(whole, casimirs=(*changed(whole.casimirs),)), record
 
-        monkeypatch.setattr(pipeline, "integrals", integrals)
+        monkeypatch.setattr(searches, "integrals", integrals)
     record = problem.equilibrium_near(near).record
     checker = Checker(record.problem, SEED)
     return [checker.check(record[x]).reason for x in ("equilibrium_1", "enclosure_1")]

@@ -14,7 +14,7 @@ from derive.command.cli import main
 from derive.command.simulating import Tally, kept
 from derive.motion import ensemble as of_parts
 from derive.motion.ensemble import ParameterDraws, VariedNumber
-from derive.pipeline import motion_of
+from derive.programs import motion_of
 from derive.python.simulated import SimulatedEnsemble
 from tests.problems.line import FALLING
 from tests.problems.moving import BODY, SPIN, WEIGHT

@@ -7,9 +7,9 @@ from scipy.integrate import solve_ivp
 import derive
 from derive.command.cli import main
 from derive.motion.run import FORMATS, read, written
-from derive.pipeline import motion_of
 from derive.problem.problem import ProblemError
 from derive.problem.toml import load
+from derive.programs import motion_of
 from tests.oracles import free_top
 from tests.problems import READY, moving
 from tests.support.flows import emitted

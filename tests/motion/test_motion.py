@@ -17,8 +17,9 @@ from derive.motion.first_numbers import MotionError, exponential
 from derive.motion.run import Run, read
 from derive.motion.start import inertia_of
 from derive.motion.trajectory import Method, instants, taken_to_group
-from derive.pipeline import motion_of, walk
+from derive.pipeline import walk
 from derive.problem.toml import problem_of
+from derive.programs import motion_of
 from tests.oracles import free_top, lagrange_top
 
 MOMENTS = (1.25, 2.0, 2.75)

@@ -10,9 +10,9 @@ from derive.code.emit import emit
 from derive.code.options import Options
 from derive.command.showing import load_problem, ready_made
 from derive.language.values import approximate
-from derive.pipeline import motion_of
 from derive.problem.fields import state_names
 from derive.problem.toml import problem_of
+from derive.programs import motion_of
 from derive.views.figure.drawn_body import ExpressionValues
 from derive.views.page.moving_body import moving_body
 from derive.walk.spine.head import problem_data

@@ -12,7 +12,7 @@ from derive.code.options import Options
 from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.motion.simulate import beginning
-from derive.pipeline import motion_of
+from derive.programs import motion_of
 from derive.views.language import language
 from derive.views.page.motion_page import data
 from tests.fuzz.corpus import problems

@@ -4,9 +4,10 @@ import pytest
 
 from derive.command.cli import main
 from derive.command.showing import ready_made
-from derive.pipeline import program, walk
+from derive.pipeline import walk
 from derive.problem.motion_tables import faults, numbers_followed
 from derive.problem.toml import load
+from derive.programs import program
 from tests.problems import READY, moving
 
 FILE = f"""{moving.SPIN}[[input]]

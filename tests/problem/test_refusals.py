@@ -13,8 +13,8 @@ from derive import SO, Points, Problem, derive
 from derive.check.checker import Checker
 from derive.code.emit import emit
 from derive.code.options import Options
-from derive.pipeline import program
 from derive.problem.problem import ProblemError
+from derive.programs import program
 from derive.record.as_json import from_json, to_json
 from derive.record.record import Equation, RecordError
 from derive.validate.read_file import read

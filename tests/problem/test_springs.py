@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from derive import derive
-from derive.pipeline import program
 from derive.problem.toml import problem_of
+from derive.programs import program
 from derive.validate.chart import Chart
 from derive.validate.compare import compare
 from derive.validate.exact_points import Claims

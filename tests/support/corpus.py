@@ -11,8 +11,9 @@ from derive import Gravity, Harmonic, Problem, SelfGravity, Solid, first_integra
 from derive.algebra.families import group as named_group
 from derive.check.checker import checker_of
 from derive.command.showing import load_problem
-from derive.pipeline import discrete, symmetries, walk
+from derive.pipeline import discrete, walk
 from derive.problem.toml import problem_of
+from derive.searches import symmetries
 from tests.problems import PROBLEMS
 from tests.support import advected, reduced, symmetric
 from tests.support.cached import on_disk

@@ -4,7 +4,7 @@ import json
 import re
 
 from derive.language.templating import folder
-from derive.pipeline import program
+from derive.programs import program
 from derive.views.page.moving_body import moving_body
 from tests.support.cached import on_disk
 from tests.support.walks import derived

@@ -3,8 +3,9 @@
 from functools import cache
 
 from derive.command.showing import ready_made
-from derive.pipeline import reduction, walk
+from derive.pipeline import walk
 from derive.problem.toml import problem_of
+from derive.searches import reduction
 from tests.support.walks import problem, record
 
 AXIS = {"name": "Turn", "action": "linear", "basis": [[[0, -1], [1, 0]]]}

@@ -9,7 +9,7 @@ import pytest
 import derive.command.emitting
 import derive.command.simulating
 import derive.python.compiled  # noqa: F401  (all that name a function of the pipeline, before it is another)
-from derive import pipeline
+from derive import pipeline, programs, searches
 from derive.problem.problem import Problem
 from derive.record.as_json import to_json
 from derive.record.record import Derivation
@@ -52,10 +52,11 @@ def once(make, *, on_disk):
     return found
 
 
-KEPT_ON_DISK = {"walk": False, "motion_of": False, "discrete": True, "one_degree": True}
-KEPT_ON_DISK |= {"program": True, "conserved_quantities": True}
-ONCE = {name: once(getattr(pipeline, name), on_disk=x) for name, x in KEPT_ON_DISK.items()}
-OWN = {name: getattr(pipeline, name) for name in ONCE}
+KEPT_ON_DISK = {pipeline.walk: False, pipeline.discrete: True, programs.motion_of: False}
+KEPT_ON_DISK |= {programs.one_degree: True, programs.program: True}
+KEPT_ON_DISK |= {searches.conserved_quantities: True}
+OWN = {make.__name__: make for make in KEPT_ON_DISK}
+ONCE = {name: once(make, on_disk=KEPT_ON_DISK[make]) for name, make in OWN.items()}
 
 
 @pytest.fixture(autouse=True, scope="module")

@@ -2,8 +2,9 @@
 
 from functools import cache
 
-from derive.pipeline import symmetries, walk
+from derive.pipeline import walk
 from derive.problem.toml import problem_of
+from derive.searches import symmetries
 
 LINE = [0, 0, 0, 0]
 

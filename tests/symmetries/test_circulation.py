@@ -6,7 +6,7 @@ import pytest
 import derive
 from derive import Problem, Solid
 from derive.motion.emitted_code import KEPT
-from derive.pipeline import conserved_quantities
+from derive.searches import conserved_quantities
 from tests.support.walks import problem, record
 
 LETTERS = {"a": 2.0, "b": 3.0, "c": 5.0}

@@ -8,13 +8,14 @@ from derive.command.showing import derive, ready_made
 from derive.language.expression import parse
 from derive.language.show import show
 from derive.language.tree import add
-from derive.pipeline import symmetries, walk
+from derive.pipeline import walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.record.sentence import english
 from derive.search.symmetries import search
 from derive.search.symmetries.scalar_lagrangian import ParameterValues
 from derive.search.symmetries.search import quotients_of
+from derive.searches import symmetries
 from tests.support.symmetric import FILES, found
 from tests.support.walks import FLUIDS, problem, record
 

@@ -9,8 +9,9 @@ import pytest
 import derive
 from derive.code.emit import emit
 from derive.code.options import Options
-from derive.pipeline import program, walk
+from derive.pipeline import walk
 from derive.problem.toml import problem_of
+from derive.programs import program
 from derive.validate.chart import Chart
 from derive.validate.compare import compare
 from derive.validate.emission import EmittedFiles

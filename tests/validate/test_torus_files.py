@@ -17,8 +17,9 @@ import pytest
 from derive.code.emit import emit
 from derive.code.options import Options
 from derive.command.cli import main
-from derive.pipeline import program, walk
+from derive.pipeline import walk
 from derive.problem.toml import problem_of
+from derive.programs import program
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
 from derive.validate.straight_line import Measured

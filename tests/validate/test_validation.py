@@ -15,8 +15,9 @@ from derive.code.languages import LANGUAGES
 from derive.code.options import REPEATED, Options
 from derive.command import emitting
 from derive.command.cli import main
-from derive.pipeline import program, walk
+from derive.pipeline import walk
 from derive.problem.toml import problem_of
+from derive.programs import program
 from derive.validate.chart import Chart
 from derive.validate.compare import Agreement, Comparison
 from derive.validate.emission import EmittedFiles, as_text

@@ -13,7 +13,7 @@ import pytest
 
 from derive.command.cli import main
 from derive.command.showing import ready_made
-from derive.pipeline import symmetries, walk
+from derive.pipeline import walk
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
 from derive.record import prose as texts
@@ -23,6 +23,7 @@ from derive.record.sentence import PLACE, english, phrase, say
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, meanings
 from derive.schema.body_kinds import SOLIDS, MomentBody
 from derive.schema.kinds import kinds
+from derive.searches import symmetries
 from derive.views import outline
 from derive.views.html import html
 from derive.views.language import (

@@ -10,7 +10,7 @@ from random import Random
 import numpy as np
 import pytest
 
-from derive import pipeline
+from derive import pipeline, programs
 from derive.algebra.families import group, on_homogeneous
 from derive.algebra.relations import changes, for_every_body
 from derive.algebra.user_groups import group_of_basis, nilpotent
@@ -46,7 +46,7 @@ def said(record, short):
 
 
 def operations(problem):
-    rhs = pipeline.program(problem, pipeline.walk(problem)).functions["rhs"]
+    rhs = programs.program(problem, pipeline.walk(problem)).functions["rhs"]
     return rhs.operations()
 
 
@@ -224,6 +224,6 @@ def test_their_state_is_in_the_basis_that_is_stated():
     text = PROBLEMS["se(3) mixed"]
     mine = read(text)
     assert mine.group.stated_basis == mine.group.stated.basis != mine.group.basis
-    program = pipeline.program(mine, pipeline.walk(mine))
+    program = programs.program(mine, pipeline.walk(mine))
     assert program.basis == mine.group.stated_basis
     assert [x for x in program.state if x.startswith("zeta")] == [f"zeta_{i}" for i in range(1, 7)]

@@ -5,8 +5,9 @@ import tomllib
 import pytest
 
 from derive.language.tree import nodes
-from derive.pipeline import discrete, program, walk
+from derive.pipeline import discrete, walk
 from derive.problem.toml import problem_of
+from derive.programs import program
 from derive.record.sentence import english
 from derive.views.language import language
 from derive.views.outline import latex_names

@@ -4,7 +4,7 @@ import tomllib
 
 import pytest
 
-from derive import pipeline
+from derive import pipeline, programs
 from derive.problem.toml import problem_of
 from derive.walk.matrices import solution
 
@@ -14,7 +14,7 @@ BODY = '[body]\nmoments = "symbolic"\n'
 def operations(group, monkeypatch, multipliers):
     monkeypatch.setattr(solution, "MULTIPLIERS", multipliers)
     problem = problem_of(tomllib.loads(f'name = "test"\ngroup = "{group}"\n{BODY}'))
-    program = pipeline.program(problem, pipeline.walk(problem))
+    program = programs.program(problem, pipeline.walk(problem))
     return sum(program.functions["rhs"].operations().values())
 
 

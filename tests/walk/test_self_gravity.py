@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import derive
-from derive import Problem, Solid, pipeline
+from derive import Problem, Solid, programs, searches
 from derive.code.emit import emit
 from derive.problem.problem import ProblemError
 from derive.search.symmetries.scalar_lagrangian import Integrand
@@ -341,7 +341,7 @@ def test_bodies_that_are_no_ellipsoid(body):
 def test_what_is_not_sought():
     """An integral of the reduced motion of an integrand is none of that of the integral."""
     d = derive.derive(NAME)
-    for seek in (pipeline.reduction, lambda p, _: pipeline.integrals(p, 2)):
+    for seek in (searches.reduction, lambda p, _: searches.integrals(p, 2)):
         with pytest.raises(ProblemError, match="nothing else is sought"):
             seek(d.problem, d.record)
     with pytest.raises(ProblemError, match="derive emit --conserved"):
@@ -390,7 +390,7 @@ CHANGES = {  # Ψ_0 is no case: on SL(3) the multiplier takes it up
 @pytest.mark.parametrize("change", CHANGES)
 @pytest.mark.parametrize("end", ITEMS)
 def test_emitted_code_is_read_back_and_no_change_of_it_passes(end, change):
-    compiled = pipeline.program(problem(NAME), record(NAME))
+    compiled = programs.program(problem(NAME), record(NAME))
     files = emit(compiled, record(NAME), ("c", "python"), NAME)
     file, (old, new) = f"{NAME}.{end}", CHANGES[change](end)
     assert old in files[file]

@@ -52,8 +52,9 @@ def produce(job: Job) -> Output:
     """The record of a problem and its code, by the engine that this process has."""
     from derive.code.emit import emit
     from derive.code.options import Options
-    from derive.pipeline import program, walk
+    from derive.pipeline import walk
     from derive.problem.toml import problem_of
+    from derive.programs import program
     from derive.record.as_json import to_json
 
     problem = problem_of(job.data)
@@ -68,7 +69,8 @@ def produce(job: Job) -> Output:
 
 def found(sought: str, problem: Any) -> Any:
     """The record of what is found of a problem beside its walk."""
-    from derive.pipeline import equilibria, integrals, reduction, symmetries, walk
+    from derive.pipeline import walk
+    from derive.searches import equilibria, integrals, reduction, symmetries
 
     if sought in ("symmetries", "reduction"):
         return (symmetries if sought == "symmetries" else reduction)(problem, walk(problem)).record
@@ -210,7 +212,7 @@ def serve(mutant: Mutant, graph: dict[str, set[str]], connection: Any) -> None:
     broken, last = Output(), Output()
     try:
         install(mutant, graph)
-        importlib.import_module("derive.pipeline")
+        importlib.import_module("derive.programs")
     except BaseException as error:  # it cannot even be imported
         broken = Output(trouble="crashed", why=f"{type(error).__name__}: {error}"[:200])
     while True:
@@ -264,7 +266,7 @@ def reached(job: Job | None, files: set[str]) -> dict[str, set[int]]:
     watch.start()
     try:
         if job is None:
-            importlib.import_module("derive.pipeline")
+            importlib.import_module("derive.programs")
         else:
             attempted(job)
     finally:

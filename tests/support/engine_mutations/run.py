@@ -48,6 +48,8 @@ MODULES = [
         if path not in LEFT and not path.endswith("__init__.py")
     ),
     "pipeline.py",
+    "searches.py",
+    "programs.py",
 ]
 MOST = 5
 """Jobs on which one mutant is tried, of those that reach it."""

@@ -1,0 +1,149 @@
+"""The numeric code of a problem, as a program and at work: its record assembled with what the
+options ask for, conserved quantities and the discrete motion among it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from .language.limits import Refused
+from .pipeline import discrete, lagrangian_road, walk
+from .problem.principal import principal
+from .problem.problem import Problem, ProblemError
+from .record.record import Derivation
+from .searches import conserved_quantities, kept_without_gravity
+
+if TYPE_CHECKING:
+    from .code.options import Options
+    from .code.program import Program
+    from .motion.emitted import Emitted, OneDegree
+
+
+def motion_of(
+    problem: Problem,
+    record: Derivation,
+    step: str = "gauss",
+    order: str = "",
+    *,
+    weightless: bool = False,
+) -> Emitted:
+    """The emitted code of a problem with a step, of an ``order`` if it is the discrete one, which
+    stops at its events, and all that its motion keeps, for runs; with what it keeps if it is
+    ``weightless``."""
+    from .motion.emitted import Emitted
+
+    made, why = moving_program(problem, record, step, order, weightless=weightless)
+    return Emitted.of(made, problem, record, step, one_degree(problem, record), why, order)
+
+
+def moving_program(
+    problem: Problem,
+    record: Derivation,
+    step: str = "gauss",
+    order: str = "",
+    *,
+    sought: bool = True,
+    weightless: bool = False,
+) -> tuple[Program, str]:
+    """The program of a problem with all that its motion keeps, and why it has none of that but the
+    energy: none is found, or it is not looked for where SymPy is not there.  ``sought``: is it
+    looked for?  ``weightless``: also what is kept where gravity is 0?"""
+    from .code.options import Options
+
+    has, why = record.definition("θ") is not None, ""
+    plain = Options(step=(step,), order=order)
+    told = replace(plain, multiplier=has)
+    for chosen in (*([replace(told, conserved=True)] * sought), told, plain):
+        try:
+            return program(problem, record, chosen, weightless=weightless), why
+        except (Refused, ImportError) as error:  # or none is written for this state
+            why = why or str(error)
+            if chosen == plain:
+                raise
+    raise AssertionError("the last is made or raises")
+
+
+def motion_of_many(problem: Problem, record: Derivation) -> Emitted:
+    """The same for ensembles, whose motions stop at terminal events alone."""
+    from .motion.ensemble import STEP
+
+    ends = tuple(x for x in problem.events if x.terminal)
+    return motion_of(replace(problem, events=ends), record, STEP)
+
+
+def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
+    """The effective potential where the symmetries of a problem leave one degree of freedom, an
+    entry of g; else ``None``."""
+    from .motion.emitted import OneDegree
+    from .search.reduction.quadrature import leaves_one, momenta_of
+    from .search.reduction.reduction_steps import record_of
+    from .search.symmetries.found_symmetries import symmetries_of
+
+    try:
+        found = symmetries_of(problem, record)
+        if not leaves_one(found):
+            return None
+        general = lagrangian_road(found.lagrangian.trivialisation)
+        reduced = record_of(found, general)
+    except Refused:
+        return None
+    left = reduced.quadrature
+    if left is None or not isinstance(left.entry, tuple) or reduced.routhian.named:
+        return None
+    told = reduced.record[f"{problem.name}.effective"].equations
+    V = next(e.rhs for e in told if e.lhs == "𝒱")
+    turns = problem.group is not None and "orthogonal" in problem.group.relations
+    return OneDegree((left.entry[2], left.entry[3]), V, momenta_of(found), turns)
+
+
+def program(
+    problem: Problem,
+    record: Derivation,
+    options: Options | None = None,
+    *,
+    weightless: bool = False,
+) -> Program:
+    """The program of a problem; in its principal frame that is the program of another problem.
+    ``weightless``: with what is conserved, also that which is where gravity is 0."""
+    from .code.assemble import assemble
+    from .code.watched_functions import watched
+
+    require_program(problem, record, options)
+    events = watched(problem.name, problem.events, options) if options else ()
+    if problem.torus:
+        from .code.torus.torus_program import torus_program
+
+        return torus_program(record, problem.torus, options, events)
+    assert problem.group
+    if options is None or options.frame == "given":
+        kept = conserved_quantities(problem, record) if options and options.conserved else None
+        more = kept_without_gravity(problem) if kept is not None and weightless else {}
+        more = {name: t for name, t in more.items() if name not in (kept or {})}
+        every = None if kept is None else kept | more
+        stepped = discrete(problem) if options and "discrete" in options.step else None
+        made = assemble(record, problem.group, options, kept=every, events=events, discrete=stepped)
+        return replace(made, weightless=(*more,))
+    return assemble(record, problem.group, options, walk(principal(problem)))
+
+
+def require_program(problem: Problem, record: Derivation, options: Options | None = None) -> None:
+    """Refuse options that exclude one another or the problem, before anything is made of it:
+    ``LoweringError``, or ``ProblemError`` where it has no code, or no such frame."""
+    from .code.options import Options
+    from .code.requests import require_written
+    from .code.torus.torus_program import require_on_torus
+    from .code.watched_functions import watched
+
+    chosen = options or Options()
+    watched(problem.name, problem.events, chosen)
+    if problem.torus:
+        require_on_torus(record, chosen)
+    elif problem.group is None:
+        raise ProblemError(
+            f"{problem.name}: {problem.without_matrices}, so it has no numeric code; "
+            f"{problem.with_matrices}"
+        )
+    else:
+        require_written(record, problem.group, chosen)
+        if chosen.frame == "principal":
+            principal(problem)

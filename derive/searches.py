@@ -1,0 +1,173 @@
+"""What is searched for in the equations of a problem, each found thing with its record: the walk of
+the problem first, then the steps of the search.  SymPy is imported by the searches that need it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from .language.limits import Refused
+from .pipeline import lagrangian_road, walk
+from .problem.problem import Problem, ProblemError
+from .record.record import Derivation
+from .walk.chapter import Chapter, traced
+from .walk.spine.head import symbols
+from .walk.spine.lagrangian import supposing_all
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from .language.tree import Tree
+    from .language.univariate import Number
+    from .search.equilibria.enclosed_points import Enclosed
+    from .search.equilibria.entries_of_elements import EntryConditions
+    from .search.equilibria.stability import Equilibrium
+    from .search.integrals.all_integrals import IntegralsFound
+    from .search.reduction.reduction_steps import Reduction
+    from .search.symmetries.symmetry_steps import Symmetries
+
+
+def integrals(
+    problem: Problem, degree: int = 4, *, at_defaults: bool = False, conditions: bool = False
+) -> tuple[IntegralsFound, Derivation]:
+    """The polynomial integrals of the reduced equations of a problem up to a degree, and its record
+    with the steps that tell them; of points by their Lagrangian as one expression.
+
+    Without the inputs of the problem; ``at_defaults``: with numbers for its parameters;
+    ``conditions``: with those on the parameters under which there are more.
+    """
+    from .search.integrals.all_integrals import found
+    from .search.integrals.integral_steps import told
+    from .search.integrals.reduced import reduced, require_group, with_defaults
+    from .search.symmetries.scalar_lagrangian import with_scalar_lagrangian
+
+    require_group(problem)
+    driven, problem = bool(problem.inputs), replace(problem, inputs=())
+    if problem.lagrangian is None:
+        problem = with_scalar_lagrangian(problem, walk(problem))
+    problem = with_defaults(problem) if at_defaults else problem
+    whole = found(reduced(problem), degree)
+    if conditions:
+        from .search.integrals.special_parameters import conditions as conditions_of
+
+        whole = replace(whole, conditions=conditions_of(whole))
+    assert problem.group is not None
+    record = walk(problem)
+    c = Chapter(problem.name, problem.group.name)
+    steps = supposing_all(traced((*record.steps, *told(whole, record.steps, c, driven=driven))))
+    return whole, Derivation(record.problem, symbols(steps, problem), steps)
+
+
+def equilibrium_near(
+    problem: Problem, values: Mapping[str, Number], degree: int = 4
+) -> tuple[Enclosed, Derivation]:
+    """The equilibrium of a problem near a point, enclosed, and the record of its integrals up to a
+    degree with the steps that tell it; parameters have their defaults."""
+    from .search.equilibria.enclosed_points import enclosed
+    from .search.equilibria.equilibrium_steps import told_enclosed
+    from .search.equilibria.stability import require_numbers
+
+    whole, record = integrals(problem, degree, at_defaults=True)
+    try:
+        require_numbers(whole)
+        found = enclosed(whole, _of_variables(problem, values), _elements(problem, whole))
+    except Refused as error:
+        raise ProblemError(f"{problem.name}: {error}") from None
+    assert problem.group is not None
+    c = Chapter(problem.name, problem.group.name)
+    steps = (*record.steps, *told_enclosed(whole, found, record.steps, c))
+    return found, replace(record, steps=supposing_all(traced(steps)))
+
+
+def _of_variables(problem: Problem, values: Mapping[str, Number]) -> dict[str, Number]:
+    """The coordinates of a point by the names of the reduced variables: A_44 is A2_11 in the
+    problem, where its group is a product."""
+    from .problem.fields import state_names
+    from .search.equilibria.equilibrium_points import coordinate
+
+    assert problem.group is not None
+    own = state_names(problem.group)
+    entries = {x for x, t in own.items() if isinstance(t, tuple) and t[1] == "A"}
+    return {coordinate(own[x]) if x in entries else x: v for x, v in values.items()}
+
+
+def _elements(problem: Problem, whole: IntegralsFound) -> tuple[EntryConditions, ...]:
+    """What the entries of g satisfy that are among the variables of the reduced equations."""
+    from .search.equilibria.entries_of_elements import conditions
+
+    assert problem.group is not None
+    left = problem.lagrangian is None or problem.lagrangian.trivialisation == "left"
+    return conditions(whole.system, problem.group, left=left)
+
+
+def equilibria(
+    problem: Problem, values: Mapping[str, Number], degree: int = 4
+) -> tuple[tuple[Equilibrium, ...], Derivation]:
+    """The relative equilibrium of a problem at a point, or those among some points where no values
+    are given, and the record of its integrals up to a degree with the steps that tell them;
+    parameters have their defaults."""
+    from .search.equilibria.equilibrium_steps import told
+    from .search.equilibria.stability import equilibria_of
+
+    whole, record = integrals(problem, degree, at_defaults=True)
+    try:
+        point = _of_variables(problem, values)
+        found = equilibria_of(whole, point, _elements(problem, whole))
+    except Refused as error:
+        raise ProblemError(f"{problem.name}: {error}") from None
+    assert problem.group is not None
+    c = Chapter(problem.name, problem.group.name)
+    steps = told(whole, found, record.steps, c, tried=not values)
+    steps = supposing_all(traced((*record.steps, *steps)))
+    return found, replace(record, steps=steps)
+
+
+def symmetries(problem: Problem, record: Derivation) -> Symmetries:
+    """All symmetries of the Lagrangian of a problem, by its record, and a record of them;
+    ``ProblemError`` where there is no Lagrangian of its own."""
+    from .search.symmetries.found_symmetries import symmetries_of
+    from .search.symmetries.symmetry_steps import Symmetries, record_of
+
+    found = symmetries_of(problem, record, of_integrand=True)
+    general = lagrangian_road(found.lagrangian.trivialisation)
+    return Symmetries(found, record_of(found, general))
+
+
+def reduction(problem: Problem, record: Derivation) -> Reduction:
+    """Routh's reduction of a problem by symmetries that commute, by its record, and a record of it;
+    ``ProblemError`` where there is nothing to reduce by."""
+    from .search.reduction.reduction_steps import record_of
+    from .search.symmetries.found_symmetries import symmetries_of
+
+    found = symmetries_of(problem, record)
+    return record_of(found, lagrangian_road(found.lagrangian.trivialisation))
+
+
+def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree]:
+    """Name → what the motion keeps: by each symmetry, else by Casimirs and integrals up to degree
+    4 of the reduced equations; of these what no symmetry gives stands beside symmetries, too."""
+    from .search.integrals.integral_steps import first_integrals
+    from .search.symmetries.found_symmetries import kept_with_damping, named, symmetries_of
+
+    if problem.damping:
+        return named(kept_with_damping(problem, record))
+    if problem.advected is not None:
+        return first_integrals(problem)
+    found = symmetries_of(problem, record, of_integrand=True)
+    if found.integrand:
+        return named(found)
+    return named(found) | first_integrals(found.problem, beside_symmetries=True)
+
+
+def kept_without_gravity(problem: Problem) -> dict[str, Tree]:
+    """Name → what the motion keeps where gravity is 0; nothing of a problem without gravity."""
+    from .schema.kinds.gravity import Gravity
+
+    left = tuple(x for x in problem.potentials if not isinstance(x, Gravity))
+    if len(left) == len(problem.potentials):
+        return {}
+    bare = replace(problem, potentials=left)
+    try:
+        return conserved_quantities(bare, walk(bare))
+    except Refused:  # damping leaves nothing
+        return {}
