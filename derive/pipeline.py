@@ -128,7 +128,7 @@ VECTORS = (
           "Steps", by_momenta.of_rotations, "linear"),
     Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
           "Steps", by_momenta.of_displacements, "affine"),
-    Stage("basis", "group isometry.letters c", "Steps", coordinates.stated_basis_step),
+    Stage("basis", "group isometry.letters c", "Steps", coordinates.user_basis_step),
     Stage("explicit", "problem group body potentials torque pullback.steps axial.inertia "
           "external? motion tensor c_u", "Steps", explicit.of_vectors, "linear"),
     Stage("explicit", "problem group body potentials torque pullback.steps centred.inertia "
@@ -146,10 +146,10 @@ EXPRESSED = (
     Stage("expressed", "problem group lagrangian basis c", "Expressed", expressed.expressed),
     Stage("balance", "expressed problem group lagrangian basis c_u", "Steps", expressed.balance),
     Stage("conserved", "expressed problem group lagrangian balance c",
-          "Steps", expressed.kept),
+          "Steps", expressed.conserved),
     Stage("by_momenta", "expressed problem group lagrangian basis balance c c_u",
           "Steps", momentum_side.by_momenta),
-    Stage("explicit", "problem group balance expressed.told c_u",
+    Stage("explicit", "problem group balance expressed.momenta_step c_u",
           "Steps", explicit.of_lagrangian),
 )
 """One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""
@@ -165,7 +165,7 @@ FLUID = (
     Stage("kernel", "derivative principle a c", "FluidKernel", fluid_kernel.kernel),
     Stage("pressure", "kernel points a c", "Steps", fluid_kernel.pressure),
     Stage("advection", "a c", "Steps", circulation.advection),
-    Stage("energy", "kernel trivial a c", "Step", circulation.energy_kept),
+    Stage("energy", "kernel trivial a c", "Step", circulation.energy),
     Stage("circulation", "kernel points a c", "Steps", circulation.circulation),
     Stage("kelvin", "kernel points a c", "Steps", circulation.kelvin),
 )

@@ -11,7 +11,7 @@ from .pipeline import discrete, lagrangian_road, walk
 from .problem.principal import principal
 from .problem.problem import Problem, ProblemError
 from .record.record import Derivation
-from .searches import conserved_quantities, kept_without_gravity
+from .searches import conserved_quantities, conserved_without_gravity
 
 if TYPE_CHECKING:
     from .code.options import Options
@@ -117,7 +117,7 @@ def program(
     assert problem.group
     if options is None or options.frame == "given":
         kept = conserved_quantities(problem, record) if options and options.conserved else None
-        more = kept_without_gravity(problem) if kept is not None and weightless else {}
+        more = conserved_without_gravity(problem) if kept is not None and weightless else {}
         more = {name: t for name, t in more.items() if name not in (kept or {})}
         every = None if kept is None else kept | more
         stepped = discrete(problem) if options and "discrete" in options.step else None

@@ -147,10 +147,10 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
     """Name → what the motion keeps: by each symmetry, else by Casimirs and integrals up to degree
     4 of the reduced equations; of these what no symmetry gives stands beside symmetries, too."""
     from .search.integrals.integral_steps import first_integrals
-    from .search.symmetries.found_symmetries import kept_with_damping, named, symmetries_of
+    from .search.symmetries.found_symmetries import conserved_with_damping, named, symmetries_of
 
     if problem.damping:
-        return named(kept_with_damping(problem, record))
+        return named(conserved_with_damping(problem, record))
     if problem.advected is not None:
         return first_integrals(problem)
     found = symmetries_of(problem, record, of_integrand=True)
@@ -159,7 +159,7 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
     return named(found) | first_integrals(found.problem, beside_symmetries=True)
 
 
-def kept_without_gravity(problem: Problem) -> dict[str, Tree]:
+def conserved_without_gravity(problem: Problem) -> dict[str, Tree]:
     """Name → what the motion keeps where gravity is 0; nothing of a problem without gravity."""
     from .schema.kinds.gravity import Gravity
 

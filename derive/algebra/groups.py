@@ -23,7 +23,7 @@ class Group:
     ``basis``: d matrices of size n (linear) or n + 1 with last row zero (affine), over Q.
     ``sampler``: random exact elements; ``larger``: are they those of a larger group that has the
     same relations? ``factors``: of a product, in order; its n is the size of its block diagonal
-    matrices. ``stated_basis``: that of the user, where ``basis`` is another one of the same 𝔤.
+    matrices. ``user_basis``: that of the user, where ``basis`` is another one of the same 𝔤.
     """
 
     name: str
@@ -33,17 +33,17 @@ class Group:
     sampler: Sampler
     factors: tuple[Group, ...] = ()
     larger: bool = False
-    stated_basis: tuple[Matrix, ...] = ()
+    user_basis: tuple[Matrix, ...] = ()
 
     def __repr__(self) -> str:
         return f"<group {self.name}: dimension {self.dimension}>"
 
     @cached_property
-    def stated(self) -> Group:
+    def in_user_basis(self) -> Group:
         """The same group in the basis that the user states, whose coordinates are those of the
         state."""
-        own = self.stated_basis
-        return replace(self, basis=own, stated_basis=()) if own else self
+        own = self.user_basis
+        return replace(self, basis=own, user_basis=()) if own else self
 
     @property
     def dimension(self) -> int:
@@ -134,7 +134,7 @@ class Group:
         return tuple(found)
 
     @property
-    def centred(self) -> tuple[tuple[int, Group], ...]:
+    def barycentric_blocks(self) -> tuple[tuple[int, Group], ...]:
         """The blocks H ⋉ Rⁿ, as (first row, factor), of a product of groups with skew linear parts;
         none for other groups."""
         skew = all("orthogonal" in factor.relations for factor in self.factors)
@@ -284,7 +284,7 @@ Combination = tuple[Fraction, dict[tuple[int, int], Fraction]]
 
 
 @cache
-def told_entries(group: Group) -> tuple[tuple[Combination, ...], ...]:
+def affine_entries(group: Group) -> tuple[tuple[Combination, ...], ...]:
     """Every entry of g, size × size, as number + Σ weight · entry of the free ones."""
     size = group.size
     start = (Fraction(1), *q.flatten(q.identity(size)))
@@ -312,8 +312,8 @@ def constant_entries(group: Group) -> dict[tuple[int, int], Fraction]:
     exact elements are known, the places between blocks and in the last rows of affine ones."""
     span = range(group.size)
     if group.has_inner_samples:
-        told = told_entries(group)
-        return {(i, j): told[i][j][0] for i in span for j in span if not told[i][j][1]}
+        entries = affine_entries(group)
+        return {(i, j): entries[i][j][0] for i in span for j in span if not entries[i][j][1]}
     block = {k: offset for offset, f in group.places for k in range(offset, offset + f.size)}
     last = {offset + f.n for offset, f in group.places if f.affine}
     return {

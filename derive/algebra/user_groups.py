@@ -37,11 +37,11 @@ def group_of_basis(
 
 
 def _turning(g: Group) -> Group:
-    """The group, which is SO(3) or SE(3), in the basis that j gives; its ``stated_basis`` is the
+    """The group, which is SO(3) or SE(3), in the basis that j gives; its ``user_basis`` is the
     one that it had, if another."""
     basis = affine_basis(so_basis(3), 3) if g.affine else so_basis(3)
     own = () if g.basis == basis else g.basis
-    return Group(g.name, 3, g.action, basis, enclosing(g), larger=True, stated_basis=own)
+    return Group(g.name, 3, g.action, basis, enclosing(g), larger=True, user_basis=own)
 
 
 def nilpotent(basis: Sequence[Matrix]) -> bool:

@@ -93,15 +93,15 @@ def assemble(
         tuple(_parameter(d, name) for name in parameters),
         tuple(lowering.reader.inputs),
         tuple(constants),
-        group.stated.basis,
+        group.in_user_basis.basis,
         functions,
-        group.stated.free_translations,
+        group.in_user_basis.free_translations,
         turning(d.problem, parameters) if "inertia" in wanted and not frame else None,
         framing,
         "eta g" if lowering.reader.space.right else "g eta",
         tuple(kept or ()),
         table(events),
-        _kept_by_gauss(lowering, chosen, functions, len(parameters), tuple(kept or ())),
+        _invariants_of_gauss(lowering, chosen, functions, len(parameters), tuple(kept or ())),
         *((momenta.names, momenta.size) if momenta else ((), 0)),
         mass_fault=lowering.inverses.mass_fault,
         discrete=stepped.step if stepped else None,
@@ -147,7 +147,7 @@ def _added(
     return {name: factored(lowering.graph, nodes) for name, nodes in found.items()}
 
 
-def _kept_by_gauss(
+def _invariants_of_gauss(
     lowering: Lowering,
     chosen: Options,
     functions: Mapping[str, EmittedFunction],
@@ -157,10 +157,10 @@ def _kept_by_gauss(
     """What the step keeps of which that is asked for."""
     if "gauss" not in chosen.step:
         return None
-    from .step.gauss_invariants import kept_by_gauss
+    from .step.gauss_invariants import invariants_of_gauss
 
     sizes = {"p": parameters, "u": len(lowering.reader.inputs)}
-    return kept_by_gauss(functions, lowering.reader.space, sizes, conserved)
+    return invariants_of_gauss(functions, lowering.reader.space, sizes, conserved)
 
 
 def _not_tested(lowering: Lowering) -> tuple[str, ...]:

@@ -46,15 +46,15 @@ def conventions(
         moved = "g^-1 dg/dt" if side == "left" else "(dg/dt) g^-1"
         lines.append(f"zeta are the coordinates of Z = {moved} in the basis below.")
         lines += _held(problem["lagrangian"].get("held", ()))
-    elif group.turns_space and not group.stated_basis:
+    elif group.turns_space and not group.user_basis:
         lines.append(
             "zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cross y."
         )
-    elif not group.affine or group.stated_basis:
+    elif not group.affine or group.user_basis:
         lines.append("zeta are the coordinates of Z = g^-1 dg/dt in the basis below.")
     else:
         lines.append("zeta are the coordinates of Z = A^-1 dA/dt in the basis below.")
-    if group.stated.free_translations and options.velocity == "body":
+    if group.in_user_basis.free_translations and options.velocity == "body":
         lines.append(
             "w is the velocity of the body's origin (r = 0) in the body frame: dT/dt = A w."
         )
@@ -236,14 +236,14 @@ def _input(group: Group, entry: Mapping[str, Any], places: Mapping[int, str]) ->
         axes = f"the {entry['frame']} frame"
         point = f"the body{where}" if where else f"point {entry['on']}"
         return [f"Input {name}: a force on {point}, in {axes}."]
-    if group.turns_space and group.affine and not group.stated_basis:
+    if group.turns_space and group.affine and not group.user_basis:
         return [
             f"Input {name}: a moment about the body's origin (its first 3 components) and a force",
             "on it (the last 3), both in the body frame; power <moment, zeta> + <force, w>.",
         ]
-    if group.turns_space and not group.stated_basis:
+    if group.turns_space and not group.user_basis:
         return [f"Input {name}: a torque about the fixed point, in the body frame."]
-    pair = "(zeta, w)" if group.stated.free_translations else "zeta"
+    pair = "(zeta, w)" if group.in_user_basis.free_translations else "zeta"
     return [f"Input {name}: a covector of the Lie algebra; its power is <{name}, {pair}>."]
 
 

@@ -116,18 +116,18 @@ class _Block:
 
     graph: Graph
     factor: Group
-    kept: Relations
+    relations: Relations
     mark: str
     residuals: list[Node] = field(default_factory=list)
 
     def step(self, leaves: list[Node]) -> _Step:
         """The step of this factor; ``leaves``: its A row by row, then T."""
         n = self.factor.n
-        placed = self._in_hull(leaves) if self.kept.hull else leaves
+        placed = self._in_hull(leaves) if self.relations.hull else leaves
         A = tuple(tuple(placed[i * n : i * n + n]) for i in range(n))
-        X = self._form(A) if self.kept.form else ()
-        if self.kept.determinant:
-            X = self._complex(A, X) if self.kept.complex_basis else self._determinant(A)
+        X = self._form(A) if self.relations.form else ()
+        if self.relations.determinant:
+            X = self._complex(A, X) if self.relations.complex_basis else self._determinant(A)
         if X:
             moved = zip(placed, q.flatten(q.times(A, X)), strict=False)
             placed = [*(a + change for a, change in moved), *placed[n * n :]]
@@ -137,7 +137,7 @@ class _Block:
         """The leaves projected to the affine span of the group."""
         g, n, found = self.graph, self.factor.n, []
         one = (*q.flatten(q.identity(n)), *[Fraction(0)] * (len(leaves) - n * n))
-        for y, start, row in zip(leaves, one, self.kept.hull, strict=True):
+        for y, start, row in zip(leaves, one, self.relations.hull, strict=True):
             if y.op == "num":
                 found.append(y)
                 continue
@@ -151,18 +151,18 @@ class _Block:
 
     def _form(self, A: Matrix) -> Matrix:
         """The matrix X = −½ S⁻¹R that restores ĀSA = S (or μS)."""
-        g, n, S = self.graph, self.factor.n, self._numbers(self.kept.form)
-        inverse = self._inverse(self.kept.form)
-        sign = 1 if self.kept.form == q.transposed(self.kept.form) else -1
-        label = _label(self.kept)
+        g, n, S = self.graph, self.factor.n, self._numbers(self.relations.form)
+        inverse = self._inverse(self.relations.form)
+        sign = 1 if self.relations.form == q.transposed(self.relations.form) else -1
+        label = _label(self.relations)
         SA = self._names(q.times(S, A), f"SA{self.mark}", label)
         pulled_back = self._mirrored(q.times(q.transposed(A), SA), sign)
-        if self.kept.conformal:
+        if self.relations.conformal:
             pulled_back = self._names(pulled_back, f"gram{self.mark}", label)
             mu = dense.diagonal(g, q.times(inverse, pulled_back)) * Fraction(1, n)
             inv_mu = self._named(g.recip(mu), f"inv_mu{self.mark}", label)
             pulled_back = q.scaled(inv_mu, pulled_back)
-        R = q.plus(pulled_back, self._numbers(q.scaled(-1, self.kept.form)))
+        R = q.plus(pulled_back, self._numbers(q.scaled(-1, self.relations.form)))
         R = self._mirrored(self._names(R, f"left{self.mark}", label), sign)
         self.residuals += [R[i][j] for i in range(n) for j in range(i, n) if not R[i][j].is_zero]
         X = q.scaled(Fraction(-1, 2), q.times(inverse, R))
@@ -181,7 +181,10 @@ class _Block:
 
     def _complex(self, A: Matrix, X: Matrix) -> Matrix:
         """X − (det A − 1 + Tr X)/m with a complex determinant of m × m, as real matrices."""
-        P, back = self._numbers(self.kept.complex_basis), self._inverse(self.kept.complex_basis)
+        P, back = (
+            self._numbers(self.relations.complex_basis),
+            self._inverse(self.relations.complex_basis),
+        )
         m = len(P) // 2
 
         def complexes(M: Matrix) -> list[list[_Complex]]:

@@ -78,12 +78,12 @@ class Duplication:
         those after it; ``whole``: the integrals."""
         names = ClaimedNames()
         leaves = {self._leaf(x): (names.claim(x, x), ("x", 0)) for x in READ}
-        roots = {"end": self.end(), "back": self.back(), "whole": self.whole()}
+        roots = {"end": self.end(), "back": self.back(), "whole": self.integrals()}
         scheduler = Scheduler(names, {})
         return {x: scheduler.function(found, leaves) for x, found in roots.items()}
 
     @property
-    def carried(self) -> tuple[str, ...]:
+    def back_names(self) -> tuple[str, ...]:
         """The names of the derivatives that go back."""
         return READ[10:] if self.second else READ[10:13]
 
@@ -146,7 +146,7 @@ class Duplication:
                     own[x] = g.value(slope, f"g_{k + 1}_by_{i}")
         return [*gradient, *self._hessian(gradient, along)]
 
-    def whole(self) -> list[Node]:
+    def integrals(self) -> list[Node]:
         """Ψ, Ψ_0, Ψ_1, Ψ_2; or ∫ u^k P^(−5/2) du for k = 0, …, 4: ∂²Ψ/∂I_i∂I_j is ¾ of it for
         k = 6 − i − j."""
         g, (one, two, three) = self.g, self._slopes()

@@ -76,7 +76,10 @@ def refuse(d: Derivation, group: Group, chosen: Options) -> None:
         (own.get("held"), "is for motions on the whole group, and these are on a quotient"),
         (chosen.velocity == "tangent", "has Pi in the state, and --velocity tangent has dg/dt"),
         (chosen.frame != "given", "is for the body as given, and --frame turns it"),
-        (group.stated is not group, "is for the standard basis of the group, and this has another"),
+        (
+            group.in_user_basis is not group,
+            "is for the standard basis of the group, and this has another",
+        ),
         (
             not group.linear_basis,
             "is for groups that do more than translate, unlike this one",
@@ -219,7 +222,7 @@ class MomentaOfPoints:
 
     def _equation(self, lhs: Tree) -> tuple[str, Equation]:
         """The equation with this left side in the steps that tell the motion by momenta."""
-        return next(x for x in told(self.lowering.record) if x[1].lhs == lhs)
+        return next(x for x in motion_equations(self.lowering.record) if x[1].lhs == lhs)
 
     def _velocity(self) -> list[Node]:
         """The coordinates of the velocity, by which the equations of the record are then read."""
@@ -233,9 +236,9 @@ class MomentaOfPoints:
             reader.memo |= {("at", "Π", a): x for a, x in enumerate(turning, 1)}
             if BRACKET in nodes(self._equation(RATE)[1].rhs):
                 state["Π"] = self._covector(turning)
-        if self.group.centred:
+        if self.group.barycentric_blocks:
             self._set("ζ", "", self._seen_from_centres())
-        for key, e in told(self.lowering.record, "inversion"):
+        for key, e in motion_equations(self.lowering.record, "inversion"):
             if isinstance(e.lhs, str):
                 reader.label = key
                 self._set(e.lhs, key, matrix(self.after.tree(e.rhs)))
@@ -291,7 +294,7 @@ RATE: Tree = ("at", "Π̇", "a")
 BRACKET: Tree = ("bracket", "Z", ("at", "E", "a"))
 
 
-def told(d: Derivation, *rules: str) -> list[tuple[str, Equation]]:
+def motion_equations(d: Derivation, *rules: str) -> list[tuple[str, Equation]]:
     """The equations of the steps that tell the motion by momenta, with their keys."""
     steps = [x for x in d.steps if x.rule in (rules or RULES)]
     return [(x.key(e), e) for x in steps for e in x.equations]

@@ -143,7 +143,7 @@ class PrincipalFrame:
         self.axes.append(Axes(m, values, rows))
         return self.axes[-1]
 
-    def _kept(self, name: str, m: Matrix) -> Matrix:
+    def _constants_of(self, name: str, m: Matrix) -> Matrix:
         """The matrix as leaves ``name_ij`` of the frame, which ``constants`` keeps."""
         return dense.entrywise(m, name, self._number_of, len(m[0]) == 1)
 
@@ -164,7 +164,7 @@ class PrincipalFrame:
             s = self._named("centre", q.scaled(inverse, c))
             shift = q.times(c, q.transposed(s))
             J = q.minus(J, shift)
-            self.s, self._s = self._kept("centre", s), s
+            self.s, self._s = self._constants_of("centre", s), s
         span = range(n)
         J = tuple(tuple(J[min(i, j)][max(i, j)] for j in span) for i in span)
         J = self._named("J_c" if self.affine else "J", J)
@@ -173,12 +173,15 @@ class PrincipalFrame:
         if self.data["kind"] == "root":
             H, back = self._root(found)
             least = found.values[0]
-            self.H, self.back = self._kept("frame", H), self._kept("frame_inverse", back)
+            self.H, self.back = (
+                self._constants_of("frame", H),
+                self._constants_of("frame_inverse", back),
+            )
             self._H = self._named("frame", H)
         else:
             least = found.values[0] + found.values[1]
             self._set(self.data["moments"], found.values)
-            self.H, self._H = self._kept("frame", found.rows), found.rows
+            self.H, self._H = self._constants_of("frame", found.rows), found.rows
             self.back = q.transposed(self.H)
         self.regular: list[tuple[Node, Node | None]] = []
         if self.affine and self.data["per_unit"]:  # without mass, nothing below is a number
@@ -224,7 +227,7 @@ class PrincipalFrame:
         if self.data["turned"]:
             g = self.old.vector("γ")
             found = self._principal(self._upright(g), "pull", "space")
-            self.S, self._S = self._kept("space", found.rows), found.rows
+            self.S, self._S = self._constants_of("space", found.rows), found.rows
             whole = q.times((found.rows[-1],), g)
             self._set((self.data["gravity"],), whole[0])
 
@@ -267,7 +270,7 @@ class PrincipalFrame:
                 found.append((self.graph.num(1), *(self.graph.num(0),) * 3))
                 continue
             axes = self._principal(horn(R), f"{name}_trace", f"{name}_quaternion")
-            kept = self._kept(f"{name}_q", tuple((x,) for x in axes.rows[-1]))
+            kept = self._constants_of(f"{name}_q", tuple((x,) for x in axes.rows[-1]))
             found.append(tuple(x for (x,) in kept))
         return found[0], conjugate(found[1])
 

@@ -25,7 +25,7 @@ def integrals(
     for name in called:
         d = Duplication(second=name == SLOPES)
         parts: dict[str, Any] = {x: written.part(f) for x, f in d.functions().items()}
-        parts |= {"name": name, "of": BUNDLES[name], "second": d.second, "carried": d.carried}
+        parts |= {"name": name, "of": BUNDLES[name], "second": d.second, "carried": d.back_names}
         if language.name in PRINTERS:
             parts |= _printed(parts, language, prefix, written.real)
         found.append(parts)

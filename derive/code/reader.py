@@ -76,12 +76,12 @@ class RecordReader:
                 self.state["f_u"] = self._input_column(name, n, d - n)
         both = [matrix(self.state[name]) for name in ("u", "f_u") if name in self.state]
         self.covector: list[Node] = [x for column in both for (x,) in column]
-        if self.group.stated_basis and self.covector:
-            self._restated()
+        if self.group.user_basis and self.covector:
+            self._from_user_basis()
 
-    def _restated(self) -> None:
+    def _from_user_basis(self) -> None:
         """Set u and f_u in the basis of the record, from inputs in the stated basis."""
-        columns = [self.group.stated.nearest(e) for e in self.group.basis]
+        columns = [self.group.in_user_basis.nearest(e) for e in self.group.basis]
         rows = tuple((self.graph.linear(zip(c, self.covector, strict=True)),) for c in columns)
         self.state["u"] = rows[:3]
         if self.group.affine:
@@ -133,10 +133,10 @@ class RecordReader:
             else:
                 self.memo[name] = self._entries(name)
             if name == "C":
-                self.memo[name] = self._kept(matrix(self.memo[name]))
+                self.memo[name] = self._without_metric(matrix(self.memo[name]))
         return self.memo[name]
 
-    def _kept(self, C: Matrix) -> Matrix:
+    def _without_metric(self, C: Matrix) -> Matrix:
         """C with 1 for what it is on the images of 𝔤, where the record has ξ̄CZ = ξ̄Z."""
         if not any(e == DROPPED for _, e in self.equations):
             return C

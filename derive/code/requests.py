@@ -58,7 +58,7 @@ class EmissionRequest:
         return [f"--{name} {x}" for name, x in found] + flags
 
     @property
-    def stated(self) -> list[str]:
+    def option_lines(self) -> list[str]:
         """Lines of a comment: the name of the problem and every option, given or by default."""
         words = (word.replace(" ", "\0") for word in self.words)
         text = " ".join(["Options:\0" + self.problem, *words])

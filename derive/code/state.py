@@ -56,7 +56,7 @@ class StateSpace:
         held: Collection[int] = (),
     ):
         self.right, self.held = right, held
-        self.graph, self.group, self.n = graph, group.stated, group.n
+        self.graph, self.group, self.n = graph, group.in_user_basis, group.n
         self.standard = group
         self.still = still_slots(group) if options.state == "moving" else {}
         self.slots = [x for x in layout(group, options.layout == "col") if x not in self.still]
@@ -107,7 +107,7 @@ class StateSpace:
     def along(self, a: int) -> Seeds:
         """The variation δg = g E_a, or E_a g, at constant ζ; a from 0."""
         e = self.member(a)
-        seeds = self._moved(e)
+        seeds = self._varied(e)
         if self.tangent:  # δġ = g E_a Z
             seeds |= self._changed(q.times(e, self.hat(self.coordinates)), "α", "τ")
         return seeds
@@ -122,7 +122,7 @@ class StateSpace:
         """E_a as a matrix of nodes; a from 0."""
         return dense.numbers(self.graph, self.group.basis[a])
 
-    def _moved(self, e: Matrix) -> Seeds:
+    def _varied(self, e: Matrix) -> Seeds:
         """The variation δg = g e, or e g, as derivatives of the leaves of g."""
         if self.right:
             changes = q.times(e, self.values["A"])
@@ -178,7 +178,7 @@ class StateSpace:
         turning = tuple((x,) for x in self.read(Z, self.standard)[:turns])
         self.values["ζ"] = self._named("zeta", turning, column=True)
         found = [*self.values["ζ"], *self.values.get("w", ())]
-        self.coordinates = self._restated([x for (x,) in found])
+        self.coordinates = self._in_user_basis([x for (x,) in found])
 
     def _back(self) -> Matrix:
         """The inverse [[Ā, −ĀT], [0, 1]] of every block, if all factors have skew linear parts."""
@@ -200,7 +200,7 @@ class StateSpace:
         places = map(group.coordinate_terms, range(group.dimension))
         return [self.graph.linear((c, z[i][j]) for c, i, j in place) for place in places]
 
-    def _restated(self, coordinates: list[Node]) -> list[Node]:
+    def _in_user_basis(self, coordinates: list[Node]) -> list[Node]:
         """The coordinates ζ and w of the standard basis, in the stated one."""
         if self.standard is self.group:
             return coordinates
@@ -243,7 +243,7 @@ class StateSpace:
         """The accelerations ζ̇, and ẇ where there is w, in the stated basis."""
         found = [component("ζ̇", a) for a in self._span(self._turns) if a not in self.held]
         found += [component("ẇ", i) for i in self._span(self.n)] if self.group.affine else []
-        return self._restated(found)
+        return self._in_user_basis(found)
 
     def rates(self, name: Named, component: Component, *, in_space: bool = False) -> list[Node]:
         """The time derivative of each number, from the names and components of the record.
@@ -275,7 +275,7 @@ class StateSpace:
     @property
     def element(self) -> Matrix:
         """The group element g as nodes, of the size of the group's matrices."""
-        return self._whole(self.values["A"], self.values.get("T", ()), 1)
+        return self._homogeneous(self.values["A"], self.values.get("T", ()), 1)
 
     @property
     def velocity_names(self) -> tuple[str, str]:
@@ -285,9 +285,9 @@ class StateSpace:
     @property
     def rate(self) -> Matrix:
         """ġ as nodes, of the size of the group's matrices, where the state holds it."""
-        return self._whole(self.values["α"], self.values.get("τ", ()), 0)
+        return self._homogeneous(self.values["α"], self.values.get("τ", ()), 0)
 
-    def _whole(self, linear: Matrix, shift: Matrix, corner: int) -> Matrix:
+    def _homogeneous(self, linear: Matrix, shift: Matrix, corner: int) -> Matrix:
         """The matrix [[linear, shift], [0, corner]] of an affine group; ``linear`` of a linear
         one."""
         return q.bordered(linear, shift, self.graph.num(corner)) if self.group.affine else linear

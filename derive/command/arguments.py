@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from .. import __version__
 from ..language.reserved import did_you_mean, near_name
 from ..schema.table import nearest
-from ..views.plot.kind_descriptions import told_kinds
+from ..views.plot.kind_descriptions import described_kinds
 from ..views.rendering import FORMATS
 from .writing import STDOUT, one_line
 
@@ -201,7 +201,7 @@ def add_picture_options(plot: argparse.ArgumentParser) -> None:
     about = "a run or an ensemble: .npz, .csv or .parquet; several for energy; for precision "
     about += "several, or a table"
     plot.add_argument("run_file", metavar="RUN", nargs="+", help=about)
-    plot.add_argument("--kind", default="", help=told_kinds())
+    plot.add_argument("--kind", default="", help=described_kinds())
     about = "a column of an ensemble that is drawn; repeated"
     plot.add_argument("--column", metavar="NAME", action="append", default=[], help=about)
     plot.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")

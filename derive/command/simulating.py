@@ -292,7 +292,7 @@ def kept(many: EnsembleMotions, out: str) -> Iterator[Callable[[Part], None]]:
     if not out:
         yield lambda part: None
         return
-    with growing(Path(out)) as file, writer(file, out, many.whole([many.none])) as made:
+    with growing(Path(out)) as file, writer(file, out, many.joined([many.none])) as made:
         yield made.add
 
 

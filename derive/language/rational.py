@@ -139,7 +139,7 @@ def echelon(a: Matrix) -> tuple[Matrix, tuple[int, ...]]:
     """The reduced row echelon form of a matrix, and its pivot columns, from 0."""
     whole = [over_one(row) for row in a]
     if whole and all(whole):
-        return _whole_echelon([x[0] for x in whole if x])
+        return _integer_echelon([x[0] for x in whole if x])
     rows = [list(row) for row in a]
     pivots: list[int] = []
     width = len(rows[0]) if rows else 0
@@ -161,7 +161,7 @@ def echelon(a: Matrix) -> tuple[Matrix, tuple[int, ...]]:
     return matrix(rows), tuple(pivots)
 
 
-def _whole_echelon(rows: list[list[int]]) -> tuple[Matrix, tuple[int, ...]]:
+def _integer_echelon(rows: list[list[int]]) -> tuple[Matrix, tuple[int, ...]]:
     """The echelon form of integer rows: no row is divided before the end, but by its common
     factor."""
     pivots: list[int] = []

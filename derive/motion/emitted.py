@@ -151,12 +151,12 @@ class Emitted(EmittedCode):
     def vanishing(self, k: Array) -> list[str]:
         """What the motion keeps that is 0 or no number in every state for these constants, by name,
         as what gravity gives where there is none: in a state without any symmetry."""
-        if not self.kept:
+        if not self.conserved_columns:
             return []
         x = np.cos(1.0 + np.arange(len(self.program.state)))
         with np.errstate(all="ignore"):
-            found = self.python.conserved(1.0, x, k)[self.kept]
-        pairs = zip(self.kept, found, strict=True)
+            found = self.python.conserved(1.0, x, k)[self.conserved_columns]
+        pairs = zip(self.conserved_columns, found, strict=True)
         return [self.program.conserved[j] for j, v in pairs if v == 0 or np.isnan(v)]
 
     def table(self, t: Array, x: Array, k: Array, u: Array) -> Array:
@@ -164,8 +164,8 @@ class Emitted(EmittedCode):
         code, has = self.python, self.program.functions
         parts = [t[:, None], x, code.energy(t, x, k)[:, None]]
         with np.errstate(all="ignore"):
-            if self.kept:
-                parts.append(code.conserved(t, x, k)[:, self.kept])
+            if self.conserved_columns:
+                parts.append(code.conserved(t, x, k)[:, self.conserved_columns])
             if "defect" in has:
                 parts.append(code.defect(x)[:, None])
             if "multiplier" in has:
@@ -275,7 +275,7 @@ class OneDegree:
         at, energy = run[self.name], float(run["energy"][0])
         try:
             low, high = float(at.min()), float(at.max())
-            bounds = ROTATION if self.turns else beside(low, high)
+            bounds = ROTATION if self.turns else widened(low, high)
             well = turning_points(lambda u: self._value(u, first), energy, low, high, bounds)
             u, V = curve(lambda u: self._value(u, first), energy, *window(*well, bounds))
         except (ArithmeticError, ValueError):
@@ -293,7 +293,7 @@ class OneDegree:
         return value(tree, {"π": math.pi}, values, None, float)
 
 
-def beside(low: float, high: float) -> Bounds:
+def widened(low: float, high: float) -> Bounds:
     """As far beyond a motion as it went: an entry of no rotation has no bounds of its own."""
     wide = max(high - low, STEADY)
     return low - wide, high + wide

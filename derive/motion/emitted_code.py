@@ -99,7 +99,7 @@ class EmittedCode:
         return own_prefix(self.name)
 
     @property
-    def kept(self) -> list[int]:
+    def conserved_columns(self) -> list[int]:
         """The places of what is conserved beside the energy, which has a column of its own."""
         names = self.program.conserved
         return [k for k in in_order(names) if names[k] != "energy"]
@@ -108,7 +108,7 @@ class EmittedCode:
         """The columns of a run: time, state, then what :meth:`table` adds."""
         has = self.program.functions
         names = [("t", "time"), *((x, "state") for x in self.program.state), ("energy", "energy")]
-        names += [(self.program.conserved[k], "conserved") for k in self.kept]
+        names += [(self.program.conserved[k], "conserved") for k in self.conserved_columns]
         names += [("defect", "defect")] * ("defect" in has)
         names += [("multiplier", "multiplier")] * ("multiplier" in has)
         return tuple(Column(x, kind, self._unit(x, kind)) for x, kind in names)

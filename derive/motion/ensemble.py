@@ -19,7 +19,7 @@ from .native import AT_EVENT, CompileError, Integers, constants, ensemble
 from .run import Array
 from .simulate import require_values
 from .start import OFF_THE_GROUP, Start, start
-from .trajectory import TOLERANCE, Method, instants, reflection, taken_to_group, unreached
+from .trajectory import TOLERANCE, Method, instants, reflection, taken_to_group, why_unreached
 
 STEP = "vern9"
 """The step of ensembles."""
@@ -256,7 +256,7 @@ class EnsembleMotions:
             count = max(1, int(count * pace) // unit) * unit
         return part.some(0, done)
 
-    def whole(self, parts: Sequence[Part]) -> Ensemble:
+    def joined(self, parts: Sequence[Part]) -> Ensemble:
         """All that is in some parts."""
         joined = [np.concatenate([getattr(x, y) for x in parts]) for y in vars(parts[0])]
         return Ensemble(self.facts, self.code.program.state, self.t, *joined)
@@ -296,7 +296,7 @@ class EnsembleMotions:
             worst = int(np.flatnonzero(~(off <= OFF_THE_GROUP))[0])
             why = f"with a defect of {off[worst]:.3g}: --project takes it there"
             if self.plan.project:
-                why = unreached(code.program.blocks, begun[worst])
+                why = why_unreached(code.program.blocks, begun[worst])
             raise MotionError(f"{code.name}: motion {first + worst} starts off the group, {why}")
         return x
 

@@ -198,7 +198,7 @@ def _head(like: Ensemble) -> str:
     return json.dumps(told, ensure_ascii=False, sort_keys=True)
 
 
-def _told(head: str) -> dict[str, Any]:
+def _header(head: str) -> dict[str, Any]:
     told: dict[str, Any] = json.loads(head)
     if told["file"] != MARK:
         raise ValueError("no ensemble")
@@ -213,7 +213,7 @@ def _columns(like: Ensemble) -> list[str]:
 
 def _from_npz(path: Path) -> Ensemble:
     with np.load(path, allow_pickle=False) as found:
-        told = _told(str(found["head"]))
+        told = _header(str(found["head"]))
         t, varied, status = (found[x] for x in ("t", "varied", "status"))
         end = found["end"] if "end" in found.files else np.empty((len(status), 0))
     states = _mapped(path, "states.npy")
@@ -236,7 +236,7 @@ def _mapped(path: Path, name: str) -> Array:
 
 def _from_csv(path: Path) -> Ensemble:
     with path.open(encoding="utf-8") as file:
-        told = _told(commented(file.readline(), file.readline()))
+        told = _header(commented(file.readline(), file.readline()))
         return _of_rows(told, np.loadtxt(file, delimiter=",", ndmin=2))
 
 
@@ -246,7 +246,7 @@ def _from_parquet(path: Path) -> Ensemble:
         found = parquet.read_table(path)
     except arrow.ArrowInvalid as error:
         raise ValueError(str(error)) from None
-    told = _told((found.schema.metadata or {})[MARK.encode()].decode())
+    told = _header((found.schema.metadata or {})[MARK.encode()].decode())
     return _of_rows(told, np.column_stack([x.to_numpy() for x in found.columns]))
 
 

@@ -52,7 +52,7 @@ def first_numbers(
     values: dict[str, float | None] = {**defaults, **zero}
     _known(values, given, program.name)
     values |= {name: x for name, x in given.items() if name in defaults}
-    numbers, stated = _stated(problem, values)
+    numbers, stated = _initial_numbers(problem, values)
     _known(zero, numbers, f"{program.name}, [initial],")
     element = _at(problem, program, exponent if len(exponent) else stated)
     if len(exponent):
@@ -106,7 +106,7 @@ def _known(values: Collection[str], given: Mapping[str, float], where: str) -> N
             raise MotionError(f"{where}: {name} = {number} is no finite number")
 
 
-def _stated(
+def _initial_numbers(
     problem: Problem, values: Mapping[str, float | None]
 ) -> tuple[dict[str, float], list[float]]:
     """The numbers and the exponent of [initial], by the values of the parameters."""

@@ -294,7 +294,7 @@ class Motion:
             raise ValueError(f"expected a number of steps and their size, not n = {n}, h = {h}")
         for first in range(0, n, MANY):
             count = ctypes.c_size_t(min(MANY, n - first))
-            self._moved(self._named(step), ctypes.c_double(h), count)
+            self._taken_to_group(self._named(step), ctypes.c_double(h), count)
         return self
 
     def move_to(self, t: float, tol: float = 1e-9, step: str = "") -> Motion:
@@ -306,9 +306,9 @@ class Motion:
             raise ValueError(f"{name} has steps of a fixed size: call move()")
         how = ctypes.c_double(t), ctypes.c_double(tol)
         if self._events:
-            return self._moved(f"{name}_to", *how)
+            return self._taken_to_group(f"{name}_to", *how)
         while self.left(t):
-            self._moved(f"{name}_to", *how, ctypes.c_size_t(MANY))
+            self._taken_to_group(f"{name}_to", *how, ctypes.c_size_t(MANY))
         return self
 
     def watch(self, t: float, h: float, step: str = "") -> Motion:
@@ -318,7 +318,9 @@ class Motion:
             raise ValueError("the problem has no [[event]]: call move()")
         if not (math.isfinite(t) and 0 < h < math.inf):
             raise ValueError(f"expected a time and the size of a step, not t = {t}, h = {h}")
-        return self._moved(f"{self._named(step)}_watch", ctypes.c_double(t), ctypes.c_double(h))
+        return self._taken_to_group(
+            f"{self._named(step)}_watch", ctypes.c_double(t), ctypes.c_double(h)
+        )
 
     def dense(self, t: float) -> Array:
         """The state at a time within the last step, by the polynomial of its method."""
@@ -332,7 +334,7 @@ class Motion:
             raise ValueError(f"no step {step[:40]!r} was compiled; there is {', '.join(steps)}")
         return step or steps[0]
 
-    def _moved(self, name: str, *how: Any) -> Motion:
+    def _taken_to_group(self, name: str, *how: Any) -> Motion:
         k, u = map(pointer, self._numbers())
         self._status = ctypes.c_int()
         self._function(name)(self._at, k, u, *how, ctypes.byref(self._status))

@@ -31,7 +31,7 @@ from .trajectory import (
     not_near,
     reflection,
     taken_to_group,
-    unreached,
+    why_unreached,
 )
 
 LONG, TURN = 500, 2.0
@@ -153,7 +153,7 @@ def on_the_group(code: Emitted, begin: Start, *, project: bool) -> Start:
     with np.errstate(all="ignore"):
         off = float(code.python.defect(x))
     if not off <= OFF_THE_GROUP:
-        told = f"not taken to the group: {unreached(blocks, begin.x)}"
+        told = f"not taken to the group: {why_unreached(blocks, begin.x)}"
         if not project:
             near = not_near(blocks, x) or "--project takes it there"
             told = f"not on the group: {near}; its defect is {off:.3g}"

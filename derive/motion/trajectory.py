@@ -250,16 +250,16 @@ class MotionInPython:
 
     def move(self, h: float, n: int = 1) -> None:
         """Make n steps of size h; ``StepError``."""
-        self._told(self._of(self._step)(self._motion, *self._numbers, h, n))
+        self._ended(self._of(self._step)(self._motion, *self._numbers, h, n))
 
     def move_to(self, t: float, tol: float) -> None:
         """Move up to a time or an event, in steps of their own size; ``StepError``."""
-        self._told(self._of(f"{self._step}_to")(self._motion, *self._numbers, t, tol))
+        self._ended(self._of(f"{self._step}_to")(self._motion, *self._numbers, t, tol))
 
     def watch(self, t: float, h: float) -> None:
         """Move up to a time or an event, in steps of size h; ``StepError``."""
         step = self._of(self._step)
-        self._told(self._code.watch(step, self._motion, *self._numbers, t, h))
+        self._ended(self._code.watch(step, self._motion, *self._numbers, t, h))
 
     def settle(self) -> None:
         """Be where the last move has ended, after one that Ctrl-C has stopped on the way."""
@@ -270,7 +270,7 @@ class MotionInPython:
     def _of(self, name: str) -> Any:
         return getattr(self._code, name)
 
-    def _told(self, status: int) -> None:
+    def _ended(self, status: int) -> None:
         self.event = self._code.EVENTS[self._motion.event] if status == AT_EVENT else ""
         self._sure = self.t, self.x.copy()
         if status and not self.event:
@@ -318,7 +318,7 @@ def not_near(blocks: Sequence[Block], x: Array) -> str:
     return next((f"det A = {det:.3g} is not above 0" for det in found if not det > SINGULAR), "")
 
 
-def unreached(blocks: Sequence[Block], x: Array) -> str:
+def why_unreached(blocks: Sequence[Block], x: Array) -> str:
     """Why Newton's method finds no element of the group from a state, in words."""
     return not_near(blocks, x) or "it is too far off for Newton's method"
 

@@ -37,7 +37,7 @@ from .file_reader import FileReader
 from .inertia import is_negative
 from .moments import SolidError
 from .problem import ProblemError
-from .solids import moments, together
+from .solids import joined_moments, moments
 
 
 def body(data: Mapping[str, Any], reader: FileReader) -> Body | None:
@@ -48,7 +48,7 @@ def body(data: Mapping[str, Any], reader: FileReader) -> Body | None:
         if masses or solids or table is not None:
             raise ProblemError("a text about any group has no body of its own; leave it out")
         return None
-    points = tuple(reader.whole(Point, x, f"point {k}") for k, x in enumerate(masses, 1))
+    points = tuple(reader.typed(Point, x, f"point {k}") for k, x in enumerate(masses, 1))
     if table is None and not solids:
         return PointBody(points=points) if points else None
     if table is not None and (not isinstance(table, dict) or solids):
@@ -83,7 +83,7 @@ def _moments(table: Mapping[str, Any], reader: FileReader) -> Body:
         return MomentBody(n=reader.moving().n)
     if not isinstance(table["given"], dict) or "moments" in table:
         raise ProblemError('body: give either moments = "symbolic" or given = { m, c, J }')
-    return GivenBody(given=reader.whole(Moments, table["given"], "body, given"))
+    return GivenBody(given=reader.typed(Moments, table["given"], "body, given"))
 
 
 def _mixture(solids: Mapping[str, Solid], points: tuple[Point, ...]) -> GivenBody:
@@ -94,8 +94,8 @@ def _mixture(solids: Mapping[str, Solid], points: tuple[Point, ...]) -> GivenBod
             parts.append(moments(solid, relations=False))
         except SolidError as error:
             raise ProblemError(f"{where}: {error}") from None
-    total = reduce(together, parts)
-    own = together(total, PointBody(points=points).moments()) if points else total
+    total = reduce(joined_moments, parts)
+    own = joined_moments(total, PointBody(points=points).moments()) if points else total
     return GivenBody(given=own, solids=tuple(solids.values()), points=points or None)
 
 
@@ -106,7 +106,7 @@ def group_of(data: Mapping[str, Any], reader: FileReader) -> tuple[Group | None,
     """The group, by its name or by a table with a basis, and its action."""
     which = data.get("group")
     if isinstance(which, dict):
-        moved = _stated(reader.whole(StatedGroup, which, "group"))
+        moved = _user_group(reader.typed(StatedGroup, which, "group"))
         if "action" in data:
             raise ProblemError("key 'action' belongs into the table [group]")
         return moved, moved.action
@@ -125,7 +125,7 @@ def group_of(data: Mapping[str, Any], reader: FileReader) -> tuple[Group | None,
     return named, action
 
 
-def _stated(own: StatedGroup) -> Group:
+def _user_group(own: StatedGroup) -> Group:
     try:
         moved = group_of_basis(
             own.name, "affine" if own.action == "affine" else "linear", [*own.basis]
@@ -156,7 +156,7 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
             raise ProblemError(f"potential {k}: a second {p.kind}; there may be one")
     if sum(isinstance(i, CovectorInput) for i in given) > 1:
         raise ProblemError("key 'input': one covector holds every component; give one such table")
-    return found, given, tuple(reader.whole(Damping, x, w) for w, x in damping.items())
+    return found, given, tuple(reader.typed(Damping, x, w) for w, x in damping.items())
 
 
 def negative_stiffness_of(

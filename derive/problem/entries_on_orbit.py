@@ -19,7 +19,7 @@ Entry = tuple[Any, ...]
 """An entry of a letter, as a tree."""
 
 
-class MovedEntries(ABC):
+class OrbitEntries(ABC):
     """The entries of a ``letter``, and their rates, those of another."""
 
     letter: ClassVar[str]
@@ -47,7 +47,7 @@ class MovedEntries(ABC):
 
 
 @dataclass(frozen=True)
-class EntriesOfElement(MovedEntries):
+class EntriesOfElement(OrbitEntries):
     """Those of g, with δg = g E_a on the left, E_a g on the right."""
 
     letter = "A"
@@ -78,7 +78,7 @@ def element(group: Group) -> Rows:
     return tuple(tuple(entry(i, j) for j in span) for i in span)
 
 
-def settled(t: Tree, group: Group) -> Tree:
+def with_constant_entries(t: Tree, group: Group) -> Tree:
     """An expression with numbers for the entries of g that are the same in all of the group;
     ``ZeroDivisionError`` where it divides by one that is 0."""
     still = {("entry", "A", i + 1, j + 1) for i, j in constant_entries(group)}
@@ -93,7 +93,7 @@ def vanishes_on(group: Group, t: Tree) -> bool:
     """
     named = any(isinstance(x, tuple) and x[:2] == ("entry", "A") for x in nodes(t))
     if not named or not group.has_inner_samples:
-        return vanishes(settled(t, group))
+        return vanishes(with_constant_entries(t, group))
     for k, p in enumerate(PRIMES):
         source = ResidueVectorSource(p, 1, k)
         g = group.sample_inside(source, 1)

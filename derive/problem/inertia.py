@@ -124,7 +124,7 @@ class _Values:
 
 def _words(group: Group, coordinates: Vector) -> str:
     """A direction in words: an axis for rotations of space, else the matrix Z."""
-    x = _whole(coordinates)
+    x = _in_integers(coordinates)
     if len(group.factors) > 1:
         start = 0
         for block, factor in enumerate(group.factors, 1):
@@ -161,7 +161,7 @@ def _cross(a: Vector, b: Vector) -> Vector:
     return tuple(a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1)))
 
 
-def _whole(x: Vector) -> Vector:
+def _in_integers(x: Vector) -> Vector:
     """The direction in the smallest integers, the first that is not zero positive."""
     up = [int(y * lcm(*(y.denominator for y in x))) for y in x]
     sign = next(1 if y > 0 else -1 for y in up if y)

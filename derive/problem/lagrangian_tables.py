@@ -44,14 +44,14 @@ from .entries_on_orbit import (
     held,
     hessian,
     null_directions,
-    settled,
     vanishes,
     vanishes_on,
+    with_constant_entries,
 )
 from .fields import coordinates, no_entry, undeclared, used_at
 from .file_reader import FileReader
 from .motion_tables import KEYS as MOTION
-from .motion_tables import stated_motion
+from .motion_tables import motion_fields
 from .problem import Problem, ProblemError
 
 # The algebra of a problem file that moves no points: its brackets, and what it carries along.
@@ -60,17 +60,17 @@ GIVEN = ("of", "basis", "brackets")
 """The keys of [algebra], of which one says it."""
 
 
-def carried_group(data: Mapping[str, Any]) -> tuple[Group, tuple[Advected, ...]]:
+def group_of_algebra(data: Mapping[str, Any]) -> tuple[Group, tuple[Advected, ...]]:
     """The group of [algebra], and what [[advected]] tables say it carries along."""
     reader = AlgebraReader()
     if "group" in data or "action" in data:
         raise ProblemError("give either 'group' or [algebra]")
-    own = _algebra(reader.whole(StatedAlgebra, data["algebra"], "algebra"), data["algebra"])
+    own = _algebra(reader.typed(StatedAlgebra, data["algebra"], "algebra"), data["algebra"])
     reader.represents(own)
     listed = data.get("advected", [])
     if not isinstance(listed, list) or not all(isinstance(x, dict) for x in listed):
         raise ProblemError("key 'advected' must be tables [[advected]]")
-    read = [reader.whole(StatedAdvected, x, f"advected {k}") for k, x in enumerate(listed, 1)]
+    read = [reader.typed(StatedAdvected, x, f"advected {k}") for k, x in enumerate(listed, 1)]
     for k, x in enumerate(read, 1):
         if x.name in [y.name for y in read[: k - 1]] or x.name in ("zeta", "t"):
             raise ProblemError(f"advected {k}: {x.name!r} names something else; choose another")
@@ -102,7 +102,7 @@ def _algebra(given: StatedAlgebra, table: Mapping[str, Any]) -> Algebra:
         moved = group(given.of) if given.of else group_of_basis("G", "linear", [*given.basis])
     except ValueError as error:
         raise ProblemError(f"algebra, {'of' if given.of else 'basis'}: {error}") from None
-    own = (on_homogeneous(moved) if moved.affine else moved).stated
+    own = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
     return Algebra(own.name, own.dimension, _sparse(own.structure_constants), own.basis)
 
 
@@ -150,19 +150,19 @@ def torus_problem(data: Mapping[str, Any], reader: FileReader) -> Problem:
             raise ProblemError(
                 f"key {key!r}: on the torus there are {', '.join(KEYS)} alone; leave it out"
             )
-    algebra = reader.whole(StatedTorus, data["algebra"], "algebra")
+    algebra = reader.typed(StatedTorus, data["algebra"], "algebra")
     if algebra.of != "torus":
         raise ProblemError(f'algebra, of: with N it is "torus", not {algebra.of[:40]!r}')
     torus = TorusLattice(algebra.N)
     if "inertia" not in data:
         raise ProblemError('the torus needs its inertia: give [inertia] operator = "laplacian"')
-    given = reader.whole(TorusInertia, data["inertia"], "inertia")
+    given = reader.typed(TorusInertia, data["inertia"], "inertia")
     if given.operator != "laplacian":
         raise ProblemError('inertia, operator: on the torus it is "laplacian", |n|² on T_n')
     if given.trivialisation != "right":
         raise ProblemError('inertia, trivialisation: a fluid moves on the "right"; leave it out')
     name = reader.name_of(data)
-    title, motion = reader.title_of(data, name), stated_motion(data, reader)
+    title, motion = reader.title_of(data, name), motion_fields(data, reader)
     return Problem(name, None, title=title, torus=torus, **motion)
 
 
@@ -241,7 +241,7 @@ def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lag
             raise ProblemError(f"parameter {name[:40]!r}: {fault}; choose another name")
     if not isinstance(data[where], dict):
         raise ProblemError(f"key {where!r} must be a table [{where}]")
-    table = reader.whole(own, data[where], where)
+    table = reader.typed(own, data[where], where)
     for name in (x for t in table.trees() for x in names(t)):
         if name not in reader.parameters:
             at = used_at(data, name)
@@ -252,7 +252,7 @@ def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lag
         raise ProblemError(f"{where}: no coordinate of the velocity, as zeta_1, so no motion")
     if reader.advected is None:
         try:
-            found = replace(found, L=settled(found.L, group))
+            found = replace(found, L=with_constant_entries(found.L, group))
         except ZeroDivisionError:
             raise ProblemError(
                 f"{where}: it divides by an entry of g that is 0 on {group.name}"

@@ -18,13 +18,13 @@ from .problem import Initial, Problem, ProblemError
 KEYS = ("initial", "event")
 
 
-def stated_motion(data: Mapping[str, Any], reader: FileReader) -> dict[str, Any]:
+def motion_fields(data: Mapping[str, Any], reader: FileReader) -> dict[str, Any]:
     """The fields of a problem that a file says by KEYS; parameters are known to the ``reader``."""
     said = next((key for key in KEYS if key in data), "")
     if said and not reader.group and "algebra" not in data:
         raise ProblemError(f"key {said!r}: a text about any group has no motion to follow")
     events = tuple(
-        reader.whole(Event, x, f"event {k}") for k, x in enumerate(tables(data, "event"), 1)
+        reader.typed(Event, x, f"event {k}") for k, x in enumerate(tables(data, "event"), 1)
     )
     for k, x in enumerate(events, 1):
         moving = [name for name in names(x.when) if name not in reader.parameters]

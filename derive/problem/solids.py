@@ -28,7 +28,7 @@ TERMS_OF_DENSITY = 40
 """A density that is multiplied out has no more."""
 
 
-def together(a: Moments, b: Moments) -> Moments:
+def joined_moments(a: Moments, b: Moments) -> Moments:
     """The moments of two bodies together, sums of theirs."""
 
     def total(x: Tree, y: Tree) -> Tree:
@@ -46,7 +46,7 @@ def unit_moments(solid: Solid) -> Moments:
         from .mesh import mesh_moments
 
         return mesh_moments(**sizes)
-    integral = _corners(**sizes) if kind == "tetrahedron" else _centred(kind, sizes)
+    integral = _corners(**sizes) if kind == "tetrahedron" else _about_centre(kind, sizes)
     mass, first = _tree(integral()), tuple(_tree(integral(i)) for i in SPAN)
     if coefficient(mass)[0] <= 0:
         raise SolidError(f"the volume of this {kind} is not positive; look at its sizes")
@@ -281,10 +281,10 @@ SHAPES: dict[str, tuple[Integrals, tuple[str, ...]]] = {
 """Kind → ∫ xᵃ yᵇ zᶜ dV over the reference shape, and the sizes that stretch it along x, y, z."""
 
 
-def _centred(kind: str, sizes: Mapping[str, Any]) -> Integrals:
+def _about_centre(kind: str, sizes: Mapping[str, Any]) -> Integrals:
     """The integrals of 1, r_i, r_i r_j over a stretched shape, as functions of the axes i, j."""
     if kind == "hollow_ball":
-        outer, inner = (_centred("ball", {"radius": sizes[k]}) for k in ("outer", "inner"))
+        outer, inner = (_about_centre("ball", {"radius": sizes[k]}) for k in ("outer", "inner"))
         return lambda *axes: outer(*axes) + inner(*axes) * -1
     reference, names = SHAPES[kind]
     scales = [sizes[name] for name in names] if len(names) == 3 else sizes[names[0]]

@@ -26,8 +26,8 @@ from .entries_on_orbit import hessian, vanishes
 from .fields import LIKE_A_PLACE, coordinates, used_at
 from .file_reader import FileReader
 from .inertia import impossible, negative_mass
-from .lagrangian_tables import carried_group, lagrangian, on_torus, torus_problem
-from .motion_tables import KEYS, faults, named, named_twice, stated_motion
+from .lagrangian_tables import group_of_algebra, lagrangian, on_torus, torus_problem
+from .motion_tables import KEYS, faults, motion_fields, named, named_twice
 from .problem import Problem, ProblemError
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
@@ -106,7 +106,7 @@ def problem_of(
     if on_torus(data):
         return torus_problem(data, reader)
     if "algebra" in data:
-        return _without_points(data, *carried_group(data))
+        return _without_points(data, *group_of_algebra(data))
     if "advected" in data:
         raise ProblemError("key 'advected' goes with [algebra]: a group has its entries A_11, …")
     moved, action = group_of(data, reader)
@@ -143,7 +143,7 @@ def problem_of(
         tuple(reader.places),
         damping,
         signed=negative_mass,
-        **stated_motion(data, reader),
+        **motion_fields(data, reader),
     )
     _affordable(problem)
     _declared(problem, data)
@@ -159,7 +159,7 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
     name = reader.name_of(data)
     if not isinstance(data["fluid"], dict):
         raise ProblemError("key 'fluid' must be a table [fluid]")
-    fluid = reader.whole(Fluid, data["fluid"], "fluid")
+    fluid = reader.typed(Fluid, data["fluid"], "fluid")
     return Problem(name, None, title=reader.title_of(data, name), fluid=fluid)
 
 
@@ -179,7 +179,7 @@ def _without_points(
     given = data.get("input", ())
     if any(isinstance(x, dict) and x.get("kind") == "force" for x in given):
         raise ProblemError(f"key 'input': beside [{where}] an input is a covector: no points")
-    group = (on_homogeneous(moved) if moved.affine else moved).stated
+    group = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
     reader = FileReader()
     reader.moves(group)
     reader.advected = advected
@@ -196,7 +196,7 @@ def _without_points(
         inputs=inputs,
         lagrangian=lagrangian(data, group, reader),
         advected=advected,
-        **stated_motion(data, reader),
+        **motion_fields(data, reader),
     )
     _affordable(problem)
     _declared(problem, data)

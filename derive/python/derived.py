@@ -229,7 +229,7 @@ class Derived:
         require_steps_of_an_ensemble(**how)
         plan = Plan(n, laws(vary), t, points, tol, seed, **begin)
         many = EnsembleMotions(motion_of_many(self.problem, self.record), self.problem, plan)
-        return SimulatedEnsemble.of(many.whole([*many.parts()]))
+        return SimulatedEnsemble.of(many.joined([*many.parts()]))
 
     @in_keywords()
     def motion_page(

@@ -90,11 +90,11 @@ class _RecordReader(TableReader):
         for name, about in self.value(self.top("parameters"), dict).items():
             self.parameter(name, about)
         self.body()
-        self.last += len(self.each("places", lambda x, where: self.whole(Place, x, where)))
+        self.last += len(self.each("places", lambda x, where: self.typed(Place, x, where)))
         self.each("potentials", lambda x, where: self.one_of(kinds(), x, where))
         inputs = self.each("inputs", lambda x, where: self.one_of(INPUTS, x, where))
         self.distinct(inputs, data["parameters"])
-        self.each("damping", lambda x, where: self.whole(Damping, x, where))
+        self.each("damping", lambda x, where: self.typed(Damping, x, where))
         self.matrices(self.value(self.top("basis"), list))
         if data.get("discrete", True) is not True:
             raise ShapeError("discrete: expected true, or nothing")
@@ -147,18 +147,18 @@ class _RecordReader(TableReader):
         if any(x["kind"] != "covector" for x in data["inputs"]):
             raise ShapeError("lagrangian: the inputs of its problem are covectors")
         if "advected" in data:
-            self.each("advected", lambda x, where: self.whole(Advected, x, where))
+            self.each("advected", lambda x, where: self.typed(Advected, x, where))
         if "torus" not in data:
-            self.whole(Lagrangian, data["lagrangian"], "lagrangian")
+            self.typed(Lagrangian, data["lagrangian"], "lagrangian")
             return
-        self.whole(Torus, data["torus"], "torus")
+        self.typed(Torus, data["torus"], "torus")
         if data["lagrangian"] != {"trivialisation": "right"} or "advected" in data:
             raise ShapeError("lagrangian: that of the torus is told by its steps, on the right")
 
     def fluid(self) -> None:
         """A fluid says all of its problem."""
         data = self.data
-        self.whole(Fluid, data["fluid"], "fluid")
+        self.typed(Fluid, data["fluid"], "fluid")
         if data["group"] != GROUP or data["body"]["kind"] != "none" or data["n"] != "any":
             raise ShapeError(f"fluid: its group is {GROUP}, its n any, and it has no body")
         if "lagrangian" in data or data["homogeneous"] or data["action"] != "linear":
@@ -251,7 +251,7 @@ class _RecordReader(TableReader):
             if sizes.keys() != wanted:
                 raise ShapeError(f"{where}: the sizes must be {', '.join(sorted(wanted))}")
             rest = {key: value for key, value in x.items() if key != "sizes"}
-            found.append(self.whole(own, rest | sizes, where))
+            found.append(self.typed(own, rest | sizes, where))
         return tuple(found)
 
     # -- values ----------------------------------------------------------------------------------

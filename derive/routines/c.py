@@ -213,11 +213,11 @@ class C(Printer):
         """The type of a record; ``more``: fields that no algorithm reads."""
         self.types, self.arguments = {}, {}
         node = self.source.records[name]
-        yield from self.comment(self.told(ast.get_docstring(node) or ""))
+        yield from self.comment(self.with_numbers(ast.get_docstring(node) or ""))
         yield "typedef struct {"
         for x in node.body:
             if isinstance(x, ast.AnnAssign):
-                told = self.told(" ".join(self.source.comments.get(x, ())))
+                told = self.with_numbers(" ".join(self.source.comments.get(x, ())))
                 field = self.declared(ast.unparse(x.target), Type.of(x.annotation), None)
                 yield f"    {field};" + f" /* {told} */" * bool(told)
         yield from more.splitlines()

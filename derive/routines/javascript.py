@@ -49,7 +49,7 @@ class JavaScript(Printer):
             yield from super().documented(f)
             return
         yield "/**"
-        for line in self.paragraph(self.told(ast.get_docstring(f) or "")):
+        for line in self.paragraph(self.with_numbers(ast.get_docstring(f) or "")):
             yield f" * {line}"
         yield " *"
         optional = {a.arg for a in f.args.args[len(f.args.args) - len(f.args.defaults) :]}
@@ -193,12 +193,12 @@ class JavaScript(Printer):
         """A function that makes a record; ``more``: fields that no algorithm reads."""
         self.types, self.arguments = {}, {}
         node = self.source.records[name]
-        yield from self.comment(self.told(ast.get_docstring(node) or ""))
+        yield from self.comment(self.with_numbers(ast.get_docstring(node) or ""))
         yield f"function {name}() {{"
         yield "    return {"
         for x in node.body:
             if isinstance(x, ast.AnnAssign):
-                told = self.told(" ".join(self.source.comments.get(x, ())))
+                told = self.with_numbers(" ".join(self.source.comments.get(x, ())))
                 made = self.made(Type.of(x.annotation))
                 yield f"        {ast.unparse(x.target)}: {made}," + f" // {told}" * bool(told)
         yield from more.splitlines()

@@ -93,9 +93,9 @@ class Printer(ABC):
 
     def documented(self, f: ast.FunctionDef) -> Lines:
         """What stands before a routine."""
-        return self.comment(self.told(ast.get_docstring(f) or ""))
+        return self.comment(self.with_numbers(ast.get_docstring(f) or ""))
 
-    def told(self, text: str) -> str:
+    def with_numbers(self, text: str) -> str:
         """A comment, with the names in capitals as the language has them."""
         text = " ".join(text.split())
         return re.sub(r"\b[A-Z][A-Z_]{2,}\b", lambda x: self.bare(ast.Name(x[0])), text)
@@ -132,7 +132,7 @@ class Printer(ABC):
     def commented(self, x: ast.stmt, depth: int) -> Lines:
         """The lines of a statement, after its comments."""
         for comment in self.source.comments.get(x, ()):
-            yield "    " * depth + self.remark(self.told(comment))
+            yield "    " * depth + self.remark(self.with_numbers(comment))
         for line in self.statement(x, depth):
             yield from self.wrapped(line)
 

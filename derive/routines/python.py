@@ -49,7 +49,7 @@ class Python(Printer):
         ]
         yield f"def {self.given.get(f.name, self.name(f.name))}({', '.join(given)}):"
         public = f.name in self.given["public"]
-        text = self.told(ast.get_docstring(f) or "")
+        text = self.with_numbers(ast.get_docstring(f) or "")
         text += "  " + self.given["status"] if public else ""
         yield from self.docstring(text, "    ")
         if public:
@@ -312,12 +312,12 @@ class Python(Printer):
         self.types, self.arguments = {}, {}
         node = self.source.records[name]
         yield f"class {'_' * (name != 'Motion')}{name}:"
-        yield from self.docstring(self.told(ast.get_docstring(node) or ""), "    ")
+        yield from self.docstring(self.with_numbers(ast.get_docstring(node) or ""), "    ")
         yield ""
         yield "    def __init__(self):"
         for x in node.body:
             if isinstance(x, ast.AnnAssign):
-                told = self.told(" ".join(self.source.comments.get(x, ())))
+                told = self.with_numbers(" ".join(self.source.comments.get(x, ())))
                 made = self.made(Type.of(x.annotation))
                 yield f"        self.{ast.unparse(x.target)} = {made}" + f"  # {told}" * bool(told)
         yield from more.splitlines()

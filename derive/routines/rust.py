@@ -158,7 +158,9 @@ class Rust(Printer):
         fields = self.source.fields(name)
         public = "pub " * (name == "Motion")
         yield from [
-            x for x in self.comment(self.told(ast.get_docstring(node) or "")) if x.startswith("///")
+            x
+            for x in self.comment(self.with_numbers(ast.get_docstring(node) or ""))
+            if x.startswith("///")
         ]
         yield "#[allow(dead_code, non_snake_case)]"
         yield "#[derive(Clone, Debug)]"
@@ -166,7 +168,7 @@ class Rust(Printer):
         for x in node.body:
             if isinstance(x, ast.AnnAssign):
                 field, told = ast.unparse(x.target), " ".join(self.source.comments.get(x, ()))
-                said = f" // {self.told(told)}" * bool(told)
+                said = f" // {self.with_numbers(told)}" * bool(told)
                 seen = "pub " * (field in self.given["public"])
                 yield f"    {seen}{field}: {self.kind(fields[field])},{said}"
         yield "}"

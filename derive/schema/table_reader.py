@@ -52,9 +52,9 @@ class TableReader(ABC):
     def one_of(self, kinds: Mapping[str, type[T]], table: Any, where: str, key: str = "kind") -> T:
         """A table of one of several kinds, which it says under a key."""
         own = kinds[self.choice(Slot(table, key, where), tuple(kinds))]
-        return self.whole(own, {("kind" if x == key else x): v for x, v in table.items()}, where)
+        return self.typed(own, {("kind" if x == key else x): v for x, v in table.items()}, where)
 
-    def whole(self, own: type[T], table: Any, where: str) -> T:
+    def typed(self, own: type[T], table: Any, where: str) -> T:
         """A table and no key that has no meaning in it."""
         if not isinstance(table, dict):
             raise self.fail(f"{where}: expected a table of {', '.join(self.names(own))}")
@@ -74,7 +74,7 @@ class TableReader(ABC):
         self.identifier(name, where)
         if what := taken(name):
             raise self.fail(f"{where}: this is {what} in an expression; choose another name")
-        return self.whole(Parameter, about, where)
+        return self.typed(Parameter, about, where)
 
     def distinct(self, inputs: Sequence[Input], parameters: Collection[str]) -> None:
         """No two inputs of one name, and none with the name of a parameter, nor its numbers."""
@@ -91,12 +91,12 @@ class TableReader(ABC):
 
     def table(self, slot: Slot) -> Any:
         """Another table."""
-        return self.whole(slot.about.own, self.value(slot), slot.path)
+        return self.typed(slot.about.own, self.value(slot), slot.path)
 
     def tables(self, slot: Slot) -> tuple[Any, ...]:
         """Others, each called by its number."""
         listed = enumerate(self.value(slot, list), 1)
-        return tuple(self.whole(slot.about.own, x, f"{slot.key[:-1]} {k}") for k, x in listed)
+        return tuple(self.typed(slot.about.own, x, f"{slot.key[:-1]} {k}") for k, x in listed)
 
     # -- what is in them -----------------------------------------------------------------------
 

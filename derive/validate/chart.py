@@ -207,7 +207,7 @@ class ReducedChart(StateChart):
         turns = (named("zeta", a) for a in range(self.group.dimension))
         return (*turns, *(named(x, i) for x, size in self.advected for i in range(size)))
 
-    def with_carried(self, Z: Matrix, carried: Any) -> Numbers:
+    def with_advected(self, Z: Matrix, carried: Any) -> Numbers:
         """The numbers of the state at Z and Γ; or the rates, from Ż and Γ̇."""
         return (*self.group.nearest(Z), *(q.flatten(carried) if self.advected else ()))
 

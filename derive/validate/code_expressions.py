@@ -145,7 +145,7 @@ class ExpressionReader:
     def _exact(self, op: str, a: Expression, b: Expression) -> None:
         """``CodeError`` where an operation has two integers of C."""
         del op
-        if self.language == "c" and _whole(a) and _whole(b):
+        if self.language == "c" and _is_integer(a) and _is_integer(b):
             self.unknown("C cuts off a quotient of integers, and their sums and products")
 
     def _signed(self) -> Expression:
@@ -240,14 +240,14 @@ class ExpressionReader:
 
     def _from_first(self) -> Expression:
         """A whole number, less that of the first entry."""
-        found = self.whole()
+        found = self.integer_sum()
         if not self.syntax.first:
             return found
         if found[0] != "int" or found[1] < self.syntax.first:
             self.unknown("no place of an entry")
         return ("int", found[1] - self.syntax.first)
 
-    def whole(self) -> Expression:
+    def integer_sum(self) -> Expression:
         """An integer, or of counters sums and multiples, without overflow."""
         terms = [self._multiple()]
         while self.took("+"):
@@ -290,8 +290,8 @@ class ExpressionReader:
         return ("lit", text.removesuffix("e0"))
 
 
-def _whole(e: Expression) -> bool:
+def _is_integer(e: Expression) -> bool:
     """Is an expression of an integer type?"""
     if e[0] in ("neg", "add", "sub", "mul"):
-        return all(map(_whole, e[1:]))
+        return all(map(_is_integer, e[1:]))
     return bool(e[0] == "int")

@@ -56,7 +56,7 @@ class Reader(ExpressionReader):
         left = REPEATING if "velocity_step" in present else ()
         read = {self._heads(f)[0].split()[1]: f for f in CONTRACT if f not in left}
         while self.word:
-            if not self._data() and not self._function_here(read):
+            if not self._data() and not self._contract_function(read):
                 self._leave({*read, *DATA, "abs"})
         return self._module()
 
@@ -147,7 +147,7 @@ class Reader(ExpressionReader):
 
     # -- functions ---------------------------------------------------------------------------
 
-    def _function_here(self, read: dict[str, str]) -> bool:
+    def _contract_function(self, read: dict[str, str]) -> bool:
         """Read a function of the contract, where one stands here; its head is not read."""
         start = self.at
         if self.word not in ("def", "fn", "function") or self.near(1) not in read:

@@ -58,7 +58,7 @@ class DiscreteFunctions:
         self._same("step_momentum", found, momentum)
         free = self._multiple()
         loaded = [a + b for a, b in zip(momentum, free, strict=True)]
-        self._same("step_velocity", self._told(arguments, loaded), zeta)
+        self._same("step_velocity", self._velocity_of_momentum(arguments, loaded), zeta)
         self._forces(arguments)
         names = ["step_momentum", "step_velocity", "step_force"]
         if self._has("step_guess"):
@@ -80,7 +80,7 @@ class DiscreteFunctions:
         at_rest = {**arguments, "x": self.measured(x, "x")}
         rates = self.call("rhs", at_rest, dx=len(x))["dx"]
         force = self._run("step_force", arguments, len(self._momentum(still)))
-        self._same("step_force", self._told(at_rest, force), self._velocity(rates))
+        self._same("step_force", self._velocity_of_momentum(at_rest, force), self._velocity(rates))
 
     def _step(self, arguments: Mapping[str, Any]) -> tuple[str, ...]:
         """Newton's step, what it needs before, and what a step gives."""
@@ -99,7 +99,7 @@ class DiscreteFunctions:
         self._same("step_newton", change, [0] * turns)
         slopes = []
         for b in range(turns):
-            varied = self._beside(z, b)
+            varied = self._varied_step(z, b)
             *moved, _ = self._plainly("step_newton", arguments, q=[*load, h], v=varied, b=())
             self._same("step_newton", [part(x, EPS) for x in moved], [a == b for a in range(turns)])
             slopes.append([part(x, EPS) for x in self._load(h, self._turned(varied))])
@@ -209,9 +209,9 @@ class DiscreteFunctions:
         real = self.plain.elementary("sqrt", 1 - sum(x * x for x in z))
         j = hat(z)
         turn = q.plus(q.scaled(2 * real, j), q.scaled(2, q.times(j, j)))
-        return q.plus(q.identity(size), self._whole(turn))
+        return q.plus(q.identity(size), self._in_one_matrix(turn))
 
-    def _beside(self, z: Sequence[Any], b: int) -> list[Any]:
+    def _varied_step(self, z: Sequence[Any], b: int) -> list[Any]:
         """A step varied by E_b behind it, or by one of its three numbers."""
         if not self._on_basis:
             return [x + EPSILON * (a == b) for a, x in enumerate(z)]
@@ -232,7 +232,7 @@ class DiscreteFunctions:
         what it came from."""
         g, one = self.point.g, q.identity(len(W))
         if not self._on_basis:
-            back = self._whole(q.transposed(self._linear(q.minus(W, one))))
+            back = self._in_one_matrix(q.transposed(self._linear(q.minus(W, one))))
             came = q.scaled(Fraction(-1), back)
             return [*(self._on_arm(came, x) for x in self._arms), *load[3:]]
         moved = q.times(g, q.minus(W, one))
@@ -327,7 +327,7 @@ class DiscreteFunctions:
     def _linear(self, m: Matrix) -> Matrix:
         return self.chart.group.linear_part(m)
 
-    def _whole(self, linear: Matrix) -> Matrix:
+    def _in_one_matrix(self, linear: Matrix) -> Matrix:
         if not self.chart.group.affine:
             return linear
         return q.bordered(linear, ((Fraction(0),),) * len(linear), Fraction(0))
@@ -348,7 +348,9 @@ class DiscreteFunctions:
     def _loaded(self, arguments: Mapping[str, Any], load: Sequence[Any], h: Any) -> dict[str, Any]:
         return {**arguments, "q": self.measured([*load, h], "q")}
 
-    def _told(self, arguments: Mapping[str, Any], momentum: Sequence[Any]) -> list[Any]:
+    def _velocity_of_momentum(
+        self, arguments: Mapping[str, Any], momentum: Sequence[Any]
+    ) -> list[Any]:
         """The velocity that a momentum tells."""
         given = {**arguments, "q": Array([*momentum, Fraction(0)], "q")}
         return self._run("step_velocity", given, self.chart.group.dimension)

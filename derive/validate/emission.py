@@ -21,10 +21,10 @@ from .syntax import SYNTAX, tokens
 from .terms import CodeError, DiffersError, Module
 from .torus.torus_files import (
     TorusClaims,
-    beside_loops,
     compare_loops,
     compare_python,
     has_known_loops,
+    unread_parts,
 )
 
 Judge = Callable[[tuple[str, ...]], Agreement]
@@ -140,7 +140,7 @@ class EmittedFiles:
         if not name.endswith(".py"):
             if self.fresh is not None and self.files[name] != self.fresh[name]:
                 require_same(
-                    *(beside_loops(name, x, self.prefix) for x in (self.files, self.fresh))
+                    *(unread_parts(name, x, self.prefix) for x in (self.files, self.fresh))
                 )
             return compare_loops(name, self.files, self.prefix, claims())
         if self.fresh is None or self.files[name] != self.fresh[name]:

@@ -67,7 +67,7 @@ class Claims:
         (group,) = TrialPoints(d.problem, 0).groups(self.scope)
         if chart.attitude == "quaternion":
             group = replace(group, sampler=rational_quaternions(group))
-        self.group, self.state = group, chart_of(group.stated, chart, d.problem)
+        self.group, self.state = group, chart_of(group.in_user_basis, chart, d.problem)
 
     @cached_property
     def at(self) -> Locus:
@@ -128,9 +128,9 @@ class Claims:
         """The numbers of the state, and what the record says of their rates."""
         acceleration = self._acceleration(env)
         if isinstance(self.state, ReducedChart):
-            x = self.state.with_carried(model.Z, env.names.get("Γ"))
-            return x, self.state.with_carried(acceleration, self._value("Γ̇", env))
-        g_dot = self._whole(self._value("Ȧ", env), self._value("Ṫ", env))
+            x = self.state.with_advected(model.Z, env.names.get("Γ"))
+            return x, self.state.with_advected(acceleration, self._value("Γ̇", env))
+        g_dot = self._homogeneous(self._value("Ȧ", env), self._value("Ṫ", env))
         x = self.state.values(model.g, model.Z)
         return x, self.state.rates(model.g, model.Z, g_dot, acceleration)
 
@@ -142,12 +142,12 @@ class Claims:
             if data["kind"] == "force":
                 found += next(forces)[self.group.of_block(self._block(data["on"]))]
             else:
-                found += self._stated(model.covector)
+                found += self._on_user_basis(model.covector)
         return tuple(found)
 
-    def _stated(self, covector: Sequence[Any]) -> Numbers:
+    def _on_user_basis(self, covector: Sequence[Any]) -> Numbers:
         """The values of a covector on the basis that the problem states."""
-        pairs = [(self.group.nearest(e), covector) for e in self.group.stated.basis]
+        pairs = [(self.group.nearest(e), covector) for e in self.group.in_user_basis.basis]
         return tuple(sum(x * u for x, u in zip(*pair, strict=True)) for pair in pairs)
 
     # -- the record --------------------------------------------------------------------------
@@ -193,13 +193,13 @@ class Claims:
         """Ż as a matrix of the group's size, from what the record solves for."""
         w = self._value("ẇ", env)
         if "ζ̇" not in self.equations:
-            return self._whole(self._value("Ż", env), w)
+            return self._homogeneous(self._value("Ż", env), w)
         rate = self._value("ζ̇", env)
         coordinates = [x for (x,) in rate] if isinstance(rate, tuple) else [rate]
         shift = [x for (x,) in w] if w is not None else []
         return self.group.hat([*coordinates, *shift])
 
-    def _whole(self, linear: Any, shift: Any) -> Matrix:
+    def _homogeneous(self, linear: Any, shift: Any) -> Matrix:
         """[[linear, shift], [0, 0]], or the linear part alone; 0 stands for any zero."""
         n = self.group.n
         zero = q.scaled(Fraction(0), q.identity(n))

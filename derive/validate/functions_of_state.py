@@ -277,11 +277,11 @@ class MomentumFunctions:
         y = self.call("momentum", arguments, out=size)["out"]
         self._same("momentum", y, self._with(x, self._momenta))
         there = {**arguments, "y": Array(y, "y")}
-        found, moved = ["momentum"], self._moved(arguments)
+        found, moved = ["momentum"], self._rate_along_motion(arguments)
         if "velocity_step" in self.plain.module.functions:
             step = self.call("velocity_step", there, out=size)["out"]
             self._same("velocity_step", step, x)
-            self._same("velocity_step", self._beside(arguments), [0] * size)
+            self._same("velocity_step", self._varied_step(arguments), [0] * size)
             rates = "momentum_rates"
             found += ["velocity_step"]
         else:
@@ -326,13 +326,13 @@ class MomentumFunctions:
         new = dict(zip(self._velocity, values, strict=True))
         return [new.get(i, z) for i, z in enumerate(x)]
 
-    def _moved(self, arguments: Mapping[str, Any]) -> list[Any]:
+    def _rate_along_motion(self, arguments: Mapping[str, Any]) -> list[Any]:
         """The derivative of ``momentum`` along ``rhs``, as fractions."""
         x = [a + EPSILON * b for a, b in self._pairs(self.point.rates)]
         out = self._plain("momentum", arguments, t=self.point.arguments["t"] + EPSILON, x=x)
         return [part(z, EPS) for z in out]
 
-    def _beside(self, arguments: Mapping[str, Any]) -> list[Any]:
+    def _varied_step(self, arguments: Mapping[str, Any]) -> list[Any]:
         """The derivative of a step of Newton's method by the velocity that it begins with."""
         y = [part(z, 0) for z in self._plain("momentum", arguments)]
         change = self._with([0] * len(y), [self.draw() for _ in self._velocity])

@@ -103,10 +103,10 @@ def read(name: str, files: Mapping[str, str], prefix: str) -> Reading:
     if language == "python" and any(map(cookie.match, text.split("\n")[:2])):
         raise CodeError("a line that names an encoding is not read")
     reader = Reader(language, tokens(SYNTAX[language], text, name), prefix)
-    return Reading(reader.module(), beside(reader, text))
+    return Reading(reader.module(), unread_text(reader, text))
 
 
-def beside(reader: Reader, text: str) -> Beside:
+def unread_text(reader: Reader, text: str) -> Beside:
     """What a reader has left of a text."""
     lines = text.split("\n")
     return [(lines[x.line - 1].strip(), x[:2]) for x in reader.unread]
@@ -300,7 +300,7 @@ class CReader(Reader):
             self.unknown()
         i = self.naming()
         self.take(f"= 0 ; {i} <")
-        bound = self.whole()
+        bound = self.integer_sum()
         self.take(f"; ++ {i} ) {{")
         self.counters.add(i)
         body = self._block()

@@ -86,7 +86,7 @@ class Array:
             raise CodeError(f"{self.name}[{i}] is written {why}")
         self.values[i] = value
 
-    def whole(self) -> list[Any]:
+    def numbers(self) -> list[Any]:
         """All numbers of a written array; ``CodeError`` where one is missing."""
         for i, x in enumerate(self.values):
             if x is None:
@@ -258,7 +258,7 @@ class Machine:
         value = run(f, {**arguments, **empty}, self.elementary, self.literal)
         if not empty:
             return _returned(value, sizes)
-        return {x: array.whole() for x, array in empty.items()}
+        return {x: array.numbers() for x, array in empty.items()}
 
 
 def _returned(value: Any, sizes: Mapping[str, int]) -> dict[str, list[Any]]:

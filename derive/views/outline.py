@@ -339,7 +339,7 @@ def system(d: Derivation, language: Language) -> str:
     """What moves, by which group, or where a Lagrangian is given, and what acts; empty where the
     record has neither."""
     stated = given(d.problem)
-    moved = language.sentence(_stated(d)) if stated else _moved(d, language)
+    moved = language.sentence(_given_lagrangian(d)) if stated else _action_of(d, language)
     acting = [*_acting(d.problem)] if moved else []
     if acting:
         forces = language.sentence(listed("{first}, {second}", acting))
@@ -349,7 +349,7 @@ def system(d: Derivation, language: Language) -> str:
     return " ".join((moved, language.word("Nothing acts.")))
 
 
-def _moved(d: Derivation, language: Language) -> str:
+def _action_of(d: Derivation, language: Language) -> str:
     """What moves, by which group; empty where the record has no body."""
     basis, body = d.problem.get("basis"), d.problem.get("body")
     if not isinstance(basis, list) or not basis or not isinstance(body, Mapping):
@@ -362,7 +362,7 @@ def _moved(d: Derivation, language: Language) -> str:
     )
 
 
-def _stated(d: Derivation) -> Sentence:
+def _given_lagrangian(d: Derivation) -> Sentence:
     """Where the Lagrangian is given, and what it depends on."""
     torus, basis = d.problem.get("torus"), d.problem.get("basis")
     if isinstance(torus, Mapping):

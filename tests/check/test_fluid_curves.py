@@ -33,7 +33,7 @@ def test_a_polygon():
     """∮ f ds and ∮ ⟨c, dγ⟩ of exponentials, between corners that are places."""
     draw = drawing()
     space = FlatTorus(K)
-    polygon = curve(space, space.moved(), draw, level=False)
+    polygon = curve(space, space.of_points(), draw, level=False)
     after = [*CORNERS[1:], CORNERS[0]]
     polygon.edges = [
         [y - x for x, y in zip(a, b, strict=True)] for a, b in zip(CORNERS, after, strict=True)
@@ -68,7 +68,7 @@ def test_a_level():
     draw = drawing()
     for k in (K, tuple((*x, 0.3) for x in K)):
         space = FlatTorus(k)
-        polygon = curve(space, space.moved(), draw, level=True)
+        polygon = curve(space, space.of_points(), draw, level=True)
         assert all(abs(dot(k[0], edge)) < 1e-12 for edge in polygon.edges)
         layered = polygon.of_space(space.layered(draw))
         assert layered.is_constant
@@ -94,7 +94,7 @@ def test_a_laurent_curve():
         assert at(laurent.of_space(f), s) == pytest.approx(value(s), rel=1e-12)
         slope = (value(s + 1e-5) - value(s - 1e-5)) / 2e-5
         assert at(laurent.of_space(f).d(0), s) == pytest.approx(slope, rel=1e-7)
-        carried = laurent.of_points(space.carried(f, points))
+        carried = laurent.of_points(space.pulled_back(f, points))
         assert at(carried, s) == pytest.approx(value(s), rel=1e-12)
     found = number(laurent.of_space(f).mean())
     for part in ("real", "imag"):

@@ -73,9 +73,9 @@ def test_a_rotation_is_one():
     """Composition with g₀ keeps ‖x‖ and means."""
     for space in (Ball(2), Ball(3)):
         f = space.function(drawing(), 4)
-        assert space.carried(space.square, space) == space.square
-        assert space.carried(f, space).mean() == f.mean()
-        assert space.carried(f, space) != f
+        assert space.pulled_back(space.square, space) == space.square
+        assert space.pulled_back(f, space).mean() == f.mean()
+        assert space.pulled_back(f, space) != f
 
 
 @pytest.mark.parametrize("count", [3, 4, 5])
@@ -112,4 +112,4 @@ def test_a_volume_is_any():
     for space in (FlatTorus(((1, 2), (3, 5)), VOLUME), Ball(3, VOLUME)):
         one = Function(space, {(0,) * space.length: Fraction(1)})
         assert [*one.mean().terms.values()] == [VOLUME]
-        assert space.moved().volume == VOLUME
+        assert space.of_points().volume == VOLUME

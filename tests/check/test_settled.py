@@ -6,7 +6,7 @@ from random import Random
 import pytest
 
 from derive.algebra.families import group
-from derive.check.lagrangian.lagrangian_model import LagrangianModel, settled
+from derive.check.lagrangian.lagrangian_model import LagrangianModel, with_constants_named
 from derive.check.values.draws import Locus
 from derive.check.values.evaluate import ElementaryValues, Environment, evaluate
 from derive.language.read import read
@@ -31,7 +31,7 @@ def environment(**names):
 
 def test_equal_parts_have_one_name_and_the_value_is_the_same():
     of_the_problem = environment()
-    tree, known = settled(L, of_the_problem)
+    tree, known = with_constants_named(L, of_the_problem)
     (name,) = known
     with pytest.raises(RecordError, match="a name may not be"):
         decode(name, "L")
@@ -49,7 +49,7 @@ def test_equal_parts_have_one_name_and_the_value_is_the_same():
 
 def test_what_moves_is_not_settled():
     moving = read("t + A")
-    assert settled(moving, environment()) == (moving, {})
+    assert with_constants_named(moving, environment()) == (moving, {})
 
 
 def test_the_moments_of_a_model_are_computed_once(monkeypatch):

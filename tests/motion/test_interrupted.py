@@ -83,7 +83,7 @@ def test_in_c_it_is_where_the_call_has_led(turning, monkeypatch, method, points)
 def test_in_python_it_is_where_the_last_call_has_led(turning, monkeypatch, method, points):
     chosen = {"points": points, "compiled": False, **method}
     whole = turning.simulate(4.0, **chosen)
-    interrupted_at(monkeypatch, MotionInPython, "_told", 3)
+    interrupted_at(monkeypatch, MotionInPython, "_ended", 3)
     run = turning.simulate(4.0, **chosen)
     last = told_to_its_end(run, whole)
     assert 0 < last < 4

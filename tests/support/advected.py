@@ -8,7 +8,7 @@ from derive.problem.toml import problem_of
 
 def matrices(name):
     """A basis of a known algebra, as the oracle has it: on (r, 1) where it is affine."""
-    found = group(name).stated
+    found = group(name).in_user_basis
     return np.array([[[float(x) for x in row] for row in e] for e in found.basis])
 
 

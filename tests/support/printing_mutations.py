@@ -137,10 +137,10 @@ MUTATIONS = {
     "MathML: rows run together": (
         TYPESET, 'body = "".join(f"<mtr>{x}</mtr>" for x in cells)', 'body = "".join(cells)'),
     "names: the prefix of a variation lost": (
-        NAMES, 'whole = _whole(tex, found["lead"], letter', 'whole = _whole(tex, "", letter'),
+        NAMES, 'whole = _letter_in_full(tex, found["lead"], letter', 'whole = _letter_in_full(tex, "", letter'),
     "names: an index lost under a bar": (
-        NAMES, "return _whole(whole, lead, letter, primes, below)",
-        'return _whole(whole, lead, letter, primes, "")'),
+        NAMES, "return _letter_in_full(whole, lead, letter, primes, below)",
+        'return _letter_in_full(whole, lead, letter, primes, "")'),
     "sentences: a relation without its stroke": (
         SIGNS, "x if x[0].isalpha() else c for", "x for"),
     "sentences: ≤ as ≥": (SIGNS, r'"≤": r"\le"', r'"≤": r"\ge"'),

@@ -30,7 +30,7 @@ def body(name):
 def test_it_is_the_circulation_about_each_axis_of_the_body(own):
     own = body(own) if own in BODIES else own
     code = derive.compile(own, conserved=True)
-    basis = np.array(derive.derive(own).problem.group.stated.basis, float)
+    basis = np.array(derive.derive(own).problem.group.in_user_basis.basis, float)
     rng, ratios = np.random.default_rng(3), []
     for _ in range(2):
         A = np.eye(3) + 0.2 * rng.normal(size=(3, 3))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from derive.algebra.families import group
-from derive.algebra.groups import told_entries
+from derive.algebra.groups import affine_entries
 from derive.language.show import show
 from derive.language.tree import nodes
 from derive.pipeline import walk
@@ -159,7 +159,7 @@ def test_no_answer_names_what_it_solves_for():
 @pytest.mark.parametrize("name", ["SO(2)", "SE(2)", "UT(3)", "SU(2)", "Sim(2)", "SO(3) x SE(2)"])
 def test_entries_are_told_by_the_free_ones(name):
     g = group(name)
-    told_by = told_entries(g)
+    told_by = affine_entries(g)
     random = Random(5)
     for _ in range(3):
         A = g.sample(random)
@@ -170,7 +170,7 @@ def test_entries_are_told_by_the_free_ones(name):
 
 @pytest.mark.parametrize(("name", "free"), [("SO(2)", 2), ("UT(3)", 3), ("SU(2)", 4), ("SO(3)", 9)])
 def test_as_few_entries_are_free_as_can_be(name, free):
-    assert len({x for row in told_entries(group(name)) for _, w in row for x in w}) == free
+    assert len({x for row in affine_entries(group(name)) for _, w in row for x in w}) == free
 
 
 @pytest.mark.parametrize(

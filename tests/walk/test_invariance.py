@@ -223,7 +223,7 @@ def test_their_state_is_in_the_basis_that_is_stated():
     """The same motion: ζ of the state x are the coordinates of the same Z."""
     text = PROBLEMS["se(3) mixed"]
     mine = read(text)
-    assert mine.group.stated_basis == mine.group.stated.basis != mine.group.basis
+    assert mine.group.user_basis == mine.group.in_user_basis.basis != mine.group.basis
     program = programs.program(mine, pipeline.walk(mine))
-    assert program.basis == mine.group.stated_basis
+    assert program.basis == mine.group.user_basis
     assert [x for x in program.state if x.startswith("zeta")] == [f"zeta_{i}" for i in range(1, 7)]

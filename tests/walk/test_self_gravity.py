@@ -372,7 +372,7 @@ def test_the_circulation_is_found(group, axes, kinds):
 
 
 def test_what_depends_on_the_place_of_the_integrand_is_refused():
-    own = Integrand.beside({"G"})
+    own = Integrand.with_free_names({"G"})
     with pytest.raises(ProblemError, match="not the same at all places"):
         own.require_unused([0, ("mul", 2, ("par", "node"))])
 

@@ -23,7 +23,7 @@ from .exact_spectra import (
     all_roots,
     characteristic,
     decimal,
-    digits_told,
+    digits_given,
     is_rounded,
     signature,
     size,
@@ -301,7 +301,7 @@ def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
     assert isinstance(told, tuple)
     with localcontext(Context(prec=PRECISION)):
         numbers = [(decimal(re), decimal(im)) for _, re, im in told[1:]]
-        roots, digits = [(abs(re), abs(im)) for re, im in all_roots(p)], digits_told(numbers)
+        roots, digits = [(abs(re), abs(im)) for re, im in all_roots(p)], digits_given(numbers)
         if len({*numbers}) < len(numbers):
             return "one is told twice"
         large, known = ([z for z in x if size(z) > decimal(NEAR_0)] for x in (numbers, roots))

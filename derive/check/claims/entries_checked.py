@@ -9,7 +9,7 @@ from itertools import product
 from typing import Any, Literal
 
 from ...algebra.families import LARGEST_PRODUCT
-from ...algebra.groups import Group, told_entries
+from ...algebra.groups import Group, affine_entries
 from ...algebra.relations import relations
 from ...language import rational as q
 from ...language.tree import Tree
@@ -45,7 +45,7 @@ class _Candidate:
 
     def __init__(self, factor: Group, inside: Mapping[Place, Number]):
         self.factor, self.inside, self.kept = factor, inside, relations(factor)
-        told = told_entries(factor)
+        told = affine_entries(factor)
         free = sorted({x for row in told for _, weights in row for x in weights})
         self.weights = [[[w.get(x, Fraction(0)) for x in free] for _, w in row] for row in told]
         rows = [(*self.weights[i][j], x - Fraction(int(i == j))) for (i, j), x in inside.items()]
@@ -82,7 +82,7 @@ class _Candidate:
         return "yes" if at_one or self._by_theorem() or self._exponential() else "open"
 
     @cached_property
-    def _whole(self) -> bool:
+    def _has_all_entries(self) -> bool:
         """Are all entries of the linear part told?"""
         n = self.factor.n
         return all(x for row in self.known[:n] for x in row[:n])
@@ -98,10 +98,15 @@ class _Candidate:
                 return True
             if form and not self._has_products(tuple(lines[i] for i in chosen), chosen, form):
                 return True
-        if self._whole and kept.determinant and not kept.complex_basis and q.determinant(a) != 1:
+        if (
+            self._has_all_entries
+            and kept.determinant
+            and not kept.complex_basis
+            and q.determinant(a) != 1
+        ):
             return True
         positive: list[Any] = [a[j][j] for j in range(n) if known[j][j] and self._scales(j)]
-        if self._whole and (self.factor.larger or not kept.none):
+        if self._has_all_entries and (self.factor.larger or not kept.none):
             positive.append(q.determinant(a))
         return not all(x > 0 for x in positive)
 
@@ -130,7 +135,7 @@ class _Candidate:
         moved = [[e[i][j] for i, j in self.inside] for e in g.basis]
         if _nilpotent(g):  # its orbits are closed: one that is open in the hull is all of it
             return q.rank(q.matrix(moved)) == len(self.pivots)
-        if kept.dimension > g.dimension or (self._whole and kept.complex_basis):
+        if kept.dimension > g.dimension or (self._has_all_entries and kept.complex_basis):
             return False
         if not g.larger or not S:
             return not (g.larger and kept.hull)

@@ -217,7 +217,7 @@ def _ratio(x: Complex, y: Complex) -> Complex:
     return re / by, im / by
 
 
-def digits_told(told: Sequence[Complex]) -> int:
+def digits_given(told: Sequence[Complex]) -> int:
     """To how many digits numbers are told."""
     return max(LEAST, *(len(x.normalize().as_tuple().digits) for pair in told for x in pair))
 
@@ -225,7 +225,7 @@ def digits_told(told: Sequence[Complex]) -> int:
 def are_roots_rounded(told: Sequence[Complex], squares: Sequence[Complex]) -> bool:
     """Are numbers, their parts not negative, the square roots of others, rounded all to as many
     digits as are told?"""
-    digits, pairs = digits_told(told), zip(told, map(_root, squares), strict=True)
+    digits, pairs = digits_given(told), zip(told, map(_root, squares), strict=True)
     return all(is_rounded(x, true, digits, FLOATS) for x, true in pairs)
 
 

@@ -40,7 +40,9 @@ class ReducedSystem:
         self.energy = energy.rhs
         self.variables: tuple[Tree, ...] = tuple(_variable(e.lhs) for e in rates)
         self.rates = tuple(e.rhs for e in rates)
-        self.casimirs, self.integrals = (_kept(d, x) for x in ("casimirs", "first_integrals"))
+        self.casimirs, self.integrals = (
+            _conserved_by_step(d, x) for x in ("casimirs", "first_integrals")
+        )
         self.conditions = [
             step
             for step in d.steps
@@ -190,7 +192,7 @@ def _variable(rate: Tree) -> Tree:
     return (rate[0], VARIABLE[str(rate[1])], *rate[2:])
 
 
-def _kept(d: Derivation, label: str) -> tuple[Tree, ...]:
+def _conserved_by_step(d: Derivation, label: str) -> tuple[Tree, ...]:
     """What the equations of a step say that motions keep; () without the step."""
     try:
         return rates_of(d[label])
@@ -227,12 +229,12 @@ class PoissonTensor:
         for x, i in self.place.items():
             for b in range(group.dimension):
                 j = self.place["at", "Π", b + 1]
-                if form := {k: c for k, c in self._moved(x, b).items() if c}:
+                if form := {k: c for k, c in self._bracket_with_momentum(x, b).items() if c}:
                     self.forms[i, j] = form
                     if i >= group.dimension:
                         self.forms[j, i] = {k: -c for k, c in form.items()}
 
-    def _moved(self, x: Tree, b: int) -> Linear:
+    def _bracket_with_momentum(self, x: Tree, b: int) -> Linear:
         """{x, Π_b}."""
         sign = 1 if self.left else -1
         assert isinstance(x, tuple)

@@ -86,7 +86,7 @@ class SymmetryCount:
         parameters = {x: self.random.randrange(1, p) for x in letters}
         points = self._points(len(listed) + SPARE, parameters, p)
         functions = Functions(ResidueVectorSource(p, 1, self._seed()), roots=self.true_roots)
-        rows = [[x.kept_by(field, parameters, functions) for x in points] for field in listed]
+        rows = [[x.conserved_by(field, parameters, functions) for x in points] for field in listed]
         one = [1] * len(points)
         return len(pivots([one, *rows], len(one), p)) - 1
 
@@ -98,7 +98,7 @@ class SymmetryCount:
         points = self._points(columns + SPARE, parameters, p)
         found = kernel((x.row(fields) for x in points), columns, p)[0]
         tried = self._points(len(found) + SPARE, parameters, p)
-        values = [x.kept(fields) for x in tried]
+        values = [x.conserved(fields) for x in tried]
         kept = [[sum(map(mul, v, row)) % p for row in values] for v in found]
         one = [1] * len(tried)
         return len(pivots([one, *kept], len(one), p)) - 1
@@ -201,11 +201,11 @@ class JetPoint:
         """∂L̃/∂ζ."""
         return self.slopes[1 + len(self.of.entries) :]
 
-    def moved(self, eta: Square) -> Square:
+    def tangent_vector(self, eta: Square) -> Square:
         """The tangent vector gη, or ηg."""
         return _times(*((self.g, eta) if self.of.left else (eta, self.g)), self.p)
 
-    def carried(self, field: Field) -> Square:
+    def advected_rate(self, field: Field) -> Square:
         """η of V."""
         Y, X = field
         if self.of.left:
@@ -225,9 +225,9 @@ class JetPoint:
         t, p = self.leaves[0], self.p
         turning, still = [], []
         for field in fields:
-            eta = self.carried(field)
+            eta = self.advected_rate(field)
             turn = field[1] if self.of.left else field[0]
-            along = self.moved(eta)
+            along = self.tangent_vector(eta)
             pairs = zip(self.slopes[1:], self.of.entries, strict=False)
             pushed = sum(x * along[i][j] for x, (i, j) in pairs)
             own = self.paired(_minus(_times(turn, self.Z, p), _times(self.Z, turn, p), p)) + pushed
@@ -238,7 +238,7 @@ class JetPoint:
     @property
     def rates(self) -> Iterator[int]:
         """The rates of the monomials of F."""
-        velocity = self.moved(self.Z)
+        velocity = self.tangent_vector(self.Z)
         rate = [1, *(velocity[i][j] for i, j in self.of.entries)]
         for first, *second in self.of.monomials:
             if second:
@@ -247,10 +247,10 @@ class JetPoint:
             else:
                 yield rate[first]
 
-    def kept(self, fields: Sequence[Field]) -> list[int]:
+    def conserved(self, fields: Sequence[Field]) -> list[int]:
         """⟨Π, η⟩ − τh̃ − F for each of the same."""
         t, p = self.leaves[0], self.p
-        still = [self.paired(self.carried(field)) for field in fields]
+        still = [self.paired(self.advected_rate(field)) for field in fields]
         minus_f = (-prod(self.leaves[k] for k in m) % p for m in self.of.monomials)
         return [*minus_f, *(t * x % p for x in still), *still, -self.energy % p]
 
@@ -259,7 +259,9 @@ class JetPoint:
         """h̃."""
         return self.paired(self.Z) - self.value
 
-    def kept_by(self, listed: Listed, parameters: Mapping[Tree, int], functions: Functions) -> int:
+    def conserved_by(
+        self, listed: Listed, parameters: Mapping[Tree, int], functions: Functions
+    ) -> int:
         """⟨Π, η⟩ − τh̃ − F for a field given by trees."""
         at = {"t": self.leaves[0], **parameters}
         at |= {

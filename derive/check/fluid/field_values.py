@@ -389,7 +389,7 @@ NAMES: dict[str, Callable[[Any], Value]] = {
     "ρ̇": lambda v: v.product_with(v.model.rate_of_density(v.model.u)),
     "ρ_0": lambda v: v.product_with(v.model.mass),
     "ϑ": lambda v: v.model.moved_field,
-    "ϑ̇": lambda v: v.model.rate_of_moved(),
+    "ϑ̇": lambda v: v.model.rate_of_displaced(),
     "n": lambda _: Normal(),
     "Γ": lambda v: componentwise(v.model.curve.of_space),
     "Γ_0": lambda v: componentwise(v.model.curve.of_points),

@@ -48,7 +48,7 @@ class FluidModel:
 
     def __init__(self, space: Any, draw: Any, at: FluidLocus, *, advected: bool, forced: bool):
         self.space, self.draw, self.at, self.advected = space, draw, at, advected
-        self.points = space.moved()
+        self.points = space.of_points()
         self.one = Function(space, {(0,) * space.length: Fraction(1)})
         self.theta = space.layered(draw) if at.one_level else space.level(draw)
         self.V = space.energy(draw) if forced else self.one * 0
@@ -56,7 +56,7 @@ class FluidModel:
         self.first = FluidVariation(self.number(), self.solenoidal(), self.solenoidal())
         self.second = FluidVariation(self.number(), self.solenoidal(), self.solenoidal())
         self.mixed = FluidVariation(self.number(), self.solenoidal(), self.solenoidal())
-        self.moved_field = self._moved_field()
+        self.moved_field = self._displaced_field()
         self.any_pressure = space.function(draw)
         self.free_acceleration = self.solenoidal()
         self.acceleration = self.free_acceleration if at.free else self.motion[0]
@@ -80,7 +80,7 @@ class FluidModel:
         """A random field of the Lie algebra."""
         return tuple(self.space.solenoidal(self.draw))
 
-    def _moved_field(self) -> Fields:
+    def _displaced_field(self) -> Fields:
         """ϑ: a field of the algebra; where it is to leave the density alone, one along the level
         lines of θ, or the curl of a function times grad θ."""
         if not (self.at.level and self.advected):
@@ -128,8 +128,10 @@ class FluidModel:
     def at_points(self, f: Any) -> Any:
         """f ∘ g₀, also of a nilpotent function."""
         if isinstance(f, Nilpotent):
-            return Nilpotent({k: self.space.carried(x, self.points) for k, x in f.parts.items()})
-        return self.space.carried(f, self.points)
+            return Nilpotent(
+                {k: self.space.pulled_back(x, self.points) for k, x in f.parts.items()}
+            )
+        return self.space.pulled_back(f, self.points)
 
     @cached_property
     def displacement(self) -> Fields:
@@ -274,7 +276,7 @@ class FluidModel:
         kinetic = self.over_points(nu, nu) * Fraction(1, 2)
         return part(kinetic + mean(V[0] * self.mass), EPS)
 
-    def rate_of_moved(self) -> Fields:
+    def rate_of_displaced(self) -> Fields:
         """∂ϑ/∂t: ϑ is moved with the points by id + εu, ϑ ↦ D(id + εu)ϑ ∘ (id − εu)."""
         e, e_prime = nilpotent(EPS), nilpotent(EPS_PRIME)
         ahead = [e_prime * x for x in self.moved_field]

@@ -119,7 +119,7 @@ class FlatTorus:
                 x[(*m, 0)] = y
         return tuple(Function(self, x) for x in modes)
 
-    def moved(self) -> FlatTorus:
+    def of_points(self) -> FlatTorus:
         """The torus of the points, which x ↦ g₀x takes to this one: k·g₀x = (ḡ₀k)·x."""
         g = AUTOMORPHISMS[self.dimension]
         columns = range(self.dimension)
@@ -128,7 +128,7 @@ class FlatTorus:
         )
         return FlatTorus(tuple(turned), self.volume)
 
-    def carried(self, f: Function, points: FlatTorus) -> Function:
+    def pulled_back(self, f: Function, points: FlatTorus) -> Function:
         """f ∘ g₀."""
         return Function(points, f.terms)
 
@@ -230,11 +230,11 @@ class Ball:
 
     # -- the ball of the points ----------------------------------------------------------------
 
-    def moved(self) -> Ball:
+    def of_points(self) -> Ball:
         """The ball of the points."""
         return Ball(self.dimension, self.volume, self.degree)
 
-    def carried(self, f: Function, points: Ball) -> Function:
+    def pulled_back(self, f: Function, points: Ball) -> Function:
         """f ∘ g₀, g₀ a rotation."""
         return substituted(f, points.turned(points.axes))
 

@@ -39,7 +39,7 @@ def _seen(at: AppliedForces, p: Data, origin: Vector) -> Vector:
 def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
     """T in the body's frame, 1/R and GM/R."""
     at, p = model.applied, members[0]
-    T = _seen(at, p, at.body_axes(model.moved(model.g))[0])
+    T = _seen(at, p, at.body_axes(model.images(model.g))[0])
     R = at.root(q.dot(T, T))
     back = q.transposed(model.group.linear_part(model.g))
     return {"T_b": q.times(back, q.column(T)), "W": 1 / R, "V": at.number(p["strength"]) / R}

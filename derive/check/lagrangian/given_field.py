@@ -42,10 +42,10 @@ class GroupPoint(Protocol):
     def acceleration(self) -> Matrix:
         """Ż of the motion."""
 
-    def moved(self, g: Matrix, xi: Matrix, /) -> Matrix:
+    def tangent_at(self, g: Matrix, xi: Matrix, /) -> Matrix:
         """gξ, or ξg."""
 
-    def carried(self, h: Matrix, back: Matrix, rate: Matrix, /) -> Matrix:
+    def trivialised(self, h: Matrix, back: Matrix, rate: Matrix, /) -> Matrix:
         """h⁻¹ times a rate of h, or that rate times h⁻¹."""
 
     def along(self, mask: int, /) -> Matrix:
@@ -86,19 +86,19 @@ class GivenField:
             moved = q.scaled(Fraction(0), model.g)
         return evaluate(self.time, env), moved
 
-    def carried(self, model: GroupPoint, t: Any, g: Matrix, back: Matrix) -> tuple[Any, Matrix]:
+    def trivialised(self, model: GroupPoint, t: Any, g: Matrix, back: Matrix) -> tuple[Any, Matrix]:
         """δt, and δA carried to 𝔤."""
         time, moved = self.at(model, t, g)
-        return time, model.carried(g, back, moved)
+        return time, model.trivialised(g, back, moved)
 
     def direction(self, model: GroupPoint) -> TangentVector:
         """The variation at the point of the model; ``EvaluationError`` where it is not tangent to
         the group, or δt not constant."""
         back = inverse(model.g)
-        time, xi = self.carried(model, model.t, model.g, back)
-        later, ahead = model.t + nilpotent(EPS), model.moved(model.g, model.along(EPS))
+        time, xi = self.trivialised(model, model.t, model.g, back)
+        later, ahead = model.t + nilpotent(EPS), model.tangent_at(model.g, model.along(EPS))
         _, moved = self.at(model, later, ahead)  # ∂ₛ of g(s) + εδA(s) is the velocity there
-        rate = model.carried(model.g, back, part(moved, EPS))
+        rate = model.trivialised(model.g, back, part(moved, EPS))
         first, second = (xi, model.Z) if model.side == "left" else (model.Z, xi)
         velocity = q.minus(rate, q.times(first, second))
         if any(isinstance(x, str) for x in nodes(self.time)):
@@ -110,10 +110,10 @@ class GivenField:
     def rate(self, model: GroupPoint, subtracted: tuple[Tree, ...]) -> Any:
         """d/dt of ϖ of the field, and of functions of t and A added to it, along the motion."""
         e = nilpotent(EPS)
-        t, g = model.t + e, model.moved(model.g, model.along(EPS))
+        t, g = model.t + e, model.tangent_at(model.g, model.along(EPS))
         back = model.back_along(inverse(model.g), EPS)
         Z = q.plus(model.Z, q.scaled(e, model.acceleration))
-        time, xi = self.carried(model, t, g, back)
+        time, xi = self.trivialised(model, t, g, back)
         total = model.momentum(t, g, Z, xi) - model.energy(t, g, Z) * time
         env = replace(model.expressions, names={"π": model.pi, "t": t, "A": g})
         for x in subtracted:

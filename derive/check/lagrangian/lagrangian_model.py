@@ -138,7 +138,7 @@ class LagrangianModel(Draws):
         if self.tree is not None:
             zeta = tuple((x,) for x in self.group.nearest(Z))
             place = {"Γ": self.advected.at(g)} if self.advected else {"A": g}
-            tree, known = self.settled
+            tree, known = self.hoisted
             names = {**self.expressions.names, **known, **place, "t": t, "ζ": zeta}
             env = Environment(self.n, names, parameters=self.parameters, elementary=self.elementary)
             return evaluate(tree, env)
@@ -151,10 +151,10 @@ class LagrangianModel(Draws):
         return square * Fraction(1, 2) + product
 
     @cached_property
-    def settled(self) -> tuple[Tree, dict[str, Any]]:
+    def hoisted(self) -> tuple[Tree, dict[str, Any]]:
         """The tree of ℓ with names for what is the same at all points, and their values."""
         assert self.tree is not None
-        return settled(self.tree, self.expressions)
+        return with_constants_named(self.tree, self.expressions)
 
     def momentum(self, t: Any, g: Matrix, Z: Matrix, eta: Matrix) -> Any:
         """The derivative of ℓ with respect to Z along eta."""
@@ -167,7 +167,7 @@ class LagrangianModel(Draws):
 
     # -- the group -----------------------------------------------------------------------------
 
-    def moved(self, g: Matrix, xi: Matrix) -> Matrix:
+    def tangent_at(self, g: Matrix, xi: Matrix) -> Matrix:
         """The tangent vector at g that xi stands for: gξ on the left, ξg on the right."""
         return q.times(g, xi) if self.side == "left" else q.times(xi, g)
 
@@ -180,7 +180,7 @@ class LagrangianModel(Draws):
         undo = q.minus(q.identity(self.group.size), q.scaled(nilpotent(mask), self.Z))
         return q.times(undo, back) if self.side == "left" else q.times(back, undo)
 
-    def carried(self, h: Matrix, back: Matrix, rate: Matrix) -> Matrix:
+    def trivialised(self, h: Matrix, back: Matrix, rate: Matrix) -> Matrix:
         """h⁻¹ times a rate of h, or that rate times h⁻¹."""
         return q.times(back, rate) if self.side == "left" else q.times(rate, back)
 
@@ -203,7 +203,7 @@ class LagrangianModel(Draws):
         for weight, x in ((e, a.velocity), (f, b.velocity), (e * f, self.mixed.velocity)):
             Z = q.plus(Z, q.scaled(weight, x))
         h, back = self.displaced((e, a.xi), (f, b.xi), (e * f, self.mixed.xi))
-        return t, self.moved(self.g, h), Z, h, back
+        return t, self.tangent_at(self.g, h), Z, h, back
 
     @cached_property
     def varied(self) -> Family:
@@ -214,7 +214,7 @@ class LagrangianModel(Draws):
         """g⁻¹ ∂g, or ∂g g⁻¹, in a parameter of a family, a function of the other."""
         *_, h, back = family
         rate = tuple(tuple(derivative_in(x, mask) for x in row) for row in h)
-        return self.carried(h, back, rate)
+        return self.trivialised(h, back, rate)
 
     # -- the forms -----------------------------------------------------------------------------
 
@@ -269,20 +269,20 @@ class LagrangianModel(Draws):
         s, v = nilpotent(EPS), nilpotent(EPS_PRIME)
         h, back = self.displaced((s, self.Z), (v, e))
         rate = tuple(tuple(part_in(x, EPS) for x in row) for row in h)
-        Z = self.carried(h, tuple(tuple(_at_start(x) for x in row) for row in back), rate)
+        Z = self.trivialised(h, tuple(tuple(_at_start(x) for x in row) for row in back), rate)
         aside, _ = self.displaced((v, e))
-        varied = part(self.lagrangian(self.t, self.moved(self.g, aside), Z), EPS_PRIME)
+        varied = part(self.lagrangian(self.t, self.tangent_at(self.g, aside), Z), EPS_PRIME)
         ahead, _ = self.displaced((s, self.Z))
-        later = self.momentum(self.t + s, self.moved(self.g, ahead), self.Z, e)
+        later = self.momentum(self.t + s, self.tangent_at(self.g, ahead), self.Z, e)
         return varied - part(later, EPS)
 
     @cached_property
     def load(self) -> list[Any]:
         """The right side of M ζ̇ = β, with the covector input; 0 for what is held."""
-        return [Fraction(0) if a in self.held else x for a, x in enumerate(self.whole_load)]
+        return [Fraction(0) if a in self.held else x for a, x in enumerate(self.total_load)]
 
     @cached_property
-    def whole_load(self) -> list[Any]:
+    def total_load(self) -> list[Any]:
         """What ζ̇ must give by the second derivatives."""
         return [u + self._load(e) for u, e in zip(self.covector, self.group.basis, strict=True)]
 
@@ -294,7 +294,7 @@ class LagrangianModel(Draws):
         found = q.solve(self.metric, tuple((x,) for x in self.load))
         if found is None:
             raise ZeroDivisionError("∂²ℓ/∂Z² is singular at this point")
-        wanted = tuple((x,) for x in self.whole_load)
+        wanted = tuple((x,) for x in self.total_load)
         if self.held and not self.graded and q.times(self.second_derivatives, found) != wanted:
             raise EvaluationError("what is held is no symmetry: the equations have no solution")
         return self.as_letter(self.group.hat([row[0] for row in found]))
@@ -321,7 +321,7 @@ def _at_start(x: Any) -> Any:
 # thousand times; with respect to the entries of g and the coordinates of Z they are numbers.
 
 
-def settled(t: Tree, env: Environment) -> tuple[Tree, dict[str, Value]]:
+def with_constants_named(t: Tree, env: Environment) -> tuple[Tree, dict[str, Value]]:
     """The tree with a name for each of its largest parts that speak of parameters, numbers and
     names of ``env`` alone, and the values of these names, which no record can have; equal parts
     have one name.
@@ -331,7 +331,7 @@ def settled(t: Tree, env: Environment) -> tuple[Tree, dict[str, Value]]:
     def short(x: Tree) -> Tree:
         if not isinstance(x, tuple) or x[0] == "par":
             return x
-        if is_settled(x, env):
+        if is_constant(x, env):
             return named.setdefault(x, f"\0{len(named)}")
         return (x[0], *map(short, x[1:]))
 
@@ -339,10 +339,10 @@ def settled(t: Tree, env: Environment) -> tuple[Tree, dict[str, Value]]:
     return tree, {name: evaluate(x, env) for x, name in named.items()}
 
 
-def is_settled(t: Tree, env: Environment) -> bool:
+def is_constant(t: Tree, env: Environment) -> bool:
     """Does a tree speak of parameters, numbers and names of ``env`` alone?"""
     if isinstance(t, str):
         return t in env.names
     if not isinstance(t, tuple) or t[0] == "par":
         return True
-    return all(is_settled(x, env) for x in t[2 if t[0] == "fun" else 1 :])
+    return all(is_constant(x, env) for x in t[2 if t[0] == "fun" else 1 :])

@@ -27,7 +27,7 @@ def environment(model: LagrangianModel) -> Environment:
         NameValues(
             model,
             (
-                *(_places, _carried_along, _derivatives, _momenta_values),
+                *(_places, _advected, _derivatives, _momenta_values),
                 *(reduced_by_symmetries.values, _motion),
             ),
         ),
@@ -42,7 +42,7 @@ def environment(model: LagrangianModel) -> Environment:
 def _places(model: LagrangianModel) -> Values:
     """t, g, Z and their variations; Ȧ."""
     _, g, *_ = model.varied
-    velocity = model.moved(model.g, model.Z)
+    velocity = model.tangent_at(model.g, model.Z)
     return {
         **{"π": model.pi, "t": model.t, "δt": model.first.time, "δ′t": model.second.time},
         **{"A": model.g, "δA": part(g, EPS), "δ′A": part(g, EPS_PRIME)},
@@ -53,7 +53,7 @@ def _places(model: LagrangianModel) -> Values:
     } | ({"u": _column(model.covector)} if model.driven else {})
 
 
-def _carried_along(model: LagrangianModel) -> Values:
+def _advected(model: LagrangianModel) -> Values:
     """Γ, δΓ and Γ̇."""
     if not model.advected or not model.advected.rows:
         return {}
@@ -62,7 +62,7 @@ def _carried_along(model: LagrangianModel) -> Values:
     return {
         "Γ": model.advected.start,
         "δΓ": part(model.advected.at(varied), EPS),
-        "Γ̇": part(model.advected.at(model.moved(model.g, ahead)), EPS),
+        "Γ̇": part(model.advected.at(model.tangent_at(model.g, ahead)), EPS),
     }
 
 
@@ -99,7 +99,7 @@ def _rates(model: LagrangianModel) -> list[Any]:
     e = nilpotent(EPS)
     ahead, _ = model.displaced((e, model.Z))
     faster = q.plus(model.Z, q.scaled(e, model.acceleration))
-    found = _momenta(model, model.t + e, model.moved(model.g, ahead), faster)
+    found = _momenta(model, model.t + e, model.tangent_at(model.g, ahead), faster)
     return [part(x, EPS) for x in found]
 
 
@@ -107,7 +107,7 @@ def _other_momentum(model: LagrangianModel) -> Values:
     """Π_o with its rate, and ḣ: ⟨Π_o, E⟩ is the momentum along Eg on the left, gE on the right."""
     e = nilpotent(EPS)
     ahead, _ = model.displaced((e, model.Z))
-    t, g = model.t + e, model.moved(model.g, ahead)
+    t, g = model.t + e, model.tangent_at(model.g, ahead)
     undone = q.inverse(model.g)
     assert undone is not None
     back = model.back_along(undone, EPS)
@@ -115,7 +115,7 @@ def _other_momentum(model: LagrangianModel) -> Values:
     found = []
     for x in model.group.basis:
         aside = q.times(x, g) if model.side == "left" else q.times(g, x)
-        found.append(model.momentum(t, g, faster, model.carried(g, back, aside)))
+        found.append(model.momentum(t, g, faster, model.trivialised(g, back, aside)))
     return {
         "Π_o": _covector(model, [part(x, 0) for x in found]),
         "Π̇_o": _covector(model, [part(x, EPS) for x in found]),
@@ -126,7 +126,7 @@ def _other_momentum(model: LagrangianModel) -> Values:
 def _rate(model: LagrangianModel, what: Tree, env: Environment) -> Any:
     """d/dt of a function of Π_a and of g along the motion."""
     e = nilpotent(EPS)
-    g = model.moved(model.g, model.displaced((e, model.Z))[0])
+    g = model.tangent_at(model.g, model.displaced((e, model.Z))[0])
     now = (part(x, 0) for x in _momenta(model, model.t, model.g, model.Z))
     pairs = enumerate(zip(now, _rates(model), strict=True), 1)
     momenta: dict[tuple[int, ...], Any] = {(a,): p + e * rate for a, (p, rate) in pairs}
@@ -150,7 +150,9 @@ def _forces(model: LagrangianModel) -> list[Any]:
     found = []
     for e in model.group.basis:
         aside, _ = model.displaced((nilpotent(ETA), e))
-        found.append(part(model.lagrangian(model.t, model.moved(model.g, aside), model.Z), ETA))
+        found.append(
+            part(model.lagrangian(model.t, model.tangent_at(model.g, aside), model.Z), ETA)
+        )
     return found
 
 
@@ -247,7 +249,7 @@ def _along(model: LagrangianModel, e: Matrix) -> list[Any]:
     turned = [_conjugated(model, h, back, x) for x in model.group.basis]
     rates = [part(model.momentum(model.t, model.g, model.Z, _rate_by_flow(x)), 0) for x in turned]
     if model.advected and model.advected.rows:
-        moved = model.advected.at(model.moved(model.g, h))
+        moved = model.advected.at(model.tangent_at(model.g, h))
         rates += [part(row[0], EPS) for row in moved]
     return rates
 

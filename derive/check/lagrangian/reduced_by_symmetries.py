@@ -40,7 +40,7 @@ class ReducedPoint:
     def fields(self) -> list[Matrix]:
         """η_i, the fields carried to 𝔤."""
         m = self.model
-        return [x.carried(m, self.t, self.g, self.back)[1] for x in m.symmetries]
+        return [x.trivialised(m, self.t, self.g, self.back)[1] for x in m.symmetries]
 
     def pushed(self, Z: Matrix, xi: Matrix) -> Any:
         """The momentum of a velocity on ξ."""

@@ -110,7 +110,7 @@ class TorusModel:
         rows = range(self.torus.N)
         return Wave.of([self.roots[a * b] * self.roots[2 * a * r] for r in rows], b)
 
-    def moved(self, s: int) -> Matrix:
+    def along_rate(self, s: int) -> Matrix:
         """W + s Ẇ."""
         return q.plus(self.W, q.scaled(Fraction(s), self.rate))
 
@@ -187,13 +187,13 @@ def _environment(model: TorusModel, W: Matrix) -> Environment:
     zeta = _of_grid(model, cache(lambda: model.grid(model.zeta)))
 
     @cache
-    def moved(s: int) -> Environment:
-        return _environment(model, model.moved(s))
+    def along_rate(s: int) -> Environment:
+        return _environment(model, model.along_rate(s))
 
     def rate(_: Tree, a: tuple[Tree, ...], env: Environment) -> Any:
         total: Any = zero
         for s, weight in STEPS:
-            there = moved(s)
+            there = along_rate(s)
             total = total + evaluate(a[0], replace(there, indices=env.indices)) * weight
         return total
 

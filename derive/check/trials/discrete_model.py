@@ -52,7 +52,7 @@ class DiscreteModel(Model):
         if self.group.turns_space and not self.generic:
             self._by_quaternions()
         self.anywhere = [
-            AnyPotential(self, self.t, self.moved(g)) if self.generic else None
+            AnyPotential(self, self.t, self.images(g)) if self.generic else None
             for g in (self.g_0, self.g, self.next)
         ]
         self.aside = tuple(tuple(self.draw() for _ in range(self.s)) for _ in range(self.n))
@@ -79,7 +79,7 @@ class DiscreteModel(Model):
 
     def energy_at(self, k: int, g: Matrix) -> Any:
         """U at the k-th time, for the body moved by g."""
-        chosen, places = self.anywhere[k], self.moved(g)
+        chosen, places = self.anywhere[k], self.images(g)
         if chosen:
             return chosen.energy(self.t, places)
         return self.applied.potential(self.time(k), places, self.masses)
@@ -92,7 +92,7 @@ class DiscreteModel(Model):
         """The forces on the points at the k-th time."""
         if chosen := self.anywhere[k]:
             return chosen.forces
-        return self.applied.forces(self.time(k), self.moved(self.element(k)), self.masses)
+        return self.applied.forces(self.time(k), self.images(self.element(k)), self.masses)
 
     def element(self, k: int) -> Matrix:
         """g₀, g₁ or g₂."""
@@ -168,7 +168,7 @@ class DiscreteModel(Model):
     @cached_property
     def places_about_centre(self) -> list[Any]:
         """The places of the points in the body, about its centre of mass or a fixed point."""
-        return self.moved(self.about_centre(q.identity(self.n)))
+        return self.images(self.about_centre(q.identity(self.n)))
 
     @cached_property
     def free_motion(self) -> Matrix:
@@ -198,7 +198,7 @@ class DiscreteModel(Model):
 
     def work_of_inputs(self, e: Matrix) -> Any:
         """The work of force inputs and of a covector on a displacement e at g₁."""
-        pairs = zip(self.given_forces, self.moved(e), strict=True)
+        pairs = zip(self.given_forces, self.images(e), strict=True)
         work = sum((q.dot(f, v) for f, v in pairs), Fraction(0))
         if any(self.covector):
             back = q.inverse(self.g)
@@ -342,7 +342,7 @@ def _torque(model: DiscreteModel) -> Matrix:
     found = []
     for e in model.group.basis[:3]:
         along = q.times(model.g, model.about_centre(model.group.linear_part(e)))
-        pairs = zip(model.forces_at(1), model.moved(along), strict=True)
+        pairs = zip(model.forces_at(1), model.images(along), strict=True)
         work = sum((q.dot(f, v) for f, v in pairs), Fraction(0))
         found.append(work + model.work_of_inputs(along))
     return q.column(found)
@@ -350,8 +350,8 @@ def _torque(model: DiscreteModel) -> Matrix:
 
 def _in_space(model: DiscreteModel, k: int, g: Matrix, across: Matrix) -> Values:
     """The momenta of a step in space, Σ m (v r̄ − r v̄) and Σ m v, by the places at its end."""
-    speeds = scaled_each(model.masses, model.moved(q.scaled(1 / model.h, across)))
-    half = outer_sum(speeds, model.moved(g))
+    speeds = scaled_each(model.masses, model.images(q.scaled(1 / model.h, across)))
+    half = outer_sum(speeds, model.images(g))
     whole = q.minus(half, q.transposed(half))
     return {f"ℓ_{k}": whole, f"p_{k}": outer_sum(speeds, model.units)}
 

@@ -28,7 +28,7 @@ Values = dict[str, Any]
 
 def force_values(model: Model) -> Values:
     """γ, K, U_Q, N_Q, F_Q, N_u, F_u, D and their kin."""
-    ex, places = model.applied, model.moved(model.g)
+    ex, places = model.applied, model.images(model.g)
     values: Values = {}
     for account, members in ex.members():
         values |= account.values(model, members)
@@ -84,7 +84,7 @@ def force_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     for account, members in model.applied.members():
         if hasattr(account, "families"):
             families |= account.families(model, members)
-    places = model.moved(model.g)
+    places = model.images(model.g)
     for e, (d, sigma) in enumerate(model.applied.radial(places, model.masses), 1):
         families.setdefault("d", {})[e,] = q.column(d)
         families.setdefault("χ", {})[e,] = _in_body(model, d)
@@ -121,11 +121,11 @@ class ForceBalance:
         ]
 
     @cached_property
-    def centred_basis(self) -> list[Matrix]:
+    def barycentric_basis(self) -> list[Matrix]:
         """A basis of the linear parts of 𝔤, each element with the translation that keeps the centre
         in place (matrices of the group's size)."""
         count = len(self.group.linear_basis)
-        if self.group.centred:
+        if self.group.barycentric_blocks:
             back = q.minus(q.identity(self.model.n), centre_matrix(self.model))
             return [q.times(e, back) for e in self.group.basis]
         if not self.group.free_translations:
@@ -144,8 +144,8 @@ class ForceBalance:
 
     def moment_of_inertia_forces(self, rate: Matrix) -> Matrix:
         """Ā Σ m_i a_i ρ̄_i, the moment of the accelerations for g⁻¹g̈ = ``rate``."""
-        moved = self.model.moved(q.times(self.model.g, rate))
-        return self.moment_in_body(scaled_each(self.model.masses, moved))
+        image = self.model.images(q.times(self.model.g, rate))
+        return self.moment_in_body(scaled_each(self.model.masses, image))
 
     @cached_property
     def applied_moment(self) -> Matrix:
@@ -163,7 +163,7 @@ def centre_matrix(model: Model) -> Matrix:
     """The matrix S of a product of groups H ⋉ Rⁿ: the centre of mass of each factor in the last
     column of its block."""
     total = q.scaled(Fraction(0), q.identity(model.n))
-    for offset, factor in model.group.centred:
+    for offset, factor in model.group.barycentric_blocks:
         corner = offset + factor.n
         inside = [(m, r) for m, r in zip(model.masses, model.points, strict=True) if r[corner] != 0]
         whole = sum((m for m, _ in inside), Fraction(0))
@@ -173,7 +173,7 @@ def centre_matrix(model: Model) -> Matrix:
     return total
 
 
-def centred_values(model: Model) -> Values:
+def barycentric_values(model: Model) -> Values:
     """The values of S and of c_c, J_c, Z_c, moments and velocity about the centres of mass of the
     factors of a product."""
     S = centre_matrix(model)
@@ -195,14 +195,14 @@ def solution_values(model: Model) -> Values:
         values["r_c"] = q.column(centre)
         values["w_c"] = q.times(Z, model.homogeneous(centre))[: model.n]
     values["B"] = q.minus(s.applied_moment, s.moment_of_inertia_forces(q.times(Z, Z)))
-    tangents = [q.times(model.g, e) for e in s.centred_basis]
+    tangents = [q.times(model.g, e) for e in s.barycentric_basis]
     values["M"] = model.metric_matrix(tangents)
     convective = q.times(model.g, q.times(Z, Z))
     values["β"] = tuple(
         (load(model, e) - model.pairing(convective, x),)
-        for e, x in zip(s.centred_basis, tangents, strict=True)
+        for e, x in zip(s.barycentric_basis, tangents, strict=True)
     )
-    if group.centred:
+    if group.barycentric_blocks:
         rate = q.plus(Z_dot, q.times(Z_dot, centre_matrix(model)))
         values["ψ"] = q.column(group.nearest(rate))
     normal = group.normal_space_of_linear_parts
@@ -232,10 +232,10 @@ def place_values(model: Model) -> dict[str, Any]:
     """The values of r, a random place in the body, of v, its velocity in space (columns), and of
     the pressure there."""
     r = q.column(model.draw() for _ in range(model.n))
-    return {"r": r, "v": moved(model, model.nu, r)} | fluid_values(model, r)
+    return {"r": r, "v": image(model, model.nu, r)} | fluid_values(model, r)
 
 
-def moved(model: Model, g: Matrix, r: Matrix) -> Matrix:
+def image(model: Model, g: Matrix, r: Matrix) -> Matrix:
     """g(r) as a column, for a group element or a tangent matrix g and a column r."""
     return q.times(g, model.homogeneous(q.flatten(r)))[: model.n]
 
@@ -251,7 +251,7 @@ def integral(model: Model, form: Tree, env: Environment) -> Any:
     terms: list[Any] = []
     for m, at in zip(model.masses, model.points, strict=True):
         r = q.column(at)
-        here = {"r": r, "v": moved(model, model.nu, r)}
+        here = {"r": r, "v": image(model, model.nu, r)}
         if form == "p_r":
             here["p_r"] = pressure_at(r, env.names["Q_r"], env.names["p_0"])
         there = replace(env, names=ChainMap(here, env.names))  # type: ignore[arg-type]

@@ -25,11 +25,11 @@ from ..values.arithmetic import (
 from ..values.draws import Draws
 from ..values.evaluate import Environment, evaluate, point_index
 from .force_balance import (
-    centred_values,
+    barycentric_values,
     force_families,
     force_values,
+    image,
     integral,
-    moved,
     place_values,
     solution_values,
 )
@@ -112,8 +112,8 @@ def _bodies(model: Model) -> Values:
     """The moments m, c, J of the points, and J_c about the centre of mass."""
     m, c, J = model.moments
     values: Values = {"m": m, "c": c, "J": J}
-    if model.group.centred and not model.generic:
-        return values | centred_values(model)
+    if model.group.barycentric_blocks and not model.generic:
+        return values | barycentric_values(model)
     return values | {"J_c": moments_about(model, tuple(x[0] / m for x in c))}
 
 
@@ -135,8 +135,8 @@ def _group(model: Model) -> Values:
         m, c, _ = model.moments
         for name, linear, shift in (("R", "A", "T"), ("Ṙ", "α", "τ")):
             values[name] = q.plus(values[shift], q.scaled(1 / m, q.times(values[linear], c)))
-    moved = model.group.linear_part(g)
-    values["δC"] = part(q.times(q.transposed(moved), moved), EPS)
+    image = model.group.linear_part(g)
+    values["δC"] = part(q.times(q.transposed(image), image), EPS)
     return values
 
 
@@ -159,7 +159,7 @@ def _gradients(model: Model) -> Values:
 def _energies(model: Model) -> Values:
     """The values of L, U and h̃ at the point."""
     value = part(model.lagrangian(model.t, model.g, model.nu), 0)
-    potential = part(model.potential(model.t, model.moved(model.g)), 0)
+    potential = part(model.potential(model.t, model.images(model.g)), 0)
     energy = part(model.energy(model.t, model.g, model.nu), 0)
     return {"L": value, "L̃": value, "U": potential, "Ũ": potential, "h̃": energy}
 
@@ -175,8 +175,8 @@ def _motion(model: Model) -> Values:
     d = len(model.group.linear_basis)
     for name, element in (("ζ", Z), ("ζ̇", Z_dot)):
         values[name] = q.column(model.group.nearest(element)[:d])
-    if model.group.stated_basis:
-        values["z"] = q.column(model.group.stated.nearest(Z))
+    if model.group.user_basis:
+        values["z"] = q.column(model.group.in_user_basis.nearest(Z))
     if model.at.driven:
         values["u"] = q.column(model.covector)
     return values | ({} if model.generic else solution_values(model))
@@ -187,7 +187,7 @@ def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     families: dict[str, dict[tuple[int, ...], Any]] = {
         "m": {(i,): m for i, m in enumerate(model.masses, 1)},
         "r": {(i,): q.column(r) for i, r in enumerate(model.points, 1)},
-        "v": {(i,): q.column(v) for i, v in enumerate(model.moved(model.nu), 1)},
+        "v": {(i,): q.column(v) for i, v in enumerate(model.images(model.nu), 1)},
         "F": {(i,): q.column(f) for i, f in enumerate(model.forces, 1)},
     }
     if not model.generic:
@@ -229,7 +229,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         return part(model.momentum(model.nu, tangent(arguments, env)), 0)
 
     def point(head: Any, _: tuple[Tree, ...], env: Environment) -> Matrix:
-        return q.column(model.moved(model.g)[point_index(head[2], env) - 1])
+        return q.column(model.images(model.g)[point_index(head[2], env) - 1])
 
     own = (x for x, _ in model.applied.members() if hasattr(x, "functions"))
     return {
@@ -240,7 +240,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         **dict.fromkeys(("dϖ", "ω"), lambda _, a, env: exterior(*a)),
         "r": point,
         "∫": lambda _, a, env: integral(model, a[0], env),
-        "g": lambda _, a, env: moved(model, model.g, evaluate(a[0], env)),
+        "g": lambda _, a, env: image(model, model.g, evaluate(a[0], env)),
         "d/dt": lambda _, a, env: rate(model, a[0], env),
         "δA": lambda _, a, env: model.group.linear_part(q.times(model.g, direction(a[0]).xi)),
         "δT": lambda _, a, env: model.group.translation_part(q.times(model.g, direction(a[0]).xi)),
@@ -263,7 +263,7 @@ def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
         return action_varied(model)
     if what == MOVED_PLACE:
         _, g, _ = model.family(model.first, model.second)
-        return part(moved(model, g, evaluate("r", env)), mask)
+        return part(image(model, g, evaluate("r", env)), mask)
     if isinstance(what, tuple):
         i = point_index(what[1][2], env)
         return part(q.column(model.varied_places[i - 1]), mask)

@@ -77,7 +77,7 @@ class Model(Body):
         self.t = self.draw()
         inside = at.inside and group.has_inner_samples
         self.g = group.sample_inside(random, size) if inside else group.sample(random, size)
-        self.any_potential = AnyPotential(self, self.t, self.moved(self.g)) if generic else None
+        self.any_potential = AnyPotential(self, self.t, self.images(self.g)) if generic else None
         self.Z = self.algebra()
         self.first, self.second, self.mixed = (
             TangentVector(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
@@ -149,7 +149,7 @@ class Model(Body):
 
     def lagrangian(self, t: Any, g: Matrix, nu: Matrix) -> Any:
         """L̃(t, g, ν) = L at the moved points: equation (3)."""
-        return self.pairing(nu, nu) * Fraction(1, 2) - self.potential(t, self.moved(g))
+        return self.pairing(nu, nu) * Fraction(1, 2) - self.potential(t, self.images(g))
 
     def momentum(self, nu: Matrix, w: Matrix) -> Any:
         """p̃(w), the derivative of L̃ along the velocity: Σ m_i ⟨v_i, w r_i⟩, as ½ ‖v‖² has it."""
@@ -180,7 +180,7 @@ class Model(Body):
     @cached_property
     def varied_places(self) -> list[Vector]:
         """The moved points on the two-parameter family of δ and δ′, in nilpotent numbers."""
-        return self.moved(self.family(self.first, self.second)[1])
+        return self.images(self.family(self.first, self.second)[1])
 
     @cached_property
     def varied(self) -> Matrix:
@@ -218,7 +218,7 @@ class Model(Body):
     def work(self, w: Matrix) -> Fraction:
         """dŨ(w), for a tangent matrix w at g."""
         shifted = q.plus(self.g, q.scaled(nilpotent(ETA), w))
-        value = self.potential(self.t, self.moved(shifted))
+        value = self.potential(self.t, self.images(shifted))
         return Nilpotent.of(value).part(ETA)
 
     @cached_property
@@ -226,7 +226,7 @@ class Model(Body):
         """F_i = −∂U/∂r_i for each point, in space."""
         if self.any_potential:
             return self.any_potential.forces
-        return self.applied.forces(self.t, self.moved(self.g), self.masses)
+        return self.applied.forces(self.t, self.images(self.g), self.masses)
 
     @cached_property
     def given_forces(self) -> list[Vector]:
@@ -247,7 +247,7 @@ class Model(Body):
         """The force on each point, in space, by force inputs and damping together."""
         total = [[*f] for f in self.given_forces]
         if self.at.driven:
-            velocities = self.moved(self.nu)
+            velocities = self.images(self.nu)
             for i, kappa in damping_members(self).items():
                 for k, x in enumerate(velocities[i - 1]):
                     total[i - 1][k] -= kappa * x
@@ -258,7 +258,7 @@ class Model(Body):
         """The values u(E_a) on the basis of the covector of all inputs and damping."""
         found = []
         for u, e in zip(self.covector, self.group.basis, strict=True):
-            pairs = zip(self.nonpotential_forces, self.moved(q.times(self.g, e)), strict=True)
+            pairs = zip(self.nonpotential_forces, self.images(q.times(self.g, e)), strict=True)
             found.append(u + sum((q.dot(f, v) for f, v in pairs), Fraction(0)))
         return found
 

@@ -159,7 +159,7 @@ def basis_momenta(model: Model) -> list[Any]:
 
 def _force_on_algebra(model: Model) -> Matrix:
     """Φ = Σ Ā(m v)(g⁻¹v)‾, the variation of the metric, and CfJ or Σ ĀF r̄, the forces."""
-    own = _moment_in_body(model, model.g, _momenta(model, model.g, model.Z), model.moved(model.Z))
+    own = _moment_in_body(model, model.g, _momenta(model, model.g, model.Z), model.images(model.Z))
     if model.group.affine:
         return q.plus(own, _moment_in_body(model, model.g, model.forces, model.points))
     A = model.group.linear_part(model.g)
@@ -169,7 +169,7 @@ def _force_on_algebra(model: Model) -> Matrix:
 
 def _momenta(model: Model, g: Matrix, Z: Matrix) -> list[Vector]:
     """The momenta m_i v_i of the points in space, v = g Z r."""
-    return scaled_each(model.masses, model.moved(q.times(g, Z)))
+    return scaled_each(model.masses, model.images(q.times(g, Z)))
 
 
 def _moment_in_body(
@@ -185,8 +185,8 @@ def space_values(model: Model, acceleration: Matrix) -> dict[str, Any]:
 
     ℓ is a vector in R³ turned about, else the matrix Σ m (v r̄ − r v̄).
     """
-    places, speeds = model.moved(model.g), model.moved(model.nu)
-    forces = model.moved(acceleration)
+    places, speeds = model.images(model.g), model.images(model.nu)
+    forces = model.images(acceleration)
     e = nilpotent(EPS)
     along = q.plus(model.g, q.scaled(e, model.nu))
     faster = q.plus(model.nu, q.scaled(e, acceleration))
@@ -239,9 +239,9 @@ def rate(model: Model, what: Tree, env: Environment) -> Any:
     nu = q.times(g, Z)
     match what:
         case ("call", ("at", "r", i), "t"):
-            return part(q.column(model.moved(g)[point_index(i, env) - 1]), EPS_PRIME)
+            return part(q.column(model.images(g)[point_index(i, env) - 1]), EPS_PRIME)
         case ("at", "v", i):
-            return part(q.column(model.moved(nu)[point_index(i, env) - 1]), EPS_PRIME)
+            return part(q.column(model.images(nu)[point_index(i, env) - 1]), EPS_PRIME)
     if what != ON_VARIATION:
         raise EvaluationError("d/dt is of ϖ(δy), r_i(t) and v_i, where points give the Lagrangian")
     momentum = model.momentum(nu, derivative_of(g, EPS))

@@ -155,7 +155,7 @@ class Body(Draws):
         """A place as a column: r, or (r, 1) for an affine action."""
         return q.column((*r, Fraction(1)) if self.group.affine else r)
 
-    def moved(self, g: Matrix) -> list[Vector]:
+    def images(self, g: Matrix) -> list[Vector]:
         """The places in space of the points moved by g; for a tangent matrix their velocities."""
         ends = q.transposed(tuple(q.flatten(self.homogeneous(r)) for r in self.points))
         return [*q.transposed(q.times(g[: self.n], ends))]
@@ -164,12 +164,12 @@ class Body(Draws):
         """Σ m_i ⟨a r_i, b r_i⟩, the kinetic metric of two tangent matrices at g; ``weights``: those
         of the points that stand for m_i."""
         weights = self.masses if weights is None else weights
-        pairs = zip(weights, self.moved(a), self.moved(b), strict=True)
+        pairs = zip(weights, self.images(a), self.images(b), strict=True)
         return sum((m * q.dot(u, v) for m, u, v in pairs), Fraction(0))
 
     def metric_matrix(self, tangents: list[Matrix]) -> Matrix:
         """The matrix of the kinetic metric on tangent matrices at g."""
-        moved = [[x for v in self.moved(a) for x in v] for a in tangents]
+        moved = [[x for v in self.images(a) for x in v] for a in tangents]
         weights = [m for m in self.masses for _ in range(self.n)]
         rows = [[m * x for m, x in zip(weights, u, strict=True)] for u in moved]
         return q.times(q.matrix(rows), q.transposed(q.matrix(moved)))

@@ -51,9 +51,9 @@ def group_of(problem: Mapping[str, Any]) -> Group | None:
         return _of_torus(problem, name, basis)
     if "advected" in problem:
         return _carrying(problem, name, basis)
-    found = _stated(problem, name, basis) if IDENTIFIER.fullmatch(name) else _named(name, basis)
+    found = _user_group(problem, name, basis) if IDENTIFIER.fullmatch(name) else _named(name, basis)
     if "lagrangian" in problem:
-        found = (on_homogeneous(found) if found.affine else found).stated
+        found = (on_homogeneous(found) if found.affine else found).in_user_basis
     homogeneous = len(found.factors) == 1
     if homogeneous != problem.get("homogeneous"):
         kept = "an affine group kept as a linear one on (r, 1)"
@@ -86,7 +86,9 @@ def _carrying(problem: Mapping[str, Any], name: str, basis: tuple[Any, ...]) -> 
         raise RecordError("the basis has no blocks for what it carries along")
     try:
         constants = found.structure_constants
-        known = None if IDENTIFIER.fullmatch(name) else group(name).stated.structure_constants
+        known = (
+            None if IDENTIFIER.fullmatch(name) else group(name).in_user_basis.structure_constants
+        )
     except ValueError as error:
         raise RecordError(str(error)) from None
     if known not in (None, constants):
@@ -109,7 +111,7 @@ def _named(name: str, basis: tuple[Any, ...]) -> Group:
     return named
 
 
-def _stated(problem: Mapping[str, Any], name: str, basis: tuple[Any, ...]) -> Group:
+def _user_group(problem: Mapping[str, Any], name: str, basis: tuple[Any, ...]) -> Group:
     """The group of the basis that the problem states; ``RecordError`` where there is none."""
     affine = bool(problem.get("homogeneous")) or problem.get("action") == "affine"
     try:

@@ -101,7 +101,7 @@ class Draws:
         for data, force in zip(self.inputs_of("force"), forces, strict=True):
             found |= {suffixed(data["name"], k): x for k, x in enumerate(force, 1)}
         for data in self.inputs_of("covector"):
-            for a, e in enumerate(self.group.stated.basis, 1):
+            for a, e in enumerate(self.group.in_user_basis.basis, 1):
                 parts = zip(self.group.nearest(e), covector, strict=True)
                 found[suffixed(data["name"], a)] = sum((x * u for x, u in parts), Fraction(0))
         return found

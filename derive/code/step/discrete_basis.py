@@ -105,15 +105,15 @@ class OnBasis:
     def pushed(self, a: int) -> Node:
         """What the forces have on E_a."""
         e = self.e
-        if self._told:
-            own = (x for x in self._told if not has(x, "g_0", "g_2"))
+        if self._with_forces:
+            own = (x for x in self._with_forces if not has(x, "g_0", "g_2"))
             t = replaced(add(*own), ("at", "E", "a"), ("at", "E", a))
         else:
             t = self._on(a, (x for x in self._balance[0] if not has(x, "g_0", "g_2")))
         return -e.number(t, {"h": e.one, **self._forces})
 
     @cached_property
-    def _told(self) -> tuple[Tree, ...]:
+    def _with_forces(self) -> tuple[Tree, ...]:
         """The terms of the balance on E_a with the forces of the problem in it, where the record
         has that: there it is shorter."""
         found = self.e.record["motion"].equations[-1]

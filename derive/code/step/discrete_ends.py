@@ -35,14 +35,14 @@ STEP = "step"
 
 @dataclass
 class Ends:
-    """The letters of the discrete record of a problem: ``here``, the lowering of its motion in
+    """The letters of the discrete record of a problem: ``motion``, the lowering of its motion in
     time, whose state and constants the step shares."""
 
-    here: Lowering
+    motion: Lowering
     record: Derivation
 
     def __post_init__(self) -> None:
-        reader = self.here.reader
+        reader = self.motion.reader
         self.lowering = Lowering(self.record, reader.group, reader.options, self.graph)
         own, d = self.lowering.reader, self.record.problem
         own.state |= {name: reader.name(name) for name in SHARED if self._known(name)}
@@ -60,26 +60,26 @@ class Ends:
             own.memo[moved] = self._place(i)
 
     def _known(self, name: str) -> bool:
-        return self.here.record.definition(name) is not None
+        return self.motion.record.definition(name) is not None
 
     def _given(self, part: str) -> list[Node]:
         """The numbers of a covector that is given, in the basis of the record."""
-        state = self.here.reader.state
+        state = self.motion.reader.state
         return [x for (x,) in matrix(state[part])] if part in state else []
 
     def _place(self, i: int) -> Value:
         """r_i at the time: A r_i, with T where there is one; as in the rates, by the same nodes."""
-        return self.here.reader.applied(("call", ("at", "r", i), "t"))
+        return self.motion.reader.applied(("call", ("at", "r", i), "t"))
 
     @property
     def graph(self) -> Graph:
         """That of the motion in time."""
-        return self.here.graph
+        return self.motion.graph
 
     @property
     def space(self) -> StateSpace:
         """The state."""
-        return self.here.reader.space
+        return self.motion.reader.space
 
     @property
     def group(self) -> Group:
@@ -117,7 +117,7 @@ class Ends:
 
     def invert(self, name: str) -> None:
         """Have the inverse of what the motion in time has, too, by its nodes and tests."""
-        self.lowering.reader.memo["inv", name] = self.here.tree(("inv", name))
+        self.lowering.reader.memo["inv", name] = self.motion.tree(("inv", name))
 
     def value(self, t: Tree, given: Given = NONE) -> Value:
         """The value of a tree where some letters, or other parts of it, have these values."""
@@ -172,7 +172,7 @@ class Centre:
     def __init__(self, ends: Ends):
         self.ends, self.size = ends, ends.group.n if ends.group.affine else 0
 
-    def moved(self, linear: Matrix, shift: Matrix) -> Matrix:
+    def varied(self, linear: Matrix, shift: Matrix) -> Matrix:
         """The change of R with such changes of A and T."""
         e = self.ends
         return (
@@ -195,7 +195,7 @@ class Centre:
         if not self.size:
             return ()
         none = self.ends.zero(self.ends.space.values["T"])
-        return q.minus(moved, self.moved(linear, none))
+        return q.minus(moved, self.varied(linear, none))
 
 
 def has(t: Tree, *letters: str) -> bool:

@@ -50,7 +50,7 @@ class Linear:
         Z = e.space.hat(e.space.coordinates)
         alpha = q.times(self.A, e.group.linear_part(Z))
         tau = q.times(self.A, e.group.translation_part(Z)) if self.centre.size else ()
-        return entries_of(alpha) + entries_of(self.centre.moved(alpha, tau))
+        return entries_of(alpha) + entries_of(self.centre.varied(alpha, tau))
 
     def end(self, moved: Matrix) -> list[Node]:
         """What a step that moves A so adds to g; and itself."""

@@ -39,7 +39,7 @@ def turning(e: Ends, momentum: list[Node], unknowns: list[Node]) -> dict[str, li
     return {
         "step_momentum": [
             *entries_of(_at_rest(e, zeta)),
-            *entries_of(centre.moved(q.times(A, e.matrix(("hat", "ζ"))), q.times(A, drift))),
+            *entries_of(centre.varied(q.times(A, e.matrix(("hat", "ζ"))), q.times(A, drift))),
         ],
         "step_force": [*entries_of(_torque(e)), *entries_of(centre.push())],
         "step_guess": [y * HALF for y in entries_of(spin)],

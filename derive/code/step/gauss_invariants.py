@@ -32,7 +32,7 @@ LARGEST, MORE = 26, 20
 P = PRIMES[0]
 
 
-def kept_by_gauss(
+def invariants_of_gauss(
     functions: Mapping[str, EmittedFunction],
     space: StateSpace,
     sizes: Mapping[str, int],

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ...algebra.groups import Group, told_entries
+from ...algebra.groups import Group, affine_entries
 from ...algebra.relations import Relations, relations
 from ...algebra.samplers import minimal_polynomial
 from ...algebra.user_groups import nilpotent
@@ -51,12 +51,12 @@ class EntryConditions:
     sufficient: bool
     entries: Sequence[Line]
     factor: Group
-    kept: Relations
+    relations: Relations
 
     @property
     def open(self) -> bool:
         """Is the factor open in the affine hull of its matrices?"""
-        kept = self.kept
+        kept = self.relations
         return not (kept.form or kept.determinant) and kept.dimension == self.factor.dimension
 
     def attained(self, at: Sequence[Any]) -> bool:
@@ -68,7 +68,7 @@ class EntryConditions:
 
     def _exponential(self, a: q.Matrix) -> bool:
         """Is the matrix exp of one in the Lie algebra?  True is proved."""
-        kept, S = self.kept, self.kept.form
+        kept, S = self.relations, self.relations.form
         if kept.dimension > self.factor.dimension or kept.complex_basis:
             return False
         product = q.times(q.transposed(a), q.times(S, a)) if S else ()
@@ -117,13 +117,15 @@ class _EntryReader:
         self, factor: Group, places: Mapping[int, tuple[int, int]], offset: int, size: int
     ):
         self.factor, self.places, self.offset, self.size = factor, places, offset, size
-        self.kept = relations(factor)
-        told = told_entries(factor)
+        self.relations = relations(factor)
+        told = affine_entries(factor)
         free = sorted({x for row in told for _, weights in row for x in weights})
         weights = [[[w.get(x, Fraction(0)) for x in free] for _, w in row] for row in told]
-        self.told = [weights[i][j] for i, j in places.values()]
+        self.weight_rows = [weights[i][j] for i, j in places.values()]
         one = q.identity(len(places))
-        rows, pivots = q.echelon(tuple((*w, *e) for w, e in zip(self.told, one, strict=True)))
+        rows, pivots = q.echelon(
+            tuple((*w, *e) for w, e in zip(self.weight_rows, one, strict=True))
+        )
         m = len(free)
         self.solved = [(p, row) for p, row in zip(pivots, rows, strict=False) if p < m]
         self.linear = [row[m:] for p, row in zip(pivots, rows, strict=True) if p >= m]
@@ -156,7 +158,7 @@ class _EntryReader:
 
     def conditions(self, *, left: bool) -> EntryConditions:
         """All of them."""
-        n, kept = self.factor.n, self.kept
+        n, kept = self.factor.n, self.relations
         whole = [row[:n] for row in self.entries[:n]]
         rows = [i for i in range(n) if all(self.known[i][:n])]
         columns = [j for j in range(n) if all(row[j] for row in self.known[:n])]
@@ -200,14 +202,14 @@ class _EntryReader:
         """Is the unit vector e_j, as a row or a column, an eigenvector of all of 𝔥?"""
         span = [i for i in range(self.factor.size) if i != j]
         basis = self.factor.basis
-        return any(not any(f(e, i) for e in basis for i in span) for f in _beside(j))
+        return any(not any(f(e, i) for e in basis for i in span) for f in _in_line_with(j))
 
     def _sufficient(self, *, full: bool) -> bool:
         """Are the conditions sufficient, whatever the values?"""
-        g, kept, S = self.factor, self.kept, self.kept.form
+        g, kept, S = self.factor, self.relations, self.relations.form
         if nilpotent(g.basis):  # its orbits are closed: one that is open in its hull is all of it
             moved = [[e[i][j] for i, j in self.places.values()] for e in g.basis]
-            return q.rank(q.matrix(moved)) == q.rank(q.matrix(self.told))
+            return q.rank(q.matrix(moved)) == q.rank(q.matrix(self.weight_rows))
         if kept.dimension > g.dimension or (full and kept.complex_basis):
             return False
         skew = bool(S) and q.transposed(S) == q.scaled(-1, S)
@@ -230,12 +232,12 @@ class _EntryReader:
             for b, j in enumerate(places[: a + 1]):
                 f = self._product(lines[a], lines[b], metric)
                 at_one = metric[i][j]
-                if self.kept.conformal and at_one and reference is None:
+                if self.relations.conformal and at_one and reference is None:
                     reference = f, at_one
-                elif self.kept.conformal and at_one and reference:
+                elif self.relations.conformal and at_one and reference:
                     by = -at_one / reference[1]
                     yield _sum(f, {e: by * c for e, c in reference[0].items()})
-                elif not self.kept.conformal or not at_one:
+                elif not self.relations.conformal or not at_one:
                     yield f
 
     def _product(self, one: Line, two: Line, metric: q.Matrix) -> Polynomial:
@@ -260,7 +262,7 @@ class _EntryReader:
         return total
 
 
-def _beside(j: int) -> tuple[Callable[[q.Matrix, int], Any], ...]:
+def _in_line_with(j: int) -> tuple[Callable[[q.Matrix, int], Any], ...]:
     """The entries of column j, and of row j."""
     return lambda e, i: e[i][j], lambda e, i: e[j][i]
 

@@ -198,7 +198,7 @@ def _form(
     right = [
         plain(form.expansion.value),
         *(mul(plain(d), _power(linear(row, away), 2)) for d, row in form.squares),
-        *_beside(x.leaf, form, away),
+        *_products(x.leaf, form, away),
         *higher(form.expansion, away),
     ]
     positive, negative = form.signature
@@ -207,7 +207,7 @@ def _form(
     return draft.step([equation], prose + _verdict(draft, x))
 
 
-def _beside(on: Leaf, form: EnergyCasimirForm, away: Sequence[Tree]) -> list[Tree]:
+def _products(on: Leaf, form: EnergyCasimirForm, away: Sequence[Tree]) -> list[Tree]:
     """The products n_j m_j, which vanish on the tangent space of the leaf."""
     return [_product(n, m, away) for n, m in zip(on.equations, form.mixed, strict=True) if any(m)]
 

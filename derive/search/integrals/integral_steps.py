@@ -78,7 +78,7 @@ def rate(x: Tree) -> Tree:
     return (x[0], {"Π": "Π̇", "A": "Ȧ", "Γ": "Γ̇"}[x[1]], *x[2:])
 
 
-def _kept(trees: Iterable[Tree]) -> list[Equation]:
+def _conserved(trees: Iterable[Tree]) -> list[Equation]:
     """The equations that say that motions keep these polynomials."""
     return [Equation(("call", "d/dt", t), 0) for t in trees]
 
@@ -88,7 +88,7 @@ def _casimirs(whole: IntegralsFound, reduced: Step, c: Chapter) -> Step:
     draft.depends_on(reduced)
     prose = draft.claim("casimirs.kept")
     prose += draft.claim(f"casimirs.all{_large(whole)}", degree=whole.degree)
-    return draft.step(_kept(map(whole.system.algebra.tree, whole.casimirs)), prose)
+    return draft.step(_conserved(map(whole.system.algebra.tree, whole.casimirs)), prose)
 
 
 def _large(whole: IntegralsFound) -> str:
@@ -104,7 +104,7 @@ def _integrals(whole: IntegralsFound, reduced: Step, c: Chapter) -> Step:
     trees = [algebra.field_tree(algebra.hamiltonian), *map(algebra.tree, whole.integrals)]
     prose = _said(whole, draft)
     prose += all_conditions(whole, whole.conditions, draft) if whole.conditions else ()
-    return draft.step(_kept(trees), prose)
+    return draft.step(_conserved(trees), prose)
 
 
 def _said(whole: IntegralsFound, draft: Draft) -> Prose:

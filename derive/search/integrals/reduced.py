@@ -11,7 +11,7 @@ from ...algebra.groups import Group, constant_entries
 from ...language.limits import Refused
 from ...language.tree import Tree, add, mul, nodes, replaced
 from ...language.values import arithmetic
-from ...problem.entries_on_orbit import settled
+from ...problem.entries_on_orbit import with_constant_entries
 from ...problem.problem import Problem
 from .lie_poisson import ONE, Exponents, LiePoisson, plain, powers, sorted_terms
 
@@ -60,7 +60,7 @@ def reduced(problem: Problem) -> LiePoisson:
     group, given = problem.group, problem.lagrangian
     assert group is not None
     assert given is not None
-    L = settled(given.L, group)
+    L = with_constant_entries(given.L, group)
     parameters = _letters(L, problem)
     symbolic = _Symbolic(problem.name, L, group, parameters)
     system, entries = _without_energy(problem)
@@ -79,7 +79,9 @@ def _without_energy(problem: Problem) -> tuple[LiePoisson, list[Place]]:
     assert given is not None
     epsilon = 1 if given.trivialisation == "left" else -1
     carried = sum(x.size for x in problem.advected or ())
-    brackets, entries = _brackets(group, epsilon, _entries(settled(given.L, group)), carried)
+    brackets, entries = _brackets(
+        group, epsilon, _entries(with_constant_entries(given.L, group)), carried
+    )
     size = group.dimension + len(entries)
     if size > VARIABLES:
         raise NotReducedError(
@@ -119,8 +121,8 @@ def _brackets(
 
     def moved_by(place: Place, b: int) -> dict[Place | None, Fraction]:
         if len(place) == 1:
-            return _carried(group, epsilon, place, b, carried)
-        return _moved(group, epsilon, place, b)
+            return _advected_rate(group, epsilon, place, b, carried)
+        return _tangent_entry(group, epsilon, place, b)
 
     entries = sorted(used)
     for place in entries:
@@ -139,7 +141,9 @@ def _brackets(
     return {ij: form for ij, form in found.items() if form}, entries
 
 
-def _moved(group: Group, epsilon: int, place: Place, b: int) -> dict[Place | None, Fraction]:
+def _tangent_entry(
+    group: Group, epsilon: int, place: Place, b: int
+) -> dict[Place | None, Fraction]:
     """(gE_b)_ij or (E_bg)_ij: the entries of g in it, ``None`` for the number 1."""
     (i, j), e = place, group.basis[b]
     found: dict[Place | None, Fraction] = {}
@@ -152,7 +156,7 @@ def _moved(group: Group, epsilon: int, place: Place, b: int) -> dict[Place | Non
     return {x: c for x, c in found.items() if c}
 
 
-def _carried(
+def _advected_rate(
     group: Group, epsilon: int, place: Place, b: int, size: int
 ) -> dict[Place | None, Fraction]:
     """−ε(ρ(E_b)Γ)_i, ρ(E_b) the last block of E_b, of this size."""

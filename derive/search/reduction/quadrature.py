@@ -96,7 +96,7 @@ def quadrature_of(r: Routhian) -> Quadrature | None:
     for k in r.functions.invariant:
         entry = r.functions.leaves[k]
         slope = _slope(r, r.slopes(entry))
-        if slope and all(_told_by(r, k, x) for x in _all(r, slope)):
+        if slope and all(_depends_on_alone(r, k, x) for x in _all(r, slope)):
             return Quadrature(entry, slope, *_degrees(r, k, slope) or ())
     return None
 
@@ -107,7 +107,7 @@ def _all(r: Routhian, slope: Element) -> Vector:
     return [slope, r.functions.simplified(r.potential), *parts]
 
 
-def _told_by(r: Routhian, k: int, x: Element) -> bool:
+def _depends_on_alone(r: Routhian, k: int, x: Element) -> bool:
     """Has a function no entry of g but one, also in the functions that it has?"""
     own, first = r.functions.leaves, r.functions.first_entry
     places = r.functions.depends_on(x)

@@ -63,7 +63,7 @@ class Routhian:
         of = self.functions.of
         if any(x.entries is None for x in chosen):
             self._require_small()
-        self.eta = [carried(x, self.functions) for x in chosen]
+        self.eta = [coordinates_of_field(x, self.functions) for x in chosen]
         self.metric, self.linear, self.potential = self._parts(of(L))
         self.functions.invariant = self._invariant(of)
 
@@ -349,7 +349,7 @@ def inertia(i: int, j: int) -> Tree:
     return ("entry", "𝕀", i + 1, j + 1)
 
 
-def carried(x: Symmetry, functions: StateFunctions) -> Vector:
+def coordinates_of_field(x: Symmetry, functions: StateFunctions) -> Vector:
     """The coordinates of η, what the field of a symmetry is in 𝔤."""
     of, group, known = functions.of, x.group, x.entries
     eta = [[of(y) for y in row] for row in known] if known else _conjugated(x, functions)

@@ -206,7 +206,7 @@ def symmetries_of(
     ``of_integrand``: may L̃ have the integrand of an integral in its place?
     """
     integral = of_integrand and any(isinstance(p, SelfGravity) for p in problem.potentials)
-    integrand = Integrand.beside(problem.parameters) if integral else None
+    integrand = Integrand.with_free_names(problem.parameters) if integral else None
     scalar = with_scalar_lagrangian(problem, record, integrand)
     of_points = problem.lagrangian is None
     system = SymmetryConditions(scalar)
@@ -234,7 +234,7 @@ def symmetries_of(
     )
 
 
-def kept_with_damping(problem: Problem, record: Derivation) -> SymmetriesFound:
+def conserved_with_damping(problem: Problem, record: Derivation) -> SymmetriesFound:
     """The symmetries of L̃ whose quantities the motion of a damped problem keeps: they shift no
     instant and move damped points r_i by constants w_i, 0 or not.  The forces −κ_i v_i change what
     is kept by the symmetry at the rate −Σ κ_i ⟨v_i, w_i⟩, so that with Σ κ_i ⟨r_i, w_i⟩ it is kept
@@ -301,7 +301,7 @@ def _oriented(i: int, j: int, number: Tree) -> Central:
 def emitted_state(problem: Problem) -> dict[str, Tree]:
     """The numbers of the state in the emitted code: A and T of each factor, then ζ."""
     assert problem.group is not None
-    group = problem.group.stated
+    group = problem.group.in_user_basis
     found: list[Tree] = []
     for offset, factor in group.places:
         rows = range(offset + 1, offset + factor.n + 1)

@@ -219,7 +219,7 @@ class Integrand:
     weight: str
 
     @classmethod
-    def beside(cls, taken: Collection[str]) -> Integrand:
+    def with_free_names(cls, taken: Collection[str]) -> Integrand:
         """With names that are not taken: ``node``, ``weight``, with as many _ as it takes."""
         end = next(x for k in count() if not {"node" + (x := "_" * k), "weight" + x} & {*taken})
         return cls("node" + end, "weight" + end)
@@ -274,7 +274,7 @@ def with_scalar_lagrangian(
         )
     if problem.lagrangian is not None:
         return replace(problem, inputs=())
-    group = problem.group.stated
+    group = problem.group.in_user_basis
     letters = integrand.letters if integrand else {}
     return replace(
         problem,
@@ -300,7 +300,7 @@ def scalar_lagrangian(
     lowering = _KeepingPi(record, problem.group, Options())
     energy, space = lowering.reader.number("h̃"), lowering.reader.space
     leaves: dict[Node, Tree] = dict(
-        zip(space.coordinates, coordinates(problem.group.stated), strict=True)
+        zip(space.coordinates, coordinates(problem.group.in_user_basis), strict=True)
     )
     for i, row in enumerate(space.element, 1):
         for j, x in enumerate(row, 1):

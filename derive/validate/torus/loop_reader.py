@@ -60,13 +60,13 @@ class LoopReader(Reader):
         """Pass a word that is not read, or a table or function of the file's own."""
         start, kinds = self.at, dict(self.kinds)
         try:
-            if not self._own():
+            if not self._table_or_function():
                 super()._leave(read)
         except CodeError:
             self.at, self.kinds = start, kinds
             super()._leave(read)
 
-    def _own(self) -> bool:
+    def _table_or_function(self) -> bool:
         """Read a table of numbers, or a function, where one stands here."""
         if self.tokens[self.at].column != 0:
             return False

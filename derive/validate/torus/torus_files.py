@@ -33,7 +33,7 @@ from ...language import rational as q
 from ...record.as_json import to_json
 from ...record.record import Derivation
 from ..compare import SIZE, Agreement
-from ..read_file import LANGUAGES, Beside, beside, words
+from ..read_file import LANGUAGES, Beside, unread_text, words
 from ..straight_line import Measured
 from ..syntax import SYNTAX, tokens
 from ..terms import CodeError, DiffersError
@@ -151,11 +151,11 @@ class TorusClaims:
         self.rates = self.parts(
             {n: evaluate(vorticity.rhs, env.with_index("𝐧", i)) for n, i in at.items()}
         )
-        self.energy = self.whole(evaluate(d["energy"].equations[0].rhs, env))
+        self.energy = self.residue(evaluate(d["energy"].equations[0].rhs, env))
         powers = (reduce(q.times, [self.model.W] * k) for k in POWERS)
-        self.traces = [self.whole(q.trace(x) * Fraction(1, self.torus.N)) for x in powers]
+        self.traces = [self.residue(q.trace(x) * Fraction(1, self.torus.N)) for x in powers]
 
-    def whole(self, x: Any) -> int:
+    def residue(self, x: Any) -> int:
         """A number as an integer modulo p."""
         return int((x - self.model.roots.i * 0).n)
 
@@ -165,14 +165,14 @@ class TorusClaims:
         for n in self.torus.half_plane:
             here, there = a[n], a[-n[0], -n[1]]
             found += [(here + there) / 2, (here - there) / (2 * self.model.roots.i)]
-        return [self.whole(x) for x in found]
+        return [self.residue(x) for x in found]
 
     def elementary(self, name: str, x: int) -> int:
         """A function at a residue: sin and cos of angles of the torus, and arctan 1."""
         if name == "atan" and x == 1:
-            return self.whole(self.model.pi / 4)
+            return self.residue(self.model.pi / 4)
         try:
-            return self.whole(self.model.elementary(name, Residue(x, self.p)))
+            return self.residue(self.model.elementary(name, Residue(x, self.p)))
         except EvaluationError as error:
             raise CodeError(str(error)) from None
 
@@ -227,11 +227,11 @@ def has_known_loops(name: str, files: Mapping[str, str], prefix: str) -> bool:
     return True
 
 
-def beside_loops(name: str, files: Mapping[str, str], prefix: str) -> Beside:
+def unread_parts(name: str, files: Mapping[str, str], prefix: str) -> Beside:
     """What of a file is not read."""
     reader = loops_of(name, files, prefix)
     reader.module()
-    return beside(reader, files[name])
+    return unread_text(reader, files[name])
 
 
 def compare_loops(

@@ -300,7 +300,7 @@ def _matter(panel: Panel, sheet: Sheet) -> None:
         area = hull([on_paper[i] for i in panel.part.points])
         sheet.strokes.append(Stroke(area, "body", "wash"))
     for a, b in panel.ties:
-        ends = (_beside(panel, a, b), _beside(panel, b, a))
+        ends = (_end_on_ring(panel, a, b), _end_on_ring(panel, b, a))
         sheet.strokes.append(Stroke(ends, "body", "thin"))
     heaviest = max((m for m, _ in panel.part.points.values()), default=1.0) or 1.0
     for i, at in on_paper.items():
@@ -318,7 +318,7 @@ def _matter(panel: Panel, sheet: Sheet) -> None:
         sheet.wishes.append(Wish(Label("r", "c"), at, 1.7))
 
 
-def _beside(panel: Panel, p: Vector, other: Vector) -> Point:
+def _end_on_ring(panel: Panel, p: Vector, other: Vector) -> Point:
     """The end p of a line towards another point, on the ring of the origin if p is that."""
     a, b = panel.to(p), panel.to(other)
     long = math.dist(a, b)

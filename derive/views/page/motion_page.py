@@ -117,7 +117,9 @@ def motion_page(
 ) -> str:
     """The page of a motion from 0 to ``duration``, to a tolerance."""
     found = data(code, problem, record, begin, language) | {"t": duration, "tol": tol}
-    written = json.dumps(_whole(found), ensure_ascii=False, sort_keys=True, separators=(",", ":"))
+    written = json.dumps(
+        _with_integers(found), ensure_ascii=False, sort_keys=True, separators=(",", ":")
+    )
     template = environment("html", autoescape=True).get_template("motion.html.jinja")
     return template.render(
         language=language.name,
@@ -131,13 +133,13 @@ def motion_page(
     )
 
 
-def _whole(data: Any) -> Any:
+def _with_integers(data: Any) -> Any:
     """The same data with whole numbers as such, 1 for 1.0, and without what is false, which a
     script takes for what is not there."""
     if isinstance(data, dict):
-        return {name: _whole(x) for name, x in data.items() if x is not False}
+        return {name: _with_integers(x) for name, x in data.items() if x is not False}
     if isinstance(data, list | tuple):
-        return [_whole(x) for x in data]
+        return [_with_integers(x) for x in data]
     whole = isinstance(data, float) and data.is_integer() and abs(data) < 1e6
     return int(data) if whole and str(data) != "-0.0" else data
 

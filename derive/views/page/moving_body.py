@@ -28,7 +28,7 @@ def moving_body(problem: Mapping[str, Any], group: Group | None, state: Sequence
     none["stretches"] = False
     if group is None or any(factor.n not in (2, 3) for _, factor in group.places):
         return none
-    group = group.stated
+    group = group.in_user_basis
     at = element(group, state)
     if not at:
         return none

@@ -18,7 +18,7 @@ OVERVIEW, PRECISION = "overview", "precision"
 """One sheet with all kinds that fit; a diagram of several runs (:mod:`.precision`)."""
 
 
-def told_kinds() -> str:
+def described_kinds() -> str:
     """The kinds with what they are."""
     listed = (
         KINDS

@@ -75,7 +75,7 @@ def written(figure: Any, name: str, mark: str = ".") -> bytes:
     form, file = ending(name), io.BytesIO()
     if mark != ".":
         with_mark(figure, mark)
-    settled(figure)
+    laid_out(figure)
     figure.savefig(file, format=form[1:], **FORMATS[form])
     return file.getvalue()
 
@@ -103,7 +103,7 @@ def with_mark(figure: Any, mark: str) -> None:
         x.set_text(text(x.get_text()))
 
 
-def settled(figure: Any) -> None:
+def laid_out(figure: Any) -> None:
     """Lay a figure out once and for all, places rounded: the solver of the layout does not always
     find the last digits alike.  The first layout does not know where titles go above panels of a
     fixed shape; the second does."""

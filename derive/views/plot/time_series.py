@@ -57,7 +57,7 @@ def state(figure: Any, run: Run, word: Any) -> None:
             panel.plot(run.t, run[x.name], **_style(k), label=label(x.name))
         units = {x.unit for x in members}
         panel.set_ylabel(with_unit(label(key), units.pop() if len(units) == 1 else ""))
-        _beside(panel, run, _named(f"{word('too few instants:')}\n", fast))
+        _legend(panel, run, _named(f"{word('too few instants:')}\n", fast))
     panels[-1].set_xlabel(time_label(run))
 
 
@@ -76,7 +76,7 @@ def _named(why: str, names: Sequence[str]) -> str:
     return why + ",\n".join(lines) if names else ""
 
 
-def _beside(panel: Any, run: Run, others: str) -> None:
+def _legend(panel: Any, run: Run, others: str) -> None:
     """The legend, and words of what is not drawn, which stand in the panel where nothing is."""
     drawn = len(panel.get_lines())
     if not drawn:
@@ -133,7 +133,7 @@ def energy(figure: Any, run: Run, word: Any) -> None:
     told = word("components relative to the length of their vector") if vectors else ""
     error = word("relative change" if run.facts.get("drives") else "relative error")
     panel.set_ylabel("\n".join((error, *wrap(told, LINE))))
-    _beside(panel, run, _named(f"{word('exact:')} ", exact))
+    _legend(panel, run, _named(f"{word('exact:')} ", exact))
 
 
 def energies(figure: Any, runs: Sequence[tuple[str, Run]], word: Any) -> None:
@@ -153,7 +153,7 @@ def energies(figure: Any, runs: Sequence[tuple[str, Run]], word: Any) -> None:
     driven = any(run.facts.get("drives") for _, run in runs)
     change, error = "relative change of the energy", "relative error of the energy"
     panel.set_ylabel(word(change if driven else error))
-    _beside(panel, runs[0][1], "\n".join(f"{word('exact:')} {shown}" for shown in exact))
+    _legend(panel, runs[0][1], "\n".join(f"{word('exact:')} {shown}" for shown in exact))
 
 
 def norms(run: Run) -> dict[str, float]:

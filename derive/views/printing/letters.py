@@ -70,13 +70,13 @@ def named(tex: str) -> Formula:
             letter = barred(letter, "", BARS, letter=True)
         else:
             letter = accented(name, letter, "")
-    whole = _whole(tex, found["lead"], letter, found["primes"], found["below"])
+    whole = _letter_in_full(tex, found["lead"], letter, found["primes"], found["below"])
     if sign := found["above"].strip("^"):
         return Formula(tex, raised(whole, literal(sign)).items)
     return whole
 
 
-def _whole(tex: str, lead: str, letter: Formula, primes: str, below: str) -> Formula:
+def _letter_in_full(tex: str, lead: str, letter: Formula, primes: str, below: str) -> Formula:
     """What this LaTeX is: a letter with what stands before it, its primes and its index."""
     found = _lead(lead) + primed(letter, len(primes))
     if below:
@@ -107,7 +107,7 @@ def transposed(tex: str, notation: Notation) -> Formula:
     over = "bar" if single else "overline"
     letter = barred(named(inside), "", notation, letter=alone)
     whole = rf"{lead}\{over}{{{inside}}}{primes}{below}"
-    return _whole(whole, lead, letter, primes, below)
+    return _letter_in_full(whole, lead, letter, primes, below)
 
 
 NAMES = {name: x.latex for name, x in VOCABULARY.items()}

@@ -14,7 +14,7 @@ from ..chapter import Chapter, say
 from ..matrices.separation import central_moments
 from ..spine.alphabet import Alphabet, cancel_scalar, inverse_letter, inverse_tree
 from ..vectors.isomorphism import anticommute, inertia_of, vector_sum
-from .discrete_road import DiscreteAlphabet, DiscreteMotion, bend, respelled, stepped
+from .discrete_road import DiscreteAlphabet, DiscreteMotion, bend, rewritten, stepped
 
 # An affine group in blocks: g = ιAῑ + (ιT + o)ō, for ι: r ↦ (r, 0) and o = (0, 1).
 #
@@ -41,7 +41,7 @@ class Blocks:
         own = (self.m, self.c, self.J, self.N, self.F, self.xi, self.eta, self.h)
         return (*self.A, *self.T, *bends, *own)
 
-    def whole(self, linear: Expr, shift: Expr) -> Expr:
+    def in_one_matrix(self, linear: Expr, shift: Expr) -> Expr:
         """ι linear ῑ + ι shift ō."""
         into, origin = word(self.inside), word(self.origin)
         return into * linear * into.bar + into * shift * origin.bar
@@ -54,12 +54,12 @@ class Blocks:
         moments = moments + origin * first.bar * into.bar + word(self.m) * corner
         found = {
             a.J: moments,
-            a.N[1]: self.whole(word(self.N), word(self.F)),
-            a.xi: self.whole(word(self.xi), word(self.eta)),
-            bend(a.g): self.whole(word(bend(self.A)), word(bend(self.T))),
+            a.N[1]: self.in_one_matrix(word(self.N), word(self.F)),
+            a.xi: self.in_one_matrix(word(self.xi), word(self.eta)),
+            bend(a.g): self.in_one_matrix(word(bend(self.A)), word(bend(self.T))),
         }
         elements = zip(a.g, self.A, self.T, strict=True)
-        return found | {g: self.whole(word(A), word(T)) + corner for g, A, T in elements}
+        return found | {g: self.in_one_matrix(word(A), word(T)) + corner for g, A, T in elements}
 
     def relation(self, x: Factor, y: Factor) -> Expr | None:
         """ῑι = 1, ῑo = 0, ōι = 0, ōo = 1."""
@@ -139,7 +139,7 @@ def about_the_centre(
     A displacement (ξ, η − m⁻¹ξc) leaves the centre where it is for η = 0; ``resultant``: f₁.
     """
     b = Blocks(a.n, a.n + 1)  # type: ignore[operator]
-    linear, shift = (respelled(e, b.letters, a.n) for e in (stage.linear, stage.shift))
+    linear, shift = (rewritten(e, b.letters, a.n) for e in (stage.linear, stage.shift))
     light, first = word(inverse_letter(b.m)), word(b.c)
     metric, value = central_moments(a)
     naming, moving = c.draft("centre", "definition"), c.draft("translation", "solution")

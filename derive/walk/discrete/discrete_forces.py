@@ -22,7 +22,7 @@ from ..matrices.conserved import ConservedMomentum, kept_momenta
 from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
 from ..spine.lagrangian import sum_over
 from .discrete_blocks import Blocks
-from .discrete_road import DiscreteAlphabet, DiscreteMotion, OneForms, opened, respelled
+from .discrete_road import DiscreteAlphabet, DiscreteMotion, OneForms, opened, rewritten
 
 # The forces of a problem at g₁: N₁ and f₁ on words, as its potential gives them.
 
@@ -60,7 +60,7 @@ def forces(
     told = tuple(_hearing(x, heard) for x in v.steps)
     back, moved = inverse_letter(a.A.position), (a.A.d_position, a.T.d_position)
     eta = word(back) * word(moved[1]) if a.affine else None
-    images = v.moved(a, word(back) * word(moved[0]), eta)
+    images = v.displaced(a, word(back) * word(moved[0]), eta)
     work = reduce(-derivation(v.energy, images.get), cancelling(a.A.position))
     here = {x.position: word(replace(x.position, name=y)) for x, y in located}
     inverse = Letter(f"{place[0]}⁻¹", a.n, a.n)
@@ -126,7 +126,7 @@ def outside(
         steps.append(_inputs(problem, group, forces, c))
         letters = replace(b.N, name="N_u"), replace(b.F, name="F_u")
         moments, resultant = (word(x).marked(steps[-1].label) for x in letters)
-        whole = b.whole(moments, resultant) if group.affine else moments
+        whole = b.in_one_matrix(moments, resultant) if group.affine else moments
         tested = tested - word(a.h) * inner(whole, word(a.xi))
     damping = Letter("D\u0302" if group.affine else "D", group.size, group.size, 1)
     if problem.damping:
@@ -134,7 +134,7 @@ def outside(
         steps.append(step)
         tested = tested + drag(damping, a).marked(step.label)
     draft = c.draft("dalembert", "kernel")
-    whole = respelled(stage.tested, a.letters, 1) + tested
+    whole = rewritten(stage.tested, a.letters, 1) + tested
     if "orthogonal" in group.relations and not group.affine:
         whole = _on_skew(whole, a)
     told = Equation(draft.tree(whole, a.notation), 0, (a.xi.name,))
@@ -235,10 +235,10 @@ def _momentum(
     Y, shift = Letter("Y", b.n, b.n, -1), Letter("b", b.n)
     images, moving = {}, word(Y)
     if a.affine:
-        images, moving = b.images(a), b.whole(word(Y), word(shift))
+        images, moving = b.images(a), b.in_one_matrix(word(Y), word(shift))
     found = []
     for k, form in ((1, stage.plus), (0, stage.minus)):
-        e = respelled(without(form, ends.d_U[k]), (*a.letters, *a.d_g), 1)
+        e = rewritten(without(form, ends.d_U[k]), (*a.letters, *a.d_g), 1)
         e = substitute(e, {a.d_g[k]: moving * word(a.g[k])})
         e = reduce(substitute(e, images), b.relation)
         found.append(2 * gradient(e, Y) if turning else gradient(e, shift))

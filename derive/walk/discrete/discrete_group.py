@@ -24,7 +24,7 @@ from .discrete_blocks import (
     in_quaternions,
 )
 from .discrete_forces import HALF, DiscreteForces, Outside
-from .discrete_road import DiscreteAlphabet, DiscreteMotion, opened, respelled, stepped
+from .discrete_road import DiscreteAlphabet, DiscreteMotion, opened, rewritten, stepped
 
 # The motion of the linear parts of a group: of the group itself, or about the centre of mass.
 
@@ -77,12 +77,12 @@ class _Solved:
     def __init__(self, motion: LinearMotion, forces: DiscreteForces):
         x, h = motion.x, Letter("h")
         n, self.x = motion.n, x
-        self.metric, self.told = motion.metric, list[Equation]()
+        self.metric, self.equations = motion.metric, list[Equation]()
         value = word(motion.metric)
         if motion.damping is not None:
             self.metric = Letter("J_D", n, n, 1)
             value = value + HALF * word(h) * word(motion.damping)
-            self.told.append(Equation(self.metric.name, tree_of(value)))
+            self.equations.append(Equation(self.metric.name, tree_of(value)))
         balance = substitute(motion.balance, opened(x)) + motion.drag
         balance = cancel_scalar(word(h) * balance, h)
         if terms_with(balance, x[2]) != word(x[2]) * value:
@@ -105,7 +105,7 @@ def solved(
     draft.depends_on(s.free)
     free = tree_of(s.free, s.notation)
     if "unimodular" not in group.relations:
-        return (draft.step((*s.told, Equation(last, free)), say("motion.verlet")),)
+        return (draft.step((*s.equations, Equation(last, free)), say("motion.verlet")),)
     keeping = c.draft("relation", "relation")
     volumes = (Equation(("det", y.name), 1) for y in motion.x)
     kept = keeping.step(volumes, say("relation.discrete_volume"))
@@ -113,7 +113,7 @@ def solved(
     H = Letter("H", motion.n, motion.n)
     onward = word(H) + word(MULTIPLIER) * word(s.dual) * word(s.back)
     goes = Equation(last, tree_of(onward, s.notation), (), (MULTIPLIER.name,))
-    told = draft.step((*s.told, Equation("H", free), goes), say("motion.volume"))
+    told = draft.step((*s.equations, Equation("H", free), goes), say("motion.volume"))
     return (kept, told, *_multiplier(draft.mark(onward), H, s, c))
 
 
@@ -204,7 +204,7 @@ def of_group(
         motion = _about_the_centre(blocks, forces.letters, moments, resultant, c)
     else:
         a = DiscreteAlphabet(n)
-        balance = respelled(stage.balance, a.letters, n)
+        balance = rewritten(stage.balance, a.letters, n)
         motion = LinearMotion(a.g, a.J, substitute(balance, {a.N[1]: moments}), damping)
     if skew:
         return (*motion.steps, *_rotations(motion, group, c))
@@ -273,8 +273,8 @@ def _on_basis(
     draft = c.draft("motion", "kernel")
     acting = forces.moments
     if group.affine:
-        acting = Blocks(group.n, group.size).whole(acting, forces.resultant)
-    tested = substitute(respelled(stage.tested, a.letters, 1), {a.N[1]: acting})
+        acting = Blocks(group.n, group.size).in_one_matrix(acting, forces.resultant)
+    tested = substitute(rewritten(stage.tested, a.letters, 1), {a.N[1]: acting})
     if outside:
         tested = tested + outside.tested
     display = {**a.notation.display, **forces.notation.display, E: ("at", "E", "a")}

@@ -97,7 +97,7 @@ def opened(x: tuple[Letter, ...]) -> dict[Letter, Expr]:
     return {bend(x): third - 2 * second + first}
 
 
-def respelled(e: Expr, letters: Iterable[Letter], n: Dim) -> Expr:
+def rewritten(e: Expr, letters: Iterable[Letter], n: Dim) -> Expr:
     """An expression about any n in ``letters``, which have the same names."""
     mine = {x.name: word(x) for x in letters}
     images = {x: mine[x.name] for x in e.letters() if x.name in mine}

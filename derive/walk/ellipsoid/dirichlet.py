@@ -74,7 +74,7 @@ class FluidBody:
         return any(isinstance(p, Volume) for p in self.problem.potentials)
 
     @property
-    def centred(self) -> bool:
+    def is_about_centre(self) -> bool:
         """Is the centre of mass the fixed point, c = 0?"""
         assert self.problem.body is not None
         return all(x == 0 for x in self.problem.body.moments().c)
@@ -282,7 +282,7 @@ class _Fluid(FluidBody):
             return self.acceleration.bar if opposite else None
 
         changed = reduce(derivation(turned, along.get), rule, cancelling(b.J))
-        centred = b.c in changed.letters() and self.centred
+        centred = b.c in changed.letters() and self.is_about_centre
         changed = without(changed, b.c) if centred else changed
         by_body = {x.gradient: x.slope for x in self.gravity}
         rules = [x.adjugate for x in self.gravity]

@@ -86,7 +86,7 @@ def rate_of_density(a: FluidAlphabet) -> Expr:
 # ∇_u is skew and Du = 0: u is divergence-free, and tangent to the boundary.
 
 
-def energy_kept(stage: FluidKernel, form: Cartan, a: FluidAlphabet, c: Chapter) -> Step:
+def energy(stage: FluidKernel, form: Cartan, a: FluidAlphabet, c: Chapter) -> Step:
     """The rate of h̃, told by u in ``form``: for any acceleration it is what the kernel pairs with
     u, and along the motion 0."""
     draft = c.draft("energy_kept", "conservation")
@@ -219,10 +219,10 @@ TANGENT, LEVEL, CHANGE = Letter("γ_s", "curve"), Letter("κ"), Letter("κ̇")
 def kelvin(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) -> tuple[Step, ...]:
     """The steps ``curve``, ``closed_curve``, of a density ``level_curve``, and ``kelvin``."""
     level = (_level(a, c),) if a.advected else ()
-    return (_carried(a, c), _closed(a, c), *level, _kept(stage, points, a, c))
+    return (_advected(a, c), _closed(a, c), *level, _conserved(stage, points, a, c))
 
 
-def _carried(a: FluidAlphabet, c: Chapter) -> Step:
+def _advected(a: FluidAlphabet, c: Chapter) -> Step:
     """Γ = Γ₀G, and the rates of γ and Γ by those of g and G."""
     draft = c.draft("curve", "variation")
     G = a.A.position
@@ -300,7 +300,7 @@ def on_level(a: FluidAlphabet) -> PairRule:
     return pair_rule((CURVE, False), (a.C, False), word(LEVEL) * word(CURVE))
 
 
-def _kept(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) -> Step:
+def _conserved(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) -> Step:
     """The rate of ⟨Γu, γ_s⟩, which is 0 by the equation of motion."""
     draft = c.draft("kelvin", "conservation")
     u, rate, curve = a.w.velocity, a.w.acceleration, word(CURVE)

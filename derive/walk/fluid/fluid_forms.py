@@ -204,13 +204,13 @@ def exterior_in_space(stage: Cartan, a: FluidAlphabet, c: Chapter) -> Exterior:
     """dϖ in the variables (t, g, ν): the step ``exterior``."""
     draft = c.draft("exterior", "exterior derivative")
     form = derivative(stage.form, stage.work, a)
-    images = contact_images(form, a) | _driven(form, a)
+    images = contact_images(form, a) | _by_force(form, a)
     shown = factored_tree(draft, form, at_constant_time(form, a.dt, a.dpt), images, PLAIN)
     step = draft.step((Equation(DOMEGA, shown),), say("exterior.derivative"))
     return Exterior(draft.mark(form), {x: draft.mark(y) for x, y in images.items()}, (step,))
 
 
-def _driven(form: Expr, a: FluidAlphabet) -> dict[Letter, Expr]:
+def _by_force(form: Expr, a: FluidAlphabet) -> dict[Letter, Expr]:
     """δν ↦ δν − Gf δt, and for δ′: the acceleration by the force, read off dϖ."""
     x, moved = a.T.d_velocity, a.T.dp_position
     found = solve_for(gradient(form, moved), x) if a.forced else None

@@ -94,7 +94,7 @@ def numbers(problem: Problem, *, discrete: bool = False) -> dict[Tree, Tree]:
         apart = group.turns_space and group.affine and not discrete
         turns = group.dimension - (group.n if apart else 0)
         for a, element in enumerate(group.basis, 1):
-            parts = zip(group.stated.nearest(element), own, strict=True)
+            parts = zip(group.in_user_basis.nearest(element), own, strict=True)
             letter, k = ("u", a) if a <= turns else ("f_u", a - turns)
             found["entry", letter, k] = add(*(mul(plain(x), u) for x, u in parts if x))
     return found
@@ -123,7 +123,7 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
     xi, eta = Letter("ξ′", b.n, b.n), Letter("η′", b.n)
     moments, pulls = [draft.tree(gradient(drag, xi))], [draft.tree(gradient(drag, eta))]
     for e, given in enumerate(problem.force_inputs, 1):
-        force = _carried(draft, problem, e, given, C, b)
+        force = _in_body(draft, problem, e, given, C, b)
         moments.append(mul(force, ("T", ("at", "r", given.on))))
         pulls.append(force)
     if problem.covector:
@@ -137,7 +137,7 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
     return External(draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,))
 
 
-def _carried(d: Draft, problem: Problem, e: int, given: ForceInput, C: Expr, b: Alphabet) -> Tree:
+def _in_body(d: Draft, problem: Problem, e: int, given: ForceInput, C: Expr, b: Alphabet) -> Tree:
     """Force ``e`` in the body, a tree: Āf for a force in space, ĀA f for one that turns with the
     body."""
     f: Tree = ("at", "f_u", e)
@@ -217,7 +217,7 @@ def external_vectors(
     if problem.damping:
         definitions.append(Equation("I_D", tree_of(inertia_of(Letter("D", 3, 3, 1)))))
     for e, given in enumerate(problem.force_inputs, 1):
-        force = _carried(draft, problem, e, given, C, b)
+        force = _in_body(draft, problem, e, given, C, b)
         moments.append(("wedge", ("at", "r", given.on), force))
         pulls.append(force)
     if problem.covector:

@@ -76,7 +76,9 @@ def power_letter(x: Letter, value: Expr, exponent: Fraction, over: Expr) -> Func
     return FunctionLetter(x, value, slope=exponent * word(x) * over)
 
 
-def moved(own: Iterable[PotentialLetter], images: Mapping[Letter, Expr]) -> dict[Letter, Expr]:
+def displaced_letters(
+    own: Iterable[PotentialLetter], images: Mapping[Letter, Expr]
+) -> dict[Letter, Expr]:
     """The images of A, T and so on under a displacement, completed by those of own letters."""
     found, listed = dict(images), [*own]
     rules: list[PairRule] = [x.written for x in listed]
@@ -228,13 +230,15 @@ class Potentials:
     timed: bool
     own: tuple[PotentialLetter, ...] = ()
 
-    def moved(
+    def displaced(
         self, a: Alphabet, xi: Expr, eta: Expr | None = None, axis: Expr | None = None
     ) -> dict[Letter, Expr]:
         """The images of the letters of Ũ under δA = Aξ, δT = Aη; ``axis``: x for ξ = j(x)."""
         g = word(a.A.position)
         images = {a.A.position: g * xi, U_Q: -self.work(xi if axis is None else axis, eta)}
-        return moved(self.own, images if eta is None else images | {a.T.position: g * eta})
+        return displaced_letters(
+            self.own, images if eta is None else images | {a.T.position: g * eta}
+        )
 
 
 def potentials(problem: Problem, a: Alphabet, c: Chapter, C: Expr | None = None) -> Potentials:
@@ -290,7 +294,7 @@ def virtual_work(
 ) -> Expr:
     """−dŨ(Aξ, Aη) on words; the moments of Q are paired with the axis of ξ = j(axis), if that is
     said."""
-    return -derivation(v.energy, v.moved(a, xi, eta, axis).get)
+    return -derivation(v.energy, v.displaced(a, xi, eta, axis).get)
 
 
 # The forces of the potentials that are given point by point, and their sums over the points.
@@ -365,7 +369,7 @@ def _in_body(d: Draft, found: PointPotentials, a: Alphabet, C: Expr) -> list[Equ
     terms: dict[int, list[Tree]] = {}
     for x in found.radials:
         chi: Tree = ("at", "χ", x.d[2])  # type: ignore[index]
-        equations.append(Equation(chi, _carried(d, x, a, C)))
+        equations.append(Equation(chi, _distance_in_body(d, x, a, C)))
         equations.append(Equation(x.sigma, replaced(x.tension, x.d, chi)))
         for i, sign in x.signs.items():
             terms.setdefault(i, []).append(mul(sign, x.sigma, chi))
@@ -374,14 +378,14 @@ def _in_body(d: Draft, found: PointPotentials, a: Alphabet, C: Expr) -> list[Equ
     return equations + [Equation(("at", "P", i), add(*x)) for i, x in sorted(terms.items())]
 
 
-def _carried(d: Draft, x: Radial, a: Alphabet, C: Expr) -> Tree:
+def _distance_in_body(d: Draft, x: Radial, a: Alphabet, C: Expr) -> Tree:
     """The tree of Ād_e: the places in the body, by ĀA = 1, and Ā on what is in space."""
     g, total = word(a.A.position), zero(a.n, 1)
     display: dict[Letter, Tree] = {}
     for i, sign in x.signs.items():
         r = Letter(f"r_{i}", a.n)
         display[r] = ("at", "r", i)
-        place = substitute(a.moved(g, word(a.T.position)), {a.r_i: word(r)})
+        place = substitute(a.acted_on(g, word(a.T.position)), {a.r_i: word(r)})
         total = total + sign * place
     inside = without(total, a.T.position)
     outside = total - inside

@@ -23,7 +23,7 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
     if g is None:
         return None
     gamma, general = Letter("γ", a.n), Chapter(a.chapter)
-    position = a.moved(word(a.A.position), word(a.T.position)).marked(general.label("action"))
+    position = a.acted_on(word(a.A.position), word(a.T.position)).marked(general.label("action"))
     summand = -word(a.m_i) * inner(word(gamma), position)
     table = {
         (a.m_i,): word(a.m).marked(general.label("moments")),

@@ -26,7 +26,7 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
         return None
     assert problem.group is not None
     W, general = Letter("W_r", a.n, a.n, 1), Chapter(a.chapter)
-    position = a.moved(word(a.A.position), word(a.T.position)).marked(general.label("action"))
+    position = a.acted_on(word(a.A.position), word(a.T.position)).marked(general.label("action"))
     moments = {(a.m_i,): a.m, (a.m_i, a.r_i): a.c, (a.m_i, a.r_i, a.r_i): a.J}
     table = {k: word(x).marked(general.label("moments")) for k, x in moments.items()}
     summand = HALF * word(a.m_i) * inner(position, word(W) * position)

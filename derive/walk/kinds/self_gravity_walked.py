@@ -129,7 +129,7 @@ class _Ellipsoid:
             ),
         ]
 
-    def _carried(self, e: Expr) -> Expr:
+    def _without_metric(self, e: Expr) -> Expr:
         """An expression with C = ĀA, and det C the square of det A."""
         A = word(self.a.A.position)
         square = number(1) if self.unimodular else determinant(A.bar * A)
@@ -137,7 +137,7 @@ class _Ellipsoid:
 
     def _tree(self, e: Expr) -> Tree:
         letters = {determinant_letter(x): ("det", x.name) for x in (self.K, self.a.A.position)}
-        return tree_of(self._carried(e), WordNotation(display=letters))
+        return tree_of(self._without_metric(e), WordNotation(display=letters))
 
     def summed(self) -> Tree:
         """The sum of the coefficients of u^k, each times ∫ u^k P^(−3/2) du = Ψ_k."""

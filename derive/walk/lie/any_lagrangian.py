@@ -65,7 +65,7 @@ def any_lagrangian(a: Alphabet, side: str, c: Chapter) -> AnyLagrangian:
     form, balance, told = any_lagrangian_forms(a, c, {a.Z.xi_prime: crossed}, second_order)
     written, derived, motion = told
     momenta, energy = _momenta(c), _energy(c)
-    first = (_carried(a, side, c), momenta, energy, _structure(a, crossed, c), written)
+    first = (_trivialised(a, side, c), momenta, energy, _structure(a, crossed, c), written)
     other = moment_map(balance, a, moved, c)
     orbit = orbit_form(form, a, moved, other, c)
     steps = (*first, derived, *_kernel(form, a, c), motion, other, orbit)
@@ -80,7 +80,7 @@ def _epsilon(balance: Expr, a: Alphabet) -> int:
     return -sign_of(turning, inner(word(a.Pi.momentum), Z * xi_prime - xi_prime * Z))
 
 
-def _carried(a: Alphabet, side: str, c: Chapter) -> Step:
+def _trivialised(a: Alphabet, side: str, c: Chapter) -> Step:
     """Z, ξ and ξ′, by the velocity and the variations of g."""
     definitions = {
         "left": "Z = A⁻¹α,  ξ = A⁻¹δA,  ξ′ = A⁻¹δ′A",
@@ -182,7 +182,7 @@ def moment_map(balance: Expr, a: Alphabet, moved: Trivialisation, c: Chapter) ->
     A, any_of = word(a.A.position), (a.Z.xi_prime.name,)
     back, along = word(inverse_letter(a.A.position)), moved(A, word(a.Z.velocity))
     on_left, xi_prime = moved is forms.left, word(a.Z.xi_prime)
-    carried = back * xi_prime * A if on_left else A * xi_prime * back
+    transported = back * xi_prime * A if on_left else A * xi_prime * back
     images = {
         **{a.A.position: along, inverse_letter(a.A.position): -(back * along * back)},
         **{a.Pi.momentum: word(a.Pi.rate), a.Z.velocity: word(a.Z.acceleration)},
@@ -196,21 +196,21 @@ def moment_map(balance: Expr, a: Alphabet, moved: Trivialisation, c: Chapter) ->
         less = derivation(e, images.get) - substitute(balance, {a.Z.xi_prime: along})
         return reduce(less, cancelling(a.A.position)).of(balance)
 
-    momentum = inner(word(a.Pi.momentum).marked(momenta), carried)
+    momentum = inner(word(a.Pi.momentum).marked(momenta), transported)
     energy = inner(word(a.Pi.momentum), word(a.Z.velocity)) - word(lagrangian)
     whole = Letter("A⁻¹ξ′A", a.n, a.n)
     display = {inverse_letter(a.A.position): inverse_tree(a.A.position)}
     notation = WordNotation(
-        display={whole: tree_of(carried, WordNotation(display=display))},
+        display={whole: tree_of(transported, WordNotation(display=display))},
         covectors=frozenset(a.Pi.letters),
     )
 
     def paired(e: Expr, covector: Letter) -> Tree:
         """The tree of ⟨P, A⁻¹ξ′A⟩."""
-        by_letter = (inner(word(covector), x) for x in (carried, word(whole)))
+        by_letter = (inner(word(covector), x) for x in (transported, word(whole)))
         return draft.tree(substitute_trace(e, *by_letter).of(e), notation)
 
-    moving = rate(momentum, carried)
+    moving = rate(momentum, transported)
     equations = [
         Equation(read("⟨Π_o, ξ′⟩"), paired(momentum, a.Pi.momentum), any_of),
         Equation(read("⟨Π̇_o, ξ′⟩"), paired(moving, a.Pi.force), any_of),
@@ -242,7 +242,7 @@ def orbit_form(form: Expr, a: Alphabet, moved: Trivialisation, other: Step, c: C
     xi, xi_prime, Pi = word(a.Z.xi), word(a.Z.xi_prime), word(a.Pi.momentum)
     opened = {a.bracket: xi_prime * xi - xi * xi_prime, crossed: xi * xi_prime - xi_prime * xi}
     restricted = at_constant_time(form, a.dt, a.dpt)
-    turn = carried(a, moved)
+    turn = transported(a, moved)
     sign = sign_of(turn, opened[crossed])
     here = inner(word(a.Pi.d_momentum), xi_prime) + sign * inner(Pi, word(crossed))
     there = inner(word(a.Pi.dp_momentum), xi) + sign * inner(Pi, word(a.bracket))
@@ -261,7 +261,7 @@ def orbit_form(form: Expr, a: Alphabet, moved: Trivialisation, other: Step, c: C
     )
 
 
-def carried(a: Alphabet, moved: Trivialisation) -> Expr:
+def transported(a: Alphabet, moved: Trivialisation) -> Expr:
     """The variation along ξ, at g = 1, of what g carries a constant of 𝔤 to, which is ξ′ there."""
     g, back, constant = word(a.A.position), Letter("A⁻¹", a.n, a.n), Letter("η", a.n, a.n)
     xi, inverse, eta = word(a.Z.xi), word(back), word(constant)

@@ -13,7 +13,7 @@ from ...language.read import read
 from ...language.tree import Tree, add, mul, names, neg, plain
 from ...problem.entries_on_orbit import (
     EntriesOfElement,
-    MovedEntries,
+    OrbitEntries,
     along,
     hessian,
     null_directions,
@@ -34,10 +34,10 @@ from .any_lagrangian import AnyLagrangian
 
 @dataclass(frozen=True)
 class Basis:
-    """``moved``: the entries on which L̃ depends; ``rates``: equations that say how they move with
-    time, which the step ``last`` has found."""
+    """``orbit_entries``: the entries on which L̃ depends; ``rates``: equations that say how they
+    move with time, which the step ``last`` has found."""
 
-    moved: MovedEntries
+    orbit_entries: OrbitEntries
     rates: tuple[Equation, ...]
     last: Step
     brackets: tuple[Step, ...]
@@ -115,7 +115,7 @@ def _combined(coefficients: Iterable[Fraction], family: str) -> Tree:
 # What motions keep where a problem has its own Lagrangian: the energy, the other momentum.
 
 
-def kept(
+def conserved(
     stage: Expressed,
     problem: Problem,
     group: Group,
@@ -163,7 +163,7 @@ class Expressed:
     steps: tuple[Step, ...]
 
     @property
-    def told(self) -> Step:
+    def momenta_step(self) -> Step:
         """The step of Π_a and Φ_a."""
         return self.steps[1]
 
@@ -202,7 +202,7 @@ def expressed(
     assert given is not None
     zeta = coordinates(group)
     momenta = tuple(tidied(derivative(given.L, x)) for x in zeta)
-    forces = tuple(tidied(basis.moved.along(given.L, a)) for a in range(group.dimension))
+    forces = tuple(tidied(basis.orbit_entries.along(given.L, a)) for a in range(group.dimension))
     second = tuple(tuple(map(tidied, row)) for row in hessian(given.L, zeta))
     carried = problem.advected
     kind = "expression" if carried is None else "carried" if carried else "alone"
@@ -266,7 +266,7 @@ def balance(
     assert problem.lagrangian is not None
     held = {a - 1 for a in problem.lagrangian.held}
     left = [
-        0 if a in held else add(t, neg(tidied(basis.moved.in_time(p))))
+        0 if a in held else add(t, neg(tidied(basis.orbit_entries.in_time(p))))
         for a, (t, p) in enumerate(zip(rates, stage.momenta, strict=True))
     ]
     second = [

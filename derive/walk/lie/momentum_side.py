@@ -17,7 +17,7 @@ from ...language.derivatives import derivative
 from ...language.rational import Matrix
 from ...language.reserved import suffixed
 from ...language.tree import Tree, add, mul, neg, nodes, plain
-from ...problem.entries_on_orbit import Entry, MovedEntries
+from ...problem.entries_on_orbit import Entry, OrbitEntries
 from ...problem.fields import coordinates
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
@@ -88,7 +88,7 @@ def _at_rest(t: Tree, zeta: Sequence[Tree]) -> Tree:
     return 0 if first == 0 else (op, first, *rest)
 
 
-def _carried(problem: Problem) -> list[tuple[Any, ...]]:
+def _advected_entries(problem: Problem) -> list[tuple[Any, ...]]:
     """The entries of Γ."""
     size = sum(x.size for x in problem.advected or ())
     return [("entry", "Γ", i + 1) for i in range(size)]
@@ -100,7 +100,8 @@ def _brackets(
     """{Π_a, Π_b}, which ζ_b has as its coefficient in Π̇_a, and {Γ_i, Π_b}, in Γ̇_i."""
     turning = coadjoint_terms(group, general.epsilon)
     moved = [
-        [basis.moved.displaced(x, a) for a in range(group.dimension)] for x in _carried(problem)
+        [basis.orbit_entries.displaced(x, a) for a in range(group.dimension)]
+        for x in _advected_entries(problem)
     ]
     momenta = [
         [*(derivative(t, z) for z in coordinates(group)), *(neg(row[a]) for row in moved)]
@@ -112,7 +113,7 @@ def _brackets(
 def _moving(stage: Expressed, problem: Problem, group: Group) -> Equation:
     """The rates of Π and Γ, by 𝕁 and the derivatives of h̃; by Φ where g is not in Γ, and u."""
     assert problem.lagrangian is not None
-    span, carried = range(group.dimension), _carried(problem)
+    span, carried = range(group.dimension), _advected_entries(problem)
     rates: list[Tree] = [
         *(member("Π̇", a) for a in span),
         *(("entry", "Γ̇", *x[2:]) for x in carried),
@@ -144,7 +145,7 @@ NAMED = 6
 
 
 @dataclass(frozen=True)
-class EntriesOfAdvected(MovedEntries):
+class EntriesOfAdvected(OrbitEntries):
     """Those of Γ, with δΓ = ``sign`` ρ(ξ)Γ; ``matrices``: ρ(E_a)."""
 
     letter = "Γ"

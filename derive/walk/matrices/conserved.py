@@ -22,7 +22,7 @@ from ...schema.kinds.gravity import gravity
 from ...schema.kinds.harmonic import Harmonic
 from ...schema.kinds.spring import Spring
 from ..chapter import Chapter, enumerated, phrase, say
-from ..given.potentials import U_Q, Potentials, column, moved
+from ..given.potentials import U_Q, Potentials, column, displaced_letters
 from ..spine.alphabet import Alphabet
 from ..vectors.isomorphism import anticommute, vector_sum
 
@@ -212,8 +212,8 @@ def matrix_momenta(momentum: Expr, a: Alphabet) -> SpaceMomenta:
         images[a.T.d_position] = word(Y) * word(a.T.position) + word(shift)
     paired = substitute(momentum, images)
     whole = gradient(paired, Y)
-    moved = gradient(paired, shift) if a.affine else None
-    return SpaceMomenta(whole - whole.bar, moved, vectors=False)
+    displaced_letters = gradient(paired, shift) if a.affine else None
+    return SpaceMomenta(whole - whole.bar, displaced_letters, vectors=False)
 
 
 def vector_momenta(momenta: Mapping[Letter, Expr], b: Alphabet) -> SpaceMomenta:
@@ -223,8 +223,8 @@ def vector_momenta(momenta: Mapping[Letter, Expr], b: Alphabet) -> SpaceMomenta:
     g, shift = word(b.A.position), Letter("b", 3)
     paired = inner(turned, g.bar * word(AXIS))
     if b.affine:
-        moved = word(hat(AXIS)) * word(b.T.position) + word(shift)
-        paired = paired + inner(shifted[0], g.bar * moved)
+        displaced_letters = word(hat(AXIS)) * word(b.T.position) + word(shift)
+        paired = paired + inner(shifted[0], g.bar * displaced_letters)
     whole = gradient(reduce(paired, anticommute(AXIS)), AXIS)
     return SpaceMomenta(whole, gradient(paired, shift) if b.affine else None, vectors=True)
 
@@ -307,5 +307,5 @@ def _varied(
         images[T] = turn * word(seen)
     if shift is not None:
         images[T] = shift
-    varied = derivation(without(v.energy, U_Q), moved(v.own, images).get)
+    varied = derivation(without(v.energy, U_Q), displaced_letters(v.own, images).get)
     return substitute(varied, known)

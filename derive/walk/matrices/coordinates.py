@@ -62,13 +62,13 @@ def _rate(group: Group, a: int) -> Tree:
     return add(*terms)
 
 
-def stated_basis_step(group: Group, b: Alphabet, c: Chapter) -> tuple[Step, ...]:
+def user_basis_step(group: Group, b: Alphabet, c: Chapter) -> tuple[Step, ...]:
     """The step that gives Z (and w) by coordinates in the basis that the problem states, where the
     equations are in that of j; none where there is one basis."""
-    if not group.stated_basis:
+    if not group.user_basis:
         return ()
     span, size = range(group.n), group.dimension
-    own = group.stated.basis
+    own = group.in_user_basis.basis
 
     def entry(i: int, j: int) -> Tree:
         terms = ((own[a][i][j], ("entry", "z", a + 1)) for a in range(size) if own[a][i][j])
@@ -220,14 +220,14 @@ def solved(stage: Balance) -> tuple[Equation, ...] | None:
     for block in _blocks(stage.mass):
         tried = _alone(stage, block)
         if tried is None or _too_long(tried):
-            tried = _together(stage, block)
+            tried = _block_rows(stage, block)
         if _too_long(tried):
             return None
         found |= zip(block, tried, strict=True)
     return tuple(found[a] for a in sorted(found))
 
 
-def told(rows: Sequence[tuple[Tree, Laurent]]) -> tuple[Equation, ...] | None:
+def short_rates(rows: Sequence[tuple[Tree, Laurent]]) -> tuple[Equation, ...] | None:
     """Rates as they are; ``None`` where one is too long."""
     found = tuple(Equation(x, tree(p)) for x, p in rows)
     return None if _too_long(found) else found
@@ -299,7 +299,7 @@ def _is_pivot(p: Laurent) -> bool:
     return len(p.terms) == 1 and not any(depends(s) for m in p.terms for s, _ in m)
 
 
-def _together(stage: Balance, block: list[int]) -> list[Equation]:
+def _block_rows(stage: Balance, block: list[int]) -> list[Equation]:
     """The rows of a block as they are."""
     sides = [
         add(*(_times(stage.mass[a][b], stage.unknowns[b]) for b in block if stage.mass[a][b]))

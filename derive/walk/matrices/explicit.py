@@ -20,7 +20,7 @@ from ..chapter import Chapter, Draft, say
 from ..given.inputs import External
 from ..given.potentials import Potentials
 from ..vectors.rotation import Torque, diagonal
-from .coordinates import Balance, solved, told
+from .coordinates import Balance, short_rates, solved
 from .separation import constant, linear
 from .specialisation import KernelOnGroup
 from .substitution import UNKNOWN, PutIn, element, symbols
@@ -74,7 +74,7 @@ def of_matrices(
         except UNKNOWN:
             continue
         idle = bool(problem.potentials) and not any(work)
-        if found := _told(draft, stage, values, idle, group):
+        if found := _explicit_step(draft, stage, values, idle, group):
             return found
     return ()
 
@@ -125,7 +125,7 @@ def of_vectors(
     idle = bool(problem.potentials) and not any(x for column in work for x in _entries(column))
     shifts = _entries(drift) if group.affine else ()
     rates: list[tuple[Tree, Laurent]] = [(("entry", "ẇ", i), x) for i, x in enumerate(shifts, 1)]
-    found = _told(draft, stage, values, idle, group, after=rates)
+    found = _explicit_step(draft, stage, values, idle, group, after=rates)
     again = lettered and len(tensor) > 1 and found and len(found[0].prose) == 1
     return () if again else found
 
@@ -184,7 +184,9 @@ def of_lagrangian(
     unknowns = tuple(("entry", "ζ̇", a) for a in range(1, size + 1))
     stage = Balance(M, tuple(x for (x,) in load), unknowns)
     assert problem.lagrangian is not None
-    return _told(draft, stage, values, False, group, side=problem.lagrangian.trivialisation)
+    return _explicit_step(
+        draft, stage, values, False, group, side=problem.lagrangian.trivialisation
+    )
 
 
 def _wanted(problem: Problem, group: Group, body: Steps) -> bool:
@@ -253,7 +255,7 @@ def _linear_in(rows: Sequence[Laurent], unknowns: tuple[Tree, ...]) -> Balance:
     return Balance(tuple(map(tuple, mass)), tuple(load), unknowns)
 
 
-def _told(
+def _explicit_step(
     draft: Draft,
     stage: Balance,
     values: PutIn,
@@ -264,7 +266,7 @@ def _told(
     after: Sequence[tuple[Tree, Laurent]] = (),
 ) -> Steps:
     """The step, with what can be seen of the equations; ``after``: rates that are solved."""
-    found, others = solved(stage), told(after)
+    found, others = solved(stage), short_rates(after)
     if found is None or others is None:
         return ()
     work = "dŨ(Aξ′, Aη′)" if group.affine else "dŨ(Aξ′)"

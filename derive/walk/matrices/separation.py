@@ -32,7 +32,7 @@ def _notation(a: Alphabet) -> WordNotation:
     return WordNotation(display={inverse_letter(a.m): read("m⁻¹")})
 
 
-def _centred(e: Expr, a: Alphabet, mark: str = "") -> Expr:
+def _barycentric(e: Expr, a: Alphabet, mark: str = "") -> Expr:
     """An expression with T and τ by the centre of mass R, Ṙ, and J by J_c; ``mark``: the step that
     says so."""
     moment, value = central_moments(a)
@@ -54,7 +54,7 @@ def kinetic_separation(kinetic: Expr, a: Alphabet, c: Chapter) -> Step:
     equations = (
         *stated("R = T + m⁻¹Ac,  Ṙ = τ + m⁻¹αc"),
         Equation("J_c", draft.tree(central_moments(a)[1], _notation(a))),
-        Equation("L̃", draft.tree(_centred(kinetic, a) - word(a.U), _notation(a))),
+        Equation("L̃", draft.tree(_barycentric(kinetic, a) - word(a.U), _notation(a))),
     )
     return draft.step(
         equations,
@@ -70,7 +70,7 @@ def potential_separation(
     if any(b.T.position in x.value.letters() for x in v.own):
         return ()  # a function of T that is no sum
     draft = c.draft("separation", "identification")
-    energy = _centred(v.energy, b, Chapter(b.chapter).label("separation"))
+    energy = _barycentric(v.energy, b, Chapter(b.chapter).label("separation"))
     place = Letter("R", b.n)
     inside = v.pointwise.shifts
     both = bool(terms_with(terms_with(energy, place), b.A.position))
@@ -205,7 +205,7 @@ def seen_from_centres(
 ) -> CentralEquations | None:
     """The equations of motion with ξ′(1 − S) in the place of ξ′, and their step; ``None`` for a
     group without a factor H ⋉ Rⁿ."""
-    if not group.centred:
+    if not group.barycentric_blocks:
         return None
     draft, n = c.draft("elimination", "elimination"), b.n
     S, J_c, Z_c = Letter("S", n, n), Letter("J_c", n, n, 1), Letter("Z_c", n, n)
@@ -253,7 +253,7 @@ def annulled(S: Letter, algebra: set[Letter]) -> PairRule:
 def _columns(group: Group) -> dict[int, int]:
     """Row → column of the centre of mass, counted from 0, for the rows of each factor that
     has one."""
-    return {o + i: o + f.n for o, f in group.centred for i in range(f.n)}
+    return {o + i: o + f.n for o, f in group.barycentric_blocks for i in range(f.n)}
 
 
 def _shift(group: Group) -> Tree:

@@ -204,13 +204,13 @@ def mass_steps(
     solving.depends_on(mass_step)
     solved = stated(f"{found} = M⁻¹β")
     motion = solving.step(
-        (*rates(solving, b), *solved, *_whole(solving, b, central), *translation),
+        (*rates(solving, b), *solved, *_equation_of_rates(solving, b, central), *translation),
         say("motion.problem") + say_signed("motion.mass_matrix", b.signed),
     )
     return mass_step, motion
 
 
-def _whole(d: Draft, b: Alphabet, central: CentralEquations | None) -> list[Equation]:
+def _equation_of_rates(d: Draft, b: Alphabet, central: CentralEquations | None) -> list[Equation]:
     """The equation of Ż by its coordinates, where ẇ or ζ̇ needs it."""
     if central is None:
         return stated("Ż = Σ_a ζ̇_a E_a") if b.affine else []
@@ -251,7 +251,9 @@ def solution(
     if centred is not None:
         inertial, force, metric = centred.inertial, centred.force, centred.metric
     multiplied = len(group.normal_space_of_linear_parts) <= MULTIPLIERS
-    place = coordinates_step(group, b, here, with_rates=multiplied or bool(group.centred))
+    place = coordinates_step(
+        group, b, here, with_rates=multiplied or bool(group.barycentric_blocks)
+    )
     if multiplied:
         _, motion, _ = solved = multiplier_steps(inertial, force, metric, group, b, c, centred)
         return Solution(motion, (*solved, place))

@@ -102,7 +102,7 @@ def specialise(
     is left-invariant."""
     b = letters_of(group, signed=road.letters.signed)
     plain = Alphabet(group.n, affine=group.affine, signed=b.signed)
-    free, turned = b.freed(), "orthogonal" in group.relations
+    free, turned = b.with_free_displacement(), "orthogonal" in group.relations
     whole = b.unit.marked(c.label("relation")) if turned else cauchy_green(b)
     carried = body_rule(b, whole)
 
@@ -163,10 +163,10 @@ def relation(group: Group, bodies: Bodies | None, c: Chapter) -> tuple[Step, ...
     prose: Prose = ()
     if "orthogonal" in group.relations:
         known = stated("C = 𝟏,  Z̄ = −Z,  ξ̄ = −ξ")
-        prose = _kept(group)
+        prose = _relation_sentences(group)
     elif "unimodular" in group.relations:
         known = stated("det(A) = 1,  Tr Z = 0,  Tr ξ = 0")
-        prose = _kept(group, stays=not bodies)
+        prose = _relation_sentences(group, stays=not bodies)
     if not (known or bodies):
         return ()
     draft = c.draft("relation", "relation")
@@ -192,7 +192,7 @@ def _smaller(group: Group) -> Prose:
     )
 
 
-def _kept(group: Group, *, stays: bool = True) -> Prose:
+def _relation_sentences(group: Group, *, stays: bool = True) -> Prose:
     """The sentences for the relations; ``stays``: C does not drop out."""
     skew = "orthogonal" in group.relations
     if group.affine:
@@ -216,7 +216,7 @@ def _derived(
     brackets: Mapping[Letter, Expr],
 ) -> Expr:
     """dϖ on words, by the values of P and F, with the potential of the problem."""
-    moved = v.moved(a, *(word(f.xi) for f in a.algebra_parts))
+    moved = v.displaced(a, *(word(f.xi) for f in a.algebra_parts))
     moved |= {a.C: varied_cauchy_green(a, a.Z.xi)}
     values = fibre(momentum, energy, moved, a)
     return reduce(restrict(road.momenta.form, values, a, brackets), body_rule(a, cauchy_green(a)))

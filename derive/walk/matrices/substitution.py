@@ -8,7 +8,7 @@ from itertools import chain
 from math import prod
 from typing import Any
 
-from ...algebra.groups import Group, told_entries
+from ...algebra.groups import Group, affine_entries
 from ...language import rational as q
 from ...language.laurent import Laurent, OverlongError, polynomial, written
 from ...language.tree import Tree, nodes, operands, replaced
@@ -52,7 +52,7 @@ def element(group: Group) -> Value:
     def entry(number: Fraction, weights: Mapping[tuple[int, int], Fraction]) -> Laurent:
         return sum((x * name(*place) for place, x in weights.items()), Laurent.of(number))
 
-    return tuple(tuple(entry(*x) for x in row) for row in told_entries(group))
+    return tuple(tuple(entry(*x) for x in row) for row in affine_entries(group))
 
 
 class PutIn:
@@ -73,13 +73,13 @@ class PutIn:
         for e in equations:
             try:
                 if isinstance(e.lhs, str):
-                    self.names[e.lhs] = self._kept(e.lhs, e.rhs)
+                    self.names[e.lhs] = self._value_or_name(e.lhs, e.rhs)
                 elif isinstance(e.lhs, tuple) and e.lhs[0] == "at" and isinstance(e.lhs[2], int):
-                    self.member(e.lhs[1], e.lhs[2], self._kept(e.lhs, e.rhs))
+                    self.member(e.lhs[1], e.lhs[2], self._value_or_name(e.lhs, e.rhs))
             except UNKNOWN:
                 continue
 
-    def _kept(self, whole: Tree, t: Tree) -> Value:
+    def _value_or_name(self, whole: Tree, t: Tree) -> Value:
         """The value of a tree, or the name that it defines; of a vector 0 stays 0."""
         head = whole[1] if isinstance(whole, tuple) else whole
         named = Laurent.symbol(whole) if head == "σ" else symbols(whole, len(self.one))

@@ -138,14 +138,14 @@ class Alphabet:
         :attr:`algebra_parts`."""
         return (self.Pi, self.p_b) if self.affine else (self.Pi,)
 
-    def freed(self) -> Alphabet:
+    def with_free_displacement(self) -> Alphabet:
         """The same alphabet with ξ′ any matrix, so that what pairs with it is a whole matrix."""
         copy = Alphabet(self.n, affine=self.affine)
         vars(copy).update(vars(self))
         copy.Z = replace(self.Z, xi_prime=Letter(self.Z.xi_prime.name, self.n, self.n))
         return copy
 
-    def moved(self, linear: Expr, translation: Expr) -> Expr:
+    def acted_on(self, linear: Expr, translation: Expr) -> Expr:
         """``A r_i + T`` with the given A and T."""
         image = linear * word(self.r_i)
         return image + translation if self.affine else image

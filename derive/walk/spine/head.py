@@ -38,7 +38,7 @@ def problem_data(problem: Problem) -> dict[str, object]:
             return [plain(v) for v in x]
         return encode(x) if isinstance(x, (tuple, Fraction)) else x
 
-    basis = problem.group.stated.basis if problem.group else ()
+    basis = problem.group.in_user_basis.basis if problem.group else ()
     rows = [[[str(x) for x in row] for row in e] for e in basis]
     n = problem.group.n if problem.group else problem.torus.N if problem.torus else "any"
     found = data(problem) | {"n": n, "basis": rows, "conventions": list(CONVENTIONS)}

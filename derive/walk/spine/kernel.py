@@ -132,7 +132,7 @@ def kernel_trivialised(
         stage.form,
         terms_with(without(stage.form, a.dt, a.dpt), *variations),
         stage.images,
-        carried_velocity(natural, a),
+        velocity_of_motion(natural, a),
         {f.d_velocity: f.acceleration for f in a.algebra_parts},
         tuple(f.dp_velocity for f in a.algebra_parts),
         (a.dt, a.dpt),
@@ -154,7 +154,7 @@ def kernel_trivialised(
     return first, _equations(found, cartan.work, a, chapter)
 
 
-def carried_velocity(stage: Kernel, a: Alphabet) -> dict[Letter, Expr]:
+def velocity_of_motion(stage: Kernel, a: Alphabet) -> dict[Letter, Expr]:
     """The values ξ(X) = Z (and η(X) = w), by their letters, from gξ(X) = δg(X)."""
     carried, g = trivial_images(a), a.A.position
     return {
@@ -227,8 +227,8 @@ def _values(stage: Cartan, a: Alphabet, c: Chapter) -> tuple[dict[Letter, Expr],
     """P = ∂L̃/∂Z and F, the derivative of L̃ along gξ, with L̃ = ⟨P, Z⟩ − h̃; and the step
     ``momenta``."""
     draft = c.draft("momenta", "fibre derivative")
-    moved = {a.C: varied_cauchy_green(a, a.Z.xi), a.U: -stage.work}
-    values = fibre(stage.momentum, stage.energy, moved, a)
+    along_motion = {a.C: varied_cauchy_green(a, a.Z.xi), a.U: -stage.work}
+    values = fibre(stage.momentum, stage.energy, along_motion, a)
     step = draft.step(
         [Equation(x.name, draft.tree(e)) for x, e in values.items() if e != word(x)],
         say(
@@ -408,11 +408,11 @@ def restrict(
             if x not in known:
                 raise ValueError(f"{d.momentum.name} has {x.name}, whose variation is not known")
     further = [{a.C: varied_cauchy_green(a, x)} for x in (a.Z.xi, a.Z.xi_prime, a.Z.velocity)]
-    images = moved(values, a.duals, a.algebra_parts, further) | dict(brackets or {})
+    images = along_motion(values, a.duals, a.algebra_parts, further) | dict(brackets or {})
     return substitute(a.respell(e), images)
 
 
-def moved(
+def along_motion(
     values: Mapping[Letter, Expr],
     duals: Iterable[Dual],
     parts: Sequence[AlgebraPart],

@@ -166,7 +166,7 @@ def lagrangian(a: Alphabet, c: Chapter) -> PointLagrangian:
     first = c.draft("lagrangian", "definition")
     kinetic = kinetic_energy(v_i := Letter("v_i", a.n), a)
     acting = c.draft("action", "definition")
-    position = acting.mark(a.moved(word(a.A.position), word(a.T.position)))
+    position = acting.mark(a.acted_on(word(a.A.position), word(a.T.position)))
     varied = c.draft("velocity", "variation")
     velocity, variation = velocities(position, a)
     varied.depends_on(velocity, variation)
@@ -178,7 +178,7 @@ def lagrangian(a: Alphabet, c: Chapter) -> PointLagrangian:
         ),
         acting.step(
             (Equation(POINT, indexed_tree(position, v_i, a)),),
-            _moved(a),
+            _velocity_of_points(a),
             (7, 8),
         ),
         varied.step(
@@ -194,7 +194,7 @@ def lagrangian(a: Alphabet, c: Chapter) -> PointLagrangian:
     return PointLagrangian(first.mark(kinetic), v_i, position, velocity, variation, steps)
 
 
-def _moved(a: Alphabet) -> Prose:
+def _velocity_of_points(a: Alphabet) -> Prose:
     if a.affine:
         return say("action.affine")
     return say("action.linear")

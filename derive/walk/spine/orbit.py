@@ -230,7 +230,7 @@ def held(law: Kernel, C: Expr, n: int, c: Chapter) -> Step:
     """The step about SO(n) in the space of all matrices: what the constraint adds is orthogonal to
     the group."""
     draft, b = c.draft("geodesics", "multiplier"), Alphabet(n, affine=False, skew=True)
-    any_matrix, rate = b.freed().Z.xi_prime, b.A.acceleration
+    any_matrix, rate = b.with_free_displacement().Z.xi_prime, b.A.acceleration
     along = {b.A.dp_position: word(b.A.position) * word(any_matrix)}
     added = gradient(substitute(b.respell(law.balance), along), any_matrix).of(C)
     core = {rate: word(rate) - word(b.F_group)}

@@ -69,7 +69,7 @@ class Contraction:
     def _shifts(self) -> dict[Letter, Expr]:
         return {x: substitute(y, self._now) for x, y in self.images.items()}
 
-    def whole(self, d: Draft) -> Tree:
+    def tree(self, d: Draft) -> Tree:
         """The tree of dϖ(δ, δ′)."""
         return factored_tree(d, self.form, self.core, self.images, self.notation)
 

@@ -91,7 +91,7 @@ def torus_steps(
     turning = _coadjoint(rate, general, (momenta, flow), c)
     motion = _motion(phase, fluid, rate, (turning, flow, algebra, momenta), c)
     told = [modes(phase, fluid.stream, rate, motion, c)] if torus.N <= LARGEST else []
-    kept = _kept(fluid, torus, (turning, energy, momenta), c)
+    kept = _conserved(fluid, torus, (turning, energy, momenta), c)
     return first, algebra, lagrangian, momenta, flow, energy, turning, motion, *told, kept
 
 
@@ -183,7 +183,7 @@ def _motion(
     )
 
 
-def _kept(
+def _conserved(
     fluid: ZeitlinFluid, torus: TorusLattice, made_from: tuple[Step, ...], c: Chapter
 ) -> Step:
     """The energy, and Tr Wᵏ: traces of a product with a bracket of one of its factors."""

@@ -92,7 +92,7 @@ def _vector_rates(balance: Balance, b: Alphabet, c: Chapter) -> Step:
         [coefficient_of(reduce(e, anticommute(f.velocity)), f.velocity) for _, f in pairs]
         for e in rates.values()
     ]
-    whole = tree_of(blocks[0][0]) if len(pairs) == 1 else _whole(blocks)
+    whole = tree_of(blocks[0][0]) if len(pairs) == 1 else _block_matrix(blocks)
     equations = [Equation(x.name, spun(vector_tree(e, b))) for x, e in rates.items()]
     return draft.step(
         [Equation("𝕁", whole), *equations],
@@ -100,7 +100,7 @@ def _vector_rates(balance: Balance, b: Alphabet, c: Chapter) -> Step:
     )
 
 
-def _whole(blocks: Sequence[Sequence[Expr]]) -> Tree:
+def _block_matrix(blocks: Sequence[Sequence[Expr]]) -> Tree:
     """A matrix of blocks ±j(x) or 0, entry by entry."""
     rows = [[x for block in line for x in _row(block, i)] for line in blocks for i in range(3)]
     return ("matrix", *(("row", *row) for row in rows))
@@ -157,7 +157,7 @@ def _velocity(
 ) -> list[Equation]:
     """The velocity by Π_a (and p_b), through the normal space of 𝔤 or by the mass matrix; nothing
     where each factor is seen from its centre of mass."""
-    if group.centred:
+    if group.barycentric_blocks:
         return []
     central, metric, moving = own[b.Pi.momentum], b.J, None
     if centred:

@@ -26,7 +26,7 @@ from ..spine.alphabet import (
     inverse_tree,
 )
 from ..spine.cartan import DOMEGA, primed
-from ..spine.kernel import MomentumForm, contact, moved
+from ..spine.kernel import MomentumForm, along_motion, contact
 from ..spine.principle import AND, Contraction, rate, steps_of
 from .isomorphism import (
     BRACKET,
@@ -176,11 +176,11 @@ def vector_form(general: MomentumForm, stage: Isometry, hat_map: HatMap, c: Chap
     values = {x: stating.mark(e) for x, e in momenta.items()}
     forces = pairing(stage, hat_map)
     acting = {d.force: forces[f.xi_prime] for d, f in pairs}
-    by_value = moved(values | acting, [d for d, _ in pairs], [f for _, f in pairs], HATS)
+    by_value = along_motion(values | acting, [d for d, _ in pairs], [f for _, f in pairs], HATS)
     domega = hat_map.scalar(substitute(b.respell(general.form), halved(stage.values, b)))
     forms = _by_momenta(domega, pairs, acting, hat_map), _by_value(stage, hat_map)
     written = varying.step(
-        [Equation(DOMEGA, x.whole(varying)) for x in forms],
+        [Equation(DOMEGA, x.tree(varying)) for x in forms],
         say("exterior_vector.momenta"),
         () if b.affine else (31,),
     )

@@ -35,7 +35,7 @@ class Words:
             group = on_homogeneous(p.group)
         else:
             group = p.group
-        self.group = group.stated
+        self.group = group.in_user_basis
         self.names = {(t[2], t[3]): x for x, t in state_names(self.group).items() if len(t) == 4}
 
     def number(self, t):
@@ -177,7 +177,7 @@ def typed(p):
         text += f" - ({potential(x, p, words)})"
     group = p.group.name
     if group == "Screw":
-        rows = [[[str(x) for x in row] for row in e] for e in p.group.stated.basis]
+        rows = [[[str(x) for x in row] for row in e] for e in p.group.in_user_basis.basis]
         group = {"name": group, "action": "affine", "basis": rows}
     return {"name": "typed", "group": group, "lagrangian": {"L": text}}
 
