@@ -239,6 +239,8 @@ def add_motion_options(simulated: argparse.ArgumentParser) -> None:
     simulated.add_argument("--ensemble", type=natural, metavar="N", help=about)
     about = "a parameter, an input or a number of the start: uniform, or normal:MEAN:SD; repeated"
     simulated.add_argument("--vary", action="append", type=law, metavar="NAME=LOW:HIGH", help=about)
+    about = "follow them on a graphics card: by nvcc, which is needed"
+    simulated.add_argument("--device", choices=("cuda",), help=about)
     about = "the seed of what is drawn (default: 0)"
     simulated.add_argument("--seed", type=natural, metavar="N", help=about)
     about = "FILE.npz, .csv or .parquet"

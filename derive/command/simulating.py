@@ -123,7 +123,7 @@ def command_simulate(args: argparse.Namespace) -> int:
     if args.dt is not None and args.tol is not None:
         raise MotionError("--dt is a step of one size, --tol chooses it: give one of them")
     if args.ensemble is None:
-        require_an_ensemble(args.vary, args.seed)
+        require_an_ensemble(args.vary, args.seed, args.device)
     if args.out:
         format_of(args.out)  # refused before the work
     for file in filter(None, (args.out, args.html)):
@@ -249,11 +249,11 @@ def plan_of(args: argparse.Namespace, start: dict[str, Any]) -> Plan:
     if args.html:
         raise MotionError("--html shows one motion: leave out --ensemble")
     require_steps_of_an_ensemble(args.method, args.dt, args.order)
-    chosen = {} if args.tol is None else {"tol": args.tol}
+    chosen: dict[str, Any] = {} if args.tol is None else {"tol": args.tol}
     points = 1 if args.points is None else args.points
     varied = tuple(VariedNumber(*x) for x in args.vary or ())
-    seed = args.seed or 0
-    return Plan(args.ensemble, varied, args.t, points, seed=seed, **chosen, **start)
+    chosen |= {"seed": args.seed or 0, "device": args.device or ""}
+    return Plan(args.ensemble, varied, args.t, points, **chosen, **start)
 
 
 def command_ensemble(
@@ -329,7 +329,8 @@ def ensemble_summary(many: EnsembleMotions, tally: Tally) -> list[str]:
     """What an ensemble says of itself, in lines."""
     facts, plan = many.facts, many.plan
     span = f"{plan.n} motions, t = 0 … {many.t[-1]:g}"
-    lines = [f"{facts['problem']}: {span}, by {facts['method']}, in C; seed {plan.seed}"]
+    by = f"by {facts['method']}, in {'CUDA' if plan.device else 'C'}"
+    lines = [f"{facts['problem']}: {span}, {by}; seed {plan.seed}"]
     lines += [f"  {x}" for _, x in facts["varied"]]
     lines += [f"  {tally.count[k]} {text}" for k, text in many.said.items() if tally.count[k]]
     if tally.count[0]:

@@ -27,7 +27,18 @@ from ..views.figure.drawn_body import ExpressionValues, parts
 from ..views.figure.shapes import Curve, Shape
 from .emitted_code import EmittedCode, base_units
 from .first_numbers import MotionError
-from .native import FLAGS, CSource, Motion, binding, binding_to_events, loaded, over_cores
+from .native import (
+    CARD_FLAGS,
+    FLAGS,
+    CSource,
+    Motion,
+    binding,
+    binding_on_card,
+    binding_to_events,
+    compiler_of_cards,
+    loaded,
+    over_cores,
+)
 from .run import Array
 from .start import central_inertia, inertia_of
 from .trajectory import MotionInPython, MotionUnderWay
@@ -111,6 +122,16 @@ class Emitted(EmittedCode):
         else:
             files["steps.c"] = binding(name, (), ensemble=True)
         return loaded(over_cores(CSource(self.name, tuple(files.items()), None, FLAGS)))
+
+    @cached_property
+    def ensemble_on_card(self) -> CDLL:
+        """The same on a graphics card, by CUDA; ``CompileError`` where there is no nvcc or no
+        card."""
+        name, compiler = self.prefix, compiler_of_cards()
+        options = Options(ensemble=True, form="header")
+        files = emit(self.program, self.record, ("c",), name, options)
+        files["steps.c"] = binding_on_card(name)
+        return loaded(CSource(self.name, tuple(files.items()), compiler, CARD_FLAGS))
 
     def motion(self, k: Array, u: Array, x: Array, *, compiled: bool) -> MotionUnderWay:
         """The motion that is in the state x at time 0, in C or in Python."""

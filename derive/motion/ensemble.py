@@ -39,10 +39,11 @@ def require_steps_of_an_ensemble(
         raise MotionError("an ensemble is run by the emitted C alone")
 
 
-def require_an_ensemble(vary: Any, seed: int | None) -> None:
+def require_an_ensemble(vary: Any, seed: int | None, device: str | None = None) -> None:
     """``MotionError`` for what one motion has no use for."""
-    if vary or seed is not None:
-        raise MotionError("--vary and --seed are for many motions: give --ensemble N, too")
+    if vary or seed is not None or device:
+        given = "--device is" if device else "--vary and --seed are"
+        raise MotionError(f"{given} for many motions: give --ensemble N, too")
 
 
 STATUS = {
@@ -126,7 +127,7 @@ class Ensemble:
 class Plan:
     """What is asked for: n motions from 0 to ``duration``, kept at ``points`` instants after the
     start, and there, too, if these are several; the start is by ``given``, ``exponent`` and
-    ``project`` as that of a run.
+    ``project`` as that of a run; ``device``: ``cuda``, or else over all cores.
 
     ``MotionError`` for what is no plan.
     """
@@ -140,6 +141,7 @@ class Plan:
     given: Mapping[str, float] = field(default_factory=dict)
     exponent: Sequence[float] = ()
     project: bool = False
+    device: str = ""
 
     def __post_init__(self) -> None:
         if not 1 <= self.n <= MOST:
@@ -179,12 +181,16 @@ class EnsembleMotions:
         stated = {name for t in problem.initial.trees() for name in names(t)}
         require_values(code, self.first)
         self.one_by_one = bool(stated & {*plan.names})  # the start is an expression of them
-        try:
-            self.library = code.compiled_ensemble
-        except CompileError as error:
+        if plan.device and code.events:
             raise MotionError(
-                f"{code.name}: an ensemble is run by the emitted C: {error}"
-            ) from None
+                f"{code.name}: terminal events are not looked for on a graphics card: "
+                "leave out --device"
+            )
+        try:
+            self.library = code.ensemble_on_card if plan.device else code.compiled_ensemble
+        except CompileError as error:
+            by = "on a graphics card by CUDA" if plan.device else "by the emitted C"
+            raise MotionError(f"{code.name}: an ensemble is run {by}: {error}") from None
 
     @property
     def facts(self) -> dict[str, Any]:
@@ -226,8 +232,9 @@ class EnsembleMotions:
 
     @property
     def size(self) -> int:
-        """The motions of a part, but for the last one."""
-        return max(1, min(MOTIONS, BYTES // (8 * len(self.t) * len(self.first.x))))
+        """The motions of a part, but for the last one; on a graphics card as many as BYTES."""
+        most = BYTES // (8 * len(self.t) * len(self.first.x))
+        return max(1, most if self.plan.device else min(MOTIONS, most))
 
     @property
     def count(self) -> int:
@@ -242,12 +249,12 @@ class EnsembleMotions:
             yield self._part(first, draws.next(min(self.size, self.plan.n - first)), stopped)
 
     def _part(self, first: int, draws: Array, stopped: Callable[[], bool]) -> Part:
-        """The motions of some draws, by calls that take about SECONDS."""
+        """The motions of some draws, by calls that take about SECONDS; on a card by one."""
         n, state, width = len(draws), len(self.first.x), self.none.end.shape[1]
         states, end = np.full((n, len(self.t), state), math.nan), np.full((n, width), math.nan)
         part = Part(draws, np.zeros(n, dtype=np.intc), states, end)
         unit, done = 1 if self.code.events else TOGETHER, 0
-        count = unit * (os.cpu_count() or 1)
+        count = n if self.plan.device else unit * (os.cpu_count() or 1)
         while done < n and not stopped():
             begun = time.monotonic()
             self._follow(first + done, part.some(done, done + count))

@@ -14,6 +14,7 @@ import math
 import os
 import shutil
 import subprocess
+import sysconfig
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -22,6 +23,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+from .first_numbers import MotionError
 
 # Emitted C as a shared library: compiled by the compiler at hand, loaded once.
 
@@ -79,6 +82,36 @@ def _compiler(requested: str | None) -> str:
         what = f"{chosen!r} is not on the path" if chosen else "no C compiler"
         raise CompileError(f"{what}: install gcc or clang, or name one in CC")
     return found
+
+
+# The same for a graphics card.
+
+CARD_FLAGS = ("-x", "cu", "-O3", "-arch=native", "-shared", "-Xcompiler", "-fPIC")
+
+
+def nvcc() -> str | None:
+    """CUDA's compiler, on the path or in its Python package."""
+    packaged = Path(sysconfig.get_path("purelib")).glob("nvidia/*/bin/nvcc")
+    return shutil.which("nvcc") or next(map(str, packaged), None)
+
+
+def compiler_of_cards() -> str:
+    """The same; ``CompileError`` without it, or without a card."""
+    found = nvcc()
+    if found is None:
+        packages = "nvidia-cuda-nvcc nvidia-cuda-runtime"
+        raise CompileError(f"no nvcc on the path: install CUDA, or pip install {packages}")
+    if not has_card():
+        raise CompileError("no card of NVIDIA, or no driver of it: leave out --device")
+    return found
+
+
+def has_card() -> bool:
+    """Does the driver of NVIDIA find a card?"""
+    try:
+        return int(ctypes.CDLL("libcuda.so.1").cuInit(0)) == 0
+    except OSError:
+        return False
 
 
 # A motion of compiled C under way: the emitted steps in time, called from Python.
@@ -192,6 +225,14 @@ void derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const 
     }}
 }}
 """
+ON_CARD = """\
+const char *derive_ensemble_on_card(size_t n, double *x, const double *k, size_t k_each,
+    const double *u, size_t u_each, double t0, double t1, double tol, double *h, int *status)
+{{
+    const int fault = {name}_ensemble_device(n, x, k, k_each, u, u_each, t0, t1, tol, h, status);
+    return fault ? cudaGetErrorString((cudaError_t)fault) : 0;
+}}
+"""
 CONSTANTS = """\
 void derive_constants(size_t n, const double *p, double *k, int *wrong);
 void derive_constants(size_t n, const double *p, double *k, int *wrong)
@@ -223,6 +264,12 @@ def binding(
 def binding_to_events(name: str, step: str) -> str:
     """The same of an ensemble whose motions end at their events, by one of those steps."""
     return "\n".join(x.format(name=name, step=step) for x in (INCLUDE, ENDED, CONSTANTS))
+
+
+def binding_on_card(name: str) -> str:
+    """The same of an ensemble on a graphics card, in CUDA."""
+    parts = INCLUDE, 'extern "C" {{\n', ON_CARD, CONSTANTS, "}}\n"
+    return "".join(x.format(name=name) for x in parts)
 
 
 FAULTS = {
@@ -394,14 +441,17 @@ def ensemble(
 ) -> Integers:
     """The status of each of n motions, which are moved from one time to another; x (n, state) and h
     (n,), their next steps, are written into, and so is, where they end at events, the time (n,)
-    when they did; k and u, one row for all or for each its own.  AT_EVENT + k: at event k."""
+    when they did; k and u, one row for all or for each its own.  AT_EVENT + k: at event k.
+    ``MotionError`` for what a graphics card cannot do."""
     require_tolerance(tol)
     n, status = len(x), np.zeros(len(x), dtype=np.intc)
     each = [ctypes.c_size_t(a.shape[1] if len(a) == n and n > 1 else 0) for a in (k, u)]
     times = map(ctypes.c_double, (*span, tol))
-    function = library.derive_ensemble
-    function.restype = None
+    on_card = hasattr(library, "derive_ensemble_on_card")
+    function = library.derive_ensemble_on_card if on_card else library.derive_ensemble
+    function.restype = ctypes.c_char_p if on_card else None
     numbers = (pointer(k), each[0], pointer(u), each[1], *times)
     told = [pointer(h), pointer(status), *map(pointer, ended)]
-    function(ctypes.c_size_t(n), pointer(x), *numbers, *told)
+    if fault := function(ctypes.c_size_t(n), pointer(x), *numbers, *told):
+        raise MotionError(f"the graphics card: {fault.decode()}: leave out --device")
     return status

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import tracemalloc
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ import derive
 from derive.command.cli import main
 from derive.command.simulating import Tally, kept
 from derive.motion import ensemble as of_parts
+from derive.motion import native
 from derive.motion.ensemble import ParameterDraws, VariedNumber
 from derive.programs import motion_of
 from derive.python.simulated import SimulatedEnsemble
@@ -375,3 +377,77 @@ def test_mean_and_deviation_are_those_of_all_parts():
         tally.add(of_parts.Part(none, np.zeros(len(some), int), states, none))
     mean, off = tally.ends()
     assert (mean[0], off[0]) == pytest.approx((np.mean(ends), np.std(ends)))
+
+
+# ---------------------------------------------------------------- on a graphics card
+
+CARD = Path(__file__).parents[1] / "support" / "card.h"
+ON_CARD = ["--t", "2", "--ensemble", "40", "--vary", "zeta_1=0:1", "--device", "cuda"]
+
+
+def as_nvcc(name, *flags):
+    """A compiler of CUDA whose card is the host, for the header of a problem."""
+    return f"""\
+#!/bin/sh
+exec g++ -x c++ -include {CARD} -D{name}_LAUNCH=launched {" ".join(flags)} \\
+    $(echo "$@" | sed 's/-x cu//; s/-arch=native//; s/-Xcompiler//')
+"""
+
+
+@pytest.fixture
+def nvcc(tmp_path, monkeypatch):
+    """The file that is the compiler of CUDA, beside a card."""
+    found = tmp_path / "bin" / "nvcc"
+    found.parent.mkdir()
+    found.touch(0o755)
+    monkeypatch.setattr("sysconfig.get_path", lambda _: str(tmp_path))
+    monkeypatch.setenv("PATH", f"{found.parent}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setattr(native, "has_card", lambda: True)
+    return found
+
+
+@needs("g++")
+def test_an_ensemble_on_a_card_is_that_of_the_host(some, nvcc, tmp_path, monkeypatch, capsys):
+    """In several parts, through the same files; of some there is no body."""
+    nvcc.write_text(as_nvcc("so3"))
+    monkeypatch.setattr(of_parts, "BYTES", 16 * 8 * 12 * 3)
+    out = tmp_path / "e.npz"
+    how = [*ON_CARD, *OPTIONS[2:], "--tol", "1e-12", "--points", "2", "--out", str(out)]
+    assert main(["simulate", "so3", *how, "--seed", "3"]) == 0
+    told = capsys.readouterr().out
+    assert "by vern9, tol 1e-12, in CUDA; seed 3" in told
+    assert "40 reached the end" in told
+    found = SimulatedEnsemble.read(out)
+    assert np.array_equal(found.varied, some.varied)
+    assert np.abs(found.states - some.states).max() < 1e-10
+    assert main(["simulate", "so3", *how, "--vary", "J_22=-3:1"]) == 0
+    assert {*SimulatedEnsemble.read(out).status.tolist()} == {0, 1}
+
+
+def refused(capsys, problem):
+    """The line in which an ensemble on a card is refused."""
+    assert main(["simulate", str(problem), *ON_CARD]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    return err
+
+
+@needs("g++")
+def test_what_a_card_lacks_is_told(nvcc, tmp_path, monkeypatch, capsys):
+    nvcc.write_text(as_nvcc("hammer", "-DCARDS_MEMORY=99", "-no-such-option"))
+    assert "nvcc refused the emitted C: " in refused(capsys, "hammer")
+    nvcc.write_text(as_nvcc("hammer", "-DCARDS_MEMORY=99"))
+    said = "derive: the graphics card: out of memory: leave out --device\n"
+    assert refused(capsys, "hammer") == said
+    monkeypatch.setattr(native, "has_card", lambda: False)
+    assert "no card of NVIDIA, or no driver of it: leave out --device" in refused(capsys, "top")
+    nvcc.unlink()
+    if not native.nvcc():  # one that the machine has otherwise
+        assert "no nvcc on the path: install CUDA, or pip install" in refused(capsys, "top")
+    packaged = tmp_path / "nvidia" / "cu13" / "bin" / "nvcc"
+    packaged.parent.mkdir(parents=True)
+    packaged.touch()
+    assert native.nvcc()
+    ends = '[[event]]\nname = "turned"\nwhen = "zeta_3 - w"\nterminal = true\n'
+    (tmp_path / "spin.toml").write_text(f"{SPIN}{ends}")
+    assert "terminal events are not looked for" in refused(capsys, tmp_path / "spin.toml")

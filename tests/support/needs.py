@@ -73,7 +73,7 @@ ELSEWHERE = {
         "pyarrow": "pyarrow",
         "trimesh": "trimesh",
     }.items()
-}
+} | {"nvcc": "pip install nvidia-cuda-nvcc nvidia-cuda-runtime"}
 """What does not, and where it is to be had."""
 
 
@@ -99,6 +99,13 @@ def has_tex() -> bool:
     return both and not subprocess.run(command, stdout=-3).returncode
 
 
+def has_nvcc() -> bool:
+    """Whether the compiler of CUDA is on the path or in its Python package."""
+    from derive.motion.native import nvcc  # which needs NumPy
+
+    return nvcc() is not None
+
+
 FOUND: dict[str, Callable[[], bool]] = {
     "cc": lambda: shutil.which(CC) is not None,
     "sanitizers of gcc": lambda: has_sanitizers("gcc"),
@@ -106,6 +113,7 @@ FOUND: dict[str, Callable[[], bool]] = {
     "SUNDIALS": lambda: Path("/usr/include/cvode/cvode.h").is_file(),
     "chromium": lambda: any(map(shutil.which, BROWSERS)),
     "pdflatex": has_tex,
+    "nvcc": has_nvcc,
     "Rust 2024": lambda: has_edition("2024"),
     "the locale fr_FR": lambda: Path("/usr/share/i18n/locales/fr_FR").is_file(),
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from math import comb
@@ -36,6 +37,7 @@ def known(p: Program, steps: Mapping[str, Any]) -> dict[str, Any]:
     two = len(steps["turns"]) == 2
     parts = steps["parts"]
     return {
+        "DEVICE": False,
         "EVENTS": bool(p.events),
         "INPUTS": bool(p.inputs),
         "INPUT_FUNCTIONS": bool(p.inputs),
@@ -130,13 +132,14 @@ EXTRAPOLATED = [[float((-1) ** i * comb(n, i + 1)) for i in range(5)] for n in r
 """The next value of a polynomial after n of them, by these, the last first."""
 
 
-def _of_method(method: Tableau, number: int) -> dict[str, Any]:
-    """The numbers of an explicit method."""
+def _of_method(method: Tableau, number: int, *, device: bool) -> dict[str, Any]:
+    """The numbers of an explicit method; on a device without the stages of dense output alone."""
 
     def terms(row: Any) -> list[float]:
         return [float(x) for x in row]
 
-    rows, stages = len(method.legendre), method.stages
+    stages = method.stages
+    rows = stages if device else len(method.legendre)
     columns = len(method.legendre[0])
     return {
         "PAIR": bool(method.embedded),
@@ -167,7 +170,7 @@ def source_of(given: dict[str, Any], steps: Mapping[str, Any]) -> Source:
         source.read(text_of("gauss"), given)
     for number, x in enumerate(steps["explicit"]["methods"] if steps["explicit"] else (), 1):
         name = x["name"]
-        method = _of_method(METHODS[name][0](), number)
+        method = _of_method(METHODS[name][0](), number, device=given["DEVICE"])
         source.read(text_of("runge_kutta").replace("METHOD", name), {**given, **method})
         given[f"{name}_DENSE"] = method["DENSE"]
     if given["DISCRETE"]:
@@ -206,9 +209,33 @@ def in_c(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     }
     printer = C(source_of(given, steps), given)
     more = {"Motion": INPUTS_IN_C.format(real=fields["real"]) if p.inputs else ""}
-    return _texts(
+    device = {"device": on_a_device(given)} if steps["ensemble"] and fields["header"] else {}
+    return device | _texts(
         printer, [printer.record(x, more.get(x, "")) for x in printer.source.records], steps
     )
+
+
+def on_a_device(given: Mapping[str, Any]) -> str:
+    """The motion of one thread of a graphics card, moved by rk4 and vern9, with loops unrolled: so
+    the state and the rates are in registers."""
+    prefix = given["prefix"]
+    none = ("GAUSS", "MODES", "METHODS", "EXPLICIT", "DISCRETE", "EXTRA", "HELD", "EVENTS")
+    names = ("rhs", "N_STATE", "N_CONSTANTS", "N_INPUTS", "NOT_FINITE", "NOT_CONVERGED")
+    own = {
+        **{x: f"{prefix}_{x}" for x in names},
+        **given,
+        **dict.fromkeys((*none, "INPUT_FUNCTIONS"), False),
+        "ADAPTIVE": True,
+        "DEVICE": True,
+        "prefix": f"{prefix}_thread",
+        "inline": "static __device__ __forceinline__",
+    }
+    methods = [{"name": x} for x in ("rk4", "vern9")]
+    printer = C(source_of(own, {"explicit": {"methods": methods}}), own)
+    parts = [*map("\n".join, map(printer.record, printer.source.records))]
+    text = "\n\n".join([*parts, printer.text(["begin", "rk4", "vern9_to"])])
+    # not those over a part of the state, whose bounds are known when the parts are unrolled
+    return re.sub(r"^ *for \(int \w = \d", r"#pragma unroll\n\g<0>", text, flags=re.M)
 
 
 INPUTS_IN_C = """\

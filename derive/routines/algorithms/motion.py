@@ -1,4 +1,4 @@
-"""A motion under way, and what every step does with it."""
+"""A motion under way, and what every step does with it; on a DEVICE nothing of its last step is kept."""
 
 if EVENTS:
 
@@ -20,7 +20,8 @@ class Motion:
     low: real[N_STATE]
     h: real  # the last step, 0 before the first
     evaluations: count  # of the rates, at the stages of steps
-    start: real[N_STATE]  # the state where the last step began
+    if not DEVICE:
+        start: real[N_STATE]  # the state where the last step began
     if ADAPTIVE:
         h_next: real  # the next step for a tolerance
         size: real[N_PARTS]  # how large each part of the state ever was
@@ -104,7 +105,8 @@ def begin(m: out[Motion], t: real, x: real[N_STATE]):
         m.halted = INFINITY
     for i in range(N_STATE):
         m.x[i] = x[i]
-        m.start[i] = x[i]
+        if not DEVICE:
+            m.start[i] = x[i]
         m.low[i] = 0.0
     if ADAPTIVE:
         size: real[N_PARTS]
@@ -170,7 +172,8 @@ def moved(m: out[Motion], h: real, sum: real[N_STATE]) -> flag:
     # a sum as a number and what its rounding leaves, for x larger than low or so
     for i in range(N_STATE):
         x: real = m.x[i] + low[i]
-        m.start[i] = m.x[i]
+        if not DEVICE:
+            m.start[i] = m.x[i]
         m.low[i] = low[i] - (x - m.x[i])
         m.x[i] = x
     rest: real = m.t_low + h
@@ -246,10 +249,29 @@ def up_to(
     step: Step, m: out[Motion], k: real[N_CONSTANTS], u: real[N_INPUTS], t1: real, tol: real
 ) -> status:
     """Such steps up to the time t1."""
-    while t1 - m.t - m.t_low != 0.0:
-        code: status = towards(step, m, k, u, t1, tol)
-        if code != OK:
-            return code
+    if DEVICE:
+        # made or not, each is one turn of one loop: threads beside do not wait for one another
+        if not abs(m.h_next) > 0.0:
+            m.h_next = first_step(m, k, u)
+        left: var[real] = t1 - m.t - m.t_low
+        while left != 0.0:
+            if not abs(left) < INFINITY:
+                return NOT_FINITE
+            h: var[real] = -abs(m.h_next) if left < 0.0 else abs(m.h_next)
+            if abs(h) > abs(left) / 2.0:
+                h = left if abs(h) > abs(left) * (1.0 - 1e-9) else left / 2.0
+            if step(m, k, u, h, tol if tol > 1e-15 else 1e-15):
+                if h == left:
+                    m.t = t1
+                    m.t_low = 0.0
+            elif not abs(m.h_next) > LEAST * (abs(left) + abs(m.t)):
+                return fault_here(m, k, u)
+            left = t1 - m.t - m.t_low
+    else:
+        while t1 - m.t - m.t_low != 0.0:
+            code: status = towards(step, m, k, u, t1, tol)
+            if code != OK:
+                return code
     return OK
 
 

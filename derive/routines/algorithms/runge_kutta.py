@@ -60,17 +60,19 @@ if PAIR:
         if not moved(m, h, sum):
             m.h_next = h / 2.0
             return False
-        for i in range(STAGES):
-            m.f[i][:] = f[i]
-        m.method = NUMBER
-        m.dense_known = False
+        if not DEVICE:
+            for i in range(STAGES):
+                m.f[i][:] = f[i]
+            m.method = NUMBER
+            m.dense_known = False
         return True
 
     def METHOD(
         m: out[Motion], k: real[N_CONSTANTS], u: real[N_INPUTS], h: real, n: count = 1
     ) -> status:
         """n steps of size h, which may be negative."""
-        hold(m, k, u)
+        if HELD:
+            hold(m, k, u)
         made: var[count] = 0
         while made < n:
             if not METHOD_step(m, k, u, h, 0.0):
@@ -83,7 +85,8 @@ if PAIR:
     ) -> status:
         """Steps of their own size up to the time t1, before or after m.t; tol: the error of a step relative
         to the size of each part of the state."""
-        hold(m, k, u)
+        if HELD:
+            hold(m, k, u)
         if EVENTS:
             return up_to_event(METHOD_step, METHOD, m, k, u, t1, tol)
         else:
@@ -99,9 +102,10 @@ else:
         m.evaluations += STAGES
         if not moved(m, h, sum):
             return False
-        for i in range(STAGES):
-            m.f[i][:] = f[i]
-        m.method = NUMBER
+        if not DEVICE:
+            for i in range(STAGES):
+                m.f[i][:] = f[i]
+            m.method = NUMBER
         return True
 
     def METHOD(
