@@ -137,7 +137,8 @@ MUTATIONS = {
     "MathML: rows run together": (
         TYPESET, 'body = "".join(f"<mtr>{x}</mtr>" for x in cells)', 'body = "".join(cells)'),
     "names: the prefix of a variation lost": (
-        NAMES, 'whole = _letter_in_full(tex, found["lead"], letter', 'whole = _letter_in_full(tex, "", letter'),
+        NAMES, 'whole = _letter_in_full(tex, found["lead"], letter',
+        'whole = _letter_in_full(tex, "", letter'),
     "names: an index lost under a bar": (
         NAMES, "return _letter_in_full(whole, lead, letter, primes, below)",
         'return _letter_in_full(whole, lead, letter, primes, "")'),
