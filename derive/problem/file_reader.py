@@ -15,7 +15,7 @@ from ..language.expression import ExpressionError, parse
 from ..language.laurent import LEVEL, WRITTEN, degree_in_level, is_layered
 from ..language.limits import BASIS, LAYERS, MATRIX, TEXT
 from ..language.reserved import PLACE
-from ..language.tree import Tree, nodes, replaced, subtrees
+from ..language.tree import Tree, mul, nodes, replaced, subtrees
 from ..language.values import approximate
 from ..schema.body_kinds import LAYERED, Body, GivenBody, Place, Point, PointBody, is_ellipsoid
 from ..schema.kind import SIDES, Advected
@@ -24,7 +24,8 @@ from ..schema.table_reader import NAME, TableReader
 from .fields import LIKE_A_PLACE, known_in_lagrangian, meant, state_names
 from .moments import SolidError, first_moment, given_by, second_moment
 from .problem import ProblemError, points_of
-from .solids import fault_of_quadric, rotation_about
+from .rotations import rotation, turn_in
+from .solids import fault_of_quadric, product_of
 
 AXES = "xyz"
 CHAPTERS = ("linear", "affine", "discrete", "discrete_affine", *SIDES)
@@ -373,10 +374,20 @@ class FileReader(TableReader):
         return found if name == "c" else first_moment(slot.found["m"], found)
 
     def second(self, slot: Slot) -> Rows:
-        """J, or in R³ a tensor of inertia, about the origin or the centre of mass."""
+        """J, or in R³ a tensor of inertia, about the origin or the centre of mass, in axes of its
+        own where a rotation is said; in the plane, of a body that turns, the number I."""
         n, where = self.moving().n, slot.where
-        name = given_by(slot.table, ("J", "I", "I_centre") if n == 3 else ("J",), where)
-        rows = self.rows(slot.table[name], n, n, f"{where}, {name}")
+        plane = n == 2 and "orthogonal" in self.moving().relations
+        name = given_by(slot.table, ("J", "I", "I_centre") if n == 3 or plane else ("J",), where)
+        if plane and name != "J":
+            half = mul(Fraction(1, 2), self.expression(slot.table[name], f"{where}, {name}"))
+            rows: Rows = ((half, 0), (0, half))
+        else:
+            rows = self.rows(slot.table[name], n, n, f"{where}, {name}")
+        turn, said = turn_in(slot.table, where)
+        if turn:
+            R = self.turned(said, n, f"{where}, {turn}" if turn == "rotation" else where)
+            rows = product_of(product_of(R, rows), q.transposed(R))
         return second_moment(name, rows, slot.found["m"], slot.found["c"], where)
 
     def central(self, slot: Slot) -> bool:
@@ -434,37 +445,8 @@ class FileReader(TableReader):
         return path
 
     def turned(self, value: Any, n: int, where: str) -> Rows:
-        """{ axis, angle } in R³, or a matrix of numbers that is a rotation of Rⁿ."""
-        if isinstance(value, dict) and n == 3:
-            self.known(value, {"axis", "angle"}, where)
-            axis = self.listed(self.value(Slot(value, "axis", where)), 3, f"{where}, axis")
-            angle = self.scalar(Slot(value, "angle", where))
-            try:
-                return rotation_about(axis, angle)
-            except SolidError as error:
-                raise ProblemError(f"{where}: {error}") from None
-        turning, other, exact = (
-            ("{ axis, angle } or ", ", or { axis, angle }", "{ axis, angle } is exact")
-            if n == 3
-            else ("", "", "")
-        )
-        if not isinstance(value, list) or len(value) != n:
-            raise ProblemError(f"{where}: expected {turning}a list of {n} rows")
-        if not all(isinstance(row, list) for row in value):
-            raise ProblemError(f"{where}: expected {n} rows of {n} numbers{other}")
-        rows = self.rows(value, n, n, where)
-        if not all(isinstance(x, (int, Fraction)) for row in rows for x in row):
-            raise ProblemError(
-                f"{where}: the entries must be numbers{other.replace(', or', '; else give')}"
-            )
-        R = tuple(tuple(Fraction(str(x)) for x in row) for row in rows)
-        off = q.minus(q.times(R, q.transposed(R)), q.identity(n))
-        if max(abs(x) for x in q.flatten(off)) > Fraction(1, 10**6):
-            more = f"; {exact}" if exact else ""
-            raise ProblemError(f"{where}: the rows are not orthogonal unit vectors{more}")
-        if q.determinant(R) < 0:
-            raise ProblemError(f"{where}: a reflection; change the sign of one row")
-        return rows
+        """A rotation of Rⁿ."""
+        return rotation(value, n, where, self)
 
 
 def _as_list(value: Any) -> list[Any]:

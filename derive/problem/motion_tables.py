@@ -11,6 +11,7 @@ from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
 from ..schema.kind import Event, Input
 from ..schema.table import hint, nearest
+from . import rotations
 from .fields import entries, known_in_lagrangian, state_names, tables
 from .file_reader import FileReader
 from .problem import Initial, Problem, ProblemError
@@ -50,8 +51,9 @@ def _initial(table: Any, reader: FileReader) -> Initial:
     if not isinstance(table, dict):
         raise ProblemError("key 'initial' must be a table [initial]")
     found: dict[str, Tree] = {}
+    found |= _turned(table, reader)
     for name, value in table.items():
-        if name == "exp":
+        if name == "exp" or name in rotations.KEYS:
             continue
         where = f"initial, {name[:40]}"
         if name in reader.parameters:
@@ -76,11 +78,32 @@ def _initial(table: Any, reader: FileReader) -> Initial:
 def _number(value: Any, where: str, reader: FileReader) -> Tree:
     """An expression of the parameters."""
     found = reader.expression(value, where)
-    for name in names(found):
+    _require_declared(found, where, reader)
+    return found
+
+
+def _require_declared(t: Tree, where: str, reader: FileReader) -> None:
+    for name in names(t):
         if name not in reader.parameters:
             near = nearest(name, reader.parameters)
             raise ProblemError(f"{where}: {name[:40]!r} is not declared in [parameters]{near}")
-    return found
+
+
+def _turned(table: Mapping[str, Any], reader: FileReader) -> dict[str, Tree]:
+    """The entries of A by the rotation that a start says, none where it says none."""
+    where = "initial"
+    name, said = rotations.turn_in(table, where)
+    if not name:
+        return {}
+    if reader.group is None or reader.advected is not None or not reader.group.rotates:
+        raise ProblemError(f"{where}, {name}: the state has no rotation of R^3; give its numbers")
+    if other := next((x for x in table if x == "exp" or x.startswith("A_")), ""):
+        raise ProblemError(f"{where}: {name} and {other} both say where the body is; leave out one")
+    rows = reader.turned(said, 3, f"{where}, {name}" if name == "rotation" else where)
+    entries = {suffixed("A", i, j): x for i, r in enumerate(rows, 1) for j, x in enumerate(r, 1)}
+    for x in entries.values():
+        _require_declared(x, f"{where}, {name}", reader)
+    return entries
 
 
 def _order(reader: FileReader) -> str:

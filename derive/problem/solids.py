@@ -242,6 +242,39 @@ def rotation_about(axis: Row, angle: Tree) -> tuple[Row, ...]:
     return tuple(tuple(entry(i, j) for j in SPAN) for i in SPAN)
 
 
+def rotation_by_angles(roll: Tree, pitch: Tree, yaw: Tree) -> tuple[Row, ...]:
+    """R = R_z(yaw) R_y(pitch) R_x(roll), 3 × 3, of three angles in radians."""
+    z, y, x = (rotation_about(e, a) for e, a in zip(UNIT[::-1], (yaw, pitch, roll), strict=True))
+    return product_of(z, product_of(y, x))
+
+
+def rotation_of_quaternion(q: Row) -> tuple[Row, ...]:
+    """The rotation of a quaternion, scalar first, of any length: for q = (s, v), by s, v over |q|,
+    (s² − |v|²) 1 + 2 v v̄ + 2 s j(v).  ``SolidError`` unless it is four numbers, not all zero."""
+    numbers = [Fraction(x) for x in q if isinstance(x, (int, Fraction))]
+    if len(numbers) != 4 or not any(numbers):
+        raise SolidError("a quaternion must be four numbers, scalar first, not all zero")
+    s, *v = numbers
+    square = sum((x * x for x in numbers), Fraction(0))
+
+    def entry(i: int, j: int) -> Fraction:
+        if i == j:
+            return (s * s + 2 * v[i] ** 2 - sum((x * x for x in v), Fraction(0))) / square
+        side = v[3 - i - j] * (1 if (i - j) % 3 == 1 else -1)
+        return 2 * (v[i] * v[j] + s * side) / square
+
+    return tuple(tuple(entry(i, j) for j in SPAN) for i in SPAN)
+
+
+def product_of(a: Rows, b: Rows) -> tuple[Row, ...]:
+    """The product of two matrices, 3 × 3, multiplied out."""
+
+    def entry(i: int, j: int) -> Tree:
+        return _flat(sum((_terms(a[i][k]) * _terms(b[k][j]) for k in SPAN), Laurent({})))
+
+    return tuple(tuple(entry(i, j) for j in SPAN) for i in SPAN)
+
+
 # ∫ xᵃ yᵇ zᶜ dV over a reference shape
 
 Integrals = Callable[..., Laurent]

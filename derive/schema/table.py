@@ -101,7 +101,9 @@ the principal frame makes a list.  A place in the space of a block, and the bloc
 dimension of the space, which the group says."""
 
 First = Annotated[Row, Key("first", 1, trees=True, keys=("c", "centre"))]
-Second = Annotated[Rows, Key("second", 2, trees=True, keys=("J", "I", "I_centre"))]
+Second = Annotated[
+    Rows, Key("second", 2, trees=True, keys=("J", "I", "I_centre", "rotation", "rpy", "quaternion"))
+]
 Central = Annotated[bool, Key("central", keys=("I_centre",), told=False)]
 Length = Annotated[Tree, Key("length", trees=True)]
 Inner = Annotated[Tree, Key("length", trees=True, zero=True)]
@@ -203,8 +205,9 @@ ELSEWHERE = {
     ),
     **dict.fromkeys(
         ("rpy", "roll", "pitch", "yaw", "euler", "orientation", "quaternion", "rotation"),
-        "a rotation is { axis, angle } or rows in a solid; a motion starts turned by 'exp' in "
-        "[initial]; --attitude quaternion is of emitted code",
+        "a rotation is { axis, angle }, { rpy }, { quaternion } or rows, in a solid and in 'given';"
+        " a motion starts turned by 'rpy', 'quaternion' or 'exp' in [initial]; --attitude "
+        "quaternion is of emitted code",
     ),
     **dict.fromkeys(
         ("constraint", "constraints", "joint", "joints", "nonholonomic", "rolling", "link"),

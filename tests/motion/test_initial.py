@@ -74,6 +74,31 @@ def test_the_record_and_the_code_do_not_know_it(tmp_path):
     assert "swing_N_PARAMETERS = 0" in header
 
 
+def turns(axis, angle):
+    """Right-handed, about an axis of R³ by its number."""
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    R = np.eye(3)
+    R[[j, k], [j, k]], R[k, j], R[j, k] = np.cos(angle), np.sin(angle), -np.sin(angle)
+    return R
+
+
+@pytest.mark.parametrize(
+    ("text", "A"),
+    [
+        ('rpy = ["w/4", -1, "pi/2"]', turns(2, np.pi / 2) @ turns(1, -1) @ turns(0, 0.5)),
+        ("quaternion = [2, 0, 0, -2]", turns(2, -np.pi / 2)),
+        ("quaternion = [1, 2, 3, 4]", np.array([[-10, 2, 11], [10, -5, 10], [5, 14, 2]]) / 15),
+        ('rotation = { axis = [0, 2, 0], angle = "w" }', turns(1, 2)),
+    ],
+)
+def test_a_start_is_turned(tmp_path, text, A):
+    """R_z R_y R_x; a quaternion of any length, scalar first."""
+    given = START.replace('exp = ["pi/6", 0, 0]', text)
+    x, _ = first(problem(tmp_path, given))
+    found = [[x[f"A_{i}{j}"] for j in (1, 2, 3)] for i in (1, 2, 3)]
+    assert np.array(found) == pytest.approx(A, abs=1e-15)
+
+
 def test_off_the_group_it_is_refused_and_can_be_projected(tmp_path, capsys):
     path = problem(tmp_path, BODY + "[initial]\nA_11 = 1.1\nzeta_1 = 1\n")
     assert main(["simulate", str(path), "--t", "1"]) == 2
@@ -97,6 +122,14 @@ def test_off_the_group_it_is_refused_and_can_be_projected(tmp_path, capsys):
         ('[initial]\n"a b" = 1', "initial, a b: letters, digits and _ only"),
         ("[parameters]\nw = 1\n[initial]\nw = 1", "initial, w: a parameter has its default"),
         ("[[initial]]\nw = 1", "key 'initial' must be a table [initial]"),
+        ("[initial]\nrpy = [0, 0]", "initial, rpy: expected a list of 3 expressions"),
+        ('[initial]\nrpy = [0, 0, "a"]', "initial, rpy: 'a' is not declared in [parameters]"),
+        ("[initial]\nrpy = [0, 0, 1]\nexp = [1, 0, 0]", "rpy and exp both say where the body is"),
+        ("[initial]\nquaternion = [0, 0, 0, 0]", "initial: a quaternion must be four numbers"),
+        (
+            "[initial]\nrotation = [[1, 0, 0]]",
+            "initial, rotation: expected { axis, angle }",
+        ),
     ],
 )
 def test_a_bad_table_is_told(tmp_path, text, words):

@@ -10,6 +10,7 @@ import pytest
 
 from derive import (
     SE,
+    SL,
     Force,
     Lagrangian,
     Moments,
@@ -174,12 +175,31 @@ def test_flat_bodies_in_few_digits_are_bodies(digits, symbolic):
         assert not [*doubts(Problem("plate", SE(3), body, parameters=values), {})]
 
 
-@pytest.mark.parametrize("rpy", [[0, 0, 1], 1])
-def test_a_start_by_angles(rpy, tmp_path, capsys):
+def test_moments_in_axes_of_their_own():
+    """I becomes R I R̄, R from these axes to those of the body; the centre stays where it is."""
+    own = np.array([[300, 10, 20], [10, 200, 30], [20, 30, 400]])
+    R = np.array([[-10, 2, 11], [10, -5, 10], [5, 14, 2]])  # 15 times that of (1, 2, 3, 4)
+    turned = Moments(m=2, centre=[1, 2, 3], I_centre=own.tolist(), quaternion=[1, 2, 3, 4])
+    plain = Moments(m=2, centre=[1, 2, 3], I_centre=(R @ own @ R.T / 225).tolist())
+    one, other = (Problem("body", SE(3), x).body.given for x in (turned, plain))
+    assert one.c == other.c
+    assert np.array(one.J, float) == pytest.approx(np.array(other.J, float), abs=1e-12)
+
+
+def test_the_moment_of_inertia_in_the_plane_is_a_number():
+    """2 about the centre, 2 + 3 · 4 about the origin, and of a motion no more is needed."""
+    found = Problem("disc", SE(2), Moments(m=3, centre=[2, 0], I_centre=2)).body.given
+    assert found.J[0][0] + found.J[1][1] == 14
+    with pytest.raises(ProblemError, match="give J, the matrix of moments"):
+        Problem("disc", SL(2), Moments(m=3, c=[0, 0], I=2))
+
+
+@pytest.mark.parametrize("yaw", [[0, 0, 1], 1])
+def test_a_start_by_angles(yaw, tmp_path, capsys):
     path = tmp_path / "good.toml"
-    path.write_text(f"{HEAD}{POINTS}[initial]\nrpy = {rpy}\n")
-    assert main(["walk", str(path)]) == (2 if isinstance(rpy, list) else 0)
-    assert "a motion starts turned by 'exp' in [initial]" in capsys.readouterr().err
+    path.write_text(f"{HEAD}{POINTS}[initial]\nyaw = {yaw}\n")
+    assert main(["walk", str(path)]) == (2 if isinstance(yaw, list) else 0)
+    assert "a motion starts turned by 'rpy', 'quaternion' or 'exp' in" in capsys.readouterr().err
 
 
 def test_of_names_as_near_one_that_begins_so_is_meant():

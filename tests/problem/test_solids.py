@@ -19,7 +19,7 @@ from derive.language import rational as q
 from derive.language.tree import mul
 from derive.problem.mesh import MeshError, mesh_moments, read
 from derive.problem.moments import SolidError
-from derive.problem.solids import moments, rotation_about, together, unit_moments
+from derive.problem.solids import joined_moments, moments, rotation_about, unit_moments
 from derive.schema.body_kinds import SOLIDS
 from tests.support.needs import needs
 
@@ -291,10 +291,10 @@ def test_mixtures():
     hole = moments(made("ball", mul(-1, RHO), {"radius": B}))
     names = {RHO: Fraction(5), A: Fraction(3), B: Fraction(2), "π": Fraction(3)}
     hollow = moments(made("hollow_ball", RHO, {"outer": A, "inner": B}))
-    assert values(together(ball, hole), names) == values(hollow, names)
+    assert values(joined_moments(ball, hole), names) == values(hollow, names)
     halves = [made("box", 2, {"sides": (1, A, 3)}, None, (x, 0, 0)) for x in (0, 1)]
     whole = made("box", 2, {"sides": (2, A, 3)}, None, (Fraction(1, 2), 0, 0))
-    assert together(*map(moments, halves)) == moments(whole)
+    assert joined_moments(*map(moments, halves)) == moments(whole)
 
 
 @pytest.mark.parametrize(
@@ -444,7 +444,7 @@ def test_meshes_against_fluxes_and_tetrahedra(seed):
     assert values(found, {}) == lists(expected)
     corners = [(o, *(points[k] for k in face)) for face in OCTANTS]
     parts = [unit_moments(made("tetrahedron", 1, {"vertices": c})) for c in corners]
-    assert reduce(together, parts) == found
+    assert reduce(joined_moments, parts) == found
 
 
 T = split(QUADS)
