@@ -17,6 +17,8 @@ DECLARED = {"P": "PARAMETERS", "K": "CONSTANTS", "U": "INPUTS"}
 """Macro → the size that it declares: arrays that may be empty, which C does not have: SIZE is 1
 then."""
 LISTS = ("state", "parameter", "input", "conserved", "event")
+PLACES = {"X": "state", "P": "parameters", "U": "inputs"}
+"""The letters of the places of numbers, and of what."""
 REFUSALS = ("SINGULAR", "NOT_FINITE")
 """What ``constants`` returns of a body that has no rates; with SIZES these are all enumerators."""
 COMMENT = re.compile(r'"[^"\n]*"|/\*.*?\*/|//[^\n]*', re.DOTALL)
@@ -121,7 +123,15 @@ def read_c(name: str, files: Mapping[str, str], prefix: str) -> tuple[Module, Se
         if [int(i) for i, _ in named] != list(range(found.sizes["PARAMETERS"])):
             raise CodeError("the parameters are not listed in order")
         found = replace(found, parameters=tuple(x for _, x in named))
-    return found, reader.events
+    lists = (found.state, found.parameters, found.inputs)
+    placed = [reader.places.get(x, y) for x, y in zip(PLACES, lists, strict=True)]
+    for letter, listed, read in zip(PLACES, lists, placed, strict=True):
+        if listed is not None and read != listed:
+            raise CodeError(
+                f"{prefix}_{letter}_… are not the places of the names of {PLACES[letter]}"
+            )
+    state, parameters, inputs = placed  # one header has no list of names beside
+    return replace(found, state=state, parameters=parameters, inputs=inputs), reader.events
 
 
 def calls_of_cpp(name: str, text: str, prefix: str) -> tuple[str, ...]:
@@ -180,6 +190,7 @@ class CReader(Reader):
     def __init__(self, *given: Any):
         super().__init__(*given)
         self.events: list[Token] = []
+        self.places: dict[str, tuple[str, ...]] = {}
 
     def module(self) -> Module:
         """All functions and lists of the file; ``CodeError`` for any other definition."""
@@ -225,6 +236,8 @@ class CReader(Reader):
         if self.near(2).startswith(f"{self.prefix}_AT_") and self.took("enum { … } ;"):
             self.events += self.tokens[start : self.at]
             return True
+        if self._places():
+            return True
         if not self.took("enum {"):
             return False
         while self.word != "}":
@@ -238,6 +251,21 @@ class CReader(Reader):
                 raise CodeError(f"{name} is {self.sizes[name]}, not {known[name]}")
             if not self.took(",") and self.word != "}":
                 self.unknown()
+        self.take("} ;")
+        return True
+
+    def _places(self) -> bool:
+        """Read the places of the numbers of x, p or u by their names, where they stand here."""
+        letter = self.near(2).removeprefix(f"{self.prefix}_")[:2].removesuffix("_")
+        if letter not in PLACES or letter in self.places or not self.took("enum {"):
+            return False
+        head, found = f"{self.prefix}_{letter}_", list[str]()
+        while self.word.startswith(head):
+            found.append(self.next().removeprefix(head))
+            self.take(f"= {len(found) - 1}")
+            if not self.took(","):
+                break
+        self.places[letter] = tuple(found)
         self.take("} ;")
         return True
 

@@ -70,6 +70,51 @@ enum {
     se3_SIZE_U = 6
 };
 
+/* Where a number stands in x, p and u: x[se3_X_w_3]. */
+enum {
+    se3_X_A_11 = 0,
+    se3_X_A_12 = 1,
+    se3_X_A_13 = 2,
+    se3_X_A_21 = 3,
+    se3_X_A_22 = 4,
+    se3_X_A_23 = 5,
+    se3_X_A_31 = 6,
+    se3_X_A_32 = 7,
+    se3_X_A_33 = 8,
+    se3_X_T_1 = 9,
+    se3_X_T_2 = 10,
+    se3_X_T_3 = 11,
+    se3_X_zeta_1 = 12,
+    se3_X_zeta_2 = 13,
+    se3_X_zeta_3 = 14,
+    se3_X_w_1 = 15,
+    se3_X_w_2 = 16,
+    se3_X_w_3 = 17
+};
+enum {
+    se3_P_m = 0,
+    se3_P_c_1 = 1,
+    se3_P_c_2 = 2,
+    se3_P_c_3 = 3,
+    se3_P_J_11 = 4,
+    se3_P_J_12 = 5,
+    se3_P_J_13 = 6,
+    se3_P_J_22 = 7,
+    se3_P_J_23 = 8,
+    se3_P_J_33 = 9,
+    se3_P_g_1 = 10,
+    se3_P_g_2 = 11,
+    se3_P_g_3 = 12
+};
+enum {
+    se3_U_u_1 = 0,
+    se3_U_u_2 = 1,
+    se3_U_u_3 = 2,
+    se3_U_u_4 = 3,
+    se3_U_u_5 = 4,
+    se3_U_u_6 = 5
+};
+
 /* What se3_constants refuses: a mass matrix that is singular or not positive;
  * a number that is infinite, none, or too large to compute with. */
 enum { se3_SINGULAR = 1, se3_NOT_FINITE = 2 };

@@ -76,6 +76,51 @@ enum {
     sl3_SIZE_U = 1
 };
 
+/* Where a number stands in x, p and u: x[sl3_X_zeta_8]. */
+enum {
+    sl3_X_A_11 = 0,
+    sl3_X_A_12 = 1,
+    sl3_X_A_13 = 2,
+    sl3_X_A_21 = 3,
+    sl3_X_A_22 = 4,
+    sl3_X_A_23 = 5,
+    sl3_X_A_31 = 6,
+    sl3_X_A_32 = 7,
+    sl3_X_A_33 = 8,
+    sl3_X_zeta_1 = 9,
+    sl3_X_zeta_2 = 10,
+    sl3_X_zeta_3 = 11,
+    sl3_X_zeta_4 = 12,
+    sl3_X_zeta_5 = 13,
+    sl3_X_zeta_6 = 14,
+    sl3_X_zeta_7 = 15,
+    sl3_X_zeta_8 = 16
+};
+enum {
+    sl3_P_m1 = 0,
+    sl3_P_x1 = 1,
+    sl3_P_y1 = 2,
+    sl3_P_z1 = 3,
+    sl3_P_m2 = 4,
+    sl3_P_x2 = 5,
+    sl3_P_y2 = 6,
+    sl3_P_z2 = 7,
+    sl3_P_m3 = 8,
+    sl3_P_x3 = 9,
+    sl3_P_y3 = 10,
+    sl3_P_z3 = 11,
+    sl3_P_m4 = 12,
+    sl3_P_x4 = 13,
+    sl3_P_y4 = 14,
+    sl3_P_z4 = 15,
+    sl3_P_k12 = 16,
+    sl3_P_k13 = 17,
+    sl3_P_k14 = 18,
+    sl3_P_k23 = 19,
+    sl3_P_k24 = 20,
+    sl3_P_k34 = 21
+};
+
 /* What sl3_constants refuses: a mass matrix that is singular or not positive;
  * a number that is infinite, none, or too large to compute with. */
 enum { sl3_SINGULAR = 1, sl3_NOT_FINITE = 2 };

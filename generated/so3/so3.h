@@ -63,6 +63,41 @@ enum {
     so3_SIZE_U = 3
 };
 
+/* Where a number stands in x, p and u: x[so3_X_zeta_3]. */
+enum {
+    so3_X_A_11 = 0,
+    so3_X_A_12 = 1,
+    so3_X_A_13 = 2,
+    so3_X_A_21 = 3,
+    so3_X_A_22 = 4,
+    so3_X_A_23 = 5,
+    so3_X_A_31 = 6,
+    so3_X_A_32 = 7,
+    so3_X_A_33 = 8,
+    so3_X_zeta_1 = 9,
+    so3_X_zeta_2 = 10,
+    so3_X_zeta_3 = 11
+};
+enum {
+    so3_P_c_1 = 0,
+    so3_P_c_2 = 1,
+    so3_P_c_3 = 2,
+    so3_P_J_11 = 3,
+    so3_P_J_12 = 4,
+    so3_P_J_13 = 5,
+    so3_P_J_22 = 6,
+    so3_P_J_23 = 7,
+    so3_P_J_33 = 8,
+    so3_P_g_1 = 9,
+    so3_P_g_2 = 10,
+    so3_P_g_3 = 11
+};
+enum {
+    so3_U_u_1 = 0,
+    so3_U_u_2 = 1,
+    so3_U_u_3 = 2
+};
+
 /* What so3_constants refuses: a mass matrix that is singular or not positive;
  * a number that is infinite, none, or too large to compute with. */
 enum { so3_SINGULAR = 1, so3_NOT_FINITE = 2 };
