@@ -16,8 +16,9 @@ from tests.support.walks import SEED
 NAMES = ("so3", "se3", "sl3", "gl3", "saff3")
 
 
-def test_without_its_mark_a_discrete_record_is_refused():
-    d = record("discrete so3")
+def test_a_discrete_record_holds_but_not_without_its_mark():
+    d = record("discrete top")
+    assert all(v.holds for v in check(d, SEED))
     plain = replace(d, problem={k: x for k, x in d.problem.items() if k != "discrete"})
     assert not all(v.holds for v in check(plain, SEED))
 

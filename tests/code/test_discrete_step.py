@@ -15,6 +15,7 @@ from derive.code.program import LoweringError
 from derive.language import rational as q
 from derive.pipeline import discrete
 from derive.problem.toml import problem_of
+from tests.problems import thrown
 from tests.support.corpus import DRIVEN
 from tests.support.discrete_maps import DiscreteMap
 from tests.support.needs import need
@@ -29,7 +30,9 @@ BODY |= {"c_1": 0.1, "c_2": 0.2, "c_3": 0.3, "g_1": 0.5, "g_2": 1, "g_3": -2}
 @cache
 def walked(name):
     """A problem by its name, or on a group one with inputs and damping."""
-    if name == "tied":
+    if name == "thrown":
+        text = thrown.TEXT
+    elif name == "tied":
         text = PUSHED.replace("GROUP", "SE(3)").partition("damping")[0]
     elif "(" in name:
         text = PUSHED.replace("GROUP", name.removeprefix("free "))
@@ -130,6 +133,16 @@ def test_it_has_its_order(name, order):
         assert order - 0.35 < log2(errors[0] / errors[1]) < order + 0.8, errors
     within = f.begin(x).move_to(T - T / count / 3, 1e-14, "gauss").x
     assert np.abs(m.dense(T - T / count / 3) - within).max() < 4 * errors[1] + 1e-13
+
+
+def test_forces_are_those_of_the_time():
+    """At order 2, which is of one part; of more, every language throws the body in test_steps."""
+    f = compiled("thrown")
+    f.u = np.array(thrown.PUSH)
+    errors = [
+        np.abs(f.begin(thrown.state(0)).move(1 / n, n).x - thrown.state(1)).max() for n in (40, 80)
+    ]
+    assert 1.8 < log2(errors[0] / errors[1]) < 2.2
 
 
 # ---------------------------------------------------------------- what is kept

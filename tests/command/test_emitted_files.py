@@ -69,12 +69,17 @@ def test_an_option_that_is_given_is_compared(asked, tmp_path, capsys):
 
 
 def test_the_remedy_that_is_said_helps(tmp_path, capsys):
+    """And the line that is said is the first one that was changed."""
     emitted(tmp_path, *ASKED[5])
     header = tmp_path / "so3.h"
-    header.write_text(header.read_text().replace("enum {", "enum  {"))
+    before, changed, rest = header.read_text().partition("enum {")
+    header.write_text(f"{before} {changed}{rest}")
     capsys.readouterr()
     assert check(tmp_path) == 1
-    command = re.search(r"run: derive (.*)", capsys.readouterr().out)[1]
+    said = capsys.readouterr().out
+    line = before.count("\n") + 1
+    assert f"so3.h: not current from line {line} on" in said
+    command = re.search(r"run: derive (.*)", said)[1]
     assert main(command.split()) == check(tmp_path) == 0
 
 

@@ -148,12 +148,15 @@ def test_the_exponential_is_a_rotation():
     ("dt", "duration", "points", "last"),
     [(0.1, 1.0, 5, 0.8), (0.3, 1.0, 100, 0.9), (2.0, 1.0, 5, 0)],
 )
-def test_the_instants_of_fixed_steps_are_ends_of_steps(dt, duration, points, last):
+def test_the_instants_of_fixed_steps_are_ends_of_steps(dt, duration, points, last, free):
+    """The last step may be shorter, and its end is the state of that time."""
     times = instants(Method(dt=dt), duration, points)
     assert times[0] == 0
     assert times[-1] == duration
     assert np.allclose(times[-2], last)
     assert np.allclose(times[:-1] / dt, np.round(times[:-1] / dt))
+    run = free.simulate(duration, start=start(free, free_state(0)), dt=dt, points=points)
+    assert np.abs(run.states[-1] - free_state(duration)).max() < 1e-6
 
 
 def test_inputs_are_held_and_units_are_told():

@@ -78,5 +78,5 @@ def test_a_false_potential_is_refused():
     step = own["effective"]
     wrong = replace(step.equations[0], rhs=mul(2, step.equations[0].rhs))
     checker = Checker(own.problem, SEED)
-    assert checker.check(step).holds
+    assert all(checker.check(x).holds for x in own.since("momentum_1"))
     assert not checker.check(replace(step, equations=(wrong, *step.equations[1:]))).holds

@@ -80,7 +80,12 @@ def test_which_symmetries_are_taken():
 
 @pytest.mark.parametrize(
     ("name", "word"),
-    [("flat", "elementary"), ("lagrange_top", "elliptic"), ("steep", "hyperelliptic")],
+    [
+        ("flat", "elementary"),
+        ("grown", "elementary"),
+        ("lagrange_top", "elliptic"),
+        ("steep", "hyperelliptic"),
+    ],
 )
 def test_what_is_said_of_the_integral(name, word):
     step = reduced(name).record["quadrature"]

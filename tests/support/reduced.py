@@ -50,6 +50,15 @@ OWN = {
         "group": "SO(3)",
         "lagrangian": {"L": "zeta_1^2 + zeta_2^2 + 2*zeta_3^2 - A_33^4"},
     },
+    # the square of an entry that grows is a factor under the root
+    "grown": {
+        "group": {
+            "name": "Grow",
+            "action": "linear",
+            "basis": [[[1, 0], [0, 0]], [[0, 0], [0, 1]]],
+        },
+        "lagrangian": {"L": "zeta_1^2 + zeta_2^2 - A_11"},
+    },
 }
 FILES = (*OWN, "lagrange_top", "top", "spherical_pendulum", "charged_body", "gyrostat", "rod")
 LONG = ("coupled", "kirchhoff", "heisenberg", "so3", "se3", "two_tops", "comet", "su2", "hammer")
