@@ -91,8 +91,9 @@ MATRICES = (
           "Steps", conserved.conserved_steps),
     Stage("by_momenta", "general driven centred? group c c_u",
           "Steps", by_momenta.of_matrices),
-    Stage("explicit", "problem group body potentials special driven external? solution.motion "
-          "pullback.steps c_u", "Steps", explicit.of_matrices),
+    Stage("own", "problem group body pullback.steps potentials external?",
+          "Particulars", explicit.Particulars),
+    Stage("explicit", "own special driven solution.motion c_u", "Steps", explicit.of_matrices),
 )
 """Every group but those of VECTORS: its relations, dϖ and kernel, solved."""
 
@@ -129,10 +130,12 @@ VECTORS = (
     Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
           "Steps", by_momenta.of_displacements, "affine"),
     Stage("basis", "group isometry.letters c", "Steps", coordinates.user_basis_step),
-    Stage("explicit", "problem group body potentials torque pullback.steps axial.inertia "
-          "external? motion tensor c_u", "Steps", explicit.of_vectors, "linear"),
-    Stage("explicit", "problem group body potentials torque pullback.steps centred.inertia "
-          "external? motion tensor c_u", "Steps", explicit.of_vectors, "affine"),
+    Stage("own", "problem group body pullback.steps potentials external?",
+          "Particulars", explicit.Particulars),
+    Stage("explicit", "own torque axial.inertia motion tensor c_u",
+          "Steps", explicit.of_vectors, "linear"),
+    Stage("explicit", "own torque centred.inertia motion tensor c_u",
+          "Steps", explicit.of_vectors, "affine"),
 )
 """SO(3) and SE(3), by so(3) ≅ R³: Euler's equations, Kirchhoff's."""
 ANY_LAGRANGIAN = (

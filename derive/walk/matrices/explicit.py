@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from ...algebra.calculus import gradient
 from ...algebra.groups import Group
@@ -32,28 +32,53 @@ RATE_OF = {"A": "Ȧ", "T": "Ṫ", "Γ": "Γ̇"}
 Steps = tuple[Step, ...]
 
 
+@dataclass(frozen=True)
+class Particulars:
+    """What a problem puts into its equations of motion: the steps of its body and of the moments of
+    points, its potentials, and what acts from outside dϖ."""
+
+    problem: Problem
+    group: Group
+    body: Steps
+    points: Steps
+    potentials: Potentials
+    external: External | None
+
+    @property
+    def wanted(self) -> bool:
+        """Is something gained? Not where the moments are all letters."""
+        letters = isinstance(self.problem.body, MomentBody)
+        return bool(self.body) and self.group.dimension <= LARGEST and not letters
+
+    def learnt_by(self, values: PutIn, motion: Step, *inertia: Step) -> None:
+        """Let values know the moments of the body, then what potentials and inputs are made of."""
+        group = self.group
+        for k, given in enumerate(self.problem.force_inputs, 1):
+            _, moved = group.places[self.problem.block(given.on) - 1]
+            values.member("f_u", k, symbols(("at", "f_u", k), moved.n))
+        values.learn(e for s in self.body for e in s.equations)
+        points = (*self.points, *inertia)
+        values.learn(e for s in points for e in s.equations if e.lhs not in values.names)
+        A = values.names["A"]
+        values.names["C"] = OPERATIONS["mul"](q.transposed(A), A)
+        outside = self.external.steps if self.external else ()
+        values.learn(e for s in (*self.potentials.steps, *outside) for e in s.equations)
+        values.learn(e for e in motion.equations if e.lhs in RATE_OF.values())
+
+
 def of_matrices(
-    problem: Problem,
-    group: Group,
-    body: Steps,
-    v: Potentials,
-    special: KernelOnGroup,
-    driven: KernelOnGroup,
-    external: External | None,
-    motion: Step,
-    points: Steps,
-    c: Chapter,
+    own: Particulars, special: KernelOnGroup, driven: KernelOnGroup, motion: Step, c: Chapter
 ) -> Steps:
-    """From the kernel, the work of the forces on the right; ``points``: the steps of their
-    moments."""
-    if not _wanted(problem, group, body):
+    """From the kernel, the work of the forces on the right."""
+    if not own.wanted:
         return ()
+    group = own.group
     b, draft = driven.letters, c.draft("explicit", RULE)
     primed = [f.xi_prime for f in b.algebra_parts]
     left = [draft.tree(gradient(driven.inertial, x)) for x in primed]
     right = [draft.tree(driven.forces[x]) for x in primed]
-    own = [draft.tree(special.forces[x]) for x in primed]
-    draft.depends_on(body[-1], motion)
+    pulled = [draft.tree(special.forces[x]) for x in primed]
+    draft.depends_on(own.body[-1], motion)
     span, n = range(1, len(group.linear_basis) + 1), group.n
     rates: list[Tree] = [("entry", "ζ̇", a) for a in span]
     known = _place(group) | {
@@ -64,16 +89,16 @@ def of_matrices(
         known |= {x: symbols(x, n) for x in ("w", "ẇ")}
         rates += [("entry", "ẇ", i) for i in range(1, n + 1)]
     values = PutIn(known | {"u": symbols("u", group.dimension)}, n)
-    _learn(values, problem, body, points, v, external, motion)
+    own.learnt_by(values, motion)
     for metric in (values.names["C"], _symmetric("C", n)):  # by A, or by what of A enters
         values.names["C"] = metric
         try:
-            inertial, load, work = (_along(group, map(values.of, x)) for x in (left, right, own))
+            inertial, load, work = (_along(group, map(values.of, x)) for x in (left, right, pulled))
             rows = [x - y for x, y in zip(inertial, load, strict=True)]
             stage = _linear_in(rows, tuple(rates))
         except UNKNOWN:
             continue
-        idle = bool(problem.potentials) and not any(work)
+        idle = bool(own.problem.potentials) and not any(work)
         if found := _explicit_step(draft, stage, values, idle, group):
             return found
     return ()
@@ -88,27 +113,17 @@ def _symmetric(name: str, n: int) -> Value:
 
 
 def of_vectors(
-    problem: Problem,
-    group: Group,
-    body: Steps,
-    v: Potentials,
-    torque: Torque,
-    points: Steps,
-    inertia: Step,
-    external: External | None,
-    motion: Step,
-    tensor: Steps,
-    c: Chapter,
+    own: Particulars, torque: Torque, inertia: Step, motion: Step, tensor: Steps, c: Chapter
 ) -> Steps:
     """From the equations of motion in vectors; none where they stand in components already."""
-    if not _wanted(problem, group, body):
+    if not own.wanted:
         return ()
-    draft = c.draft("explicit", RULE)
-    draft.depends_on(body[-1], inertia, motion, *tensor[:1])
+    group, draft = own.group, c.draft("explicit", RULE)
+    draft.depends_on(own.body[-1], inertia, motion, *tensor[:1])
     vectors = ("ζ", "ζ̇", "u", *(("w", "ẇ", "f_u") if group.affine else ()))
     known = _place(group) | {x: symbols(x, 3) for x in vectors}
     values = PutIn(known | {"Z": hat(known["ζ"])}, 3)
-    _learn(values, problem, body, (*points, inertia), v, external, motion)
+    own.learnt_by(values, motion, inertia)
     sides = {e.lhs: e.rhs for e in motion.equations}
     try:
         name, rest = _inverted(sides["ζ̇"])
@@ -122,7 +137,7 @@ def of_vectors(
         drift = values.of(sides["ẇ"]) if group.affine else ()
     except UNKNOWN:
         return ()
-    idle = bool(problem.potentials) and not any(x for column in work for x in _entries(column))
+    idle = bool(own.problem.potentials) and not any(x for column in work for x in _entries(column))
     shifts = _entries(drift) if group.affine else ()
     rates: list[tuple[Tree, Laurent]] = [(("entry", "ẇ", i), x) for i, x in enumerate(shifts, 1)]
     found = _explicit_step(draft, stage, values, idle, group, after=rates)
@@ -189,41 +204,11 @@ def of_lagrangian(
     )
 
 
-def _wanted(problem: Problem, group: Group, body: Steps) -> bool:
-    """Is something gained? Not where the moments are all letters."""
-    letters = isinstance(problem.body, MomentBody)
-    return bool(body) and group.dimension <= LARGEST and not letters
-
-
 def _place(group: Group) -> dict[str, Value]:
     """A, and T of an affine group, by the entries that tell the others."""
     g, n = element(group), group.n
     found: dict[str, Value] = {"A": tuple(row[:n] for row in g[:n])}
     return found | ({"T": tuple((row[n],) for row in g[:n])} if group.affine else {})
-
-
-def _learn(
-    values: PutIn,
-    problem: Problem,
-    body: Steps,
-    points: Steps,
-    v: Potentials,
-    external: External | None,
-    motion: Step,
-) -> None:
-    """The moments of the body, then what its potentials and inputs are made of."""
-    group = problem.group
-    assert group is not None
-    for k, given in enumerate(problem.force_inputs, 1):
-        _, moved = group.places[problem.block(given.on) - 1]
-        values.member("f_u", k, symbols(("at", "f_u", k), moved.n))
-    values.learn(e for s in body for e in s.equations)
-    values.learn(e for s in points for e in s.equations if e.lhs not in values.names)
-    A = values.names["A"]
-    values.names["C"] = OPERATIONS["mul"](q.transposed(A), A)
-    outside = external.steps if external else ()
-    values.learn(e for s in (*v.steps, *outside) for e in s.equations)
-    values.learn(e for e in motion.equations if e.lhs in RATE_OF.values())
 
 
 def _along(group: Group, covector: Iterable[Value]) -> list[Laurent]:
