@@ -58,6 +58,10 @@ def page_of(
     """The page that a command asks for; ``Refused`` where there is none."""
     if not args.html.endswith(".html"):
         raise MotionError(f"{args.html}: the name of a page must end in .html")
+    if args.input:
+        raise MotionError(
+            "--html: the inputs of a page are held, set by its sliders: leave out --input"
+        )
     if args.dt is not None or args.method not in (None, STEPS[0]):
         raise MotionError("--html: the page moves by gauss to a tolerance: leave out --dt, --step")
     return moving_page(problem, record, args.t, method_of(args), args.lang, **start)
@@ -115,6 +119,7 @@ def run_of(
         500 if args.points is None else args.points,
         **start,
         progress=lambda parts, total: with_progress(parts, total, problem.name),
+        inputs=args.input,
     )
 
 
@@ -246,8 +251,9 @@ def _told(run: Run) -> int:
 
 def plan_of(args: argparse.Namespace, start: dict[str, Any]) -> Plan:
     """The ensemble that a command asks for; ``MotionError`` for options that are not for one."""
-    if args.html:
-        raise MotionError("--html shows one motion: leave out --ensemble")
+    if args.html or args.input:
+        given = "--html shows" if args.html else "--input is for"
+        raise MotionError(f"{given} one motion: leave out --ensemble")
     require_steps_of_an_ensemble(args.method, args.dt, args.order)
     chosen: dict[str, Any] = {} if args.tol is None else {"tol": args.tol}
     points = 1 if args.points is None else args.points

@@ -40,7 +40,7 @@ def in_words(name: str, word: Callable[[str], str]) -> str:
 
 # A program with its record, and the columns of what a motion of it gives: nothing is run here.
 
-KINDS = ("time", "state", "energy", "conserved", "defect", "multiplier")
+KINDS = ("time", "state", "energy", "conserved", "defect", "multiplier", "input")
 """What a column can be, in the order of a table."""
 
 UNITS = {"time": "s", "energy": "J", "multiplier": "J", "centre": "kg m"}

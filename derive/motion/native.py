@@ -331,6 +331,11 @@ class Motion:
         ctypes.memmove(other._at, self._at, self._size)
         return other
 
+    def hold(self, u: Array) -> None:
+        """Make the next moves with other inputs."""
+        k, _ = self._numbers()
+        self._numbers = lambda: (k, u)
+
     def left(self, t: float) -> float:
         """The time up to another, in as many digits as the motion has."""
         return t - self.t - self._t_low

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,10 +19,12 @@ from ..problem.problem import Problem, points_of
 from ..schema.kinds.attraction import Attraction
 from ..schema.kinds.spring import Spring
 from .emitted import Emitted
+from .emitted_code import Column
 from .energy_sources import drives
 from .first_numbers import MotionError
 from .native import CompileError, Motion
 from .run import Array, Run
+from .signals import HeldInputs, read
 from .start import OFF_THE_GROUP, Start, start
 from .trajectory import (
     INTERRUPTED,
@@ -56,12 +59,17 @@ def run(
     project: bool = False,
     compiled: bool | None = None,
     progress: Progress = lambda parts, _: iter(parts),
+    inputs: str | Path | Mapping[str, Any] | None = None,
 ) -> Run:
     """The motion of a problem from 0 to ``duration``, from :func:`start`, as a table; by C or by
-    Python, or, for ``None``, by C where that pays and there is a compiler."""
+    Python, or, for ``None``, by C where that pays and there is a compiler; with ``inputs`` in
+    time, a file or columns as :func:`.signals.read` takes them."""
     times = instants(method, duration, points)
+    signals, where = read(inputs) if inputs is not None else (None, "")
     begin = beginning(code, problem, given=given, exponent=exponent, project=project)
-    follow = following(code, begin, method, duration, compiled)
+    held = signals.among(code.program.inputs, begin.u, where) if signals else None
+    begin = replace(begin, u=held.at(0.0)) if held else begin
+    follow = following(code, begin, method, duration, compiled, held)
     return simulate(code, begin, method, times, follow, progress)
 
 
@@ -71,6 +79,7 @@ def following(
     method: Method,
     duration: float,
     compiled: bool | None = None,
+    held: HeldInputs | None = None,
 ) -> Trajectory:
     """The motion at its begin; ``CompileError`` where C is asked for and there is no compiler."""
     k, u = code.constants(begin.p), begin.u
@@ -82,8 +91,8 @@ def following(
             if compiled:
                 raise
         else:
-            return Trajectory(motion, method, ends)
-    return Trajectory(code.motion(k, u, begin.x, compiled=False), method, ends)
+            return Trajectory(motion, method, ends, held)
+    return Trajectory(code.motion(k, u, begin.x, compiled=False), method, ends, held)
 
 
 def is_long(code: Emitted, k: Array, begin: Start, method: Method, duration: float) -> bool:
@@ -190,13 +199,18 @@ def simulate(
         t, x = np.append(t, last[0]), np.append(x, last[1][None], axis=0)
     elif len(x) == 1 and ended not in ("", INTERRUPTED) and not follow.happened:
         raise MotionError(f"{code.name}: {ended}")
-    inputs = dict(zip(code.program.inputs, begin.u.tolist(), strict=True))
-    columns, table = code.columns(), code.table(t, x, k, begin.u)
+    u = begin.u if follow.held is None else follow.held.at(t)
+    inputs = dict(zip(code.program.inputs, np.atleast_2d(u)[-1].tolist(), strict=True))
+    largest = dict(zip(inputs, np.abs(np.atleast_2d(u)).max(axis=0).tolist(), strict=True))
+    columns, table = code.columns(), code.table(t, x, k, u)
+    if follow.held is not None:
+        columns += tuple(Column(name, "input", "") for name in inputs)
+        table = np.column_stack([table, u])
     facts = {
         **code.facts,
         "parameters": dict(begin.parameters),
         "inputs": inputs,
-        "drives": drives(code.record.problem or {}, inputs, begin.parameters),
+        "drives": drives(code.record.problem or {}, largest, begin.parameters),
         "method": str(method),
         "language": "C" if isinstance(follow.motion, Motion) else "Python",
         "evaluations": follow.motion.evaluations,

@@ -19,6 +19,7 @@ from ..language.reserved import did_you_mean, near_name
 from .first_numbers import MotionError
 from .native import AT_EVENT, FAULTS, StepError
 from .run import Array, Happening
+from .signals import HeldInputs
 
 # How a motion is followed: the step, and its size or its tolerance; when its states are kept.
 
@@ -130,6 +131,9 @@ class MotionUnderWay(Protocol):
     def evaluations(self) -> int:
         """How often its stages have asked for the rates."""
 
+    def hold(self, u: Array) -> None:
+        """Make the next moves with other inputs."""
+
     def left(self, t: float) -> float:
         """The time up to another."""
 
@@ -148,10 +152,16 @@ class MotionUnderWay(Protocol):
 
 class Trajectory:
     """A motion under way, and the events that ``happened`` on it; ``ends``: name of an event →
-    does the motion end there?"""
+    does the motion end there?  ``held``: its inputs in time, if they change."""
 
-    def __init__(self, motion: MotionUnderWay, method: Method, ends: Mapping[str, bool]):
-        self.motion, self.method, self.ends = motion, method, ends
+    def __init__(
+        self,
+        motion: MotionUnderWay,
+        method: Method,
+        ends: Mapping[str, bool],
+        held: HeldInputs | None = None,
+    ):
+        self.motion, self.method, self.ends, self.held = motion, method, ends, held
         self.happened: list[Happening] = []
 
     def reach(self, times: Array) -> tuple[Array, str]:
@@ -161,7 +171,7 @@ class Trajectory:
         why = ""
         try:
             for time in times.tolist():
-                if why := self._until(time):
+                if why := self._with_inputs(time):
                     break
                 states.append(self.motion.x.copy())
         except KeyboardInterrupt:
@@ -169,6 +179,16 @@ class Trajectory:
             self.motion.settle()
             self._note()
         return np.array(states).reshape(-1, len(self.motion.x)), why
+
+    def _with_inputs(self, end: float) -> str:
+        """Steps up to a time, by the inputs of each instant; why not, as below."""
+        if self.held is None:
+            return self._until(end)
+        for u, stop in self.held.parts(self.motion.t, end):
+            self.motion.hold(u)
+            if why := self._until(stop):
+                return why
+        return ""
 
     def _until(self, end: float) -> str:
         """Steps up to a time; why not, where that fails or an event ends the motion."""
@@ -238,6 +258,10 @@ class MotionInPython:
     def evaluations(self) -> int:
         """How often its stages have asked for the rates."""
         return int(self._motion.evaluations)
+
+    def hold(self, u: Array) -> None:
+        """Make the next moves with other inputs."""
+        self._numbers = self._numbers[0], u
 
     def left(self, t: float) -> float:
         """The time up to another, in as many digits as the motion has."""

@@ -173,6 +173,7 @@ class Derived:
         points: int | None = None,
         project: bool = False,
         compiled: bool | None = None,
+        inputs: Mapping[str, Any] | str | Path | None = None,
         ensemble: int | None = None,
         vary: Mapping[str, Any] | None = None,
         seed: int | None = None,
@@ -183,7 +184,8 @@ class Derived:
 
         ``start``: numbers of the state, parameters and inputs by name; ``exp``: the element of the
         group is exp of these coordinates; ``compiled``: by the C or by the Python, else by the C
-        where that pays and there is a compiler.
+        where that pays and there is a compiler; ``inputs``: in time, columns of numbers by name, t
+        and those of inputs, or a .csv file of them, each row held up to the next one.
 
         ``ensemble``: so many motions, by the C alone, each with numbers of its own for the names of
         ``vary``, drawn by (low, high) or ("normal", mean, deviation) from a ``seed`` (0); kept is
@@ -191,7 +193,7 @@ class Derived:
         """
         from ..motion.energy_sources import is_weightless
         from ..motion.ensemble import require_an_ensemble
-        from ..motion.first_numbers import require_numbers
+        from ..motion.first_numbers import MotionError, require_numbers
         from ..motion.simulate import run
         from ..motion.trajectory import STEPS, Method
         from ..programs import motion_of
@@ -202,6 +204,8 @@ class Derived:
         )
         begin: dict[str, Any] = {"given": start or {}, "exponent": exp, "project": project}
         if ensemble is not None:
+            if inputs is not None:
+                raise MotionError("inputs in time are for one motion: leave out ensemble")
             how = {"step": step, "dt": dt, "order": order, "compiled": compiled}
             return self._many(ensemble, vary or {}, t, points or 1, tol, seed or 0, begin, how)
         require_an_ensemble(vary, seed)
@@ -209,7 +213,8 @@ class Derived:
         light = is_weightless(self.record.problem or {}, begin["given"])
         code = motion_of(self.problem, self.record, method.step, method.order, weightless=light)
         kept = 500 if points is None else points
-        return Simulated.of(run(code, self.problem, method, t, kept, **begin, compiled=compiled))
+        found = run(code, self.problem, method, t, kept, **begin, compiled=compiled, inputs=inputs)
+        return Simulated.of(found)
 
     def _many(
         self,
