@@ -1,4 +1,4 @@
-"""The oracle for any problem file, against the one for three problems and against Newton's law.
+"""The oracle for any problem file, against Newton's law.
 
 Shapes are those of the oracle: ``basis`` (d, s, s), a group element and then zeta (d,) in a state.
 """
@@ -6,7 +6,7 @@ Shapes are those of the oracle: ``basis`` (d, s, s), a group element and then ze
 import numpy as np
 import pytest
 
-from tests.oracles import gauss, general, relative_error, sampling
+from tests.oracles import general, relative_error
 
 STEP = 1e-30
 SCREW = {"action": "affine", "basis": [[[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0.5], [0, 0, 0, 0]]]}
@@ -119,37 +119,6 @@ def test_power_and_virtual_work(group):
         terms.append(change(rest, general.join(data, G @ E, np.zeros(d))))
         terms.append(-work(data, p, G, V, u, G @ E, zeta))
         assert abs(sum(terms)) < 1e-12 * sum(map(abs, terms))
-
-
-def listed(name, body):
-    """The problem of a body of the other oracle, its points listed."""
-    data = {"group": f"{name[:2].upper()}(3)", "input": [{"name": "u", "kind": "covector"}]}
-    points = zip(body.masses, body.points, strict=True)
-    data["point"] = [{"mass": m, "at": [*r]} for m, r in points]
-    data["potential"] = [{"kind": "gravity", "g": [*body.gravity]}]
-    for i, j in np.argwhere(np.triu(body.springs)):
-        spring = {"between": [i + 1, j + 1], "stiffness": body.springs[i, j]}
-        data["potential"].append({"kind": "spring", **spring})
-    return data
-
-
-@pytest.mark.parametrize("name", ["so3", "se3", "sl3"])
-def test_agrees_with_the_oracle_for_three_problems(name):
-    """With the points listed and, for rigid bodies, with their moments as parameters."""
-    rng, basis = np.random.default_rng(2), sampling.basis(name)
-    for _ in range(30):
-        body, x = sampling.random_body(name, rng), sampling.random_state(name, rng)
-        u, data = rng.normal(size=len(basis)), listed(name, body)
-        expected = gauss.rhs(name, x, body, u)
-        assert relative_error(general.rhs(data, basis, {}, 0.0, x, u), expected) < 1e-12
-        energy = body.energy(*sampling.motion(name, x, body))
-        assert abs(general.energy(data, basis, {}, 0.0, x) - energy) < 1e-13 * (1 + abs(energy))
-        if name != "sl3":
-            p = sampling.parameters(name, body)
-            p = {key: p[key] for key in p if key != "m" or name == "se3"}
-            data = {"group": data["group"], "body": {"moments": "symbolic"}, "input": data["input"]}
-            data["potential"] = [{"kind": "gravity", "g": ["g_1", "g_2", "g_3"]}]
-            assert relative_error(general.rhs(data, basis, p, 0.0, x, u), expected) < 1e-12
 
 
 @pytest.mark.parametrize("m", [2.0, 1e6])
