@@ -98,6 +98,7 @@ KEPT = {
     "command/test_progress.py::test_it_counts_on_a_terminal": 1,
     "command/test_refused_options.py::test_the_reasons_are_those_of_the_command": 3,
     "command/test_refused_options.py::test_what_is_not_refused_is_made": 8,
+    "command/test_searches.py::test_it_is_shown_in_every_format": 9,
     "command/test_strangers.py::test_in_a_process_of_its_own": 1,
     "command/test_strangers.py::test_some_cases_of_the_fuzzer": 0,
     "command/test_strangers.py::test_the_corpus": 0,
