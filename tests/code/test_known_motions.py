@@ -14,7 +14,8 @@ from tests.oracles import (
     sampling,
 )
 from tests.support.emitted import arrange, import_python
-from tests.support.flows import emitted, flow
+from tests.support.flows import flow
+from tests.support.library import module_of
 
 RNG = np.random.default_rng(2)
 BODY_TURN, SPACE_TURN = sampling.random_rotation(RNG), sampling.random_rotation(RNG)
@@ -69,7 +70,7 @@ def released(*start):
 
 def cone():
     """The ready-made top: a cone about its apex."""
-    code, (rho, R, h, g) = emitted("top"), (800.0, 0.03, 0.05, 9.81)
+    code, (rho, R, h, g) = module_of("top"), (800.0, 0.03, 0.05, 9.81)
     m = rho * np.pi * R**2 * h / 3
     moments = m * (3 / 20 * R**2 + 3 / 5 * h**2), 3 / 10 * m * R**2
     times = np.linspace(0, 1, 11)
@@ -119,7 +120,7 @@ def orbiting(e):
     body = sampling.solid_body(INERTIA, 3.0, CENTRE)
     pairs = zip(body.masses, body.points, strict=True)
     points = "\n".join(f"[[point]]\nmass = {m}\nat = {[*map(float, r)]}" for m, r in pairs)
-    code = emitted(ATTRACTED.format(points=points))
+    code = module_of(ATTRACTED.format(points=points))
     states = [flight(t, *kepler.orbit(t, MU, AXIS, e, SPACE_TURN[:, :2])) for t in YEARS]
     return code, code.constants([3.0, MU]), YEARS, states, SOLID
 
@@ -143,7 +144,7 @@ strength = "mu"
 
 def planets():
     """GL(2) ties two masses by nothing: on one orbit, the second ahead by 1/12 of a year."""
-    code, states = emitted(PLANETS), []
+    code, states = module_of(PLANETS), []
     for t in YEARS:
         both = [kepler.orbit(t + ahead * YEAR, MU, AXIS, 0.6) for ahead in (0.0, 1 / 12)]
         A, V = (np.column_stack([one[i][:2] for one in both]) for i in (0, 1))
@@ -156,7 +157,7 @@ def on_a_spring(velocity, end):
 
     With the entries of dA/dt as velocities also where det A = 0, twice in every swing.
     """
-    code, masses, k = emitted("gl3", velocity=velocity), np.array([1.0, 2.0]), 1.7
+    code, masses, k = module_of("gl3", velocity=velocity), np.array([1.0, 2.0]), 1.7
     rng = np.random.default_rng(3)
     A, V = np.eye(3) + 0.1 * rng.normal(size=(3, 3)), 0.3 * rng.normal(size=(3, 3))
     times, states = np.linspace(0, end, 11), []
@@ -182,7 +183,7 @@ NILPOTENT = {2: [[0, 1], [0, 0]], 3: [[0, 1, -2], [0, 0, 1.5], [0, 0, 0]]}
 def geodesic(n, motion, given, general_body):
     """Of a body with the moments J = h h^T: where A h / (det h)^(1/n) = G runs along a geodesic of
     J = 1, A along one of the body; and G may be turned, U G V, on both sides."""
-    code, h, U, V = emitted(FREE.format(n=n)), np.eye(n), np.eye(n), np.eye(n)
+    code, h, U, V = module_of(FREE.format(n=n)), np.eye(n), np.eye(n), np.eye(n)
     if general_body:
         h = h + 0.3 * np.random.default_rng(n).normal(size=(n, n))
         draw = np.random.default_rng(7).normal(size=(2, n, n))

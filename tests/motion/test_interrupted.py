@@ -139,8 +139,9 @@ def test_ctrl_c_within_a_part_keeps_what_is_done_of_it(ending, tmp_path, capsys,
     monkeypatch.setattr(of_parts.EnsembleMotions, "_follow", interrupted)
     out = tmp_path / f"e{ending}"
     asked = ["simulate", "so3", "--t", "1", "--ensemble", "40", *OPTIONS, "--out", str(out)]
-    stop = 3
+    stop, before = 3, signal.getsignal(signal.SIGINT)
     assert main(asked) == 130
+    assert signal.getsignal(signal.SIGINT) is before
     assert "interrupted after 12 of 40 motions" in capsys.readouterr().err
     some = SimulatedEnsemble.read(out)
     stop = 0
