@@ -13,20 +13,11 @@ import derive
 from derive import Harmonic, Problem, Solid, Spring
 from derive.check.checker import Checker
 from derive.problem.problem import ProblemError
+from tests.support.corpus import FULL, RHO, WELL, ellipsoid
 from tests.support.emitted import arrange, import_python
 from tests.support.walks import SEED
 
-FULL = np.array([[2.0, 0.5, 0.3], [0.5, 3.0, -0.2], [0.3, -0.2, 1.0]])
-WELL = np.array([[2.0, 0.3, 0.1], [0.3, 1.0, 0.0], [0.1, 0.0, 0.5]])
-RHO = 1.7
 CENTRED = Solid("ellipsoid", "rho", quadric=FULL.tolist())
-
-
-def ellipsoid(n, Q, W=None, name="fluid"):
-    """A problem on SL(n), its density a parameter."""
-    body = Solid("ellipsoid", "rho", quadric=np.asarray(Q).tolist())
-    forces = [] if W is None else [Harmonic(np.asarray(W).tolist())]
-    return Problem(name, f"SL({n})", body, forces, parameters={"rho": RHO})
 
 
 def emitted(problem, folder, **values):
