@@ -150,7 +150,7 @@ def of_axes(name="fluid", axes=("a", 1, 2), density="rho", **more):
 ELLIPSOIDS = {
     "in space": lambda: ellipsoid(3),
     "in a plane": lambda: ellipsoid(2, W=WELL),
-    "in layers": lambda: ellipsoid(3, [[1, 0, 0], [0, 1, 0], [0, 0, 1]], density=LAYERS),
+    "in layers": lambda: ellipsoid(3, np.eye(3, dtype=int), density=LAYERS),
     "in layers of a plane": lambda: ellipsoid(2, W=WELL, density=LAYERS),
     "turned": lambda: of_axes(rotation={"axis": [0, 0, 1], "angle": "phi"}),
     "a star": lambda: ellipsoid(3, forces=[SelfGravity(1)]),
