@@ -116,6 +116,15 @@ def test_a_signal_in_a_long_run(tmp_path, capsys, monkeypatch):
     assert 0 < run.events[-1].t <= run.t[1]
 
 
+def test_between_two_parts_it_is_where_the_last_one_has_led(tmp_path, capsys, monkeypatch):
+    interrupted_at(monkeypatch, Trajectory, "reach", 3)
+    out = tmp_path / "run.npz"
+    given = ["--t", "1", "--set", "zeta_1=1", "--points", "200", "--out", str(out)]
+    assert main(["simulate", "so3", *given]) == 130
+    assert len(read(out).t) == 3
+    assert "interrupted at t = 0.01" in capsys.readouterr().err
+
+
 # ---------------------------------------------------------------- ensembles
 
 
