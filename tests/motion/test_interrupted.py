@@ -136,6 +136,7 @@ def test_ctrl_c_within_a_part_keeps_what_is_done_of_it(ending, tmp_path, capsys,
         need("the module pyarrow")
     monkeypatch.setattr(of_parts, "SECONDS", 1e-9)
     monkeypatch.setattr(of_parts, "TOGETHER", 4)
+    monkeypatch.setattr(of_parts, "MOTIONS", 16)
     monkeypatch.setattr("os.cpu_count", lambda: 1)
     made, calls = of_parts.EnsembleMotions._follow, []
 

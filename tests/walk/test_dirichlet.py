@@ -14,17 +14,17 @@ from derive import Harmonic, Problem, Solid, Spring
 from derive.check.checker import Checker
 from derive.problem.problem import ProblemError
 from tests.support.corpus import FULL, RHO, WELL, ellipsoid
-from tests.support.emitted import arrange, import_python
+from tests.support.emitted import arrange
+from tests.support.library import module_of
 from tests.support.walks import SEED
 
 CENTRED = Solid("ellipsoid", "rho", quadric=FULL.tolist())
 
 
-def emitted(problem, folder, **values):
+def emitted(problem):
     """The emitted module with its multiplier, and its constants."""
-    derive.derive(problem).emit(folder, ["python"], multiplier=True)
-    m = import_python(problem.name, folder)
-    return m, m.constants(arrange(m, {"rho": RHO} | values))
+    m = module_of(problem, multiplier=True)
+    return m, m.constants(arrange(m, {"rho": RHO}))
 
 
 def coordinates(m, Z):
@@ -64,12 +64,12 @@ def start(n, rng):
 
 @pytest.mark.parametrize("n", [2, 3, 4])
 @pytest.mark.parametrize("forced", [False, True])
-def test_eulers_equation_at_points(n, forced, tmp_path):
+def test_eulers_equation_at_points(n, forced):
     """rho(u_t + u·grad u) = -grad p - rho W x, p by its own differences, along a trajectory."""
     rng = np.random.default_rng(n)
     Q = np.eye(n) + 0.2 * np.ones((n, n)) if n == 4 else FULL[:n, :n]
     W = (np.eye(n) if n == 4 else WELL[:n, :n]) if forced else None
-    m, k = emitted(ellipsoid(n, Q, W), tmp_path)
+    m, k = emitted(ellipsoid(n, Q, W))
     A, Z = start(n, rng)
     if np.linalg.det(A) < 0:
         A[0] *= -1
@@ -97,9 +97,9 @@ def test_eulers_equation_at_points(n, forced, tmp_path):
         assert shells == pytest.approx(theta, rel=1e-12)
 
 
-def test_dirichlets_spheroid(tmp_path):
+def test_dirichlets_spheroid():
     """A = diag(a, a, 1/a²) of a ball: (1 + 2/a⁶) a'² is constant, a quadrature."""
-    m, k = emitted(ellipsoid(3, np.eye(3)), tmp_path)
+    m, k = emitted(ellipsoid(3, np.eye(3)))
     times, rate = np.linspace(0, 2, 9), 0.7
     x = flight(m, k, np.eye(3), np.diag([rate, rate, -2 * rate]), times)
     a = solve_ivp(
@@ -116,7 +116,7 @@ def test_dirichlets_spheroid(tmp_path):
 
 @pytest.mark.parametrize("c", [0.8, 1.0, 1.3])
 @pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
-def test_steady_ellipsoids(c, share, tmp_path):
+def test_steady_ellipsoids(c, share):
     """Riemann's ellipsoids of type S in a harmonic well: A = R(Ωt) diag(a, b, c) R(φt) with
     Ω² + φ² = w², −2Ωφ = w₃² c³ and the pressure −2Ωφ ab j; Dedekind's of another share."""
     a = 1.2 + 0.1 * share
@@ -125,7 +125,7 @@ def test_steady_ellipsoids(c, share, tmp_path):
     inner = -(w3**2) * c**3 / (2 * turning)
     w2 = turning**2 + inner**2
     W = np.diag([w2, w2, w3**2])
-    m, k = emitted(ellipsoid(3, np.eye(3), W), tmp_path)
+    m, k = emitted(ellipsoid(3, np.eye(3), W))
 
     def about_z(angle):
         s, q = math.sin(angle), math.cos(angle)
@@ -142,10 +142,10 @@ def test_steady_ellipsoids(c, share, tmp_path):
         assert m.multiplier(t, x, k) == pytest.approx(-2 * turning * inner * a * b * j, rel=1e-9)
 
 
-def test_in_a_plane(tmp_path):
+def test_in_a_plane():
     """Ellipses in a well, Kirchhoff's among them: Ω² + φ² = w², θ = −2Ωφ j for any axes; and with
     φ = 0 each point swings by itself, without pressure."""
-    m, k = emitted(ellipsoid(2, np.eye(2), 1.25 * np.eye(2)), tmp_path)
+    m, k = emitted(ellipsoid(2, np.eye(2), 1.25 * np.eye(2)))
     spin, D = np.array([[0.0, -1], [1, 0]]), np.diag([1.6, 1 / 1.6])
     j = RHO * volume(np.eye(2)) / 4
     for turning, inner in ((1.0, -0.5), (0.5, 1.0), (math.sqrt(1.25), 0.0)):
@@ -173,7 +173,7 @@ CIRCULATIONS = {  # a body, what acts on it, and is the circulation kept?
 
 
 @pytest.mark.parametrize("case", CIRCULATIONS)
-def test_circulation_is_kept_where_the_record_says_so(case, tmp_path):
+def test_circulation_is_kept_where_the_record_says_so(case):
     """Āα − ᾱA along a flight."""
     body, forces, kept = CIRCULATIONS[case]
     problem = Problem("fluid", "SL(3)", body, forces, parameters={"rho": RHO})
@@ -181,7 +181,7 @@ def test_circulation_is_kept_where_the_record_says_so(case, tmp_path):
     step = record["fluid.circulation"]
     assert (step.rule == "conservation") == (step.equations[-1].rhs == 0) == kept
     assert Checker(record.problem, SEED).check(step).holds
-    m, k = emitted(problem, tmp_path)
+    m, k = emitted(problem)
     A, Z = start(3, np.random.default_rng(8))
     A[0] *= np.sign(np.linalg.det(A))
     found = []
@@ -257,12 +257,12 @@ def test_other_keys():
         derive.derive("gl3").emit(multiplier=True)
 
 
-def test_a_star_at_rest(tmp_path):
+def test_a_star_at_rest():
     """In a ball, where p(r) = (2π/3) ρ² (1 − r²), of which ∫ is m²/(5 · 1)."""
     star = Problem("star", "SL(3)", CENTRED, [STAR], parameters={"rho": RHO})
     assert {"pressure", "total"} <= {*labels(star)}
     body = Solid("ball", "rho", radius=1)
-    m, k = emitted(Problem("ball", "SL(3)", body, [STAR], parameters={"rho": RHO}), tmp_path)
+    m, k = emitted(Problem("ball", "SL(3)", body, [STAR], parameters={"rho": RHO}))
     theta = m.multiplier(0.0, state(m, np.eye(3), np.zeros((3, 3))), k)
     mass = RHO * volume(np.eye(3))
     assert theta == pytest.approx(mass**2 / 5, rel=1e-12)

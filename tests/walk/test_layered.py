@@ -18,7 +18,8 @@ from derive.record.as_json import from_json, to_json
 from derive.record.record import RecordError
 from derive.record.sentence import english
 from tests.support.corpus import FULL, LAYERS, RHO, SLOPE, WELL
-from tests.support.emitted import arrange, import_python
+from tests.support.emitted import arrange
+from tests.support.library import module_of
 from tests.support.walks import SEED
 from tests.walk.test_dirichlet import flight, labels, start, unpacked, volume
 
@@ -100,7 +101,7 @@ def test_moments_of_a_turned_and_shifted_one_in_a_mixture():
     ("n", "forced", "kind"),
     [(2, True, "quadric"), (3, False, "quadric"), (3, True, "turned"), (4, True, "quadric")],
 )
-def test_eulers_equation_in_layers(n, forced, kind, tmp_path):
+def test_eulers_equation_in_layers(n, forced, kind):
     """rho(s)(acceleration + W x) = -grad p at places of any layer, along a trajectory, for p =
     theta/(2 kappa) times the integral of rho from s to 1, and theta the integral of p."""
     rng = np.random.default_rng(n)
@@ -114,8 +115,7 @@ def test_eulers_equation_in_layers(n, forced, kind, tmp_path):
         values["phi"] = 0.6
     problem = Problem("fluid", f"SL({n})", solid, [Harmonic(W.tolist())] * forced,
                       parameters=values)  # fmt: skip
-    derive.derive(problem).emit(tmp_path, ["python"], multiplier=True)
-    m = import_python("fluid", tmp_path)
+    m = module_of(problem, multiplier=True)
     k = m.constants(arrange(m, values))
     A, Z = start(n, rng)
     A[0] *= np.sign(np.linalg.det(A))
