@@ -120,7 +120,7 @@ KEPT = {
     "motion/test_events.py::test_events_on_the_torus": 2,
     "motion/test_events.py::test_steps_of_one_size_are_the_same_with_events": 2,
     "motion/test_initial.py::test_the_ready_made_starts_move": 3,
-    "motion/test_interrupted.py::test_ctrl_c_within_a_part_keeps_what_is_done_of_it": 2,
+    "motion/test_interrupted.py::test_ctrl_c_within_a_part_keeps_what_is_done_of_it": 3,
     "motion/test_interrupted.py::test_in_c_it_is_where_the_call_has_led": 4,
     "motion/test_interrupted.py::test_in_python_it_is_where_the_last_call_has_led": 4,
     "motion/test_methods.py::test_a_collision_is_told_by_both": 1,
