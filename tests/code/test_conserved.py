@@ -6,6 +6,7 @@ from types import ModuleType
 
 import numpy as np
 import pytest
+import sympy
 from scipy.integrate import solve_ivp
 
 from derive.code.emit import emit
@@ -21,11 +22,18 @@ from derive.programs import program
 from derive.python.derived import derive
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
+from tests.oracles import general
 from tests.support.walks import FLUIDS, problem, record, repeated
-from tests.symmetries.test_trajectories import NAMES, SHORT, start
 
 WITHOUT = ("linear", "affine", "zeitlin", *FLUIDS)
 """About any group, or without matrices; on the torus see test_torus."""
+APART = ("zeitlin", "euler_poisson", "jelly", "linear", "affine", "rod", "spherical_pendulum")
+APART += ("riemann_ellipsoid", *FLUIDS)
+"""Without symmetries, or with states of other numbers than the oracle has."""
+NAMES = [x for x in ready_made() if x not in APART]
+SHORT = dict.fromkeys(("se3", "hammer", "screw", "heisenberg", "sp4", "saff3", "sim3"), 5.0)
+SHORT |= {"dirichlet": 5.0, "sl3": 10.0, "gl3": 0.2}
+"""Falls and other motions without bounds, and one through a collapse of the body."""
 FORMS = {
     "plain": {},
     "by_columns": {"layout": "col"},
@@ -44,11 +52,13 @@ def module_of(name, **chosen):
     return module
 
 
-class Named:
-    """What ``start`` takes of a derivation."""
-
-    def __init__(self, name):
-        self.problem_data = record(name).problem
+def start(name, module):
+    """A random state of the group."""
+    data = record(name).problem
+    if "(" not in data["group"]:
+        data = data | {"group": {"basis": data["basis"], "action": "affine"}}
+    basis = np.array(module.BASIS, float)
+    return general.random_state(data, basis, np.random.default_rng(7))
 
 
 def at_rest(module):
@@ -74,8 +84,9 @@ def spread(values):
 @pytest.mark.parametrize("name", repeated(NAMES, 3))
 def test_every_number_is_kept_and_is_that_of_the_search(name):
     module = module_of(name)
-    k, t, x = moved(module, start(Named(name), vars(module)), SHORT.get(name, 50.0))
+    k, t, x = moved(module, start(name, module), SHORT.get(name, 50.0))
     kept = module.conserved(t, x, k)
+    assert np.ptp(x, axis=0).max() > 0.1
     assert kept.shape == (len(t), len(module.CONSERVED))
     assert spread(kept) < 1e-9
     t, x = t[:5], x[:5]  # on the group as closely as rounding allows
@@ -85,6 +96,22 @@ def test_every_number_is_kept_and_is_that_of_the_search(name):
         wanted[:, module.CONSERVED.index("angular_momentum")] /= along
     scale = 1 + np.abs(wanted).max(axis=0)
     assert (np.abs(kept[:5, : wanted.shape[1]] - wanted).max(axis=0) / scale).max() < 1e-12
+
+
+def test_the_first_is_the_energy():
+    module = module_of("so3")
+    k, t, x = moved(module, start("so3", module), 1.0)
+    assert module.conserved(t, x, k)[:, 0] == pytest.approx(module.energy(t, x, k), rel=1e-12)
+
+
+def test_expressions_are_the_values():
+    d, module = derive("se3"), module_of("se3")
+    x, t, program = start("se3", module), 0.3, d.expressions()
+    defaults = {p: d.problem.parameters[p.name].default for p in program.p}
+    for quantity, value in zip(d.symmetries(), d.symmetries().values([t], x[None])[0], strict=True):
+        numbers = quantity.sympy().subs(defaults)
+        f = sympy.lambdify([sympy.Symbol("t", real=True), program.x], numbers)
+        assert f(t, x) == pytest.approx(value, rel=1e-9, abs=1e-9)
 
 
 @pytest.mark.parametrize("form", FORMS)

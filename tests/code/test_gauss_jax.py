@@ -11,7 +11,6 @@ import pytest
 
 import derive
 from derive.code.emit import EmitError
-from tests.oracles import free_top
 from tests.problems.line import FALLING
 from tests.support.emitted import import_python
 from tests.support.needs import need
@@ -20,7 +19,6 @@ need("the module jax")
 jax = importlib.import_module("jax")
 
 AT_ONE = [1.0, 0, 0, 0, 1, 0, 0, 0, 1]
-PRINCIPAL = (1.25, 2.0, 2.75)
 
 
 @pytest.fixture(autouse=True)
@@ -106,22 +104,6 @@ def test_the_steps_are_those_of_python(emitted, problem, options):
     assert np.abs(back.x - x).max() < 1e-10 * scale
 
 
-def test_the_free_top_in_closed_form(top):
-    """By a tolerance, over several periods."""
-    m, _ = top
-    I1, I2, I3 = PRINCIPAL
-    J = [(I2 + I3 - I1) / 2, 0, 0, (I1 + I3 - I2) / 2, 0, (I1 + I2 - I3) / 2]
-    k = m.constants([0, 0, 0, *J, 0, 0, 0])
-
-    def exact(t):
-        A, W = free_top.motion(t, PRINCIPAL, 1.0, 2.2)
-        return np.concatenate([A.ravel(), W])
-
-    for t in (3.0, -7.0, 40.0):
-        end = steps_of(m)[1](m.begin_jax(0.0, exact(0.0)), k, t, 1e-13)
-        assert np.abs(end.x - exact(t)).max() < 1e-11
-
-
 def test_many_are_those_of_one_by_one(top):
     """Under vmap each has steps, a status and constants of its own; one is no number."""
     m, _ = top
@@ -147,23 +129,6 @@ def test_many_are_those_of_one_by_one(top):
             own = m.begin(0.0, x[i])
             assert m.gauss_to(own, ks[i], None, ends[i], 1e-11) == m.OK
             assert np.abs(own.x - alone.x).max() < 1e-9
-
-
-def test_what_is_kept(top):
-    """Energy, the momentum about the vertical and the group, to rounding over 5000 steps."""
-    m, k = top
-    _, n, steps = begun(m, heavy(), k)
-    p = np.array([m.DEFAULTS[x] for x in m.PARAMETERS])
-
-    def vertical(x):
-        return (x[:9].reshape(3, 3) @ m.inertia(p) @ x[9:])[2]
-
-    first = [m.energy(0, heavy(), k), vertical(heavy())]
-    n = steps(n, 0.1, 5000)
-    x = np.asarray(n.x)
-    assert m.defect(x) < 2e-15
-    assert np.abs(np.array([m.energy(0, x, k), vertical(x)]) - first).max() < 1e-12 * abs(first[0])
-    assert float(n.t) == pytest.approx(500, abs=1e-12)
 
 
 def test_a_coarse_step_is_made_in_halves(top):

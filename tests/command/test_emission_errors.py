@@ -82,11 +82,13 @@ def test_prefixes_of_libc_are_harmless(prefix, tmp_path):
     assert subprocess.run([tmp_path / "user"], capture_output=True, text=True).stdout == "0"
 
 
-def test_out_is_a_file(refused, tmp_path):
+def test_out_is_a_file(refused, tmp_path, capsys):
     file = tmp_path / "file"
     file.write_text("mine")
     for out in (file, file / "deeper"):
         assert str(out) in refused("so3", "--out", out)
+    assert main(["walk", "so3", "--out", str(file / "walk.txt")]) == 2
+    assert str(file) in capsys.readouterr().err
     assert file.read_text() == "mine"
     assert os.listdir(tmp_path) == ["file"]
 
@@ -125,7 +127,7 @@ def test_a_link_within_the_folder(tmp_path):
 
 @pytest.mark.skipif(not Path("/proc/sys").is_dir(), reason="there is no /proc")
 def test_a_folder_that_root_may_not_write_to(refused):
-    for out in ("/proc", "/proc/new", "/proc/sys/kernel"):
+    for out in ("/proc", "/proc/new", "/proc/self/derive", "/proc/sys/kernel"):
         assert out in refused("so3", "--out", out)
 
 

@@ -11,7 +11,6 @@ from derive import ProblemError, derive, searches
 from derive.algebra.families import group
 from derive.check.checker import Checker
 from derive.check.claims.enclosure import enclosure_fault
-from derive.command.cli import main
 from derive.language.tree import add, replaced
 from derive.record.as_json import from_json, to_json
 from derive.search.equilibria import enclosed_points
@@ -215,10 +214,3 @@ def test_a_family_of_equilibria_is_not_enclosed():
 def test_numbers_are_needed():
     with pytest.raises(ProblemError, match="has no default"):
         derive(heavy("123", "m*A_31", "m")).equilibrium_near({"A_31": 1})
-
-
-@pytest.mark.parametrize("form", ["text", "latex", "html", "markdown", "json"])
-def test_the_command(form, capsys):
-    words = ["--near", "Pi_2=1", "--format", form, "--lang", "en" if form == "json" else "fr"]
-    assert main(["equilibria", "euler_top", *words]) == 0
-    assert "Krawczyk" in capsys.readouterr().out

@@ -9,7 +9,6 @@ import sympy
 
 from derive import first_integrals
 from derive.check.checker import Checker
-from derive.command.cli import main
 from derive.language.tree import neg
 from derive.record.as_json import from_json, to_json
 from derive.search.integrals.degree_search import TooLargeError
@@ -230,12 +229,3 @@ def test_what_is_too_large(words, monkeypatch):
     with pytest.raises(TooLargeError, match=words) as error:
         first_integrals(problem, degree, conditions=True)
     assert "\n" not in str(error.value)
-
-
-def test_the_command(capsys):
-    assert main(["integrals", "lagrange_top", "--degree", "2", "--conditions"]) == 0
-    shown = " ".join(capsys.readouterr().out.split())
-    assert "where one of these conditions holds" in shown
-    french = ["--conditions", "--lang", "fr"]
-    assert main(["integrals", "lagrange_top", "--degree", "2", *french]) == 0
-    assert "là où l’une de ces conditions" in " ".join(capsys.readouterr().out.split())

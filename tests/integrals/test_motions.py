@@ -6,21 +6,12 @@ import sympy
 from scipy.integrate import solve_ivp
 
 from derive import first_integrals
-from derive.code.assemble import assemble
-from derive.code.emit import emit
 from derive.pipeline import walk
-from tests.support.emitted import import_python
 from tests.support.lagrangians import heavy
-from tests.support.walks import problem, record, repeated
+from tests.support.library import module_of
+from tests.support.walks import problem, repeated
 
 SPREAD, TIME = 1e-9, 50.0
-
-
-def module(name, folder):
-    p, d = problem(name), record(name)
-    for file, text in emit(assemble(d, p.group), d, ("python",), name).items():
-        (folder / file).write_text(text, encoding="utf-8")
-    return import_python(name, folder)
 
 
 def motion(found):
@@ -72,10 +63,10 @@ PUBLISHED = {
 
 
 @pytest.mark.parametrize("name", repeated(PUBLISHED))
-def test_along_a_motion(name, tmp_path):
+def test_along_a_motion(name):
     """What is found, and what was published, keep their values along a motion of the emitted code;
     another polynomial does not."""
-    found = module(name, tmp_path)
+    found = module_of(name)
     parameters = found.DEFAULTS
     path = motion(found)
     integrals = first_integrals(name)

@@ -1,5 +1,5 @@
-"""What a record tells of integrals: checked without brackets, refused where it is false, shown in
-every view, and nothing said that is not proved."""
+"""What a record tells of integrals: checked without brackets, refused where it is false, and
+nothing said that is not proved."""
 
 import json
 
@@ -11,15 +11,9 @@ from derive.command.cli import main
 from derive.language.tree import neg, replaced
 from derive.record.as_json import decode, encode, from_json, to_json
 from derive.record.sentence import english
-from derive.views.rendering import FORMATS, render
 from tests.support.corpus import LEVEL
 from tests.support.lagrangians import lagrangian
 from tests.support.walks import SEED
-
-
-def told(found):
-    labels = [s.label for s in found.record.steps]
-    return found.record.steps[labels.index(f"{found.record.name}.poisson") :]
 
 
 def refused(found, label, place, change):
@@ -76,25 +70,6 @@ def test_one_integral_is_told_as_one():
     assert "of numbers" not in said
 
 
-@pytest.mark.parametrize("form", FORMATS)
-def test_every_view_shows_them(form):
-    found = first_integrals(LEVEL)
-    chosen = () if form == "json" else told(found)
-    shown = render(found.record, form, steps=chosen)
-    assert "completely integrable, in the sense of Liouville" in " ".join(shown.split())
-    if form != "json":
-        french = " ".join(render(found.record, form, "fr", steps=chosen).split())
-        assert "completely" not in french
-
-
-def test_the_command(tmp_path, capsys):
-    assert main(["integrals", "lagrange_top", "--degree", "2"]) == 0
-    shown = capsys.readouterr().out
-    assert "d/dt(Π₃) = 0" in shown
-    assert "lagrange_top.mass" not in shown
-    place = tmp_path / "top.json"
-    assert main(["integrals", "lagrange_top", "--format", "json", "--out", str(place)]) == 0
-    assert main(["check", str(place)]) == 0
-    assert "holds  lagrange_top.first_integrals: 2 equations" in capsys.readouterr().out
+def test_at_the_defaults_the_command_has_their_numbers(capsys):
     assert main(["integrals", "lagrange_top", "--at-defaults", "--format", "markdown"]) == 0
     assert r"\mathsf{I}" not in capsys.readouterr().out

@@ -1,7 +1,5 @@
 """Ensembles: each motion is that of a run, files of every kind, what is refused, what is kept."""
 
-import os
-import signal
 import subprocess
 import sys
 import tracemalloc
@@ -192,33 +190,6 @@ def test_a_file_that_is_no_ensemble_is_told(some, tmp_path, capsys):
 
 
 # ---------------------------------------------------------------- what goes wrong
-
-
-@needs("cc")
-@pytest.mark.parametrize("ending", [".npz", ".csv"])
-def test_ctrl_c_keeps_what_is_done(ending, tmp_path, capsys, monkeypatch):
-    small(monkeypatch)
-    made, calls = of_parts.EnsembleMotions._follow, []
-
-    def interrupted(self, *given):
-        calls.append(given)
-        if len(calls) == 2:
-            os.kill(os.getpid(), signal.SIGINT)
-        return made(self, *given)
-
-    monkeypatch.setattr(of_parts.EnsembleMotions, "_follow", interrupted)
-    before = signal.getsignal(signal.SIGINT)
-    out = tmp_path / f"e{ending}"
-    asked = ["--t", "1", "--ensemble", "40", *OPTIONS, "--out", str(out)]
-    assert main(["simulate", "so3", *asked]) == 130
-    assert "interrupted after 14 of 40 motions" in capsys.readouterr().err
-    e = SimulatedEnsemble.read(out)
-    done = e.status == 0
-    assert done.sum() == 14
-    assert done[:14].all()
-    assert np.isfinite(e.states[done]).all()
-    assert {*e.status[~done].tolist()} <= {-1}
-    assert signal.getsignal(signal.SIGINT) is before
 
 
 def test_the_bits_are_no_matter_of_time(so3, monkeypatch):

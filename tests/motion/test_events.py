@@ -10,9 +10,7 @@ from derive.motion.run import FORMATS, read, written
 from derive.problem.problem import ProblemError
 from derive.problem.toml import load
 from derive.programs import motion_of
-from tests.oracles import free_top
-from tests.problems import READY, moving
-from tests.support.flows import emitted
+from tests.problems import moving
 from tests.support.needs import need
 
 SPIN = f'{moving.SPIN}[initial]\nzeta_3 = "w"\n'
@@ -100,24 +98,6 @@ def test_a_stone_meets_the_ground_and_the_run_ends(tmp_path, height):
     assert np.all(np.diff(run.t) > 0)
     assert abs(run["T_3"][-1]) < 1e-12
     assert "never" not in {x.name for x in run.events}
-
-
-def test_the_instants_are_those_of_other_steps(tmp_path):
-    """Kovalevskaya's top, chaotic, against DOP853 on the emitted code; the events of few long steps
-    are as exact as those of many."""
-    text = (READY / "kovalevskaya_top.toml").read_text(encoding="utf-8")
-    text += '[[event]]\nname = "e"\nwhen = "A_31 - zeta_2/8"\n'
-    d = derive.derive(problem(tmp_path, text))
-    run = d.simulate(12.0, tol=1e-12, points=3)
-    code = emitted("kovalevskaya_top")
-    k = code.constants([code.DEFAULTS[x] for x in code.PARAMETERS])
-    found = solve_ivp(
-        code.rhs, (0, 12), run.states[0], method="DOP853", rtol=1e-13, atol=1e-13, args=(k,),
-        events=lambda t, x, k: x[6] - x[10] / 8,
-    )  # fmt: skip
-    assert len(run.events) > 3
-    assert times(run, "e") == pytest.approx(found.t_events[0], rel=0, abs=1e-10)
-    assert all(abs(x.state[6] - x.state[10] / 8) < 1e-14 for x in run.events)
 
 
 @pytest.mark.parametrize("step", ["gauss", "vern9", "rk4", "discrete"])
@@ -237,28 +217,3 @@ def test_an_event_in_words():
     p = Problem("free", SO(3), body, [Event("e", "A_11", terminal=True)], initial={"zeta_3": 1})
     run = derive.derive(p).simulate(5.0, points=3)
     assert run.t[-1] == pytest.approx(np.pi / 2, abs=1e-12)
-
-
-def test_the_polynomial_of_a_step_is_of_order_nine():
-    """Uniformly on the step, against elliptic functions."""
-    from derive.motion.simulate import following
-    from derive.motion.start import start
-    from derive.motion.trajectory import Method
-
-    moments = (1.25, 2.0, 2.75)
-    theta, errors = np.linspace(0, 1, 9), []
-    d = derive.derive("euler_top")
-    code = motion_of(d.problem, d.record)
-    given = dict(zip(("I1", "I2", "I3"), moments, strict=True))
-    A, W = free_top.motion(0.0, moments, 1.0, 2.2)
-    given |= dict(zip(code.program.state, [*A.ravel(), *W], strict=True))
-    begin = start(code.program, d.problem, given)
-    for h in (0.8, 0.4):
-        follow = following(code, begin, Method(dt=h), h)
-        follow.reach(np.array([h]))
-        found = np.array([follow.motion.dense(part * h) for part in theta])
-        exact = [free_top.motion(x, moments, 1.0, 2.2) for x in theta * h]
-        exact = np.array([[*A.ravel(), *W] for A, W in exact])
-        errors.append(np.abs(found - exact).max())
-    assert errors[1] > 1e-13
-    assert np.log2(errors[0] / errors[1]) > 8.8

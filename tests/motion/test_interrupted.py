@@ -116,6 +116,15 @@ def test_a_signal_in_a_long_run(tmp_path, capsys, monkeypatch):
     assert 0 < run.events[-1].t <= run.t[1]
 
 
+def test_between_two_parts_it_is_where_the_last_one_has_led(tmp_path, capsys, monkeypatch):
+    interrupted_at(monkeypatch, Trajectory, "reach", 3)
+    out = tmp_path / "run.npz"
+    given = ["--t", "1", "--set", "zeta_1=1", "--points", "200", "--out", str(out)]
+    assert main(["simulate", "so3", *given]) == 130
+    assert len(read(out).t) == 3
+    assert "interrupted at t = 0.01" in capsys.readouterr().err
+
+
 # ---------------------------------------------------------------- ensembles
 
 
@@ -127,6 +136,7 @@ def test_ctrl_c_within_a_part_keeps_what_is_done_of_it(ending, tmp_path, capsys,
         need("the module pyarrow")
     monkeypatch.setattr(of_parts, "SECONDS", 1e-9)
     monkeypatch.setattr(of_parts, "TOGETHER", 4)
+    monkeypatch.setattr(of_parts, "MOTIONS", 16)
     monkeypatch.setattr("os.cpu_count", lambda: 1)
     made, calls = of_parts.EnsembleMotions._follow, []
 
@@ -139,8 +149,9 @@ def test_ctrl_c_within_a_part_keeps_what_is_done_of_it(ending, tmp_path, capsys,
     monkeypatch.setattr(of_parts.EnsembleMotions, "_follow", interrupted)
     out = tmp_path / f"e{ending}"
     asked = ["simulate", "so3", "--t", "1", "--ensemble", "40", *OPTIONS, "--out", str(out)]
-    stop = 3
+    stop, before = 3, signal.getsignal(signal.SIGINT)
     assert main(asked) == 130
+    assert signal.getsignal(signal.SIGINT) is before
     assert "interrupted after 12 of 40 motions" in capsys.readouterr().err
     some = SimulatedEnsemble.read(out)
     stop = 0

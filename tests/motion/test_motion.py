@@ -20,7 +20,7 @@ from derive.motion.trajectory import Method, instants, taken_to_group
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.programs import motion_of
-from tests.oracles import free_top, lagrange_top
+from tests.oracles import free_top
 
 MOMENTS = (1.25, 2.0, 2.75)
 FREE = """
@@ -71,16 +71,6 @@ def test_the_nodes_are_gauss_and_mu_is_symplectic():
     assert np.allclose((series * b) @ legendre, np.eye(8), atol=1e-14)
 
 
-def test_the_order_is_sixteen(free):
-    x, exact = start(free, free_state(0)), free_state(12.0)
-    errors = [
-        np.abs(free.simulate(12.0, dt=h, start=x, points=1).states[-1] - exact).max()
-        for h in (3.0, 2.0)
-    ]
-    assert errors[1] > 1e-13
-    assert 14 < np.log(errors[0] / errors[1]) / np.log(3 / 2) < 19
-
-
 # ---------------------------------------------------------------- known solutions
 
 
@@ -91,45 +81,6 @@ def test_a_free_top(free):
     assert np.ptp(run["energy"]) < 1e-14
     assert run["defect"].max() < 5e-15
     assert run.ended == ""
-
-
-def test_a_heavy_top():
-    d = derive.derive("lagrange_top")
-    names = d.simulate(1e-3, points=1).facts["parameters"]
-    first, third, weight = (names[x] for x in ("I1", "I3", "mgl"))
-    x = lagrange_top.motion(0, (first, third), weight, 0.5, 0.3, 4.0)
-    run = d.simulate(10.0, start=start(d, x), tol=1e-11, points=4)
-    for t, found in zip(run.t, run.states, strict=True):
-        expected = lagrange_top.motion(t, (first, third), weight, 0.5, 0.3, 4.0)
-        assert np.abs(found - expected).max() < 1e-8
-
-
-@pytest.mark.parametrize("tol", [1e-5, 1e-8, 1e-11])
-@pytest.mark.parametrize(
-    ("name", "numbers", "exponent", "duration"),
-    [
-        ("top", {"zeta_3": 100.0}, (0.3, 0, 0), 1.0),
-        ("se3", {"zeta_1": 1.0, "w_1": 1.0}, (), 2.0),
-        ("sl3", {"zeta_1": 1.0}, (), 5.0),
-        ("ellipsoid", {"T_3": -0.5, "zeta_3": 1.0}, (), 2.0),
-        ("ellipsoid", {"T_3": 0.0, "zeta_1": 1.0}, (), 3.0),
-        ("lagrange_top", {"zeta_3": 15.0}, (0.5, 0, 0), 20.0),
-    ],
-)
-def test_the_tolerance_is_that_of_a_short_run(name, numbers, exponent, duration, tol):
-    d = derive.derive(name)
-    exact, found = (
-        d.simulate(duration, start=numbers, exp=exponent, points=1, tol=x).states[-1]
-        for x in (1e-15, tol)
-    )
-    assert np.abs(found - exact).max() < 20 * tol * np.abs(exact).max()
-
-
-def test_a_long_run_stays_on_the_group_and_keeps_its_energy():
-    run = derive.derive("sl3").simulate(100.0, dt=0.05, start={"zeta_1": 1.0}, points=20)
-    assert run["defect"].max() < 1e-13
-    assert np.ptp(run["energy"]) < 1e-12 * abs(run["energy"][0])
-    assert len(run.t) == 21
 
 
 # ---------------------------------------------------------------- starts, instants
@@ -329,26 +280,6 @@ def test_a_fluid_of_irrational_axes_keeps_its_circulation(tmp_path, capsys):
     code, text, err = told(capsys, str(path), "--t", "1")
     assert (code, err) == (0, "")
     assert "circulation_3: " in text
-
-
-def test_ctrl_c_keeps_what_is_done(tmp_path, capsys, monkeypatch):
-    from derive.motion.trajectory import Trajectory
-
-    reach, calls = Trajectory.reach, []
-
-    def stopped(self, times):
-        calls.append(times)
-        if len(calls) == 3:
-            raise KeyboardInterrupt
-        return reach(self, times)
-
-    monkeypatch.setattr(Trajectory, "reach", stopped)
-    out = tmp_path / "run.npz"
-    code, _, err = told(
-        capsys, "so3", "--t", "1", "--set", "zeta_1=1", "--points", "200", "--out", str(out)
-    )
-    assert (code, len(read(out).t)) == (130, 3)
-    assert "interrupted at t = 0.01" in err
 
 
 def test_states_without_an_element_have_no_exponential():

@@ -1,9 +1,9 @@
 """Oracles for numbers: roads to the equations of motion that share nothing with the derivation.
 
 * ``sampling``     bodies made of points, group elements and states, from a seeded generator;
-* ``gauss``        Gauss's principle of least constraint, by least squares over the Lie algebra;
 * ``multipliers``  Newton's law for every point, with Lagrange multipliers for the constraints;
-* ``general``      Gauss's principle for any problem file; ``solids``: their moments by quadrature;
+* ``general``      Gauss's principle of least constraint for any problem file;
+* ``solids``       moments of solids by quadrature;
 * ``free_top``, ``lagrange_top``, ``kepler``, ``geodesics``: motions in closed form;
 * ``sympy_mechanics``, ``articulated``: SymPy's mechanics and Pinocchio on one solid.
 """

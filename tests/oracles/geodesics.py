@@ -5,8 +5,7 @@ Tr A^-1 A' = 0 gives Tr A^-1 A'' = Tr Z^2 for Z = A^-1 A', the multiplier is
 
     l = Tr Z^2 / Tr (A^T A)^-1.
 
-A -> U A V with rotations U, V keeps the metric: A' A^T - A A'^T (angular momentum) and
-A^T A' - A'^T A (circulation) are constant.  These are the affine motions of an incompressible
+A -> U A V with rotations U, V keeps the metric.  These are the affine motions of an incompressible
 fluid: Sideris, Arch. Rational Mech. Anal. 225 (2017) 141; n = 2: Roberts, Shkoller, Sideris,
 Comm. Math. Phys. 375 (2020) 1003; all n: Rosevear, Sottile, Wong, La Matematica 1 (2022).
 
@@ -29,17 +28,6 @@ import numpy as np
 from mpmath import mp
 
 DIGITS = 25
-
-
-def acceleration(A, V):
-    """A'' at A with the velocity V (n, n)."""
-    Z, inverse = np.linalg.solve(A, V), np.linalg.inv(A)
-    return inverse.T * (np.trace(Z @ Z) / np.sum(inverse**2))
-
-
-def momenta(A, V):
-    """The angular momentum and the circulation, two skew matrices."""
-    return V @ A.T - A @ V.T, A.T @ V - V.T @ A
 
 
 def line(t, A, N):

@@ -67,11 +67,3 @@ def motion(t, moments, weight, z, rate, spin):
         phi, psi = (angle - 2 * mp.pi * mp.nint(angle / (2 * mp.pi)) for angle in (phi, psi))
     A = turn([0, 0, 1], float(phi)) @ turn([1, 0, 0], float(theta)) @ turn([0, 0, 1], float(psi))
     return np.concatenate([A.ravel(), np.array([*W, spin], float)])
-
-
-def steady_rates(moments, weight, z, spin):
-    """The slow and the fast rate of I_1 z rate^2 - I_3 W_3 rate + weight = 0, W_3 = ``spin``."""
-    first, third = moments
-    root = np.sqrt((third * spin) ** 2 - 4 * first * z * weight)
-    fast = (third * spin + root) / (2 * first * z)
-    return weight / (first * z * fast), fast

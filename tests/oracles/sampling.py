@@ -1,6 +1,6 @@
 """Random bodies, group elements and states for so3, se3 and sl3, and what points make of them.
 
-At the end, a body with an axis and its motions that are known in closed form.
+At the end, a body with given moments.
 
 Conventions: a point r of the body is at ``q = A r`` (so3, sl3) or ``q = A r + T`` (se3).  A state
 is ``A`` row-major, then ``T`` (se3), then the coordinates of ``Z = G^-1 dG/dt``: ``zeta`` for so3,
@@ -181,12 +181,6 @@ def quaternion(A):
     return column / np.linalg.norm(column)
 
 
-def axial_body(gravity):
-    """Four points around the third axis and one on it, their centre on it and not at 0."""
-    points = np.array([[1, 0, 0.4], [-1, 0, 0.4], [0, 1, 0.4], [0, -1, 0.4], [0, 0, 1]])
-    return Body(np.ones(5), points, np.array(gravity), np.zeros((5, 5)))
-
-
 def solid_body(inertia, mass=1.0, centre=(0.0, 0.0, 0.0), gravity=(0.0, 0.0, 0.0)):
     """Seven points with this mass, centre of mass and tensor of inertia (3, 3) about it.
 
@@ -197,29 +191,3 @@ def solid_body(inertia, mass=1.0, centre=(0.0, 0.0, 0.0), gravity=(0.0, 0.0, 0.0
     points = np.vstack([np.zeros(3), arms, -arms]) + centre
     masses = mass * np.array([1 / 2] + [1 / 12] * 6)
     return Body(masses, points, np.array(gravity, float), np.zeros((7, 7)))
-
-
-def free_flight(name, x, body, t):
-    """The state at t of an axial body: turning about 0 without weight (so3), or falling (se3)."""
-    m, c, _ = moments(body)
-    s = c / m if name == "se3" else np.zeros(3)
-    tensor = inertia(body) - m * (s @ s * np.eye(3) - np.outer(s, s))
-    A, zeta = x[:9].reshape(3, 3), x[12:15] if name == "se3" else x[9:]
-    ratio = tensor[2, 2] / tensor[0, 0]
-    spin, momentum = (1 - ratio) * zeta[2], A @ (zeta * [1, 1, ratio])
-    lead = turn(momentum, np.linalg.norm(momentum) * t)
-    after = lead @ A @ turn([0, 0, 1], spin * t)
-    zeta_after = turn([0, 0, 1], -spin * t) @ zeta
-    if name == "so3":
-        return np.concatenate([after.ravel(), zeta_after])
-    velocity = A @ (x[15:] + np.cross(zeta, s))
-    centre = x[9:12] + A @ s + velocity * t + body.gravity * t**2 / 2
-    w = after.T @ (velocity + body.gravity * t) - np.cross(zeta_after, s)
-    return np.concatenate([after.ravel(), centre - after @ s, zeta_after, w])
-
-
-def precession(t, rate, tilt, spin):
-    """The state of a top that precesses, turned by ``tilt``, and spins at constant rates."""
-    body_turn = turn([0, 0, 1], spin * t)
-    A = turn([0, 0, 1], rate * t) @ turn([1, 0, 0], tilt) @ body_turn
-    return np.concatenate([A.ravel(), A.T @ [0, 0, rate] + [0, 0, spin]])

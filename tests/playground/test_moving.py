@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 
-from tests.support.flows import emitted
+from tests.support.library import module_of
 from tests.support.playground_site import (
     chosen,
     moving,
@@ -111,7 +111,7 @@ def test_a_top(fresh, site):
     # every parameter and number of the start has a slider
     names = frame.evaluate("[...document.querySelectorAll('.adjuster')].map((x) => x.dataset.name)")
     start = [f"{x}_{k}" for x in ("zeta", "theta") for k in (1, 2, 3)]
-    assert names == [*start, *emitted("top").PARAMETERS]
+    assert names == [*start, *module_of("top").PARAMETERS]
     slid(frame, g=5.0, zeta_1=40.0, theta_1=0.4)
     # what is kept is found behind the motion, and stays
     fresh.wait_for_selector("iframe[data-kept]", timeout=90_000)

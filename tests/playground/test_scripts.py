@@ -12,7 +12,7 @@ from derive.command.showing import READY, ready_made
 from derive.problem.toml import load
 from playground.stage import schema
 from tests.support import in_node
-from tests.support.flows import emitted
+from tests.support.library import module_of
 from tests.support.needs import need
 from tests.support.played import PENDULUM, text_of
 from tests.support.playground_site import built
@@ -118,7 +118,7 @@ def test_names_of_the_velocity_are_the_emitted_ones(name):
     found = in_node.told('import { velocity } from "./src/state.js";', call, given)
     factors = [x.name for x in problem.group.factors] or [problem.group.name]
     held = {f"zeta_{a}" for a in (problem.lagrangian.held if problem.lagrangian else ())}
-    velocity = [x for x in emitted(name).STATE if x.startswith(("zeta_", "w_"))]
+    velocity = [x for x in module_of(name).STATE if x.startswith(("zeta_", "w_"))]
     named = {*factors} <= {*schema()["groups"]}
     assert [x for x in found if x not in held] == (velocity if named else [])
 

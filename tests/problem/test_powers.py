@@ -1,9 +1,9 @@
 """Every integer power of a name and of a place, on every road, against powers of fractions."""
 
 import json
-import subprocess
 from fractions import Fraction
 
+import numpy as np
 import pytest
 
 from derive import SO, Points, Potential, Problem, derive
@@ -14,8 +14,7 @@ from derive.language.expression import ExpressionError, parse
 from derive.language.limits import EXPONENT
 from derive.language.values import value
 from derive.record.as_json import from_json, to_json
-from tests.support.emitted import compile_c, import_python
-from tests.support.needs import CC, need
+from tests.support.library import library, module_of
 
 EXPONENTS = [n for n in range(-EXPONENT, EXPONENT + 1) if n]
 A, B, C = Fraction(3, 7), Fraction(-5, 3), Fraction(11, 2)
@@ -82,58 +81,20 @@ def close(found, wanted):
     assert abs(Fraction(found) - wanted) <= Fraction(1, 10**13) * abs(wanted)
 
 
-@pytest.fixture(scope="module")
-def emitted(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("powers")
+@pytest.mark.parametrize("build", ["python", "c", "javascript"])
+def test_emitted_code(build):
+    """For the switches, one after the other."""
     problem, switches = summed()
-    derive(problem).emit(folder, ("c", "python", "javascript"))
-    return folder, switches
-
-
-def chosen(module, switches):
-    """The parameters, one switch after the other on."""
+    made = library(build, problem)
+    energy, rhs = (next(x for x in made.calls if x.name == y) for y in ("energy", "rhs"))
+    names = module_of(problem).PARAMETERS
     for i, name in enumerate(switches):
-        yield i, [float(A) if x == "a" else float(x == name) for x in module.PARAMETERS]
-
-
-def test_emitted_python(emitted):
-    folder, switches = emitted
-    module = import_python("powers", folder)
-    for i, p in chosen(module, switches):
-        k = module.constants(p)
-        energy, rate = expected(i)
-        close(float(module.energy(0.0, STATE, k)), energy)
-        close(float(module.rhs(0.0, STATE, k)[-1]), rate)
-
-
-def test_emitted_c(emitted):
-    need("cc")
-    folder, switches = emitted
-    module, library = import_python("powers", folder), compile_c(CC, "powers", folder, folder)
-    for i, p in chosen(module, switches):
-        status, k = library.constants(p)
+        p = np.array([float(A) if x == "a" else float(x == name) for x in names])
+        status, k = made.constants(p)
         assert status == 0
-        energy, rate = expected(i)
-        close(library.energy(0.0, STATE, k), energy)
-        close(library.rhs(0.0, STATE, k)[-1], rate)
-
-
-def test_emitted_javascript(emitted):
-    need("node")
-    folder, switches = emitted
-    listed = [p for _, p in chosen(import_python("powers", folder), switches)]
-    (folder / "main.mjs").write_text(
-        f"import * as m from './powers.mjs';\nconst x = {STATE};\n"
-        f"for (const p of {json.dumps(listed)}) {{\n    const k = m.constants(p);\n"
-        "    console.log(m.energy(0, x, k), m.rhs(0, x, k).at(-1));\n}\n"
-    )
-    done = subprocess.run(["node", "main.mjs"], cwd=folder, capture_output=True, text=True)
-    assert not done.stderr
-    lines = done.stdout.splitlines()
-    assert len(lines) == len(switches)
-    for i, line in enumerate(lines):
-        for found, wanted in zip(line.split(), expected(i), strict=True):
-            close(float(found), wanted)
+        values = made.values(t=0.0, p=p, k=k, u=np.zeros(0), x=np.array(STATE))
+        for call, wanted in zip((energy, rhs), expected(i), strict=True):
+            close(float(made.shown(call, values, False)[0][-1]), wanted)
 
 
 STEPS = ("power.potential", "power.pushes")

@@ -21,6 +21,7 @@ from derive.problem.mesh import MeshError, mesh_moments, read
 from derive.problem.moments import SolidError
 from derive.problem.solids import joined_moments, moments, rotation_about, unit_moments
 from derive.schema.body_kinds import SOLIDS
+from tests.oracles.solids import nodes
 from tests.support.needs import needs
 
 needs_trimesh = needs("the module trimesh")
@@ -111,52 +112,24 @@ def test_against_slices(kind, seed):
     assert [[evaluate(x, env) for x in row] for row in again] == expected[2]
 
 
-def nodes(*ranges):
-    """Gauss–Legendre points and weights in three variables."""
-    x, w = np.polynomial.legendre.leggauss(12)
-    scaled = [((b - a) / 2 * x + (a + b) / 2, (b - a) / 2 * w) for a, b in ranges]
-    grid = np.meshgrid(*(s[0] for s in scaled), indexing="ij")
-    return [g.ravel() for g in grid], np.einsum("i,j,k", *(s[1] for s in scaled)).ravel()
-
-
-def spherical(low, high, a=1.0, b=1.0, c=1.0):
-    (r, u, t), w = nodes((low, high), (-1, 1), (0, 2 * math.pi))
-    s = r * np.sqrt(1 - u * u)
-    return (a * s * np.cos(t), b * s * np.sin(t), c * r * u), w * a * b * c * r * r
-
-
-def round_about_z(radius, low, high):
-    (p, t, z), w = nodes((0, 1), (0, 2 * math.pi), (low, high))
-    r = radius(z)
-    return (r * p * np.cos(t), r * p * np.sin(t), z), w * r * r * p
-
-
-def corner():
-    """The tetrahedron of vertices 0, 2 e₁, 3 e₂, e₃."""
-    (u, v, s), w = nodes((0, 1), (0, 1), (0, 1))
-    return (2 * u, 3 * v * (1 - u), s * (1 - u) * (1 - v)), w * 6 * (1 - u) ** 2 * (1 - v)
-
-
-QUADRATURES = {
-    "ball": ({"radius": 2}, lambda: spherical(0, 2)),
-    "box": ({"sides": (1, 2, 3)}, lambda: nodes((-0.5, 0.5), (-1, 1), (-1.5, 1.5))),
-    "ellipsoid": ({"semi_axes": (1, 2, 3)}, lambda: spherical(0, 1, 1, 2, 3)),
-    "cylinder": ({"radius": 2, "height": 3}, lambda: round_about_z(lambda z: 2 + 0 * z, -1.5, 1.5)),
-    "cone": ({"radius": 2, "height": 3}, lambda: round_about_z(lambda z: 2 - 2 * z / 3, 0, 3)),
-    "hollow_ball": ({"outer": 2, "inner": 1}, lambda: spherical(1, 2)),
-    "tetrahedron": ({"vertices": ((0, 0, 0), (2, 0, 0), (0, 3, 0), (0, 0, 1))}, corner),
+SIZES = {
+    "ball": {"radius": 2},
+    "box": {"sides": [1, 2, 3]},
+    "ellipsoid": {"semi_axes": [1, 2, 3]},
+    "cylinder": {"radius": 2, "height": 3},
+    "cone": {"radius": 2, "height": 3},
+    "hollow_ball": {"outer": 2, "inner": 1},
+    "tetrahedron": {"vertices": [[0, 0, 0], [2, 0, 0], [0, 3, 0], [0, 0, 1]]},
 }
 
 
 @pytest.mark.parametrize("kind", PLAIN)
 def test_against_numerical_integration(kind):
-    sizes, points = QUADRATURES[kind]
-    r, w = points()
-    mass, first, second = values(unit_moments(made(kind, 1, sizes)), {"π": math.pi})
-    assert float(mass) == pytest.approx(w.sum(), rel=1e-6)
-    assert [float(x) for x in first] == pytest.approx([(w * x).sum() for x in r], abs=1e-6)
-    for i, j in product(range(3), repeat=2):
-        assert float(second[i][j]) == pytest.approx((w * r[i] * r[j]).sum(), rel=1e-6, abs=1e-6)
+    w, r = nodes({"kind": kind} | SIZES[kind], {})
+    mass, first, second = values(unit_moments(made(kind, 1, SIZES[kind])), {"π": math.pi})
+    assert float(mass) == pytest.approx(w.sum(), rel=1e-12)
+    assert [float(x) for x in first] == pytest.approx([*(r @ w)], abs=1e-12)
+    assert np.array(second, float) == pytest.approx((r * w) @ r.T, rel=1e-12, abs=1e-12)
 
 
 def inertia(found, names):

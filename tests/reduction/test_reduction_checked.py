@@ -9,7 +9,6 @@ from derive.language.show import show
 from derive.language.tree import mul
 from derive.record.as_json import from_json, to_json
 from derive.record.record import RecordError
-from derive.views.rendering import FORMATS, render
 from tests.readers.read import PAGES, faults
 from tests.support.reduced import reduced
 from tests.support.walks import SEED
@@ -19,11 +18,6 @@ from tests.support.walks import SEED
 @pytest.mark.parametrize("name", ["lagrange_top", "charged_body"])
 def test_every_page_says_what_its_record_says(name, kind):
     assert [*faults(reduced(name).record, kind)] == []
-
-
-@pytest.mark.parametrize("form", FORMATS)
-def test_every_view_shows_it(form):
-    assert "quadrature" in render(reduced("lagrange_top").record, form, "en")
 
 
 def test_what_is_0_by_the_choice_of_horizontal_velocities_does_not_stand_in_the_routhian():

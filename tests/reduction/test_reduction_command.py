@@ -1,7 +1,4 @@
-"""The command: formats, steps, languages, what is refused in one line; the choice of symmetries."""
-
-import subprocess
-import sys
+"""What a reduction tells, what is refused in one line, and the choice of symmetries."""
 
 import pytest
 
@@ -18,38 +15,14 @@ def said(capsys, *words, code=0):
     return capsys.readouterr()
 
 
-def test_it_prints_the_reduction_alone(capsys):
+def test_the_effective_potential_of_a_top(capsys):
     words = said(capsys, "lagrange_top").out
-    assert words.startswith("lagrange_top.momentum_1")
     assert "𝒱 = mgl·A₃₃ + (𝒥₁ − A₃₃ 𝒥₂)²/(2 I1(1 − A₃₃²)) + 𝒥₂²/(2 I3)" in words
     assert "degree 3: the integral is elliptic" in " ".join(words.split())
 
 
 def test_a_parameter_is_told_from_the_element_of_the_group(capsys):
     assert "𝒱 = ml‘g’ A₃₃ + " in said(capsys, "spherical_pendulum").out
-
-
-def test_it_speaks_french(capsys):
-    assert "L’inertie bloquée" in said(capsys, "top", "--lang", "fr").out
-
-
-def test_a_step_alone(capsys):
-    words = said(capsys, "top", "locked").out
-    assert words.startswith("top.locked")
-    assert "quadrature" not in words
-
-
-@pytest.mark.parametrize("form", ["latex", "markdown", "html", "json"])
-def test_formats(capsys, tmp_path, form):
-    file = tmp_path / "out"
-    said(capsys, "top", "--format", form, "--out", str(file))
-    assert "top.quadrature" in file.read_text(encoding="utf-8")
-
-
-def test_a_record_is_checked(capsys, tmp_path):
-    file = tmp_path / "top.json"
-    said(capsys, "spherical_pendulum", "--format", "json", "--out", str(file))
-    assert main(["check", str(file)]) == 0
 
 
 def stated(L, group="SO(3)"):
@@ -102,14 +75,6 @@ def test_every_equation_is_one_of_sympy():
     found = derive("charged_body").reduction()
     assert all(found[s.label].sympy() for s in found.record.steps)
     assert found.quadrature is None
-
-
-def test_the_walk_imports_nothing_of_it():
-    code = (
-        "import sys; from derive.command.cli import main; main(['symmetries', 'so3']); "
-        "sys.exit(any(x.startswith(('sympy', 'derive.reduction')) for x in sys.modules))"
-    )
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == 0
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,8 @@ sources, and kept on the disk.
 import tomllib
 from functools import cache, partial
 
+import numpy as np
+
 from derive import Gravity, Harmonic, Problem, SelfGravity, Solid, first_integrals
 from derive.algebra.families import group as named_group
 from derive.check.checker import checker_of
@@ -122,8 +124,8 @@ DAMPED += '[[damping]]\ncoefficient = "a"\non = [2, 3]\n'
 
 # -- ellipsoids of fluid --------------------------------------------------------------------------
 
-FULL = [[2.0, 0.5, 0.3], [0.5, 3.0, -0.2], [0.3, -0.2, 1.0]]
-WELL = [[2.0, 0.3, 0.1], [0.3, 1.0, 0.0], [0.1, 0.0, 0.5]]
+FULL = np.array([[2.0, 0.5, 0.3], [0.5, 3.0, -0.2], [0.3, -0.2, 1.0]])
+WELL = np.array([[2.0, 0.3, 0.1], [0.3, 1.0, 0.0], [0.1, 0.0, 0.5]])
 RHO, SLOPE = 1.7, 0.4
 LAYERS = "rho*(1 - q*s)^2/2 + s^3"
 """A density by the level s."""
@@ -132,8 +134,8 @@ LAYERS = "rho*(1 - q*s)^2/2 + s^3"
 def ellipsoid(n, Q=FULL, W=None, forces=(), density="rho"):
     """A problem on SL(n), its density a parameter; ``Q`` and ``W`` as far as n goes."""
     own = {"rho": RHO, "q": SLOPE} if "q" in density else {"rho": RHO}
-    body = Solid("ellipsoid", density, quadric=[row[:n] for row in Q[:n]])
-    acting = [Harmonic([row[:n] for row in W[:n]])] if W is not None else []
+    body = Solid("ellipsoid", density, quadric=Q[:n, :n].tolist())
+    acting = [Harmonic(W[:n, :n].tolist())] if W is not None else []
     return Problem("fluid", f"SL({n})", body, [*acting, *forces], parameters=own)
 
 
@@ -148,7 +150,7 @@ def of_axes(name="fluid", axes=("a", 1, 2), density="rho", **more):
 ELLIPSOIDS = {
     "in space": lambda: ellipsoid(3),
     "in a plane": lambda: ellipsoid(2, W=WELL),
-    "in layers": lambda: ellipsoid(3, [[1, 0, 0], [0, 1, 0], [0, 0, 1]], density=LAYERS),
+    "in layers": lambda: ellipsoid(3, np.eye(3, dtype=int), density=LAYERS),
     "in layers of a plane": lambda: ellipsoid(2, W=WELL, density=LAYERS),
     "turned": lambda: of_axes(rotation={"axis": [0, 0, 1], "angle": "phi"}),
     "a star": lambda: ellipsoid(3, forces=[SelfGravity(1)]),

@@ -8,7 +8,8 @@ from derive.motion.emitted_code import Column
 from derive.motion.run import Run
 from derive.views.plot.pictures import KINDS
 from derive.views.plot.plot_sheet import sheet
-from tests.support.flows import emitted, flow
+from tests.support.flows import flow
+from tests.support.library import module_of
 from tests.support.walks import derived
 
 BODY = {"inertia": [[1.0, 0, 0], [0, 1.6, 0], [0, 0, 2.2]]}
@@ -25,7 +26,7 @@ def plain_run(table, facts=None, **kinds):
 @cache
 def run_of(problem="euler_top", end=30.0, rows=400):
     """A run of the emitted Python by SciPy."""
-    code, times = emitted(problem), np.linspace(0, end, rows)
+    code, times = module_of(problem), np.linspace(0, end, rows)
     k = code.constants([code.DEFAULTS[x] for x in code.PARAMETERS])
     group = "SO(3)" if problem == "euler_top" else "SU(5)"
     if problem == "euler_top":  # about the middle axis, a little off: it flips

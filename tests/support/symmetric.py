@@ -71,6 +71,11 @@ FILES = {
             "rotation": {"axis": [0, 0, 1], "angle": "pi/4"},
         },
     },
+    # a turn about an axis and a stretch along it, whose boost is no polynomial in the entries of g
+    "spiral": {
+        "group": {"name": "Spiral", "basis": [[[0, -1, 0], [1, 0, 0], [0, 0, 2]]]},
+        "lagrangian": {"L": "zeta_1^2/2"},
+    },
     "landau": {
         "group": T3,
         "lagrangian": {"L": "m*(zeta_1^2 + zeta_2^2 + zeta_3^2)/2 + k*T_1*zeta_2"},

@@ -28,6 +28,7 @@ RELABELLED = {"time": 1, "rotation_space": 3, "deformation_body": 3}
 COUNTS = {
     "free": SPACE,
     "cone": SPACE | {"rotation_body": 1},
+    "spiral": {"time": 1, "deformation_space": 1},
     "ball": SPACE | {"rotation_body": 1, "displacement_body": 2},
     "long_numbers": SPACE,
     "planet": {"time": 1, "rotation_alone": 3},
@@ -178,3 +179,10 @@ def test_a_guess_is_taken_only_where_it_is_so_for_another_prime(name, monkeypatc
     monkeypatch.setattr(search, "quotients_of", with_false_ones)
     assert symmetries(problem(name), record(name)).found.symmetries == right
     assert guessed
+
+
+def test_a_group_without_exact_elements_is_refused():
+    cubic = {"name": "Own", "basis": [[[0, 0, 2], [1, 0, 0], [0, 1, 0]]]}
+    own = problem_of({"name": "own", "group": cubic, "lagrangian": {"L": "zeta_1^2/2"}})
+    with pytest.raises(ProblemError, match="no exact elements"):
+        symmetries(own, walk(own))

@@ -14,10 +14,10 @@ from derive.language.tree import mul, neg
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.sentence import english
-from tests.oracles import general, relative_error
+from tests.oracles import general, relative_error, solids
 from tests.problems import PROBLEMS
 from tests.support import corpus, walks
-from tests.support.corpus import SOLIDS
+from tests.support.corpus import SOLIDS, SOLIDS_ON
 from tests.support.emitted import compile_c
 from tests.support.needs import present
 from tests.support.walks import SEED
@@ -61,51 +61,18 @@ def test_code_agrees_with_the_oracle(name, tmp_path):
             assert relative_error(library.rhs(t, x, library.constants(values)[1], u), found) < 1e-12
 
 
-@pytest.mark.parametrize("group", ["SE(3)", "SO(3)", "SL(3)", "SAff(3)", "Sim(3)"])
+@pytest.mark.parametrize("group", SOLIDS_ON)
 def test_solids_are_their_moments(group):
-    """The body of solids moves like one whose moments are the integrals over a fine grid."""
-    head = f'name = "test"\ngroup = "{group}"\n'
-    gravity = '[[potential]]\nkind = "gravity"\ng = [1, 0, "-9.81"]\n'
-    problem = problem_of(tomllib.loads(SOLIDS.replace("GROUP", group)))
-    record = corpus.record(f"points solids on {group}")
-    files, space = emitted(problem, record)
+    """The body of solids moves like one whose moments are the integrals by quadrature."""
+    solid = tomllib.loads(SOLIDS.replace("GROUP", group))
+    record, data = corpus.record(f"points solids on {group}"), solids.by_moments(solid)
+    files, space = emitted(problem_of(solid), record)
     assert re.sub(r"/\*.*?\*/", "", files["test.c"], flags=re.DOTALL).isascii()  # cos(π/3) too
-    moments = gridded()
-    listed = "".join(f"{k} = {v!r}\n" for k, v in moments.items())
-    text = head + "[parameters]\n" + listed + '[body]\nmoments = "symbolic"\n' + gravity
-    data = tomllib.loads(text)
     p, basis, rng = general.parameters(data), space["BASIS"], np.random.default_rng(3)
-    defaults = {"a": 1.1, "b": 0.7, "rho": 2.0}
-    k = space["constants"]([defaults[x] for x in space["PARAMETERS"]])
+    k = space["constants"]([p[x] for x in space["PARAMETERS"]])
     for _ in range(5):
         x = general.random_state(data, basis, rng)
         assert relative_error(space["rhs"](0.0, x, k), general.rhs(data, basis, p, 0.0, x)) < 1e-9
-
-
-def gridded():
-    """m, c_1 …, J_11 … of SOLIDS by Gauss–Legendre quadrature in polar coordinates."""
-    nodes, weights = np.polynomial.legendre.leggauss(12)
-    r, wr = (nodes + 1) / 2, weights / 2
-    angle = np.arange(24) * np.pi / 12
-    R, C, A = np.meshgrid(r, nodes, angle, indexing="ij")
-    side = np.sqrt(1 - C**2)
-    ball = np.stack([R * side * np.cos(A), R * side * np.sin(A), R * C]).reshape(3, -1)
-    w = (wr[:, None, None] * weights[:, None] * R**2 * np.pi / 12).ravel()
-    axes = np.array([1.1, 0.7, 0.5])
-    n = np.array([1, 2, 2]) / 3
-    hat = np.array([[0, -n[2], n[1]], [n[2], 0, -n[0]], [-n[1], n[0], 0]])
-    turn = np.eye(3) + np.sin(np.pi / 3) * hat + (1 - np.cos(np.pi / 3)) * hat @ hat
-    parts = [(turn @ (axes[:, None] * ball) + [[0.1], [0], [0.7]], 2.0 * axes.prod() * w)]
-    Z, S = np.meshgrid(r, r, indexing="ij")
-    z, s = np.repeat(Z.ravel() * 1.1, 24), np.repeat((0.4 * S * (1 - Z)).ravel(), 24)
-    a = np.tile(angle, 144)
-    area = (0.16 * S * (1 - Z) ** 2 * wr[:, None] * wr * 1.1 * np.pi / 12).ravel()
-    parts.append((np.stack([s * np.cos(a), s * np.sin(a), z]), 3 * np.repeat(area, 24)))
-    m = sum(w.sum() for _, w in parts)
-    c = sum(q @ w for q, w in parts)
-    J = sum((q * w) @ q.T for q, w in parts)
-    found = {"m": float(m)} | {f"c_{i + 1}": float(c[i]) for i in range(3)}
-    return found | {f"J_{i + 1}{j + 1}": float(J[i, j]) for i in range(3) for j in range(i, 3)}
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""The oracle for any problem file, against the one for three problems and against Newton's law.
+"""The oracle for any problem file, against Newton's law.
 
 Shapes are those of the oracle: ``basis`` (d, s, s), a group element and then zeta (d,) in a state.
 """
@@ -6,7 +6,7 @@ Shapes are those of the oracle: ``basis`` (d, s, s), a group element and then ze
 import numpy as np
 import pytest
 
-from tests.oracles import gauss, general, relative_error, sampling
+from tests.oracles import general, relative_error
 
 STEP = 1e-30
 SCREW = {"action": "affine", "basis": [[[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0.5], [0, 0, 0, 0]]]}
@@ -48,108 +48,11 @@ def algebra(group):
     return np.concatenate([*map(np.pad, parts, margins)])
 
 
-def points_of(group, rng, count):
-    """``count`` random points for every factor of the group."""
-    sizes = [n for _, n, _ in general.blocks({"group": group})[0] for _ in range(count)]
-    drawn = [{"mass": rng.uniform(0.5, 2), "at": [*rng.normal(size=n)]} for n in sizes]
-    return [{**point, "block": k // count + 1} for k, point in enumerate(drawn)]
-
-
-def everything(group, rng):
-    """A problem with all potentials, dampings and inputs that the group allows; its parameters."""
-    sizes = [n for _, n, _ in general.blocks({"group": group})[0]]
-    data = {"group": group, "parameters": {"k": 2.5, "l": {"default": 0.7}, "w": {}}}
-    data["point"] = points_of(group, rng, max(sizes) + 1)
-    count, end = len(data["point"]), sizes[-1]
-    there = {"at": [0.4] * end, "block": len(sizes)}
-    data["potential"] = [
-        {"kind": "spring", "between": [1, 2], "stiffness": "k", "length": "l/2"},
-        {"kind": "spring", "on": count, "anchor": [0.3] * end, "stiffness": "2*k"},
-        {"kind": "spring", **there, "anchor": ["l"] * end, "stiffness": 1.5},
-        {"kind": "attraction", "strength": "k^2"},
-        {"kind": "expression", "U": f"sin(w*t)*r1_1^2*k + exp(r{count}_{end}/3)*r2_1 + cos(t)"},
-    ]
-    if len(set(sizes)) == 1:
-        far = {"kind": "spring", "between": [1, count], "stiffness": "l"}
-        data["potential"] += [{"kind": "gravity", "g": [*rng.normal(size=end)]}, far]
-    data["damping"] = [{"coefficient": "l"}, {"coefficient": 0.3, "on": [2]}]
-    data["input"] = [{"kind": "force", "on": 2, "frame": "body"}, {"kind": "covector"}]
-    data["input"].append({"kind": "force", **there})
-    return data, {**general.parameters(data), "w": 1.3}
-
-
 def matrices(data, basis, x, dx):
     """G and its first and second derivatives, (s, s), which give points their q, v and a."""
     G, zeta = general.split(data, x, len(basis))
     Z, change = np.tensordot(zeta, basis, 1), np.tensordot(dx[-len(basis) :], basis, 1)
     return G, G @ Z, G @ (change + Z @ Z)
-
-
-def work(data, p, G, V, u, along, zeta):
-    """The power of inputs and damping in the motion ``V`` (s, s) along ``along``, of ``zeta``."""
-    there = {**data["point"][-1], "at": data["input"][2]["at"]}
-    (w,) = general.positions({"group": data["group"], "point": [there]}, p, along)
-    v, y = (general.positions(data, p, matrix) for matrix in (V, along))
-    n, m = len(v[1]), len(w)
-    power = (G[:n, :n] @ u[:n]) @ y[1] + u[n:-m] @ zeta + u[-m:] @ w
-    return power - p["l"] * sum(map(np.dot, v, y)) - 0.3 * v[1] @ y[1]
-
-
-@pytest.mark.parametrize("group", GROUPS, ids=str)
-def test_power_and_virtual_work(group):
-    """The work of m a - F is that of inputs and damping, along every E_a and along the motion."""
-    rng, basis = np.random.default_rng(len(str(group))), algebra(group)
-    data, p = everything(group, rng)
-    assert general.parameters(data) == {"k": 2.5, "l": 0.7}
-    d, size = len(basis), len(data["input"][2]["at"]) + len(data["point"][1]["at"])
-    x, t, u = general.random_state(data, basis, rng), rng.normal(), rng.normal(size=size + d)
-    dx = general.rhs(data, basis, p, t, x, u)
-    G, V, W = matrices(data, basis, x, dx)
-
-    def change(start, velocity):
-        return general.energy(data, basis, p, t, start + 1j * STEP * velocity).imag / STEP
-
-    total, power = change(x, dx), work(data, p, G, V, u, V, x[-d:])
-    assert abs(total - power) < 1e-12 * (abs(total) + abs(power) + np.max(np.abs(dx)))
-    masses = [point["mass"] for point in data["point"]]
-    rest = np.append(x[:-d], np.zeros(d))
-    for E, zeta in zip(basis, np.eye(d), strict=True):
-        a, along = (general.positions(data, p, matrix) for matrix in (W, G @ E))
-        terms = [m * y @ z for m, y, z in zip(masses, a, along, strict=True)]
-        terms.append(change(rest, general.join(data, G @ E, np.zeros(d))))
-        terms.append(-work(data, p, G, V, u, G @ E, zeta))
-        assert abs(sum(terms)) < 1e-12 * sum(map(abs, terms))
-
-
-def listed(name, body):
-    """The problem of a body of the other oracle, its points listed."""
-    data = {"group": f"{name[:2].upper()}(3)", "input": [{"name": "u", "kind": "covector"}]}
-    points = zip(body.masses, body.points, strict=True)
-    data["point"] = [{"mass": m, "at": [*r]} for m, r in points]
-    data["potential"] = [{"kind": "gravity", "g": [*body.gravity]}]
-    for i, j in np.argwhere(np.triu(body.springs)):
-        spring = {"between": [i + 1, j + 1], "stiffness": body.springs[i, j]}
-        data["potential"].append({"kind": "spring", **spring})
-    return data
-
-
-@pytest.mark.parametrize("name", ["so3", "se3", "sl3"])
-def test_agrees_with_the_oracle_for_three_problems(name):
-    """With the points listed and, for rigid bodies, with their moments as parameters."""
-    rng, basis = np.random.default_rng(2), sampling.basis(name)
-    for _ in range(30):
-        body, x = sampling.random_body(name, rng), sampling.random_state(name, rng)
-        u, data = rng.normal(size=len(basis)), listed(name, body)
-        expected = gauss.rhs(name, x, body, u)
-        assert relative_error(general.rhs(data, basis, {}, 0.0, x, u), expected) < 1e-12
-        energy = body.energy(*sampling.motion(name, x, body))
-        assert abs(general.energy(data, basis, {}, 0.0, x) - energy) < 1e-13 * (1 + abs(energy))
-        if name != "sl3":
-            p = sampling.parameters(name, body)
-            p = {key: p[key] for key in p if key != "m" or name == "se3"}
-            data = {"group": data["group"], "body": {"moments": "symbolic"}, "input": data["input"]}
-            data["potential"] = [{"kind": "gravity", "g": ["g_1", "g_2", "g_3"]}]
-            assert relative_error(general.rhs(data, basis, p, 0.0, x, u), expected) < 1e-12
 
 
 @pytest.mark.parametrize("m", [2.0, 1e6])
@@ -222,27 +125,6 @@ def test_complex_steps_are_exact():
         assert relative_error(given, np.concatenate([force, -force])) < 3e-15
     data["potential"] = [{"kind": "expression", "U": "log(r1_x) + r1_2 + 0*r1_z*r2_x*r2_y*r2_3"}]
     assert np.isnan(general.forces(data, {}, 0.0, found, np.array([-1.0, 0, 0, 0, 0, 0]))).all()
-
-
-def test_separate_bodies_move_alone():
-    """A product without coupling is its factors, states and energies included."""
-    rng, covector = np.random.default_rng(5), [{"name": "u", "kind": "covector"}]
-    gravity, spring = {"kind": "gravity", "g": [0, 1, -9]}, {"kind": "spring", "anchor": [1, 2, 3]}
-    pair = {"group": "SE(3) x SO(3)", "point": points_of("SE(3) x SO(3)", rng, 4)}
-    springs = [{**spring, "on": 2, "stiffness": 1}, {**spring, "on": 7, "stiffness": 2}]
-    pair |= {"potential": [*springs, gravity], "input": covector}
-    solid = {**pair, "group": "SE(3)", "point": pair["point"][:4]}
-    solid["potential"] = [springs[0], gravity]
-    top = {"group": "SO(3)", "point": [{**x, "block": 1} for x in pair["point"][4:]]}
-    top |= {"potential": [{**springs[1], "on": 3}, gravity], "input": covector}
-    basis = algebra(pair["group"])
-    x, u = general.random_state(pair, basis, rng), rng.normal(size=9)
-    dx, energy = general.rhs(pair, basis, {}, 0.0, x, u), general.energy(pair, basis, {}, 0.0, x)
-    for data, rows, part in ((solid, np.r_[:12, 21:27], u[:6]), (top, np.r_[12:21, 27:30], u[6:])):
-        alone = data, algebra(data["group"]), {}, 0.0, x[rows]
-        assert relative_error(dx[rows], general.rhs(*alone, part)) < 1e-13
-        energy -= general.energy(*alone)
-    assert abs(energy) < 1e-12
 
 
 def test_points_on_a_line_are_refused():

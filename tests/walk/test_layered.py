@@ -17,11 +17,12 @@ from derive.problem.problem import ProblemError
 from derive.record.as_json import from_json, to_json
 from derive.record.record import RecordError
 from derive.record.sentence import english
-from tests.support.emitted import arrange, import_python
+from tests.support.corpus import FULL, LAYERS, RHO, SLOPE, WELL
+from tests.support.emitted import arrange
+from tests.support.library import module_of
 from tests.support.walks import SEED
-from tests.walk.test_dirichlet import FULL, WELL, flight, labels, start, unpacked, volume
+from tests.walk.test_dirichlet import flight, labels, start, unpacked, volume
 
-RHO, SLOPE = 1.7, 0.4
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)
 NODES, WEIGHTS = (NODES + 1) / 2, WEIGHTS / 2
 TURN = {"axis": [1, 2, 3], "angle": "phi"}
@@ -31,7 +32,6 @@ def density(s):
     return RHO * (1 - SLOPE * s) ** 2 / 2 + s**3
 
 
-TEXT = "rho*(1 - q*s)^2/2 + s^3"
 VALUES = {"rho": RHO, "q": SLOPE}
 
 
@@ -52,7 +52,7 @@ def over(f, n, Q):
 
 
 def body(n, Q):
-    return Solid("ellipsoid", TEXT, quadric=np.asarray(Q).tolist())
+    return Solid("ellipsoid", LAYERS, quadric=np.asarray(Q).tolist())
 
 
 def numbers(problem):
@@ -75,7 +75,7 @@ def test_moments_by_shells(n):
 def test_moments_of_a_turned_and_shifted_one_in_a_mixture():
     """Beside sums over points in it, on shells and directions."""
     axes, shift = np.array([1.3, 1.0, 0.7]), np.array([0.2, -0.1, 0.4])
-    solid = Solid("ellipsoid", TEXT, semi_axes=axes.tolist(), rotation=TURN, shift=shift.tolist())
+    solid = Solid("ellipsoid", LAYERS, semi_axes=axes.tolist(), rotation=TURN, shift=shift.tolist())
     whole = solid + Solid("ball", "2*(1 - s)", radius=0.5)
     values = VALUES | {"phi": 0.6}
     m, c, J = numbers(Problem("b", "SAff(3)", whole, parameters=values))
@@ -101,7 +101,7 @@ def test_moments_of_a_turned_and_shifted_one_in_a_mixture():
     ("n", "forced", "kind"),
     [(2, True, "quadric"), (3, False, "quadric"), (3, True, "turned"), (4, True, "quadric")],
 )
-def test_eulers_equation_in_layers(n, forced, kind, tmp_path):
+def test_eulers_equation_in_layers(n, forced, kind):
     """rho(s)(acceleration + W x) = -grad p at places of any layer, along a trajectory, for p =
     theta/(2 kappa) times the integral of rho from s to 1, and theta the integral of p."""
     rng = np.random.default_rng(n)
@@ -111,12 +111,11 @@ def test_eulers_equation_in_layers(n, forced, kind, tmp_path):
     if kind == "turned":
         R = rotation(TURN["axis"], 0.6)
         Q = R @ np.diag(1 / np.array([1.3, 1.0, 0.7]) ** 2) @ R.T
-        solid = Solid("ellipsoid", TEXT, semi_axes=[1.3, 1.0, 0.7], rotation=TURN)
+        solid = Solid("ellipsoid", LAYERS, semi_axes=[1.3, 1.0, 0.7], rotation=TURN)
         values["phi"] = 0.6
     problem = Problem("fluid", f"SL({n})", solid, [Harmonic(W.tolist())] * forced,
                       parameters=values)  # fmt: skip
-    derive.derive(problem).emit(tmp_path, ["python"], multiplier=True)
-    m = import_python("fluid", tmp_path)
+    m = module_of(problem, multiplier=True)
     k = m.constants(arrange(m, values))
     A, Z = start(n, rng)
     A[0] *= np.sign(np.linalg.det(A))
@@ -143,7 +142,7 @@ def test_eulers_equation_in_layers(n, forced, kind, tmp_path):
             assert np.max(np.abs(moved + slope)) < 1e-8 * (1 + np.max(np.abs(moved)))
 
 
-def layered(density=TEXT, parameters=VALUES, kind="ball", **sizes):
+def layered(density=LAYERS, parameters=VALUES, kind="ball", **sizes):
     return Problem("b", "SL(3)", Solid(kind, density, **(sizes or {"radius": 1})),
                    parameters=parameters)  # fmt: skip
 

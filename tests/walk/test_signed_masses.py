@@ -2,7 +2,6 @@
 
 import json
 import re
-import subprocess
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
@@ -26,8 +25,8 @@ from derive.views.text import text
 from tests.support.corpus import SIGNED as BODIES_OF_ANY_SIGN
 from tests.support.corpus import of_masses as problem
 from tests.support.corpus import points, record, simplex
-from tests.support.emitted import BUILDS, import_python
-from tests.support.needs import need
+from tests.support.emitted import import_python
+from tests.support.library import ONE_BUILD, library
 from tests.support.walks import repeated
 
 BOOST = {"name": "Boost", "action": "linear", "basis": [[[0, 1], [1, 0]]]}
@@ -183,72 +182,14 @@ def test_the_metric_of_the_counterexample_is_degenerate():
         assert abs(np.trace(Z @ J @ np.transpose(E) @ g.T @ g)) < 1e-15
 
 
-MAINS = {
-    "c": """
-#include "{name}.h"
-int main(void) {{ double p[1] = {{ -2 }}, k[{name}_N_CONSTANTS + 1] = {{ 0 }};
-    return {name}_constants(p, k) == {name}_SINGULAR ? 0 : 1; }}
-""",
-    "javascript": """
-import * as m from "./{name}.mjs";
-let said = "";
-try {{ m.constants([-2].slice(0, m.PARAMETERS.length)); }} catch (e) {{ said = String(e); }}
-process.exit(/singular|positive/.test(said) ? 0 : 1);
-""",
-    "rust": """
-#[allow(dead_code)]
-mod {name};
-fn main() {{
-    let p = [-2.0; {name}::N_PARAMETERS];
-    let refused = matches!({name}::constants(&p), Err({name}::Refused::Singular));
-    std::process::exit(if refused {{ 0 }} else {{ 1 }});
-}}
-""",
-}
-
-
-def refused_by(kind, folder, name):
-    """The exit status of a program that is content with a refusal."""
-    run = [str(folder / "main")]
-    if kind in BUILDS:
-        suffix = "cpp" if kind == "g++" else "c"
-        (folder / f"main.{suffix}").write_text(MAINS["c"].format(name=name))
-        words = [x for x in BUILDS[kind] if x not in ("-shared", "-fPIC")]
-        build = [*words, f"main.{suffix}", f"{name}.c", "-o", "main", "-lm"]
-    elif kind == "javascript":
-        (folder / "main.mjs").write_text(MAINS[kind].format(name=name))
-        build, run = None, ["node", str(folder / "main.mjs")]
-    else:
-        (folder / "main.rs").write_text(MAINS[kind].format(name=name))
-        build = ["rustc", "--edition", "2021", "main.rs"]
-    if build:
-        done = subprocess.run(build, cwd=folder, capture_output=True, text=True)
-        assert done.returncode == 0, done.stderr
-    return subprocess.run(run).returncode
-
-
 @pytest.mark.parametrize("mass", ["number", "parameter"])
-@pytest.mark.parametrize("kind", [*BUILDS, *(x for x in MAINS if x != "c")])
-def test_the_counterexample_is_refused(kind, mass, tmp_path):
-    program = {"javascript": "node", "rust": "rustc"}.get(kind)
-    need(program or kind)
+@pytest.mark.parametrize("build", ONE_BUILD.values())
+def test_the_counterexample_is_refused(build, mass):
     body = HOLE if mass == "number" else points((1, [1, 0]), ("q", [0, 1]))
     data = {"name": "hole", "group": "SL(2)", **body}
     data |= {"parameters": {"q": -2}} if mass == "parameter" else {}
-    lang = kind if program else "c"
-    derive.derive(problem_of(data, negative_mass=True)).emit(tmp_path, [lang])
-    assert refused_by(kind, tmp_path, "hole") == 0
-
-
-def test_the_counterexample_is_refused_in_python(tmp_path):
-    data = {"name": "hole", "group": "SL(2)", **HOLE}
-    assert not taken(module(tmp_path, problem_of(data, negative_mass=True)), [])
-
-
-def test_julia_has_the_same_check(tmp_path):
-    data = {"name": "hole", "group": "SL(2)", **HOLE}
-    derive.derive(problem_of(data, negative_mass=True)).emit(tmp_path, ["julia"])
-    assert "-2.0 - 1.0e-13*2.0" in (tmp_path / "hole.jl").read_text().replace("1e-13", "1.0e-13")
+    made = library(build, problem_of(data, negative_mass=True))
+    assert made.constants(np.full(made.sizes["PARAMETERS"], -2.0))[0] == 1
 
 
 PLANE = points(("q", [1, 0, 0]), (1, [0, 1, 0]), (2, [1, 1, 0]), (1, [-1, 2, 0]))
@@ -288,21 +229,15 @@ BODIES = {
 }
 
 
-@pytest.mark.parametrize("name", BODIES)
-def test_constants_tell_good_bodies(name, tmp_path):
+FRAMED = ("free, J_c indefinite", "SAff(2)", "GL(2)", "J indefinite, I positive")
+FORMS = [(name, "given") for name in BODIES] + [(name, "principal") for name in FRAMED]
+
+
+@pytest.mark.parametrize(("name", "frame"), FORMS)
+def test_constants_tell_good_bodies(name, frame, tmp_path):
     """By value: the problem has a positive parameter, and takes any number for it."""
     group, body, good, bad = BODIES[name]
-    m = module(tmp_path, problem(group, body, default=1))
-    assert [taken(m, [q]) for q in good] == [True] * len(good)
-    assert [taken(m, [q]) for q in bad] == [False] * len(bad)
-
-
-@pytest.mark.parametrize(
-    "name", ["free, J_c indefinite", "SAff(2)", "GL(2)", "J indefinite, I positive"]
-)
-def test_in_the_principal_frame_too(name, tmp_path):
-    group, body, good, bad = BODIES[name]
-    m = module(tmp_path, problem(group, body, default=1), frame="principal")
+    m = module(tmp_path, problem(group, body, default=1), frame=frame)
     assert [taken(m, [q]) for q in good] == [True] * len(good)
     assert [taken(m, [q]) for q in bad] == [False] * len(bad)
 

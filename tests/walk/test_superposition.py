@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from derive.code.assemble import assemble
-from derive.code.emit import emit
-from derive.pipeline import walk
 from derive.problem.toml import problem_of
+from tests.support.library import module_of
 
 POINTS = [{"mass": m, "at": r} for m, r in ((1, [1, 0, 0]), (2, [0, 1, 0.5]), (1.5, [0.2, 0, -1]))]
 ON = {"on": 2}
@@ -36,12 +34,10 @@ def rates(kind, table, several):
     """dx/dt with so many tables, the same numbers as inputs for each."""
     own = [table | {"name": f"f{k}"} if kind == "input" else table for k in range(several)]
     problem = problem_of({"name": "x", "group": "SE(3)", "point": POINTS, kind: own})
-    record, space = walk(problem), {}
-    files = emit(assemble(record, problem.group), record, ("python",), "x")
-    exec(compile(files["x.py"], "x.py", "exec"), space)
-    each = len(space["INPUTS"]) // several
+    space = module_of(problem)
+    each = len(space.INPUTS) // several
     u = np.tile(np.linspace(1, 2, each), several)
-    return space["rhs"](0.3, np.array(STATE), space["constants"]([]), u)
+    return space.rhs(0.3, np.array(STATE), space.constants([]), u)
 
 
 @pytest.mark.parametrize("name", TABLES)

@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
 import derive
 from derive.language.tree import nodes
@@ -43,24 +44,12 @@ def derived(name, L="{}"):
     return derive.derive(problem_of(table))
 
 
-def exponential(x):
-    total = term = np.eye(len(x))
-    for k in range(1, 60):
-        term = term @ x / k
-        total = total + term
-    return total
-
-
 def drawn(group, count=8):
     """Elements of a group, (count, size, size)."""
     rng, basis = np.random.default_rng(1), np.array(group.basis, float)
     coordinates = rng.normal(size=(count, 2, len(basis)))
-    return np.array(
-        [
-            exponential(np.tensordot(a, basis, 1)) @ exponential(np.tensordot(b, basis, 1))
-            for a, b in coordinates
-        ]
-    )
+    factors = expm(np.tensordot(coordinates, basis, 1))
+    return factors[:, 0] @ factors[:, 1]
 
 
 @pytest.mark.parametrize("name", GROUPS)

@@ -4,13 +4,10 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
-from derive.code.assemble import assemble
-from derive.code.emit import emit
 from tests.oracles.euler_lagrange import acceleration
-from tests.support.emitted import import_python
-from tests.support.walks import problem, record
+from tests.support.library import module_of
+from tests.support.walks import problem
 
 
 def gyrostat(t, g, z):
@@ -104,28 +101,9 @@ def places(group):
             yield from ((i, offset + factor.n) for i in span)
 
 
-def emitted(name, folder):
-    """The Python module of a ready-made problem."""
-    p, d = problem(name), record(name)
-    for file, text in emit(assemble(d, p.group), d, ("python",), name).items():
-        (folder / file).write_text(text, encoding="utf-8")
-    return import_python(name, folder)
-
-
 @pytest.mark.parametrize("name", READY_MADE)
-def test_ready_made(name, tmp_path):
-    group, found = problem(name).group, emitted(name, tmp_path)
+def test_ready_made(name):
+    group, found = problem(name).group, module_of(name)
     rng = np.random.default_rng(1)
     for g, zeta in states(group, found.BASIS, rng, 2):
         held(found, group, READY_MADE[name], 0.0, g, zeta)
-
-
-@pytest.mark.parametrize("name", READY_MADE)
-def test_energy_is_kept(name, tmp_path):
-    group, found = problem(name).group, emitted(name, tmp_path)
-    k, rng = found.constants(found.DEFAULTS), np.random.default_rng(2)
-    (g, zeta), *_ = states(group, found.BASIS, rng, 1)
-    x = np.array([*(g[x] for x in places(group)), *zeta])
-    run = solve_ivp(found.rhs, (0, 10), x, "DOP853", rtol=1e-12, atol=1e-12, args=(k,))
-    energies = [found.energy(0.0, y, k) for y in run.y.T]
-    assert max(energies) - min(energies) < 1e-9 * max(1, max(map(abs, energies)))

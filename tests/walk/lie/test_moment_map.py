@@ -8,6 +8,7 @@ from derive.language.show import show
 from derive.problem.toml import problem_of
 from derive.python.derived import derive
 from tests.support.lagrangians import lagrangian, squares
+from tests.support.library import module_of
 
 SIDES = {"left": "⟨Π, A⁻¹ξ′A⟩", "right": "⟨Π, Aξ′A⁻¹⟩"}
 HEISENBERG = {"algebra": {"brackets": [[1, 2, 3, 1]]}, "lagrangian": {"L": squares(1, 2, 3)}}
@@ -63,11 +64,9 @@ def test_a_group_of_which_no_exact_element_is_known():
 def test_it_is_constant_along_the_motion(side, group):
     """⟨Π, A⁻¹E_aA⟩, or ⟨Π, AE_aA⁻¹⟩, by the basis of the emitted code."""
     L = "zeta_1^2/2 + zeta_2^2 + 3*zeta_3^2/2 + zeta_1*zeta_2/3"
-    d = derive(lagrangian(L, group, side=side))
-    code = {}
-    exec(d.emit(languages=("python",))["x.py"], code)
-    k = code["constants"](code["DEFAULTS"])
-    E = np.array(code["BASIS"], float)
+    code = module_of(lagrangian(L, group, side=side))
+    k = code.constants(code.DEFAULTS)
+    E = np.array(code.BASIS, float)
     M = np.array([[1, 1 / 3, 0], [1 / 3, 2, 0], [0, 0, 3]])
     n = E.shape[1]
 
@@ -84,7 +83,7 @@ def test_it_is_constant_along_the_motion(side, group):
         return (M @ zeta) @ by_E
 
     start = np.r_[1, 0, 0, 1, [0] * (group == "SE(2)") * 2, 0.3, 0.5, -0.4]
-    run = solve_ivp(lambda t, x: code["rhs"](t, x, k), (0, 2), start, rtol=1e-11, atol=1e-11)
+    run = solve_ivp(lambda t, x: code.rhs(t, x, k), (0, 2), start, rtol=1e-11, atol=1e-11)
     found = np.array([other(x) for x in run.y.T])
     assert np.ptp(np.array([M @ element(x)[1] for x in run.y.T]), axis=0).max() > 0.05
     assert np.abs(found - found[0]).max() < 1e-7

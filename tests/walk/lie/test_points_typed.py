@@ -8,14 +8,12 @@ from itertools import permutations
 import numpy as np
 import pytest
 
-from derive.code.assemble import assemble
-from derive.code.emit import emit
 from derive.language.values import approximate
-from derive.pipeline import walk
 from derive.problem.fields import state_names
 from derive.problem.toml import problem_of
 from tests.oracles import general, relative_error
 from tests.problems import READY
+from tests.support.library import module_of
 from tests.support.walks import NAMES, OTHERS, problem, record
 
 TYPED = [x for x in (*NAMES, *OTHERS) if problem(x).body and not problem(x).damping]
@@ -189,29 +187,20 @@ def stated(data):
     return data | {"group": {"basis": data["basis"], "action": "affine"}}
 
 
-def module(p, d, name):
-    space = {}
-    text = emit(assemble(d, p.group), d, ("python",), name)[f"{name}.py"]
-    exec(compile(text, name, "exec"), space)
-    return space
-
-
 @pytest.mark.parametrize("name", TYPED)
 def test_the_numbers_are_the_same(name):
     p, d = problem(name), record(name)
-    own = module(p, d, name)
-    q = problem_of(typed(p))
-    other = module(q, walk(q), "typed")
-    k, rng = own["constants"](own["DEFAULTS"]), np.random.default_rng(4)
+    own, other = module_of(name), module_of(problem_of(typed(p)))
+    k, rng = own.constants(own.DEFAULTS), np.random.default_rng(4)
     assert (
-        own["STATE"][: len(other["STATE"]) - len(own["BASIS"])]
-        == other["STATE"][: len(other["STATE"]) - len(own["BASIS"])]
+        own.STATE[: len(other.STATE) - len(own.BASIS)]
+        == other.STATE[: len(other.STATE) - len(own.BASIS)]
     )
     for _ in range(2):
-        x = general.random_state(stated(d.problem), np.array(own["BASIS"], float), rng)
-        found = other["rhs"](0.0, x, other["constants"]([]))
-        u = np.zeros(len(own["INPUTS"])) if own["INPUTS"] else None
-        expected = own["rhs"](0.0, x, k, u)
+        x = general.random_state(stated(d.problem), np.array(own.BASIS, float), rng)
+        found = other.rhs(0.0, x, other.constants([]))
+        u = np.zeros(len(own.INPUTS)) if own.INPUTS else None
+        expected = own.rhs(0.0, x, k, u)
         assert relative_error(found, expected) < 1e-13
-        energy = own["energy"](0.0, x, k)
-        assert other["energy"](0.0, x, other["constants"]([])) == pytest.approx(energy, rel=1e-12)
+        energy = own.energy(0.0, x, k)
+        assert other.energy(0.0, x, other.constants([])) == pytest.approx(energy, rel=1e-12)

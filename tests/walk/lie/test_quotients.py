@@ -8,37 +8,27 @@ from scipy.integrate import solve_ivp
 
 from derive.check.checker import check
 from derive.code.assemble import assemble
-from derive.code.emit import emit
 from derive.code.options import Options
 from derive.code.program import LoweringError
-from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.as_json import from_json, to_json
-from tests.support import corpus
 from tests.support.corpus import LAGRANGIANS
+from tests.support.library import module_of
 from tests.support.walks import SEED, problem, record
 
 TURN = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
 DIRECT = {"rtol": 1e-12, "atol": 1e-12, "method": "DOP853"}
 
 
-def module(p, d, **options):
-    space = {}
-    files = emit(assemble(d, p.group, Options(**options)), d, ("python",), "test")
-    exec(compile(files["test.py"], "test", "exec"), space)
-    return space
-
-
 def run(found, x, end):
-    k = found["constants"](found["DEFAULTS"])
-    return solve_ivp(found["rhs"], (0, end), x, args=(k,), **DIRECT).y[:, -1]
+    k = found.constants(found.DEFAULTS)
+    return solve_ivp(found.rhs, (0, end), x, args=(k,), **DIRECT).y[:, -1]
 
 
 def test_the_pendulum_is_a_point_on_a_sphere():
     """ë = (g/l)(γ − ⟨γ, e⟩e) − |ė|²e in R³, γ downwards, has no group."""
-    p, d = problem("spherical_pendulum"), record("spherical_pendulum")
-    found = module(p, d)
-    assert found["STATE"][9:] == ("zeta_1", "zeta_2")
+    found = module_of("spherical_pendulum")
+    assert found.STATE[9:] == ("zeta_1", "zeta_2")
     zeta = np.array([1.3, -0.7])
     end = run(found, np.array([*TURN.reshape(-1), *zeta]), 3.0)
     pull, rate = np.array([0, 0, -9.81 / 0.8]), TURN @ np.array([zeta[1], -zeta[0], 0])
@@ -52,15 +42,14 @@ def test_the_pendulum_is_a_point_on_a_sphere():
 
 
 def test_the_quaternion_moves_as_the_matrix():
-    p, d = problem("spherical_pendulum"), record("spherical_pendulum")
-    found = module(p, d, attitude="quaternion")
+    found = module_of("spherical_pendulum", attitude="quaternion")
     q = np.array([0.5, -0.5, 0.1, 0.7])
     q /= np.linalg.norm(q)
     s, x, y, z = q
     skew = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     A = np.eye(3) + 2 * s * skew + 2 * skew @ skew
     end = run(found, np.array([*q, 0.4, -1.1]), 2.0)
-    whole = run(module(p, d), np.array([*A.reshape(-1), 0.4, -1.1]), 2.0)
+    whole = run(module_of("spherical_pendulum"), np.array([*A.reshape(-1), 0.4, -1.1]), 2.0)
     s, x, y, z = end[:4]
     assert np.allclose([2 * (x * z + s * y), 2 * (y * z - s * x)], whole[[2, 5]], atol=1e-9)
     assert np.allclose(end[4:], whole[9:], atol=1e-9)
@@ -68,8 +57,7 @@ def test_the_quaternion_moves_as_the_matrix():
 
 def test_the_rod_turns_and_falls():
     """Its axis goes round a great circle at a constant rate, its middle along a parabola."""
-    p, d = problem("rod"), record("rod")
-    found, zeta = module(p, d), np.array([0.9, -0.4])
+    found, zeta = module_of("rod"), np.array([0.9, -0.4])
     start = np.array([*TURN.reshape(-1), 1, 2, 3, *zeta, 0.3, 0.1, -0.5])
     end, t = run(found, start, 1.4), 1.4
     speed = np.linalg.norm(zeta)
@@ -83,9 +71,9 @@ def test_the_rod_turns_and_falls():
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_a_direction_that_is_no_element_of_the_basis(side):
     """Of a pendulum about another axis, (1, 0, 1)."""
-    p, d = LAGRANGIANS[f"slanted {side}"](), corpus.record(f"lagrangian slanted {side}")
+    p = LAGRANGIANS[f"slanted {side}"]()
     assert p.lagrangian.held == (3,)
-    found, half = module(p, d), np.sqrt(0.5)
+    found, half = module_of(p), np.sqrt(0.5)
     R = np.array([[half, 0, half], [0, 1, 0], [-half, 0, half]])  # takes e_3 to the axis
     zeta = np.array([0.5, 0.8])
     g = TURN if side == "left" else TURN.T
@@ -102,7 +90,7 @@ def test_a_direction_that_is_no_element_of_the_basis(side):
     sign = 1 if side == "left" else -1
     body = R.T @ np.array([sign * zeta[0], sign * zeta[1], 0])
     start = np.array([*(TURN @ R).reshape(-1), *body[:2]])
-    wanted = run(module(straight, walk(straight)), start, 1.7)[:9].reshape(3, 3)
+    wanted = run(module_of(straight), start, 1.7)[:9].reshape(3, 3)
     assert np.abs(turned @ R[:, 2] - wanted[:, 2]).max() < 1e-9
 
 

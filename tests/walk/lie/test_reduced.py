@@ -12,13 +12,12 @@ from scipy.integrate import solve_ivp
 
 from derive.algebra.families import group
 from derive.code.assemble import assemble
-from derive.code.emit import emit
 from derive.code.options import Options
 from derive.code.program import LoweringError
-from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from tests.oracles.euler_lagrange import acceleration
-from tests.support import advected, corpus
+from tests.support import advected
+from tests.support.library import module_of
 from tests.support.walks import problem, record
 
 
@@ -36,20 +35,10 @@ def oracle_representation(name, kind):
     return len(E), adjoint if kind == "adjoint" else lambda g: jnp.linalg.inv(adjoint(g)).T
 
 
-def module(p, d):
-    space = {}
-    exec(compile(emit(assemble(d, p.group), d, ("python",), "test")["test.py"], "t", "exec"), space)
-    return space
-
-
-def record_of(*case):
-    return corpus.record(f"lagrangian {' '.join(map(str, case))}")
-
-
 @pytest.mark.parametrize(("case", "kind", "by_brackets"), advected.CASES)
 def test_the_code_agrees(case, kind, by_brackets):
-    p, d = advected.problem(case, kind, by_brackets), record_of(case, kind, by_brackets)
-    found, (name, side, *_) = module(p, d), advected.GIVEN[case]
+    found = module_of(advected.problem(case, kind, by_brackets))
+    name, side, *_ = advected.GIVEN[case]
     E, (m, rho) = advected.matrices(name), oracle_representation(name, kind)
     text, right = advected.lagrangian(case).replace("^", "**"), side == "right"
     rng = np.random.default_rng(5)
@@ -68,7 +57,7 @@ def test_the_code_agrees(case, kind, by_brackets):
             return eval(text, functions, names | {"t": t})
 
         x = np.array([*zeta, *start])
-        dx = found["rhs"](0.4, x, found["constants"]([]), u)
+        dx = found.rhs(0.4, x, found.constants([]), u)
         expected = acceleration(lagrangian, E, 0.4, g, zeta, u, right=right)
         scale = max(1, np.abs(expected).max())
         assert np.abs(dx[: len(E)] - expected).max() < 1e-12 * scale
@@ -80,29 +69,28 @@ def test_the_code_agrees(case, kind, by_brackets):
 
 def test_as_with_an_element_of_the_group():
     """The heavy top by its attitude: γ is the last row of A, and both are one motion."""
-    reduced, d = problem("euler_poisson"), record("euler_poisson")
+    reduced = problem("euler_poisson")
     names = {f"gamma_{i}": f"A_3{i}" for i in (1, 2, 3)}
     text = "(I1*zeta_1^2 + I2*zeta_2^2 + I3*zeta_3^2)/2 - c1*gamma_1 - c3*gamma_3"
     for old, new in names.items():
         text = text.replace(old, new)
     values = {x: y.default for x, y in reduced.parameters.items()}
     data = {"name": "whole", "group": "SO(3)", "lagrangian": {"L": text}, "parameters": values}
-    p = problem_of(data)
-    one, two = module(reduced, d), module(p, walk(p))
+    one, two = module_of("euler_poisson"), module_of(problem_of(data))
     A, zeta = np.array(group("SO(3)").sample(Small(), 3), float), np.array([0.3, -0.8, 1.1])
     start = np.array([*zeta, *A[2]])
     runs = [
-        solve_ivp(f["rhs"], (0, 5), x, "DOP853", rtol=1e-12, atol=1e-12, args=(f["constants"](k),))
+        solve_ivp(f.rhs, (0, 5), x, "DOP853", rtol=1e-12, atol=1e-12, args=(f.constants(k),))
         for f, x, k in (
-            (one, start, one["DEFAULTS"]),
-            (two, np.array([*A.reshape(-1), *zeta]), two["DEFAULTS"]),
+            (one, start, one.DEFAULTS),
+            (two, np.array([*A.reshape(-1), *zeta]), two.DEFAULTS),
         )
     ]
     end, whole = (run.y[:, -1] for run in runs)
     assert np.abs(end[:3] - whole[9:]).max() < 1e-9
     assert np.abs(end[3:] - whole[6:9]).max() < 1e-9
-    k = one["constants"](one["DEFAULTS"])
-    energies = [one["energy"](0.0, x, k) for x in runs[0].y.T]
+    k = one.constants(one.DEFAULTS)
+    energies = [one.energy(0.0, x, k) for x in runs[0].y.T]
     assert max(energies) - min(energies) < 1e-9
 
 
