@@ -1,5 +1,6 @@
 """Ensembles: each motion is that of a run, files of every kind, what is refused, what is kept."""
 
+import os
 import subprocess
 import sys
 import tracemalloc

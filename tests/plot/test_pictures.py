@@ -13,7 +13,7 @@ from derive.views.plot import kind_descriptions
 from derive.views.plot.body_pictures import VIEW, in_math, projected
 from derive.views.plot.kind_descriptions import OVERVIEW, PRECISION
 from derive.views.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
-from derive.views.plot.plot_sheet import FORMATS, PlotError, label, look, settled, with_mark
+from derive.views.plot.plot_sheet import FORMATS, PlotError, label, look, laid_out, with_mark
 from tests.support.drawn_runs import figure_of, fitting, run_of, simulated, texts, words_of
 from tests.support.needs import needs
 
@@ -76,7 +76,7 @@ def test_no_text_leaves_its_sheet(kind, spoken):
     for run in (fitting(kind), *([] if KINDS[kind].lacks(ellipsoid) else [ellipsoid])):
         with look():
             figure = figure_of(run, kind, language(spoken).word, KINDS[kind].size(run))
-            settled(figure)
+            laid_out(figure)
             assert cut_off(figure) == []
 
 
@@ -85,7 +85,7 @@ def test_labels_of_axes_are_off_the_outline_and_titles_on_the_sheet(problem):
     """By what is drawn: the boxes of the texts, the corners of the outline."""
     run = simulated(problem)
     figure = figure_of(run, "polhode", size=KINDS["polhode"].size(run))
-    settled(figure)
+    laid_out(figure)
     renderer = figure.canvas.get_renderer()
     for panel in figure.get_axes():
         assert panel.title.get_window_extent(renderer).y1 <= figure.bbox.height
@@ -106,7 +106,7 @@ def test_the_numbers_speak_french(kind):
     figure.get_axes()[0].plot([], [], label="run_1.5.npz")
     named = figure.text(0, 0, "a/1.5.npz 0.25 $x = 1.5e-3$")
     with_mark(figure, ",")
-    settled(figure)
+    laid_out(figure)
     shown = [x.get_text() for x in figure.findobj(type(named))]
     assert named.get_text() == "a/1.5.npz 0,25 $x = 1{,}5e-3$"
     assert [x for x in shown if re.search(r"[0-9]\.[0-9]", x) and ".npz" not in x] == []
