@@ -13,7 +13,7 @@ from derive.views.plot import kind_descriptions
 from derive.views.plot.body_pictures import VIEW, in_math, projected
 from derive.views.plot.kind_descriptions import OVERVIEW, PRECISION
 from derive.views.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
-from derive.views.plot.plot_sheet import FORMATS, PlotError, label, look, laid_out, with_mark
+from derive.views.plot.plot_sheet import FORMATS, PlotError, label, laid_out, look, with_mark
 from tests.support.drawn_runs import figure_of, fitting, run_of, simulated, texts, words_of
 from tests.support.needs import needs
 
