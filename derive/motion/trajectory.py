@@ -267,11 +267,6 @@ class MotionInPython:
         """The time up to another, in as many digits as the motion has."""
         return float(t - self._motion.t - self._motion.t_low)
 
-    def dense(self, t: float) -> Array:
-        """The state at a time within the last step, by the polynomial of its method."""
-        found: Array = self._code.dense(self._motion, t)
-        return found
-
     def move(self, h: float, n: int = 1) -> None:
         """Make n steps of size h; ``StepError``."""
         self._ended(self._of(self._step)(self._motion, *self._numbers, h, n))
