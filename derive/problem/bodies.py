@@ -29,6 +29,7 @@ from ..schema.kind import (
     Parameter,
     Potential,
     StatedGroup,
+    TorqueInput,
 )
 from ..schema.kinds import kinds
 from ..schema.table import ACTIONS, Slot
@@ -146,7 +147,7 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
         {f"{key} {k}": x for k, x in enumerate(tables(data, key), 1)}
         for key in ("potential", "input", "damping")
     )
-    acting = [w for w, x in inputs.items() if x.get("kind") == ForceInput.kind]
+    acting = [w for w, x in inputs.items() if x.get("kind") in (ForceInput.kind, TorqueInput.kind)]
     for where in (*potentials, *acting, *damping) if reader.group is None else ():
         raise ProblemError(f"{where}: a text about any group has no points on which this could act")
     found = tuple(reader.one_of(kinds(), x, where) for where, x in potentials.items())

@@ -156,17 +156,17 @@ class FileReader(TableReader):
 
     def _place(self, i: int) -> tuple[int, int]:
         """The first row, and how many, of the coordinates of point i in space."""
-        at = (
-            self.point_masses[i - 1]
-            if i <= len(self.point_masses)
-            else self.places[i - len(self.point_masses) - 1]
-        )
-        first, factor = self.moving().places[at.block - 1]
+        first, factor = self.moving().places[self.listed_places[i - 1].block - 1]
         return first, factor.n
+
+    @property
+    def listed_places(self) -> list[Point | Place]:
+        """The points and the places of forces, in the order of their numbers."""
+        return [*self.point_masses, *self.places]
 
     def dimension(self, slot: Slot) -> int:
         """Of the space of the block, or of the end that is given, or of all points."""
-        if slot.about.type == "place":
+        if slot.about.type == "place" or "block" in slot.found:
             block = self.block(Slot(slot.table, "block", slot.where))
             return self.moving().places[block - 1][1].n
         return self._place(slot.found["on"])[1] if slot.found.get("on") else max(self._sizes())
@@ -178,6 +178,37 @@ class FileReader(TableReader):
             name = self.moving().name
             raise ProblemError(f"{slot.path}: {name} is no product: there is one block")
         return self.integer(value, 1, self.blocks, slot.path)
+
+    def turning(self, slot: Slot) -> int:
+        """The same, whose linear parts are rotations of the plane or of R³."""
+        found: int = self.block(slot)
+        self._turned(self.moving().places[found - 1][1], slot.where)
+        return found
+
+    def _turned(self, factor: Group, where: str) -> None:
+        if "orthogonal" not in factor.relations or factor.n not in (2, 3):
+            raise ProblemError(
+                f"{where}: a torque needs linear parts that are rotations of the plane or of R^3, "
+                f"and those of {factor.name} are others; give forces at places, or a covector"
+            )
+
+    def direction(self, slot: Slot) -> Vector:
+        """A vector of the space of the force, or of the torque, that is not 0."""
+        if slot.table["kind"] == "torque" and self.dimension(slot) == 2:
+            raise ProblemError(f"{slot.path}: a torque in the plane is one number; leave it out")
+        found = self.vector(slot)
+        values = {k: p.default for k, p in self.parameters.items() if p.default is not None}
+        if all(approximate(x, values) == 0 for x in found):
+            raise ProblemError(f"{slot.path}: it has the length 0; give a vector that is not 0")
+        return found
+
+    def couple(self, slot: Slot) -> Vector:
+        """The moment that goes with a force: a vector of R³, or a list of one number in the
+        plane."""
+        block = self.listed_places[slot.found["on"] - 1].block
+        _, factor = self.moving().places[block - 1]
+        self._turned(factor, slot.where)
+        return self.listed(self.value(slot), 3 if factor.n == 3 else 1, slot.path)
 
     def letters(self, slot: Slot) -> str:
         """As those of a name, which may be a word of another language."""

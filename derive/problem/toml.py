@@ -177,7 +177,7 @@ def _without_points(
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
     given = data.get("input", ())
-    if any(isinstance(x, dict) and x.get("kind") == "force" for x in given):
+    if any(isinstance(x, dict) and x.get("kind") in ("force", "torque") for x in given):
         raise ProblemError(f"key 'input': beside [{where}] an input is a covector: no points")
     group = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
     reader = FileReader()
@@ -303,7 +303,7 @@ def _moments(problem: Problem) -> list[Tree]:
 
 def _forces(problem: Problem) -> list[Tree]:
     own = [problem.lagrangian] if problem.lagrangian else []
-    return _trees((*own, *problem.potentials, *problem.damping, *problem.places))
+    return _trees((*own, *problem.potentials, *problem.inputs, *problem.damping, *problem.places))
 
 
 def _affordable(problem: Problem) -> None:

@@ -294,20 +294,52 @@ def damping(data, p, t, found, v):
     return force
 
 
-def inputs(data, found, d, G, u):
-    """What ``u``, all inputs in order, gives: forces (M,) and a covector (d,)."""
-    force, covector, at = np.zeros(len(found.row)), np.zeros(d), 0
+def axial(W):
+    """The angular velocity of a skew matrix of R^3 (3,), or of the plane (1,)."""
+    return np.array([W[2, 1], W[0, 2], W[1, 0]] if len(W) == 3 else [W[1, 0]])
+
+
+def inputs(data, basis, p, found, G, u):
+    """What ``u``, all inputs in order, gives: forces (M,) and a covector (d,).
+
+    The work of a torque is that on the angular velocity of each member of the basis.
+    """
+    d, left = len(basis), [*np.asarray(u, float)]
+    force, covector = np.zeros(len(found.row)), np.zeros(d)
+
+    def taken(count):
+        """The next numbers of ``u``."""
+        values = [left.pop(0) for _ in range(count)]
+        return np.array(values)
+
     for k, table in enumerate(data.get("input", ())):
-        target, turn = covector, np.eye(d)
+        if table["kind"] == "covector":
+            covector += taken(d)
+            continue
+        first, n, _ = blocks(data)[0][table.get("block", 1) - 1]
+        x, rows = None, np.arange(first, first + n)
         if table["kind"] == "force":
             x = found.at[_key("input", k, table)]
-            target, turn = force[x], np.eye(x.stop - x.start)
-            if table.get("frame", "space") == "body":
-                turn = G[np.ix_(found.row[x], found.row[x])]
-        target += turn @ np.asarray(u[at : at + len(target)], float)
-        at += len(target)
-    if len(u) != at:
-        raise ValueError(f"{len(u)} inputs instead of {at}")
+            rows = found.row[x]
+        in_body = table.get("frame", "space") == "body"
+        turn = G[np.ix_(rows, rows)]
+        plane = table["kind"] == "torque" and len(rows) == 2
+        if "direction" in table:
+            (number,) = taken(1)
+            vector = number * _vector(table["direction"], len(rows), p)[:, 0]
+        else:
+            vector = taken(1 if plane else len(rows))
+        torque = vector if x is None else None
+        if x is not None:
+            force[x] += turn @ vector if in_body else vector
+        if "moment" in table:
+            torque = number * _vector(table["moment"], len(table["moment"]), p)[:, 0]
+        if torque is not None:
+            for a, E in enumerate(np.asarray(basis, float)):
+                W = E[np.ix_(rows, rows)]
+                covector[a] += torque @ axial(W if in_body else turn @ W @ turn.T)
+    if left:
+        raise ValueError(f"{len(left)} inputs are too many")
     return force, covector
 
 
@@ -317,7 +349,7 @@ def rhs(data, basis, p, t, x, u=None):
     G, zeta = split(data, x, d)
     Z = np.tensordot(zeta, basis, 1)
     design = np.column_stack([found.moved(G @ E) for E in np.asarray(basis, float)])
-    force, covector = (0, np.zeros(d)) if u is None else inputs(data, found, d, G, u)
+    force, covector = (0, np.zeros(d)) if u is None else inputs(data, basis, p, found, G, u)
     force = force + damping(data, p, t, found, found.moved(G @ Z))
     force += forces(data, p, t, found, found.moved(G))
     heavy, root = found.masses > 0, np.sqrt(found.masses[found.masses > 0])

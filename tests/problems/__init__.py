@@ -279,6 +279,76 @@ PROBLEMS |= {
     "a solid body": flat(FLAT.replace("(b^2 - a^2)", "b^2")),
 }
 
+# inputs of one number, with moments, and torques: of R³ and of the plane, alone and in a product
+ALONG = """
+[parameters]
+a = 0.7
+c = -0.3
+[[input]]
+name = "tau"
+kind = "torque"
+frame = "body"
+[[input]]
+name = "thrust"
+kind = "force"
+at = ["a", 0.2, 0]
+frame = "body"
+direction = [0, "sin(a)", 1]
+moment = [0.1, 0, "c"]
+[[input]]
+name = "rope"
+kind = "force"
+on = 2
+direction = ["c", 1, 0.5]
+moment = ["a", 1, 0]
+[[input]]
+name = "reel"
+kind = "torque"
+direction = [1, "a*c", 0]
+[[input]]
+name = "u"
+kind = "covector"
+"""
+IN_THE_PLANE = """
+[[input]]
+name = "motor"
+kind = "torque"
+block = 2
+[[input]]
+name = "fan"
+kind = "force"
+at = ["a", 0.2]
+block = 2
+frame = "body"
+direction = ["c", 2]
+moment = [0.4]
+[[point]]
+mass = 1
+at = [1, 0.5]
+block = 2
+[[point]]
+mass = 2
+at = [-1, 0.2]
+block = 2
+"""
+MASSES = "".join(f"[[point]]\nmass = {m}\nat = {r}\n" for m, r in POINTS)
+PROBLEMS |= {
+    f"{group} torques": f'name = "test"\ngroup = "{group}"\n{ALONG}{MASSES}'
+    for group in ("SO(3)", "SE(3)")
+}
+PROBLEMS |= {
+    f"SE(3) x {group} torques": f'name = "test"\ngroup = "SE(3) x {group}"\n{ALONG}{MASSES}'
+    + IN_THE_PLANE
+    for group in ("SO(2)", "SE(2)")
+}
+PLANE = IN_THE_PLANE.replace("block = 2\n", "")
+PROBLEMS |= {
+    "SE(2) torques": f'name = "test"\ngroup = "SE(2)"\nparameters = {{ a = 0.7, c = 2 }}\n{PLANE}',
+    "cylinder torques": own_group(CYLINDER, "affine").replace(
+        "[group]", ALONG[: ALONG.rindex("[[input]]")] + "[group]"
+    ),
+}
+
 # solids are no points: the oracle has them with the moments of their integrals, see below; a
 # Lagrangian that no points give has one of its own (tests/walk/lie)
 TEXTS = ("linear", "affine", "ellipsoid", "top", "hammer", "so3", "se3", "sl3")

@@ -220,6 +220,8 @@ def _caption(
         for i in problem["inputs"]
         if i["kind"] == "covector"
     ]
+    torques = (i["name"] for i in problem["inputs"] if i["kind"] == "torque")
+    sentences += [say("The input {name} is a torque and not drawn.", name=x) for x in torques]
     sentences += [say(x.legend) for x in legends if not x.drawn]
     if problem["damping"]:
         sentences.append(say("Damping is not drawn."))

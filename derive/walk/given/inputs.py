@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 from ...algebra.calculus import gradient, reduce, substitute
 from ...algebra.groups import Group
 from ...algebra.word_trees import fold_inertia, normal_form, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.reserved import suffixed
-from ...language.tree import Tree, add, mul, plain
+from ...language.tree import Tree, add, mul, neg, plain
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
-from ...schema.kind import ForceInput
+from ...schema.kind import ForceInput, TorqueInput
 from ..chapter import Chapter, Draft, phrase, say
 from ..spine.alphabet import Alphabet
 from ..spine.cartan import body_rule
 from ..spine.lagrangian import sum_over
 from ..spine.principle import AND
 from ..vectors.isomorphism import OMEGA_P, ZETA, HatMap, anticommute, inertia_of, vector_sum
-from .potentials import applied, embedded
+from .potentials import applied, column, embedded
 
 INPUTS = phrase("input.forces")
 DRAG = phrase("input.damping")
@@ -53,10 +54,19 @@ def prose(problem: Problem) -> Prose:
 def where_given(problem: Problem) -> Prose:
     """The sentence that says where each force acts, and in which frame it is given."""
     forces = [
-        phrase(f"input.{x.frame}_force", name=f"‘{x.name}’", point=f"r_{x.on}")
+        phrase(f"input.{x.frame}_torque", name=f"‘{x.name}’")
+        if isinstance(x, TorqueInput)
+        else phrase(f"input.{x.frame}_{_sort(x)}", name=f"‘{x.name}’", point=f"r_{x.on}")
         for x in problem.force_inputs
     ]
     return say("input.given", forces=listed("{first}; {second}", forces)) if forces else ()
+
+
+def _sort(x: ForceInput) -> str:
+    """Which sentence says a force: with all its components, or along a direction."""
+    if x.direction is None:
+        return "force"
+    return "force_along" if x.moment is None else "force_with_moment"
 
 
 def by_name(problem: Problem, steps: Iterable[Step], *, discrete: bool = False) -> tuple[Step, ...]:
@@ -64,9 +74,8 @@ def by_name(problem: Problem, steps: Iterable[Step], *, discrete: bool = False) 
     entry of the member of f_u that the force ``thrust`` is, or of the covector u, f_u; the whole
     force is the column of its numbers.  ``discrete``: as in numbers."""
     given = numbers(problem, discrete=discrete)
-    for e, (force, size) in enumerate(_sized(problem), 1):
-        rows = (("row", ("par", suffixed(force.name, k))) for k in range(1, size + 1))
-        given["at", "f_u", e] = ("matrix", *rows)
+    for e, x in enumerate(problem.force_inputs, 1):
+        given["at", "f_u", e] = column(tuple(("par", name) for name in problem.numbers_of(x)))
 
     def named(t: Tree) -> Tree:
         if t in given or not isinstance(t, tuple):
@@ -86,9 +95,9 @@ def numbers(problem: Problem, *, discrete: bool = False) -> dict[Tree, Tree]:
     found: dict[Tree, Tree] = {}
     group = problem.group
     assert group is not None
-    for e, (force, size) in enumerate(_sized(problem), 1):
-        for k in range(1, size + 1):
-            found["entry", ("at", "f_u", e), k] = ("par", suffixed(force.name, k))
+    for e, x in enumerate(problem.force_inputs, 1):
+        for k, name in enumerate(problem.numbers_of(x), 1):
+            found["entry", ("at", "f_u", e), k] = ("par", name)
     if covector := problem.covector:
         own = [("par", suffixed(covector.name, a)) for a in range(1, group.dimension + 1)]
         apart = group.turns_space and group.affine and not discrete
@@ -100,12 +109,49 @@ def numbers(problem: Problem, *, discrete: bool = False) -> dict[Tree, Tree]:
     return found
 
 
-def _sized(problem: Problem) -> Iterator[tuple[ForceInput, int]]:
-    """The forces that are given, each with the dimension of the space of its point."""
-    for force in problem.force_inputs:
-        assert problem.group is not None
-        _, moved = problem.group.places[problem.block(force.on) - 1]
-        yield force, moved.n
+def _entries(problem: Problem, e: int, x: ForceInput | TorqueInput) -> tuple[Tree, ...]:
+    """The entries of the force ``e``, or of the torque, in its own frame: the numbers of the member
+    of f_u, or the one number times a direction."""
+    numbers = tuple(("entry", ("at", "f_u", e), k) for k, _ in enumerate(problem.numbers_of(x), 1))
+    return numbers if x.direction is None else tuple(mul(y, *numbers) for y in x.direction)
+
+
+def _couple(problem: Problem, e: int, x: ForceInput | TorqueInput) -> tuple[Tree, ...]:
+    """The entries of a torque, or of the moment that goes with a force, in the same frame; none
+    where there is none."""
+    if isinstance(x, TorqueInput):
+        return _entries(problem, e, x)
+    return tuple(mul(y, ("entry", ("at", "f_u", e), 1)) for y in x.moment or ())
+
+
+def _skew(problem: Problem, x: ForceInput | TorqueInput, couple: tuple[Tree, ...]) -> Tree:
+    """The matrix N of a torque in the body, whose work is Tr ξ′N̄: half of j(torque), that of a
+    torque in space turned into the body."""
+    group = problem.group
+    assert group is not None
+    block, factor = problem.acted_on(x)
+    half = [mul(Fraction(1, 2), y) for y in couple]
+    if factor.n == 2:
+        return _in_block(group, block, [(0, neg(half[0])), (half[0], 0)])
+    a, b, c = half
+    skew = _in_block(group, block, [(0, neg(c), b), (c, 0, neg(a)), (neg(b), a, 0)])
+    if x.frame == "body":
+        return skew
+    turned = mul(("T", "A"), skew, "A")
+    if not (group.factors and factor.affine):
+        return turned
+    rotation = _in_block(group, block, [(1, 0, 0), (0, 1, 0), (0, 0, 1)])  # not what translates
+    return mul(rotation, turned, rotation)
+
+
+def _in_block(group: Group, block: int, rows: Sequence[tuple[Tree, ...]]) -> Tree:
+    """A matrix of the space of a block as one of the group."""
+    inside = [group.in_block(block, row) for row in rows]
+    offset, _ = group.places[block - 1]
+    after = group.n - offset - len(rows)
+    empty = (0,) * group.n
+    whole = (*[empty] * offset, *inside, *[empty] * after)
+    return ("matrix", *(("row", *row) for row in whole))
 
 
 def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> External | None:
@@ -123,9 +169,12 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
     xi, eta = Letter("ξ′", b.n, b.n), Letter("η′", b.n)
     moments, pulls = [draft.tree(gradient(drag, xi))], [draft.tree(gradient(drag, eta))]
     for e, given in enumerate(problem.force_inputs, 1):
-        force = _in_body(draft, problem, e, given, C, b)
-        moments.append(mul(force, ("T", ("at", "r", given.on))))
-        pulls.append(force)
+        if isinstance(given, ForceInput):
+            force = _in_body(draft, problem, e, given, C, b)
+            moments.append(mul(force, ("T", ("at", "r", given.on))))
+            pulls.append(force)
+        if couple := _couple(problem, e, given):
+            moments.append(_skew(problem, given, couple))
     if problem.covector:
         moment, pull = _covector(group, b)
         moments.append(moment)
@@ -143,9 +192,8 @@ def _in_body(d: Draft, problem: Problem, e: int, given: ForceInput, C: Expr, b: 
     f: Tree = ("at", "f_u", e)
     group = problem.group
     assert group is not None
-    if group.factors:
-        n = group.places[problem.block(given.on) - 1][1].n
-        f = embedded(problem, given.on, tuple(("entry", f, k) for k in range(1, n + 1)), 0)
+    if group.factors or given.direction is not None:
+        f = embedded(problem, given.on, _entries(problem, e, given), 0)
     if given.frame == "space":
         return mul(("T", "A"), f)
     d.depends_on(C)
@@ -217,9 +265,13 @@ def external_vectors(
     if problem.damping:
         definitions.append(Equation("I_D", tree_of(inertia_of(Letter("D", 3, 3, 1)))))
     for e, given in enumerate(problem.force_inputs, 1):
-        force = _in_body(draft, problem, e, given, C, b)
-        moments.append(("wedge", ("at", "r", given.on), force))
-        pulls.append(force)
+        if isinstance(given, ForceInput):
+            force = _in_body(draft, problem, e, given, C, b)
+            moments.append(("wedge", ("at", "r", given.on), force))
+            pulls.append(force)
+        if couple := _couple(problem, e, given):
+            torque = column(couple)
+            moments.append(mul(("T", "A"), torque) if given.frame == "space" else torque)
     if problem.covector:
         moments.append(TORQUE.name)
         pulls.append(FORCE.name)

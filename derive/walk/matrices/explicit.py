@@ -212,11 +212,8 @@ def _learn(
     motion: Step,
 ) -> None:
     """The moments of the body, then what its potentials and inputs are made of."""
-    group = problem.group
-    assert group is not None
     for k, given in enumerate(problem.force_inputs, 1):
-        _, moved = group.places[problem.block(given.on) - 1]
-        values.member("f_u", k, symbols(("at", "f_u", k), moved.n))
+        values.member("f_u", k, symbols(("at", "f_u", k), len(problem.numbers_of(given))))
     values.learn(e for s in body for e in s.equations)
     values.learn(e for s in points for e in s.equations if e.lhs not in values.names)
     A = values.names["A"]
