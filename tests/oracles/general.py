@@ -24,6 +24,21 @@ SUM = {"+": (1, 1, np.add), "-": (1, 1, np.subtract)}
 BINARY = SUM | {"*": (2, 2, np.multiply), "/": (2, 2, np.divide), "^": (4, 3, np.power)}
 NAMES = ("sqrt", "sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh")
 FUNCTIONS = {"atan": np.arctan, **{name: getattr(np, name) for name in NAMES}}
+FUNCTIONS |= {"abs": lambda x: x * np.sign(np.real(x)), "sign": lambda x: np.sign(np.real(x))}
+
+
+def angle(y, x):
+    """atan2 with the derivative of a complex step."""
+    a, b = np.real(y), np.real(x)
+    return np.arctan2(a, b) + 1j * (b * np.imag(y) - a * np.imag(x)) / (a * a + b * b)
+
+
+OF_TWO = {
+    "min": lambda a, b: np.where(np.real(a) < np.real(b), a, b),
+    "max": lambda a, b: np.where(np.real(a) < np.real(b), b, a),
+    "hypot": lambda a, b: np.sqrt(a * a + b * b),
+    "atan2": lambda y, x: angle(y, x) if np.iscomplexobj(y + x) else np.arctan2(y, x),
+}
 
 
 def _read(tokens, env, level):
@@ -37,10 +52,22 @@ def _read(tokens, env, level):
         value = _read(tokens, env, 0)
         if tokens.pop(0) != ")":
             raise ValueError("a parenthesis is not closed")
+    elif token in OF_TWO:
+        parts = []
+        for end in ",)":
+            tokens.pop(0)
+            parts.append(_read(tokens, env, 0))
+            if tokens[0] != end:
+                raise ValueError(f"{token} is of two expressions")
+        tokens.pop(0)
+        value = OF_TWO[token](*parts)
     elif tokens[0] == "(":
         value = FUNCTIONS[token](_read(tokens, env, 5))
     else:
         value = np.multiply(np.pi if token == "pi" else env[token], 1.0)
+    if tokens[:1] == ["^"] and tokens[1:2] == ["("] and level < 4:
+        tokens.pop(0)
+        value = np.power(value, _read(tokens, env, 5))
     while BINARY.get(tokens[0], (0,))[0] > level:
         _, right, operation = BINARY[tokens.pop(0)]
         value = operation(value, _read(tokens, env, right))

@@ -279,6 +279,19 @@ PROBLEMS |= {
     "a solid body": flat(FLAT.replace("(b^2 - a^2)", "b^2")),
 }
 
+# functions that are written out in others
+PROBLEMS["kinks"] = """
+name = "test"
+group = "GL(2)"
+point = [{ mass = 1, at = [1, 0] }, { mass = 2, at = [0, 1] }]
+[[potential]]
+kind = "expression"
+U = "max(r1_x, r2_y)^2/3 + abs(r1_y + 0.3) + atan2(r1_x, 3 + r2_x^2)"
+[[potential]]
+kind = "expression"
+U = "hypot(r1_x, 2)^(3/2) + sign(r2_x)*r1_y*min(r2_x, 0.2)"
+"""
+
 # inputs of one number, with moments, and torques: of R³ and of the plane, alone and in a product
 ALONG = """
 [parameters]
