@@ -14,6 +14,7 @@ WORDS = (
         "Advected",
         "Aff",
         "Algebra",
+        "AppliedForce",
         "Covector",
         "Damping",
         "Event",

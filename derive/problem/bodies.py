@@ -28,6 +28,7 @@ from ..schema.kind import (
     Input,
     Parameter,
     Potential,
+    StatedForce,
     StatedGroup,
     TorqueInput,
 )
@@ -136,19 +137,21 @@ def _user_group(own: StatedGroup) -> Group:
     return moved if not moved.affine or moved.free_translations else on_homogeneous(moved)
 
 
-# The tables [[potential]], [[input]] and [[damping]] of a problem file.
+# The tables [[potential]], [[input]], [[damping]] and [[force]] of a problem file.
 
-Forces = tuple[tuple[Potential, ...], tuple[Input, ...], tuple[Damping, ...]]
+Forces = tuple[
+    tuple[Potential, ...], tuple[Input, ...], tuple[Damping, ...], tuple[StatedForce, ...]
+]
 
 
 def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
     """All of them; there is one of what may be there once."""
-    potentials, inputs, damping = (
+    potentials, inputs, damping, stated = (
         {f"{key} {k}": x for k, x in enumerate(tables(data, key), 1)}
-        for key in ("potential", "input", "damping")
+        for key in ("potential", "input", "damping", "force")
     )
     acting = [w for w, x in inputs.items() if x.get("kind") in (ForceInput.kind, TorqueInput.kind)]
-    for where in (*potentials, *acting, *damping) if reader.group is None else ():
+    for where in (*potentials, *acting, *damping, *stated) if reader.group is None else ():
         raise ProblemError(f"{where}: a text about any group has no points on which this could act")
     found = tuple(reader.one_of(kinds(), x, where) for where, x in potentials.items())
     given = tuple(reader.one_of(INPUTS, x, where) for where, x in inputs.items())
@@ -157,7 +160,9 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
             raise ProblemError(f"potential {k}: a second {p.kind}; there may be one")
     if sum(isinstance(i, CovectorInput) for i in given) > 1:
         raise ProblemError("key 'input': one covector holds every component; give one such table")
-    return found, given, tuple(reader.typed(Damping, x, w) for w, x in damping.items())
+    reader.distinct(given, reader.parameters)
+    damped = tuple(reader.typed(Damping, x, w) for w, x in damping.items())
+    return found, given, damped, tuple(reader.typed(StatedForce, x, w) for w, x in stated.items())
 
 
 def negative_stiffness_of(

@@ -21,7 +21,15 @@ from ..schema.body_kinds import LAYERED, Body, GivenBody, Place, Point, PointBod
 from ..schema.kind import SIDES, Advected
 from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
-from .fields import LIKE_A_PLACE, known_in_lagrangian, meant, state_names
+from .fields import (
+    LIKE_A_PLACE,
+    known_in_lagrangian,
+    meant,
+    names_at_place,
+    names_of_points,
+    state_names,
+    velocity_at_place,
+)
 from .moments import SolidError, first_moment, given_by, second_moment
 from .problem import ProblemError, points_of
 from .solids import fault_of_quadric, rotation_about
@@ -156,7 +164,7 @@ class FileReader(TableReader):
 
     def _place(self, i: int) -> tuple[int, int]:
         """The first row, and how many, of the coordinates of point i in space."""
-        first, factor = self.moving().places[self.listed_places[i - 1].block - 1]
+        first, factor = self._factor_of(i)
         return first, factor.n
 
     @property
@@ -205,10 +213,40 @@ class FileReader(TableReader):
     def couple(self, slot: Slot) -> Vector:
         """The moment that goes with a force: a vector of R³, or a list of one number in the
         plane."""
-        block = self.listed_places[slot.found["on"] - 1].block
-        _, factor = self.moving().places[block - 1]
+        _, factor = self._factor_of(slot.found["on"])
         self._turned(factor, slot.where)
         return self.listed(self.value(slot), 3 if factor.n == 3 else 1, slot.path)
+
+    def wind(self, slot: Slot) -> Vector:
+        """A velocity in space of t and the place r_1, …."""
+        on = slot.found["on"]
+        first, n = self._place(on)
+        named = names_at_place(n, first, on)
+        found = self.listed(self.value(slot), n, slot.path, self.in_time)
+        return tuple(meant(t, named) for t in found)
+
+    def stated(self, slot: Slot) -> Vector:
+        """A vector of expressions of the state at a place, which has a velocity there."""
+        return self._of_state(slot, self._place(slot.found["on"])[1])
+
+    def stated_couple(self, slot: Slot) -> Vector:
+        """Three of them in R³, one in the plane."""
+        _, factor = self._factor_of(slot.found["on"])
+        self._turned(factor, slot.where)
+        return self._of_state(slot, 3 if factor.n == 3 else 1)
+
+    def _of_state(self, slot: Slot, count: int) -> Vector:
+        found, on = slot.found, slot.found["on"]
+        first, n = self._place(on)
+        named = names_of_points(self.moving()) | names_at_place(n, first, on)
+        wind = found.get("relative_to") or (0,) * n
+        named |= velocity_at_place(n, first, on, wind, turned=found.get("frame") == "body")
+        listed = self.listed(self.value(slot), count, slot.path, self.in_time)
+        return tuple(meant(t, named) for t in listed)
+
+    def _factor_of(self, on: int) -> tuple[int, Group]:
+        """The first row, and the factor that moves a point or place."""
+        return self.moving().places[self.listed_places[on - 1].block - 1]
 
     def letters(self, slot: Slot) -> str:
         """As those of a name, which may be a word of another language."""

@@ -24,6 +24,7 @@ from ..schema.kind import (
     Lagrangian,
     Parameter,
     Potential,
+    StatedForce,
     TorqueInput,
 )
 from ..schema.table import Table
@@ -69,6 +70,7 @@ class Problem:
     inputs: tuple[Input, ...] = ()
     places: tuple[Place, ...] = ()
     damping: tuple[Damping, ...] = ()
+    forces: tuple[StatedForce, ...] = ()
     frame: Mapping[str, Any] | None = None
     signed: bool = False
     lagrangian: Lagrangian | None = None
@@ -147,7 +149,12 @@ class Problem:
         """The inputs that are forces and torques."""
         return tuple(i for i in self.inputs if not isinstance(i, CovectorInput))
 
-    def acted_on(self, x: ForceInput | TorqueInput) -> tuple[int, Group]:
+    @property
+    def driven(self) -> bool:
+        """Are there functions of time and state that act from outside dϖ?"""
+        return bool(self.inputs or self.forces)
+
+    def acted_on(self, x: ForceInput | TorqueInput | StatedForce) -> tuple[int, Group]:
         """The block, counted from 1, on which a force or a torque acts, with its factor."""
         assert self.group is not None
         block = x.block if isinstance(x, TorqueInput) else self.block(x.on)
@@ -182,6 +189,7 @@ def data(problem: Problem) -> dict[str, Any]:
         "inputs": [*_plain(problem.inputs)],
         "places": [*_plain(problem.places)],
         "damping": [*_plain(problem.damping)],
+        **({"forces": [*_plain(problem.forces)]} if problem.forces else {}),
         **({"frame": dict(problem.frame)} if problem.frame else {}),
         **({"masses": "of any sign"} if problem.signed else {}),
         **({"lagrangian": problem.lagrangian.plain()} if problem.lagrangian else {}),

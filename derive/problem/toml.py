@@ -31,7 +31,7 @@ from .motion_tables import KEYS, faults, motion_fields, named, named_twice
 from .problem import Problem, ProblemError
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
-TOP |= {"damping", "solid", "algebra", "advected", "fluid", *SECTIONS, *KEYS}
+TOP |= {"damping", "force", "solid", "algebra", "advected", "fluid", *SECTIONS, *KEYS}
 DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
 )
@@ -127,10 +127,9 @@ def problem_of(
     if not negative_mass:
         _positive(inertia.negative_mass(own, parameters), "mass")
     reader.carries(own, parameters)
-    potentials, inputs, damping = forces(data, reader)
+    potentials, inputs, damping, stated = forces(data, reader)
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
-    reader.distinct(inputs, parameters)
     problem = Problem(
         name,
         moved,
@@ -142,6 +141,7 @@ def problem_of(
         inputs,
         tuple(reader.places),
         damping,
+        stated,
         signed=negative_mass,
         **motion_fields(data, reader),
     )
@@ -173,7 +173,7 @@ def _without_points(
         raise ProblemError("an algebra moves no points: give a [lagrangian] or an [inertia]")
     if moved is None:
         raise ProblemError(f"key {where!r}: a text about any group has no Lagrangian of its own")
-    for key in ("point", "solid", "body", "potential", "damping"):
+    for key in ("point", "solid", "body", "potential", "damping", "force"):
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
     given = data.get("input", ())
@@ -186,8 +186,7 @@ def _without_points(
     name = reader.name_of(data, of_its_own=moved is not None)
     parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)
-    _, inputs, _ = forces(data, reader)
-    reader.distinct(inputs, parameters)
+    _, inputs, *_ = forces(data, reader)
     problem = Problem(
         name,
         group,
@@ -262,8 +261,12 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     """Every name that is used is a parameter and nothing else, and every parameter is used."""
     if fault := named_twice(problem):
         raise ProblemError(fault)
-    found = [*_trees(problem.points), *_moments(problem), *_forces(problem)]
+    rest = replace(problem, forces=())
+    found = [*_trees(problem.points), *_moments(problem), *_forces(rest)]
     used = dict.fromkeys(x for t in found for x in names(t))
+    given = {x for y in problem.inputs for x in problem.numbers_of(y)} if problem.group else ()
+    stated = (x for t in _trees(problem.forces) for x in names(t))
+    used |= dict.fromkeys(x for x in stated if x not in given)
     for name in used:
         if name not in problem.parameters:
             if name == "t" or LIKE_A_PLACE.fullmatch(name):
@@ -303,7 +306,8 @@ def _moments(problem: Problem) -> list[Tree]:
 
 def _forces(problem: Problem) -> list[Tree]:
     own = [problem.lagrangian] if problem.lagrangian else []
-    return _trees((*own, *problem.potentials, *problem.inputs, *problem.damping, *problem.places))
+    outside = (*problem.inputs, *problem.damping, *problem.forces)
+    return _trees((*own, *problem.potentials, *outside, *problem.places))
 
 
 def _affordable(problem: Problem) -> None:

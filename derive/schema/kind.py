@@ -210,6 +210,48 @@ def _said(keys: tuple[str, ...] | str, table: Mapping[str, Any]) -> tuple[str, .
     return tuple(x for x in keys if x not in ("direction", "moment") or x in table)
 
 
+Stated = Annotated[Row, Key("stated", 1, trees=True)]
+Torque = Annotated[Row, Key("stated_couple", 1, trees=True)]
+Wind = Annotated[Row, Key("wind", 1, trees=True, told=False)]
+"""Expressions of the state, t, inputs and parameters; a moment of these; a velocity in space, of t
+and the place."""
+
+
+class StatedForce(Table):
+    """A force, or a moment, that is a function of the state: of the velocity of its place too,
+    less that of what is there (``relative_to``, which a record has in the expressions)."""
+
+    section, called = "force", "AppliedForce"
+    on: End
+    frame: Frame = "space"
+    relative_to: Wind = ()
+    force: Stated = ()
+    moment: Torque = ()
+
+    @classmethod
+    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
+        """One of force and moment at least."""
+        if not table.get("force") and not table.get("moment"):
+            return "give 'force' or 'moment', lists of expressions"
+        return super().chosen(table, last)
+
+    @classmethod
+    def word(
+        cls,
+        on: int | Sequence[Number],
+        force: Sequence[Number] | None = None,
+        moment: Sequence[Number] | None = None,
+        frame: str = "space",
+        block: int | None = None,
+        relative_to: Sequence[Number] | None = None,
+    ) -> Any:
+        """A force and a moment on a point, or at a place of the body, in a product of that of a
+        block: expressions of the velocity v_1, … of the place, less that of a wind, of the state,
+        t, inputs and parameters, in the frame "space" or "body"."""
+        told = {"force": force, "moment": moment, "frame": frame, "relative_to": relative_to}
+        return told | place(on, block)
+
+
 class Damping(Table):
     """−κ v on points: a Rayleigh function ½ κ |v|², no potential."""
 

@@ -263,6 +263,14 @@ class TableReader(ABC):
 
     place = direction = couple = vector
 
+    @abstractmethod
+    def stated(self, slot: Slot) -> tuple[Tree, ...]:
+        """A vector that is a function of the state."""
+
+    @abstractmethod
+    def stated_couple(self, slot: Slot) -> tuple[Tree, ...]:
+        """A moment that is one."""
+
     def timed(self, slot: Slot) -> tuple[Tree, ...]:
         """The same, of the time as well."""
         return self.listed(self.value(slot), self.dimension(slot), slot.path, self.in_time)

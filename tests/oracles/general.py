@@ -189,7 +189,7 @@ def places(data, p):
         tables = {("realised", i): {"mass": m, "at": r} for i, (m, r) in enumerate(pairs, 1)}
     else:
         tables = {("point", i): x for i, x in enumerate(data["point"], 1)}
-    for kind in ("potential", "input"):
+    for kind in ("potential", "input", "force"):
         tables |= {(kind, k): x for k, x in enumerate(data.get(kind, ())) if "at" in x}
     if {x["kind"] for x in data.get("potential", ())} & {"torsion", "far_centre", "volume"}:
         ((_, n, affine),) = parts
@@ -326,6 +326,59 @@ def axial(W):
     return np.array([W[2, 1], W[0, 2], W[1, 0]] if len(W) == 3 else [W[1, 0]])
 
 
+def work(torque, basis, turn, rows, in_body):
+    """The work (d,) of a torque on the angular velocity of each member of the basis, which is
+    turned into space unless the torque is in the body."""
+    parts = [E[np.ix_(rows, rows)] for E in np.asarray(basis, float)]
+    turned = parts if in_body else [turn @ W @ turn.T for W in parts]
+    return np.array([torque @ axial(W) for W in turned])
+
+
+def names_of_state(data, basis, G, zeta):
+    """The numbers of a state by the names that expressions have for them."""
+    parts, env, (d, n) = blocks(data)[0], {}, (len(zeta), len(G) - 1)
+    for k, (first, size, affine) in enumerate(parts, 1):
+        mark = k if len(parts) > 1 else ""
+        for i in range(size):
+            env |= {f"A{mark}_{i + 1}{j + 1}": G[first + i, first + j] for j in range(size)}
+            env |= {f"T{mark}_{i + 1}": G[first + i, first + size]} if affine else {}
+    shifts = len(parts) == 1 and parts[0][2] and d > n
+    shifts = shifts and not np.any(np.asarray(basis, float)[-n:, :, :n])
+    turns = d - n if shifts else d
+    env |= {f"zeta_{a}": x for a, x in enumerate(zeta[:turns], 1)}
+    return env | {f"w_{i}": x for i, x in enumerate(zeta[turns:], 1)}
+
+
+def stated(data, basis, p, t, found, G, zeta, u):
+    """What the tables [[force]] give: forces (M,) and a covector (d,)."""
+    force, covector = np.zeros(len(found.row)), np.zeros(len(basis))
+    env = {**p, "t": t, **names_of_state(data, basis, G, zeta)}
+    left = [] if u is None else [*u]
+    for table in data.get("input", ()):
+        size = len(basis)
+        if table["kind"] != "covector":
+            size = blocks(data)[0][table.get("block", 1) - 1][1]
+        single = "direction" in table or (table["kind"], size) == ("torque", 2)
+        names = [table["name"]] if single else [f"{table['name']}_{i + 1}" for i in range(size)]
+        env |= {name: left.pop(0) for name in names if left}
+    Z = np.tensordot(zeta, basis, 1)
+    for k, table in enumerate(data.get("force", ())):
+        x = found.at[_key("force", k, table)]
+        rows, n = found.row[x], x.stop - x.start
+        turn, in_body = G[np.ix_(rows, rows)], table.get("frame", "space") == "body"
+        here = {f"r_{i}": y for i, y in enumerate(found.moved(G)[x], 1)}
+        wind = _vector(table.get("relative_to", [0] * n), n, {**p, "t": t, **here})[:, 0]
+        v = found.moved(G @ Z)[x] - wind
+        here |= {f"v_{i}": y for i, y in enumerate(turn.T @ v if in_body else v, 1)}
+        if "force" in table:
+            F = _vector(table["force"], n, env | here)[:, 0]
+            force[x] += turn @ F if in_body else F
+        if "moment" in table:
+            torque = _vector(table["moment"], len(table["moment"]), env | here)[:, 0]
+            covector += work(torque, basis, turn, rows, in_body)
+    return force, covector
+
+
 def inputs(data, basis, p, found, G, u):
     """What ``u``, all inputs in order, gives: forces (M,) and a covector (d,).
 
@@ -362,9 +415,7 @@ def inputs(data, basis, p, found, G, u):
         if "moment" in table:
             torque = number * _vector(table["moment"], len(table["moment"]), p)[:, 0]
         if torque is not None:
-            for a, E in enumerate(np.asarray(basis, float)):
-                W = E[np.ix_(rows, rows)]
-                covector[a] += torque @ axial(W if in_body else turn @ W @ turn.T)
+            covector += work(torque, basis, turn, rows, in_body)
     if left:
         raise ValueError(f"{len(left)} inputs are too many")
     return force, covector
@@ -378,6 +429,8 @@ def rhs(data, basis, p, t, x, u=None):
     design = np.column_stack([found.moved(G @ E) for E in np.asarray(basis, float)])
     force, covector = (0, np.zeros(d)) if u is None else inputs(data, basis, p, found, G, u)
     force = force + damping(data, p, t, found, found.moved(G @ Z))
+    more = stated(data, basis, p, t, found, G, zeta, u)
+    force, covector = force + more[0], covector + more[1]
     force += forces(data, p, t, found, found.moved(G))
     heavy, root = found.masses > 0, np.sqrt(found.masses[found.masses > 0])
     Q, R = np.linalg.qr(root[:, None] * design[heavy])

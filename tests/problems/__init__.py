@@ -362,6 +362,96 @@ PROBLEMS |= {
     ),
 }
 
+# forces that are functions of the state: of R³ and of the plane, in a wind, alone and in a product
+OF_STATE = """
+[parameters]
+c = 0.7
+w = 1.3
+[[input]]
+name = "pull"
+kind = "force"
+on = 1
+direction = [1, 0, 0]
+[[force]]
+on = 3
+frame = "body"
+relative_to = ["w*sin(r_3)", "w*t", 0]
+force = ["-c*hypot(v_1, v_2)*v_1", "-c*abs(v_2)*v_2 + c*pull", "-w*v_3*A_33"]
+[[force]]
+at = [0, "c", 1]
+force = ["-w*v_1", "r_1*v_2 + zeta_2", 1]
+"""
+OF_TURNING = """
+[[force]]
+on = 2
+frame = "body"
+moment = ["-c*zeta_1", 0, "max(v_1, 0)"]
+[[force]]
+on = 2
+moment = ["-c*zeta_1", "pull", 0]
+"""
+
+
+def pushed(name, text=OF_STATE):
+    """Four points on which functions of the state act."""
+    points = ((1.0, [1, 0, 0.5]), (2.0, [0, 1, 0]), (0.5, [0, 0.3, 1]), (0.7, [-1, 0.3, -1]))
+    lines = "".join(f"[[point]]\nmass = {m}\nat = {r}\n" for m, r in points)
+    return f'name = "test"\ngroup = "{name}"\n{lines}{text}'
+
+
+PROBLEMS |= {f"{x} of the state": pushed(x, OF_STATE + OF_TURNING) for x in ("SO(3)", "SE(3)")}
+PROBLEMS |= {f"{x} of the state": pushed(x) for x in ("SL(3)", "Aff(3)")}
+PROBLEMS["SE(2) of the state"] = """
+name = "test"
+group = "SE(2)"
+parameters = { c = 0.7 }
+point = [{ mass = 1, at = [1, 0] }, { mass = 2, at = [0, 1] }]
+[[force]]
+on = 2
+frame = "body"
+relative_to = ["c*r_2", 1]
+force = ["-c*v_1", "sin(t)*T_1 + w_2*A_12"]
+moment = ["-c*zeta_1"]
+"""
+PROBLEMS["a product of the state"] = """
+name = "test"
+group = "SE(2) x SL(2)"
+parameters = { c = 0.7 }
+point = [
+  { mass = 1, at = [1, 0] }, { mass = 2, at = [0, 1] },
+  { mass = 1, at = [1, 2], block = 2 }, { mass = 2, at = [0, 1], block = 2 },
+]
+[[force]]
+on = 2
+frame = "body"
+relative_to = ["r_2", "t"]
+force = ["-c*hypot(v_1, v_2)*v_1", "-c*v_2*A1_12*T1_1"]
+moment = ["-c*zeta_1"]
+[[force]]
+on = 4
+frame = "body"
+force = ["-c*v_1 + zeta_4", "A2_12 - v_2"]
+"""
+PROBLEMS["so(3) skewed of the state"] = (
+    own_group(SKEWED)
+    + """
+[[force]]
+on = 1
+frame = "body"
+force = ["-v_1", "zeta_1*A_12", "zeta_2 - v_3"]
+moment = [0, 0, "-zeta_3"]
+"""
+)
+PROBLEMS["se(3) mixed of the state"] = (
+    own_group(MIXED, "affine")
+    + """
+[[force]]
+on = 1
+frame = "body"
+force = ["-v_1 + zeta_5", "zeta_1*A_12*T_1", "zeta_2 - v_3"]
+"""
+)
+
 # solids are no points: the oracle has them with the moments of their integrals, see below; a
 # Lagrangian that no points give has one of its own (tests/walk/lie)
 TEXTS = ("linear", "affine", "ellipsoid", "top", "hammer", "so3", "se3", "sl3")

@@ -153,6 +153,7 @@ TABLES = [
     {"body": {"zz": 1}, "point": []},
     {"body": {"given": {"zz": 1}}, "point": []},
     {"damping": [{"zz": 1}]},
+    {"force": [{"zz": 1}]},
     *({"input": [{"name": "u", "kind": x, "zz": 1}]} for x in ("covector", "force", "torque")),
     *(
         {"potential": [{"kind": x, "zz": 1}]}

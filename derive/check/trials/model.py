@@ -26,7 +26,7 @@ from ..values.arithmetic import (
     part,
 )
 from ..values.draws import LINEAR, TIME, TRANSLATION, Locus
-from ..values.evaluate import evaluate
+from ..values.evaluate import Environment, evaluate
 from ..values.residue import with_slots
 from .point_masses import (
     RATE_SLOTS,
@@ -234,10 +234,11 @@ class Model(Body):
         total = [[Fraction(0)] * self.n for _ in self.points]
         linear = self.group.linear_part(self.g)
         for u, data in self._given():
-            if data["kind"] == "torque":
+            found = self._along(u, data, "direction" if "kind" in data else "force")
+            if data.get("kind") == "torque" or not found:
                 continue
             block, _ = self._acted_on(data)
-            inside = q.column(self.group.in_block(block, self._along(u, data, "direction")))
+            inside = q.column(self.group.in_block(block, found))
             force = q.times(linear, inside) if data["frame"] == "body" else inside
             for k, (x,) in enumerate(force):
                 total[data["on"] - 1][k] += x
@@ -251,8 +252,8 @@ class Model(Body):
         total = q.scaled(Fraction(0), q.identity(n))
         linear = group.linear_part(self.g)
         for u, data in self._given():
-            key = "direction" if data["kind"] == "torque" else "moment"
-            if key == "moment" and key not in data:
+            key = "direction" if data.get("kind") == "torque" else "moment"
+            if key == "moment" and not data.get(key):
                 continue
             block, factor = self._acted_on(data)
             torque, at = self._along(u, data, key), group.of_block(block)
@@ -272,8 +273,11 @@ class Model(Body):
         return q.dot(q.flatten(self.couple), q.flatten(self.group.linear_part(xi)))
 
     def _given(self) -> Iterator[tuple[tuple[Any, ...], Mapping[str, Any]]]:
-        """The forces and torques that are given, each with its numbers."""
-        return zip(self.input_forces, self.inputs_of("force", "torque"), strict=True)
+        """The forces and torques that are given, each with its numbers, and those that are stated,
+        which have none."""
+        yield from zip(self.input_forces, self.inputs_of("force", "torque"), strict=True)
+        if self.at.driven and not self.generic:
+            yield from (((Fraction(1),), x) for x in self.problem.get("forces", ()))
 
     def _acted_on(self, data: Mapping[str, Any]) -> tuple[int, Group]:
         """The block, from 1, on which a force or torque acts, and its factor."""
@@ -284,7 +288,30 @@ class Model(Body):
         """The vector that an input's numbers are, or of which its one number is the multiple."""
         if key not in data:
             return u
-        return tuple(u[0] * evaluate(decode(x, key), self.expressions) for x in data[key])
+        return tuple(u[0] * evaluate(decode(x, key), self.of_state) for x in data[key])
+
+    @cached_property
+    def of_state(self) -> Environment:
+        """The environment of expressions of the state: of t, the entries of g and of the velocity,
+        places and their velocities."""
+        group, places = self.group, [q.column(x) for x in self.images(self.g)]
+        names: dict[str, Any] = {"t": self.t, "π": self.pi}
+        for g, linear, translation in ((self.g, "A", "T"), (self.Z, "Z", "w")):
+            names[linear] = group.linear_part(g)
+            if group.affine:
+                names[translation] = group.translation_part(g)
+        if group.turns_space:
+            names["ζ"] = q.column(group.nearest(self.Z)[:3])
+        moving: dict[tuple[int, ...], Any] = {
+            (i,): q.column(x) for i, x in enumerate(self.images(self.nu), 1)
+        }
+        return replace(
+            self.expressions,
+            names=names,
+            families={"v": moving},
+            functions={"r": lambda head, *_: places[head[2] - 1]},
+            listed=len(places),
+        )
 
     @cached_property
     def nonpotential_forces(self) -> list[Vector]:

@@ -225,6 +225,8 @@ def _caption(
     sentences += [say(x.legend) for x in legends if not x.drawn]
     if problem["damping"]:
         sentences.append(say("Damping is not drawn."))
+    if problem.get("forces"):
+        sentences.append(say("Forces of the state are not drawn."))
     if value.invented:
         sentences.append(say("Parameters without a default have sample values."))
     return tuple(sentence for prose in sentences for sentence in prose)

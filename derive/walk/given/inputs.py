@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -11,11 +11,11 @@ from ...algebra.groups import Group
 from ...algebra.word_trees import fold_inertia, normal_form, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.reserved import suffixed
-from ...language.tree import Tree, add, mul, neg, plain
+from ...language.tree import Tree, add, mul, neg, nodes, plain, replaced
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
-from ...schema.kind import ForceInput, TorqueInput
+from ...schema.kind import ForceInput, StatedForce, TorqueInput
 from ..chapter import Chapter, Draft, phrase, say
 from ..spine.alphabet import Alphabet
 from ..spine.cartan import body_rule
@@ -26,6 +26,7 @@ from .potentials import applied, column, embedded
 
 INPUTS = phrase("input.forces")
 DRAG = phrase("input.damping")
+Push = ForceInput | TorqueInput | StatedForce
 TORQUE, FORCE = Letter("u", 3), Letter("f_u", 3)
 
 
@@ -41,12 +42,12 @@ class External:
 
 def acts(problem: Problem) -> bool:
     """Does anything act that is outside dϖ, an input or damping?"""
-    return bool(problem.inputs or problem.damping)
+    return bool(problem.driven or problem.damping)
 
 
 def prose(problem: Problem) -> Prose:
     """The sentences that say what acts from outside dϖ."""
-    acting = [INPUTS] * bool(problem.inputs) + [DRAG] * bool(problem.damping)
+    acting = [INPUTS] * problem.driven + [DRAG] * bool(problem.damping)
     outside = say("input.outside", forces=listed(AND, acting))
     return outside + say("input.moments") + where_given(problem)
 
@@ -59,7 +60,11 @@ def where_given(problem: Problem) -> Prose:
         else phrase(f"input.{x.frame}_{_sort(x)}", name=f"‘{x.name}’", point=f"r_{x.on}")
         for x in problem.force_inputs
     ]
-    return say("input.given", forces=listed("{first}; {second}", forces)) if forces else ()
+    given = say("input.given", forces=listed("{first}; {second}", forces)) if forces else ()
+    stated = [phrase(f"input.{x.frame}_stated", point=f"r_{x.on}") for x in problem.forces]
+    if stated:
+        given += say("input.stated", forces=listed("{first}; {second}", stated))
+    return given
 
 
 def _sort(x: ForceInput) -> str:
@@ -109,22 +114,49 @@ def numbers(problem: Problem, *, discrete: bool = False) -> dict[Tree, Tree]:
     return found
 
 
-def _entries(problem: Problem, e: int, x: ForceInput | TorqueInput) -> tuple[Tree, ...]:
+def _pushes(problem: Problem) -> list[tuple[int, Push]]:
+    """The forces and torques that act beside a covector, those that are given with their number."""
+    given: list[Push] = [*problem.force_inputs]
+    return [*enumerate(given, 1), *((0, x) for x in problem.forces)]
+
+
+def _velocities(
+    draft: Draft, problem: Problem, b: Alphabet, images: Mapping[Letter, Expr]
+) -> list[Equation]:
+    """The equations of v_i, the velocity in space of each place where a force depends on it;
+    ``images``: what stands for the velocities of 𝔤."""
+    named = {x for f in problem.forces for t in f.trees() for x in nodes(t)}
+    places = [i for i in sorted({f.on for f in problem.forces}) if ("at", "v", i) in named]
+    if not places:
+        return []
+    g = word(b.A.position)
+    v = (g * word(b.Z.velocity) * word(b.r_i)).marked(Chapter(b.chapter).label("velocity"))
+    if b.affine:
+        v = v + g * word(b.w.velocity)
+    general = draft.tree(substitute(v, images))
+    return [Equation(("at", "v", i), replaced(general, b.r_i.name, ("at", "r", i))) for i in places]
+
+
+def _entries(problem: Problem, e: int, x: Push) -> tuple[Tree, ...]:
     """The entries of the force ``e``, or of the torque, in its own frame: the numbers of the member
-    of f_u, or the one number times a direction."""
+    of f_u, the one number times a direction, or what is stated."""
+    if isinstance(x, StatedForce):
+        return x.force
     numbers = tuple(("entry", ("at", "f_u", e), k) for k, _ in enumerate(problem.numbers_of(x), 1))
     return numbers if x.direction is None else tuple(mul(y, *numbers) for y in x.direction)
 
 
-def _couple(problem: Problem, e: int, x: ForceInput | TorqueInput) -> tuple[Tree, ...]:
+def _couple(problem: Problem, e: int, x: Push) -> tuple[Tree, ...]:
     """The entries of a torque, or of the moment that goes with a force, in the same frame; none
     where there is none."""
     if isinstance(x, TorqueInput):
         return _entries(problem, e, x)
+    if isinstance(x, StatedForce):
+        return x.moment
     return tuple(mul(y, ("entry", ("at", "f_u", e), 1)) for y in x.moment or ())
 
 
-def _skew(problem: Problem, x: ForceInput | TorqueInput, couple: tuple[Tree, ...]) -> Tree:
+def _skew(problem: Problem, x: Push, couple: tuple[Tree, ...]) -> Tree:
     """The matrix N of a torque in the body, whose work is Tr ξ′N̄: half of j(torque), that of a
     torque in space turned into the body."""
     group = problem.group
@@ -168,8 +200,9 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
     drag = reduce(drag, body_rule(b, C))
     xi, eta = Letter("ξ′", b.n, b.n), Letter("η′", b.n)
     moments, pulls = [draft.tree(gradient(drag, xi))], [draft.tree(gradient(drag, eta))]
-    for e, given in enumerate(problem.force_inputs, 1):
-        if isinstance(given, ForceInput):
+    definitions += _velocities(draft, problem, b, {})
+    for e, given in _pushes(problem):
+        if not isinstance(given, TorqueInput) and _entries(problem, e, given):
             force = _in_body(draft, problem, e, given, C, b)
             moments.append(mul(force, ("T", ("at", "r", given.on))))
             pulls.append(force)
@@ -186,13 +219,15 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
     return External(draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,))
 
 
-def _in_body(d: Draft, problem: Problem, e: int, given: ForceInput, C: Expr, b: Alphabet) -> Tree:
+def _in_body(
+    d: Draft, problem: Problem, e: int, given: ForceInput | StatedForce, C: Expr, b: Alphabet
+) -> Tree:
     """Force ``e`` in the body, a tree: Āf for a force in space, ĀA f for one that turns with the
     body."""
     f: Tree = ("at", "f_u", e)
     group = problem.group
     assert group is not None
-    if group.factors or given.direction is not None:
+    if group.factors or isinstance(given, StatedForce) or given.direction is not None:
         f = embedded(problem, given.on, _entries(problem, e, given), 0)
     if given.frame == "space":
         return mul(("T", "A"), f)
@@ -255,7 +290,7 @@ def external_vectors(
     nothing acts from outside dϖ."""
     if not acts(problem):
         return None
-    if not problem.force_inputs and not problem.damping:
+    if not (problem.force_inputs or problem.forces or problem.damping):
         return External(word(TORQUE), word(FORCE), ())
     forces, draft = applied(b, "u", vectors=True), c.draft("input", "input")
     definitions, drag = _damping(problem, b)
@@ -264,8 +299,9 @@ def external_vectors(
     moments, pulls = [vector_sum(turned)], [vector_sum(pulled)]
     if problem.damping:
         definitions.append(Equation("I_D", tree_of(inertia_of(Letter("D", 3, 3, 1)))))
-    for e, given in enumerate(problem.force_inputs, 1):
-        if isinstance(given, ForceInput):
+    definitions += _velocities(draft, problem, b, {b.Z.velocity: hat_map.hatted(ZETA)})
+    for e, given in _pushes(problem):
+        if not isinstance(given, TorqueInput) and _entries(problem, e, given):
             force = _in_body(draft, problem, e, given, C, b)
             moments.append(("wedge", ("at", "r", given.on), force))
             pulls.append(force)
