@@ -9,32 +9,38 @@ from typing import Any
 from ..algebra.families import group, on_homogeneous
 from ..algebra.groups import Group
 from ..algebra.user_groups import group_of_basis
+from ..language.tree import add, mul, neg
 from ..schema.body_kinds import (
     SOLIDS,
     Body,
     GivenBody,
     MomentBody,
     Moments,
+    Place,
     Point,
     PointBody,
     Solid,
 )
 from ..schema.kind import (
+    DAMPING,
     GROUP,
     INPUTS,
+    AnyDamping,
     CovectorInput,
     Damping,
     ForceInput,
     Input,
     Parameter,
     Potential,
+    QuadraticDamping,
+    RotationalDamping,
     StatedForce,
     StatedGroup,
     TorqueInput,
 )
 from ..schema.kinds import kinds
 from ..schema.table import ACTIONS, Slot
-from .fields import tables
+from .fields import angular_velocity, tables, velocity_at_place
 from .file_reader import FileReader
 from .inertia import is_negative
 from .moments import SolidError
@@ -140,7 +146,7 @@ def _user_group(own: StatedGroup) -> Group:
 # The tables [[potential]], [[input]], [[damping]] and [[force]] of a problem file.
 
 Forces = tuple[
-    tuple[Potential, ...], tuple[Input, ...], tuple[Damping, ...], tuple[StatedForce, ...]
+    tuple[Potential, ...], tuple[Input, ...], tuple[AnyDamping, ...], tuple[StatedForce, ...]
 ]
 
 
@@ -161,13 +167,40 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
     if sum(isinstance(i, CovectorInput) for i in given) > 1:
         raise ProblemError("key 'input': one covector holds every component; give one such table")
     reader.distinct(given, reader.parameters)
-    damped = tuple(reader.typed(Damping, x, w) for w, x in damping.items())
+    damped: tuple[AnyDamping, ...] = tuple(
+        reader.one_of(DAMPING, x, w) if "kind" in x else reader.typed(Damping, x, w)
+        for w, x in damping.items()
+    )
     return found, given, damped, tuple(reader.typed(StatedForce, x, w) for w, x in stated.items())
+
+
+def as_forces(
+    damping: Sequence[AnyDamping], reader: FileReader
+) -> tuple[tuple[Damping, ...], tuple[StatedForce, ...]]:
+    """The damping that is linear, and the other as forces of the state; a moment is at a place of
+    its own, the origin of the body."""
+    found: list[StatedForce] = []
+    for d in damping:
+        if isinstance(d, QuadraticDamping):
+            for i in d.on:
+                first, n = reader.of_place(i)
+                v = velocity_at_place(n, first, i, (0,) * n, turned=False).values()
+                size = ("fun", "sqrt", add(*(("pow", x, 2) for x in v)))
+                force = tuple(neg(mul(d.coefficient, size, x)) for x in v)
+                found.append(StatedForce(on=i, force=force))
+        elif isinstance(d, RotationalDamping):
+            _, factor = reader.moving().places[d.block - 1]
+            reader.places.append(Place(at=(0,) * factor.n, block=d.block))
+            turning = angular_velocity(reader.moving(), d.block)
+            moment = tuple(neg(mul(d.coefficient, x)) for x in turning)
+            on = len(reader.listed_places)
+            found.append(StatedForce(on=on, frame="body", moment=moment))
+    return tuple(d for d in damping if isinstance(d, Damping)), tuple(found)
 
 
 def negative_stiffness_of(
     potentials: Sequence[Potential],
-    damping: Sequence[Damping],
+    damping: Sequence[AnyDamping],
     parameters: Mapping[str, Parameter],
 ) -> str | None:
     """Where a stiffness, a damping or a constant of gravitation is negative, for the defaults of

@@ -145,6 +145,15 @@ def _in_record(group: Group, a: int) -> Tree:
     )
 
 
+def angular_velocity(group: Group, block: int) -> list[Tree]:
+    """The components in the body of that of a block that turns: three, or one in the plane."""
+    if group.turns_space:
+        return [("entry", "ζ", k) for k in (1, 2, 3)]
+    first, factor = group.places[block - 1]
+    planes = [(2, 1)] if factor.n == 2 else [(3, 2), (1, 3), (2, 1)]
+    return [("entry", "Z", first + i, first + j) for i, j in planes]
+
+
 def names_at_place(n: int, first: int, i: int) -> dict[str, Tree]:
     """r_1, … as the coordinates in space of place i, whose ``n`` rows come after the ``first``."""
     place = ("call", ("at", "r", i), "t")

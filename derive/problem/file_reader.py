@@ -162,7 +162,7 @@ class FileReader(TableReader):
     def _sizes(self) -> set[int]:
         return {g.n for _, g in self.moving().places}
 
-    def _place(self, i: int) -> tuple[int, int]:
+    def of_place(self, i: int) -> tuple[int, int]:
         """The first row, and how many, of the coordinates of point i in space."""
         first, factor = self._factor_of(i)
         return first, factor.n
@@ -177,7 +177,7 @@ class FileReader(TableReader):
         if slot.about.type == "place" or "block" in slot.found:
             block = self.block(Slot(slot.table, "block", slot.where))
             return self.moving().places[block - 1][1].n
-        return self._place(slot.found["on"])[1] if slot.found.get("on") else max(self._sizes())
+        return self.of_place(slot.found["on"])[1] if slot.found.get("on") else max(self._sizes())
 
     def block(self, slot: Slot) -> int:
         """1 where the table does not say it."""
@@ -220,14 +220,14 @@ class FileReader(TableReader):
     def wind(self, slot: Slot) -> Vector:
         """A velocity in space of t and the place r_1, …."""
         on = slot.found["on"]
-        first, n = self._place(on)
+        first, n = self.of_place(on)
         named = names_at_place(n, first, on)
         found = self.listed(self.value(slot), n, slot.path, self.in_time)
         return tuple(meant(t, named) for t in found)
 
     def stated(self, slot: Slot) -> Vector:
         """A vector of expressions of the state at a place, which has a velocity there."""
-        return self._of_state(slot, self._place(slot.found["on"])[1])
+        return self._of_state(slot, self.of_place(slot.found["on"])[1])
 
     def stated_couple(self, slot: Slot) -> Vector:
         """Three of them in R³, one in the plane."""
@@ -237,7 +237,7 @@ class FileReader(TableReader):
 
     def _of_state(self, slot: Slot, count: int) -> Vector:
         found, on = slot.found, slot.found["on"]
-        first, n = self._place(on)
+        first, n = self.of_place(on)
         named = names_of_points(self.moving()) | names_at_place(n, first, on)
         wind = found.get("relative_to") or (0,) * n
         named |= velocity_at_place(n, first, on, wind, turned=found.get("frame") == "body")
@@ -278,7 +278,7 @@ class FileReader(TableReader):
     def pair(self, slot: Slot) -> tuple[int, int]:
         """Two points, in spaces of one dimension."""
         i, j = super().pair(slot)
-        if self._place(i)[1] != self._place(j)[1]:
+        if self.of_place(i)[1] != self.of_place(j)[1]:
             raise ProblemError(
                 f"{slot.where}: the points {i} and {j} are in spaces of two dimensions"
             )
@@ -404,7 +404,7 @@ class FileReader(TableReader):
         if not 1 <= i <= self.last:
             raise ProblemError(f"{where}: {name!r}: the points are r1 … r{self.last}")
         k = AXES.index(match[2]) + 1 if match[2] else int(match[3])
-        first, n = self._place(i)
+        first, n = self.of_place(i)
         if not 1 <= k <= n:
             raise ProblemError(f"{where}: {name!r}: point {i} has {n} coordinates")
         return ("entry", ("call", ("at", "r", i), "t"), first + k)

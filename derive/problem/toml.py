@@ -21,7 +21,7 @@ from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
 from ..schema.kinds import kinds
 from ..schema.table import Table, nearest
 from . import inertia
-from .bodies import body, forces, group_of, negative_stiffness_of
+from .bodies import as_forces, body, forces, group_of, negative_stiffness_of
 from .entries_on_orbit import hessian, vanishes
 from .fields import LIKE_A_PLACE, coordinates, used_at
 from .file_reader import FileReader
@@ -130,6 +130,7 @@ def problem_of(
     potentials, inputs, damping, stated = forces(data, reader)
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
+    linear, damped = as_forces(damping, reader)
     problem = Problem(
         name,
         moved,
@@ -140,12 +141,11 @@ def problem_of(
         potentials,
         inputs,
         tuple(reader.places),
-        damping,
-        stated,
+        linear,
+        (*stated, *damped),
         signed=negative_mass,
         **motion_fields(data, reader),
     )
-    _affordable(problem)
     _declared(problem, data)
     _massive(problem, negative_mass)
     return problem
@@ -197,7 +197,6 @@ def _without_points(
         advected=advected,
         **motion_fields(data, reader),
     )
-    _affordable(problem)
     _declared(problem, data)
     if inputs and problem.lagrangian and problem.lagrangian.held:
         raise ProblemError(
@@ -258,7 +257,9 @@ def _parameters(data: Any, reader: FileReader) -> dict[str, Parameter]:
 
 
 def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
-    """Every name that is used is a parameter and nothing else, and every parameter is used."""
+    """Every name that is used is a parameter and nothing else, and every parameter is used, in
+    expressions that are not too many."""
+    _affordable(problem)
     if fault := named_twice(problem):
         raise ProblemError(fault)
     rest = replace(problem, forces=())

@@ -266,10 +266,33 @@ class Damping(Table):
         on: Sequence[int] | None = None,
         at: Sequence[Number] | None = None,
         block: int | None = None,
+        kind: str | None = None,
     ) -> Any:
         """The force −κ v on points (all by default), or on a place of the body, in a product of
-        that of a block, outside dϖ."""
-        return {"coefficient": coefficient, "on": on, "at": at, "block": block}
+        that of a block, outside dϖ; "quadratic", −κ |v| v; "rotational", the moment −κ ω."""
+        return {"kind": kind, "coefficient": coefficient, "on": on, "at": at, "block": block}
+
+
+class QuadraticDamping(Table):
+    """−κ |v| v on points, which a record has as forces of the state."""
+
+    kind, section = "quadratic", "damping"
+    coefficient: Stiffness
+    on: Points
+
+
+class RotationalDamping(Table):
+    """The moment −κ ω, ω the angular velocity in the body; the same of records."""
+
+    kind, section = "rotational", "damping"
+    coefficient: Stiffness
+    block: TurningBlock
+
+
+AnyDamping = Damping | QuadraticDamping | RotationalDamping
+DAMPING: dict[str, type[QuadraticDamping] | type[RotationalDamping]] = {
+    x.kind: x for x in (QuadraticDamping, RotationalDamping)
+}
 
 
 Input = CovectorInput | ForceInput | TorqueInput

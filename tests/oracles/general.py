@@ -315,9 +315,12 @@ def damping(data, p, t, found, v):
     """The forces (M,) of damping at the velocities ``v`` (M,)."""
     force = np.zeros(len(v))
     for table in data.get("damping", ()):
+        if table.get("kind") == "rotational":
+            continue
         for i in table.get("on", range(1, len(found.points()) + 1)):
             x = found.at["point", i]
-            force[x] -= evaluate(table["coefficient"], {**p, "t": t}) * v[x]
+            size = np.linalg.norm(v[x]) if table.get("kind") == "quadratic" else 1
+            force[x] -= evaluate(table["coefficient"], {**p, "t": t}) * size * v[x]
     return force
 
 
@@ -376,6 +379,13 @@ def stated(data, basis, p, t, found, G, zeta, u):
         if "moment" in table:
             torque = _vector(table["moment"], len(table["moment"]), env | here)[:, 0]
             covector += work(torque, basis, turn, rows, in_body)
+    for table in data.get("damping", ()):
+        if table.get("kind") == "rotational":
+            first, n, _ = blocks(data)[0][table.get("block", 1) - 1]
+            rows = np.arange(first, first + n)
+            spin = axial(Z[np.ix_(rows, rows)])
+            torque = -evaluate(table["coefficient"], {**p, "t": t}) * spin
+            covector += work(torque, basis, None, rows, True)
     return force, covector
 
 

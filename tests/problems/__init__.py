@@ -396,7 +396,7 @@ def pushed(name, text=OF_STATE):
     """Four points on which functions of the state act."""
     points = ((1.0, [1, 0, 0.5]), (2.0, [0, 1, 0]), (0.5, [0, 0.3, 1]), (0.7, [-1, 0.3, -1]))
     lines = "".join(f"[[point]]\nmass = {m}\nat = {r}\n" for m, r in points)
-    return f'name = "test"\ngroup = "{name}"\n{lines}{text}'
+    return f'name = "test"\ngroup = "{name}"\n{text}{lines}'
 
 
 PROBLEMS |= {f"{x} of the state": pushed(x, OF_STATE + OF_TURNING) for x in ("SO(3)", "SE(3)")}
@@ -432,6 +432,30 @@ on = 4
 frame = "body"
 force = ["-c*v_1 + zeta_4", "A2_12 - v_2"]
 """
+DAMPED = """
+parameters = { k = 0.3 }
+point = [
+  { mass = 1, at = [1, 0] }, { mass = 2, at = [0, 1] }, { mass = 1, at = [1, 2, 0], block = 2 },
+  { mass = 2, at = [0, 1, 1], block = 2 }, { mass = 3, at = [0, 1, -1], block = 2 },
+]
+damping = [
+  { kind = "quadratic", coefficient = "k", on = [1, 3] }, { coefficient = 0.1 },
+  { kind = "rotational", coefficient = 0.2 },
+  { kind = "rotational", coefficient = "2*k", block = 2 },
+]
+"""
+PROBLEMS |= {
+    f"SE(2) x {group} damped": f'name = "test"\ngroup = "SE(2) x {group}"\n{DAMPED}'
+    for group in ("SO(3)", "SE(3)")
+}
+PROBLEMS["SE(3) damped"] = pushed(
+    "SE(3)",
+    """
+damping = [
+  { kind = "quadratic", coefficient = 0.4 }, { kind = "rotational", coefficient = 0.2 },
+]
+""",
+)
 PROBLEMS["so(3) skewed of the state"] = (
     own_group(SKEWED)
     + """
