@@ -14,6 +14,7 @@ WORDS = (
         "Advected",
         "Aff",
         "Algebra",
+        "AppliedForce",
         "Covector",
         "Damping",
         "Event",
@@ -27,7 +28,7 @@ WORDS = (
         "Laplacian",
     ),
     *("Moments", "Points", "Potential", "Problem", "SAff", "SE", "SL", "SO", "SU", "Sim", "Solid"),
-    *("Sp", "Spring", "Torus", "U", "UT"),
+    *("Sp", "Spring", "Torque", "Torus", "U", "UT"),
 )
 """And a word for each other kind of potential: ``Attraction`` and so on."""
 PLACES = dict.fromkeys(WORDS, "derive.python.api") | {

@@ -232,10 +232,18 @@ def _factors(group: Group, order: str) -> list[str]:
 
 def _input(group: Group, entry: Mapping[str, Any], places: Mapping[int, str]) -> list[str]:
     name, where = entry["name"], places.get(entry.get("on", 0), "")
-    if entry["kind"] == "force":
-        axes = f"the {entry['frame']} frame"
-        point = f"the body{where}" if where else f"point {entry['on']}"
-        return [f"Input {name}: a force on {point}, in {axes}."]
+    if entry["kind"] != "covector":
+        what = "a torque on the body"
+        if entry["kind"] == "force":
+            what = f"a force on the body{where}" if where else f"a force on point {entry['on']}"
+        elif len(group.factors) > 1:
+            what = f"a torque on block {entry['block']}"
+        vectors = {x: entry[x] for x in ("direction", "moment") if x in entry}
+        told = {
+            x: f"({', '.join(_ascii(show(decode(y, x))) for y in v)})" for x, v in vectors.items()
+        }
+        said = "".join(f", {name} times the {x} {told[x]}" for x in told if told[x].isascii())
+        return textwrap.wrap(f"Input {name}: {what}{said}, in the {entry['frame']} frame.", 88)
     if group.turns_space and group.affine and not group.user_basis:
         return [
             f"Input {name}: a moment about the body's origin (its first 3 components) and a force",

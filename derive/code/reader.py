@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
+from typing import Any
 
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.reserved import suffixed
+from ..language.reserved import numbers_of_input, suffixed
 from ..language.tree import Tree, subtrees
 from ..record.record import Derivation, Equation, Step
 from . import dense
@@ -67,8 +68,9 @@ class RecordReader:
         self.forces: list[Matrix] = []
         for entry in self.record.problem.get("inputs", []):
             name = entry["name"]
-            if entry["kind"] == "force":
-                self.forces.append(self._input_column(name, self._block(entry["on"]).n))
+            if entry["kind"] != "covector":
+                named = numbers_of_input(entry, self._acted_on(entry).n)
+                self.forces.append(self._given(named))
                 continue
             moved = self.group.turns_space and self.group.affine
             self.state["u"] = self._input_column(name, d - n if moved else d)
@@ -94,16 +96,21 @@ class RecordReader:
 
     def _input_column(self, name: str, size: int, after: int = 0) -> Matrix:
         """A column of new inputs of the program, ``name_1`` …, counted from ``after`` + 1."""
-        found = self.column(name, size, "input", after)
-        self.inputs += [row[0].data[1] for row in found]
-        self.memo |= {("par", row[0].data[1]): row[0] for row in found}
+        return self._given([suffixed(name, i) for i in range(after + 1, after + size + 1)])
+
+    def _given(self, names: Sequence[str]) -> Matrix:
+        """A column of new inputs of the program, by their names."""
+        found = tuple((self.leaf(x, "input"),) for x in names)
+        self.inputs += names
+        self.memo |= {("par", x): leaf for x, (leaf,) in zip(names, found, strict=True)}
         return found
 
-    def _block(self, i: int) -> Group:
-        """The factor of the group that moves point i, counted from 1; massless places come last."""
+    def _acted_on(self, entry: Mapping[str, Any]) -> Group:
+        """The factor of the group on which a force or a torque acts; massless places come last."""
         points = self.record.problem.get("body", {}).get("points", [])
         listed = [*points, *self.record.problem.get("places", [])]
-        _, factor = self.group.places[int(listed[i - 1].get("block", 1)) - 1]
+        moved = listed[entry["on"] - 1] if "on" in entry else entry
+        _, factor = self.group.places[int(moved.get("block", 1)) - 1]
         return factor
 
     def leaf(self, name: str, kind: str = "state") -> Node:

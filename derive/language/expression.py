@@ -6,7 +6,7 @@ Text is turned into a tree by this parser alone; it never reaches Python's or Sy
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 
 from .derivatives import DERIVATIVES, depth, has_zero_divisor, weight
@@ -31,6 +31,7 @@ def parse(text: str) -> Tree:
         raise ExpressionError(f"an expression of {len(text)} characters; at most {EXPRESSION}")
     parser = _Parser(_tokens(text))
     tree = parser.sum(0)
+    parser.no_comma()
     if parser.peek():
         raise ExpressionError(
             f"unexpected {parser.peek()[:20]!r}; a product needs a *, as 2*k, and units stand in "
@@ -83,9 +84,8 @@ def _tokens(text: str) -> list[str]:
     found = []
     for match in TOKEN.finditer(text.rstrip()):
         number, name, other = match.groups()
-        if other is not None and other not in "+-*/^()":
-            point = "; decimals have a point, as 0.5" if other == "," else ""
-            raise ExpressionError(f"character {other!r} is not part of an expression{point}")
+        if other is not None and other not in "+-*/^(),":
+            raise ExpressionError(f"character {other!r} is not part of an expression")
         found.append(number or name or other)
     return found
 
@@ -142,18 +142,30 @@ class _Parser:
         if self.peek() != "^":
             return base
         self.take()
+        if self.peek() == "(":
+            self.take()
+            n = self.exponent()
+            if self.tokens[self.at : self.at + 3] != ["/", "2", ")"]:
+                raise ExpressionError("an exponent in parentheses must be one half of an integer")
+            self.at += 3
+            return _powered(("fun", "sqrt", base), n)
+        return _powered(base, self.exponent())
+
+    def exponent(self) -> int:
+        """An integer, which no other exponent follows."""
         negative = self.peek() == "-" and bool(self.take())
         exponent = self.take()
         if self.peek() == "^":
             raise ExpressionError("write parentheses in a power of a power")
         if not re.fullmatch("[0-9]{1,9}", exponent) or int(exponent) > EXPONENT:
             raise ExpressionError(f"an exponent must be an integer up to {EXPONENT}")
-        return _powered(base, -int(exponent) if negative else int(exponent))
+        return -int(exponent) if negative else int(exponent)
 
     def atom(self, depth: int) -> Tree:
         token = self.take()
         if token == "(":
             inside = self.sum(depth + 1)
+            self.no_comma()
             if self.take() != ")":
                 raise ExpressionError("a parenthesis is not closed")
             return inside
@@ -171,10 +183,75 @@ class _Parser:
         """A function of a sum in parentheses, the constant pi, or a parameter."""
         if self.peek() != "(":
             return "π" if token == "pi" else ("par", token)
+        if token in WRITTEN_OUT:
+            return self.written_out(token, depth)
         if token not in DERIVATIVES:
-            known = ", ".join(DERIVATIVES)
+            known = ", ".join((*DERIVATIVES, *WRITTEN_OUT))
             raise ExpressionError(f"unknown function {token[:20]!r}; known: {known}")
         return ("fun", token, self.atom(depth + 1))
+
+    def written_out(self, token: str, depth: int) -> Tree:
+        """A function of :data:`WRITTEN_OUT` of what stands in parentheses."""
+        self.take()
+        inside = [self.sum(depth + 1)]
+        while self.peek() == ",":
+            self.take()
+            inside.append(self.sum(depth + 1))
+        if self.take() != ")":
+            raise ExpressionError("a parenthesis is not closed")
+        count, written = WRITTEN_OUT[token]
+        if len(inside) != count:
+            raise ExpressionError(f"{token} is of {count} expressions, not of {len(inside)}")
+        return written(*inside)
+
+    def no_comma(self) -> None:
+        """Refuse a comma that parts no expressions."""
+        if self.peek() == ",":
+            raise ExpressionError(
+                "character ',' is not part of an expression; decimals have a point, as 0.5"
+            )
+
+
+# Functions that are written out in others, so that derivatives, every language and the checker
+# have them: |x| = √(x²).  Where their derivatives do not exist these are not a number.
+
+
+def _absolute(x: Tree) -> Tree:
+    return _number(abs(Fraction(x))) if isinstance(x, (int, Fraction)) else _hypot(x, 0)
+
+
+def _sign(x: Tree) -> Tree:
+    if isinstance(x, (int, Fraction)):
+        return (x > 0) - (x < 0)
+    return ("div", x, _absolute(x))
+
+
+def _extreme(a: Tree, b: Tree, sign: int) -> Tree:
+    """b + ½(d ± |d|) with d = a − b: of the two the larger, or the smaller."""
+    d = add(a, neg(b))
+    if isinstance(a, (int, Fraction)) and isinstance(b, (int, Fraction)):
+        return max(a, b) if sign > 0 else min(a, b)
+    return add(b, mul(Fraction(1, 2), add(d, mul(sign, _absolute(d)))))
+
+
+def _hypot(a: Tree, b: Tree) -> Tree:
+    return ("fun", "sqrt", add(*(_powered(x, 2) for x in (a, b) if x != 0)))
+
+
+def _angle(y: Tree, x: Tree) -> Tree:
+    """The angle of (x, y) by the tangent of its half, y / (√(x² + y²) + x)."""
+    return mul(2, ("fun", "atan", ("div", y, add(_hypot(x, y), x))))
+
+
+WRITTEN_OUT: dict[str, tuple[int, Callable[..., Tree]]] = {
+    "abs": (1, _absolute),
+    "sign": (1, _sign),
+    "min": (2, lambda a, b: _extreme(a, b, -1)),
+    "max": (2, lambda a, b: _extreme(a, b, 1)),
+    "hypot": (2, _hypot),
+    "atan2": (2, _angle),
+}
+"""Function → of how many expressions, and how it is written in others."""
 
 
 def _number(value: Fraction | int) -> Tree:

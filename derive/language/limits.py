@@ -29,7 +29,15 @@ PROBLEM_BYTES = 500_000
 """Bytes of a problem file, whose TOML is then parsed within a second."""
 KEY_PARTS = 20
 """Parts of a dotted key: the parser takes the square of their number."""
-TABLES = {"point": 500, "solid": 12, "potential": 100, "input": 60, "damping": 100, "event": 50}
+TABLES = {
+    "point": 500,
+    "solid": 12,
+    "potential": 100,
+    "input": 60,
+    "force": 60,
+    "damping": 100,
+    "event": 50,
+}
 """Tables of each kind in a file. Of more points the moments are better given ([body] given);
 moments of solids have products that grow with the square of their number; each other table is a
 term of every view."""

@@ -6,8 +6,9 @@ import difflib
 import keyword
 import re
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from itertools import takewhile
+from typing import Any
 
 # Words that a name of the user must not be: keywords of C, C++ and Python, names of math.h.
 
@@ -119,6 +120,16 @@ def suffixed(name: str, *index: int) -> str:
     """The name of an entry: ``I_12``; where an index is above 9, ``I_1_12``."""
     digits = "".join(map(str, index)) if max(index) < 10 else "_".join(map(str, index))
     return f"{name}_{digits}"
+
+
+def numbers_of_input(told: Mapping[str, Any], dimension: int) -> list[str]:
+    """The names of the numbers of an input, which is ``told`` as in a record: as many as the
+    ``dimension``, of 𝔤 or of the space of a force; one where there is a direction, and of a torque
+    in the plane."""
+    name = told["name"]
+    if "direction" in told or (told["kind"], dimension) == ("torque", 2):
+        return [name]
+    return [suffixed(name, k) for k in range(1, dimension + 1)]
 
 
 def letter_and_suffix(name: str) -> tuple[str, str]:

@@ -8,7 +8,7 @@ from typing import Any
 from ..language.values import approximate
 from ..record.as_json import decode
 
-DAMPING, TIME, INPUTS = "damping", "the time", "inputs"
+DAMPING, TIME, INPUTS, FORCES = "damping", "the time", "inputs", "forces"
 
 
 def drives(
@@ -25,6 +25,7 @@ def drives(
     zero = [["par", name] for name, x in numbers.items() if x == 0]
     timed = _timed([problem.get(x) for x in ("potentials", "lagrangian")], zero)
     there = {DAMPING: damped, TIME: timed, INPUTS: any(inputs.values())}
+    there[FORCES] = bool(problem.get("forces"))
     return [what for what, is_there in there.items() if is_there]
 
 
@@ -45,7 +46,7 @@ def is_weightless(problem: Mapping[str, Any], given: Mapping[str, float]) -> boo
 
 def is_free(problem: Mapping[str, Any]) -> bool:
     """Does a motion keep the kinetic energy, as nothing can act on the body?"""
-    acting = any(problem.get(x) for x in ("potentials", "inputs", "damping"))
+    acting = any(problem.get(x) for x in ("potentials", "inputs", "damping", "forces"))
     return not acting and not _placed(problem.get("lagrangian"))
 
 

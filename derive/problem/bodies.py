@@ -9,30 +9,38 @@ from typing import Any
 from ..algebra.families import group, on_homogeneous
 from ..algebra.groups import Group
 from ..algebra.user_groups import group_of_basis
+from ..language.tree import add, mul, neg
 from ..schema.body_kinds import (
     SOLIDS,
     Body,
     GivenBody,
     MomentBody,
     Moments,
+    Place,
     Point,
     PointBody,
     Solid,
 )
 from ..schema.kind import (
+    DAMPING,
     GROUP,
     INPUTS,
+    AnyDamping,
     CovectorInput,
     Damping,
     ForceInput,
     Input,
     Parameter,
     Potential,
+    QuadraticDamping,
+    RotationalDamping,
+    StatedForce,
     StatedGroup,
+    TorqueInput,
 )
 from ..schema.kinds import kinds
 from ..schema.table import ACTIONS, Slot
-from .fields import tables
+from .fields import angular_velocity, tables, velocity_at_place
 from .file_reader import FileReader
 from .inertia import is_negative
 from .moments import SolidError
@@ -135,19 +143,21 @@ def _user_group(own: StatedGroup) -> Group:
     return moved if not moved.affine or moved.free_translations else on_homogeneous(moved)
 
 
-# The tables [[potential]], [[input]] and [[damping]] of a problem file.
+# The tables [[potential]], [[input]], [[damping]] and [[force]] of a problem file.
 
-Forces = tuple[tuple[Potential, ...], tuple[Input, ...], tuple[Damping, ...]]
+Forces = tuple[
+    tuple[Potential, ...], tuple[Input, ...], tuple[AnyDamping, ...], tuple[StatedForce, ...]
+]
 
 
 def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
     """All of them; there is one of what may be there once."""
-    potentials, inputs, damping = (
+    potentials, inputs, damping, stated = (
         {f"{key} {k}": x for k, x in enumerate(tables(data, key), 1)}
-        for key in ("potential", "input", "damping")
+        for key in ("potential", "input", "damping", "force")
     )
-    acting = [w for w, x in inputs.items() if x.get("kind") == ForceInput.kind]
-    for where in (*potentials, *acting, *damping) if reader.group is None else ():
+    acting = [w for w, x in inputs.items() if x.get("kind") in (ForceInput.kind, TorqueInput.kind)]
+    for where in (*potentials, *acting, *damping, *stated) if reader.group is None else ():
         raise ProblemError(f"{where}: a text about any group has no points on which this could act")
     found = tuple(reader.one_of(kinds(), x, where) for where, x in potentials.items())
     given = tuple(reader.one_of(INPUTS, x, where) for where, x in inputs.items())
@@ -156,12 +166,41 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
             raise ProblemError(f"potential {k}: a second {p.kind}; there may be one")
     if sum(isinstance(i, CovectorInput) for i in given) > 1:
         raise ProblemError("key 'input': one covector holds every component; give one such table")
-    return found, given, tuple(reader.typed(Damping, x, w) for w, x in damping.items())
+    reader.distinct(given, reader.parameters)
+    damped: tuple[AnyDamping, ...] = tuple(
+        reader.one_of(DAMPING, x, w) if "kind" in x else reader.typed(Damping, x, w)
+        for w, x in damping.items()
+    )
+    return found, given, damped, tuple(reader.typed(StatedForce, x, w) for w, x in stated.items())
+
+
+def as_forces(
+    damping: Sequence[AnyDamping], reader: FileReader
+) -> tuple[tuple[Damping, ...], tuple[StatedForce, ...]]:
+    """The damping that is linear, and the other as forces of the state; a moment is at a place of
+    its own, the origin of the body."""
+    found: list[StatedForce] = []
+    for d in damping:
+        if isinstance(d, QuadraticDamping):
+            for i in d.on:
+                first, n = reader.of_place(i)
+                v = velocity_at_place(n, first, i, (0,) * n, turned=False).values()
+                size = ("fun", "sqrt", add(*(("pow", x, 2) for x in v)))
+                force = tuple(neg(mul(d.coefficient, size, x)) for x in v)
+                found.append(StatedForce(on=i, force=force))
+        elif isinstance(d, RotationalDamping):
+            _, factor = reader.moving().places[d.block - 1]
+            reader.places.append(Place(at=(0,) * factor.n, block=d.block))
+            turning = angular_velocity(reader.moving(), d.block)
+            moment = tuple(neg(mul(d.coefficient, x)) for x in turning)
+            on = len(reader.listed_places)
+            found.append(StatedForce(on=on, frame="body", moment=moment))
+    return tuple(d for d in damping if isinstance(d, Damping)), tuple(found)
 
 
 def negative_stiffness_of(
     potentials: Sequence[Potential],
-    damping: Sequence[Damping],
+    damping: Sequence[AnyDamping],
     parameters: Mapping[str, Parameter],
 ) -> str | None:
     """Where a stiffness, a damping or a constant of gravitation is negative, for the defaults of

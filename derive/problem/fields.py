@@ -9,7 +9,7 @@ from typing import Any
 from ..algebra.groups import Group
 from ..language.limits import TABLES
 from ..language.reserved import by_letter, suffixed
-from ..language.tree import Tree
+from ..language.tree import Tree, add, mul, neg, plain
 from ..schema.kind import SECTIONS, Advected
 from ..schema.table import nearest
 from .problem import ProblemError
@@ -111,6 +111,70 @@ def state_names(group: Group) -> dict[str, Tree]:
                 place = ("entry", "A", offset + i, offset + factor.n + 1)
                 found[suffixed(f"T{mark}", i)] = place
     return found | _velocity(group)
+
+
+def names_of_points(group: Group) -> dict[str, Tree]:
+    """Name → what it stands for in a problem of points: as those of the state of its code, the
+    coordinates of the velocity by those of the record."""
+    found = state_names(group)
+    if group.affine:
+        span = range(1, group.n + 1)
+        found |= {suffixed("T", i): ("entry", "T", i) for i in span}
+    own = [_in_record(group, a) for a in range(group.dimension)]
+    columns = [group.in_user_basis.nearest(e) for e in group.basis]
+    shifts = group.in_user_basis.free_translations
+    apart = group.dimension - group.n if shifts else group.dimension
+    for a, row in enumerate(zip(*columns, strict=True), 1):
+        name = suffixed("zeta", a) if a <= apart else suffixed("w", a - apart)
+        terms = (mul(plain(x), y) for x, y in zip(row, own, strict=True) if x)
+        found[name] = add(*terms)
+    return found
+
+
+def _in_record(group: Group, a: int) -> Tree:
+    """The coordinate ``a``, from 0, of the velocity in the basis of a record: of ζ and w in R³, and
+    elsewhere, where ζ comes after the forces, in entries of Z and w."""
+    if group.turns_space:
+        return ("entry", "ζ", a + 1) if a < 3 else ("entry", "w", a - 2)
+    n = group.n
+    return add(
+        *(
+            mul(plain(x), ("entry", "w", i + 1) if j == n else ("entry", "Z", i + 1, j + 1))
+            for x, i, j in group.coordinate_terms(a)
+        )
+    )
+
+
+def angular_velocity(group: Group, block: int) -> list[Tree]:
+    """The components in the body of that of a block that turns: three, or one in the plane."""
+    if group.turns_space:
+        return [("entry", "ζ", k) for k in (1, 2, 3)]
+    first, factor = group.places[block - 1]
+    planes = [(2, 1)] if factor.n == 2 else [(3, 2), (1, 3), (2, 1)]
+    return [("entry", "Z", first + i, first + j) for i, j in planes]
+
+
+def names_at_place(n: int, first: int, i: int) -> dict[str, Tree]:
+    """r_1, … as the coordinates in space of place i, whose ``n`` rows come after the ``first``."""
+    place = ("call", ("at", "r", i), "t")
+    return {suffixed("r", k): ("entry", place, first + k) for k in range(1, n + 1)}
+
+
+def velocity_at_place(
+    n: int, first: int, i: int, wind: Sequence[Tree], *, turned: bool
+) -> dict[str, Tree]:
+    """v_1, … as the components of the velocity of the same place, less that of a ``wind``, in
+    space, or ``turned`` into the body."""
+    v = [
+        add(("entry", ("at", "v", i), first + k), *((neg(x),) if x != 0 else ()))
+        for k, x in enumerate(wind, 1)
+    ]
+    if turned:
+        columns = [
+            [("entry", "A", first + j, first + k) for j in range(1, n + 1)] for k in range(1, n + 1)
+        ]
+        v = [add(*map(mul, column, v)) for column in columns]
+    return {suffixed("v", k): x for k, x in enumerate(v, 1)}
 
 
 def _velocity(group: Group) -> dict[str, Tree]:

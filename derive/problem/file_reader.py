@@ -21,7 +21,15 @@ from ..schema.body_kinds import LAYERED, Body, GivenBody, Place, Point, PointBod
 from ..schema.kind import SIDES, Advected
 from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
-from .fields import LIKE_A_PLACE, known_in_lagrangian, meant, state_names
+from .fields import (
+    LIKE_A_PLACE,
+    known_in_lagrangian,
+    meant,
+    names_at_place,
+    names_of_points,
+    state_names,
+    velocity_at_place,
+)
 from .moments import SolidError, first_moment, given_by, second_moment
 from .problem import ProblemError, points_of
 from .rotations import rotation, turn_in
@@ -155,22 +163,22 @@ class FileReader(TableReader):
     def _sizes(self) -> set[int]:
         return {g.n for _, g in self.moving().places}
 
-    def _place(self, i: int) -> tuple[int, int]:
+    def of_place(self, i: int) -> tuple[int, int]:
         """The first row, and how many, of the coordinates of point i in space."""
-        at = (
-            self.point_masses[i - 1]
-            if i <= len(self.point_masses)
-            else self.places[i - len(self.point_masses) - 1]
-        )
-        first, factor = self.moving().places[at.block - 1]
+        first, factor = self._factor_of(i)
         return first, factor.n
+
+    @property
+    def listed_places(self) -> list[Point | Place]:
+        """The points and the places of forces, in the order of their numbers."""
+        return [*self.point_masses, *self.places]
 
     def dimension(self, slot: Slot) -> int:
         """Of the space of the block, or of the end that is given, or of all points."""
-        if slot.about.type == "place":
+        if slot.about.type == "place" or "block" in slot.found:
             block = self.block(Slot(slot.table, "block", slot.where))
             return self.moving().places[block - 1][1].n
-        return self._place(slot.found["on"])[1] if slot.found.get("on") else max(self._sizes())
+        return self.of_place(slot.found["on"])[1] if slot.found.get("on") else max(self._sizes())
 
     def block(self, slot: Slot) -> int:
         """1 where the table does not say it."""
@@ -179,6 +187,67 @@ class FileReader(TableReader):
             name = self.moving().name
             raise ProblemError(f"{slot.path}: {name} is no product: there is one block")
         return self.integer(value, 1, self.blocks, slot.path)
+
+    def turning(self, slot: Slot) -> int:
+        """The same, whose linear parts are rotations of the plane or of R³."""
+        found: int = self.block(slot)
+        self._turned(self.moving().places[found - 1][1], slot.where)
+        return found
+
+    def _turned(self, factor: Group, where: str) -> None:
+        if "orthogonal" not in factor.relations or factor.n not in (2, 3):
+            raise ProblemError(
+                f"{where}: a torque needs linear parts that are rotations of the plane or of R^3, "
+                f"and those of {factor.name} are others; give forces at places, or a covector"
+            )
+
+    def direction(self, slot: Slot) -> Vector:
+        """A vector of the space of the force, or of the torque, that is not 0."""
+        if slot.table["kind"] == "torque" and self.dimension(slot) == 2:
+            raise ProblemError(f"{slot.path}: a torque in the plane is one number; leave it out")
+        found = self.vector(slot)
+        values = {k: p.default for k, p in self.parameters.items() if p.default is not None}
+        if all(approximate(x, values) == 0 for x in found):
+            raise ProblemError(f"{slot.path}: it has the length 0; give a vector that is not 0")
+        return found
+
+    def couple(self, slot: Slot) -> Vector:
+        """The moment that goes with a force: a vector of R³, or a list of one number in the
+        plane."""
+        _, factor = self._factor_of(slot.found["on"])
+        self._turned(factor, slot.where)
+        return self.listed(self.value(slot), 3 if factor.n == 3 else 1, slot.path)
+
+    def wind(self, slot: Slot) -> Vector:
+        """A velocity in space of t and the place r_1, …."""
+        on = slot.found["on"]
+        first, n = self.of_place(on)
+        named = names_at_place(n, first, on)
+        found = self.listed(self.value(slot), n, slot.path, self.in_time)
+        return tuple(meant(t, named) for t in found)
+
+    def stated(self, slot: Slot) -> Vector:
+        """A vector of expressions of the state at a place, which has a velocity there."""
+        return self._of_state(slot, self.of_place(slot.found["on"])[1])
+
+    def stated_couple(self, slot: Slot) -> Vector:
+        """Three of them in R³, one in the plane."""
+        _, factor = self._factor_of(slot.found["on"])
+        self._turned(factor, slot.where)
+        return self._of_state(slot, 3 if factor.n == 3 else 1)
+
+    def _of_state(self, slot: Slot, count: int) -> Vector:
+        found, on = slot.found, slot.found["on"]
+        first, n = self.of_place(on)
+        named = names_of_points(self.moving()) | names_at_place(n, first, on)
+        wind = found.get("relative_to") or (0,) * n
+        named |= velocity_at_place(n, first, on, wind, turned=found.get("frame") == "body")
+        listed = self.listed(self.value(slot), count, slot.path, self.in_time)
+        return tuple(meant(t, named) for t in listed)
+
+    def _factor_of(self, on: int) -> tuple[int, Group]:
+        """The first row, and the factor that moves a point or place."""
+        return self.moving().places[self.listed_places[on - 1].block - 1]
 
     def letters(self, slot: Slot) -> str:
         """As those of a name, which may be a word of another language."""
@@ -210,7 +279,7 @@ class FileReader(TableReader):
     def pair(self, slot: Slot) -> tuple[int, int]:
         """Two points, in spaces of one dimension."""
         i, j = super().pair(slot)
-        if self._place(i)[1] != self._place(j)[1]:
+        if self.of_place(i)[1] != self.of_place(j)[1]:
             raise ProblemError(
                 f"{slot.where}: the points {i} and {j} are in spaces of two dimensions"
             )
@@ -336,7 +405,7 @@ class FileReader(TableReader):
         if not 1 <= i <= self.last:
             raise ProblemError(f"{where}: {name!r}: the points are r1 … r{self.last}")
         k = AXES.index(match[2]) + 1 if match[2] else int(match[3])
-        first, n = self._place(i)
+        first, n = self.of_place(i)
         if not 1 <= k <= n:
             raise ProblemError(f"{where}: {name!r}: point {i} has {n} coordinates")
         return ("entry", ("call", ("at", "r", i), "t"), first + k)

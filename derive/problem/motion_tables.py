@@ -9,7 +9,7 @@ from ..algebra.groups import Group
 from ..language.expression import names
 from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
-from ..schema.kind import Event, Input
+from ..schema.kind import Event
 from ..schema.table import hint, nearest
 from . import rotations
 from .fields import entries, known_in_lagrangian, state_names, tables
@@ -138,7 +138,7 @@ def faults(problem: Problem) -> Iterator[str]:
 
 def numbers_followed(problem: Problem, group: Group) -> list[str]:
     """The numbers of the state, those of g that never change among them, and of the inputs."""
-    inputs = (name for x in problem.inputs for name in _of_input(x, group))
+    inputs = (name for x in problem.inputs for name in problem.numbers_of(x))
     return [*numbers_of_state(problem, group), *inputs]
 
 
@@ -150,7 +150,7 @@ def named_twice(problem: Problem) -> str:
     if clash := next(filter(state.__contains__, problem.parameters), ""):
         return f"parameter {clash!r}: a number of the state; choose another name"
     for k, x in enumerate(problem.inputs, 1):
-        if clash := next(filter(state.__contains__, _of_input(x, problem.group)), ""):
+        if clash := next(filter(state.__contains__, problem.numbers_of(x)), ""):
             told = f"{clash!r} is one of its numbers, and of the state as well"
             return f"input {k}, {x.name!r}: {told}; choose another name"
     return ""
@@ -178,9 +178,3 @@ def of_other_forms(group: Group) -> set[str]:
     """Those of the state in a form that can be emitted beside: dg/dt, a quaternion."""
     found = {f"{x}_dot" for x in state_names(group) if x[:2] in ("A_", "T_")}
     return found | ({f"q_{k}" for k in range(4)} if group.rotates else set())
-
-
-def _of_input(x: Input, group: Group) -> list[str]:
-    """Those of an input: one for each coordinate of 𝔤, or of the space of a force."""
-    count = group.dimension if x.kind == "covector" else group.n
-    return [suffixed(x.name, i) for i in range(1, count + 1)]

@@ -47,12 +47,15 @@ def principal(problem: Problem) -> Problem:
             f"{problem.name}: no principal frame is known for {what}; it is for "
             "SO(n), SE(n), SL(n), SAff(n), GL(n) and Aff(n)"
         )
-    for p in problem.potentials:
-        if p.unturned:
-            raise ProblemError(
-                f"{problem.name}: {p.unturned} cannot be turned into the principal frame; leave "
-                "out --frame"
-            )
+    vectors = (x for x in problem.inputs if x.kind == "torque" or "direction" in x.plain())
+    unturned = [p.unturned for p in problem.potentials if p.unturned]
+    unturned += [f"the input {x.name}" for x in vectors]
+    unturned += ["a [[force]]"] * bool(problem.forces)
+    if unturned:
+        raise ProblemError(
+            f"{problem.name}: {unturned[0]} cannot be turned into the principal frame; leave "
+            "out --frame"
+        )
     return _Framing(problem, group, kind).framed()
 
 
@@ -247,7 +250,7 @@ def _needed(problem: Problem, *, root: bool) -> Iterable[int]:
             yield from range(1, problem.masses + 1)
         if p not in inside:
             yield from p.points()
-    yield from (x.on for x in problem.force_inputs)
+    yield from (x.on for x in problem.inputs if isinstance(x, ForceInput))
     yield from (i for x in problem.damping for i in x.on)
 
 

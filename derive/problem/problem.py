@@ -9,6 +9,7 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.structure import TorusLattice
 from ..language.limits import Refused
+from ..language.reserved import numbers_of_input
 from ..language.tree import Tree
 from ..schema.body_kinds import AnyBody, Body, MomentBody, NoBody, Place, Point
 from ..schema.kind import (
@@ -23,6 +24,8 @@ from ..schema.kind import (
     Lagrangian,
     Parameter,
     Potential,
+    StatedForce,
+    TorqueInput,
 )
 from ..schema.table import Table
 
@@ -67,6 +70,7 @@ class Problem:
     inputs: tuple[Input, ...] = ()
     places: tuple[Place, ...] = ()
     damping: tuple[Damping, ...] = ()
+    forces: tuple[StatedForce, ...] = ()
     frame: Mapping[str, Any] | None = None
     signed: bool = False
     lagrangian: Lagrangian | None = None
@@ -141,9 +145,26 @@ class Problem:
         return next((i for i in self.inputs if isinstance(i, CovectorInput)), None)
 
     @property
-    def force_inputs(self) -> tuple[ForceInput, ...]:
-        """The force inputs."""
-        return tuple(i for i in self.inputs if isinstance(i, ForceInput))
+    def force_inputs(self) -> tuple[ForceInput | TorqueInput, ...]:
+        """The inputs that are forces and torques."""
+        return tuple(i for i in self.inputs if not isinstance(i, CovectorInput))
+
+    @property
+    def driven(self) -> bool:
+        """Are there functions of time and state that act from outside dϖ?"""
+        return bool(self.inputs or self.forces)
+
+    def acted_on(self, x: ForceInput | TorqueInput | StatedForce) -> tuple[int, Group]:
+        """The block, counted from 1, on which a force or a torque acts, with its factor."""
+        assert self.group is not None
+        block = x.block if isinstance(x, TorqueInput) else self.block(x.on)
+        return block, self.group.places[block - 1][1]
+
+    def numbers_of(self, x: Input) -> list[str]:
+        """The names of the numbers of an input."""
+        assert self.group is not None
+        size = self.group.dimension if isinstance(x, CovectorInput) else self.acted_on(x)[1].n
+        return numbers_of_input(x.plain(), size)
 
 
 def points_of(body: Body | None) -> tuple[Point, ...]:
@@ -168,6 +189,7 @@ def data(problem: Problem) -> dict[str, Any]:
         "inputs": [*_plain(problem.inputs)],
         "places": [*_plain(problem.places)],
         "damping": [*_plain(problem.damping)],
+        **({"forces": [*_plain(problem.forces)]} if problem.forces else {}),
         **({"frame": dict(problem.frame)} if problem.frame else {}),
         **({"masses": "of any sign"} if problem.signed else {}),
         **({"lagrangian": problem.lagrangian.plain()} if problem.lagrangian else {}),

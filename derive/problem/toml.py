@@ -21,7 +21,7 @@ from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
 from ..schema.kinds import kinds
 from ..schema.table import Table, nearest
 from . import inertia
-from .bodies import body, forces, group_of, negative_stiffness_of
+from .bodies import as_forces, body, forces, group_of, negative_stiffness_of
 from .entries_on_orbit import hessian, vanishes
 from .fields import LIKE_A_PLACE, coordinates, used_at
 from .file_reader import FileReader
@@ -31,7 +31,7 @@ from .motion_tables import KEYS, faults, motion_fields, named, named_twice
 from .problem import Problem, ProblemError
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
-TOP |= {"damping", "solid", "algebra", "advected", "fluid", *SECTIONS, *KEYS}
+TOP |= {"damping", "force", "solid", "algebra", "advected", "fluid", *SECTIONS, *KEYS}
 DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
 )
@@ -127,10 +127,10 @@ def problem_of(
     if not negative_mass:
         _positive(inertia.negative_mass(own, parameters), "mass")
     reader.carries(own, parameters)
-    potentials, inputs, damping = forces(data, reader)
+    potentials, inputs, damping, stated = forces(data, reader)
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
-    reader.distinct(inputs, parameters)
+    linear, damped = as_forces(damping, reader)
     problem = Problem(
         name,
         moved,
@@ -141,11 +141,11 @@ def problem_of(
         potentials,
         inputs,
         tuple(reader.places),
-        damping,
+        linear,
+        (*stated, *damped),
         signed=negative_mass,
         **motion_fields(data, reader),
     )
-    _affordable(problem)
     _declared(problem, data)
     _massive(problem, negative_mass)
     return problem
@@ -173,11 +173,11 @@ def _without_points(
         raise ProblemError("an algebra moves no points: give a [lagrangian] or an [inertia]")
     if moved is None:
         raise ProblemError(f"key {where!r}: a text about any group has no Lagrangian of its own")
-    for key in ("point", "solid", "body", "potential", "damping"):
+    for key in ("point", "solid", "body", "potential", "damping", "force"):
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
     given = data.get("input", ())
-    if any(isinstance(x, dict) and x.get("kind") == "force" for x in given):
+    if any(isinstance(x, dict) and x.get("kind") in ("force", "torque") for x in given):
         raise ProblemError(f"key 'input': beside [{where}] an input is a covector: no points")
     group = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
     reader = FileReader()
@@ -186,8 +186,7 @@ def _without_points(
     name = reader.name_of(data, of_its_own=moved is not None)
     parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)
-    _, inputs, _ = forces(data, reader)
-    reader.distinct(inputs, parameters)
+    _, inputs, *_ = forces(data, reader)
     problem = Problem(
         name,
         group,
@@ -198,7 +197,6 @@ def _without_points(
         advected=advected,
         **motion_fields(data, reader),
     )
-    _affordable(problem)
     _declared(problem, data)
     if inputs and problem.lagrangian and problem.lagrangian.held:
         raise ProblemError(
@@ -259,11 +257,17 @@ def _parameters(data: Any, reader: FileReader) -> dict[str, Parameter]:
 
 
 def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
-    """Every name that is used is a parameter and nothing else, and every parameter is used."""
+    """Every name that is used is a parameter and nothing else, and every parameter is used, in
+    expressions that are not too many."""
+    _affordable(problem)
     if fault := named_twice(problem):
         raise ProblemError(fault)
-    found = [*_trees(problem.points), *_moments(problem), *_forces(problem)]
+    rest = replace(problem, forces=())
+    found = [*_trees(problem.points), *_moments(problem), *_forces(rest)]
     used = dict.fromkeys(x for t in found for x in names(t))
+    given = {x for y in problem.inputs for x in problem.numbers_of(y)} if problem.group else ()
+    stated = (x for t in _trees(problem.forces) for x in names(t))
+    used |= dict.fromkeys(x for x in stated if x not in given)
     for name in used:
         if name not in problem.parameters:
             if name == "t" or LIKE_A_PLACE.fullmatch(name):
@@ -303,7 +307,8 @@ def _moments(problem: Problem) -> list[Tree]:
 
 def _forces(problem: Problem) -> list[Tree]:
     own = [problem.lagrangian] if problem.lagrangian else []
-    return _trees((*own, *problem.potentials, *problem.damping, *problem.places))
+    outside = (*problem.inputs, *problem.damping, *problem.forces)
+    return _trees((*own, *problem.potentials, *outside, *problem.places))
 
 
 def _affordable(problem: Problem) -> None:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import sys
 import warnings
 from fractions import Fraction
+from functools import reduce
 from pathlib import Path
 from typing import Any
 
 from ..language.derivatives import DERIVATIVES
+from ..language.expression import WRITTEN_OUT
 from ..language.limits import DEPTH
 from ..language.reserved import CONSTANTS
 from ..problem.problem import Problem
@@ -101,10 +103,13 @@ def _text(x: Any, depth: int) -> Text:
         return _product(parts, depth), PRODUCT
     if x.is_Pow:
         return _power(x, depth)
-    if type(x).__name__ == "Abs":  # of a real number
-        return f"sqrt(({_text(parts[0], depth + 1)[0]})^2)", ATOM
-    if type(x).__name__ in DERIVATIVES and len(parts) == 1:
-        return f"{type(x).__name__}({_text(parts[0], depth + 1)[0]})", ATOM
+    called = type(x).__name__
+    if called.lower() in WRITTEN_OUT and parts:  # of real numbers
+        first, *rest = (_text(y, depth + 1)[0] for y in parts)
+        whole = reduce(lambda a, b: f"{called.lower()}({a}, {b})", rest, first)
+        return whole if rest else f"{called.lower()}({first})", ATOM
+    if called in DERIVATIVES and len(parts) == 1:
+        return f"{called}({_text(parts[0], depth + 1)[0]})", ATOM
     raise NoExpressionError(_refusal(x))
 
 

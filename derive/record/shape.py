@@ -15,7 +15,7 @@ from ..language.laurent import LEVEL, degree_in_level
 from ..language.limits import BASIS, CARRIED, LAYERS, TORUS
 from ..language.tree import Tree, replaced
 from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
-from ..schema.kind import GROUP, INPUTS, Advected, Damping, Fluid, Lagrangian, Torus
+from ..schema.kind import GROUP, INPUTS, Advected, Damping, Fluid, Lagrangian, StatedForce, Torus
 from ..schema.kinds import kinds
 from ..schema.table import ACTIONS, DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
@@ -95,6 +95,8 @@ class _RecordReader(TableReader):
         inputs = self.each("inputs", lambda x, where: self.one_of(INPUTS, x, where))
         self.distinct(inputs, data["parameters"])
         self.each("damping", lambda x, where: self.typed(Damping, x, where))
+        if "forces" in data:
+            self.each("forces", lambda x, where: self.typed(StatedForce, x, where))
         self.matrices(self.value(self.top("basis"), list))
         if data.get("discrete", True) is not True:
             raise ShapeError("discrete: expected true, or nothing")
@@ -141,8 +143,8 @@ class _RecordReader(TableReader):
                     "advected, torus: they are of a problem with a Lagrangian of its own"
                 )
             return
-        for key in ("potentials", "places", "damping"):
-            if data[key]:
+        for key in ("potentials", "places", "damping", "forces"):
+            if data.get(key):
                 raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
         if any(x["kind"] != "covector" for x in data["inputs"]):
             raise ShapeError("lagrangian: the inputs of its problem are covectors")
@@ -163,7 +165,7 @@ class _RecordReader(TableReader):
             raise ShapeError(f"fluid: its group is {GROUP}, its n any, and it has no body")
         if "lagrangian" in data or data["homogeneous"] or data["action"] != "linear":
             raise ShapeError("fluid: nothing else says its Lagrangian or its action")
-        for key in ("advected", "frame", "masses"):
+        for key in ("advected", "frame", "masses", "forces"):
             if key in data:
                 raise ShapeError(f"fluid: it has no key {key!r}")
         for key in ("potentials", "places", "damping", "inputs", "parameters", "basis"):
@@ -324,6 +326,33 @@ class _RecordReader(TableReader):
         i = t[1][2] if isinstance(t, tuple) and t[:1] == ("call",) and len(t[1]) == 3 else 0
         known = isinstance(i, int) and 1 <= i <= self.last
         return known and t == ("call", ("at", "r", i), "t")
+
+    def stated(self, slot: Slot) -> tuple[Tree, ...]:
+        """Expressions of t, parameters, inputs and the state: A, T, Z, ζ, w, places with their
+        velocities."""
+        inputs = {x["name"] for x in self.data["inputs"]}
+
+        def lettered(t: Tree) -> Tree:
+            """The same with t for the state and for inputs."""
+            if not isinstance(t, tuple):
+                return t
+            if t[0] == "par" and {t[1], t[1].rpartition("_")[0]} & inputs:
+                return "t"
+            if t[0] == "entry" and all(type(i) is int and i > 0 for i in t[2:]):
+                velocity = isinstance(t[1], tuple) and t[1][:2] == ("at", "v")
+                known = t[1] in ("A", "T", "Z", "ζ", "w") or velocity or self.is_place(t[1])
+                return "t" if known else t
+            return (t[0], *map(lettered, t[1:]))
+
+        def one(value: Any, where: str) -> Tree:
+            t = self.read(value, where)
+            if not self.is_scalar(lettered(t), placed=False, timed=True):
+                raise ShapeError(f"{where}: expected the expression of a number")
+            return t
+
+        return self.listed(self.value(slot), None, slot.path, one)
+
+    stated_couple = stated
 
     def dimension(self, _: Slot) -> None:
         """The sizes of blocks are not known here."""

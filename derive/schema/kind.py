@@ -1,6 +1,6 @@
 """What a problem may say: parameters, a group, an algebra, a fluid, forces, events, potentials."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -16,6 +16,7 @@ from .table import (
     Name,
     Number,
     Points,
+    Row,
     Stiffness,
     Table,
     Text,
@@ -121,6 +122,13 @@ class Event(Table):
 # Forces outside dϖ: inputs, given at every call, and damping.
 
 
+Along = Annotated[Row | None, Key("direction", 1, trees=True)]
+Couple = Annotated[Row | None, Key("couple", 1, trees=True)]
+TurningBlock = Annotated[int, Key("turning", keys=("block",))]
+"""What a number is the multiple of, a vector that is not 0; a moment, three numbers, or one in the
+plane; a block of rotations of the plane or of R³."""
+
+
 class CovectorInput(Table):
     """A covector of the Lie algebra: power ⟨u, ζ⟩."""
 
@@ -134,12 +142,24 @@ class CovectorInput(Table):
 
 
 class ForceInput(Table):
-    """A force on a point or a place; ``frame``: its components are in space or body."""
+    """A force on a point or a place; ``frame``: its components are in space or body.
+
+    With a ``direction`` it is one number times this, and a ``moment`` that times the same number.
+    """
 
     kind, section, called = "force", "input", "Force"
     name: Name
     on: End
     frame: Frame = "space"
+    direction: Along = None
+    moment: Couple = None
+
+    @classmethod
+    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
+        """A direction and a moment are where a table says them, the second beside the first."""
+        if "moment" in table and "direction" not in table:
+            return "a 'moment' goes with a 'direction'; alone it is an input of kind \"torque\""
+        return _said(super().chosen(table, last), table)
 
     @classmethod
     def word(
@@ -148,10 +168,88 @@ class ForceInput(Table):
         on: int | Sequence[Number],
         frame: str = "space",
         block: int | None = None,
+        direction: Sequence[Number] | None = None,
+        moment: Sequence[Number] | None = None,
     ) -> Any:
         """An input: a force on a point, or at a place of the body, in a product of that of a block;
-        its frame is "space" or "body"."""
-        return {"name": name, "frame": frame} | place(on, block)
+        its frame is "space" or "body". With a direction it is one number times this, and a moment
+        that times the same number."""
+        told = {"name": name, "frame": frame, "direction": direction, "moment": moment}
+        return told | place(on, block)
+
+
+class TorqueInput(Table):
+    """A torque on a body that turns, of one number with a ``direction`` and in the plane."""
+
+    kind, section, called = "torque", "input", "Torque"
+    name: Name
+    block: TurningBlock
+    frame: Frame = "space"
+    direction: Along = None
+
+    @classmethod
+    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
+        """A direction where a table says one."""
+        return _said(super().chosen(table, last), table)
+
+    @classmethod
+    def word(
+        cls,
+        name: str,
+        frame: str = "space",
+        block: int | None = None,
+        direction: Sequence[Number] | None = None,
+    ) -> Any:
+        """An input: a torque, in a product on that of a block; its frame is "space" or "body". With
+        a direction it is one number times this."""
+        return {"name": name, "frame": frame, "block": block, "direction": direction}
+
+
+def _said(keys: tuple[str, ...] | str, table: Mapping[str, Any]) -> tuple[str, ...]:
+    """The keys of an input, without the direction and the moment that a table does not say."""
+    return tuple(x for x in keys if x not in ("direction", "moment") or x in table)
+
+
+Stated = Annotated[Row, Key("stated", 1, trees=True)]
+Torque = Annotated[Row, Key("stated_couple", 1, trees=True)]
+Wind = Annotated[Row, Key("wind", 1, trees=True, told=False)]
+"""Expressions of the state, t, inputs and parameters; a moment of these; a velocity in space, of t
+and the place."""
+
+
+class StatedForce(Table):
+    """A force, or a moment, that is a function of the state: of the velocity of its place too,
+    less that of what is there (``relative_to``, which a record has in the expressions)."""
+
+    section, called = "force", "AppliedForce"
+    on: End
+    frame: Frame = "space"
+    relative_to: Wind = ()
+    force: Stated = ()
+    moment: Torque = ()
+
+    @classmethod
+    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
+        """One of force and moment at least."""
+        if not table.get("force") and not table.get("moment"):
+            return "give 'force' or 'moment', lists of expressions"
+        return super().chosen(table, last)
+
+    @classmethod
+    def word(
+        cls,
+        on: int | Sequence[Number],
+        force: Sequence[Number] | None = None,
+        moment: Sequence[Number] | None = None,
+        frame: str = "space",
+        block: int | None = None,
+        relative_to: Sequence[Number] | None = None,
+    ) -> Any:
+        """A force and a moment on a point, or at a place of the body, in a product of that of a
+        block: expressions of the velocity v_1, … of the place, less that of a wind, of the state,
+        t, inputs and parameters, in the frame "space" or "body"."""
+        told = {"force": force, "moment": moment, "frame": frame, "relative_to": relative_to}
+        return told | place(on, block)
 
 
 class Damping(Table):
@@ -168,16 +266,40 @@ class Damping(Table):
         on: Sequence[int] | None = None,
         at: Sequence[Number] | None = None,
         block: int | None = None,
+        kind: str | None = None,
     ) -> Any:
         """The force −κ v on points (all by default), or on a place of the body, in a product of
-        that of a block, outside dϖ."""
-        return {"coefficient": coefficient, "on": on, "at": at, "block": block}
+        that of a block, outside dϖ; "quadratic", −κ |v| v; "rotational", the moment −κ ω."""
+        return {"kind": kind, "coefficient": coefficient, "on": on, "at": at, "block": block}
 
 
-Input = CovectorInput | ForceInput
-INPUTS: dict[str, type[CovectorInput] | type[ForceInput]] = {
+class QuadraticDamping(Table):
+    """−κ |v| v on points, which a record has as forces of the state."""
+
+    kind, section = "quadratic", "damping"
+    coefficient: Stiffness
+    on: Points
+
+
+class RotationalDamping(Table):
+    """The moment −κ ω, ω the angular velocity in the body; the same of records."""
+
+    kind, section = "rotational", "damping"
+    coefficient: Stiffness
+    block: TurningBlock
+
+
+AnyDamping = Damping | QuadraticDamping | RotationalDamping
+DAMPING: dict[str, type[QuadraticDamping] | type[RotationalDamping]] = {
+    x.kind: x for x in (QuadraticDamping, RotationalDamping)
+}
+
+
+Input = CovectorInput | ForceInput | TorqueInput
+INPUTS: dict[str, type[CovectorInput] | type[ForceInput] | type[TorqueInput]] = {
     "covector": CovectorInput,
     "force": ForceInput,
+    "torque": TorqueInput,
 }
 
 

@@ -11,6 +11,7 @@ from .kind import (
     Fluid,
     StatedAdvected,
     StatedAlgebra,
+    StatedForce,
     StatedTorus,
     TorusInertia,
 )
@@ -29,6 +30,7 @@ def words() -> dict[str, type[Table]]:
         StatedTorus,
         TorusInertia,
         Damping,
+        StatedForce,
         Event,
         Fluid,
         Point,

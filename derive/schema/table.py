@@ -169,7 +169,7 @@ OTHER_WORDS = {
     **dict.fromkeys(("newton", "kepler", "central"), "attraction"),
     **dict.fromkeys(("gravity_gradient", "satellite"), "far_centre"),
     **dict.fromkeys(("gas", "pressure", "determinant", "det"), "volume"),
-    **dict.fromkeys(("torque", "moment"), "covector"),
+    **dict.fromkeys(("couple", "moment"), "torque"),
     **dict.fromkeys(("world", "inertial"), "space"),
     **dict.fromkeys(("value", "initial", "number"), "default"),
     **dict.fromkeys(("mass", "M"), "m"),
@@ -197,11 +197,13 @@ ELSEWHERE = {
     ),
     **dict.fromkeys(
         ("direction", "axis", "magnitude", "value"),
-        "a force has all its components at every call, in the axes of its 'frame'; the direction "
-        "of gravity is that of the vector 'g'",
+        "a force is one number times its 'direction', or has all its components at every call, in "
+        "the axes of its 'frame'; the direction of gravity is that of the vector 'g'",
     ),
     **dict.fromkeys(
-        ("torque", "moment", "wrench"), 'a torque is an [[input]] with kind = "covector"'
+        ("torque", "moment", "wrench"),
+        'a torque is an [[input]] with kind = "torque"; all components of a wrench are those of '
+        'one with kind = "covector"',
     ),
     **dict.fromkeys(
         ("rpy", "roll", "pitch", "yaw", "euler", "orientation", "quaternion", "rotation"),

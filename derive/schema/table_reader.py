@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, ClassVar, TypeVar
 
 from ..language.limits import MAGNITUDE, TEXT, TORUS
-from ..language.reserved import WORDS, taken
+from ..language.reserved import WORDS, numbers_of_input, taken
 from ..language.tree import Tree
 from .kind import Input, Parameter
 from .table import Rows, Slot, Table, hint
@@ -84,6 +84,10 @@ class TableReader(ABC):
                 raise self.fail(f"input {k}: a second input {name!r}; give each its own name")
             if name in parameters:
                 raise self.fail(f"input {k}: {name!r} is a parameter as well; choose another name")
+            alone = name in numbers_of_input(inputs[k - 1].plain(), 2)
+            if alone and (what := taken(name)):
+                told = f"this is {what} in an expression; choose another name"
+                raise self.fail(f"input {k}, {name!r}: {told}")
             numbers = re.compile(rf"{re.escape(name)}_[1-9][0-9]*")
             if clash := next(filter(numbers.fullmatch, parameters), None):
                 told = f"{clash!r} is one of its numbers, and a parameter as well"
@@ -180,6 +184,8 @@ class TableReader(ABC):
         """The factor of a product, counted from 1; without a product there is one."""
         return self.integer(self.value(slot), 1, self.blocks, slot.path)
 
+    turning = block
+
     def point(self, value: Any, where: str) -> int:
         """A point by its number."""
         if not self.last:
@@ -255,7 +261,15 @@ class TableReader(ABC):
         """A vector of the space of the points."""
         return self.listed(self.value(slot), self.dimension(slot), slot.path)
 
-    place = vector
+    place = direction = couple = vector
+
+    @abstractmethod
+    def stated(self, slot: Slot) -> tuple[Tree, ...]:
+        """A vector that is a function of the state."""
+
+    @abstractmethod
+    def stated_couple(self, slot: Slot) -> tuple[Tree, ...]:
+        """A moment that is one."""
 
     def timed(self, slot: Slot) -> tuple[Tree, ...]:
         """The same, of the time as well."""

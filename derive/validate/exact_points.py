@@ -28,6 +28,7 @@ from ..check.values.evaluate import Environment, evaluate
 from ..check.values.residue import Degree, DegreeSource, degrees
 from ..language import rational as q
 from ..language.rational import Matrix
+from ..language.reserved import numbers_of_input
 from ..record.record import Derivation, Equation, RecordError
 from .chart import Chart, Numbers, ReducedChart, chart_of
 from .straight_line import Measured
@@ -82,17 +83,17 @@ class Claims:
         found: list[str] = []
         for data in self.record.problem.get("inputs", []):
             size = self.group.dimension
-            if data["kind"] == "force":
-                size = self._factor(data["on"]).n
-            found += [f"{data['name']}_{i + 1}" for i in range(size)]
+            if data["kind"] != "covector":
+                size = self._factor(data).n
+            found += numbers_of_input(data, size)
         return tuple(found)
 
-    def _block(self, i: int) -> int:
+    def _factor(self, data: Mapping[str, Any]) -> Group:
+        """What moves the place of a force, or the block of a torque."""
         body = self.record.problem.get("body", {}).get("points", [])
-        return int([*body, *self.record.problem.get("places", [])][i - 1].get("block", 1))
-
-    def _factor(self, i: int) -> Group:
-        return self.group.places[self._block(i) - 1][1]
+        listed = [*body, *self.record.problem.get("places", [])]
+        at = listed[data["on"] - 1] if "on" in data else data
+        return self.group.places[int(at.get("block", 1)) - 1][1]
 
     def point(self, seed: str, zero: tuple[str, ...] = ()) -> Point:
         """The point of a seed, some parameters 0; ``CodeError`` where the record has no value."""
@@ -135,12 +136,12 @@ class Claims:
         return x, self.state.rates(model.g, model.Z, g_dot, acceleration)
 
     def _input_values(self, model: AnyModel) -> Numbers:
-        """The numbers of u, in order: forces in space, covectors on the stated basis."""
+        """The numbers of u, in order: those of forces, covectors on the stated basis."""
         found: list[Any] = []
         forces = iter(model.input_forces)
         for data in self.record.problem.get("inputs", []):
-            if data["kind"] == "force":
-                found += next(forces)[self.group.of_block(self._block(data["on"]))]
+            if data["kind"] != "covector":
+                found += next(forces)
             else:
                 found += self._on_user_basis(model.covector)
         return tuple(found)

@@ -429,6 +429,8 @@ def _acting(problem: Mapping[str, Any]) -> Iterator[Sentence]:
             yield phrase(about.phrase)
     if _many(problem.get("damping")):
         yield phrase("viscous damping")
+    if _many(problem.get("forces")):
+        yield phrase("forces of the state")
     for x in inputs if isinstance(inputs, list) else []:
         yield phrase("the input {name}", name=str(x.get("name")))
 

@@ -16,11 +16,16 @@ from derive.language import rational as q
 from derive.pipeline import discrete
 from derive.problem.toml import problem_of
 from tests.problems import thrown
-from tests.support.corpus import DRIVEN
+from tests.support.corpus import driven
 from tests.support.discrete_maps import DiscreteMap
 from tests.support.needs import need
 
-PUSHED = DRIVEN.replace('"driven"', '"pushed"').replace("length = 1 ", "length = 0 ")
+
+def pushed(group):
+    """The driven problem with a spring that has no length."""
+    return driven(group).replace('"driven"', '"pushed"').replace("length = 1 ", "length = 0 ")
+
+
 SLOW = pytest.mark.dist
 DRIVEN_ON = ("SO(3)", "SL(3)", "GL(3)", "SE(3)")
 BODY = {"m": 2, "J_11": 1.3, "J_12": 0.1, "J_13": 0, "J_22": 0.9, "J_23": 0.05, "J_33": 0.4}
@@ -33,9 +38,9 @@ def walked(name):
     if name == "thrown":
         text = thrown.TEXT
     elif name == "tied":
-        text = PUSHED.replace("GROUP", "SE(3)").partition("damping")[0]
+        text = pushed("SE(3)").partition("damping")[0]
     elif "(" in name:
-        text = PUSHED.replace("GROUP", name.removeprefix("free "))
+        text = pushed(name.removeprefix("free "))
         lines = text.splitlines()
         if name.startswith("free "):
             lines = [x for x in lines if not x.startswith("potential")]
@@ -105,8 +110,7 @@ def test_it_is_the_motion_that_the_record_tells(name):
         known = DiscreteMap(discrete(problem), problem.group, values, h, real, mpmath.mpf("1e-10"))
         u = iter(map(real, f.u))
         for given in problem.inputs:
-            size = problem.group.n if hasattr(given, "on") else problem.group.dimension
-            known.parameters |= {f"{given.name}_{i}": next(u) for i in range(1, size + 1)}
+            known.parameters |= {x: next(u) for x in problem.numbers_of(given)}
         found, _ = known.next(*states[:2])
         off = (abs(x) for row in q.minus(found, states[2]) for x in row)
         assert max(off) < 1e-14

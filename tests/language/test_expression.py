@@ -1,13 +1,16 @@
 """The grammar of expressions in problem files, against Python's own arithmetic on fractions."""
 
+import math
 from fractions import Fraction
 from random import Random
 
 import pytest
 
 from derive.check.values.evaluate import Environment, evaluate
+from derive.language.derivatives import derivative
 from derive.language.expression import ExpressionError, names, parse
 from derive.language.tree import mul
+from derive.language.values import approximate
 
 VALUES = {"a": Fraction(3, 7), "b1": Fraction(-5), "c_x": Fraction(11, 2)}
 ENV = Environment(3, {}, parameters=VALUES)
@@ -56,6 +59,36 @@ def test_precedence(text, value):
     assert evaluate(parse(text), ENV) == value
 
 
+AT = {"x": (0.3, -1.7, 2.5), "y": (-0.9, 0.4, 2.25)}
+WRITTEN = [
+    ("abs(x)", abs(AT["x"][1]), 1),
+    ("sign(x*y)", -1, 1),
+    ("min(x, y)", -1.7, 1),
+    ("max(min(x, 1), y - 3)", -1.7, 1),
+    ("max(x, y)", 2.5, 2),
+    ("hypot(x, 3)", math.hypot(0.3, 3), 0),
+    ("atan2(y, x)", math.atan2(0.4, -1.7), 1),
+    ("atan2(y, x)", math.atan2(-0.9, 0.3), 0),
+    ("x^(1/2) + x^(-3/2)", 2.5**0.5 + 2.5**-1.5, 2),
+]
+
+
+@pytest.mark.parametrize(("text", "value", "k"), WRITTEN)
+def test_functions_that_are_written_out(text, value, k):
+    """Their values, and their derivatives by differences."""
+    t, at = parse(text), {name: x[k] for name, x in AT.items()}
+    assert approximate(t, at) == pytest.approx(value, rel=1e-14)
+    for name in at:
+        ends = [approximate(t, at | {name: at[name] + h}) for h in (1e-6, -1e-6)]
+        slope = approximate(derivative(t, ("par", name)), at)
+        assert slope == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-8)
+
+
+def test_functions_of_numbers_that_are_written_out():
+    text = "abs(-3) + 10*sign(-2) + 100*min(2, 3) + 1000*max(2, 3) + 10000*sign(0)"
+    assert parse(text) == 3 - 10 + 200 + 3000
+
+
 def test_names():
     assert names(parse("a*(b1 + a)^2")) == ["a", "b1", "a"]
     assert parse("k") == ("par", "k")
@@ -65,7 +98,9 @@ def test_names():
 @pytest.mark.parametrize(
     "text",
     ["", "1 +", "(1", "1)", "a b", "2a", "1/0", "0^-1", "2^a", "2^65", "2^3^4", "a.b", "f(x)",
-     "__import__", "'x'", "a;b", "é", "1" * 41, "(" * 200, "1" + "+1" * 6000, "\x00", "{{ a }}"],
+     "__import__", "'x'", "a;b", "é", "1" * 41, "(" * 200, "1" + "+1" * 6000, "\x00", "{{ a }}",
+     "hypot(a)", "hypot(a, b, c)", "min(a,)", "abs(a, b)", "sqrt(a, b)", "2,5", "a^(1/3)",
+     "a^(b/2)", "max(a, b"],
 )  # fmt: skip
 def test_refused(text):
     with pytest.raises(ExpressionError) as caught:

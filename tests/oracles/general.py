@@ -24,6 +24,21 @@ SUM = {"+": (1, 1, np.add), "-": (1, 1, np.subtract)}
 BINARY = SUM | {"*": (2, 2, np.multiply), "/": (2, 2, np.divide), "^": (4, 3, np.power)}
 NAMES = ("sqrt", "sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh")
 FUNCTIONS = {"atan": np.arctan, **{name: getattr(np, name) for name in NAMES}}
+FUNCTIONS |= {"abs": lambda x: x * np.sign(np.real(x)), "sign": lambda x: np.sign(np.real(x))}
+
+
+def angle(y, x):
+    """atan2 with the derivative of a complex step."""
+    a, b = np.real(y), np.real(x)
+    return np.arctan2(a, b) + 1j * (b * np.imag(y) - a * np.imag(x)) / (a * a + b * b)
+
+
+OF_TWO = {
+    "min": lambda a, b: np.where(np.real(a) < np.real(b), a, b),
+    "max": lambda a, b: np.where(np.real(a) < np.real(b), b, a),
+    "hypot": lambda a, b: np.sqrt(a * a + b * b),
+    "atan2": lambda y, x: angle(y, x) if np.iscomplexobj(y + x) else np.arctan2(y, x),
+}
 
 
 def _read(tokens, env, level):
@@ -37,10 +52,22 @@ def _read(tokens, env, level):
         value = _read(tokens, env, 0)
         if tokens.pop(0) != ")":
             raise ValueError("a parenthesis is not closed")
+    elif token in OF_TWO:
+        parts = []
+        for end in ",)":
+            tokens.pop(0)
+            parts.append(_read(tokens, env, 0))
+            if tokens[0] != end:
+                raise ValueError(f"{token} is of two expressions")
+        tokens.pop(0)
+        value = OF_TWO[token](*parts)
     elif tokens[0] == "(":
         value = FUNCTIONS[token](_read(tokens, env, 5))
     else:
         value = np.multiply(np.pi if token == "pi" else env[token], 1.0)
+    if tokens[:1] == ["^"] and tokens[1:2] == ["("] and level < 4:
+        tokens.pop(0)
+        value = np.power(value, _read(tokens, env, 5))
     while BINARY.get(tokens[0], (0,))[0] > level:
         _, right, operation = BINARY[tokens.pop(0)]
         value = operation(value, _read(tokens, env, right))
@@ -162,7 +189,7 @@ def places(data, p):
         tables = {("realised", i): {"mass": m, "at": r} for i, (m, r) in enumerate(pairs, 1)}
     else:
         tables = {("point", i): x for i, x in enumerate(data["point"], 1)}
-    for kind in ("potential", "input"):
+    for kind in ("potential", "input", "force"):
         tables |= {(kind, k): x for k, x in enumerate(data.get(kind, ())) if "at" in x}
     if {x["kind"] for x in data.get("potential", ())} & {"torsion", "far_centre", "volume"}:
         ((_, n, affine),) = parts
@@ -288,26 +315,119 @@ def damping(data, p, t, found, v):
     """The forces (M,) of damping at the velocities ``v`` (M,)."""
     force = np.zeros(len(v))
     for table in data.get("damping", ()):
+        if table.get("kind") == "rotational":
+            continue
         for i in table.get("on", range(1, len(found.points()) + 1)):
             x = found.at["point", i]
-            force[x] -= evaluate(table["coefficient"], {**p, "t": t}) * v[x]
+            size = np.linalg.norm(v[x]) if table.get("kind") == "quadratic" else 1
+            force[x] -= evaluate(table["coefficient"], {**p, "t": t}) * size * v[x]
     return force
 
 
-def inputs(data, found, d, G, u):
-    """What ``u``, all inputs in order, gives: forces (M,) and a covector (d,)."""
-    force, covector, at = np.zeros(len(found.row)), np.zeros(d), 0
+def axial(W):
+    """The angular velocity of a skew matrix of R^3 (3,), or of the plane (1,)."""
+    return np.array([W[2, 1], W[0, 2], W[1, 0]] if len(W) == 3 else [W[1, 0]])
+
+
+def work(torque, basis, turn, rows, in_body):
+    """The work (d,) of a torque on the angular velocity of each member of the basis, which is
+    turned into space unless the torque is in the body."""
+    parts = [E[np.ix_(rows, rows)] for E in np.asarray(basis, float)]
+    turned = parts if in_body else [turn @ W @ turn.T for W in parts]
+    return np.array([torque @ axial(W) for W in turned])
+
+
+def names_of_state(data, basis, G, zeta):
+    """The numbers of a state by the names that expressions have for them."""
+    parts, env, (d, n) = blocks(data)[0], {}, (len(zeta), len(G) - 1)
+    for k, (first, size, affine) in enumerate(parts, 1):
+        mark = k if len(parts) > 1 else ""
+        for i in range(size):
+            env |= {f"A{mark}_{i + 1}{j + 1}": G[first + i, first + j] for j in range(size)}
+            env |= {f"T{mark}_{i + 1}": G[first + i, first + size]} if affine else {}
+    shifts = len(parts) == 1 and parts[0][2] and d > n
+    shifts = shifts and not np.any(np.asarray(basis, float)[-n:, :, :n])
+    turns = d - n if shifts else d
+    env |= {f"zeta_{a}": x for a, x in enumerate(zeta[:turns], 1)}
+    return env | {f"w_{i}": x for i, x in enumerate(zeta[turns:], 1)}
+
+
+def stated(data, basis, p, t, found, G, zeta, u):
+    """What the tables [[force]] give: forces (M,) and a covector (d,)."""
+    force, covector = np.zeros(len(found.row)), np.zeros(len(basis))
+    env = {**p, "t": t, **names_of_state(data, basis, G, zeta)}
+    left = [] if u is None else [*u]
+    for table in data.get("input", ()):
+        size = len(basis)
+        if table["kind"] != "covector":
+            size = blocks(data)[0][table.get("block", 1) - 1][1]
+        single = "direction" in table or (table["kind"], size) == ("torque", 2)
+        names = [table["name"]] if single else [f"{table['name']}_{i + 1}" for i in range(size)]
+        env |= {name: left.pop(0) for name in names if left}
+    Z = np.tensordot(zeta, basis, 1)
+    for k, table in enumerate(data.get("force", ())):
+        x = found.at[_key("force", k, table)]
+        rows, n = found.row[x], x.stop - x.start
+        turn, in_body = G[np.ix_(rows, rows)], table.get("frame", "space") == "body"
+        here = {f"r_{i}": y for i, y in enumerate(found.moved(G)[x], 1)}
+        wind = _vector(table.get("relative_to", [0] * n), n, {**p, "t": t, **here})[:, 0]
+        v = found.moved(G @ Z)[x] - wind
+        here |= {f"v_{i}": y for i, y in enumerate(turn.T @ v if in_body else v, 1)}
+        if "force" in table:
+            F = _vector(table["force"], n, env | here)[:, 0]
+            force[x] += turn @ F if in_body else F
+        if "moment" in table:
+            torque = _vector(table["moment"], len(table["moment"]), env | here)[:, 0]
+            covector += work(torque, basis, turn, rows, in_body)
+    for table in data.get("damping", ()):
+        if table.get("kind") == "rotational":
+            first, n, _ = blocks(data)[0][table.get("block", 1) - 1]
+            rows = np.arange(first, first + n)
+            spin = axial(Z[np.ix_(rows, rows)])
+            torque = -evaluate(table["coefficient"], {**p, "t": t}) * spin
+            covector += work(torque, basis, None, rows, True)
+    return force, covector
+
+
+def inputs(data, basis, p, found, G, u):
+    """What ``u``, all inputs in order, gives: forces (M,) and a covector (d,).
+
+    The work of a torque is that on the angular velocity of each member of the basis.
+    """
+    d, left = len(basis), [*np.asarray(u, float)]
+    force, covector = np.zeros(len(found.row)), np.zeros(d)
+
+    def taken(count):
+        """The next numbers of ``u``."""
+        values = [left.pop(0) for _ in range(count)]
+        return np.array(values)
+
     for k, table in enumerate(data.get("input", ())):
-        target, turn = covector, np.eye(d)
+        if table["kind"] == "covector":
+            covector += taken(d)
+            continue
+        first, n, _ = blocks(data)[0][table.get("block", 1) - 1]
+        x, rows = None, np.arange(first, first + n)
         if table["kind"] == "force":
             x = found.at[_key("input", k, table)]
-            target, turn = force[x], np.eye(x.stop - x.start)
-            if table.get("frame", "space") == "body":
-                turn = G[np.ix_(found.row[x], found.row[x])]
-        target += turn @ np.asarray(u[at : at + len(target)], float)
-        at += len(target)
-    if len(u) != at:
-        raise ValueError(f"{len(u)} inputs instead of {at}")
+            rows = found.row[x]
+        in_body = table.get("frame", "space") == "body"
+        turn = G[np.ix_(rows, rows)]
+        plane = table["kind"] == "torque" and len(rows) == 2
+        if "direction" in table:
+            (number,) = taken(1)
+            vector = number * _vector(table["direction"], len(rows), p)[:, 0]
+        else:
+            vector = taken(1 if plane else len(rows))
+        torque = vector if x is None else None
+        if x is not None:
+            force[x] += turn @ vector if in_body else vector
+        if "moment" in table:
+            torque = number * _vector(table["moment"], len(table["moment"]), p)[:, 0]
+        if torque is not None:
+            covector += work(torque, basis, turn, rows, in_body)
+    if left:
+        raise ValueError(f"{len(left)} inputs are too many")
     return force, covector
 
 
@@ -317,8 +437,10 @@ def rhs(data, basis, p, t, x, u=None):
     G, zeta = split(data, x, d)
     Z = np.tensordot(zeta, basis, 1)
     design = np.column_stack([found.moved(G @ E) for E in np.asarray(basis, float)])
-    force, covector = (0, np.zeros(d)) if u is None else inputs(data, found, d, G, u)
+    force, covector = (0, np.zeros(d)) if u is None else inputs(data, basis, p, found, G, u)
     force = force + damping(data, p, t, found, found.moved(G @ Z))
+    more = stated(data, basis, p, t, found, G, zeta, u)
+    force, covector = force + more[0], covector + more[1]
     force += forces(data, p, t, found, found.moved(G))
     heavy, root = found.masses > 0, np.sqrt(found.masses[found.masses > 0])
     Q, R = np.linalg.qr(root[:, None] * design[heavy])

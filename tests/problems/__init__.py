@@ -279,6 +279,203 @@ PROBLEMS |= {
     "a solid body": flat(FLAT.replace("(b^2 - a^2)", "b^2")),
 }
 
+# functions that are written out in others
+PROBLEMS["kinks"] = """
+name = "test"
+group = "GL(2)"
+point = [{ mass = 1, at = [1, 0] }, { mass = 2, at = [0, 1] }]
+[[potential]]
+kind = "expression"
+U = "max(r1_x, r2_y)^2/3 + abs(r1_y + 0.3) + atan2(r1_x, 3 + r2_x^2)"
+[[potential]]
+kind = "expression"
+U = "hypot(r1_x, 2)^(3/2) + sign(r2_x)*r1_y*min(r2_x, 0.2)"
+"""
+
+# inputs of one number, with moments, and torques: of R³ and of the plane, alone and in a product
+ALONG = """
+[parameters]
+a = 0.7
+c = -0.3
+[[input]]
+name = "tau"
+kind = "torque"
+frame = "body"
+[[input]]
+name = "thrust"
+kind = "force"
+at = ["a", 0.2, 0]
+frame = "body"
+direction = [0, "sin(a)", 1]
+moment = [0.1, 0, "c"]
+[[input]]
+name = "rope"
+kind = "force"
+on = 2
+direction = ["c", 1, 0.5]
+moment = ["a", 1, 0]
+[[input]]
+name = "reel"
+kind = "torque"
+direction = [1, "a*c", 0]
+[[input]]
+name = "u"
+kind = "covector"
+"""
+IN_THE_PLANE = """
+[[input]]
+name = "motor"
+kind = "torque"
+block = 2
+[[input]]
+name = "fan"
+kind = "force"
+at = ["a", 0.2]
+block = 2
+frame = "body"
+direction = ["c", 2]
+moment = [0.4]
+[[point]]
+mass = 1
+at = [1, 0.5]
+block = 2
+[[point]]
+mass = 2
+at = [-1, 0.2]
+block = 2
+"""
+MASSES = "".join(f"[[point]]\nmass = {m}\nat = {r}\n" for m, r in POINTS)
+PROBLEMS |= {
+    f"{group} torques": f'name = "test"\ngroup = "{group}"\n{ALONG}{MASSES}'
+    for group in ("SO(3)", "SE(3)")
+}
+PROBLEMS |= {
+    f"SE(3) x {group} torques": f'name = "test"\ngroup = "SE(3) x {group}"\n{ALONG}{MASSES}'
+    + IN_THE_PLANE
+    for group in ("SO(2)", "SE(2)")
+}
+PLANE = IN_THE_PLANE.replace("block = 2\n", "")
+PROBLEMS |= {
+    "SE(2) torques": f'name = "test"\ngroup = "SE(2)"\nparameters = {{ a = 0.7, c = 2 }}\n{PLANE}',
+    "cylinder torques": own_group(CYLINDER, "affine").replace(
+        "[group]", ALONG[: ALONG.rindex("[[input]]")] + "[group]"
+    ),
+}
+
+# forces that are functions of the state: of R³ and of the plane, in a wind, alone and in a product
+OF_STATE = """
+[parameters]
+c = 0.7
+w = 1.3
+[[input]]
+name = "pull"
+kind = "force"
+on = 1
+direction = [1, 0, 0]
+[[force]]
+on = 3
+frame = "body"
+relative_to = ["w*sin(r_3)", "w*t", 0]
+force = ["-c*hypot(v_1, v_2)*v_1", "-c*abs(v_2)*v_2 + c*pull", "-w*v_3*A_33"]
+[[force]]
+at = [0, "c", 1]
+force = ["-w*v_1", "r_1*v_2 + zeta_2", 1]
+"""
+OF_TURNING = """
+[[force]]
+on = 2
+frame = "body"
+moment = ["-c*zeta_1", 0, "max(v_1, 0)"]
+[[force]]
+on = 2
+moment = ["-c*zeta_1", "pull", 0]
+"""
+
+
+def pushed(name, text=OF_STATE):
+    """Four points on which functions of the state act."""
+    points = ((1.0, [1, 0, 0.5]), (2.0, [0, 1, 0]), (0.5, [0, 0.3, 1]), (0.7, [-1, 0.3, -1]))
+    lines = "".join(f"[[point]]\nmass = {m}\nat = {r}\n" for m, r in points)
+    return f'name = "test"\ngroup = "{name}"\n{text}{lines}'
+
+
+PROBLEMS |= {f"{x} of the state": pushed(x, OF_STATE + OF_TURNING) for x in ("SO(3)", "SE(3)")}
+PROBLEMS |= {f"{x} of the state": pushed(x) for x in ("SL(3)", "Aff(3)")}
+PROBLEMS["SE(2) of the state"] = """
+name = "test"
+group = "SE(2)"
+parameters = { c = 0.7 }
+point = [{ mass = 1, at = [1, 0] }, { mass = 2, at = [0, 1] }]
+[[force]]
+on = 2
+frame = "body"
+relative_to = ["c*r_2", 1]
+force = ["-c*v_1", "sin(t)*T_1 + w_2*A_12"]
+moment = ["-c*zeta_1"]
+"""
+PROBLEMS["a product of the state"] = """
+name = "test"
+group = "SE(2) x SL(2)"
+parameters = { c = 0.7 }
+point = [
+  { mass = 1, at = [1, 0] }, { mass = 2, at = [0, 1] },
+  { mass = 1, at = [1, 2], block = 2 }, { mass = 2, at = [0, 1], block = 2 },
+]
+[[force]]
+on = 2
+frame = "body"
+relative_to = ["r_2", "t"]
+force = ["-c*hypot(v_1, v_2)*v_1", "-c*v_2*A1_12*T1_1"]
+moment = ["-c*zeta_1"]
+[[force]]
+on = 4
+frame = "body"
+force = ["-c*v_1 + zeta_4", "A2_12 - v_2"]
+"""
+DAMPED = """
+parameters = { k = 0.3 }
+point = [
+  { mass = 1, at = [1, 0] }, { mass = 2, at = [0, 1] }, { mass = 1, at = [1, 2, 0], block = 2 },
+  { mass = 2, at = [0, 1, 1], block = 2 }, { mass = 3, at = [0, 1, -1], block = 2 },
+]
+damping = [
+  { kind = "quadratic", coefficient = "k", on = [1, 3] }, { coefficient = 0.1 },
+  { kind = "rotational", coefficient = 0.2 },
+  { kind = "rotational", coefficient = "2*k", block = 2 },
+]
+"""
+PROBLEMS |= {
+    f"SE(2) x {group} damped": f'name = "test"\ngroup = "SE(2) x {group}"\n{DAMPED}'
+    for group in ("SO(3)", "SE(3)")
+}
+PROBLEMS["SE(3) damped"] = pushed(
+    "SE(3)",
+    """
+damping = [
+  { kind = "quadratic", coefficient = 0.4 }, { kind = "rotational", coefficient = 0.2 },
+]
+""",
+)
+PROBLEMS["so(3) skewed of the state"] = (
+    own_group(SKEWED)
+    + """
+[[force]]
+on = 1
+frame = "body"
+force = ["-v_1", "zeta_1*A_12", "zeta_2 - v_3"]
+moment = [0, 0, "-zeta_3"]
+"""
+)
+PROBLEMS["se(3) mixed of the state"] = (
+    own_group(MIXED, "affine")
+    + """
+[[force]]
+on = 1
+frame = "body"
+force = ["-v_1 + zeta_5", "zeta_1*A_12*T_1", "zeta_2 - v_3"]
+"""
+)
+
 # solids are no points: the oracle has them with the moments of their integrals, see below; a
 # Lagrangian that no points give has one of its own (tests/walk/lie)
 TEXTS = ("linear", "affine", "ellipsoid", "top", "hammer", "so3", "se3", "sl3")

@@ -153,7 +153,9 @@ TABLES = [
     {"body": {"zz": 1}, "point": []},
     {"body": {"given": {"zz": 1}}, "point": []},
     {"damping": [{"zz": 1}]},
-    *({"input": [{"name": "u", "kind": x, "zz": 1}]} for x in ("covector", "force")),
+    {"force": [{"zz": 1}]},
+    *({"damping": [{"kind": x, "zz": 1}]} for x in ("quadratic", "rotational")),
+    *({"input": [{"name": "u", "kind": x, "zz": 1}]} for x in ("covector", "force", "torque")),
     *(
         {"potential": [{"kind": x, "zz": 1}]}
         for x in kinds()

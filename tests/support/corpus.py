@@ -191,9 +191,18 @@ potential = [{ kind = "spring", on = 1, anchor = [1, 0, 2], stiffness = "k", len
 damping = [{ coefficient = "k", on = [1, 3] }]
 input = [
   { name = "f", kind = "force", on = 2, frame = "body" }, { name = "u", kind = "covector" },
+  { name = "p", kind = "force", on = 4, direction = [1, "k", 0]MOMENT },
 ]
 """
 """A problem of points on which inputs and damping act, without its group."""
+
+
+def driven(group):
+    """The same on a group; a moment goes with a force where it turns."""
+    moment = ", moment = [0, 1, 2]" if group.startswith("S") and group != "SL(3)" else ""
+    return DRIVEN.replace("GROUP", group).replace("MOMENT", moment)
+
+
 DRIVEN_ON = ("SO(3)", "SL(3)", "GL(3)", "SE(3)")
 STEPPED = ("linear", "affine", "so3", "se3", "sl3", "gl3", "saff3", "so4", "sp4", "heisenberg")
 STEPPED += ("sim3", "top", "hammer")
@@ -202,7 +211,7 @@ STEPPED += ("sim3", "top", "hammer")
 def in_steps(name):
     """The discrete road of a ready-made problem, in general position, or of a driven one."""
     if name in DRIVEN_ON:
-        return discrete(read(DRIVEN.replace("GROUP", name)))
+        return discrete(read(driven(name)))
     return twin(name, discrete) if name in TWINS else discrete(load_problem(name))
 
 

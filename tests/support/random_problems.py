@@ -107,6 +107,7 @@ def forces(draw, data, sizes):
     listed = data.get("point", [])
     blocks = [x.get("block", 1) for x in listed]
     potentials, inputs = [], []
+    turning = {*data["group"].split(" x ")} <= {*TURNING}
     if len({*sizes}) == 1 and draw(st.booleans()):
         potentials.append({"kind": "gravity", "g": draw(vectors(sizes[0]))})
 
@@ -147,7 +148,13 @@ def forces(draw, data, sizes):
         data["damping"] = [{"coefficient": draw(coefficient), "on": on}]
     for k in range(draw(st.integers(0, 2))):
         frame = draw(st.sampled_from(["space", "body"]))
-        inputs.append({"name": f"F{k}", "kind": "force", "frame": frame, **end()[0]})
+        at, n = end()
+        along = {"direction": [1, *draw(vectors(n))[1:]]} if draw(st.booleans()) else {}
+        turns = {"moment": [*draw(vectors(3 if n == 3 else 1))]} if along and turning else {}
+        inputs.append({"name": f"F{k}", "kind": "force", "frame": frame, **at, **along, **turns})
+    if turning and draw(st.booleans()):
+        frame = draw(st.sampled_from(["space", "body"]))
+        inputs.append({"name": "tau", "kind": "torque", "frame": frame})
     if draw(st.booleans()):
         inputs.insert(draw(st.integers(0, len(inputs))), {"name": "u", "kind": "covector"})
     return data | {"potential": potentials, "input": inputs}

@@ -19,7 +19,7 @@ from derive.validate.exact_points import Claims
 from derive.validate.read_file import read
 from derive.validate.terms import CodeError
 from tests.support.code_mutations import mutants
-from tests.support.corpus import DRIVEN
+from tests.support.corpus import driven
 from tests.validate.test_validation import ENDS
 
 READ = ("c", "python", "rust", "javascript")
@@ -45,7 +45,7 @@ def emitted(name, layout="row"):
     """The record, the files and the numbers in them."""
     options = Options(step=("discrete",), layout=layout)
     if "(" in name:
-        text = DRIVEN.replace("GROUP", name).replace("length = 1 ", "length = 0 ")
+        text = driven(name).replace("length = 1 ", "length = 0 ")
         problem = problem_of(tomllib.loads(text))
     else:
         problem = derive.derive(name).problem

@@ -83,7 +83,8 @@ stiffness = 1
 CHOSEN = (
     *("SL(3) forces", "SE(3) forces", "Sim(3) forces", "SO(3) x SO(3)", "SO(3) forces"),
     *("a cylinder", "SL(4)", "Aff(2)", "SAff(2)", "weighted"),
-    *("SE(3) x SE(3)", "a flat body", "so(3) skewed"),
+    *("SE(3) x SE(3)", "a flat body", "so(3) skewed", "SE(3) torques", "SE(2) torques"),
+    *("SE(3) of the state", "Aff(3) of the state"),
 )
 
 
@@ -91,7 +92,7 @@ def own_problems(folder):
     """Problems that reach what no other does."""
     (folder / "corner.off").write_text(CORNER, encoding="utf-8")
     (folder / "corner.toml").write_text(MESH, encoding="utf-8")
-    pushed = [Damping(1), Force("f", on=1)]
+    pushed = [Damping(1), Force("f", on=1), Force("b", on=2, frame="body", direction=[1, 2])]
     return [
         Problem("upper", UPPER, THREE, [Spring(1, 2, 1)]),
         Problem("given", "SO(3)", GIVEN),

@@ -61,6 +61,19 @@ def test_code_agrees_with_the_oracle(name, tmp_path):
             assert relative_error(library.rhs(t, x, library.constants(values)[1], u), found) < 1e-12
 
 
+@pytest.mark.parametrize("name", ["SE(2) torques", "SO(3) torques", "SE(2) of the state"])
+def test_forces_from_outside(name):
+    """Torques, directions, a wind: the Python code of small problems, in every run."""
+    data = tomllib.loads(PROBLEMS[name])
+    _, space = emitted(problem_of(data), corpus.record(f"points {name}"))
+    p, basis, rng = general.parameters(data), space["BASIS"], np.random.default_rng(7)
+    k = space["constants"]([p[x] for x in space["PARAMETERS"]])
+    for _ in range(3):
+        x, u = general.random_state(data, basis, rng), rng.normal(size=len(space["INPUTS"]))
+        expected = general.rhs(data, basis, p, 0.4, x, u)
+        assert relative_error(space["rhs"](0.4, x, k, u), expected) < 1e-11
+
+
 @pytest.mark.parametrize("group", SOLIDS_ON)
 def test_solids_are_their_moments(group):
     """The body of solids moves like one whose moments are the integrals by quadrature."""

@@ -13,7 +13,7 @@ import pytest
 from derive.language import rational as q
 from derive.pipeline import discrete
 from derive.problem.toml import problem_of
-from tests.support.corpus import DRIVEN
+from tests.support.corpus import driven
 from tests.support.discrete_maps import DiscreteMap
 from tests.support.walks import problem
 
@@ -78,7 +78,7 @@ def test_the_map_is_symplectic_and_keeps_momenta(name):
 
 def test_damping_is_not_symplectic():
     """What the test above measures is not 0 by itself."""
-    text = DRIVEN.replace("GROUP", "SO(3)").replace("length = 1 ", "length = 0 ")
+    text = driven("SO(3)").replace("length = 1 ", "length = 0 ")
     given = replace(problem_of(tomllib.loads(text)), inputs=(), potentials=())
     defaults = {k: replace(p, default=1) for k, p in given.parameters.items()}
     with mpmath.workdps(DIGITS):

@@ -104,7 +104,7 @@ class LagrangianModel(Draws):
         pulled = self.driven and bool(self.inputs_of("covector"))
         self.covector = [self.draw() if pulled else Fraction(0) for _ in group.basis]
         self.input_forces: list[tuple[Any, ...]] = []
-        self.parameters |= self.name_inputs(self.covector, ())
+        self.parameters |= self.name_covector(self.covector)
 
     def _restrict(self, at: Locus) -> None:
         """Set the parts of δ and δ′ to 0 that vanish at a locus."""

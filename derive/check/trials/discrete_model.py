@@ -200,11 +200,12 @@ class DiscreteModel(Model):
         """The work of force inputs and of a covector on a displacement e at g₁."""
         pairs = zip(self.given_forces, self.images(e), strict=True)
         work = sum((q.dot(f, v) for f, v in pairs), Fraction(0))
-        if any(self.covector):
+        if any(self.covector) or any(q.flatten(self.couple)):
             back = q.inverse(self.g)
             assert back is not None
+            xi = q.times(back, e)
             dual = self.group.covector_matrix(self.covector)
-            work += q.dot(q.flatten(dual), q.flatten(q.times(back, e)))
+            work += q.dot(q.flatten(dual), q.flatten(xi)) + self.work_of_couple(xi)
         return work
 
     @cached_property

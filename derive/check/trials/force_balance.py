@@ -34,17 +34,18 @@ def force_values(model: Model) -> Values:
         values |= account.values(model, members)
     values["U_Q"] = ex.potential(model.t, places, model.masses, single=True)
     forces = ex.forces(model.t, places, model.masses, single=True)
-    values |= _summed(model, forces, "Q")
+    values |= _summed(model, forces, "Q", q.scaled(Fraction(0), q.identity(model.n)))
     if model.at.driven:
-        values |= _summed(model, model.nonpotential_forces, "u")
+        values |= _summed(model, model.nonpotential_forces, "u", model.couple)
         values |= _with_covector(model, values)
     return values | _damping(model)
 
 
-def _summed(model: Model, forces: list[Vector], mark: str) -> Values:
-    """N = Σ Āf r̄, F = Σ Āf, and in R³ μ = Σ r ∧ Āf."""
+def _summed(model: Model, forces: list[Vector], mark: str, couple: Matrix) -> Values:
+    """N = Σ Āf r̄ and a couple, F = Σ Āf, and in R³ μ = Σ r ∧ Āf and its torque."""
     turned = q.times(tuple(forces), model.group.linear_part(model.g))
-    N, F = outer_sum(turned, model.points), outer_sum(turned, model.units)
+    N = q.plus(outer_sum(turned, model.points), couple)
+    F = outer_sum(turned, model.units)
     mu = axial(q.minus(N, q.transposed(N))) if model.n == 3 else q.column((Fraction(0),) * 3)
     return {f"N_{mark}": N, f"F_{mark}": F, f"μ_{mark}": mu}
 
@@ -154,6 +155,7 @@ class ForceBalance:
         total = [tuple(x + y for x, y in zip(f, g, strict=True)) for f, g in forces]
         dual = self.group.covector_matrix(self.model.covector)
         linear = q.plus(self.moment_in_body(total), self.group.linear_part(dual))
+        linear = q.plus(linear, self.model.couple)
         if not self.group.affine:
             return linear
         return q.minus(linear, q.times(self.group.translation_part(dual), (self.centre,)))

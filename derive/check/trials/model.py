@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from itertools import product
 from typing import Any
 
 from ...algebra.groups import Group
 from ...algebra.samplers import Source
 from ...language import rational as q
 from ...language.rational import Matrix
+from ...language.reserved import numbers_of_input
+from ...record.as_json import decode
 from ..values.arithmetic import (
     EPS,
     EPS_PRIME,
@@ -23,6 +26,7 @@ from ..values.arithmetic import (
     part,
 )
 from ..values.draws import LINEAR, TIME, TRANSLATION, Locus
+from ..values.evaluate import Environment, evaluate
 from ..values.residue import with_slots
 from .point_masses import (
     RATE_SLOTS,
@@ -92,15 +96,11 @@ class Model(Body):
             self.first = self.vector
         turning = at.driven and bool(self.inputs_of("covector"))
         self.covector = [self.draw() if turning else Fraction(0) for _ in group.basis]
-        self.input_forces = [
-            tuple(self.draw() if at.driven else Fraction(0) for _ in range(self.n))
-            for _ in self.inputs_of("force")
-        ]
-        forces = (
-            force[group.of_block(self.blocks[data["on"] - 1])]
-            for force, data in zip(self.input_forces, self.inputs_of("force"), strict=True)
-        )
-        self.parameters |= self.name_inputs(self.covector, [*forces])
+        acting = self.inputs_of("force", "torque")
+        named = [numbers_of_input(data, self._acted_on(data)[1].n) for data in acting]
+        given = {x: self.draw() if at.driven else Fraction(0) for names in named for x in names}
+        self.input_forces = [tuple(given[x] for x in names) for names in named]
+        self.parameters |= given | self.name_covector(self.covector)
         once = len(self.points) if few else listed_count(self)
         self.copies = [
             Fraction(1) if i < once else self.draw(positive=True) for i in range(len(self.points))
@@ -233,14 +233,85 @@ class Model(Body):
         """The force on each point, in space, by force inputs."""
         total = [[Fraction(0)] * self.n for _ in self.points]
         linear = self.group.linear_part(self.g)
-        for u, data in zip(self.input_forces, self.inputs_of("force"), strict=True):
-            block = self.blocks[data["on"] - 1]
-            here = u[self.group.of_block(block)]
-            inside = q.column(self.group.in_block(block, here))
+        for u, data in self._given():
+            found = self._along(u, data, "direction" if "kind" in data else "force")
+            if data.get("kind") == "torque" or not found:
+                continue
+            block, _ = self._acted_on(data)
+            inside = q.column(self.group.in_block(block, found))
             force = q.times(linear, inside) if data["frame"] == "body" else inside
             for k, (x,) in enumerate(force):
                 total[data["on"] - 1][k] += x
         return [tuple(f) for f in total]
+
+    @cached_property
+    def couple(self) -> Matrix:
+        """The skew matrix N in the body of all torques that are given: their power is Tr Z N̄, as
+        that of two opposite forces ±½j(τ)a at ±a, on axes a of length 1."""
+        n, group = self.n, self.group
+        total = q.scaled(Fraction(0), q.identity(n))
+        linear = group.linear_part(self.g)
+        for u, data in self._given():
+            key = "direction" if data.get("kind") == "torque" else "moment"
+            if key == "moment" and not data.get(key):
+                continue
+            block, factor = self._acted_on(data)
+            torque, at = self._along(u, data, key), group.of_block(block)
+            turn = tuple(row[at] for row in linear[at])
+            body = turn if data["frame"] == "space" else q.identity(factor.n)
+            planes = [(0, 1)] if factor.n == 2 else [(1, 2), (2, 0), (0, 1)]
+            for x, (i, j) in zip(torque, planes, strict=True):
+                across = q.times(q.column(body[j]), (body[i],))
+                skew = q.scaled(x * Fraction(1, 2), q.minus(across, q.transposed(across)))
+                for row, column in product(range(factor.n), repeat=2):
+                    place = q.unit(n, at.start + row, at.start + column)
+                    total = q.plus(total, q.scaled(skew[row][column], place))
+        return total
+
+    def work_of_couple(self, xi: Matrix) -> Any:
+        """The work of all torques that are given in a displacement g ξ."""
+        return q.dot(q.flatten(self.couple), q.flatten(self.group.linear_part(xi)))
+
+    def _given(self) -> Iterator[tuple[tuple[Any, ...], Mapping[str, Any]]]:
+        """The forces and torques that are given, each with its numbers, and those that are stated,
+        which have none."""
+        yield from zip(self.input_forces, self.inputs_of("force", "torque"), strict=True)
+        if self.at.driven and not self.generic:
+            yield from (((Fraction(1),), x) for x in self.problem.get("forces", ()))
+
+    def _acted_on(self, data: Mapping[str, Any]) -> tuple[int, Group]:
+        """The block, from 1, on which a force or torque acts, and its factor."""
+        block = int(data["block"]) if "block" in data else self.blocks[data["on"] - 1]
+        return block, self.group.places[block - 1][1]
+
+    def _along(self, u: tuple[Any, ...], data: Mapping[str, Any], key: str) -> tuple[Any, ...]:
+        """The vector that an input's numbers are, or of which its one number is the multiple."""
+        if key not in data:
+            return u
+        return tuple(u[0] * evaluate(decode(x, key), self.of_state) for x in data[key])
+
+    @cached_property
+    def of_state(self) -> Environment:
+        """The environment of expressions of the state: of t, the entries of g and of the velocity,
+        places and their velocities."""
+        group, places = self.group, [q.column(x) for x in self.images(self.g)]
+        names: dict[str, Any] = {"t": self.t, "π": self.pi}
+        for g, linear, translation in ((self.g, "A", "T"), (self.Z, "Z", "w")):
+            names[linear] = group.linear_part(g)
+            if group.affine:
+                names[translation] = group.translation_part(g)
+        if group.turns_space:
+            names["ζ"] = q.column(group.nearest(self.Z)[:3])
+        moving: dict[tuple[int, ...], Any] = {
+            (i,): q.column(x) for i, x in enumerate(self.images(self.nu), 1)
+        }
+        return replace(
+            self.expressions,
+            names=names,
+            families={"v": moving},
+            functions={"r": lambda head, *_: places[head[2] - 1]},
+            listed=len(places),
+        )
 
     @cached_property
     def nonpotential_forces(self) -> list[Vector]:
@@ -259,7 +330,7 @@ class Model(Body):
         found = []
         for u, e in zip(self.covector, self.group.basis, strict=True):
             pairs = zip(self.nonpotential_forces, self.images(q.times(self.g, e)), strict=True)
-            found.append(u + sum((q.dot(f, v) for f, v in pairs), Fraction(0)))
+            found.append(u + sum((q.dot(f, v) for f, v in pairs), self.work_of_couple(e)))
         return found
 
     @cached_property

@@ -92,25 +92,22 @@ class Draws:
             self.n, {"π": self.pi}, parameters=self.parameters, elementary=self.elementary
         )
 
-    def name_inputs(
-        self, covector: Sequence[Any], forces: Sequence[Sequence[Any]]
-    ) -> dict[str, Any]:
-        """The numbers of the inputs by their names in the problem, ``thrust_3``: entries of the
-        ``forces``, and the values of the ``covector`` on the basis that the problem states."""
+    def name_covector(self, covector: Sequence[Any]) -> dict[str, Any]:
+        """The numbers of the covector by their names in the problem, ``u_3``: its values on the
+        basis that the problem states."""
         found: dict[str, Any] = {}
-        for data, force in zip(self.inputs_of("force"), forces, strict=True):
-            found |= {suffixed(data["name"], k): x for k, x in enumerate(force, 1)}
         for data in self.inputs_of("covector"):
             for a, e in enumerate(self.group.in_user_basis.basis, 1):
                 parts = zip(self.group.nearest(e), covector, strict=True)
                 found[suffixed(data["name"], a)] = sum((x * u for x, u in parts), Fraction(0))
         return found
 
-    def inputs_of(self, kind: str) -> list[Mapping[str, Any]]:
-        """The inputs of a kind, "force" or "covector"; none where the potential is left open."""
+    def inputs_of(self, *kinds: str) -> list[Mapping[str, Any]]:
+        """The inputs of some kinds, "force", "torque", "covector"; none where the potential is left
+        open."""
         if self.generic:
             return []
-        return [i for i in self.problem.get("inputs", []) if i["kind"] == kind]
+        return [i for i in self.problem.get("inputs", []) if i["kind"] in kinds]
 
 
 # The locus of an equation: the points at which the hypotheses of its step hold.

@@ -272,6 +272,10 @@ def with_scalar_lagrangian(
             "energy at the rate −Σ κ |v|², and keeps momenta whose symmetry moves no damped point, "
             "and those of translations with Σ κ r"
         )
+    if problem.forces:
+        raise ProblemError(
+            f"{problem.name}: a [[force]] is no part of L̃, and this is of L̃ alone; leave it out"
+        )
     if problem.lagrangian is not None:
         return replace(problem, inputs=())
     group = problem.group.in_user_basis

@@ -220,9 +220,13 @@ def _caption(
         for i in problem["inputs"]
         if i["kind"] == "covector"
     ]
+    torques = (i["name"] for i in problem["inputs"] if i["kind"] == "torque")
+    sentences += [say("The input {name} is a torque and not drawn.", name=x) for x in torques]
     sentences += [say(x.legend) for x in legends if not x.drawn]
     if problem["damping"]:
         sentences.append(say("Damping is not drawn."))
+    if problem.get("forces"):
+        sentences.append(say("Forces of the state are not drawn."))
     if value.invented:
         sentences.append(say("Parameters without a default have sample values."))
     return tuple(sentence for prose in sentences for sentence in prose)

@@ -160,10 +160,11 @@ def fluid_steps(
     fluid = _Fluid(problem, potentials, special, found, c)
     if gas:
         return (fluid.circulation(),)
-    free = not (problem.potentials or problem.inputs or problem.damping)
+    outside = (*problem.inputs, *problem.forces, *problem.damping)
+    free = not (problem.potentials or outside)
     one = len(solids) == 1 and not problem.points
     shape = quadric_about_origin(solids[0], group.n) if one else None
-    linear = all(p.linear for p in problem.potentials) and not problem.inputs + problem.damping
+    linear = all(p.linear for p in problem.potentials) and not outside
     told = fluid.ellipsoid(solids[0], shape) if shape and linear else (fluid.virial(),)
     circulation = fluid.circulation()
     turned = (fluid.no_rotation(circulation),) if free and group.n % 2 else ()

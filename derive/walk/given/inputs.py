@@ -2,29 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 from ...algebra.calculus import gradient, reduce, substitute
 from ...algebra.groups import Group
 from ...algebra.word_trees import fold_inertia, normal_form, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.reserved import suffixed
-from ...language.tree import Tree, add, mul, plain
+from ...language.tree import Tree, add, mul, neg, nodes, plain, replaced
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
-from ...schema.kind import ForceInput
+from ...schema.kind import ForceInput, StatedForce, TorqueInput
 from ..chapter import Chapter, Draft, phrase, say
 from ..spine.alphabet import Alphabet
 from ..spine.cartan import body_rule
 from ..spine.lagrangian import sum_over
 from ..spine.principle import AND
 from ..vectors.isomorphism import OMEGA_P, ZETA, HatMap, anticommute, inertia_of, vector_sum
-from .potentials import applied, embedded
+from .potentials import applied, column, embedded
 
 INPUTS = phrase("input.forces")
 DRAG = phrase("input.damping")
+Push = ForceInput | TorqueInput | StatedForce
 TORQUE, FORCE = Letter("u", 3), Letter("f_u", 3)
 
 
@@ -40,12 +42,12 @@ class External:
 
 def acts(problem: Problem) -> bool:
     """Does anything act that is outside dϖ, an input or damping?"""
-    return bool(problem.inputs or problem.damping)
+    return bool(problem.driven or problem.damping)
 
 
 def prose(problem: Problem) -> Prose:
     """The sentences that say what acts from outside dϖ."""
-    acting = [INPUTS] * bool(problem.inputs) + [DRAG] * bool(problem.damping)
+    acting = [INPUTS] * problem.driven + [DRAG] * bool(problem.damping)
     outside = say("input.outside", forces=listed(AND, acting))
     return outside + say("input.moments") + where_given(problem)
 
@@ -53,10 +55,23 @@ def prose(problem: Problem) -> Prose:
 def where_given(problem: Problem) -> Prose:
     """The sentence that says where each force acts, and in which frame it is given."""
     forces = [
-        phrase(f"input.{x.frame}_force", name=f"‘{x.name}’", point=f"r_{x.on}")
+        phrase(f"input.{x.frame}_torque", name=f"‘{x.name}’")
+        if isinstance(x, TorqueInput)
+        else phrase(f"input.{x.frame}_{_sort(x)}", name=f"‘{x.name}’", point=f"r_{x.on}")
         for x in problem.force_inputs
     ]
-    return say("input.given", forces=listed("{first}; {second}", forces)) if forces else ()
+    given = say("input.given", forces=listed("{first}; {second}", forces)) if forces else ()
+    stated = [phrase(f"input.{x.frame}_stated", point=f"r_{x.on}") for x in problem.forces]
+    if stated:
+        given += say("input.stated", forces=listed("{first}; {second}", stated))
+    return given
+
+
+def _sort(x: ForceInput) -> str:
+    """Which sentence says a force: with all its components, or along a direction."""
+    if x.direction is None:
+        return "force"
+    return "force_along" if x.moment is None else "force_with_moment"
 
 
 def by_name(problem: Problem, steps: Iterable[Step], *, discrete: bool = False) -> tuple[Step, ...]:
@@ -64,9 +79,8 @@ def by_name(problem: Problem, steps: Iterable[Step], *, discrete: bool = False) 
     entry of the member of f_u that the force ``thrust`` is, or of the covector u, f_u; the whole
     force is the column of its numbers.  ``discrete``: as in numbers."""
     given = numbers(problem, discrete=discrete)
-    for e, (force, size) in enumerate(_sized(problem), 1):
-        rows = (("row", ("par", suffixed(force.name, k))) for k in range(1, size + 1))
-        given["at", "f_u", e] = ("matrix", *rows)
+    for e, x in enumerate(problem.force_inputs, 1):
+        given["at", "f_u", e] = column(tuple(("par", name) for name in problem.numbers_of(x)))
 
     def named(t: Tree) -> Tree:
         if t in given or not isinstance(t, tuple):
@@ -86,9 +100,9 @@ def numbers(problem: Problem, *, discrete: bool = False) -> dict[Tree, Tree]:
     found: dict[Tree, Tree] = {}
     group = problem.group
     assert group is not None
-    for e, (force, size) in enumerate(_sized(problem), 1):
-        for k in range(1, size + 1):
-            found["entry", ("at", "f_u", e), k] = ("par", suffixed(force.name, k))
+    for e, x in enumerate(problem.force_inputs, 1):
+        for k, name in enumerate(problem.numbers_of(x), 1):
+            found["entry", ("at", "f_u", e), k] = ("par", name)
     if covector := problem.covector:
         own = [("par", suffixed(covector.name, a)) for a in range(1, group.dimension + 1)]
         apart = group.turns_space and group.affine and not discrete
@@ -100,12 +114,76 @@ def numbers(problem: Problem, *, discrete: bool = False) -> dict[Tree, Tree]:
     return found
 
 
-def _sized(problem: Problem) -> Iterator[tuple[ForceInput, int]]:
-    """The forces that are given, each with the dimension of the space of its point."""
-    for force in problem.force_inputs:
-        assert problem.group is not None
-        _, moved = problem.group.places[problem.block(force.on) - 1]
-        yield force, moved.n
+def _pushes(problem: Problem) -> list[tuple[int, Push]]:
+    """The forces and torques that act beside a covector, those that are given with their number."""
+    given: list[Push] = [*problem.force_inputs]
+    return [*enumerate(given, 1), *((0, x) for x in problem.forces)]
+
+
+def _velocities(
+    draft: Draft, problem: Problem, b: Alphabet, images: Mapping[Letter, Expr]
+) -> list[Equation]:
+    """The equations of v_i, the velocity in space of each place where a force depends on it;
+    ``images``: what stands for the velocities of 𝔤."""
+    named = {x for f in problem.forces for t in f.trees() for x in nodes(t)}
+    places = [i for i in sorted({f.on for f in problem.forces}) if ("at", "v", i) in named]
+    if not places:
+        return []
+    g = word(b.A.position)
+    v = (g * word(b.Z.velocity) * word(b.r_i)).marked(Chapter(b.chapter).label("velocity"))
+    if b.affine:
+        v = v + g * word(b.w.velocity)
+    general = draft.tree(substitute(v, images))
+    return [Equation(("at", "v", i), replaced(general, b.r_i.name, ("at", "r", i))) for i in places]
+
+
+def _entries(problem: Problem, e: int, x: Push) -> tuple[Tree, ...]:
+    """The entries of the force ``e``, or of the torque, in its own frame: the numbers of the member
+    of f_u, the one number times a direction, or what is stated."""
+    if isinstance(x, StatedForce):
+        return x.force
+    numbers = tuple(("entry", ("at", "f_u", e), k) for k, _ in enumerate(problem.numbers_of(x), 1))
+    return numbers if x.direction is None else tuple(mul(y, *numbers) for y in x.direction)
+
+
+def _couple(problem: Problem, e: int, x: Push) -> tuple[Tree, ...]:
+    """The entries of a torque, or of the moment that goes with a force, in the same frame; none
+    where there is none."""
+    if isinstance(x, TorqueInput):
+        return _entries(problem, e, x)
+    if isinstance(x, StatedForce):
+        return x.moment
+    return tuple(mul(y, ("entry", ("at", "f_u", e), 1)) for y in x.moment or ())
+
+
+def _skew(problem: Problem, x: Push, couple: tuple[Tree, ...]) -> Tree:
+    """The matrix N of a torque in the body, whose work is Tr ξ′N̄: half of j(torque), that of a
+    torque in space turned into the body."""
+    group = problem.group
+    assert group is not None
+    block, factor = problem.acted_on(x)
+    half = [mul(Fraction(1, 2), y) for y in couple]
+    if factor.n == 2:
+        return _in_block(group, block, [(0, neg(half[0])), (half[0], 0)])
+    a, b, c = half
+    skew = _in_block(group, block, [(0, neg(c), b), (c, 0, neg(a)), (neg(b), a, 0)])
+    if x.frame == "body":
+        return skew
+    turned = mul(("T", "A"), skew, "A")
+    if not (group.factors and factor.affine):
+        return turned
+    rotation = _in_block(group, block, [(1, 0, 0), (0, 1, 0), (0, 0, 1)])  # not what translates
+    return mul(rotation, turned, rotation)
+
+
+def _in_block(group: Group, block: int, rows: Sequence[tuple[Tree, ...]]) -> Tree:
+    """A matrix of the space of a block as one of the group."""
+    inside = [group.in_block(block, row) for row in rows]
+    offset, _ = group.places[block - 1]
+    after = group.n - offset - len(rows)
+    empty = (0,) * group.n
+    whole = (*[empty] * offset, *inside, *[empty] * after)
+    return ("matrix", *(("row", *row) for row in whole))
 
 
 def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> External | None:
@@ -122,10 +200,14 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
     drag = reduce(drag, body_rule(b, C))
     xi, eta = Letter("ξ′", b.n, b.n), Letter("η′", b.n)
     moments, pulls = [draft.tree(gradient(drag, xi))], [draft.tree(gradient(drag, eta))]
-    for e, given in enumerate(problem.force_inputs, 1):
-        force = _in_body(draft, problem, e, given, C, b)
-        moments.append(mul(force, ("T", ("at", "r", given.on))))
-        pulls.append(force)
+    definitions += _velocities(draft, problem, b, {})
+    for e, given in _pushes(problem):
+        if not isinstance(given, TorqueInput) and _entries(problem, e, given):
+            force = _in_body(draft, problem, e, given, C, b)
+            moments.append(mul(force, ("T", ("at", "r", given.on))))
+            pulls.append(force)
+        if couple := _couple(problem, e, given):
+            moments.append(_skew(problem, given, couple))
     if problem.covector:
         moment, pull = _covector(group, b)
         moments.append(moment)
@@ -137,15 +219,16 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
     return External(draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,))
 
 
-def _in_body(d: Draft, problem: Problem, e: int, given: ForceInput, C: Expr, b: Alphabet) -> Tree:
+def _in_body(
+    d: Draft, problem: Problem, e: int, given: ForceInput | StatedForce, C: Expr, b: Alphabet
+) -> Tree:
     """Force ``e`` in the body, a tree: Āf for a force in space, ĀA f for one that turns with the
     body."""
     f: Tree = ("at", "f_u", e)
     group = problem.group
     assert group is not None
-    if group.factors:
-        n = group.places[problem.block(given.on) - 1][1].n
-        f = embedded(problem, given.on, tuple(("entry", f, k) for k in range(1, n + 1)), 0)
+    if group.factors or isinstance(given, StatedForce) or given.direction is not None:
+        f = embedded(problem, given.on, _entries(problem, e, given), 0)
     if given.frame == "space":
         return mul(("T", "A"), f)
     d.depends_on(C)
@@ -207,7 +290,7 @@ def external_vectors(
     nothing acts from outside dϖ."""
     if not acts(problem):
         return None
-    if not problem.force_inputs and not problem.damping:
+    if not (problem.force_inputs or problem.forces or problem.damping):
         return External(word(TORQUE), word(FORCE), ())
     forces, draft = applied(b, "u", vectors=True), c.draft("input", "input")
     definitions, drag = _damping(problem, b)
@@ -216,10 +299,15 @@ def external_vectors(
     moments, pulls = [vector_sum(turned)], [vector_sum(pulled)]
     if problem.damping:
         definitions.append(Equation("I_D", tree_of(inertia_of(Letter("D", 3, 3, 1)))))
-    for e, given in enumerate(problem.force_inputs, 1):
-        force = _in_body(draft, problem, e, given, C, b)
-        moments.append(("wedge", ("at", "r", given.on), force))
-        pulls.append(force)
+    definitions += _velocities(draft, problem, b, {b.Z.velocity: hat_map.hatted(ZETA)})
+    for e, given in _pushes(problem):
+        if not isinstance(given, TorqueInput) and _entries(problem, e, given):
+            force = _in_body(draft, problem, e, given, C, b)
+            moments.append(("wedge", ("at", "r", given.on), force))
+            pulls.append(force)
+        if couple := _couple(problem, e, given):
+            torque = column(couple)
+            moments.append(mul(("T", "A"), torque) if given.frame == "space" else torque)
     if problem.covector:
         moments.append(TORQUE.name)
         pulls.append(FORCE.name)

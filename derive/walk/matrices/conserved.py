@@ -175,7 +175,8 @@ def conserved_steps(
         laws += x.law
     if not kept:
         return ()
-    prose = say("conserved.kept", kept=enumerated(laws))
+    without = "conserved.kept_without" if problem.forces else "conserved.kept"
+    prose = say(without, kept=enumerated(laws))
     prose += _tried(group, v) + say("conserved.noether")
     draft.depends_on(motion)
     return (draft.step([*definitions, *kept], prose),)

@@ -52,10 +52,9 @@ class Particulars:
 
     def learnt_by(self, values: PutIn, motion: Step, *inertia: Step) -> None:
         """Let values know the moments of the body, then what potentials and inputs are made of."""
-        group = self.group
         for k, given in enumerate(self.problem.force_inputs, 1):
-            _, moved = group.places[self.problem.block(given.on) - 1]
-            values.member("f_u", k, symbols(("at", "f_u", k), moved.n))
+            size = len(self.problem.numbers_of(given))
+            values.member("f_u", k, symbols(("at", "f_u", k), size))
         values.learn(e for s in self.body for e in s.equations)
         points = (*self.points, *inertia)
         values.learn(e for s in points for e in s.equations if e.lhs not in values.names)

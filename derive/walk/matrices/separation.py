@@ -84,6 +84,7 @@ def potential_separation(
 def _prose(problem: Problem, *, decided: bool, rest: bool, pointwise: bool) -> Prose:
     damping = [phrase("separation.damping")] if problem.damping else []
     outside = damping + ([phrase("separation.inputs")] if problem.inputs else [])
+    outside += [phrase("separation.stated")] if problem.forces else []
     if not decided:
         prose = say("separation.pointwise")
         if rest:
