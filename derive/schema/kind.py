@@ -253,7 +253,7 @@ class StatedForce(Table):
 
 
 class Damping(Table):
-    """−κ v on points: a Rayleigh function ½ κ |v|², no potential."""
+    """−κ v on points: a Rayleigh function ½ κ ‖v‖², no potential."""
 
     section = "damping"
     coefficient: Stiffness
@@ -269,12 +269,12 @@ class Damping(Table):
         kind: str | None = None,
     ) -> Any:
         """The force −κ v on points (all by default), or on a place of the body, in a product of
-        that of a block, outside dϖ; "quadratic", −κ |v| v; "rotational", the moment −κ ω."""
+        that of a block, outside dϖ; "quadratic", −κ ‖v‖ v; "rotational", the moment −κ ω."""
         return {"kind": kind, "coefficient": coefficient, "on": on, "at": at, "block": block}
 
 
 class QuadraticDamping(Table):
-    """−κ |v| v on points, which a record has as forces of the state."""
+    """−κ ‖v‖ v on points, which a record has as forces of the state."""
 
     kind, section = "quadratic", "damping"
     coefficient: Stiffness
