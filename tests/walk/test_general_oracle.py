@@ -104,7 +104,9 @@ def test_newtons_law(group):
             {"kind": "gravity", "g": [*range(n)]},
         ]
         places = {"on": 1}, {"on": 2, "frame": "body"}, {**there, "frame": "body"}
-        data["input"] = [{"kind": "force", **place} for place in places]
+        data["input"] = [
+            {"kind": "force", "name": f"f{k}", **place} for k, place in enumerate(places)
+        ]
         x, t, u = general.random_state(data, basis, rng), rng.normal(), rng.normal(size=3 * n)
         dx = general.rhs(data, basis, {}, t, x, u)
         matrix = matrices(data, basis, x, dx)
