@@ -14,7 +14,7 @@ SEARCHES = {
     ),
     "integrals --degree 2": (
         *("lagrange_top", "poisson", "first_integrals"),
-        *("in the sense of Liouville", "au sens de Liouville"),
+        *("For generic values of the parameters", "Pour des valeurs génériques des paramètres"),
     ),
     "integrals --degree 2 --conditions": (
         *("lagrange_top", "poisson", "first_integrals"),
