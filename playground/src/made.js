@@ -40,6 +40,7 @@ export function force(text, name, n) {
     expression: `U = "k*r1_${n > 3 ? 1 : "x"}^2"`,
     covector: `name = "${letter}"`,
     force: `name = "${letter}"\n${place}`,
+    torque: `name = "${letter}"`,
   };
   return section === "damping" ? `[[damping]]\ncoefficient = "kappa"${points ? "" : `\nat = ${zero}`}` : `[[${section}]]\nkind = "${kind}"\n${keys[kind]}`;
 }

@@ -42,7 +42,7 @@ export const WORDS = {
     formonly: "This problem has tables that the form does not show: it would leave them out. Edit its text.",
     value: "default", start: "Start afresh", steps: "Steps", kind: "kind", point: "point", density: "density",
     keys: {
-      far_centre: "far centre", self_gravity: "self-gravity", covector: "input: covector", force: "input: force", hollow_ball: "hollow ball", semi_axes: "semi-axes",
+      far_centre: "far centre", self_gravity: "self-gravity", covector: "input: covector", force: "input: force", torque: "input: torque", hollow_ball: "hollow ball", semi_axes: "semi-axes",
       on: "on point", between: "between points", anchor: "anchored at", title: "Title", body: "body",
     },
     unread: "The text is no TOML yet: the form shows it when what is wrong there is mended.", sure: "A new problem replaces this text. Go on?",
@@ -106,7 +106,7 @@ export const WORDS = {
     value: "défaut", start: "Recommencer", steps: "Étapes", kind: "genre", point: "point", density: "densité",
     keys: {
       gravity: "pesanteur", spring: "ressort", torsion: "ressort de torsion", attraction: "attraction", far_centre: "centre lointain", self_gravity: "pesanteur propre", field: "champ",
-      harmonic: "champ harmonique", volume: "énergie de volume", expression: "expression", covector: "entrée : covecteur", force: "entrée : force", input: "entrée", damping: "amortissement",
+      harmonic: "champ harmonique", volume: "énergie de volume", expression: "expression", covector: "entrée : covecteur", force: "entrée : force", torque: "entrée : couple", input: "entrée", damping: "amortissement",
       title: "Titre", name: "nom", mass: "masse", at: "en", on: "au point", block: "bloc", between: "entre les points", anchor: "ancré en", stiffness: "raideur", length: "longueur", rest: "repos",
       strength: "intensité", centre: "centre", charges: "charges", coefficient: "coefficient", frame: "repère", space: "espace", body: "corps", kind: "genre", density: "densité",
       ball: "boule", box: "pavé", ellipsoid: "ellipsoïde", cylinder: "cylindre", cone: "cône", hollow_ball: "boule creuse", tetrahedron: "tétraèdre",
