@@ -18,7 +18,7 @@ def drives(
 ) -> list[str]:
     """What changes it, in the problem of a record, by held inputs and for some numbers of the
     ``parameters``, any where there are none: damping, the time where it stands in U or ℓ by itself,
-    inputs that are not 0."""
+    inputs that are not 0, forces of the state."""
     numbers = parameters or {}
     forces = (decode(x["coefficient"], "problem") for x in problem.get("damping") or ())
     damped = any(approximate(t, numbers, float) != 0 for t in forces)

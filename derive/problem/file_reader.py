@@ -456,7 +456,10 @@ class FileReader(TableReader):
         turn, said = turn_in(slot.table, where)
         if turn:
             R = self.turned(said, n, f"{where}, {turn}" if turn == "rotation" else where)
-            rows = product_of(product_of(R, rows), q.transposed(R))
+            try:
+                rows = product_of(product_of(R, rows), q.transposed(R))
+            except SolidError as error:
+                raise ProblemError(f"{where}, {turn}: {error}") from None
         return second_moment(name, rows, slot.found["m"], slot.found["c"], where)
 
     def central(self, slot: Slot) -> bool:

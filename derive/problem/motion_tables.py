@@ -50,8 +50,7 @@ def named(problem: Problem) -> set[str]:
 def _initial(table: Any, reader: FileReader) -> Initial:
     if not isinstance(table, dict):
         raise ProblemError("key 'initial' must be a table [initial]")
-    found: dict[str, Tree] = {}
-    found |= _turned(table, reader)
+    found = _turned(table, reader)
     for name, value in table.items():
         if name == "exp" or name in rotations.KEYS:
             continue
@@ -60,7 +59,8 @@ def _initial(table: Any, reader: FileReader) -> Initial:
             raise ProblemError(f"{where}: a parameter has its default in [parameters]")
         if isinstance(value, list):
             first, second = (f"{name[:40]}_{k} = …" for k in (1, 2))
-            known = f"one number each, {first}, {second}; only exp is a list{hint(name, ())}"
+            lists = f"exp, {', '.join(rotations.KEYS)}"
+            known = f"one number each, {first}, {second}; lists are {lists}{hint(name, ())}"
             raise ProblemError(f"{where}: {known}")
         found[reader.identifier(name, where)] = _number(value, where, reader)
     where, exp = "initial, exp", table.get("exp", [])

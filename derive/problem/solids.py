@@ -267,12 +267,13 @@ def rotation_of_quaternion(q: Row) -> tuple[Row, ...]:
 
 
 def product_of(a: Rows, b: Rows) -> tuple[Row, ...]:
-    """The product of two matrices, 3 × 3, multiplied out."""
+    """The product of two square matrices of one size, multiplied out."""
+    span = range(len(a))
 
     def entry(i: int, j: int) -> Tree:
-        return _flat(sum((_terms(a[i][k]) * _terms(b[k][j]) for k in SPAN), Laurent({})))
+        return _flat(sum((_terms(a[i][k]) * _terms(b[k][j]) for k in span), Laurent({})))
 
-    return tuple(tuple(entry(i, j) for j in SPAN) for i in SPAN)
+    return tuple(tuple(entry(i, j) for j in span) for i in span)
 
 
 # ∫ xᵃ yᵇ zᶜ dV over a reference shape

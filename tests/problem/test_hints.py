@@ -186,6 +186,16 @@ def test_moments_in_axes_of_their_own():
     assert np.array(one.J, float) == pytest.approx(np.array(other.J, float), abs=1e-12)
 
 
+@pytest.mark.parametrize("n", [2, 4])
+def test_moments_are_turned_in_every_dimension(n):
+    """By an exchange of the first two axes, one of them with the other sign."""
+    R, J = np.eye(n, dtype=int), np.diag([*range(1, n + 1)])
+    R[:2, :2] = [[0, -1], [1, 0]]
+    body = Moments(m=1, c=[0] * n, J=J.tolist(), rotation=R.tolist())
+    found = Problem("body", f"SO({n})", body).body.given.J
+    assert np.array(found, float).tolist() == (R @ J @ R.T).tolist()
+
+
 def test_the_moment_of_inertia_in_the_plane_is_a_number():
     """2 about the centre, 2 + 3 · 4 about the origin, and of a motion no more is needed."""
     found = Problem("disc", SE(2), Moments(m=3, centre=[2, 0], I_centre=2)).body.given
