@@ -23,7 +23,7 @@ from .walk.discrete.discrete_road import DiscreteAlphabet
 from .walk.ellipsoid import dirichlet
 from .walk.fluid import circulation, fluid_forms, fluid_kernel
 from .walk.fluid.fluid_forms import FluidAlphabet
-from .walk.given import body, inputs, potentials
+from .walk.given import body, inputs, outputs, potentials
 from .walk.given.inputs import acts, by_name
 from .walk.lie import any_lagrangian, expressed, momentum_side
 from .walk.matrices import (
@@ -91,6 +91,8 @@ MATRICES = (
           "Steps", conserved.conserved_steps),
     Stage("by_momenta", "general driven centred? group c c_u",
           "Steps", by_momenta.of_matrices),
+    Stage("outputs", "problem group special.letters special.C solution.steps c_u",
+          "Steps", outputs.of_matrices),
     Stage("own", "problem group body pullback.steps potentials external?",
           "Particulars", explicit.Particulars),
     Stage("explicit", "own special driven solution.motion c_u", "Steps", explicit.of_matrices),
@@ -130,6 +132,8 @@ VECTORS = (
     Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
           "Steps", by_momenta.of_displacements, "affine"),
     Stage("basis", "group isometry.letters c", "Steps", coordinates.user_basis_step),
+    Stage("outputs", "problem group isometry.letters isometry.C axial.hat_map motion c_u",
+          "Steps", outputs.of_vectors),
     Stage("own", "problem group body pullback.steps potentials external?",
           "Particulars", explicit.Particulars),
     Stage("explicit", "own torque axial.inertia motion tensor c_u",

@@ -19,6 +19,7 @@ from .graph import Node, reachable
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
+from .observed import output_names, outputs
 from .options import Options
 from .principal_frame import PrincipalFrame, frame_changes, inertia, turning
 from .program import EmittedFunction, Framing, KeptByGauss, LoweringError, Program
@@ -105,6 +106,7 @@ def assemble(
         *((momenta.names, momenta.size) if momenta else ((), 0)),
         mass_fault=lowering.inverses.mass_fault,
         discrete=stepped.step if stepped else None,
+        outputs=output_names(d),
         **_matrices(lowering.reader.space),
     )
 
@@ -127,6 +129,7 @@ def _of_state(
     group = lowering.reader.group
     momenta = momentum_state(lowering, group, chosen) if chosen.momenta else None
     wanted |= _added(lowering, momenta, kept)
+    wanted |= outputs(lowering, chosen)
     if events:
         wanted["events"] = values(lowering, events)
     stepped = lowered(lowering, discrete) if discrete else None

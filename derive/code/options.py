@@ -32,9 +32,10 @@ ADDED: dict[str, str] = {
 
 REPEATED: dict[str, tuple[tuple[str, ...], str]] = {
     "jacobian": (
-        ("state", "inputs", "parameters", "raw"),
+        ("state", "inputs", "parameters", "raw", "outputs"),
         "also the linearised equations, in the state, the inputs or the parameters, or (raw) the "
-        "derivative of dx/dt by x as it is stored, for implicit integrators; repeated",
+        "derivative of dx/dt by x as it is stored, for implicit integrators; or that of the "
+        "outputs, in the state and the inputs; repeated",
     ),
     "step": (
         ("gauss", "rk4", "vern9", "discrete", "gauss_jax"),

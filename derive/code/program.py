@@ -184,10 +184,10 @@ class Framing:
 class Program:
     """All that is emitted for one problem, without a word of any language.
 
-    ``functions``: constants, rhs, energy; inertia for a body turned in space; and what is asked for
-    of conserved, multiplier, events; of jacobian, jacobian_inputs, jacobian_parameters; momentum,
-    velocity, momentum_rhs and poisson; into_frame, out_of_frame, inputs_into_frame; to_matrix and
-    from_matrix of a state with a quaternion.
+    ``functions``: constants, rhs, energy; inertia for a body turned in space; outputs where there
+    are some; and what is asked for of conserved, multiplier, events; of jacobian, jacobian_inputs,
+    jacobian_parameters; momentum, velocity, momentum_rhs and poisson; into_frame, out_of_frame,
+    inputs_into_frame; to_matrix and from_matrix of a state with a quaternion.
     """
 
     name: str
@@ -229,6 +229,8 @@ class Program:
     """The names of the state with a matrix in place of its quaternion, where there is one."""
     weightless: tuple[str, ...] = ()
     """The names of what is conserved where gravity is 0, and not elsewhere."""
+    outputs: tuple[str, ...] = ()
+    """The names of what ``outputs`` gives, what is read off a motion."""
 
     @property
     def momentum_range(self) -> tuple[int, int]:

@@ -108,6 +108,8 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
             )
     if "inputs" in chosen.jacobian and not d.problem.get("inputs"):
         raise LoweringError(f"{d.name}: there are no inputs to linearise in")
+    if "outputs" in chosen.jacobian and not d.problem.get("outputs"):
+        raise LoweringError(f"{d.name}: there are no outputs to linearise; give [[output]] tables")
     if "advected" in d.problem:
         _refused_without_element(d, chosen)
     if d.problem.get("lagrangian", {}).get("held"):

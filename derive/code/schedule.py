@@ -275,14 +275,20 @@ def by_state(space: StateSpace, accelerations: list[Node]) -> list[Node]:
     """The matrix, 2N × 2N by rows, of (η, δζ) ↦ (η̇, δζ̇); ``accelerations``: ζ̇ (and ẇ)."""
     g, d = space.graph, space.group.dimension
     span = range(d)
-    turned = [Directional(g, space.along(a), f"eta_{a + 1}") for a in span]
-    sped = [Directional(g, space.faster(a), f"zeta_{a + 1}") for a in span]
     rows = [
         [*(x if space.right else -x for x in row), *(g.num(int(a == b)) for b in span)]
         for a, row in enumerate(_adjoint(space))
     ]
-    rows += [[v.of(x) for v in (*turned, *sped)] for x in accelerations]
+    varied = variations(space)
+    rows += [[v.of(x) for v in varied] for x in accelerations]
     return [x for row in rows for x in row]
+
+
+def variations(space: StateSpace) -> list[Directional]:
+    """The derivatives along η, then along δζ, on the basis: 2N of them."""
+    g, span = space.graph, range(space.group.dimension)
+    turned = [Directional(g, space.along(a), f"eta_{a + 1}") for a in span]
+    return turned + [Directional(g, space.faster(a), f"zeta_{a + 1}") for a in span]
 
 
 def by_leaves(space: StateSpace, accelerations: list[Node], leaves: Sequence[Node]) -> list[Node]:

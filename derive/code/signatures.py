@@ -96,6 +96,12 @@ SIGNATURES = (
         "what the motion keeps where no input acts, one number for each of its names",
     ),
     Signature(
+        "outputs",
+        (T, X, K, U),
+        (Argument("out", ("OUTPUTS",)),),
+        "what is read off the motion, one number for each of its names",
+    ),
+    Signature(
         "events",
         (T, X, K, U),
         (Argument("out", ("EVENTS",)),),
@@ -131,6 +137,24 @@ SIGNATURES = (
         (T, X, K, U),
         (Argument("D", ("STATE", "STATE")),),
         "that of dx/dt by x as it is stored, by rows",
+    ),
+    Signature(
+        "jacobian_outputs",
+        (T, X, K, U),
+        (Argument("D", ("OUTPUTS", "2", "ALGEBRA")),),
+        "the derivative of the outputs by (eta, delta zeta), by rows",
+    ),
+    Signature(
+        "jacobian_outputs_inputs",
+        (T, X, K, U),
+        (Argument("D", ("OUTPUTS", "INPUTS")),),
+        "the derivative of the outputs by u, by rows",
+    ),
+    Signature(
+        "jacobian_outputs_raw",
+        (T, X, K, U),
+        (Argument("D", ("OUTPUTS", "STATE")),),
+        "the derivative of the outputs by x as it is stored, by rows",
     ),
     Signature(
         "momentum", (T, X, K), (OUT,), "the state x with its momenta in place of the velocity"
@@ -212,6 +236,7 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         "INPUTS": len(p.inputs),
         "CONSERVED": len(p.conserved),
         "EVENTS": len(p.events),
+        "OUTPUTS": len(p.outputs),
         "ALGEBRA": p.dimension,
         "REDUCED": p.reduced,
         **(p.discrete.sizes if p.discrete else {}),

@@ -18,6 +18,7 @@ from . import dense
 from .factor import factored
 from .graph import Graph, Node
 from .lower import Lowering
+from .observed import output_names, output_nodes
 from .options import Options
 from .program import LoweringError, Watched
 from .reader import matrix, scalar
@@ -247,4 +248,5 @@ def _numbers(lowering: Lowering) -> dict[str, Node]:
         **dict(zip(plain.names, found, strict=True)),
         **{x: reader.leaf(x) for x in space.names},
         **{x: reader.leaf(x, "input") for x in reader.inputs},
+        **dict(zip(output_names(lowering.record), output_nodes(lowering), strict=True)),
     }

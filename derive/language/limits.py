@@ -37,6 +37,7 @@ TABLES = {
     "force": 60,
     "damping": 100,
     "event": 50,
+    "output": 60,
 }
 """Tables of each kind in a file. Of more points the moments are better given ([body] given);
 moments of solids have products that grow with the square of their number; each other table is a

@@ -191,6 +191,8 @@ class Emitted(EmittedCode):
                 parts.append(code.defect(x)[:, None])
             if "multiplier" in has:
                 parts.append(code.multiplier(t, x, k, u)[:, None])
+            if "outputs" in has:
+                parts.append(code.outputs(t, x, k, u))
         return np.concatenate(parts, axis=1)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from ..code.naming import own_prefix
 from ..code.program import Program
@@ -40,13 +41,18 @@ def in_words(name: str, word: Callable[[str], str]) -> str:
 
 # A program with its record, and the columns of what a motion of it gives: nothing is run here.
 
-KINDS = ("time", "state", "energy", "conserved", "defect", "multiplier", "input")
+KINDS = ("time", "state", "energy", "conserved", "defect", "multiplier", "output", "input")
 """What a column can be, in the order of a table."""
 
 UNITS = {"time": "s", "energy": "J", "multiplier": "J", "centre": "kg m"}
 UNITS |= dict.fromkeys(("momentum", "body_momentum"), "kg m/s")
 UNITS |= dict.fromkeys(("angular_momentum", "body_angular_momentum"), "kg m^2/s")
 """Those of columns of a kind, and of the components of what is kept."""
+
+UNITS_OF_OUTPUTS = {"rate": "1/s", "momentum": "kg m/s", "tension": "kg m/s^2"}
+UNITS_OF_OUTPUTS |= dict.fromkeys(("place", "distance"), "m") | {"velocity": "m/s"}
+UNITS_OF_OUTPUTS |= dict.fromkeys(("acceleration", "specific_force"), "m/s^2")
+"""Those of what is read off a motion, by kinds; of a direction and of expressions none is known."""
 
 SI = re.compile("kg|m|s|A|K|mol|cd|rad|sr|Hz|N|Pa|J|W|C|V|F|Ω|ohm|S|Wb|T|H|lm|lx|Bq|Gy|Sv|kat")
 """The units of SI, which go together without factors."""
@@ -111,14 +117,23 @@ class EmittedCode:
         names += [(self.program.conserved[k], "conserved") for k in self.conserved_columns]
         names += [("defect", "defect")] * ("defect" in has)
         names += [("multiplier", "multiplier")] * ("multiplier" in has)
+        names += [(x, "output") for x in self.program.outputs]
         return tuple(Column(x, kind, self._unit(x, kind)) for x, kind in names)
 
     def _unit(self, name: str, kind: str) -> str:
         if kind == "state":
             unit = self._unit_of_state(name)
+        elif kind == "output":
+            unit = UNITS_OF_OUTPUTS.get(self._kinds_of_outputs[name], "")
         else:
             unit = UNITS.get(parts(name)[0] if kind == "conserved" else kind, "")
         return unit if {*FACTOR.findall(unit.replace("J", "kg m s"))} <= self.base else ""
+
+    @cached_property
+    def _kinds_of_outputs(self) -> dict[str, str]:
+        """Name → kind, of the numbers that are read off the motion."""
+        stated = {x["name"]: x["kind"] for x in (self.record.problem or {}).get("outputs", ())}
+        return {x: stated.get(x) or stated[parts(x)[0]] for x in self.program.outputs}
 
     def _unit_of_state(self, name: str) -> str:
         """That of a place, of a velocity, and of ζ on an element of the basis: of one that does no

@@ -144,6 +144,11 @@ def require_values(code: Emitted, begin: Start) -> None:
     """``MotionError`` for an event in which nothing is finite at the start."""
     listed = zip((*code.program.inputs, *code.program.state), (*begin.u, *begin.x), strict=True)
     numbers = {**begin.parameters, **dict(listed)}
+    if code.program.outputs and code.events:
+        k = code.constants(begin.p)
+        with np.errstate(all="ignore"):
+            read = code.python.outputs(0.0, begin.x, k, begin.u)
+        numbers |= dict(zip(code.program.outputs, read.tolist(), strict=True))
     for event in code.events:
         found = approximate(replaced(event.when, "t", 0), numbers, float)
         if found is None or not math.isfinite(found):

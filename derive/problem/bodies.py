@@ -39,6 +39,7 @@ from ..schema.kind import (
     TorqueInput,
 )
 from ..schema.kinds import kinds
+from ..schema.output_kinds import OUTPUTS, ExpressionOutput, Output
 from ..schema.table import ACTIONS, Slot
 from .fields import angular_velocity, tables, velocity_at_place
 from .file_reader import FileReader
@@ -172,6 +173,22 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
         for w, x in damping.items()
     )
     return found, given, damped, tuple(reader.typed(StatedForce, x, w) for w, x in stated.items())
+
+
+def outputs(
+    data: Mapping[str, object], reader: FileReader, inputs: Sequence[Input]
+) -> tuple[Output, ...]:
+    """What is read off a motion; a table of expressions has no kind."""
+    tabled = {f"output {k}": x for k, x in enumerate(tables(data, "output"), 1)}
+    for where in tabled if reader.group is None else ():
+        raise ProblemError(f"{where}: a text about any group has no motion to read this off")
+    kind, reader.observing = ExpressionOutput.kind, True
+    found = tuple(
+        reader.one_of(OUTPUTS, {"kind": kind, **x} if "y" in x else x, where)
+        for where, x in tabled.items()
+    )
+    reader.distinct_outputs(found, inputs, reader.parameters)
+    return found
 
 
 def as_forces(

@@ -18,7 +18,7 @@ from ..language.reserved import PLACE
 from ..language.tree import Tree, mul, nodes, replaced, subtrees
 from ..language.values import approximate
 from ..schema.body_kinds import LAYERED, Body, GivenBody, Place, Point, PointBody, is_ellipsoid
-from ..schema.kind import SIDES, Advected
+from ..schema.kind import SIDES, Advected, Potential
 from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
 from .fields import (
@@ -46,7 +46,8 @@ class FileReader(TableReader):
 
     ``heavy``: the body has mass outside its points; ``fills_ellipsoid``: it is a homogeneous one;
     ``in_layers``: the density of a solid depends on the level;
-    ``advected``: what an algebra without g carries along.
+    ``advected``: what an algebra without g carries along; ``potentials``: those that it has;
+    ``observing``: is what is read off motions being read, whose places may be those of forces?
     """
 
     error = ProblemError
@@ -57,6 +58,8 @@ class FileReader(TableReader):
         self.parameters: Mapping[str, Any] = {}
         self.point_masses: tuple[Point, ...] = ()
         self.places: list[Place] = []
+        self.potentials: tuple[Potential, ...] = ()
+        self.observing = False
         self.heavy = self.fills_ellipsoid = self.in_layers = False
         self.advected: tuple[Advected, ...] | None = None
 
@@ -236,12 +239,29 @@ class FileReader(TableReader):
         self._turned(factor, slot.where)
         return self._of_state(slot, 3 if factor.n == 3 else 1)
 
-    def _of_state(self, slot: Slot, count: int) -> Vector:
-        found, on = slot.found, slot.found["on"]
-        first, n = self.of_place(on)
-        named = names_of_points(self.moving()) | names_at_place(n, first, on)
-        wind = found.get("relative_to") or (0,) * n
-        named |= velocity_at_place(n, first, on, wind, turned=found.get("frame") == "body")
+    def other_end(self, slot: Slot) -> int:
+        """A point in a space of the same dimension."""
+        other = super().other_end(slot)
+        if self.of_place(other)[1] != self.of_place(slot.found["on"])[1]:
+            raise ProblemError(f"{slot.where}, to: the points are in spaces of two dimensions")
+        return other
+
+    def observed(self, slot: Slot) -> Vector:
+        """Some expressions of the state, which know a place where the table says one."""
+        return self._of_state(slot, None)
+
+    def is_spring(self, k: int) -> bool:
+        """Is it one of those that have been read?"""
+        return 1 <= k <= len(self.potentials) and self.potentials[k - 1].kind == "spring"
+
+    def _of_state(self, slot: Slot, count: int | None) -> Vector:
+        found, on = slot.found, slot.found.get("on")
+        named = names_of_points(self.moving())
+        if on:
+            first, n = self.of_place(on)
+            wind = found.get("relative_to") or (0,) * n
+            named |= names_at_place(n, first, on)
+            named |= velocity_at_place(n, first, on, wind, turned=found.get("frame") == "body")
         listed = self.listed(self.value(slot), count, slot.path, self.in_time)
         return tuple(meant(t, named) for t in listed)
 
@@ -303,8 +323,11 @@ class FileReader(TableReader):
         if "at" not in table:
             given = "'on' or 'at'" if self.point_masses else "'at', a place of the body,"
             raise ProblemError(f"{where}: key {given} is missing")
-        self.places.append(Place.read(table, where, self))
-        return len(self.point_masses) + len(self.places)
+        found = Place.read(table, where, self)
+        if not (self.observing and found in self.places):
+            self.places.append(found)
+        last = len(self.places) - 1 - self.places[::-1].index(found)
+        return len(self.point_masses) + last + 1
 
     def points(self, slot: Slot) -> tuple[int, ...]:
         """A place of the body; or points, by a number or a list, all without either."""

@@ -130,6 +130,7 @@ def faults(problem: Problem) -> Iterator[str]:
             yield f"initial, {name[:40]}: {told}"
     watched = {*known, *known_in_lagrangian(problem.group, problem.advected), *problem.parameters}
     watched |= of_other_forms(problem.group)
+    watched |= {name for x in problem.outputs for name in problem.numbers_of_output(x)}
     for k, event in enumerate(problem.events, 1):
         for name in dict.fromkeys(names(event.when)):
             if name not in watched:
@@ -153,6 +154,9 @@ def named_twice(problem: Problem) -> str:
         if clash := next(filter(state.__contains__, problem.numbers_of(x)), ""):
             told = f"{clash!r} is one of its numbers, and of the state as well"
             return f"input {k}, {x.name!r}: {told}; choose another name"
+    for k, y in enumerate(problem.outputs, 1):
+        if clash := next(filter(state.__contains__, (y.name, *problem.numbers_of_output(y))), ""):
+            return f"output {k}, {y.name!r}: {clash!r} is of the state; choose another name"
     return ""
 
 

@@ -27,6 +27,7 @@ from ..schema.kind import (
     StatedForce,
     TorqueInput,
 )
+from ..schema.output_kinds import Output, numbers_of_output
 from ..schema.table import Table
 
 
@@ -71,6 +72,7 @@ class Problem:
     places: tuple[Place, ...] = ()
     damping: tuple[Damping, ...] = ()
     forces: tuple[StatedForce, ...] = ()
+    outputs: tuple[Output, ...] = ()
     frame: Mapping[str, Any] | None = None
     signed: bool = False
     lagrangian: Lagrangian | None = None
@@ -166,6 +168,16 @@ class Problem:
         size = self.group.dimension if isinstance(x, CovectorInput) else self.acted_on(x)[1].n
         return numbers_of_input(x.plain(), size)
 
+    def block_of(self, told: Mapping[str, Any]) -> int:
+        """The block of a product at which what is ``told``, as in a record, is read."""
+        return self.block(told["on"]) if "on" in told else int(told.get("block", 1))
+
+    def numbers_of_output(self, x: Output) -> list[str]:
+        """The names of the numbers of an output."""
+        assert self.group is not None
+        _, factor = self.group.places[self.block_of(x.plain()) - 1]
+        return numbers_of_output(x.plain(), factor.n)
+
 
 def points_of(body: Body | None) -> tuple[Point, ...]:
     """The points of a body that have a mass, if any are listed."""
@@ -190,6 +202,7 @@ def data(problem: Problem) -> dict[str, Any]:
         "places": [*_plain(problem.places)],
         "damping": [*_plain(problem.damping)],
         **({"forces": [*_plain(problem.forces)]} if problem.forces else {}),
+        **({"outputs": [*_plain(problem.outputs)]} if problem.outputs else {}),
         **({"frame": dict(problem.frame)} if problem.frame else {}),
         **({"masses": "of any sign"} if problem.signed else {}),
         **({"lagrangian": problem.lagrangian.plain()} if problem.lagrangian else {}),

@@ -21,7 +21,14 @@ from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
 from ..schema.kinds import kinds
 from ..schema.table import Table, nearest
 from . import inertia
-from .bodies import as_forces, body, forces, group_of, negative_stiffness_of
+from .bodies import (
+    as_forces,
+    body,
+    forces,
+    group_of,
+    negative_stiffness_of,
+    outputs,
+)
 from .entries_on_orbit import hessian, vanishes
 from .fields import LIKE_A_PLACE, coordinates, used_at
 from .file_reader import FileReader
@@ -31,7 +38,7 @@ from .motion_tables import KEYS, faults, motion_fields, named, named_twice
 from .problem import Problem, ProblemError
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
-TOP |= {"damping", "force", "solid", "algebra", "advected", "fluid", *SECTIONS, *KEYS}
+TOP |= {"damping", "force", "output", "solid", "algebra", "advected", "fluid", *SECTIONS, *KEYS}
 DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
 )
@@ -131,6 +138,8 @@ def problem_of(
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     linear, damped = as_forces(damping, reader)
+    reader.potentials = potentials
+    observed = outputs(data, reader, inputs)
     problem = Problem(
         name,
         moved,
@@ -143,6 +152,7 @@ def problem_of(
         tuple(reader.places),
         linear,
         (*stated, *damped),
+        observed,
         signed=negative_mass,
         **motion_fields(data, reader),
     )
@@ -173,7 +183,7 @@ def _without_points(
         raise ProblemError("an algebra moves no points: give a [lagrangian] or an [inertia]")
     if moved is None:
         raise ProblemError(f"key {where!r}: a text about any group has no Lagrangian of its own")
-    for key in ("point", "solid", "body", "potential", "damping", "force"):
+    for key in ("point", "solid", "body", "potential", "damping", "force", "output"):
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
     given = data.get("input", ())
@@ -262,11 +272,11 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     _affordable(problem)
     if fault := named_twice(problem):
         raise ProblemError(fault)
-    rest = replace(problem, forces=())
+    rest = replace(problem, forces=(), outputs=())
     found = [*_trees(problem.points), *_moments(problem), *_forces(rest)]
     used = dict.fromkeys(x for t in found for x in names(t))
     given = {x for y in problem.inputs for x in problem.numbers_of(y)} if problem.group else ()
-    stated = (x for t in _trees(problem.forces) for x in names(t))
+    stated = (x for t in _trees((*problem.forces, *problem.outputs)) for x in names(t))
     used |= dict.fromkeys(x for x in stated if x not in given)
     for name in used:
         if name not in problem.parameters:
@@ -307,7 +317,7 @@ def _moments(problem: Problem) -> list[Tree]:
 
 def _forces(problem: Problem) -> list[Tree]:
     own = [problem.lagrangian] if problem.lagrangian else []
-    outside = (*problem.inputs, *problem.damping, *problem.forces)
+    outside = (*problem.inputs, *problem.damping, *problem.forces, *problem.outputs)
     return _trees((*own, *problem.potentials, *outside, *problem.places))
 
 

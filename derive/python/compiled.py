@@ -72,6 +72,7 @@ class Names(NamedTuple):
     state: tuple[str, ...]
     inputs: tuple[str, ...]
     conserved: tuple[str, ...]
+    outputs: tuple[str, ...]
     events: tuple[str, ...]
     defaults: dict[str, float | None]
     steps: tuple[str, ...]
@@ -90,7 +91,7 @@ class Names(NamedTuple):
         defaults = {x[0]: x[1] for x in program.parameters}
         sizes = len(program.constants), program.dimension, program.reduced
         events = tuple(x.name for x in program.events)
-        named = program.state, program.inputs, program.conserved, events
+        named = program.state, program.inputs, program.conserved, program.outputs, events
         unread = tuple(x for x in declared if x not in defaults)
         return cls(*named, defaults, steps, *sizes, unread, program.blocks)
 
@@ -123,7 +124,7 @@ class Buffers:
 class Compiled(InMomenta):
     """The functions of one problem in compiled C, for one body; called, it is dx/dt = f(t, x, u).
 
-    ``STATE``, ``PARAMETERS``, ``INPUTS``, ``CONSERVED``, ``STEPS``: names; ``p`` and ``k``:
+    ``STATE``, ``PARAMETERS``, ``INPUTS``, ``CONSERVED``, ``OUTPUTS``, ``STEPS``: names; ``p`` and ``k``:
     parameters and constants in use; ``u``: the inputs of calls that are given none, zero at first.
     These three are not to be written into: :meth:`use` and ``f.u = …`` replace them. Threads may
     share it, each call has buffers of its own; pickled, it takes its C along, which is compiled
@@ -132,7 +133,8 @@ class Compiled(InMomenta):
 
     def __init__(self, names: Names, source: CSource, values: CompiledValues | None = None):
         self.STATE, self.INPUTS, self.PARAMETERS = names.state, names.inputs, tuple(names.defaults)
-        self.CONSERVED, self.REDUCED = names.conserved, names.reduced
+        self.CONSERVED, self.OUTPUTS = names.conserved, names.outputs
+        self.REDUCED = names.reduced
         self.STEPS = names.steps
         self._names, self._source, self._library = names, source, loaded(source)
         p, k, u = map(np.zeros, (len(self.PARAMETERS), names.constants, len(self.INPUTS)))
@@ -255,6 +257,12 @@ class Compiled(InMomenta):
         self._call_at("conserved", None, t, x, self._in_use().k, out)
         return out
 
+    def outputs(self, t: float, x: Any, u: Any = None) -> Array:
+        """What is read off the motion, by the names of ``OUTPUTS``."""
+        out = np.zeros(len(self.OUTPUTS))
+        self._call_at("outputs", None, t, x, self._in_use().k, self._inputs(u), out)
+        return out
+
     def begin(self, x: Any, t: float = 0.0) -> Motion:
         """The motion in state x, on the group, at time t; needs ``step="gauss"`` or others."""
         if not self.STEPS:
@@ -336,6 +344,16 @@ class Compiled(InMomenta):
         D = np.zeros((size, size))
         self._call_at("jacobian_raw", None, t, x, k, self._inputs(u), D)
         return D
+
+    def jacobian_outputs(self, t: float, x: Any, u: Any = None) -> tuple[Array, Array]:
+        """C and D: the derivatives of the outputs, (len(OUTPUTS), 2d) by (η, δζ), and
+        (len(OUTPUTS), len(INPUTS)) by the inputs; needs ``jacobian="outputs"``."""
+        k, count = self._in_use().k, len(self.OUTPUTS)
+        C, D = np.zeros((count, 2 * self._names.algebra)), np.zeros((count, len(self.INPUTS)))
+        self._call_at("jacobian_outputs", None, t, x, k, self._inputs(u), C)
+        if self.INPUTS:
+            self._call_at("jacobian_outputs_inputs", None, t, x, k, self._inputs(u), D)
+        return C, D
 
     def _inputs(self, u: Any) -> Array:
         return self._values.u if u is None else _array(u, len(self.INPUTS))

@@ -124,6 +124,12 @@ RULES: dict[str, Rule] = {
         "Une force donnée, hors de dϖ, est ajoutée aux équations.",
         "definition",
     ),
+    "output": Rule(
+        "sortie",
+        "What is read off the motion is said by the state and its rates.",
+        "Ce qui se lit sur le mouvement est exprimé par l’état et ses dérivées.",
+        "solution",
+    ),
     "coordinates": Rule(
         "coordonnées",
         "A basis of the Lie algebra is chosen.",

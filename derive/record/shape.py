@@ -17,6 +17,7 @@ from ..language.tree import Tree, replaced
 from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
 from ..schema.kind import GROUP, INPUTS, Advected, Damping, Fluid, Lagrangian, StatedForce, Torus
 from ..schema.kinds import kinds
+from ..schema.output_kinds import OUTPUTS
 from ..schema.table import ACTIONS, DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
 from .record import CONVENTIONS
@@ -97,6 +98,9 @@ class _RecordReader(TableReader):
         self.each("damping", lambda x, where: self.typed(Damping, x, where))
         if "forces" in data:
             self.each("forces", lambda x, where: self.typed(StatedForce, x, where))
+        if "outputs" in data:
+            outputs = self.each("outputs", lambda x, where: self.one_of(OUTPUTS, x, where))
+            self.distinct_outputs(outputs, inputs, data["parameters"])
         self.matrices(self.value(self.top("basis"), list))
         if data.get("discrete", True) is not True:
             raise ShapeError("discrete: expected true, or nothing")
@@ -143,7 +147,7 @@ class _RecordReader(TableReader):
                     "advected, torus: they are of a problem with a Lagrangian of its own"
                 )
             return
-        for key in ("potentials", "places", "damping", "forces"):
+        for key in ("potentials", "places", "damping", "forces", "outputs"):
             if data.get(key):
                 raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
         if any(x["kind"] != "covector" for x in data["inputs"]):
@@ -165,7 +169,7 @@ class _RecordReader(TableReader):
             raise ShapeError(f"fluid: its group is {GROUP}, its n any, and it has no body")
         if "lagrangian" in data or data["homogeneous"] or data["action"] != "linear":
             raise ShapeError("fluid: nothing else says its Lagrangian or its action")
-        for key in ("advected", "frame", "masses", "forces"):
+        for key in ("advected", "frame", "masses", "forces", "outputs"):
             if key in data:
                 raise ShapeError(f"fluid: it has no key {key!r}")
         for key in ("potentials", "places", "damping", "inputs", "parameters", "basis"):
@@ -352,7 +356,12 @@ class _RecordReader(TableReader):
 
         return self.listed(self.value(slot), None, slot.path, one)
 
-    stated_couple = stated
+    stated_couple = observed = stated
+
+    def is_spring(self, k: int) -> bool:
+        """Is it one of the problem?"""
+        listed = self.data["potentials"]
+        return 1 <= k <= len(listed) and listed[k - 1]["kind"] == "spring"
 
     def dimension(self, _: Slot) -> None:
         """The sizes of blocks are not known here."""

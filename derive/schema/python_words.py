@@ -16,6 +16,7 @@ from .kind import (
     TorusInertia,
 )
 from .kinds import kinds
+from .output_kinds import ExpressionOutput
 from .table import Table
 
 
@@ -31,6 +32,7 @@ def words() -> dict[str, type[Table]]:
         TorusInertia,
         Damping,
         StatedForce,
+        ExpressionOutput,
         Event,
         Fluid,
         Point,

@@ -14,6 +14,7 @@ from ..language.limits import MAGNITUDE, TEXT, TORUS
 from ..language.reserved import WORDS, numbers_of_input, taken
 from ..language.tree import Tree
 from .kind import Input, Parameter
+from .output_kinds import Output
 from .table import Rows, Slot, Table, hint
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
@@ -92,6 +93,25 @@ class TableReader(ABC):
             if clash := next(filter(numbers.fullmatch, parameters), None):
                 told = f"{clash!r} is one of its numbers, and a parameter as well"
                 raise self.fail(f"input {k}, {name!r}: {told}; choose another name")
+
+    def distinct_outputs(
+        self, outputs: Sequence[Output], inputs: Sequence[Input], parameters: Collection[str]
+    ) -> None:
+        """No output has the name of another, of a parameter or an input, nor of a number of
+        these."""
+        known = dict.fromkeys(parameters, "a parameter")
+        known |= {x.name: "an input" for x in inputs}
+        for k, name in enumerate([x.name for x in outputs], 1):
+            if what := taken(name):
+                raise self.fail(
+                    f"output {k}, {name!r}: this is {what} in an expression; choose another name"
+                )
+            for other, what in known.items():
+                if name == other or _numbers_of(name, other) or _numbers_of(other, name):
+                    raise self.fail(
+                        f"output {k}, {name!r}: {other!r} is {what} as well; choose another name"
+                    )
+            known[name] = "another output"
 
     def table(self, slot: Slot) -> Any:
         """Another table."""
@@ -268,6 +288,34 @@ class TableReader(ABC):
         """A vector that is a function of the state."""
 
     @abstractmethod
+    def observed(self, slot: Slot) -> tuple[Tree, ...]:
+        """Expressions that are functions of the state."""
+
+    def other_end(self, slot: Slot) -> int:
+        """A point that is not the one whose distance it is."""
+        name = "to" if "to" in slot.table else slot.key
+        other = self.point(slot.table[name], f"{slot.where}, to")
+        if other == slot.found["on"]:
+            raise self.fail(f"{slot.where}, to: a point is at distance 0 from itself")
+        return other
+
+    def anchor(self, slot: Slot) -> tuple[Tree, ...]:
+        """A point of the space in which another moves."""
+        name = "to" if "to" in slot.table else slot.key
+        return self.listed(slot.table[name], self.dimension(slot), f"{slot.where}, to")
+
+    @abstractmethod
+    def is_spring(self, k: int) -> bool:
+        """Is this potential, from 1, a spring?"""
+
+    def spring(self, slot: Slot) -> int:
+        """A spring by the number of its potential."""
+        k = self.value(slot)
+        if type(k) is not int or not self.is_spring(k):
+            raise self.fail(f"{slot.path}: expected the number of a [[potential]] that is a spring")
+        return k
+
+    @abstractmethod
     def stated_couple(self, slot: Slot) -> tuple[Tree, ...]:
         """A moment that is one."""
 
@@ -313,3 +361,8 @@ class TableReader(ABC):
     def corners(self, slot: Slot) -> Rows:
         """Those of a tetrahedron."""
         return self.rows(self.value(slot), 4, 3, slot.path, "points")
+
+
+def _numbers_of(name: str, other: str) -> bool:
+    """Is a name that of a number of another name, as F_2 of F?"""
+    return bool(re.fullmatch(rf"{re.escape(other)}_[1-9][0-9]*", name))

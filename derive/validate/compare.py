@@ -39,7 +39,8 @@ from .terms import Array, CodeError, DiffersError, Literals, Machine, Module, ru
 
 def compare_names(m: Module, claims: Claims) -> None:
     """``DiffersError`` where one of the lists is not what record and chart make it."""
-    for what, names in (("state", claims.state.names), ("inputs", claims.inputs)):
+    own = ("state", claims.state.names), ("inputs", claims.inputs), ("outputs", claims.outputs)
+    for what, names in own:
         if (getattr(m, what) or names) != names:
             raise DiffersError(f"the names of {what} are not {', '.join(names) or 'none'}")
     declared, listed = claims.record.problem["parameters"], m.parameters or ()
@@ -51,6 +52,8 @@ def compare_names(m: Module, claims: Claims) -> None:
         "PARAMETERS": len(listed),
         "ALGEBRA": claims.group.dimension,
     }
+    if claims.outputs:
+        sizes["OUTPUTS"] = len(claims.outputs)
     if "q_0" in claims.state.names:
         sizes["MATRIX"] = len(claims.state.names) + 5  # nine entries for four
     for what, size in sizes.items():
@@ -213,6 +216,12 @@ class Comparison:
             found.append("multiplier")
         if "conserved" in self.module.functions:
             found.append(self._conserved(arguments))
+        if "outputs" in self.module.functions:
+            names = self.claims.outputs
+            read = self._call("outputs", arguments, out=len(names))["out"]
+            wanted = [point.named.parameters[name] for name in names]
+            self._require_equal("outputs", names, read, wanted)
+            found.append("outputs")
         found += self._discrete(arguments)
         return (*found, *self._in_momenta(arguments), *self._jacobians(arguments))
 
@@ -345,7 +354,8 @@ class Comparison:
     def _jacobians(self, arguments: Mapping[str, Any]) -> list[str]:
         """The names of the module's Jacobians, each found equal to exact derivatives of ``rhs``."""
         p, k = ([getattr(x, "value", x) for x in arguments[a].values] for a in ("p", "k"))
-        columns = ExactJacobians(self.plain, self.claims.state, self.point, p, k).columns
+        own = self.plain, self.claims.state, self.point, p, k, len(self.claims.outputs)
+        columns = ExactJacobians(*own).columns
         found = [name for name in columns if name in self.module.functions]
         for name in found:
             D = [x for row in zip(*columns[name], strict=True) for x in row]

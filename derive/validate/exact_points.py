@@ -30,6 +30,7 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.reserved import numbers_of_input
 from ..record.record import Derivation, Equation, RecordError
+from ..schema.output_kinds import numbers_of_output
 from .chart import Chart, Numbers, ReducedChart, chart_of
 from .straight_line import Measured
 from .terms import CodeError
@@ -88,8 +89,14 @@ class Claims:
             found += numbers_of_input(data, size)
         return tuple(found)
 
+    @cached_property
+    def outputs(self) -> tuple[str, ...]:
+        """The names of what is read off the motion, in order."""
+        listed = self.record.problem.get("outputs", [])
+        return tuple(x for data in listed for x in numbers_of_output(data, self._factor(data).n))
+
     def _factor(self, data: Mapping[str, Any]) -> Group:
-        """What moves the place of a force, or the block of a torque."""
+        """What moves the place of a force or an output, or the block of a torque."""
         body = self.record.problem.get("body", {}).get("points", [])
         listed = [*body, *self.record.problem.get("places", [])]
         at = listed[data["on"] - 1] if "on" in data else data

@@ -175,13 +175,15 @@ ZERO = Fraction(0)
 
 @dataclass(frozen=True)
 class ExactJacobians:
-    """The derivatives of the rates at one point; ``p``, ``k``: its parameters and constants."""
+    """The derivatives of the rates at one point, and of so many ``outputs``; ``p``, ``k``: its
+    parameters and constants."""
 
     machine: Machine
     state: StateChart
     point: Point
     p: Sequence[Fraction]
     k: Sequence[Fraction]
+    outputs: int = 0
 
     @property
     def columns(self) -> Mapping[str, Iterator[list[Fraction]]]:
@@ -191,7 +193,26 @@ class ExactJacobians:
             "jacobian_inputs": self._inputs(),
             "jacobian_parameters": self._parameters(),
             "jacobian_raw": self._raw(),
+            "jacobian_outputs": self._outputs_along(),
+            "jacobian_outputs_inputs": self._outputs_by("u"),
+            "jacobian_outputs_raw": self._outputs_by("x"),
         }
+
+    def _outputs_along(self) -> Iterator[list[Fraction]]:
+        """The columns of the derivative of ``outputs`` along η = E_a, then along δζ = E_a."""
+        none, basis = q.scaled(ZERO, self.point.Z), self.state.group.basis
+        for pairs in (((e, none) for e in basis), ((none, e) for e in basis)):
+            for eta, change in pairs:
+                yield self._read({"x": self.state.varied(self.point.g, self.point.Z, eta, change)})
+
+    def _outputs_by(self, array: str) -> Iterator[list[Fraction]]:
+        """The columns of the derivative of ``outputs`` by the numbers of an array."""
+        given = self.point.arguments[array]
+        for j in range(len(given)):
+            yield self._read({array: [y + EPSILON if i == j else y for i, y in enumerate(given)]})
+
+    def _read(self, changed: Mapping[str, Sequence[Any]]) -> list[Fraction]:
+        return [part(y, EPS) for y in self._called("outputs", "out", self.outputs, changed)]
 
     def _state(self) -> Iterator[list[Fraction]]:
         """The columns of the Jacobian in the state: (η̇, δζ̇) for η = E_a, then for δζ = E_a."""
@@ -243,16 +264,21 @@ class ExactJacobians:
         return found
 
     def _rates(self, changed: Mapping[str, Sequence[Any]]) -> tuple[Any, ...]:
+        return self._called("rhs", "dx", len(self.point.rates), changed)
+
+    def _called(
+        self, name: str, array: str, size: int, changed: Mapping[str, Sequence[Any]]
+    ) -> tuple[Any, ...]:
+        """What a function writes where arguments have the changed values."""
         values = {
             "x": self.point.arguments["x"],
             "u": self.point.arguments["u"],
             "k": self.k,
             **changed,
         }
-        arguments = {name: Array(x, name) for name, x in values.items()}
-        size = len(self.point.rates)
-        found = self.machine.call("rhs", {"t": self.point.arguments["t"], **arguments}, dx=size)
-        return tuple(found["dx"])
+        arguments = {x: Array(numbers, x) for x, numbers in values.items()}
+        given = {"t": self.point.arguments["t"], **arguments}
+        return tuple(self.machine.call(name, given, **{array: size})[array])
 
 
 Call = Callable[..., dict[str, list[Any]]]

@@ -16,8 +16,8 @@ from .terms import CodeError, Module, Statement, plain_text
 DECLARED = {"P": "PARAMETERS", "K": "CONSTANTS", "U": "INPUTS"}
 """Macro → the size that it declares: arrays that may be empty, which C does not have: SIZE is 1
 then."""
-LISTS = ("state", "parameter", "input", "conserved", "event")
-PLACES = {"X": "state", "P": "parameters", "U": "inputs"}
+LISTS = ("state", "parameter", "input", "output", "conserved", "event")
+PLACES = {"X": "state", "P": "parameters", "U": "inputs", "Y": "outputs"}
 """The letters of the places of numbers, and of what."""
 REFUSALS = ("SINGULAR", "NOT_FINITE")
 """What ``constants`` returns of a body that has no rates; with SIZES these are all enumerators."""
@@ -123,15 +123,15 @@ def read_c(name: str, files: Mapping[str, str], prefix: str) -> tuple[Module, Se
         if [int(i) for i, _ in named] != list(range(found.sizes["PARAMETERS"])):
             raise CodeError("the parameters are not listed in order")
         found = replace(found, parameters=tuple(x for _, x in named))
-    lists = (found.state, found.parameters, found.inputs)
+    lists = (found.state, found.parameters, found.inputs, found.outputs)
     placed = [reader.places.get(x, y) for x, y in zip(PLACES, lists, strict=True)]
     for letter, listed, read in zip(PLACES, lists, placed, strict=True):
         if listed is not None and read != listed:
             raise CodeError(
                 f"{prefix}_{letter}_… are not the places of the names of {PLACES[letter]}"
             )
-    state, parameters, inputs = placed  # one header has no list of names beside
-    return replace(found, state=state, parameters=parameters, inputs=inputs), reader.events
+    # one header has no list of names beside
+    return replace(found, **dict(zip(PLACES.values(), placed, strict=True))), reader.events
 
 
 def calls_of_cpp(name: str, text: str, prefix: str) -> tuple[str, ...]:
@@ -206,9 +206,9 @@ class CReader(Reader):
         if missing := declared - set(self.functions):
             raise CodeError(f"the function {min(missing)} is declared and not defined")
         sizes = {x: self.sizes.get(f"{self.prefix}_N_{x}", -1) for x in SIZES}
-        lists = (self.values.get(f"{self.prefix}_{x}_names") for x in LISTS[:3])
-        state, parameters, inputs = lists
-        return Module(state, parameters, inputs, self.functions, sizes)
+        lists = (self.values.get(f"{self.prefix}_{x}_names") for x in LISTS[:4])
+        state, parameters, inputs, outputs = lists
+        return Module(state, parameters, inputs, self.functions, sizes, outputs=outputs)
 
     def _further(self) -> bool:
         """Pass what holds the integrals over an ellipsoid, or what is no claim of the record and
@@ -255,7 +255,7 @@ class CReader(Reader):
         return True
 
     def _places(self) -> bool:
-        """Read the places of the numbers of x, p or u by their names, where they stand here."""
+        """Read the places of the numbers of x, p, u or y by their names, where they stand here."""
         letter = self.near(2).removeprefix(f"{self.prefix}_")[:2].removesuffix("_")
         if letter not in PLACES or letter in self.places or not self.took("enum {"):
             return False

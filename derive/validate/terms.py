@@ -220,8 +220,8 @@ Names = tuple[str, ...] | None
 
 @dataclass(frozen=True)
 class Module:
-    """An emitted file: the names of state, parameters and inputs, ``None`` where it has no such
-    list, and its functions.
+    """An emitted file: the names of state, parameters, inputs and outputs, ``None`` where it has
+    no such list, and its functions.
 
     ``sizes``: STATE, ALGEBRA, PARAMETERS, CONSTANTS, INPUTS. ``defaults`` and ``basis`` where the
     file has them.
@@ -234,6 +234,7 @@ class Module:
     sizes: Mapping[str, int]
     defaults: Mapping[str, Any] | None = None
     basis: Any = field(default=None)
+    outputs: Names = None
 
 
 @dataclass(frozen=True)

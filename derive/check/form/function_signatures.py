@@ -133,7 +133,7 @@ MOVED: dict[str, tuple[ArgumentKind, ...]] = {
 
 POINT, AXIS = "points", "axes or elements of a basis"
 INDEX_SETS: dict[str, str] = {
-    **dict.fromkeys(("m", "r", "r̂", "v", "F", "Q", "P", "κ"), POINT),
+    **dict.fromkeys(("m", "r", "r̂", "v", "v̇", "F", "Q", "P", "κ"), POINT),
     **dict.fromkeys(("k", "s"), "springs"),
     **dict.fromkeys(("d", "χ", "σ"), "forces along a distance"),
     **dict.fromkeys(("E", "Π", "Π̇", "Φ"), AXIS),

@@ -46,6 +46,7 @@ from .momenta import (
     rigid_body_values,
     space_values,
 )
+from .observed import Observed, accelerations
 from .point_masses import listed_count, outer_sum
 
 # The mapping from names to exact values that an environment reads.
@@ -88,7 +89,7 @@ def environment(model: Model) -> Environment:
         NameValues(model, GROUPS),
         _families(model),
         _functions(model),
-        model.parameters,
+        Observed(model) if model.problem.get("outputs") else model.parameters,
         elementary=model.elementary,
         listed=listed_count(model),
         copies=model.copies,
@@ -190,6 +191,8 @@ def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
         "v": {(i,): q.column(v) for i, v in enumerate(model.images(model.nu), 1)},
         "F": {(i,): q.column(f) for i, f in enumerate(model.forces, 1)},
     }
+    if model.problem.get("outputs") and not model.generic:
+        families["v̇"] = {(i,): q.column(a) for i, a in enumerate(accelerations(model), 1)}
     if not model.generic:
         own = model.group.basis[: len(model.group.linear_basis)]
         families["E"] = {(a,): model.group.linear_part(e) for a, e in enumerate(own, 1)}

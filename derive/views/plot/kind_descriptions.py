@@ -2,6 +2,7 @@
 
 KINDS = {
     "state": "the state against time",
+    "outputs": "what is read off the motion, against time",
     "energy": "relative errors of the energy and of what is conserved",
     "axes": "tips of the body's axes on the sphere",
     "polhode": "the velocity on the ellipsoid of inertia",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from ...language.reserved import did_you_mean, near_name
@@ -52,6 +53,11 @@ KINDS = {
         time_series.state,
         (("columns of the state", lambda run: run.states.shape[1] > 0),),
         time_series.size_of_state,
+    ),
+    "outputs": PictureKind(
+        partial(time_series.state, kind="output"),
+        (("columns of outputs", lambda run: bool(run.of_kind("output"))),),
+        partial(time_series.size_of_state, kind="output"),
     ),
     "energy": PictureKind(
         time_series.energy,

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ...language.reserved import by_letter, letter_and_suffix
-from ...motion.emitted_code import KEPT, Column, in_words
+from ...motion.emitted_code import KEPT, Column, in_words, parts
 from ...motion.run import Array, Run
 from .body_pictures import attitude
 from .plot_sheet import COLOURS, label
@@ -33,20 +33,25 @@ OFTEN, EVEN = 0.25, 1e-6
 period, too few for a curve; unless it is even but for so much of its panel."""
 
 
-def letters(run: Run) -> list[tuple[str, list[Column]]]:
-    """The columns of the state by their letters, of many the first."""
-    known = {x.name: x for x in run.columns if x.kind == "state"}
-    return [(key, [known[x] for x in names]) for key, names in by_letter(known).items()][:6]
+def letters(run: Run, kind: str = "state") -> list[tuple[str, list[Column]]]:
+    """The columns of the state, or of another kind, by their letters, of many the first."""
+    known = {x.name: x for x in run.columns if x.kind == kind}
+    grouped = by_letter(known) if kind == "state" else {}
+    for name in known if kind != "state" else ():
+        grouped.setdefault(parts(name)[0], []).append(name)
+    most = 6 if kind == "state" else MOST
+    return [(key, [known[x] for x in names]) for key, names in grouped.items()][:most]
 
 
-def size_of_state(run: Run) -> tuple[float, float]:
+def size_of_state(run: Run, kind: str = "state") -> tuple[float, float]:
     """Width and height of :func:`state`."""
-    return 6.5, 0.6 + 1.7 * len(letters(run))
+    return 6.5, 0.6 + 1.7 * len(letters(run, kind))
 
 
-def state(figure: Any, run: Run, word: Any) -> None:
-    """The columns of the state against time, a panel each letter (A, T, ζ, …)."""
-    groups = letters(run)
+def state(figure: Any, run: Run, word: Any, kind: str = "state") -> None:
+    """The columns of the state against time, a panel each letter (A, T, ζ, …); or those of what is
+    read off the motion, a panel each name."""
+    groups = letters(run, kind)
     panels = figure.subplots(len(groups), 1, sharex=True, squeeze=False)[:, 0]
     for panel, (key, members) in zip(panels, groups, strict=True):
         size, fast = max(float(np.abs(run[x.name]).max()) for x in members), []

@@ -1,0 +1,144 @@
+"""The numbers that are read off a motion at one exact point, from its points alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+from ...algebra.groups import Group
+from ...language import rational as q
+from ...record.as_json import decode
+from ...record.record import RecordError
+from ...schema.output_kinds import numbers_of_output
+from ..values.evaluate import evaluate
+from .model import Model
+from .point_masses import Vector
+
+Data = Mapping[str, Any]
+
+
+class Observed(Mapping[str, Any]):
+    """The parameters of a model, and the outputs of its problem by their names, each found when it
+    is first asked for."""
+
+    def __init__(self, model: Model):
+        self.model, self.known = model, dict(model.parameters)
+        self.kinds: dict[str, Callable[[Data], Vector]] = {
+            "place": lambda x: self.seen(x, model.images(model.g)[x["on"] - 1]),
+            "velocity": lambda x: self.seen(x, model.images(model.nu)[x["on"] - 1]),
+            "acceleration": lambda x: self.seen(x, accelerations(model)[x["on"] - 1]),
+            "specific_force": self.specific_force,
+            "rate": self.rate,
+            "direction": self.direction,
+            "distance": self.distance,
+            "momentum": self.momentum,
+            "tension": self.tension,
+            "expression": self.expression,
+        }
+        self.told: dict[str, Data] = {}
+        for data in () if model.generic else model.problem.get("outputs", ()):
+            names = numbers_of_output(data, self._acted_on(data)[1].n)
+            self.told |= dict.fromkeys(names, data | {"names": names})
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self.known:
+            data = self.told[name]
+            values = self.kinds[data["kind"]](data)
+            if len(values) != len(data["names"]):
+                raise RecordError(f"output {data['name'][:40]!r}: not {len(values)} numbers")
+            self.known |= dict(zip(data["names"], values, strict=True))
+        return self.known[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter({**self.known, **self.told})
+
+    def __len__(self) -> int:
+        return len({**self.known, **self.told})
+
+    def _acted_on(self, data: Data) -> tuple[int, Group]:
+        """The block, from 1, where an output is read, and its factor."""
+        model = self.model
+        block = model.blocks[data["on"] - 1] if "on" in data else int(data.get("block", 1))
+        return block, model.group.places[block - 1][1]
+
+    def seen(self, data: Data, vector: Vector) -> Vector:
+        """A vector of space, of its block in a product; its products with the images of the axes of
+        the body where it is seen in this."""
+        group, (block, _) = self.model.group, self._acted_on(data)
+        at = group.of_block(block) if group.factors else slice(None)
+        inside = vector[at]
+        if data.get("frame", "body") == "space":
+            return inside
+        linear = group.linear_part(self.model.g)
+        axes = q.transposed(tuple(row[at] for row in linear[at]))
+        return tuple(q.dot(axis, inside) for axis in axes)
+
+    def _given(self, data: Data, trees: Any) -> Vector:
+        """A vector that the problem states, among those of all blocks."""
+        block, _ = self._acted_on(data)
+        return self.model.group.in_block(block, self.model.applied.vector(trees))
+
+    def specific_force(self, data: Data) -> Vector:
+        """The acceleration less those of all uniform gravities, on the axes of the body."""
+        found = accelerations(self.model)[data["on"] - 1]
+        for p in self.model.problem["potentials"]:
+            if p["kind"] == "gravity":
+                pairs = zip(found, self._given(data, p["g"]), strict=True)
+                found = tuple(x - y for x, y in pairs)
+        return self.seen(data, found)
+
+    def rate(self, data: Data) -> Vector:
+        """ω with Z x = ω ∧ x on the axes of the body."""
+        block, factor = self._acted_on(data)
+        at = self.model.group.of_block(block)
+        Z = tuple(row[at] for row in self.model.Z[at])
+        if factor.n == 2:
+            return (Z[1][0],)
+        if factor.n != 3:
+            raise RecordError("a rate is of rotations of the plane or of R³")
+        return Z[2][1], Z[0][2], Z[1][0]
+
+    def direction(self, data: Data) -> Vector:
+        """A vector of the body as g moves it, or one of space on the axes of the body."""
+        vector = self._given(data, data["direction"])
+        if data["frame"] == "body":
+            return self.seen(data, vector)
+        linear = self.model.group.linear_part(self.model.g)
+        return self.seen(data, q.flatten(q.times(linear, q.column(vector))))
+
+    def distance(self, data: Data) -> Vector:
+        """The root of the square of a difference."""
+        applied, places = self.model.applied, self.model.images(self.model.g)
+        if "other_end" in data:
+            end = applied.place(places, data["other_end"])
+        else:
+            end = applied.vector(data["anchor"])
+        pairs = zip(applied.place(places, data["on"]), end, strict=True)
+        between = tuple(x - y for x, y in pairs)
+        return (applied.root(q.dot(between, between)),)
+
+    def momentum(self, data: Data) -> Vector:
+        """Σ m_i v_i over the points of the block."""
+        model, (block, _) = self.model, self._acted_on(data)
+        listed = zip(model.masses, model.images(model.nu), model.blocks, strict=True)
+        moving = [tuple(m * x for x in v) for m, v, k in listed if k == block]
+        return self.seen(data, tuple(sum(x) for x in zip(*moving, strict=True)))
+
+    def tension(self, data: Data) -> Vector:
+        """The derivative of ½ k (s − length)² by s."""
+        applied, spring = self.model.applied, self.model.problem["potentials"][data["of"] - 1]
+        ends = {"on": spring["on"], "anchor": spring["anchor"]} if "on" in spring else None
+        i, j = (0, 0) if ends else spring["between"]
+        (length,) = self.distance(ends or {"on": i, "other_end": j})
+        k, at_rest = applied.number(spring["stiffness"]), applied.number(spring["length"])
+        return (k * (length - at_rest),)
+
+    def expression(self, data: Data) -> Vector:
+        """What the problem states, of the state."""
+        return tuple(evaluate(decode(x, "y"), self.model.of_state) for x in data["y"])
+
+
+def accelerations(model: Model) -> list[Vector]:
+    """g(Ż + Z²)r of all points, along the motion."""
+    rate = q.plus(model.acceleration, q.times(model.Z, model.Z))
+    return model.images(q.times(model.g, rate))

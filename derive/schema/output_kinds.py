@@ -1,0 +1,175 @@
+"""What is read off a motion: the tables [[output]], by kinds."""
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, ClassVar
+
+from ..language.reserved import suffixed
+from ..language.tree import Tree
+from .kind import TurningBlock
+from .table import ATTACHED, Block, End, Frame, Key, Name, Number, Row, Table, place
+
+Direction = Annotated[Row, Key("direction", 1, trees=True)]
+OtherEnd = Annotated[int | None, Key("other_end", keys=("to",))]
+Anchor = Annotated[Row | None, Key("anchor", 1, trees=True, keys=("to",))]
+SpringNumber = Annotated[int, Key("spring")]
+ReadAt = Annotated[int | None, Key("end", keys=ATTACHED)]
+Expressions = Annotated[Row, Key("observed", 1, trees=True)]
+"""A vector that is not 0; the point, or the point of space, up to which a distance is; a potential
+that is a spring, by its number; the place whose r_1, …, v_1, … expressions name, if they do;
+expressions of the state, t, inputs and parameters."""
+
+
+class Output(Table):
+    """What of a motion has a name: a number, or as many as the space has (``vector``)."""
+
+    section: ClassVar[str] = "output"
+    vector: ClassVar[bool] = True
+    name: Name
+
+
+class PlaceOutput(Output):
+    """r_i(t), where a point or a place of the body is, from the origin of space."""
+
+    kind = "place"
+    on: End
+    frame: Frame = "space"
+
+
+class VelocityOutput(Output):
+    """Its velocity."""
+
+    kind = "velocity"
+    on: End
+    frame: Frame = "space"
+
+
+class AccelerationOutput(Output):
+    """Its acceleration, along the motion."""
+
+    kind = "acceleration"
+    on: End
+    frame: Frame = "space"
+
+
+class SpecificForceOutput(Output):
+    """What an accelerometer reads there: the acceleration less that of uniform gravity, along the
+    axes of the body."""
+
+    kind = "specific_force"
+    on: End
+
+
+class RateOutput(Output):
+    """What a gyroscope reads: the angular velocity in the body, one number in the plane."""
+
+    kind = "rate"
+    block: TurningBlock
+
+
+class DirectionOutput(Output):
+    """A vector of the body as it is in space; or one of space as the body sees it, in its axes."""
+
+    kind = "direction"
+    block: Block
+    direction: Direction
+    frame: Frame = "space"
+
+
+class DistanceOutput(Output):
+    """That of a point to another, or to a point of space."""
+
+    kind, vector = "distance", False
+    on: End
+    other_end: OtherEnd = None
+    anchor: Anchor = None
+
+    @classmethod
+    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
+        """A point by its number, or a point of space by its coordinates."""
+        if not {"to", "other_end", "anchor"} & {*table}:
+            return "give 'to', a point by its number or a point of space by its coordinates"
+        given = isinstance(table.get("to", table.get("anchor")), list)
+        return "name", "on", "anchor" if given else "other_end"
+
+
+class MomentumOutput(Output):
+    """Σ m_i v_i, over the points of a block."""
+
+    kind = "momentum"
+    block: Block
+    frame: Frame = "space"
+
+
+class TensionOutput(Output):
+    """k (‖d‖ − length), with which a spring pulls."""
+
+    kind, vector = "tension", False
+    of: SpringNumber
+
+
+class ExpressionOutput(Output):
+    """Expressions y of the state, and of the coordinates r_1, … and the velocity v_1, … of a place
+    where one is said."""
+
+    kind, called = "expression", "Output"
+    on: ReadAt = None
+    y: Expressions
+
+    @classmethod
+    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
+        """A place where the table says one."""
+        return ("name", "on", "y") if {*ATTACHED} & {*table} else ("name", "y")
+
+    @classmethod
+    def word(
+        cls,
+        name: str,
+        kind: str | None = None,
+        on: int | Sequence[Number] | None = None,
+        y: Sequence[Number] | None = None,
+        frame: str | None = None,
+        block: int | None = None,
+        to: int | Sequence[Number] | None = None,
+        direction: Sequence[Number] | None = None,
+        of: int | None = None,
+    ) -> Any:
+        """What is read off a motion: the "place", "velocity", "acceleration" or "specific_force" of
+        a point or a place of the body; a "rate", that of turning; a "direction" of the body in
+        space, or of space in the frame "body"; the "distance" to a point or an anchor; the
+        "momentum"; the "tension" of a spring, the potential of that number; or expressions y."""
+        told = {"name": name, "kind": kind, "y": y, "frame": frame, "to": to}
+        told |= {"direction": direction, "of": of, "block": block}
+        return told if on is None else told | place(on, block)
+
+
+OUTPUTS: dict[str, type[Output]] = {
+    x.kind: x
+    for x in (
+        PlaceOutput,
+        VelocityOutput,
+        AccelerationOutput,
+        SpecificForceOutput,
+        RateOutput,
+        DirectionOutput,
+        DistanceOutput,
+        MomentumOutput,
+        TensionOutput,
+        ExpressionOutput,
+    )
+}
+
+
+def numbers_of_output(told: Mapping[str, Any], dimension: int) -> list[str]:
+    """The names of the numbers of an output, which is ``told`` as in a record, in a space of so
+    many dimensions."""
+    size = dimension if OUTPUTS[told["kind"]].vector else 1
+    if told["kind"] == "rate":
+        size = 3 if dimension == 3 else 1
+    size = len(told.get("y", range(size)))
+    name = told["name"]
+    return [name] if size == 1 else [suffixed(name, k) for k in range(1, size + 1)]
+
+
+def trees_of(outputs: Sequence[Output]) -> list[Tree]:
+    """The expressions in them."""
+    return [t for x in outputs for t in x.trees()]
