@@ -16,6 +16,7 @@ from .conventions import conventions, titles
 from .drift import TEXTS, drift, matrices
 from .factor import factored
 from .graph import Node, reachable
+from .inverse_dynamics import dynamics
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
@@ -130,6 +131,7 @@ def _of_state(
     momenta = momentum_state(lowering, group, chosen) if chosen.momenta else None
     wanted |= _added(lowering, momenta, kept)
     wanted |= outputs(lowering, chosen)
+    wanted |= dynamics(lowering) if chosen.dynamics else {}
     if events:
         wanted["events"] = values(lowering, events)
     stepped = lowered(lowering, discrete) if discrete else None

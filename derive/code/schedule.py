@@ -288,7 +288,13 @@ def variations(space: StateSpace) -> list[Directional]:
     """The derivatives along η, then along δζ, on the basis: 2N of them."""
     g, span = space.graph, range(space.group.dimension)
     turned = [Directional(g, space.along(a), f"eta_{a + 1}") for a in span]
-    return turned + [Directional(g, space.faster(a), f"zeta_{a + 1}") for a in span]
+    return turned + of_velocity(space)
+
+
+def of_velocity(space: StateSpace) -> list[Directional]:
+    """Those along δζ alone."""
+    g, span = space.graph, range(space.group.dimension)
+    return [Directional(g, space.faster(a), f"zeta_{a + 1}") for a in span]
 
 
 def by_leaves(space: StateSpace, accelerations: list[Node], leaves: Sequence[Node]) -> list[Node]:

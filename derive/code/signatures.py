@@ -157,6 +157,18 @@ SIGNATURES = (
         "the derivative of the outputs by x as it is stored, by rows",
     ),
     Signature(
+        "mass_matrix",
+        (T, X, K),
+        (Argument("D", ("ALGEBRA", "ALGEBRA")),),
+        "the mass matrix M, by rows",
+    ),
+    Signature(
+        "bias",
+        (T, X, K, U),
+        (Argument("out", ("ALGEBRA",)),),
+        "b: M a + b is the covector to be added to what acts, so that the velocity has the rates a",
+    ),
+    Signature(
         "momentum", (T, X, K), (OUT,), "the state x with its momenta in place of the velocity"
     ),
     Signature(

@@ -194,14 +194,18 @@ class FileReader(TableReader):
     def turning(self, slot: Slot) -> int:
         """The same, whose linear parts are rotations of the plane or of R³."""
         found: int = self.block(slot)
-        self._turned(self.moving().places[found - 1][1], slot.where)
+        is_read = slot.table.get("kind") == "rate"
+        self._turned(self.moving().places[found - 1][1], slot.where, is_read=is_read)
         return found
 
-    def _turned(self, factor: Group, where: str) -> None:
+    def _turned(self, factor: Group, where: str, *, is_read: bool = False) -> None:
         if "orthogonal" not in factor.relations or factor.n not in (2, 3):
+            what, other = "a torque", "give forces at places, or a covector"
+            if is_read:
+                what, other = "a rate", "give expressions 'y' of zeta_1, …"
             raise ProblemError(
-                f"{where}: a torque needs linear parts that are rotations of the plane or of R^3, "
-                f"and those of {factor.name} are others; give forces at places, or a covector"
+                f"{where}: {what} needs linear parts that are rotations of the plane or of R^3, "
+                f"and those of {factor.name} are others; {other}"
             )
 
     def direction(self, slot: Slot) -> Vector:

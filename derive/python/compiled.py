@@ -124,10 +124,10 @@ class Buffers:
 class Compiled(InMomenta):
     """The functions of one problem in compiled C, for one body; called, it is dx/dt = f(t, x, u).
 
-    ``STATE``, ``PARAMETERS``, ``INPUTS``, ``CONSERVED``, ``OUTPUTS``, ``STEPS``: names; ``p`` and ``k``:
-    parameters and constants in use; ``u``: the inputs of calls that are given none, zero at first.
-    These three are not to be written into: :meth:`use` and ``f.u = …`` replace them. Threads may
-    share it, each call has buffers of its own; pickled, it takes its C along, which is compiled
+    ``STATE``, ``PARAMETERS``, ``INPUTS``, ``CONSERVED``, ``OUTPUTS``, ``STEPS``: names; ``p``,
+    ``k``: parameters and constants in use; ``u``: the inputs of calls that are given none, zero at
+    first. These three are not to be written into: :meth:`use` and ``f.u = …`` replace them. Threads
+    may share it, each call has buffers of its own; pickled, it takes its C along, which is compiled
     where it is loaded.
     """
 
@@ -344,6 +344,21 @@ class Compiled(InMomenta):
         D = np.zeros((size, size))
         self._call_at("jacobian_raw", None, t, x, k, self._inputs(u), D)
         return D
+
+    def mass_matrix(self, t: float, x: Any) -> Array:
+        """The mass matrix, (d, d) in the basis of the velocity; needs ``dynamics=True``."""
+        d = self._names.algebra
+        M = np.zeros((d, d))
+        self._call_at("mass_matrix", None, t, x, self._in_use().k, M)
+        return M
+
+    def inverse(self, t: float, x: Any, rates: Any, u: Any = None) -> Array:
+        """The covector, (d,), that must be added to what acts for the velocity to have these
+        rates, (d,): M rates + bias; needs ``dynamics=True``."""
+        bias = np.zeros(self._names.algebra)
+        self._call_at("bias", None, t, x, self._in_use().k, self._inputs(u), bias)
+        found: Array = self.mass_matrix(t, x) @ _array(rates, len(bias)) + bias
+        return found
 
     def jacobian_outputs(self, t: float, x: Any, u: Any = None) -> tuple[Array, Array]:
         """C and D: the derivatives of the outputs, (len(OUTPUTS), 2d) by (η, δζ), and

@@ -14,6 +14,9 @@ from functools import partial
 from random import Random
 from typing import Any
 
+from ..check.lagrangian.lagrangian_model import LagrangianModel
+from ..check.trials.model import Model
+from ..language import rational as q
 from ..record.as_json import to_json
 from .chart import ReducedChart, StateChart
 from .discrete_functions import DiscreteFunctions
@@ -222,6 +225,8 @@ class Comparison:
             wanted = [point.named.parameters[name] for name in names]
             self._require_equal("outputs", names, read, wanted)
             found.append("outputs")
+        if "bias" in self.module.functions:
+            found += self._dynamics(arguments)
         found += self._discrete(arguments)
         return (*found, *self._in_momenta(arguments), *self._jacobians(arguments))
 
@@ -335,6 +340,31 @@ class Comparison:
             return ()
         own = self._call, self.plain, self._require_equal, self._draw, self.point, self.claims.state
         return MomentumFunctions(*own).compare(arguments)
+
+    def _dynamics(self, arguments: Mapping[str, Any]) -> tuple[str, str]:
+        """Compare the mass matrix with the checker's metric, and the bias with −M ζ̇."""
+        group, point = self.claims.state.group, self.point
+        model = getattr(point.named.names, "model", None)
+        assert isinstance(model, (Model, LagrangianModel))
+        columns = q.transposed(tuple(map(model.group.nearest, group.basis)))
+        M = q.times(q.transposed(columns), q.times(model.metric, columns))
+        names = [f"entry {i}" for i in range(len(M) ** 2)]
+        found = self._call("mass_matrix", arguments, D=len(names))["D"]
+        self._require_equal("mass_matrix", names, found, q.flatten(M))
+        rates = q.times(M, q.column(self._accelerations))
+        bias = self._call("bias", arguments, out=len(M))["out"]
+        self._require_equal("bias", names[: len(M)], bias, [-x for (x,) in rates])
+        return "mass_matrix", "bias"
+
+    @property
+    def _accelerations(self) -> Sequence[Any]:
+        """The rates of the velocity, in the basis of the state."""
+        state, point = self.claims.state, self.point
+        if isinstance(state, ReducedChart):
+            return point.rates[: state.group.dimension]
+        back = q.inverse(point.g)
+        assert back is not None
+        return state.acceleration(point.Z, back, point.rates)
 
     def _discrete(self, arguments: Mapping[str, Any]) -> tuple[str, ...]:
         """The names of the functions of a discrete step, where there is one, each found right."""

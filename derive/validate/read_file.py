@@ -131,7 +131,8 @@ def read_c(name: str, files: Mapping[str, str], prefix: str) -> tuple[Module, Se
                 f"{prefix}_{letter}_… are not the places of the names of {PLACES[letter]}"
             )
     # one header has no list of names beside
-    return replace(found, **dict(zip(PLACES.values(), placed, strict=True))), reader.events
+    own: dict[str, Any] = dict(zip(PLACES.values(), placed, strict=True))
+    return replace(found, **own), reader.events
 
 
 def calls_of_cpp(name: str, text: str, prefix: str) -> tuple[str, ...]:

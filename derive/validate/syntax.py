@@ -32,6 +32,8 @@ CONTRACT = {
     "step_turn": ("v s", "out"),
     "step_turn_little": ("v s", "out"),
     "step_end": ("x k q v", "out"),
+    "mass_matrix": ("t x k", "D"),
+    "bias": ("t x k u", "out"),
     "project": ("x", "out"),
     "defect": ("x", ""),
     "to_matrix": ("x", "out"),

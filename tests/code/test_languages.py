@@ -1,5 +1,6 @@
 """Every language says the same as the emitted C; what one language alone is asked."""
 
+import tomllib
 from functools import cache
 
 import numpy as np
@@ -9,6 +10,7 @@ from derive import SE, Points, Potential, Problem
 from derive.code.languages import LANGUAGES
 from derive.problem.toml import problem_of
 from tests.code.test_indefinite import REGULAR, typed
+from tests.problems import PROBLEMS as FILES
 from tests.support.languages import PIECES, Case, T, command
 from tests.support.library import BUILDS, emission, library, loaded
 from tests.support.needs import need
@@ -33,11 +35,16 @@ TURNING = {
 }
 HYPERBOLIC = TURNING | {"group": "SO(2)", "lagrangian": {"L": "cosh(zeta_1) + A_11"}}
 FLUID = {"algebra": {"of": "torus", "N": 9}, "inertia": {"operator": "laplacian"}}
+OBSERVED = FILES["SE(2) x SO(2) outputs"]
 JACOBIANS = ("state", "inputs", "parameters", "raw")
 PROBLEMS = {
     "body": ("so3", {"jacobian": JACOBIANS, "conserved": True}),
     "pressed": ("saff3", {"conserved": True, "multiplier": True}),
     "ellipsoid": ("riemann_ellipsoid", {"jacobian": JACOBIANS[:1]}),
+    "observed": (
+        problem_of(tomllib.loads(OBSERVED)),
+        {"jacobian": ("outputs", "raw"), "dynamics": True},
+    ),
     "functions": (BARE, {"jacobian": JACOBIANS[:1]}),
     "momenta": (problem_of(TURNING), {"momenta": True}),
     "newton": (problem_of(HYPERBOLIC), {"momenta": True}),

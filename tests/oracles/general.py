@@ -189,7 +189,7 @@ def places(data, p):
         tables = {("realised", i): {"mass": m, "at": r} for i, (m, r) in enumerate(pairs, 1)}
     else:
         tables = {("point", i): x for i, x in enumerate(data["point"], 1)}
-    for kind in ("potential", "input", "force"):
+    for kind in ("potential", "input", "force", "output"):
         tables |= {(kind, k): x for k, x in enumerate(data.get(kind, ())) if "at" in x}
     if {x["kind"] for x in data.get("potential", ())} & {"torsion", "far_centre", "volume"}:
         ((_, n, affine),) = parts
@@ -352,9 +352,8 @@ def names_of_state(data, basis, G, zeta):
     return env | {f"w_{i}": x for i, x in enumerate(zeta[turns:], 1)}
 
 
-def stated(data, basis, p, t, found, G, zeta, u):
-    """What the tables [[force]] give: forces (M,) and a covector (d,)."""
-    force, covector = np.zeros(len(found.row)), np.zeros(len(basis))
+def environment(data, basis, p, t, G, zeta, u):
+    """The numbers of parameters, the time, the state and the inputs by their names."""
     env = {**p, "t": t, **names_of_state(data, basis, G, zeta)}
     left = [] if u is None else [*u]
     for table in data.get("input", ()):
@@ -364,6 +363,13 @@ def stated(data, basis, p, t, found, G, zeta, u):
         single = "direction" in table or (table["kind"], size) == ("torque", 2)
         names = [table["name"]] if single else [f"{table['name']}_{i + 1}" for i in range(size)]
         env |= {name: left.pop(0) for name in names if left}
+    return env
+
+
+def stated(data, basis, p, t, found, G, zeta, u):
+    """What the tables [[force]] give: forces (M,) and a covector (d,)."""
+    force, covector = np.zeros(len(found.row)), np.zeros(len(basis))
+    env = environment(data, basis, p, t, G, zeta, u)
     Z = np.tensordot(zeta, basis, 1)
     for k, table in enumerate(data.get("force", ())):
         x = found.at[_key("force", k, table)]

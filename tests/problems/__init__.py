@@ -489,3 +489,89 @@ PROBLEMS |= {
     for path in sorted(READY.glob("*.toml"))
     if path.stem not in TEXTS
 }
+
+# what is read off a motion, in words, in entries of a product, where C stays
+READ_OFF = """
+[[potential]]
+kind = "gravity"
+g = {falling}
+[[potential]]
+kind = "spring"
+between = [1, 2]
+stiffness = "k"
+length = 0.4
+[[output]]
+name = "place"
+kind = "place"
+at = {away}
+[[output]]
+name = "pace"
+kind = "velocity"
+on = 2
+frame = "body"
+[[output]]
+name = "rush"
+kind = "acceleration"
+at = {away}
+[[output]]
+name = "felt"
+kind = "specific_force"
+at = {away}
+[[output]]
+name = "north"
+kind = "direction"
+direction = {away}
+frame = "body"
+[[output]]
+name = "nose"
+kind = "direction"
+direction = {away}
+[[output]]
+name = "far"
+kind = "distance"
+on = 1
+to = {away}
+[[output]]
+name = "near"
+kind = "distance"
+on = 1
+to = 2
+[[output]]
+name = "carried"
+kind = "momentum"
+frame = "body"
+[[output]]
+name = "pull"
+kind = "tension"
+of = 2
+[[output]]
+name = "power"
+y = ["k*v_1*r_2 + A{mark}_11", "t*zeta_1"]
+on = 1
+[[damping]]
+coefficient = 0.3
+"""
+RATES = '[[output]]\nname = "gyro"\nkind = "rate"\n'
+OTHER = RATES.replace("gyro", "turn") + "block = 2\n"
+OTHER += '[[output]]\nname = "beside"\nkind = "momentum"\n'
+
+
+DRIVEN = ALONG[ALONG.index("[[input]]") :]
+
+
+def read_off(group, n, *more):
+    """Points, gravity, a spring and outputs, on a group of Rⁿ."""
+    points = "".join(f"[[point]]\nmass = {m}\nat = {at[:n]}\n" for m, at in POINTS)
+    falling, away = [0.3, 1, -2][:n], [0.2, -0.5, 0.7][:n]
+    text = READ_OFF.format(falling=falling, away=away, mark="1" if " x " in group else "")
+    others = ", a = 0.7, c = -0.3" if '"a"' in "".join(more) else ""
+    head = f'name = "test"\ngroup = "{group}"\nparameters = {{ k = 1.7{others} }}\n'
+    return "".join((head, text, points, *more))
+
+
+PROBLEMS |= {
+    "SE(3) outputs": read_off("SE(3)", 3, RATES, DRIVEN),
+    "SE(2) x SO(2) outputs": read_off("SE(2) x SO(2)", 2, RATES, OTHER, IN_THE_PLANE),
+    "SL(2) outputs": read_off("SL(2)", 2),
+    "SO(2) outputs": read_off("SO(2)", 2, RATES),
+}

@@ -51,6 +51,10 @@ def fitting(kind):
     """A run of which a kind of picture can be drawn."""
     if kind in STARTING:
         return simulated(*STARTING[kind])
+    if kind == "outputs":
+        read = {"w_1": "state", "gyro_1": "output", "gyro_2": "output", "height": "output"}
+        t = np.linspace(0, 1, 50)
+        return plain_run(np.column_stack([t, t, np.sin(t), t**2, 1 - t]), **read)
     return run_of(TORUS, 2.0, 5) if kind == "vorticity" else run_of()
 
 

@@ -133,6 +133,8 @@ LENGTHS |= {"y": "STATE", "dy": "STATE"}
 MORE = 5
 """A rotation has five numbers more as a matrix than as a quaternion."""
 COLUMNS = {"jacobian_inputs": "INPUTS", "jacobian_parameters": "PARAMETERS"}
+COLUMNS |= {"jacobian_outputs_inputs": "INPUTS", "jacobian_outputs_raw": "STATE"}
+COLUMNS |= {"mass_matrix": "ALGEBRA"}
 STATES = {"x", "y", "z"}
 APART = ("constants", "rhs_batch", "velocity_step", "momentum_rates")
 
@@ -179,13 +181,25 @@ def calls(header, prefix):
         yield Call(kind, name, takes, {a: length(a, name, known) for a in outs})
 
 
+def rows_of(function, known):
+    """How many rows a matrix D has that a function writes."""
+    if function.startswith("jacobian_outputs"):
+        return known["OUTPUTS"]
+    if function == "mass_matrix":
+        return known["ALGEBRA"]
+    return known["STATE"] if function == "jacobian_raw" else 2 * known["ALGEBRA"]
+
+
 def length(array, function, known):
     """How many numbers an array has that a function writes."""
     if array == "D":
-        rows = known["STATE"] if function == "jacobian_raw" else 2 * known["ALGEBRA"]
-        return rows * (known[COLUMNS[function]] if function in COLUMNS else rows)
-    if function in ("conserved", "events"):
+        square = known["STATE"] if function == "jacobian_raw" else 2 * known["ALGEBRA"]
+        columns = known[COLUMNS[function]] if function in COLUMNS else square
+        return rows_of(function, known) * columns
+    if function in ("conserved", "events", "outputs"):
         return known[function.upper()]
+    if function == "bias":
+        return known["ALGEBRA"]
     if function == "poisson":
         return known["REDUCED"] ** 2
     if function == "to_matrix":
@@ -511,7 +525,8 @@ class Read(Library):
             inputs = {"u": arrays["u"]}
         if not call.writes:
             return [np.array([m.call(call.name, *time, *given, **inputs)])]
-        rows = m.names["N_STATE"] if call.name == "jacobian_raw" else 2 * m.names["N_ALGEBRA"]
+        counted = {x.removeprefix("N_"): n for x, n in m.names.items() if x.startswith("N_")}
+        rows = rows_of(call.name, counted)
         if call.name == "poisson":
             rows = m.names["N_REDUCED"]
         square = "out" if call.name == "poisson" else "D"

@@ -125,6 +125,7 @@ def require_on_torus(d: Derivation, chosen: Options) -> None:
         (chosen.state != "whole", f"--state {chosen.state}"),
         (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
         (chosen.momenta, "--momenta"),
+        (chosen.dynamics, "--dynamics"),
         ("discrete" in chosen.step, "--step discrete"),
         (chosen.multiplier, "--multiplier"),
     ):

@@ -40,7 +40,7 @@ RATES = (ZETA_DOT, Letter("ẇ", 3))
 
 
 def of_matrices(
-    problem: Problem, group: Group, b: Alphabet, C: Expr, solved: Sequence[Step], c: Chapter
+    problem: Problem, group: Group, b: Alphabet, C: Expr, solved: tuple[Step, ...], c: Chapter
 ) -> tuple[Step, ...]:
     """The step of the outputs, none where there are none, after the equations of motion are
     ``solved``: for Ż, where these have the coordinates alone, the equation that says it by them.
@@ -120,8 +120,10 @@ class _Observed:
         if isinstance(x, SpecificForceOutput):
             others = [p for p in self.problem.potentials if not isinstance(p, (Gravity, Spring))]
             frame = "_in_fields" if others else ""
-        at = f"r_{getattr(x, 'on', '')}"
-        return phrase(f"output.{x.kind}{frame}", name=f"‘{x.name}’", point=at)
+        places = {"name": f"‘{x.name}’"}
+        if hasattr(x, "on") and not isinstance(x, ExpressionOutput):
+            places["point"] = f"r_{x.on}"
+        return phrase(f"output.{x.kind}{frame}", **places)
 
     # -- velocities and accelerations of places: A u of u = Z r_i + w, and of Zu + du/dt -----------
 

@@ -1,0 +1,75 @@
+"""[[output]]: what is read off a motion is what the points of an oracle do."""
+
+import tomllib
+
+import numpy as np
+import pytest
+
+from derive.code.assemble import assemble
+from derive.code.emit import emit
+from derive.code.options import Options
+from derive.problem.toml import problem_of
+from tests.oracles import general, observed, relative_error
+from tests.problems import PROBLEMS
+from tests.support import corpus
+
+NAMES = [x for x in PROBLEMS if x.endswith(" outputs")]
+T = 0.4
+
+
+def module_of(name):
+    """What the emitted Python defines, with all derivatives."""
+    problem, record = problem_of(tomllib.loads(PROBLEMS[name])), corpus.record(f"points {name}")
+    options = Options(jacobian=("outputs", "raw"))
+    (text,) = emit(
+        assemble(record, problem.group, options), record, ("python",), "test", options
+    ).values()
+    space = {}
+    exec(compile(text, "test.py", "exec"), space)
+    return space
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_they_are_what_the_points_do(name):
+    data, space = tomllib.loads(PROBLEMS[name]), module_of(name)
+    p, basis, rng = general.parameters(data), space["BASIS"], np.random.default_rng(3)
+    k = space["constants"]([p[x] for x in space["PARAMETERS"]])
+    for _ in range(3):
+        x, u = general.random_state(data, basis, rng), rng.normal(size=len(space["INPUTS"]))
+        expected = observed.outputs(data, basis, p, T, x, u)
+        assert len(expected) == len(space["OUTPUTS"])
+        assert relative_error(space["outputs"](T, x, k, u), expected) < 1e-12
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_their_derivatives_are_those_of_differences(name):
+    data, space = tomllib.loads(PROBLEMS[name]), module_of(name)
+    p, basis, rng = general.parameters(data), space["BASIS"], np.random.default_rng(3)
+    k = space["constants"]([p[x] for x in space["PARAMETERS"]])
+    x, u = general.random_state(data, basis, rng), rng.normal(size=len(space["INPUTS"]))
+    d, h = len(basis), 1e-5
+
+    def slope(move):
+        """The derivative by a number that moves the state and the inputs."""
+        ahead, back = (space["outputs"](T, *move(s)) for s in (h, -h))
+        return (ahead - back) / (2 * h)
+
+    def along(e):
+        """A variation (η, δζ) of the state."""
+
+        def moved(s):
+            G, zeta = general.split(data, x, d)
+            turned = G @ general.expm(np.tensordot(s * e[:d], basis, 1))
+            return general.join(data, turned, zeta + s * e[d:]), k, u
+
+        return moved
+
+    columns = [slope(along(e)) for e in np.eye(2 * d)]
+    close = {"rtol": 1e-6, "atol": 1e-6}
+    np.testing.assert_allclose(space["jacobian_outputs"](T, x, k, u), np.array(columns).T, **close)
+    raw = [slope(lambda s, e=e: (x + s * e, k, u)) for e in np.eye(len(x))]
+    np.testing.assert_allclose(space["jacobian_outputs_raw"](T, x, k, u), np.array(raw).T, **close)
+    if len(u):
+        driven = [slope(lambda s, e=e: (x, k, u + s * e)) for e in np.eye(len(u))]
+        found = space["jacobian_outputs_inputs"](T, x, k, u)
+        np.testing.assert_allclose(found, np.array(driven).T, **close)
