@@ -166,7 +166,7 @@ def conserved_without_gravity(problem: Problem) -> dict[str, Tree]:
     left = tuple(x for x in problem.potentials if not isinstance(x, Gravity))
     if len(left) == len(problem.potentials):
         return {}
-    bare = replace(problem, potentials=left)
+    bare = replace(problem, potentials=left, outputs=())
     try:
         return conserved_quantities(bare, walk(bare))
     except Refused:  # damping leaves nothing

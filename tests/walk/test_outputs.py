@@ -1,17 +1,21 @@
 """[[output]]: what is read off a motion is what the points of an oracle do."""
 
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from derive.check.checker import verdicts
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.code.options import Options
 from derive.problem.toml import problem_of
+from derive.searches import conserved_without_gravity
 from tests.oracles import general, observed, relative_error
 from tests.problems import PROBLEMS
 from tests.support import corpus
+from tests.support.walks import SEED
 
 NAMES = [x for x in PROBLEMS if x.endswith(" outputs")]
 T = 0.4
@@ -73,3 +77,24 @@ def test_their_derivatives_are_those_of_differences(name):
         driven = [slope(lambda s, e=e: (x, k, u + s * e)) for e in np.eye(len(u))]
         found = space["jacobian_outputs_inputs"](T, x, k, u)
         np.testing.assert_allclose(found, np.array(driven).T, **close)
+
+
+def test_the_checker_finds_them_from_the_points():
+    """An output that the problem says otherwise, or of another place, is not that of the step."""
+    d = corpus.record("points SE(2) x SO(2) outputs")
+    (step,) = (s for s in d.steps if s.rule == "output")
+    for k, change in ((0, {"frame": "body"}), (3, {"on": 1}), (6, {"on": 2}), (8, {"block": 2})):
+        told = [x | change if i == k else x for i, x in enumerate(d.problem["outputs"])]
+        (verdict,) = (
+            x
+            for x in verdicts(replace(d, problem=d.problem | {"outputs": told}), SEED)
+            if x.label == step.label
+        )
+        assert not verdict.holds, change
+
+
+def test_what_gravity_is_not_left_in_has_no_outputs():
+    """A spring is named by its number among all potentials, also where gravity is taken out."""
+    text = PROBLEMS["SO(2) outputs"].replace("length = 0.4", "length = 0")
+    problem = problem_of(tomllib.loads(text))
+    assert "energy" in conserved_without_gravity(replace(problem, damping=()))

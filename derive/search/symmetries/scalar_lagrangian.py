@@ -288,6 +288,7 @@ def with_scalar_lagrangian(
         body=None,
         potentials=(),
         inputs=(),
+        outputs=(),
         places=(),
         lagrangian=Lagrangian(L=scalar_lagrangian(problem, record, integrand)),
     )

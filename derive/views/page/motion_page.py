@@ -42,6 +42,7 @@ WORDS = {
     "now": "The angular velocity in the body, and the ellipsoid of its kinetic energy now",
     "ellipsoid": "The angular velocity in the body: its path, the polhode, on the energy ellipsoid",
     "velocities": "The velocity in time",
+    "readings": "What is read off the motion",
     "start": "The velocity at the start",
     "element": "The element at the start",
     "turned": "It is multiplied by exp(θ₁E₁ + θ₂E₂ + …), E the basis of the Lie algebra.",
@@ -161,11 +162,12 @@ def script(code: EmittedCode, record: Derivation, body: Data) -> str:
     if "energy" in own.functions and "energy" not in own.conserved:
         kept.append("energy")
     names = [*NAMES, *kept, *(["CONSERVED"] * ("conserved" in kept))]
+    names += ["outputs"] * bool(own.outputs)
     module = called(THROWN.sub("0", LENGTHS.sub("", source.replace("\nexport ", "\n"))), names)
     drawing = "".join(
         (folder("html") / "motion" / f"{x}.js").read_text(encoding="utf-8") for x in SCRIPTS
     )
-    chosen = pieces(body)
+    chosen = pieces(body, read=bool(own.outputs))
     drawing = called(drawing, ["mount", *chosen.values()])
     given = ", ".join(f"{name}: {x}" for name, x in chosen.items())
     return lean(
@@ -208,12 +210,14 @@ def lean(source: str) -> str:
     return re.sub(r"\n\s+", "\n", plain(source))
 
 
-def pieces(body: Data) -> dict[str, str]:
-    """What draws a body of :func:`.moving_body`: names of the drawing's functions, by what they are
-    for; a function that is not named, nor called by one that is, is no part of the page."""
+def pieces(body: Data, *, read: bool) -> dict[str, str]:
+    """What draws a body of :func:`.moving_body`, and what is ``read`` off its motion: names of the
+    drawing's functions, by what they are for; a function that is not named, nor called by one that
+    is, is no part of the page."""
     turned = {"turned_start": "turned_start"}
+    readings = {"side": "readings"} if read else {}
     if not body["parts"]:
-        return {"stage": "chart_stage"} | turned
+        return {"stage": "chart_stage"} | readings | turned
     solids = [x for part in body["parts"] for x in part["solids"]]
     names = {x["shape"] for x in solids if "shape" in x}
     names |= {"quadric" for x in solids if "quadric" in x}
@@ -223,8 +227,8 @@ def pieces(body: Data) -> dict[str, str]:
         names.add("spring")
     if body["stretches"]:
         names.add("flattened")
-    side = "polhode" if body["polhode"] else "velocities"
-    return {"stage": "solid_stage", "side": side} | turned | {x: x for x in sorted(names)}
+    side = {"side": "polhode" if body["polhode"] else "velocities"} | readings
+    return {"stage": "solid_stage"} | side | turned | {x: x for x in sorted(names)}
 
 
 def data(
@@ -249,10 +253,11 @@ def data(
     unsaid |= set() if lost or "multiplier" in made.functions else {"others"}
     unsaid |= set() if body["stretches"] else {"flat"}
     unsaid |= set() if made.inputs else {"inputs"}
+    unsaid |= {"velocities", "polhode"} if made.outputs else {"readings"}
     unsaid |= set() if entries else {"element", "turned"}
     units = {x.name: _unit(x.unit) for x in code.columns()}
     words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
-    if body["turns"]:
+    if body["turns"] and not made.outputs:
         words["polhode"] = language.word(WORDS["ellipsoid" if is_free(record.problem) else "now"])
     if made.inputs:
         words["kept"] = language.word("What is kept without inputs")
@@ -272,6 +277,7 @@ def data(
         "reach": [REACH if s in turning else 1 for s in adjusted],
         **({"lost": True} if lost else {}),
         "curves": curves,
+        **({"outputs": made.outputs} if made.outputs else {}),
         "body": body,
         "labels": {
             **_labels([(x, meaning, unit) for x, _, unit, meaning in made.parameters], language),

@@ -1,12 +1,14 @@
-/* Curves of some places of the state in time; those after the sixth are dashed, in the same colours. */
-function chart(scene, label, places) {
+/* Curves of some places of the state in time, or of other values there, with their names; those after the sixth are
+ * dashed, in the same colours. */
+function chart(scene, label, places, names = scene.page.names, values = (t, x) => x) {
   const view = canvas(scene, label);
   return {
     element: view.element,
     draw() {
-      const { pen } = view, { trail, colours, page } = scene;
+      const { pen } = view, { colours, page } = scene;
       pen.clearRect(0, 0, view.width, view.height);
-      if (trail.length < 2) return;
+      if (scene.trail.length < 2) return;
+      const trail = scene.trail.map(([t, x]) => [t, values(t, x)]);
       const t0 = trail[0][0], t1 = trail.at(-1)[0] || 1;
       const all = trail.flatMap(([, x]) => places.map((s) => x[s]));
       const least = min(...all), most = max(...all);
@@ -35,7 +37,7 @@ function chart(scene, label, places) {
         pen.setLineDash(i > 5 ? [4, 3] : []);
         view.stroke(trail.map(([t, x]) => [X(t), Y(x[s])]), colour, 1.5);
         view.stroke([[right + 2, y], [right + 11, at[k]]], colours.line); // to its name: no part of the curve
-        write(called(page.names[s]), right + 13, at[k], "left", colour);
+        write(called(names[s]), right + 13, at[k], "left", colour);
       });
     },
   };
@@ -49,4 +51,11 @@ function chart_stage(scene) {
 /* the velocity beside the body */
 function velocities(scene) {
   return { ...chart(scene, scene.page.words.velocities, scene.velocity.slice(0, 9)), shape: "side flat" };
+}
+
+/* what is read off the motion, beside the body */
+function readings(scene) {
+  const { page } = scene, read = page.outputs;
+  const values = (t, x) => page.module.outputs(t, x, scene.run.k, scene.u);
+  return { ...chart(scene, page.words.readings, [...read.keys()].slice(0, 9), read, values), shape: "side flat" };
 }

@@ -6,6 +6,7 @@
  * order × order matrices have the basis, [row, column, entry] of each; names: { place: name } of what is
  * shown of x, adjusted: the places that have sliders, curves: those drawn where no body is;
  * reach: how far the slider of each goes at least; lost: is the energy not kept?
+ * outputs: the names of what is read off the motion, where there is some;
  * labels: { name: [meaning, unit] }; kept: { name: [words, unit] }; weightless: the names of what is kept
  * only where all of weight, trees, are 0; units: { t, energy }; body: see moving_body.py; words, comma }.
  * pieces: { stage, side: what draws there; turned_start; flattened, where a group stretches; the shapes of
@@ -29,7 +30,7 @@ function mount(element, page, pieces) {
 
   const energy = module.energy ?? (module.CONSERVED?.includes("energy")
     && ((t, x, k) => module.conserved(t, x, k)[module.CONSERVED.indexOf("energy")]));
-  const scene = { page, p, velocity, energy, ask, run: null, trail: [], redraw: () => scene.run && show(scene.run.at(time), before) };
+  const scene = { page, p, u, velocity, energy, ask, run: null, trail: [], redraw: () => scene.run && show(scene.run.at(time), before) };
   let run, time = 0, wanted = null, playing = false, trail = [], first = {}, told = 0;
   let keeping = module, k = null;  // what gives the numbers that are kept, and its constants
   let moved;  // what gravity moves
