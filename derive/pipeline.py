@@ -156,6 +156,7 @@ EXPRESSED = (
           "Steps", expressed.conserved),
     Stage("by_momenta", "expressed problem group lagrangian basis balance c c_u",
           "Steps", momentum_side.by_momenta),
+    Stage("outputs", "problem c_u", "Steps", outputs.of_state),
     Stage("explicit", "problem group balance expressed.momenta_step c_u",
           "Steps", explicit.of_lagrangian),
 )

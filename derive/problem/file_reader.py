@@ -48,6 +48,7 @@ class FileReader(TableReader):
     ``in_layers``: the density of a solid depends on the level;
     ``advected``: what an algebra without g carries along; ``potentials``: those that it has;
     ``observing``: is what is read off motions being read, whose places may be those of forces?
+    ``pointless``: no points give the Lagrangian.
     """
 
     error = ProblemError
@@ -59,7 +60,7 @@ class FileReader(TableReader):
         self.point_masses: tuple[Point, ...] = ()
         self.places: list[Place] = []
         self.potentials: tuple[Potential, ...] = ()
-        self.observing = False
+        self.observing = self.pointless = False
         self.heavy = self.fills_ellipsoid = self.in_layers = False
         self.advected: tuple[Advected, ...] | None = None
 
@@ -252,6 +253,10 @@ class FileReader(TableReader):
 
     def observed(self, slot: Slot) -> Vector:
         """Some expressions of the state, which know a place where the table says one."""
+        if self.pointless:
+            known = known_in_lagrangian(self.moving(), self.advected)
+            found = self.listed(self.value(slot), None, slot.path, self.in_time)
+            return tuple(meant(t, known) for t in found)
         return self._of_state(slot, None)
 
     def is_spring(self, k: int) -> bool:

@@ -30,7 +30,7 @@ from .bodies import (
     outputs,
 )
 from .entries_on_orbit import hessian, vanishes
-from .fields import LIKE_A_PLACE, coordinates, used_at
+from .fields import LIKE_A_PLACE, coordinates, tables, used_at
 from .file_reader import FileReader
 from .inertia import impossible, negative_mass
 from .lagrangian_tables import group_of_algebra, lagrangian, on_torus, torus_problem
@@ -183,7 +183,7 @@ def _without_points(
         raise ProblemError("an algebra moves no points: give a [lagrangian] or an [inertia]")
     if moved is None:
         raise ProblemError(f"key {where!r}: a text about any group has no Lagrangian of its own")
-    for key in ("point", "solid", "body", "potential", "damping", "force", "output"):
+    for key in ("point", "solid", "body", "potential", "damping", "force"):
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
     given = data.get("input", ())
@@ -192,17 +192,21 @@ def _without_points(
     group = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
     reader = FileReader()
     reader.moves(group)
-    reader.advected = advected
+    reader.advected, reader.pointless = advected, True
     name = reader.name_of(data, of_its_own=moved is not None)
     parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)
     _, inputs, *_ = forces(data, reader)
+    for k, x in enumerate(tables(data, "output"), 1):
+        if "y" not in x:
+            raise ProblemError(f"output {k}: beside [{where}] it is of expressions 'y': no points")
     problem = Problem(
         name,
         group,
         title=reader.title_of(data, name),
         parameters=parameters,
         inputs=inputs,
+        outputs=outputs(data, reader, inputs),
         lagrangian=lagrangian(data, group, reader),
         advected=advected,
         **motion_fields(data, reader),

@@ -147,11 +147,13 @@ class _RecordReader(TableReader):
                     "advected, torus: they are of a problem with a Lagrangian of its own"
                 )
             return
-        for key in ("potentials", "places", "damping", "forces", "outputs"):
+        for key in ("potentials", "places", "damping", "forces"):
             if data.get(key):
                 raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
         if any(x["kind"] != "covector" for x in data["inputs"]):
             raise ShapeError("lagrangian: the inputs of its problem are covectors")
+        if any(x["kind"] != "expression" for x in data.get("outputs", ())):
+            raise ShapeError("lagrangian: the outputs of its problem are expressions")
         if "advected" in data:
             self.each("advected", lambda x, where: self.typed(Advected, x, where))
         if "torus" not in data:
@@ -344,7 +346,7 @@ class _RecordReader(TableReader):
                 return "t"
             if t[0] == "entry" and all(type(i) is int and i > 0 for i in t[2:]):
                 velocity = isinstance(t[1], tuple) and t[1][:2] == ("at", "v")
-                known = t[1] in ("A", "T", "Z", "ζ", "w") or velocity or self.is_place(t[1])
+                known = t[1] in ("A", "T", "Z", "ζ", "w", "Γ") or velocity or self.is_place(t[1])
                 return "t" if known else t
             return (t[0], *map(lettered, t[1:]))
 

@@ -10,6 +10,7 @@ from derive.check.checker import verdicts
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.code.options import Options
+from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.searches import conserved_without_gravity
 from tests.oracles import general, observed, relative_error
@@ -98,3 +99,39 @@ def test_what_gravity_is_not_left_in_has_no_outputs():
     text = PROBLEMS["SO(2) outputs"].replace("length = 0.4", "length = 0")
     problem = problem_of(tomllib.loads(text))
     assert "energy" in conserved_without_gravity(replace(problem, damping=()))
+
+
+ADVECTED = {
+    "name": "test",
+    "algebra": {"of": "SO(3)"},
+    "advected": [{"name": "gamma", "representation": "dual"}],
+    "lagrangian": {"L": "zeta_1^2 + zeta_2^2 + 2*zeta_3^2 - gamma_3"},
+}
+ON_A_GROUP = {
+    "name": "test",
+    "group": "SE(2)",
+    "lagrangian": {"L": "zeta_1^2 + zeta_2^2 + zeta_3^2"},
+}
+
+
+@pytest.mark.parametrize(
+    ("data", "at"), [(ADVECTED, 3), (ON_A_GROUP, 0)], ids=["advected", "SE(2)"]
+)
+def test_beside_a_lagrangian_they_are_expressions(data, at):
+    entry = "gamma_1" if "algebra" in data else "A_11"
+    told = [{"name": "y", "y": [f"zeta_1*{entry} + t", "zeta_2^2"]}]
+    problem = problem_of(data | {"output": told})
+    record = walk(problem)
+    assert all(x.holds for x in verdicts(record, SEED))
+    space = {}
+    options = Options(jacobian=("outputs", "raw") if at == 0 else ())  # by η, on a group
+    compiled = assemble(record, problem.group, options)
+    (text,) = emit(compiled, record, ("python",), "test", options).values()
+    exec(compile(text, "test.py", "exec"), space)
+    x = np.random.default_rng(3).normal(size=len(space["STATE"]))
+    of = dict(zip(space["STATE"], x, strict=True))
+    assert space["OUTPUTS"] == ("y_1", "y_2")
+    expected = [of["zeta_1"] * of[entry] + T, of["zeta_2"] ** 2]
+    np.testing.assert_allclose(space["outputs"](T, x, []), expected, rtol=1e-14)
+    if at == 0:
+        assert space["jacobian_outputs_raw"](T, x, [])[0, at] == of["zeta_1"]

@@ -151,6 +151,14 @@ class LagrangianModel(Draws):
         return square * Fraction(1, 2) + product
 
     @cached_property
+    def of_state(self) -> Environment:
+        """The environment of expressions of the state: of t, g or what is carried along, and ζ."""
+        place = {"Γ": self.advected.start} if self.advected else {"A": self.g}
+        zeta = q.column(self.group.nearest(self.Z))
+        names = {**self.expressions.names, **place, "t": self.t, "ζ": zeta}
+        return Environment(self.n, names, parameters=self.parameters, elementary=self.elementary)
+
+    @cached_property
     def hoisted(self) -> tuple[Tree, dict[str, Any]]:
         """The tree of ℓ with names for what is the same at all points, and their values."""
         assert self.tree is not None

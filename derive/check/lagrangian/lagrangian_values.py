@@ -14,6 +14,7 @@ from ...language.rational import Matrix
 from ...language.tree import Tree, nodes
 from ..trials.meaning import NameValues, Values
 from ..trials.model import TangentVector
+from ..trials.observed import Observed
 from ..values.arithmetic import EPS, EPS_PRIME, ETA, EvaluationError, nilpotent, part
 from ..values.evaluate import Environment, evaluate
 from . import reduced_by_symmetries
@@ -33,7 +34,7 @@ def environment(model: LagrangianModel) -> Environment:
         ),
         _families(model),
         _functions(model),
-        model.parameters,
+        Observed(model) if model.problem.get("outputs") else model.parameters,
         elementary=model.elementary,
         unit=model.unit,
     )

@@ -19,9 +19,9 @@ Data = Mapping[str, Any]
 
 class Observed(Mapping[str, Any]):
     """The parameters of a model, and the outputs of its problem by their names, each found when it
-    is first asked for."""
+    is first asked for; of one whose Lagrangian no points give, expressions of the state alone."""
 
-    def __init__(self, model: Model):
+    def __init__(self, model: Any):
         self.model, self.known = model, dict(model.parameters)
         self.kinds: dict[str, Callable[[Data], Vector]] = {
             "place": lambda x: self.seen(x, model.images(model.g)[x["on"] - 1]),
@@ -76,7 +76,8 @@ class Observed(Mapping[str, Any]):
     def _given(self, data: Data, trees: Any) -> Vector:
         """A vector that the problem states, among those of all blocks."""
         block, _ = self._acted_on(data)
-        return self.model.group.in_block(block, self.model.applied.vector(trees))
+        found: Vector = self.model.group.in_block(block, self.model.applied.vector(trees))
+        return found
 
     def specific_force(self, data: Data) -> Vector:
         """The acceleration less those of all uniform gravities, on the axes of the body."""

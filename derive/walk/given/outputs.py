@@ -64,6 +64,25 @@ def of_vectors(
     return _Observed(problem, group, b, C, images, c).steps((motion,), [])
 
 
+def of_state(problem: Problem, c: Chapter) -> tuple[Step, ...]:
+    """The same where no points give the Lagrangian: expressions of the state."""
+    read = [x for x in problem.outputs if isinstance(x, ExpressionOutput)]
+    if not read:
+        return ()
+    given = [_equation(problem, x, x.y) for x in read]
+    told = [phrase(f"output.{x.kind}", name=f"‘{x.name}’") for x in read]
+    prose = say("output.read", outputs=listed("{first}; {second}", told))
+    return (c.draft("outputs", "output").step(given, prose),)
+
+
+def _equation(problem: Problem, x: Output, found: Sequence[Tree]) -> Equation:
+    """The numbers of an output: of a vector together where it is one of words."""
+    names = tuple(("par", name) for name in problem.numbers_of_output(x))
+    if len(found) == 1:
+        return Equation(names[0] if len(names) == 1 else column(names), found[0])
+    return Equation(column(names), column(tuple(found)))
+
+
 class _Observed:
     """The outputs of one problem in letters of its group; ``images``: what stands for some of
     them."""
@@ -98,7 +117,7 @@ class _Observed:
         outputs = self.problem.outputs
         if not outputs:
             return ()
-        given = [self.equation(x) for x in outputs]
+        given = [_equation(self.problem, x, self.read[type(x)](x)) for x in outputs]
         named = {x for e in given for x in nodes(e.rhs)}
         listed_places = range(1, self.problem.masses + len(self.problem.places) + 1)
         moved = [i for i in listed_places if _velocity(i) in named]
@@ -141,14 +160,6 @@ class _Observed:
         return replaced(found, self.b.r_i.name, ("at", "r", i))
 
     # -- what is read of them --------------------------------------------------------------------
-
-    def equation(self, x: Output) -> Equation:
-        """The numbers of an output: of a vector together where it is one of words."""
-        names = tuple(("par", name) for name in self.problem.numbers_of_output(x))
-        found = self.read[type(x)](x)
-        if len(found) == 1:
-            return Equation(names[0] if len(names) == 1 else column(names), found[0])
-        return Equation(column(names), column(tuple(found)))
 
     def seen(self, x: Output, vector: Tree) -> Sequence[Tree]:
         """A vector of space in the frame of an output: in words, in a product by its entries."""
