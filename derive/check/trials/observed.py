@@ -12,7 +12,7 @@ from ...record.record import RecordError
 from ...schema.output_kinds import numbers_of_output
 from ..values.evaluate import evaluate
 from .model import Model
-from .point_masses import Vector
+from .point_masses import Vector, scaled_each
 
 Data = Mapping[str, Any]
 
@@ -119,10 +119,9 @@ class Observed(Mapping[str, Any]):
         return (applied.root(q.dot(between, between)),)
 
     def momentum(self, data: Data) -> Vector:
-        """Σ m_i v_i over the points of the block."""
-        model, (block, _) = self.model, self._acted_on(data)
-        listed = zip(model.masses, model.images(model.nu), model.blocks, strict=True)
-        moving = [tuple(m * x for x in v) for m, v, k in listed if k == block]
+        """Σ m_i v_i; in a product the points of other blocks have no part in this one."""
+        model = self.model
+        moving = scaled_each(model.masses, model.images(model.nu))
         return self.seen(data, tuple(sum(x) for x in zip(*moving, strict=True)))
 
     def tension(self, data: Data) -> Vector:
