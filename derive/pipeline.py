@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from .problem import inertia
 from .problem.problem import (Problem)
 from .record.record import Derivation
-from .walk.chapter import Chapter, Stage, Values, follow, naming_steps, traced
+from .walk.chapter import Chapter, Stage, Values, follow, naming_steps
 from .walk.discrete import discrete_blocks, discrete_forces, discrete_group, discrete_road
 from .walk.discrete.discrete_road import DiscreteAlphabet
 from .walk.ellipsoid import dirichlet
@@ -32,8 +32,7 @@ from .walk.matrices import (
 from .walk.matrices.specialisation import turns_whole
 from .walk.spine import alphabet, cartan, kernel, lagrangian, orbit, principle
 from .walk.spine.alphabet import Alphabet
-from .walk.spine.head import problem_data, symbols
-from .walk.spine.lagrangian import supposing_all
+from .walk.spine.head import recorded
 from .walk.torus import vorticity
 from .walk.vectors import by_momenta, euler, isomorphism, rotation
 # isort: on
@@ -227,8 +226,7 @@ def walk(problem: Problem) -> Derivation:
     if problem.torus:
         own = {"problem": problem, "c": Chapter(problem.name, problem.torus.name)}
         steps += follow(ON_THE_TORUS, values | own, ())["steps"]
-    steps = supposing_all(traced(steps))
-    return Derivation(problem_data(problem), symbols(steps, problem), steps)
+    return recorded(problem, steps)
 
 
 @naming_steps()
@@ -246,9 +244,8 @@ def discrete(problem: Problem) -> Derivation:
         acting = here.with_input() if acts(problem) else here
         start |= own | {"here": here, "driven": acting}
     steps = follow(DISCRETE, start, {"affine" if affine else "linear"})["steps"]
-    steps = supposing_all(traced(by_name(problem, steps, discrete=True) if group else steps))
-    data = problem_data(problem) | {"discrete": True}
-    return Derivation(data, symbols(steps, problem, discrete=True), steps)
+    steps = by_name(problem, steps, discrete=True) if group else steps
+    return recorded(problem, steps, discrete=True)
 
 
 @cache

@@ -4,18 +4,19 @@ the problem first, then the steps of the search.  SymPy is imported by the searc
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 from .language.limits import Refused
 from .pipeline import lagrangian_road, walk
 from .problem.problem import Problem, ProblemError
-from .record.record import Derivation
-from .walk.chapter import Chapter, traced
-from .walk.spine.head import symbols
-from .walk.spine.lagrangian import supposing_all
+from .record.record import Derivation, Step
+from .walk.chapter import Chapter
+from .walk.spine.head import recorded
+from .walk.spine.lagrangian import completed
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Iterable, Mapping
 
     from .language.tree import Tree
     from .language.univariate import Number
@@ -51,11 +52,9 @@ def integrals(
         from .search.integrals.special_parameters import conditions as conditions_of
 
         whole = replace(whole, conditions=conditions_of(whole))
-    assert problem.group is not None
-    record = walk(problem)
-    c = Chapter(problem.name, problem.group.name)
-    steps = supposing_all(traced((*record.steps, *told(whole, record.steps, c, driven=driven))))
-    return whole, Derivation(record.problem, symbols(steps, problem), steps)
+    record, c = walk(problem), Chapter(problem.name, problem.group_name)
+    steps = told(whole, record.steps, c, driven=driven)
+    return whole, recorded(problem, (*record.steps, *steps))
 
 
 def equilibrium_near(
@@ -65,18 +64,40 @@ def equilibrium_near(
     degree with the steps that tell it; parameters have their defaults."""
     from .search.equilibria.enclosed_points import enclosed
     from .search.equilibria.equilibrium_steps import told_enclosed
+
+    return _at_points(problem, values, degree, enclosed, told_enclosed)
+
+
+def equilibria(
+    problem: Problem, values: Mapping[str, Number], degree: int = 4
+) -> tuple[tuple[Equilibrium, ...], Derivation]:
+    """The relative equilibrium of a problem at a point, or those among some points where no values
+    are given, and the record of its integrals up to a degree with the steps that tell them;
+    parameters have their defaults."""
+    from .search.equilibria.equilibrium_steps import told
+    from .search.equilibria.stability import equilibria_of
+
+    return _at_points(problem, values, degree, equilibria_of, partial(told, tried=not values))
+
+
+def _at_points(
+    problem: Problem,
+    values: Mapping[str, Number],
+    degree: int,
+    find: Callable[..., Any],
+    tell: Callable[..., Iterable[Step]],
+) -> tuple[Any, Derivation]:
+    """What is found at a point of the equations with integrals, and their record with its steps."""
     from .search.equilibria.stability import require_numbers
 
     whole, record = integrals(problem, degree, at_defaults=True)
     try:
         require_numbers(whole)
-        found = enclosed(whole, _of_variables(problem, values), _elements(problem, whole))
+        found = find(whole, _of_variables(problem, values), _elements(problem, whole))
     except Refused as error:
         raise ProblemError(f"{problem.name}: {error}") from None
-    assert problem.group is not None
-    c = Chapter(problem.name, problem.group.name)
-    steps = (*record.steps, *told_enclosed(whole, found, record.steps, c))
-    return found, replace(record, steps=supposing_all(traced(steps)))
+    steps = tell(whole, found, record.steps, Chapter(problem.name, problem.group_name))
+    return found, replace(record, steps=completed((*record.steps, *steps)))
 
 
 def _of_variables(problem: Problem, values: Mapping[str, Number]) -> dict[str, Number]:
@@ -98,28 +119,6 @@ def _elements(problem: Problem, whole: IntegralsFound) -> tuple[EntryConditions,
     assert problem.group is not None
     left = problem.lagrangian is None or problem.lagrangian.trivialisation == "left"
     return conditions(whole.system, problem.group, left=left)
-
-
-def equilibria(
-    problem: Problem, values: Mapping[str, Number], degree: int = 4
-) -> tuple[tuple[Equilibrium, ...], Derivation]:
-    """The relative equilibrium of a problem at a point, or those among some points where no values
-    are given, and the record of its integrals up to a degree with the steps that tell them;
-    parameters have their defaults."""
-    from .search.equilibria.equilibrium_steps import told
-    from .search.equilibria.stability import equilibria_of
-
-    whole, record = integrals(problem, degree, at_defaults=True)
-    try:
-        point = _of_variables(problem, values)
-        found = equilibria_of(whole, point, _elements(problem, whole))
-    except Refused as error:
-        raise ProblemError(f"{problem.name}: {error}") from None
-    assert problem.group is not None
-    c = Chapter(problem.name, problem.group.name)
-    steps = told(whole, found, record.steps, c, tried=not values)
-    steps = supposing_all(traced((*record.steps, *steps)))
-    return found, replace(record, steps=steps)
 
 
 def symmetries(problem: Problem, record: Derivation) -> Symmetries:

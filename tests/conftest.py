@@ -11,6 +11,7 @@ from derive.check import checker
 from tests.support import thorough
 from tests.support.cached import DictOnDisk
 from tests.support.needs import left_out
+from tests.support.shared import made_once  # noqa: F401  (a fixture of all tests)
 
 ALL = "DERIVE_ALL_TESTS"
 """What was asked for, for the processes of xdist, which cannot see what was typed."""

@@ -217,7 +217,7 @@ class _Parser:
 
 
 def _absolute(x: Tree) -> Tree:
-    return _number(abs(Fraction(x))) if isinstance(x, (int, Fraction)) else _hypot(x, 0)
+    return _number(abs(Fraction(x))) if isinstance(x, (int, Fraction)) else hypot(x, 0)
 
 
 def _sign(x: Tree) -> Tree:
@@ -234,13 +234,14 @@ def _extreme(a: Tree, b: Tree, sign: int) -> Tree:
     return add(b, mul(Fraction(1, 2), add(d, mul(sign, _absolute(d)))))
 
 
-def _hypot(a: Tree, b: Tree) -> Tree:
-    return ("fun", "sqrt", add(*(_powered(x, 2) for x in (a, b) if x != 0)))
+def hypot(*parts: Tree) -> Tree:
+    """√(a² + b² + …), the length of a vector of expressions."""
+    return ("fun", "sqrt", add(*(_powered(x, 2) for x in parts if x != 0)))
 
 
 def _angle(y: Tree, x: Tree) -> Tree:
     """The angle of (x, y) by the tangent of its half, y / (√(x² + y²) + x)."""
-    return mul(2, ("fun", "atan", ("div", y, add(_hypot(x, y), x))))
+    return mul(2, ("fun", "atan", ("div", y, add(hypot(x, y), x))))
 
 
 WRITTEN_OUT: dict[str, tuple[int, Callable[..., Tree]]] = {
@@ -248,7 +249,7 @@ WRITTEN_OUT: dict[str, tuple[int, Callable[..., Tree]]] = {
     "sign": (1, _sign),
     "min": (2, lambda a, b: _extreme(a, b, -1)),
     "max": (2, lambda a, b: _extreme(a, b, 1)),
-    "hypot": (2, _hypot),
+    "hypot": (2, hypot),
     "atan2": (2, _angle),
 }
 """Function → of how many expressions, and how it is written in others."""

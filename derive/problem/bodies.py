@@ -9,7 +9,8 @@ from typing import Any
 from ..algebra.families import group, on_homogeneous
 from ..algebra.groups import Group
 from ..algebra.user_groups import group_of_basis
-from ..language.tree import add, mul, neg
+from ..language.expression import hypot
+from ..language.tree import mul, neg
 from ..schema.body_kinds import (
     SOLIDS,
     Body,
@@ -202,8 +203,7 @@ def as_forces(
             for i in d.on:
                 first, n = reader.of_place(i)
                 v = velocity_at_place(n, first, i, (0,) * n, turned=False).values()
-                size = ("fun", "sqrt", add(*(("pow", x, 2) for x in v)))
-                force = tuple(neg(mul(d.coefficient, size, x)) for x in v)
+                force = tuple(neg(mul(d.coefficient, hypot(*v), x)) for x in v)
                 found.append(StatedForce(on=i, force=force))
         elif isinstance(d, RotationalDamping):
             _, factor = reader.moving().places[d.block - 1]

@@ -14,57 +14,33 @@ from ..language import rational as q
 from ..language.expression import ExpressionError, parse
 from ..language.laurent import LEVEL, WRITTEN, degree_in_level, is_layered
 from ..language.limits import BASIS, LAYERS, MATRIX, TEXT
-from ..language.reserved import PLACE
-from ..language.tree import Tree, mul, nodes, replaced, subtrees
+from ..language.tree import Tree, mul, nodes, replaced
 from ..language.values import approximate
-from ..schema.body_kinds import LAYERED, Body, GivenBody, Place, Point, PointBody, is_ellipsoid
-from ..schema.kind import SIDES, Advected, Potential
-from ..schema.table import DETERMINANT, Rows, Slot, Table
-from ..schema.table_reader import NAME, TableReader
-from .fields import (
-    LIKE_A_PLACE,
-    known_in_lagrangian,
-    meant,
-    names_at_place,
-    names_of_points,
-    state_names,
-    velocity_at_place,
-)
+from ..schema.body_kinds import LAYERED, Body, GivenBody, PointBody, is_ellipsoid
+from ..schema.kind import SIDES, Advected
+from ..schema.table import Rows, Slot, Table
+from ..schema.table_reader import NAME
+from .fields import known_in_lagrangian, meant, state_names
+from .force_reader import ForceReader, Vector
 from .moments import SolidError, first_moment, given_by, second_moment
 from .problem import ProblemError, points_of
 from .rotations import rotation, turn_in
 from .solids import fault_of_quadric, product_of
 
-AXES = "xyz"
 CHAPTERS = ("linear", "affine", "discrete", "discrete_affine", *SIDES)
 """The names of what is said of any group."""
-Vector = tuple[Tree, ...]
 
 
-class FileReader(TableReader):
-    """Reads the tables of a file in a folder; ``places``: those that forces have named so far.
-
-    ``heavy``: the body has mass outside its points; ``fills_ellipsoid``: it is a homogeneous one;
-    ``in_layers``: the density of a solid depends on the level;
-    ``advected``: what an algebra without g carries along; ``potentials``: those that it has;
-    ``observing``: is what is read off motions being read, whose places may be those of forces?
-    ``pointless``: no points give the Lagrangian.
-    """
-
-    error = ProblemError
-    numbered = "[[point]] tables"
+class FileReader(ForceReader):
+    """Reads the tables of a file in a folder; ``heavy``: the body has mass outside its points;
+    ``fills_ellipsoid``: it is a homogeneous one; ``in_layers``: the density of a solid depends on
+    the level; ``advected``: what an algebra without g carries along."""
 
     def __init__(self, folder: Path = Path()) -> None:
         self.folder, self.group = folder, None
-        self.parameters: Mapping[str, Any] = {}
-        self.point_masses: tuple[Point, ...] = ()
-        self.places: list[Place] = []
-        self.potentials: tuple[Potential, ...] = ()
-        self.observing = self.pointless = False
+        self.parameters, self.point_masses, self.places = {}, (), []
         self.heavy = self.fills_ellipsoid = self.in_layers = False
         self.advected: tuple[Advected, ...] | None = None
-
-    group: Group | None
 
     def moves(self, group: Group | None) -> None:
         """From here on the group is known,"""
@@ -150,11 +126,6 @@ class FileReader(TableReader):
 
     # -- the group and its spaces --------------------------------------------------------------
 
-    def moving(self) -> Group:
-        """The group, where there must be one."""
-        assert self.group is not None
-        return self.group
-
     @property
     def state_names(self) -> dict[str, Tree]:
         """Name → what it stands for in a Lagrangian."""
@@ -163,120 +134,6 @@ class FileReader(TableReader):
     def space(self, _: Slot) -> int:
         """The dimension of its space."""
         return self.moving().n
-
-    def _sizes(self) -> set[int]:
-        return {g.n for _, g in self.moving().places}
-
-    def of_place(self, i: int) -> tuple[int, int]:
-        """The first row, and how many, of the coordinates of point i in space."""
-        first, factor = self._factor_of(i)
-        return first, factor.n
-
-    @property
-    def listed_places(self) -> list[Point | Place]:
-        """The points and the places of forces, in the order of their numbers."""
-        return [*self.point_masses, *self.places]
-
-    def dimension(self, slot: Slot) -> int:
-        """Of the space of the block, or of the end that is given, or of all points."""
-        if slot.about.type == "place" or "block" in slot.found:
-            block = self.block(Slot(slot.table, "block", slot.where))
-            return self.moving().places[block - 1][1].n
-        return self.of_place(slot.found["on"])[1] if slot.found.get("on") else max(self._sizes())
-
-    def block(self, slot: Slot) -> int:
-        """1 where the table does not say it."""
-        value = slot.table.get(slot.key, 1)
-        if self.blocks == 1 and value != 1:
-            name = self.moving().name
-            raise ProblemError(f"{slot.path}: {name} is no product: there is one block")
-        return self.integer(value, 1, self.blocks, slot.path)
-
-    def turning(self, slot: Slot) -> int:
-        """The same, whose linear parts are rotations of the plane or of R³."""
-        found: int = self.block(slot)
-        is_read = slot.table.get("kind") == "rate"
-        self._turned(self.moving().places[found - 1][1], slot.where, is_read=is_read)
-        return found
-
-    def _turned(self, factor: Group, where: str, *, is_read: bool = False) -> None:
-        if "orthogonal" not in factor.relations or factor.n not in (2, 3):
-            what, other = "a torque", "give forces at places, or a covector"
-            if is_read:
-                what, other = "a rate", "give expressions 'y' of zeta_1, …"
-            raise ProblemError(
-                f"{where}: {what} needs linear parts that are rotations of the plane or of R^3, "
-                f"and those of {factor.name} are others; {other}"
-            )
-
-    def direction(self, slot: Slot) -> Vector:
-        """A vector of the space of the force, or of the torque, that is not 0."""
-        if slot.table["kind"] == "torque" and self.dimension(slot) == 2:
-            raise ProblemError(f"{slot.path}: a torque in the plane is one number; leave it out")
-        found = self.vector(slot)
-        values = {k: p.default for k, p in self.parameters.items() if p.default is not None}
-        if all(approximate(x, values) == 0 for x in found):
-            raise ProblemError(f"{slot.path}: it has the length 0; give a vector that is not 0")
-        return found
-
-    def couple(self, slot: Slot) -> Vector:
-        """The moment that goes with a force: a vector of R³, or a list of one number in the
-        plane."""
-        _, factor = self._factor_of(slot.found["on"])
-        self._turned(factor, slot.where)
-        return self.listed(self.value(slot), 3 if factor.n == 3 else 1, slot.path)
-
-    def wind(self, slot: Slot) -> Vector:
-        """A velocity in space of t and the place r_1, …."""
-        on = slot.found["on"]
-        first, n = self.of_place(on)
-        named = names_at_place(n, first, on)
-        found = self.listed(self.value(slot), n, slot.path, self.in_time)
-        return tuple(meant(t, named) for t in found)
-
-    def stated(self, slot: Slot) -> Vector:
-        """A vector of expressions of the state at a place, which has a velocity there."""
-        return self._of_state(slot, self.of_place(slot.found["on"])[1])
-
-    def stated_couple(self, slot: Slot) -> Vector:
-        """Three of them in R³, one in the plane."""
-        _, factor = self._factor_of(slot.found["on"])
-        self._turned(factor, slot.where)
-        return self._of_state(slot, 3 if factor.n == 3 else 1)
-
-    def other_end(self, slot: Slot) -> int:
-        """A point in a space of the same dimension."""
-        other = super().other_end(slot)
-        if self.of_place(other)[1] != self.of_place(slot.found["on"])[1]:
-            raise ProblemError(f"{slot.where}, to: the points are in spaces of two dimensions")
-        return other
-
-    def observed(self, slot: Slot) -> Vector:
-        """Some expressions of the state, which know a place where the table says one."""
-        if self.pointless:
-            known = known_in_lagrangian(self.moving(), self.advected)
-            found = self.listed(self.value(slot), None, slot.path, self.in_time)
-            return tuple(meant(t, known) for t in found)
-        return self._of_state(slot, None)
-
-    def is_spring(self, k: int) -> bool:
-        """Is it one of those that have been read?"""
-        return 1 <= k <= len(self.potentials) and self.potentials[k - 1].kind == "spring"
-
-    def _of_state(self, slot: Slot, count: int | None) -> Vector:
-        found, on = slot.found, slot.found.get("on")
-        named = names_of_points(self.moving())
-        if on:
-            first, n = self.of_place(on)
-            wind = found.get("relative_to") or (0,) * n
-            named |= names_at_place(n, first, on)
-            named |= velocity_at_place(n, first, on, wind, turned=found.get("frame") == "body")
-        listed = self.listed(self.value(slot), count, slot.path, self.in_time)
-        return tuple(meant(t, named) for t in listed)
-
-    def _factor_of(self, on: int) -> tuple[int, Group]:
-        """The first row, and the factor that moves a point or place."""
-        return self.moving().places[self.listed_places[on - 1].block - 1]
 
     def letters(self, slot: Slot) -> str:
         """As those of a name, which may be a word of another language."""
@@ -302,56 +159,6 @@ class FileReader(TableReader):
         if not all(isinstance(x, (int, Fraction)) for row in rows for x in row):
             raise ProblemError(f"{where}: the entries of a basis must be rational numbers")
         return tuple(tuple(Fraction(str(x)) for x in row) for row in rows)
-
-    # -- points --------------------------------------------------------------------------------
-
-    def pair(self, slot: Slot) -> tuple[int, int]:
-        """Two points, in spaces of one dimension."""
-        i, j = super().pair(slot)
-        if self.of_place(i)[1] != self.of_place(j)[1]:
-            raise ProblemError(
-                f"{slot.where}: the points {i} and {j} are in spaces of two dimensions"
-            )
-        return i, j
-
-    def end(self, slot: Slot) -> int:
-        """The point of ``on``, or a new place at ``at``."""
-        table, where = slot.table, slot.where
-        if "on" in table:
-            if "at" in table:
-                raise ProblemError(f"{where}: give either 'on' or 'at'")
-            if not self.point_masses:
-                raise ProblemError(
-                    f"{where}, on: there are no {self.numbered} to number; give 'at', a place of "
-                    "the body"
-                )
-            listed = _as_list(table["on"])
-            if len(listed) != 1:
-                raise ProblemError(f"{where}: key 'on' must be one point")
-            return self.point(listed[0], f"{where}, on")
-        if "at" not in table:
-            given = "'on' or 'at'" if self.point_masses else "'at', a place of the body,"
-            raise ProblemError(f"{where}: key {given} is missing")
-        found = Place.read(table, where, self)
-        if not (self.observing and found in self.places):
-            self.places.append(found)
-        last = len(self.places) - 1 - self.places[::-1].index(found)
-        return len(self.point_masses) + last + 1
-
-    def points(self, slot: Slot) -> tuple[int, ...]:
-        """A place of the body; or points, by a number or a list, all without either."""
-        key, where = slot.key, slot.where
-        if "at" in slot.table:
-            return (self.end(slot),)
-        if not self.point_masses:
-            raise ProblemError(f"{where}: give a place of the body under 'at', or [[point]] tables")
-        listed = slot.table.get(key, [*range(1, self.last + 1)])
-        if not listed and isinstance(listed, list):
-            raise ProblemError(f"{where}: key {key!r} must be a point or a list of points")
-        on = tuple(self.point(i, slot.path) for i in _as_list(listed))
-        if len(set(on)) != len(on):
-            raise ProblemError(f"{where}: key {key!r} names a point twice")
-        return on
 
     def masses(self, *_: Any) -> tuple[()]:
         """Those of the points."""
@@ -394,53 +201,6 @@ class FileReader(TableReader):
         if degree > LAYERS:
             raise ProblemError(f"{slot.path}: of degree {degree} in 's'; at most {LAYERS}")
         return found
-
-    def in_time(self, value: Any, where: str) -> Tree:
-        """The time, where an expression says t."""
-        return replaced(self.expression(value, where), ("par", "t"), "t")
-
-    def energy(self, slot: Slot) -> Tree:
-        """An expression of places in space, with one at least."""
-        U = self._placed(self.scalar(slot), slot.where)
-        if not any(x[0] == "at" for _, x in subtrees(U) if isinstance(x, tuple)):
-            raise ProblemError(
-                f"{slot.path}: no place of a point, as r1_x, so no force; leave it out"
-            )
-        return U
-
-    def of_volume(self, slot: Slot) -> Tree:
-        """An expression of ``det_A``, which must be in it, and the time."""
-        found = replaced(self.in_time(self.value(slot), slot.path), ("par", "det_A"), DETERMINANT)
-        if not any(x == DETERMINANT for _, x in subtrees(found)):
-            raise ProblemError(f"{slot.path}: no det_A, the volume, so no force; leave it out")
-        return found
-
-    def _placed(self, t: Tree, where: str) -> Tree:
-        """r1_x, r1_2, … as entries of the places in space; t as the time."""
-        if not isinstance(t, tuple):
-            return t
-        if t[0] != "par":
-            return (t[0], *(self._placed(x, where) for x in t[1:]))
-        name = t[1]
-        match = PLACE.fullmatch(name)
-        if match is None and name != "t":
-            if LIKE_A_PLACE.fullmatch(name) and name not in self.parameters:
-                raise ProblemError(
-                    f"{where}: {name!r}: a place in space is r1_x, r1_y, r1_z, or r1_1, r1_2, …"
-                )
-            return t
-        if match is None:
-            return "t"
-        i = int(match[1])
-        if not self.point_masses:
-            raise ProblemError(f"{where}: {name!r}: there are no {self.numbered} to number")
-        if not 1 <= i <= self.last:
-            raise ProblemError(f"{where}: {name!r}: the points are r1 … r{self.last}")
-        k = AXES.index(match[2]) + 1 if match[2] else int(match[3])
-        first, n = self.of_place(i)
-        if not 1 <= k <= n:
-            raise ProblemError(f"{where}: {name!r}: point {i} has {n} coordinates")
-        return ("entry", ("call", ("at", "r", i), "t"), first + k)
 
     def lettered(self, slot: Slot) -> Tree:
         """An expression in the names of the state."""
@@ -551,8 +311,3 @@ class FileReader(TableReader):
     def turned(self, value: Any, n: int, where: str) -> Rows:
         """A rotation of Rⁿ."""
         return rotation(value, n, where, self)
-
-
-def _as_list(value: Any) -> list[Any]:
-    """A number of a point, or a list of them."""
-    return value if isinstance(value, list) else [value]

@@ -123,17 +123,17 @@ def problem_of(
     if any(key in data for key in SECTIONS):
         return _without_points(data, moved)
     reader.parameters = parameters
-    own = body(data, reader)
-    if moved and own is None:
+    its_body = body(data, reader)
+    if moved and its_body is None:
         raise ProblemError(
             "no body: give [[point]] or [[solid]] tables, or a table [body]; or a [lagrangian]"
         )
-    if isinstance(own, MomentBody):
-        named = {x: parameters.get(x, p) for x, p in own.parameters().items()}
+    if isinstance(its_body, MomentBody):
+        named = {x: parameters.get(x, p) for x, p in its_body.parameters().items()}
         parameters = {**named, **{k: p for k, p in parameters.items() if k not in named}}
     if not negative_mass:
-        _positive(inertia.negative_mass(own, parameters), "mass")
-    reader.carries(own, parameters)
+        _positive(inertia.negative_mass(its_body, parameters), "mass")
+    reader.carries(its_body, parameters)
     potentials, inputs, damping, stated = forces(data, reader)
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
@@ -146,7 +146,7 @@ def problem_of(
         action,
         reader.title_of(data, name),
         parameters,
-        own,
+        its_body,
         potentials,
         inputs,
         tuple(reader.places),
@@ -231,28 +231,28 @@ def _positive(where: str | None, what: str) -> None:
 
 def _massive(problem: Problem, negative_mass: bool) -> None:
     """``ProblemError`` for a direction without inertia, and for masses that cannot be."""
-    moved, own = problem.group, problem.body
+    moved, its_body = problem.group, problem.body
     values = inertia.defaults(problem.parameters)
-    if fault := inertia.fault_of_quadrics(own, values, "the defaults"):
+    if fault := inertia.fault_of_quadrics(its_body, values, "the defaults"):
         raise ProblemError(f"body: {fault}")
-    if moved and own and (still := inertia.still_direction(moved, own)):
+    if moved and its_body and (still := inertia.still_direction(moved, its_body)):
         raise ProblemError(
             f"{still} has no kinetic energy together with any motion: the metric of these masses, "
             "some of them negative, is degenerate at g = 1; change them"
             if negative_mass
             else f"{still} moves no mass of this body: its motion is open; add masses"
         )
-    if moved and own and moved.free_translations and inertia.massless(own):
+    if moved and its_body and moved.free_translations and inertia.massless(its_body):
         raise ProblemError("body: its mass is 0, and it has no centre of mass; change the masses")
-    if not moved or negative_mass or not isinstance(own, GivenBody):
+    if not moved or negative_mass or not isinstance(its_body, GivenBody):
         return
-    fault = inertia.impossible(moved, own, problem.parameters)
-    if fault and own.solids:
+    fault = inertia.impossible(moved, its_body, problem.parameters)
+    if fault and its_body.solids:
         raise ProblemError(
             "body: no masses have the moments of these solids: what has a negative density must be "
             "a hole inside of others; or allow it with --allow-negative-mass"
         )
-    if fault and not any(names(t) for t in own.trees()):  # of defaults it is a doubt
+    if fault and not any(names(t) for t in its_body.trees()):  # of defaults it is a doubt
         raise ProblemError(f"body, given: {fault}")
 
 
@@ -291,8 +291,8 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
             hint = nearest(shown, problem.parameters).removeprefix("; ")
             other = f"{hint} Else " if hint else ""
             raise ProblemError(f"{where}: {shown!r} is not declared; {other}add it to [parameters]")
-    own = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}
-    elsewhere = {*own, *named(problem)}
+    moments = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}
+    elsewhere = {*moments, *named(problem)}
     for name in data.get("parameters", {}):
         if name not in used and name not in elsewhere:
             raise ProblemError(f"parameter {name!r} is declared but not used; leave it out")
@@ -301,7 +301,9 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
 def keys_with(name: str) -> list[tuple[str, str]]:
     """Keys with the kind of their potential, whose expressions know t, or a place r1_x."""
     types = ("energy", "of_volume", "timed") if name == "t" else ("energy",)
-    return [(x, k) for k, own in kinds().items() for x, y in own.keys().items() if y.type in types]
+    return [
+        (x, k) for k, kind in kinds().items() for x, y in kind.keys().items() if y.type in types
+    ]
 
 
 def known_in(name: str) -> str:
@@ -320,9 +322,9 @@ def _moments(problem: Problem) -> list[Tree]:
 
 
 def _forces(problem: Problem) -> list[Tree]:
-    own = [problem.lagrangian] if problem.lagrangian else []
+    lagrangian = [problem.lagrangian] if problem.lagrangian else []
     outside = (*problem.inputs, *problem.damping, *problem.forces, *problem.outputs)
-    return _trees((*own, *problem.potentials, *outside, *problem.places))
+    return _trees((*lagrangian, *problem.potentials, *outside, *problem.places))
 
 
 def _affordable(problem: Problem) -> None:
@@ -378,18 +380,18 @@ def unread(raw: bytes, error: ValueError) -> str:
     if at is None:
         return said
     shown = lines[int(at[1]) - 1].rstrip("\r")
-    told = remedy(said, shown, int(at[2]) - 1)
-    return f"{said}; {told}" if told else said
+    hint = remedy(said, shown, int(at[2]) - 1)
+    return f"{said}; {hint}" if hint else said
 
 
 def remedy(said: str, line: str, column: int) -> str:
     """What to write instead, from what stands about a column, from 0, of a line; "" if unknown."""
-    before, here, key = line[:column], line[column : column + 1], line.partition("=")[0]
+    before, letter, key = line[:column], line[column : column + 1], line.partition("=")[0]
     if quote := next((x for x in TEXT.sub("", line) if x in CURLY), ""):
         return f'{quote} is a curly quote: text stands in straight ones, "…"'
-    if here and here in SPACES:
-        return f"a no-break space (U+{ord(here):04X}) stands here: write a plain one"
-    if here == "−":
+    if letter and letter in SPACES:
+        return f"a no-break space (U+{ord(letter):04X}) stands here: write a plain one"
+    if letter == "−":
         return "− is not the minus sign of a number: write -"
     if not key.isascii():
         return "names have the letters A to Z, a to z, digits and _ only"
@@ -397,13 +399,13 @@ def remedy(said: str, line: str, column: int) -> str:
         return f"a decimal point, not a comma: {found}"
     if said.startswith("Invalid statement") and line.lstrip().startswith((";", "//")):
         return "a comment begins with #"
-    if said.startswith("Expected '=' after a key") and here == ":":
+    if said.startswith("Expected '=' after a key") and letter == ":":
         return "a key and its value are parted by =, not by :"
     if said.startswith("Expected ']"):
         return "a table is written [name], one of a list of tables [[name]]"
     bare = said.startswith(("Invalid value", "Expected newline", "Unclosed")) and "=" in before
-    told = _unquoted(line, column) if bare else ""
-    return told or next((x for begin, x in ENDS.items() if said.startswith(begin)), "")
+    hint = _unquoted(line, column) if bare else ""
+    return hint or next((x for begin, x in ENDS.items() if said.startswith(begin)), "")
 
 
 def _decimal(line: str, column: int) -> str:
@@ -419,13 +421,13 @@ def _unquoted(line: str, column: int) -> str:
     if word is None:
         nothing = not line[column:].split("#")[0].strip() and line[:column].rstrip().endswith("=")
         return "a value is missing" if nothing else ""
-    told = word[0]
-    if re.fullmatch(r"[-+]?(\.[0-9]+|[0-9]+\.)", told):
+    value = word[0]
+    if re.fullmatch(r"[-+]?(\.[0-9]+|[0-9]+\.)", value):
         return "a digit stands on both sides of the point: " + re.sub(
-            r"^([-+]?)\.", r"\g<1>0.", told if told[-1] != "." else f"{told}0"
+            r"^([-+]?)\.", r"\g<1>0.", value if value[-1] != "." else f"{value}0"
         )
-    if re.search(r"[A-Za-z*/^+(]", told) and told[-1] != "(":
-        return f'a text or an expression stands in quotes: "{told[:40]}"'
+    if re.search(r"[A-Za-z*/^+(]", value) and value[-1] != "(":
+        return f'a text or an expression stands in quotes: "{value[:40]}"'
     return ""
 
 

@@ -107,6 +107,16 @@ class C(Printer):
         return f"    (void){name};"
 
     # -- statements --------------------------------------------------------------------------------
+    def statement(self, x: ast.stmt, depth: int) -> Lines:
+        """The same; behind a ``pragma`` loops whose first index is known when a file is written.
+
+        Those over a part of the state are known when the parts are unrolled.
+        """
+        match x:
+            case ast.For(iter=ast.Call(args=[_] | [ast.Constant(), *_])) if "pragma" in self.given:
+                yield self.given["pragma"]
+        yield from super().statement(x, depth)
+
     def declared(self, name: str, kind: Type, value: str | None) -> str:
         const = "const " * (value is not None and not kind.written)
         sizes = "".join(f"[{n}]" for n in self.sizes(kind))

@@ -33,8 +33,7 @@ from typing import Any
 
 from ..algebra.families import group
 from ..algebra.groups import Group
-from ..check.trials.model import Model
-from ..check.trials.momenta import basis_momenta, brackets
+from ..check.trials.phase_point import PhasePoint
 from ..check.values.arithmetic import EPS, part
 from ..check.values.residue import Residue
 from ..language import rational as q
@@ -300,8 +299,11 @@ class MomentumFunctions:
     def compare(self, arguments: Mapping[str, Any]) -> tuple[str, ...]:
         """The names of the functions, each found right."""
         x, size = self.point.arguments["x"], len(self.point.rates)
+        model: PhasePoint = self.point.named.names.model  # type: ignore[attr-defined]
+        # Π_a by its meaning; of points, p_b after it
+        momenta = [part(z, 0) for z in model.momenta(model.t, model.g, model.Z)]
         y = self.call("momentum", arguments, out=size)["out"]
-        self._same("momentum", y, self._with(x, self._momenta))
+        self._same("momentum", y, self._with(x, momenta))
         there = {**arguments, "y": Array(y, "y")}
         found, moved = ["momentum"], self._rate_along_motion(arguments)
         if "velocity_step" in self.plain.module.functions:
@@ -316,31 +318,9 @@ class MomentumFunctions:
             rates = "momentum_rhs"
             found += ["velocity"]
         self._same(rates, self.call(rates, there, dy=size)["dy"], moved)
-        tensor = [z for row in self._tensor for z in row]
+        tensor = q.flatten(model.brackets())
         self._same("poisson", self.call("poisson", there, out=len(tensor))["out"], tensor)
         return (*found, rates, "poisson")
-
-    @property
-    def _momenta(self) -> list[Any]:
-        """Π_a by its meaning; of points, p_b after it."""
-        if self._points:
-            return basis_momenta(self._points)
-        family = self.point.named.families["Π"]
-        return [family[key] for key in sorted(family)]
-
-    @property
-    def _points(self) -> Model | None:
-        """The model of points, where they give the Lagrangian."""
-        model = getattr(self.point.named.names, "model", None)
-        return model if isinstance(model, Model) else None
-
-    @property
-    def _tensor(self) -> Matrix:
-        """The brackets of the momenta, and of what is carried along."""
-        if self._points:
-            return brackets(self._points)
-        tensor: Matrix = self.point.named.names["𝕁"]
-        return tensor
 
     @property
     def _velocity(self) -> range:

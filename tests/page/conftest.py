@@ -1,4 +1,4 @@
-"""What the engine makes of one problem is made once for the tests of this room; the browser."""
+"""Pages, and the browser that they are opened in."""
 
 import tomllib
 
@@ -9,9 +9,6 @@ from derive.problem.toml import problem_of
 from tests.support.motion_pages import HOSTILE
 from tests.support.needs import need
 from tests.support.playground_site import chromium
-from tests.support.shared import made_once
-
-__all__ = ("made_once",)
 
 
 @pytest.fixture

@@ -10,6 +10,7 @@ from derive.check.checker import UNUSED, check
 from derive.check.form.well_formedness import mentioned, unused
 from derive.record.record import Equation
 from derive.walk.chapter import Draft, WalkError
+from derive.walk.spine import lagrangian
 from tests.support.walks import NAMES, OTHERS, SEED, problem, record, repeated
 
 WALKED = ("so3", "saff3")
@@ -17,7 +18,7 @@ WALKED = ("so3", "saff3")
 
 def untraced(name, monkeypatch):
     """The steps with what their rules received alone: names are not looked up."""
-    monkeypatch.setattr(pipeline, "traced", lambda steps: steps)
+    monkeypatch.setattr(lagrangian, "traced", lambda steps: steps)
     pipeline.general_road.cache_clear()
     try:
         return pipeline.walk(problem(name)).steps

@@ -76,6 +76,15 @@ def test_c(tmp_path):
     assert ([*y], [*z]) == (Y, Z)
 
 
+def test_a_pragma_stands_before_loops_whose_first_index_is_known():
+    text = printed(C, prefix="a", fabs="fabs", inline="", pragma="#pragma unroll")
+    assert text.count("\n#pragma unroll\n    for (int i = ") == text.count("for (int i = ") == 3
+    source, given = Source(), {"N": 3, "prefix": "a", "real": "float", "inline": "", "pragma": "#!"}
+    rest = "    for i in range(n, N):\n        x[i] = 0.0\n"
+    source.read(f'def f(n: index, x: out[real[N]]):\n    "zeros"\n{rest}', given)
+    assert "#!" not in C(source, given).text(["f"])
+
+
 def test_javascript(tmp_path):
     if shutil.which("node") is None:
         need("node")

@@ -3,6 +3,7 @@ disk, its programs and what its motion keeps; all else is made of these."""
 
 import pickle
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -16,6 +17,7 @@ from derive.record.record import Derivation
 from derive.walk.spine.head import problem_data
 from tests.support.cached import place, write
 
+TESTS = Path(__file__).parents[1]
 RECORDS = {}
 """id → a record and its text, that no other record has its id."""
 MADE = {}
@@ -59,12 +61,16 @@ OWN = {make.__name__: make for make in KEPT_ON_DISK}
 ONCE = {name: once(make, on_disk=KEPT_ON_DISK[make]) for name, make in OWN.items()}
 
 
+ROOMS = ("code", "command", "motion", "page", "plot", "python", "validate")
+
+
 @pytest.fixture(autouse=True, scope="module")
 def made_once(request):
-    """Wherever the engine has a name of the pipeline, what it makes is shared; not in a file of
-    tests that change the engine, which says so by ``CHANGES_THE_ENGINE``."""
+    """In these rooms of tests, wherever the engine has a name of the pipeline, what it makes is
+    shared; not in a file that changes the engine, which says so by ``CHANGES_THE_ENGINE``."""
+    shared_here = request.path.relative_to(TESTS).parts[0] in ROOMS
     with pytest.MonkeyPatch.context() as patch:
-        if not hasattr(request.module, "CHANGES_THE_ENGINE"):
+        if shared_here and not hasattr(request.module, "CHANGES_THE_ENGINE"):
             modules = [x for name, x in sys.modules.items() if name.startswith("derive.")]
             for module in (*modules, request.module):
                 for name, shared in ONCE.items():

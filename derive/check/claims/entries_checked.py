@@ -44,10 +44,10 @@ class _Candidate:
     tell."""
 
     def __init__(self, factor: Group, inside: Mapping[Place, Number]):
-        self.factor, self.inside, self.kept = factor, inside, relations(factor)
-        told = affine_entries(factor)
-        free = sorted({x for row in told for _, weights in row for x in weights})
-        self.weights = [[[w.get(x, Fraction(0)) for x in free] for _, w in row] for row in told]
+        self.factor, self.inside, self.relations = factor, inside, relations(factor)
+        entries = affine_entries(factor)
+        free = sorted({x for row in entries for _, weights in row for x in weights})
+        self.weights = [[[w.get(x, Fraction(0)) for x in free] for _, w in row] for row in entries]
         rows = [(*self.weights[i][j], x - Fraction(int(i == j))) for (i, j), x in inside.items()]
         echelon, self.pivots = q.echelon(tuple(rows))
         self.rows = echelon[: len(self.pivots)]
@@ -89,24 +89,24 @@ class _Candidate:
 
     def _refuted(self) -> bool:
         """Do the lines contradict the relations of the factor?"""
-        n, kept, S = self.factor.n, self.kept, self.kept.form
+        n, relations, S = self.factor.n, self.relations, self.relations.form
         a, known = (tuple(tuple(row[:n]) for row in x[:n]) for x in (self.g, self.known))
         inverse = q.inverse(S) if S else None
-        for lines, told, form in ((a, known, inverse), (*map(q.transposed, (a, known)), S)):
-            chosen = [i for i in range(n) if all(told[i])]
+        for lines, given, form in ((a, known, inverse), (*map(q.transposed, (a, known)), S)):
+            chosen = [i for i in range(n) if all(given[i])]
             if chosen and q.rank(tuple(lines[i] for i in chosen)) < len(chosen):
                 return True
             if form and not self._has_products(tuple(lines[i] for i in chosen), chosen, form):
                 return True
         if (
             self._has_all_entries
-            and kept.determinant
-            and not kept.complex_basis
+            and relations.determinant
+            and not relations.complex_basis
             and q.determinant(a) != 1
         ):
             return True
         positive: list[Any] = [a[j][j] for j in range(n) if known[j][j] and self._scales(j)]
-        if self._has_all_entries and (self.factor.larger or not kept.none):
+        if self._has_all_entries and (self.factor.larger or not relations.none):
             positive.append(q.determinant(a))
         return not all(x > 0 for x in positive)
 
@@ -117,7 +117,7 @@ class _Candidate:
         pairs = [
             (found[a][b], form[i][j]) for (a, i), (b, j) in product(enumerate(places), repeat=2)
         ]
-        factor = next((x / y for x, y in pairs if y), 1) if self.kept.conformal else 1
+        factor = next((x / y for x, y in pairs if y), 1) if self.relations.conformal else 1
         return all(x == factor * y for x, y in pairs)
 
     def _scales(self, j: int) -> bool:
@@ -131,27 +131,27 @@ class _Candidate:
 
     def _by_theorem(self) -> bool:
         """Are all lines that have the relations those of elements?"""
-        g, kept, S = self.factor, self.kept, self.kept.form
+        g, relations, S = self.factor, self.relations, self.relations.form
         moved = [[e[i][j] for i, j in self.inside] for e in g.basis]
         if _nilpotent(g):  # its orbits are closed: one that is open in the hull is all of it
             return q.rank(q.matrix(moved)) == len(self.pivots)
-        if kept.dimension > g.dimension or (self._has_all_entries and kept.complex_basis):
+        if relations.dimension > g.dimension or (self._has_all_entries and relations.complex_basis):
             return False
         if not g.larger or not S:
-            return not (g.larger and kept.hull)
+            return not (g.larger and relations.hull)
         definite = any(q.definite(q.scaled(sign, S)) for sign in (1, -1))
-        skew = q.transposed(S) == q.scaled(-1, S) and not kept.conformal
-        return not kept.hull and (definite or skew)
+        skew = q.transposed(S) == q.scaled(-1, S) and not relations.conformal
+        return not relations.hull and (definite or skew)
 
     def _exponential(self) -> bool:
         """Is g exp of a matrix of the Lie algebra, the logarithm in the hull?"""
-        kept, S, n = self.kept, self.kept.form, self.factor.n
-        if kept.dimension > self.factor.dimension or kept.complex_basis:
+        relations, S, n = self.relations, self.relations.form, self.factor.n
+        if relations.dimension > self.factor.dimension or relations.complex_basis:
             return False
         a = tuple(row[:n] for row in self.g[:n])
         if S and not self._has_products(q.transposed(a), range(n), S):
             return False
-        if kept.determinant and q.determinant(a) != 1:
+        if relations.determinant and q.determinant(a) != 1:
             return False
         return not negative_or_zero(characteristic(a))
 
@@ -261,8 +261,8 @@ class Entries:
         found: list[q.Matrix] = []
         for offset, factor in self.group.places:
             span = range(offset, offset + factor.n)
-            whole = factor.larger or factor.dimension < factor.n * factor.size
-            if whole and all((i, j) in at for i in span for j in span):
+            constrained = factor.larger or factor.dimension < factor.n * factor.size
+            if constrained and all((i, j) in at for i in span for j in span):
                 found.append(tuple(tuple(at[i, j] for j in span) for i in span))
         for j in {j for i, j in self.places if i == j}:
             others = [i for i in range(self.group.size) if i != j]

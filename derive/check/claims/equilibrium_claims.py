@@ -37,9 +37,9 @@ POINTS = ("equilibrium.at", "equilibrium.origin")
 
 def coordinates(claim: Claim) -> Coordinates:
     """The coordinates that a claim tells, rows of a matrix; none where it tells none."""
-    told = dict(claim.values).get("point", ("matrix",))
-    assert isinstance(told, tuple)
-    found = [(x, value_of(y)) for _, x, y in told[1:]]
+    rows = dict(claim.values).get("point", ("matrix",))
+    assert isinstance(rows, tuple)
+    found = [(x, value_of(y)) for _, x, y in rows[1:]]
     if len(dict(found)) < len(found):
         raise RecordError("a coordinate is told twice")
     return (*found,)
@@ -60,17 +60,17 @@ def point_of(system: ReducedSystem, step: Step) -> ClaimedEquilibrium:
 def _at(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """Nothing moves at the point, which an element may have, the equations are in powers of the
     distance from it, and what is proved of its stability is said."""
-    here, told = point_of(system, step), coordinates(claim)
-    if unknown := [x for x, _ in told if x not in here.variables]:
+    point, stated = point_of(system, step), coordinates(claim)
+    if unknown := [x for x, _ in stated if x not in point.variables]:
         raise RecordError(f"{unknown[0]} is no variable")
-    if any(x.value != 0 for x in here.rates):
+    if any(x.value != 0 for x in point.rates):
         return "something moves there"
     using = (s for s in system.record.steps if step.label in s.uses)
     if not any(x.kind in PROVED for s in (step, *using) for x in s.claims):
         return "no step says what is proved of its stability"
-    if here.entries == "no":
+    if point.entries == "no":
         return "no element of the group has these entries"
-    return not_from(step, told)
+    return not_from(step, stated)
 
 
 def not_from(step: Step, point: Coordinates, *, constants: bool = False) -> str:
@@ -89,9 +89,9 @@ def _strays(t: Tree, distances: Sequence[Sequence[Tree]], *, constants: bool) ->
         return any(t == x for x, *_ in distances)
     parts = [*t[1:]]
     if t[0] == "add":
-        for own in distances:
-            if all(y in parts for y in own):
-                for y in own:
+        for distance in distances:
+            if all(y in parts for y in distance):
+                for y in distance:
                     parts.remove(y)
         if not constants and any(map(_is_number, parts)):
             return True
@@ -111,10 +111,10 @@ def kept(system: ReducedSystem, step: Step) -> Tree:
     h, *others = terms(equation.lhs)
     if h != "h̃" or any("h̃" in nodes(x) for x in others):
         raise RecordError("the left side is not the energy and what is kept beside it")
-    here = system.anywhere
+    point = system.anywhere
     roots = {x for t in others for x in nodes(t) if isinstance(x, tuple) and x[0] == "fun"}
     # it has rational coefficients in place of roots: kept for any of them, if for a random one
-    at = {**here.at} | {x: system.random.randrange(system.prime) for x in roots}
+    at = {**point.at} | {x: system.random.randrange(system.prime) for x in roots}
     if others and ResiduePoint(system, at).bracket(add(*others), system.energy):
         raise RecordError("the left side is not kept")
     return equation.lhs
@@ -124,33 +124,33 @@ def form_of(system: ReducedSystem, step: Step) -> q.Matrix | None:
     """The second derivatives of what a step takes for the form; ``None`` where it has none."""
     if all(x.kind != "equilibrium.form" for x in step.claims):
         return None
-    here = point_of(system, step)
-    found = here.expansion(kept(system, step))
-    if any(found.slopes(here.n)):
+    point = point_of(system, step)
+    found = point.expansion(kept(system, step))
+    if any(found.slopes(point.n)):
         raise RecordError("the derivative does not vanish at the equilibrium")
-    return q.matrix(found.matrix(here.n))
+    return q.matrix(found.matrix(point.n))
 
 
 def _form(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The squares on the leaf are as many as are claimed, and are those that are written; what
     follows from them is said."""
-    here, form = point_of(system, step), form_of(system, step)
-    if fault := silent(step, PROVED, here.verdict(form)):
+    point, form = point_of(system, step), form_of(system, step)
+    if fault := silent(step, PROVED, point.verdict(form)):
         return fault
-    found = here.squares(form)
+    found = point.squares(form)
     if found != (claim["positive"], claim["negative"]):
         return f"it has {found[0]} positive and {found[1]} negative squares"
-    signs = [_square(here, here.expansion(t)) for t in terms(step.equations[0].rhs)]
+    signs = [_square(point, point.expansion(t)) for t in terms(step.equations[0].rhs)]
     written = signs.count(1), signs.count(-1)
     return "" if written == found else f"{written[0]} and {written[1]} are written"
 
 
-def _square(here: ClaimedEquilibrium, term: SecondOrder) -> int:
+def _square(point: ClaimedEquilibrium, term: SecondOrder) -> int:
     """The sign of a term that is a square on the leaf; 0 for what vanishes there to the second
     order; ``RecordError`` for any other."""
     if any(term.slope.values()):
         raise RecordError("a term is not of the second order in the distance")
-    on_the_leaf = here.on_the_leaf(q.matrix(term.matrix(here.n))) if here.dimension else ()
+    on_the_leaf = point.on_the_leaf(q.matrix(term.matrix(point.n))) if point.dimension else ()
     if not any(map(any, on_the_leaf)):
         return 0
     if q.rank(on_the_leaf) > 1:
@@ -160,11 +160,11 @@ def _square(here: ClaimedEquilibrium, term: SecondOrder) -> int:
 
 def _none(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The derivative of the energy is no combination of those of what is kept."""
-    here = point_of(system, step)
+    point = point_of(system, step)
     known = (*system.casimirs, *system.integrals[1:])
-    rows = [here.expansion(f).slopes(here.n) for f in known]
-    whole = [*rows, here.energy.slopes(here.n)]
-    more, fewer = (q.rank(q.matrix(x)) if x else 0 for x in (whole, rows))
+    rows = [point.expansion(f).slopes(point.n) for f in known]
+    extended = [*rows, point.energy.slopes(point.n)]
+    more, fewer = (q.rank(q.matrix(x)) if x else 0 for x in (extended, rows))
     return "" if more > fewer else "there are such multiples"
 
 
@@ -180,12 +180,12 @@ def _orbit(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """It is what the form, the ranks and the roots imply."""
-    here, form = point_of(system, step), form_of(system, step)
-    found, told = here.verdict(form), claim.kind.partition(".")[2]
-    if told != found and (told != "indefinite" or found not in ("unstable", "open")):
+    point, form = point_of(system, step), form_of(system, step)
+    found, claimed = point.verdict(form), claim.kind.partition(".")[2]
+    if claimed != found and (claimed != "indefinite" or found not in ("unstable", "open")):
         return f"what follows is: {found}"
     row = dict(claim.values).get("coefficients")
-    known = here.characteristic_of_all if told == "unstable_beyond" else here.characteristic
+    known = point.characteristic_of_all if claimed == "unstable_beyond" else point.characteristic
     if row is not None and [*map(value_of, _listed(row))] != known:
         return "the characteristic polynomial has other coefficients"
     return ""
@@ -198,18 +198,22 @@ def _listed(t: Tree) -> tuple[Tree, ...]:
 def _exact_squares(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """They are all roots of q, for the characteristic polynomial q(λ²)."""
     f = point_of(system, step).characteristic[::2]
-    told = [_complex(t) for t in _listed(claim["squares"])]
-    if any(any(at_complex(f, s)) for s in told):
+    claimed = [_complex(t) for t in _listed(claim["squares"])]
+    if any(any(at_complex(f, s)) for s in claimed):
         return "one is no square of an eigenvalue"
-    return "" if len({*told}) == len(told) == distinct_roots(f) else "they are not all, each once"
+    return (
+        ""
+        if len({*claimed}) == len(claimed) == distinct_roots(f)
+        else "they are not all, each once"
+    )
 
 
 def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """Their squares are all roots of q, for the characteristic polynomial q(λ²), as many of each
     kind, and they are rounded to the nearest decimals."""
-    f, told = point_of(system, step).characteristic[::2], claim["eigenvalues"]
-    assert isinstance(told, tuple)
-    squares = [(re * re - im * im, 2 * re * im) for _, re, im in told[1:]]
+    f, eigenvalues = point_of(system, step).characteristic[::2], claim["eigenvalues"]
+    assert isinstance(eigenvalues, tuple)
+    squares = [(re * re - im * im, 2 * re * im) for _, re, im in eigenvalues[1:]]
     reals = [s for s, im in squares if not im]
     found = (
         sum(2 if im else 1 for _, im in squares),
@@ -225,7 +229,7 @@ def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
         others = [(re, -im) for re, im in near if im]
         simple = square_free((*f[::-1],))[::-1]
         roots = roots_near([decimal(x / simple[0]) for x in simple], [*near, *others])
-        numbers = [(decimal(re), decimal(im)) for _, re, im in told[1:]]
+        numbers = [(decimal(re), decimal(im)) for _, re, im in eigenvalues[1:]]
         rounded = are_roots_rounded(numbers, roots[: len(near)])
     return "" if rounded else "one is not rounded to the nearest decimal"
 

@@ -71,14 +71,14 @@ def _degrees(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 
 def _all_casimirs(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    whole = Completeness(system, weights(system), number(claim["degree"]), system.casimirs)
-    return whole.fault(*along_every_field(system))
+    completeness = Completeness(system, weights(system), number(claim["degree"]), system.casimirs)
+    return completeness.fault(*along_every_field(system))
 
 
 def _all_integrals(system: ReducedSystem, step: Step, claim: Claim) -> str:
     generators = (*system.casimirs, *system.integrals)
-    whole = Completeness(system, weights(system), number(claim["degree"]), generators)
-    return _generic_fault(system, claim) or whole.fault(*along_the_motion(system))
+    completeness = Completeness(system, weights(system), number(claim["degree"]), generators)
+    return _generic_fault(system, claim) or completeness.fault(*along_the_motion(system))
 
 
 def _generic_fault(system: ReducedSystem, claim: Claim) -> str:
@@ -107,40 +107,40 @@ def _dependent(system: ReducedSystem, step: Step, claim: Claim) -> str:
     if not 1 < k <= len(system.integrals):
         return f"there are {len(system.integrals)} integrals"
     before, f = (*system.casimirs, *system.integrals[: k - 1]), system.integrals[k - 1]
-    here = system.anywhere
-    if here.rank([*before, f]) > here.rank(before):
+    point = system.anywhere
+    if point.rank([*before, f]) > point.rank(before):
         return "it is independent of them"
-    own = weights(system)
-    most = degree(f, dict(zip(system.variables, own, strict=True)))
-    return "it is one" if Completeness(system, own, most, before).contains(f) else ""
+    grading = weights(system)
+    most = degree(f, dict(zip(system.variables, grading, strict=True)))
+    return "it is one" if Completeness(system, grading, most, before).contains(f) else ""
 
 
 # -- rank and involution ------------------------------------------------------------------------
 
 
-def _size_fault(here: ResiduePoint, claim: Claim) -> str:
+def _size_fault(point: ResiduePoint, claim: Claim) -> str:
     """Why the rank, the dimension or half the rank are not those that are claimed."""
-    rank, size = here.poisson_rank, len(here.system.variables)
-    told = dict(claim.values)
-    if told.get("rank", rank) != rank or rank == 0:
+    rank, size = point.poisson_rank, len(point.system.variables)
+    claimed = dict(claim.values)
+    if claimed.get("rank", rank) != rank or rank == 0:
         return f"the rank is {rank}"
-    if told.get("dimension", size) != size:
+    if claimed.get("dimension", size) != size:
         return f"the dimension is {size}"
-    return "" if told.get("half", Fraction(rank, 2)) == Fraction(rank, 2) else f"half of {rank}"
+    return "" if claimed.get("half", Fraction(rank, 2)) == Fraction(rank, 2) else f"half of {rank}"
 
 
-def in_involution(here: ResiduePoint, f: Sequence[Tree], several: int) -> tuple[Tree, ...] | None:
+def in_involution(point: ResiduePoint, f: Sequence[Tree], several: int) -> tuple[Tree, ...] | None:
     """So many of some functions that are in involution and independent on the leaves; ``None``
     where there are none."""
 
     def extended(chosen: tuple[Tree, ...], left: Sequence[Tree]) -> tuple[Tree, ...] | None:
         if len(chosen) == several:
             return chosen
-        if here.rank_on_leaves([*chosen, *left]) < several:
+        if point.rank_on_leaves([*chosen, *left]) < several:
             return None
         for k, x in enumerate(left):
-            if here.rank_on_leaves([*chosen, x]) > len(chosen):
-                commuting = [y for y in left[k + 1 :] if not here.bracket(x, y)]
+            if point.rank_on_leaves([*chosen, x]) > len(chosen):
+                commuting = [y for y in left[k + 1 :] if not point.bracket(x, y)]
                 if found := extended((*chosen, x), commuting):
                     return found
         return None
@@ -149,27 +149,27 @@ def in_involution(here: ResiduePoint, f: Sequence[Tree], several: int) -> tuple[
 
 
 def _complete(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    here, told = system.anywhere, dict(claim.values)
-    if reason := _size_fault(here, claim):
+    point, claimed = system.anywhere, dict(claim.values)
+    if reason := _size_fault(point, claim):
         return reason
-    if "half" not in told and here.poisson_rank != 2:
-        return f"the rank is {here.poisson_rank}"
-    places = listed(told.get("numbers", told.get("number", 1)))
+    if "half" not in claimed and point.poisson_rank != 2:
+        return f"the rank is {point.poisson_rank}"
+    places = listed(claimed.get("numbers", claimed.get("number", 1)))
     if not all(x in range(1, len(system.integrals) + 1) for x in places):
         return f"there are {len(system.integrals)} integrals"
     chosen = [system.integrals[int(number(x)) - 1] for x in places]
-    if any(here.bracket(x, y) for k, x in enumerate(chosen) for y in chosen[:k]):
+    if any(point.bracket(x, y) for k, x in enumerate(chosen) for y in chosen[:k]):
         return "two of them are not in involution"
-    if 2 * len(chosen) != here.poisson_rank or here.rank_on_leaves(chosen) < len(chosen):
+    if 2 * len(chosen) != point.poisson_rank or point.rank_on_leaves(chosen) < len(chosen):
         return "they are not half as many as the rank, or dependent on each other and the Casimirs"
     return ""
 
 
 def _undecided(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    here = system.anywhere
-    if reason := _size_fault(here, claim):
+    point = system.anywhere
+    if reason := _size_fault(point, claim):
         return reason
-    there = in_involution(here, system.integrals, here.poisson_rank // 2)
+    there = in_involution(point, system.integrals, point.poisson_rank // 2)
     return "they are among the integrals" if there else ""
 
 
@@ -178,9 +178,9 @@ def _still(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 
 def _unknown_rank(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    here = system.anywhere
-    left = len(system.variables) - here.rank(system.casimirs)
-    return "they do" if left == here.poisson_rank else ""
+    point = system.anywhere
+    left = len(system.variables) - point.rank(system.casimirs)
+    return "they do" if left == point.poisson_rank else ""
 
 
 # -- on a level, under a condition ----------------------------------------------------------------
@@ -197,8 +197,8 @@ def _level_of(system: ReducedSystem, step: Step) -> Tree:
 def _multiple(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The rates vanish where the Casimir does."""
     there = system.place(level=_level_of(system, step))
-    kept = not any(there.bracket(f, system.energy) for f in rates_of(step))
-    return "" if kept else "they are no multiples of it"
+    conserved = not any(there.bracket(f, system.energy) for f in rates_of(step))
+    return "" if conserved else "they are no multiples of it"
 
 
 def _complete_there(there: ResiduePoint, step: Step, claim: Claim) -> str:
@@ -240,8 +240,8 @@ def _under(system: ReducedSystem, step: Step, claim: Claim) -> str:
     if (len(f) > 1) is (claim.kind == "condition.one") or not f:
         return f"{len(f)} polynomials"
     there = system.place(values=_solved(claim["condition"]))
-    kept = not any(there.bracket(x, system.energy) for x in f)
-    return "" if kept else "a polynomial is no integral under it"
+    conserved = not any(there.bracket(x, system.energy) for x in f)
+    return "" if conserved else "a polynomial is no integral under it"
 
 
 def _complete_under(system: ReducedSystem, step: Step, claim: Claim) -> str:
@@ -250,8 +250,8 @@ def _complete_under(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 def _further(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """Each condition has a step, with polynomials that are none in the generic ones."""
-    own, most = weights(system), number(claim["degree"])
-    degrees = dict(zip(system.variables, own, strict=True))
+    grading, most = weights(system), number(claim["degree"])
+    degrees = dict(zip(system.variables, grading, strict=True))
     cases = listed(claim["conditions"])
     if not _same_degree(system, claim):
         return "all integrals are told up to another degree"
@@ -265,8 +265,8 @@ def _further(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 def _same_degree(system: ReducedSystem, claim: Claim) -> bool:
     """Is the degree that up to which all integrals are told?"""
-    whole = (x for x in system.claims if x.kind.startswith("first_integrals.all"))
-    return [claim["degree"]] == [x["degree"] for x in whole]
+    upper_bounds = (x for x in system.claims if x.kind.startswith("first_integrals.all"))
+    return [claim["degree"]] == [x["degree"] for x in upper_bounds]
 
 
 def _no_further(system: ReducedSystem, step: Step, claim: Claim) -> str:
@@ -287,7 +287,7 @@ ROUNDING = 1e-9
 def _elsewhere(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """Where, at some points of small whole numbers at which none of the conditions that the step
     lists holds and the kinetic energy is positive, there are more integrals; "" for nowhere."""
-    own, most = weights(system), number(claim["degree"])
+    grading, most = weights(system), number(claim["degree"])
     rows = (x["conditions"] for x in step.claims if "conditions" in dict(x.values))
     listed_cases = [_rows(case) for x in rows for case in listed(x)]
     known, along = (*system.casimirs, *system.integrals), along_the_motion(system)
@@ -295,7 +295,7 @@ def _elsewhere(system: ReducedSystem, step: Step, claim: Claim) -> str:
         if any(_holds(case, at) for case in listed_cases) or not _kinetic_is_positive(system, at):
             continue
         try:
-            more = Completeness(system, own, most, known, [*at.items()]).fault(*along)
+            more = Completeness(system, grading, most, known, [*at.items()]).fault(*along)
         except TooManyMonomialsError:
             return ""  # the sentence says "at best"
         if more:
@@ -376,8 +376,10 @@ def _complement(
     known = (*system.casimirs, *system.integrals)
     for f in rates_of(step):
         of_degree = degree(f, degrees)
-        whole = Completeness(system, [*degrees.values()], of_degree, known, _condition_of(step))
-        if of_degree > most or whole.contains(f):
+        completeness = Completeness(
+            system, [*degrees.values()], of_degree, known, _condition_of(step)
+        )
+        if of_degree > most or completeness.contains(f):
             return show(f)
     return ""
 

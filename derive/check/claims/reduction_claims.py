@@ -16,8 +16,8 @@ from ...record.as_json import decode
 from ...record.record import RecordError, Step, stated
 from ...record.sentence import Claim
 from ..form.hypotheses_checked import denominators
-from ..lagrangian.given_field import inverse
 from ..lagrangian.lagrangian_model import LagrangianModel
+from ..trials.phase_point import inverse
 from ..trials.trial_points import SIZE
 from ..values.draws import Locus
 from ..values.residue import Residue, random_prime

@@ -16,11 +16,10 @@ from ...language.tree import Tree, names, nodes, replaced
 from ...language.values import approximate
 from ...record import mass_signs
 from ...record.record import ANY_GROUP, OF_MASSES, Equation, Hypothesis, RecordError, Step
-from ..lagrangian.lagrangian_model import LagrangianModel
 from ..lagrangian.reduced_by_symmetries import concludes_velocity, unforced_velocity
 from ..trials.meaning import parts_of
-from ..trials.model import Model
 from ..trials.momenta import axial
+from ..trials.phase_point import PhasePoint
 from ..trials.trial_points import inverted
 from ..values.arithmetic import EvaluationError, is_matrix, scalar
 from ..values.draws import index_bindings
@@ -171,7 +170,7 @@ def false_hypothesis(
     step: Step,
     problem: Mapping[str, Any],
     env: Environment,
-    model: Model | LagrangianModel,
+    model: PhasePoint,
     ordered: Iterable[Environment],
 ) -> str:
     """The first hypothesis of a step that does not hold, at a point or of the problem, in words; ""
@@ -212,7 +211,7 @@ def _by_default(t: Tree, values: Mapping[str, float]) -> float | None:
 
 
 def missing_hypothesis(
-    step: Step, problem: Mapping[str, Any], env: Environment, model: Model | LagrangianModel
+    step: Step, problem: Mapping[str, Any], env: Environment, model: PhasePoint
 ) -> str:
     """A hypothesis that the equations of a step need and it does not make, in words, or why the
     velocity of X that it concludes is not forced; "" if none."""
@@ -239,7 +238,7 @@ def _shortened(t: Tree) -> str:
 # -- at a point ----------------------------------------------------------------------------------
 
 
-def _failure(x: Hypothesis, env: Environment, model: Model | LagrangianModel) -> str:
+def _failure(x: Hypothesis, env: Environment, model: PhasePoint) -> str:
     """Why a hypothesis does not hold at a point, in words; "" where it does. Tried once for a
     model: many steps make the same."""
     if x not in model.hypothesis_failures:
@@ -247,7 +246,7 @@ def _failure(x: Hypothesis, env: Environment, model: Model | LagrangianModel) ->
     return model.hypothesis_failures[x]
 
 
-def _find_failure(x: Hypothesis, env: Environment, model: Model | LagrangianModel) -> str:
+def _find_failure(x: Hypothesis, env: Environment, model: PhasePoint) -> str:
     """Why a hypothesis does not hold at a point, in words; "" where it does."""
     if x.property == "nondegenerate":
         if not all({*letters} & {*names(x.of)} for letters in _variation_names(x.space)):
@@ -286,7 +285,7 @@ def _variation_names(space: str) -> tuple[tuple[str, ...], ...]:
     return tuple(tuple(x for form in forms[chosen] for x in form) for forms in FORMS)
 
 
-def form_matrix(form: Tree, env: Environment, model: Model | LagrangianModel) -> Matrix:
+def form_matrix(form: Tree, env: Environment, model: PhasePoint) -> Matrix:
     """The d × d matrix of a bilinear form in two variations on the basis, ``form``(E_a, E_b);
     ``EvaluationError`` where its values are no numbers."""
     first, second = ([_variation_values(e, model, k) for e in model.group.basis] for k in (0, 1))
@@ -301,7 +300,7 @@ def form_matrix(form: Tree, env: Environment, model: Model | LagrangianModel) ->
     return rows
 
 
-def _variation_values(e: Matrix, model: Model | LagrangianModel, which: int) -> dict[str, Matrix]:
+def _variation_values(e: Matrix, model: PhasePoint, which: int) -> dict[str, Matrix]:
     """The values of the names of the first (``which`` 0) or the second variation along e in 𝔤."""
     space, *algebra = FORMS[which]
     found: dict[str, Matrix] = {}
@@ -314,7 +313,7 @@ def _variation_values(e: Matrix, model: Model | LagrangianModel, which: int) -> 
     return found
 
 
-def _is_metric(x: Hypothesis, env: Environment, model: Model | LagrangianModel) -> bool:
+def _is_metric(x: Hypothesis, env: Environment, model: PhasePoint) -> bool:
     """Does the hypothesis say that the kinetic metric, or its matrix, is not degenerate?"""
     if x.property == "invertible":
         return all(value == model.metric for value in values(x.of, env))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, Protocol
+from typing import Any
 
 from ...algebra.groups import Group
 from ...algebra.user_groups import block
@@ -13,52 +13,14 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, nodes
 from ...record.record import RecordError
-from ..trials.model import TangentVector
+from ..trials.phase_point import PhasePoint, TangentVector, inverse
 from ..values.arithmetic import EPS, EvaluationError, is_matrix, nilpotent, part
-from ..values.evaluate import Environment, evaluate
+from ..values.evaluate import evaluate
 
 # A variation that is a field on R × G, and what it carries along: ϖ of it, along the motion too.
 #
 # The velocity goes with it by a two-parameter family, the motion moved by the field: no structure
 # equation is used.
-
-
-class GroupPoint(Protocol):
-    """A point of the evolution space of a Lagrangian, and how vectors are carried to 𝔤 there."""
-
-    t: Any
-    g: Matrix
-    Z: Matrix
-    side: str
-    group: Group
-    pi: Any
-    graded: bool
-
-    @property
-    def expressions(self) -> Environment:
-        """The environment of expressions in the parameters."""
-
-    @property
-    def acceleration(self) -> Matrix:
-        """Ż of the motion."""
-
-    def tangent_at(self, g: Matrix, xi: Matrix, /) -> Matrix:
-        """gξ, or ξg."""
-
-    def trivialised(self, h: Matrix, back: Matrix, rate: Matrix, /) -> Matrix:
-        """h⁻¹ times a rate of h, or that rate times h⁻¹."""
-
-    def along(self, mask: int, /) -> Matrix:
-        """1 + sZ."""
-
-    def back_along(self, back: Matrix, mask: int, /) -> Matrix:
-        """The inverse of the motion."""
-
-    def momentum(self, t: Any, g: Matrix, Z: Matrix, eta: Matrix, /) -> Any:
-        """The derivative of ℓ with respect to Z along eta."""
-
-    def energy(self, t: Any, g: Matrix, Z: Matrix, /) -> Any:
-        """⟨p, Z⟩ − ℓ."""
 
 
 ARGUMENTS = ("t", "A", "π")
@@ -76,7 +38,7 @@ class GivenField:
         if any(x not in ARGUMENTS for x in nodes(self.displacement) if isinstance(x, str)):
             raise RecordError("a field δA is a function of t and A")
 
-    def at(self, model: GroupPoint, t: Any, g: Matrix) -> tuple[Any, Matrix]:
+    def at(self, model: PhasePoint, t: Any, g: Matrix) -> tuple[Any, Matrix]:
         """δt and δA at a point, which may be nilpotent."""
         env = replace(model.expressions, names={"π": model.pi, "t": t, "A": g})
         moved = evaluate(self.displacement, env)
@@ -86,46 +48,36 @@ class GivenField:
             moved = q.scaled(Fraction(0), model.g)
         return evaluate(self.time, env), moved
 
-    def trivialised(self, model: GroupPoint, t: Any, g: Matrix, back: Matrix) -> tuple[Any, Matrix]:
+    def trivialised(self, model: PhasePoint, t: Any, g: Matrix, back: Matrix) -> tuple[Any, Matrix]:
         """δt, and δA carried to 𝔤."""
         time, moved = self.at(model, t, g)
-        return time, model.trivialised(g, back, moved)
+        return time, model.ordered(back, moved)
 
-    def direction(self, model: GroupPoint) -> TangentVector:
+    def direction(self, model: PhasePoint) -> TangentVector:
         """The variation at the point of the model; ``EvaluationError`` where it is not tangent to
         the group, or δt not constant."""
         back = inverse(model.g)
         time, xi = self.trivialised(model, model.t, model.g, back)
-        later, ahead = model.t + nilpotent(EPS), model.tangent_at(model.g, model.along(EPS))
+        ahead, _ = model.displaced((nilpotent(EPS), model.Z))
+        later, ahead = model.t + nilpotent(EPS), model.ordered(model.g, ahead)
         _, moved = self.at(model, later, ahead)  # ∂ₛ of g(s) + εδA(s) is the velocity there
-        rate = model.trivialised(model.g, back, part(moved, EPS))
-        first, second = (xi, model.Z) if model.side == "left" else (model.Z, xi)
-        velocity = q.minus(rate, q.times(first, second))
+        rate = model.ordered(back, part(moved, EPS))
+        velocity = q.minus(rate, model.ordered(xi, model.Z))
         if any(isinstance(x, str) for x in nodes(self.time)):
             raise RecordError("δt of a field is constant")
         if not model.graded and None in map(model.group.vee, (xi, velocity)):
             raise EvaluationError("the field is not tangent to the group")
         return TangentVector(time, xi, velocity)
 
-    def rate(self, model: GroupPoint, subtracted: tuple[Tree, ...]) -> Any:
+    def rate(self, model: PhasePoint, subtracted: tuple[Tree, ...]) -> Any:
         """d/dt of ϖ of the field, and of functions of t and A added to it, along the motion."""
-        e = nilpotent(EPS)
-        t, g = model.t + e, model.tangent_at(model.g, model.along(EPS))
-        back = model.back_along(inverse(model.g), EPS)
-        Z = q.plus(model.Z, q.scaled(e, model.acceleration))
-        time, xi = self.trivialised(model, t, g, back)
+        t, g, Z, *_ = model.onward
+        time, xi = self.trivialised(model, t, g, model.undone(model.onward))
         total = model.momentum(t, g, Z, xi) - model.energy(t, g, Z) * time
         env = replace(model.expressions, names={"π": model.pi, "t": t, "A": g})
         for x in subtracted:
             total = total + evaluate(x, env)
         return part(total, EPS)
-
-
-def inverse(g: Matrix) -> Matrix:
-    """g⁻¹."""
-    found = q.inverse(g)
-    assert found is not None
-    return found
 
 
 # What an algebra carries along, at an exact point: Γ with ρ(g)^ε Γ = Γ₀, no rule of δΓ used.

@@ -1,9 +1,8 @@
-"""A random exact point of the evolution space of a Lagrangian ℓ(t, g, Z), with two variations."""
+"""A random exact point of the evolution space of a Lagrangian ℓ(t, g, Z) that no points give."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from dataclasses import replace
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -14,37 +13,31 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from ...record.as_json import decode
-from ..trials.model import TangentVector
+from ..trials.phase_point import PhasePoint
 from ..values.arithmetic import (
     EPS,
     EPS_PRIME,
-    ETA,
     EvaluationError,
-    Nilpotent,
     Value,
-    derivative_in,
+    derivative_of,
     nilpotent,
     part,
 )
-from ..values.draws import Draws, Locus
+from ..values.draws import Locus
 from ..values.evaluate import Environment, evaluate
 from ..values.residue import with_slots
 from .given_field import CarriedAlong, GivenField
 
-ENTRY, PAIRED, WITH_BRACKET = 2, 4, 6
-"""The indices of an entry of a matrix, of ⟨Π, ξ⟩, of ⟨Π, [ξ′, ξ]⟩: what a claim contracts."""
-
-Family = tuple[Any, Matrix, Matrix, Matrix, Matrix]
-"""t, g, Z on a family, and h, h⁻¹ for g = g₀h, or hg₀."""
+PAIRED, WITH_BRACKET = 4, 6
+"""The indices of ⟨Π, ξ⟩, of ⟨Π, [ξ′, ξ]⟩: what a claim contracts."""
 
 
-class LagrangianModel(Draws):
+class LagrangianModel(PhasePoint):
     """One random point of a problem with the key ``lagrangian``.
 
-    ``generic``: ℓ is any polynomial, on the problem's side.  X is the motion; or, where the locus
-    ``at`` tells some of it, a random vector with δt = 1 that has this.  ``pi``: its value, else
-    any; ``zero``: the names of parameters that vanish; ``horizontal``: coordinates that are held
-    are 0.  ``input_forces``: none, without points.  ``symmetries``: by which a record reduces.
+    ``generic``: ℓ is any polynomial, on the problem's side. ``horizontal``: coordinates that are
+    held are 0.  ``input_forces``: none, without points.  ``symmetries``: by which a record reduces.
+    All that is ``drawn``: see :class:`Draws`.
     """
 
     def __init__(
@@ -56,23 +49,20 @@ class LagrangianModel(Draws):
         at: Locus,
         *,
         generic: bool = False,
-        pi: Fraction | None = None,
-        zero: Collection[str] = (),
         horizontal: bool = False,
+        **drawn: Any,
     ):
         own = {} if generic else problem
-        super().__init__(own, group, random, size, generic=generic, pi=pi, zero=zero)
         self.side = str(problem["lagrangian"]["trivialisation"])
-        held = () if generic else problem["lagrangian"].get("held", ())
-        self.held = {a - 1 for a in held}
+        self.held = {a - 1 for a in own.get("lagrangian", {}).get("held", ())}
         self.tree = None if generic else decode(problem["lagrangian"]["L"], "problem, L")
-        self.hypothesis_failures: dict[Any, str] = {}
-        told = () if generic else problem.get("symmetries", ())
-        self.symmetries = [GivenField(0, decode(x, "problem, symmetries")) for x in told]
-        inside = bool(at.field or at.field_prime or self.symmetries)  # else any coset, if need be
+        fields = [decode(x, "problem, symmetries") for x in own.get("symmetries", ())]
+        self.symmetries = [GivenField(0, x) for x in fields]
+        inside = bool(at.field or at.field_prime or fields)  # else any coset, if need be
         inside = inside or group.has_inner_samples
-        g = group.sample_inside(random, size) if inside else group.sample(random, size)
-        self.t, self.g, self.Z = self.draw(), g, self.algebra()
+        super().__init__(own, group, random, size, generic=generic, **drawn)
+        self.stand(at, inside=inside)
+        self.Z = self.algebra()
         self.advected: CarriedAlong | None = None
         if horizontal:
             coordinates = enumerate(group.nearest(self.Z))
@@ -82,10 +72,7 @@ class LagrangianModel(Draws):
         elif "advected" in problem:
             self.advected = CarriedAlong(problem, group, self.side)
             self.advected.start = tuple((self.draw(),) for _ in self.advected.rows)
-        self.first, self.second, self.mixed = (
-            TangentVector(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
-        )
-        self._restrict(at)
+        self.vary()
         self.given = [
             GivenField(*(x for _, x in field)) if field else None
             for field in (at.field, at.field_prime)
@@ -94,29 +81,9 @@ class LagrangianModel(Draws):
             self.first = self.given[0].direction(self)
         if self.given[1]:
             self.second = self.given[1].direction(self)
-        self.vector = None
-        if at.contracted or at.along or at.free_acceleration:
-            velocity = self.Z if at.along else self.algebra()
-            self.vector = TangentVector(Fraction(1), velocity, self.algebra())
-        if at.contracted and self.vector is not None:
-            self.first = self.vector
-        self.free_acceleration, self.driven = at.free_acceleration, at.driven
-        pulled = self.driven and bool(self.inputs_of("covector"))
-        self.covector = [self.draw() if pulled else Fraction(0) for _ in group.basis]
+        told = at.contracted or at.along or at.free_acceleration
+        self.aim(at_random=bool(told))
         self.input_forces: list[tuple[Any, ...]] = []
-        self.parameters |= self.name_covector(self.covector)
-
-    def _restrict(self, at: Locus) -> None:
-        """Set the parts of δ and δ′ to 0 that vanish at a locus."""
-        nothing = q.scaled(Fraction(0), self.Z)
-        if at.still:
-            self.first = replace(self.first, time=Fraction(0))
-        if at.vanishing:
-            self.second = TangentVector(
-                Fraction(0) if "time" in at.vanishing else self.second.time,
-                nothing if "linear" in at.vanishing else self.second.xi,
-                self.second.velocity,
-            )
 
     # -- the Lagrangian ------------------------------------------------------------------------
 
@@ -164,92 +131,21 @@ class LagrangianModel(Draws):
         assert self.tree is not None
         return with_constants_named(self.tree, self.expressions)
 
-    def momentum(self, t: Any, g: Matrix, Z: Matrix, eta: Matrix) -> Any:
-        """The derivative of ℓ with respect to Z along eta."""
-        faster = q.plus(Z, q.scaled(nilpotent(ETA), eta))
-        return derivative_in(self.lagrangian(t, g, faster), ETA)
-
-    def energy(self, t: Any, g: Matrix, Z: Matrix) -> Any:
-        """⟨p, Z⟩ − ℓ."""
-        return self.momentum(t, g, Z, Z) - self.lagrangian(t, g, Z)
-
-    # -- the group -----------------------------------------------------------------------------
-
-    def tangent_at(self, g: Matrix, xi: Matrix) -> Matrix:
-        """The tangent vector at g that xi stands for: gξ on the left, ξg on the right."""
-        return q.times(g, xi) if self.side == "left" else q.times(xi, g)
-
-    def along(self, mask: int) -> Matrix:
-        """1 + sZ: the motion is g(1 + sZ), or (1 + sZ)g."""
-        return q.plus(q.identity(self.group.size), q.scaled(nilpotent(mask), self.Z))
-
-    def back_along(self, back: Matrix, mask: int) -> Matrix:
-        """The inverse of the motion: (1 − sZ)g⁻¹, or g⁻¹(1 − sZ)."""
-        undo = q.minus(q.identity(self.group.size), q.scaled(nilpotent(mask), self.Z))
-        return q.times(undo, back) if self.side == "left" else q.times(back, undo)
-
-    def trivialised(self, h: Matrix, back: Matrix, rate: Matrix) -> Matrix:
-        """h⁻¹ times a rate of h, or that rate times h⁻¹."""
-        return q.times(back, rate) if self.side == "left" else q.times(rate, back)
-
-    def displaced(self, *moves: tuple[Any, Matrix]) -> tuple[Matrix, Matrix]:
-        """(1 + ε₁x₁)(1 + ε₂x₂) …, in the other order on the right; and its inverse."""
-        h = back = one = q.identity(self.group.size)
-        for weight, x in moves:
-            step, undo = (q.plus(one, q.scaled(s * weight, x)) for s in (1, -1))
-            if self.side == "left":
-                h, back = q.times(h, step), q.times(undo, back)
-            else:
-                h, back = q.times(step, h), q.times(back, undo)
-        return h, back
-
-    def family(self, a: TangentVector, b: TangentVector) -> Family:
-        """A two-parameter family with the derivatives a and b; its mixed part is any."""
-        e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
-        t = self.t + e * a.time + f * b.time + e * f * self.mixed.time
-        Z = self.Z
-        for weight, x in ((e, a.velocity), (f, b.velocity), (e * f, self.mixed.velocity)):
-            Z = q.plus(Z, q.scaled(weight, x))
-        h, back = self.displaced((e, a.xi), (f, b.xi), (e * f, self.mixed.xi))
-        return t, self.tangent_at(self.g, h), Z, h, back
-
-    @cached_property
-    def varied(self) -> Family:
-        """The family of δ and δ′."""
-        return self.family(self.first, self.second)
-
-    def field(self, family: Family, mask: int) -> Matrix:
-        """g⁻¹ ∂g, or ∂g g⁻¹, in a parameter of a family, a function of the other."""
-        *_, h, back = family
-        rate = tuple(tuple(derivative_in(x, mask) for x in row) for row in h)
-        return self.trivialised(h, back, rate)
-
-    # -- the forms -----------------------------------------------------------------------------
-
-    def cartan(self, a: TangentVector) -> Any:
-        """ϖ(δ) at the point."""
-        pushed = self.momentum(self.t, self.g, self.Z, a.xi)
-        return self.indices(part(pushed - self.energy(self.t, self.g, self.Z) * a.time, 0), PAIRED)
-
-    def exterior(self, a: TangentVector, b: TangentVector) -> Any:
-        """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family."""
-        family = self.family(a, b)
-        t, g, Z, *_ = family
-        energy = self.energy(t, g, Z)
-
-        def form(mask: int) -> Any:
-            pushed = self.momentum(t, g, Z, self.field(family, mask))
-            return pushed - energy * derivative_in(t, mask)
-
-        return self.indices(part(form(EPS_PRIME), EPS) - part(form(EPS), EPS_PRIME), WITH_BRACKET)
-
     def indices(self, x: Any, slots: int) -> Any:
         """A number as one of so many indices, where ℓ is any function."""
         return with_slots(x, slots) if self.generic else x
 
-    def as_letter(self, x: Matrix) -> Matrix:
-        """A matrix as one of indeterminates, where ℓ is any function."""
-        return tuple(tuple(self.indices(y, ENTRY) for y in row) for row in x)
+    def brackets(self) -> Matrix:
+        """The brackets of Π_1, …, then of the entries of Γ: the flows of the momenta move those."""
+        whole = super().brackets()
+        if not self.advected or not self.advected.rows:
+            return whole
+        ahead = (self.displaced((nilpotent(EPS), e))[0] for e in self.group.basis)
+        moved = (self.advected.at(self.ordered(self.g, h)) for h in ahead)
+        rates = tuple(q.flatten(part(x, EPS)) for x in moved)
+        above = ((*row, *(-x for x in xs)) for row, xs in zip(whole, rates, strict=True))
+        nothing = (Fraction(0),) * len(self.advected.rows)
+        return (*above, *((*row, *nothing) for row in q.transposed(rates)))
 
     # -- the motion ----------------------------------------------------------------------------
 
@@ -265,23 +161,20 @@ class LagrangianModel(Draws):
     @cached_property
     def second_derivatives(self) -> Matrix:
         """∂²ℓ/∂Z² on the basis, d × d."""
-        basis = self.group.basis
         e = nilpotent(EPS)
-        faster = [q.plus(self.Z, q.scaled(e, x)) for x in basis]
-        return tuple(
-            tuple(part(self.momentum(self.t, self.g, Z, y), EPS) for Z in faster) for y in basis
-        )
+        faster = [q.plus(self.Z, q.scaled(e, x)) for x in self.group.basis]
+        columns = tuple(tuple(self.momenta(self.t, self.g, Z)) for Z in faster)
+        return part(q.transposed(columns), EPS)  # type: ignore[no-any-return]
 
-    def _load(self, e: Matrix) -> Any:
+    def _force(self, e: Matrix) -> Any:
         """∂ᵥℓ − d/ds ⟨p, E⟩ where the velocity keeps its coordinates, and ξ = E for every s."""
         s, v = nilpotent(EPS), nilpotent(EPS_PRIME)
         h, back = self.displaced((s, self.Z), (v, e))
-        rate = tuple(tuple(part_in(x, EPS) for x in row) for row in h)
-        Z = self.trivialised(h, tuple(tuple(_at_start(x) for x in row) for row in back), rate)
+        Z = self.ordered(back, derivative_of(h, EPS))
         aside, _ = self.displaced((v, e))
-        varied = part(self.lagrangian(self.t, self.tangent_at(self.g, aside), Z), EPS_PRIME)
+        varied = part(self.lagrangian(self.t, self.ordered(self.g, aside), Z), EPS_PRIME)
         ahead, _ = self.displaced((s, self.Z))
-        later = self.momentum(self.t + s, self.tangent_at(self.g, ahead), self.Z, e)
+        later = self.momentum(self.t + s, self.ordered(self.g, ahead), self.Z, e)
         return varied - part(later, EPS)
 
     @cached_property
@@ -292,35 +185,16 @@ class LagrangianModel(Draws):
     @cached_property
     def total_load(self) -> list[Any]:
         """What ζ̇ must give by the second derivatives."""
-        return [u + self._load(e) for u, e in zip(self.covector, self.group.basis, strict=True)]
+        return [u + self._force(e) for u, e in zip(self.covector, self.group.basis, strict=True)]
 
-    @cached_property
-    def acceleration(self) -> Matrix:
-        """Ż of the motion; of X where ``free_acceleration``."""
-        if self.free_acceleration and self.vector is not None:
-            return self.vector.velocity
-        found = q.solve(self.metric, tuple((x,) for x in self.load))
-        if found is None:
-            raise ZeroDivisionError("∂²ℓ/∂Z² is singular at this point")
-        wanted = tuple((x,) for x in self.total_load)
-        if self.held and not self.graded and q.times(self.second_derivatives, found) != wanted:
-            raise EvaluationError("what is held is no symmetry: the equations have no solution")
-        return self.as_letter(self.group.hat([row[0] for row in found]))
-
-    @property
-    def motion(self) -> TangentVector:
-        """X, with δt = 1: the direction of the motion, or the random vector that stands for it."""
-        return self.vector or TangentVector(Fraction(1), self.Z, self.acceleration)
-
-
-def part_in(x: Any, mask: int) -> Any:
-    """The derivative in a parameter, where that is 0 from the beginning."""
-    return _at_start(derivative_in(x, mask))
-
-
-def _at_start(x: Any) -> Any:
-    """A number at s = 0, a function of the other parameters."""
-    return Nilpotent({k: y for k, y in Nilpotent.of(x).parts.items() if not k & EPS})
+    def solved(self, metric: Matrix, covector: list[Any]) -> Matrix:
+        """``EvaluationError`` where what is held has an equation that is not satisfied."""
+        found = super().solved(metric, covector)
+        if self.held and not self.graded:
+            rates = q.column(self.group.nearest(found))
+            if q.times(self.second_derivatives, rates) != q.column(self.total_load):
+                raise EvaluationError("what is held is no symmetry: the equations have no solution")
+        return found
 
 
 # A tree that is evaluated at many points, with what is the same at all of them computed once.

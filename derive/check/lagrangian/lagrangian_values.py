@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import ChainMap
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any
 
 from ...algebra.user_groups import block
@@ -13,7 +12,6 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, nodes
 from ..trials.meaning import NameValues, Values
-from ..trials.model import TangentVector
 from ..trials.observed import Observed
 from ..values.arithmetic import EPS, EPS_PRIME, ETA, EvaluationError, nilpotent, part
 from ..values.evaluate import Environment, evaluate
@@ -42,16 +40,15 @@ def environment(model: LagrangianModel) -> Environment:
 
 def _places(model: LagrangianModel) -> Values:
     """t, g, Z and their variations; Ȧ."""
-    _, g, *_ = model.varied
-    velocity = model.tangent_at(model.g, model.Z)
+    g, velocity = model.varied.g, model.nu
     return {
         **{"π": model.pi, "t": model.t, "δt": model.first.time, "δ′t": model.second.time},
         **{"A": model.g, "δA": part(g, EPS), "δ′A": part(g, EPS_PRIME)},
         **{"α": velocity, "Ȧ": velocity, "Z": model.Z},
         **{"ξ": model.first.xi, "ξ′": model.second.xi},
         **{"δZ": model.first.velocity, "δ′Z": model.second.velocity},
-        "ζ": _column(model.group.nearest(model.Z)),
-    } | ({"u": _column(model.covector)} if model.driven else {})
+        "ζ": q.column(model.group.nearest(model.Z)),
+    } | ({"u": q.column(model.covector)} if model.at.driven else {})
 
 
 def _advected(model: LagrangianModel) -> Values:
@@ -59,11 +56,10 @@ def _advected(model: LagrangianModel) -> Values:
     if not model.advected or not model.advected.rows:
         return {}
     ahead, _ = model.displaced((nilpotent(EPS), model.Z))
-    _, varied, *_ = model.varied
     return {
         "Γ": model.advected.start,
-        "δΓ": part(model.advected.at(varied), EPS),
-        "Γ̇": part(model.advected.at(model.tangent_at(model.g, ahead)), EPS),
+        "δΓ": part(model.advected.at(model.varied.g), EPS),
+        "Γ̇": part(model.advected.at(model.ordered(model.g, ahead)), EPS),
     }
 
 
@@ -81,69 +77,48 @@ def _derivatives(model: LagrangianModel) -> Values:
 def _momenta_values(model: LagrangianModel) -> Values:
     """Π and its variations."""
     t, g, Z, *_ = model.varied
-    whole = _momenta(model, t, g, Z)
+    whole = model.momenta(t, g, Z)
     masks = {"Π": 0, "δΠ": EPS, "δ′Π": EPS_PRIME}
     return {x: _covector(model, [part(y, mask) for y in whole]) for x, mask in masks.items()}
 
 
 def _motion(model: LagrangianModel) -> Values:
     """What follows from the acceleration of the motion; M and β."""
-    values = {"Ż": model.acceleration, "ζ̇": _column(model.group.nearest(model.acceleration))}
+    values = {"Ż": model.acceleration, "ζ̇": q.column(model.group.nearest(model.acceleration))}
     values["Π̇"] = _covector(model, _rates(model))
     values |= _other_momentum(model)
-    values |= {"M": model.metric, "β": _column(model.load)}
-    return values if model.generic else values | {"𝕁": brackets(model)}
+    values |= {"M": model.metric, "β": q.column(model.load)}
+    return values if model.generic else values | {"𝕁": model.brackets()}
 
 
 def _rates(model: LagrangianModel) -> list[Any]:
     """d/dt of ∂ℓ/∂Z along the motion, on the basis."""
-    e = nilpotent(EPS)
-    ahead, _ = model.displaced((e, model.Z))
-    faster = q.plus(model.Z, q.scaled(e, model.acceleration))
-    found = _momenta(model, model.t + e, model.tangent_at(model.g, ahead), faster)
-    return [part(x, EPS) for x in found]
+    t, g, Z, *_ = model.onward
+    return [part(x, EPS) for x in model.momenta(t, g, Z)]
 
 
 def _other_momentum(model: LagrangianModel) -> Values:
     """Π_o with its rate, and ḣ: ⟨Π_o, E⟩ is the momentum along Eg on the left, gE on the right."""
-    e = nilpotent(EPS)
-    ahead, _ = model.displaced((e, model.Z))
-    t, g = model.t + e, model.tangent_at(model.g, ahead)
-    undone = q.inverse(model.g)
-    assert undone is not None
-    back = model.back_along(undone, EPS)
-    faster = q.plus(model.Z, q.scaled(e, model.acceleration))
-    found = []
-    for x in model.group.basis:
-        aside = q.times(x, g) if model.side == "left" else q.times(g, x)
-        found.append(model.momentum(t, g, faster, model.trivialised(g, back, aside)))
+    t, g, Z, *_ = model.onward
+    back = model.undone(model.onward)
+    aside = (model.ordered(back, model.ordered(x, g)) for x in model.group.basis)
+    found = [model.momentum(t, g, Z, xi) for xi in aside]
     return {
         "Π_o": _covector(model, [part(x, 0) for x in found]),
         "Π̇_o": _covector(model, [part(x, EPS) for x in found]),
-        "ḣ": model.indices(part(model.energy(t, g, faster), EPS), WITH_BRACKET),
+        "ḣ": model.indices(part(model.energy(t, g, Z), EPS), WITH_BRACKET),
     }
 
 
 def _rate(model: LagrangianModel, what: Tree, env: Environment) -> Any:
     """d/dt of a function of Π_a and of g along the motion."""
-    e = nilpotent(EPS)
-    g = model.tangent_at(model.g, model.displaced((e, model.Z))[0])
-    now = (part(x, 0) for x in _momenta(model, model.t, model.g, model.Z))
-    pairs = enumerate(zip(now, _rates(model), strict=True), 1)
-    momenta: dict[tuple[int, ...], Any] = {(a,): p + e * rate for a, (p, rate) in pairs}
+    t, g, Z, *_ = model.onward
+    moving = enumerate(model.momenta(t, g, Z), 1)
+    momenta: dict[tuple[int, ...], Any] = {(a,): p for a, p in moving}
     place = {"Γ": model.advected.at(g)} if model.advected else {"A": g}
     names: Mapping[str, Any] = ChainMap(place, env.names)  # type: ignore[arg-type]
     ahead = replace(env, names=names, families={**env.families, "Π": momenta})
     return part(evaluate(what, ahead), EPS)
-
-
-def _column(entries: Iterable[Any]) -> Matrix:
-    return tuple((x,) for x in entries)
-
-
-def _momenta(model: LagrangianModel, t: Any, g: Matrix, Z: Matrix) -> list[Any]:
-    """∂ℓ/∂Z along each element of the basis."""
-    return [model.momentum(t, g, Z, e) for e in model.group.basis]
 
 
 def _forces(model: LagrangianModel) -> list[Any]:
@@ -151,9 +126,8 @@ def _forces(model: LagrangianModel) -> list[Any]:
     found = []
     for e in model.group.basis:
         aside, _ = model.displaced((nilpotent(ETA), e))
-        found.append(
-            part(model.lagrangian(model.t, model.tangent_at(model.g, aside), model.Z), ETA)
-        )
+        moved = model.lagrangian(model.t, model.ordered(model.g, aside), model.Z)
+        found.append(part(moved, ETA))
     return found
 
 
@@ -167,7 +141,7 @@ def _families(model: LagrangianModel) -> dict[str, dict[tuple[int, ...], Any]]:
         return {}
     members = {
         "E": model.group.basis,
-        "Π": [part(x, 0) for x in _momenta(model, model.t, model.g, model.Z)],
+        "Π": [part(x, 0) for x in model.momenta(model.t, model.g, model.Z)],
         "Π̇": _rates(model),
         "Φ": _forces(model),
     }
@@ -178,14 +152,6 @@ def _families(model: LagrangianModel) -> dict[str, dict[tuple[int, ...], Any]]:
 
 
 def _functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
-    first, second = model.first, model.second
-
-    def direction(name: str) -> TangentVector:
-        if name == "X":
-            return model.motion
-        full = second if "′" in name else first
-        return replace(full, time=Fraction(0)) if "x" in name else full
-
     def form(head: Tree, arguments: tuple[Tree, ...], env: Environment) -> Any:
         del head
         one, two = (evaluate(x, env) for x in arguments)
@@ -211,56 +177,21 @@ def _functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
         t, g, Z, *_ = model.varied
         if what == "L̃":
             return model.indices(part(model.lagrangian(t, g, Z), mask), PAIRED)
-        other = EPS_PRIME if mask == EPS else EPS
-        return part(model.field(model.varied, other), mask)
+        return model.field_varied(mask)
 
+    def exterior(head: Tree, arguments: tuple[Any, ...], env: Environment) -> Any:
+        del head, env
+        return model.indices(model.exterior(*map(direction, arguments)), WITH_BRACKET)
+
+    direction = model.direction
     return {
-        "ϖ": lambda _, a, env: model.cartan(direction(a[0])),
-        **dict.fromkeys(("dϖ", "ω"), lambda _, a, env: model.exterior(*(direction(x) for x in a))),
+        "ϖ": lambda _, a, env: model.indices(model.cartan(direction(a[0])), PAIRED),
+        **dict.fromkeys(("dϖ", "ω"), exterior),
         **({"ρ": represented} if model.advected else {}),
-        **reduced_by_symmetries.functions(model, direction),
+        **reduced_by_symmetries.functions(model),
         "M̃": form,
         "ξ": lambda _, a, env: direction(a[0]).xi,
         "d/dt": lambda _, a, env: rate_of(a[0], env),
         "δ": lambda _, a, env: varied(a[0], EPS),
         "δ′": lambda _, a, env: varied(a[0], EPS_PRIME),
     }
-
-
-# Poisson brackets of the momenta and of Γ at an exact point, by flows: no structure constant
-# used.
-#
-# {F, Π_b} is the rate of F along the flow of Π_b, which moves g by gE_b (on the right E_bg) and
-# takes covectors along: ⟨p, gE_a⟩ at g becomes ⟨p, ghE_ah⁻¹⟩, h = 1 + sE_b.
-
-
-def brackets(model: LagrangianModel) -> Matrix:
-    """The matrix of the brackets of Π_1, …, then the entries of Γ."""
-    columns = [_along(model, e) for e in model.group.basis]
-    d, size = len(columns), len(columns[0])
-    aside = [[-columns[a][i] for i in range(d, size)] for a in range(d)]
-    rows = [[*(columns[b][a] for b in range(d)), *aside[a]] for a in range(d)]
-    rows += [[*(x[i] for x in columns), *(Fraction(0) for _ in aside[0])] for i in range(d, size)]
-    return tuple(map(tuple, rows))
-
-
-def _along(model: LagrangianModel, e: Matrix) -> list[Any]:
-    """The rates of all variables along the flow of the momentum on e."""
-    h, back = model.displaced((nilpotent(EPS), e))
-    turned = [_conjugated(model, h, back, x) for x in model.group.basis]
-    rates = [part(model.momentum(model.t, model.g, model.Z, _rate_by_flow(x)), 0) for x in turned]
-    if model.advected and model.advected.rows:
-        moved = model.advected.at(model.tangent_at(model.g, h))
-        rates += [part(row[0], EPS) for row in moved]
-    return rates
-
-
-def _conjugated(model: LagrangianModel, h: Matrix, back: Matrix, x: Matrix) -> Matrix:
-    """hxh⁻¹, where g moves to gh; h⁻¹xh, where it moves to hg."""
-    one, two = (h, back) if model.side == "left" else (back, h)
-    return q.times(q.times(one, x), two)
-
-
-def _rate_by_flow(x: Matrix) -> Matrix:
-    """The rate of a matrix."""
-    return tuple(tuple(part(y, EPS) for y in row) for row in x)

@@ -11,12 +11,11 @@ from typing import Any
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...record.record import Equation, Step
-from ..trials.model import Model, TangentVector
+from ..trials.phase_point import Family, PhasePoint, TangentVector, inverse
 from ..values.arithmetic import EPS, EPS_PRIME, EvaluationError, derivative_in, part
 from ..values.draws import part_of_velocity
 from ..values.evaluate import Environment
-from .given_field import inverse
-from .lagrangian_model import Family, LagrangianModel
+from .lagrangian_model import LagrangianModel
 
 # What a reduction by symmetries speaks of, at an exact point, by the fields that the record has.
 #
@@ -94,10 +93,7 @@ def here(model: LagrangianModel) -> ReducedPoint:
 
 def on_family(model: LagrangianModel, family: Family) -> ReducedPoint:
     """The points of a family."""
-    t, g, Z, _, undone = family
-    start = inverse(model.g)
-    back = q.times(undone, start) if model.side == "left" else q.times(start, undone)
-    return ReducedPoint(model, t, g, back, Z)
+    return ReducedPoint(model, family.t, family.g, model.undone(family), family.Z)
 
 
 def values(model: LagrangianModel) -> dict[str, Any]:
@@ -125,12 +121,11 @@ def families(model: LagrangianModel) -> dict[str, dict[tuple[int, ...], Any]]:
     return {"𝒥": found} if found else {}
 
 
-def functions(
-    model: LagrangianModel, direction: Callable[[str], TangentVector]
-) -> dict[str, Callable[..., Any]]:
+def functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
     """𝒜, d𝒜, ϖ_h and its derivative."""
     if not model.symmetries:
         return {}
+    direction = model.direction
 
     def connection(head: Any, arguments: Any, env: Environment) -> Any:
         xi = {"ξ": model.first.xi, "ξ′": model.second.xi, "Z": model.Z}[arguments[0]]
@@ -198,7 +193,7 @@ def concludes_velocity(step: Step) -> bool:
     return any(states_velocity(e) and e in step.given for e in step.equations)
 
 
-def unforced_velocity(model: Model | LagrangianModel) -> str:
+def unforced_velocity(model: PhasePoint) -> str:
     """Why dϖ(X, δ′) = 0 for every δ′ with δ′t = 0 and δ′g = 0 does not force ξ(X) = Z at a point,
     in words; "" where it does.
 

@@ -26,7 +26,7 @@ from ..values.evaluate import Environment
 from . import meaning
 from .meaning import NameValues, Values, parts_of
 from .model import Model
-from .point_masses import RATE_SLOTS, AnyPotential, damping_members, outer_sum, scaled_each
+from .point_masses import AnyPotential, damping_members, outer_sum, scaled_each
 
 ENDS = (0, 1)
 
@@ -145,11 +145,8 @@ class DiscreteModel(Model):
         start = q.plus(self.next, aside)
         along = (q.times(self.g, e) for e in self.group.basis)
         covector = [self.slope(start, e) * self.h for e in along]
-        solution = q.solve(self.damped_metric, q.column(covector))
-        if solution is None:
-            raise ZeroDivisionError("the kinetic metric is singular at this point")
-        xi = self.group.hat([x for (x,) in solution])
-        return q.plus(start, q.times(self.g, self.as_indeterminates(xi, RATE_SLOTS)))
+        xi = self.solved(self.damped_metric, covector)
+        return q.plus(start, q.times(self.g, self.as_letter(xi)))
 
     def about_centre(self, x: Matrix) -> Matrix:
         """A displacement of the body with the linear part x that leaves its centre of mass where it

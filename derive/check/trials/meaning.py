@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from typing import Any, Generic, TypeVar
@@ -16,9 +15,7 @@ from ..values.arithmetic import (
     EPS,
     EPS_PRIME,
     EvaluationError,
-    derivative_of,
     is_matrix,
-    nilpotent,
     part,
     times,
 )
@@ -33,7 +30,7 @@ from .force_balance import (
     place_values,
     solution_values,
 )
-from .model import Model, TangentVector
+from .model import Model
 from .momenta import (
     ON_TANGENT,
     action_varied,
@@ -120,8 +117,8 @@ def _bodies(model: Model) -> Values:
 
 def _group(model: Model) -> Values:
     """The values of g and ν, and of their variations in space and at the identity."""
-    _, g, Z = model.family(model.first, model.second)
-    nu = q.times(g, Z)
+    g = model.varied.g
+    nu = q.times(g, model.varied.Z)
     values = parts_of(model, "A", "T", model.g) | parts_of(model, "α", "τ", part(nu, 0))
     for mark, mask, direction in (("δ", EPS, model.first), ("δ′", EPS_PRIME, model.second)):
         values |= parts_of(model, mark + "A", mark + "T", part(g, mask))
@@ -159,9 +156,9 @@ def _gradients(model: Model) -> Values:
 
 def _energies(model: Model) -> Values:
     """The values of L, U and h̃ at the point."""
-    value = part(model.lagrangian(model.t, model.g, model.nu), 0)
+    value = part(model.lagrangian(model.t, model.g, model.Z), 0)
     potential = part(model.potential(model.t, model.images(model.g)), 0)
-    energy = part(model.energy(model.t, model.g, model.nu), 0)
+    energy = part(model.energy(model.t, model.g, model.Z), 0)
     return {"L": value, "L̃": value, "U": potential, "Ũ": potential, "h̃": energy}
 
 
@@ -206,14 +203,7 @@ def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
 def _functions(model: Model) -> dict[str, Callable[..., Any]]:
     """The functions of the record by their heads, called with arguments of the kinds that
     :mod:`derive.check.form.function_signatures` states."""
-    first, second = model.first, model.second
-
-    @cache
-    def direction(name: str) -> TangentVector:
-        if name == "X":
-            return model.motion
-        full = second if "′" in name else first
-        return replace(full, time=Fraction(0)) if "x" in name else full
+    direction = cache(model.direction)
 
     @cache
     def exterior(*names: str) -> Any:
@@ -229,7 +219,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         return q.bordered(linear, vector, Fraction(0))
 
     def momentum(_: Tree, arguments: tuple[Tree, ...], env: Environment) -> Any:
-        return part(model.momentum(model.nu, tangent(arguments, env)), 0)
+        return part(model.pairing(model.nu, tangent(arguments, env)), 0)
 
     def point(head: Any, _: tuple[Tree, ...], env: Environment) -> Matrix:
         return q.column(model.images(model.g)[point_index(head[2], env) - 1])
@@ -258,24 +248,18 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
 def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
     """δ (``mask`` EPS) or δ′ (EPS_PRIME) of what a call varies.
 
-    That is L̃ dt on X, a moved point, or one of the fields ξ, ξ′, η, η′ on the two-parameter
-    family: there these are the derivatives of h = g₀⁻¹g carried back by h⁻¹ = 1 − (h − 1), exact to
-    first order in one parameter.
+    That is L̃ dt on X, a moved point, or one of the fields ξ, ξ′, η, η′ on the two-parameter family.
     """
     if what == ON_TANGENT:
         return action_varied(model)
     if what == MOVED_PLACE:
-        _, g, _ = model.family(model.first, model.second)
-        return part(image(model, g, evaluate("r", env)), mask)
+        return part(image(model, model.varied.g, evaluate("r", env)), mask)
     if isinstance(what, tuple):
         i = point_index(what[1][2], env)
         return part(q.column(model.varied_places[i - 1]), mask)
-    other = EPS_PRIME if mask == EPS else EPS
-    h = model.varied
-    back = q.minus(q.identity(model.s), q.scaled(nilpotent(mask), part(h, mask)))
-    value = part(q.times(back, derivative_of(h, other)), mask)
     group = model.group
-    return (group.linear_part if what in ("ξ", "ξ′") else group.translation_part)(value)
+    along = group.linear_part if what in ("ξ", "ξ′") else group.translation_part
+    return along(model.field_varied(mask))
 
 
 def _rotation_vector(model: Model, xi: Matrix) -> Matrix:

@@ -9,16 +9,7 @@ from typing import Any
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
-from ..values.arithmetic import (
-    EPS,
-    EPS_PRIME,
-    EvaluationError,
-    Nilpotent,
-    derivative_in,
-    derivative_of,
-    nilpotent,
-    part,
-)
+from ..values.arithmetic import EPS, EPS_PRIME, EvaluationError, derivative_in, part
 from ..values.evaluate import Environment, point_index
 from .model import Model
 from .point_masses import Vector, outer_sum, scaled_each
@@ -97,17 +88,13 @@ SPINS = ("ℓ_b", "δℓ_b", "δ′ℓ_b", "ℓ̇_b")
 
 def momentum_values(model: Model) -> dict[str, Any]:
     """Π = Σ m Āv r̄ and p_b = Σ m Āv on the families of δ, δ′ and the motion; and Φ."""
-    _, g, Z = model.family(model.first, model.second)
-    e = nilpotent(EPS)
-    along = q.plus(model.g, q.scaled(e, model.nu))
-    faster = q.plus(model.Z, q.scaled(e, model.acceleration))
-    places = ((g, Z, 0), (g, Z, EPS), (g, Z, EPS_PRIME), (along, faster, EPS))
+    varied = model.varied
+    places = ((varied, 0), (varied, EPS), (varied, EPS_PRIME), (model.onward, EPS))
     values = {}
     for names, arms in zip(NAMES, (model.points, model.units), strict=True):
-        for name, (at, velocity, mask) in zip(names, places, strict=True):
-            values[name] = part(
-                _moment_in_body(model, at, _momenta(model, at, velocity), arms), mask
-            )
+        for name, (at, mask) in zip(names, places, strict=True):
+            moving = _moment_in_body(model, at.g, _momenta(model, at.g, at.Z), arms)
+            values[name] = part(moving, mask)
     for name, Pi in zip(SPINS, NAMES[0], strict=True):
         skew = q.minus(values[Pi], q.transposed(values[Pi]))
         values[name] = axial(skew) if model.group.turns_space else skew
@@ -116,11 +103,8 @@ def momentum_values(model: Model) -> dict[str, Any]:
 
 def basis_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     """Π_a = p̃(gE_a) on the linear parts of the basis, and Π̇_a, its rate along the motion."""
-    e = nilpotent(EPS)
-    along = q.plus(model.g, q.scaled(e, model.nu))
-    faster = q.plus(model.Z, q.scaled(e, model.acceleration))
-    own = model.group.basis[: len(model.group.linear_basis)]
-    moving = [model.momentum(q.times(along, faster), q.times(along, x)) for x in own]
+    t, g, Z, *_ = model.onward
+    moving = model.momenta(t, g, Z)[: len(model.group.linear_basis)]
     return {
         name: {(a,): part(x, mask) for a, x in enumerate(moving, 1)}
         for name, mask in (("Π", 0), ("Π̇", EPS))
@@ -132,29 +116,10 @@ def poisson_values(model: Model) -> dict[str, Any]:
     of all; Π_g."""
     if model.generic:
         return {}
-    whole, group = brackets(model), model.group
+    whole, group = model.brackets(), model.group
     d = group.dimension if group.turns_space else len(group.linear_basis)
-    shadow = group.covector_matrix(basis_momenta(model))
+    shadow = group.covector_matrix(model.momenta(model.t, model.g, model.Z))
     return {"𝕁": tuple(row[:d] for row in whole[:d]), "Π_g": group.linear_part(shadow)}
-
-
-def brackets(model: Model) -> Matrix:
-    """The brackets of the momenta on the basis, by flows: that of Π_b moves g by h = 1 + sE_b, and
-    takes the covector along, so that ⟨p̃, gE_a⟩ becomes ⟨p̃, ghE_ah⁻¹⟩. No structure constant."""
-    one, e = q.identity(model.group.size), nilpotent(EPS)
-
-    def turned(x: Matrix, y: Matrix) -> Any:
-        h, back = q.plus(one, q.scaled(e, y)), q.minus(one, q.scaled(e, y))
-        moved = q.times(model.g, q.times(q.times(h, x), back))
-        return part(model.momentum(model.nu, moved), EPS)
-
-    return tuple(tuple(turned(x, y) for y in model.group.basis) for x in model.group.basis)
-
-
-def basis_momenta(model: Model) -> list[Any]:
-    """p̃(gE_a) on the whole basis."""
-    found = (model.momentum(model.nu, q.times(model.g, x)) for x in model.group.basis)
-    return [part(x, 0) for x in found]
 
 
 def _force_on_algebra(model: Model) -> Matrix:
@@ -187,16 +152,13 @@ def space_values(model: Model, acceleration: Matrix) -> dict[str, Any]:
     """
     places, speeds = model.images(model.g), model.images(model.nu)
     forces = model.images(acceleration)
-    e = nilpotent(EPS)
-    along = q.plus(model.g, q.scaled(e, model.nu))
-    faster = q.plus(model.nu, q.scaled(e, acceleration))
-    varied = model.energy(model.t + e, along, faster)
+    t, g, Z, *_ = model.onward
     return {
         "ℓ": _angular_momentum(model, places, speeds),
         "ℓ̇": _angular_momentum(model, places, forces),
         "p": _resultant(model, speeds),
         "ṗ": _resultant(model, forces),
-        "ḣ": part(varied, EPS),
+        "ḣ": part(model.energy(t, g, Z), EPS),
     }
 
 
@@ -226,28 +188,24 @@ def action_varied(model: Model) -> Any:
     its own. ``EvaluationError`` where X is not the tangent of a lift."""
     if model.motion.xi != model.Z:
         raise EvaluationError("ϖ(X) is varied where X is the tangent of a lift")
-    t, g, _ = model.family(model.first, model.motion)
-    passing, velocity = derivative_in(t, EPS_PRIME), derivative_of(g, EPS_PRIME)
-    t, g = _at_the_instant(t), tuple(tuple(map(_at_the_instant, row)) for row in g)
-    return part(model.lagrangian(t, g, q.scaled(1 / passing, velocity)) * passing, EPS)
+    family = model.family(model.first, model.motion)
+    passing = derivative_in(family.t, EPS_PRIME)
+    Z = q.scaled(1 / passing, model.field(family, EPS_PRIME))
+    return part(model.lagrangian(family.t, family.g, Z) * passing, EPS)
 
 
 def rate(model: Model, what: Tree, env: Environment) -> Any:
     """d/dt along the motion of ϖ(δy), or of the place r_i(t) or the velocity v_i of a point;
     ``EvaluationError`` for any other."""
-    t, g, Z = model.family(model.first, model.motion)
-    nu = q.times(g, Z)
+    family = model.family(model.first, model.motion)
+    t, g, Z, *_ = family
     match what:
         case ("call", ("at", "r", i), "t"):
             return part(q.column(model.images(g)[point_index(i, env) - 1]), EPS_PRIME)
         case ("at", "v", i):
-            return part(q.column(model.images(nu)[point_index(i, env) - 1]), EPS_PRIME)
+            moving = model.images(q.times(g, Z))
+            return part(q.column(moving[point_index(i, env) - 1]), EPS_PRIME)
     if what != ON_VARIATION:
         raise EvaluationError("d/dt is of ϖ(δy), r_i(t) and v_i, where points give the Lagrangian")
-    momentum = model.momentum(nu, derivative_of(g, EPS))
-    return part(momentum - model.energy(t, g, nu) * derivative_in(t, EPS), EPS_PRIME)
-
-
-def _at_the_instant(x: Any) -> Nilpotent:
-    """A number at the instant itself: without its part in the parameter of d/dt."""
-    return Nilpotent({k: v for k, v in Nilpotent.of(x).parts.items() if not k & EPS_PRIME})
+    pushed = model.momentum(t, g, Z, model.field(family, EPS))
+    return part(pushed - model.energy(t, g, Z) * derivative_in(t, EPS), EPS_PRIME)

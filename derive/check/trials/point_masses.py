@@ -19,6 +19,7 @@ from ..values.arithmetic import ETA, Nilpotent, nilpotent, part
 from ..values.draws import Draws
 from ..values.evaluate import Environment, evaluate
 from .equimomental import equimomental_points, moments_of, remaining_moments
+from .phase_point import ENTRY
 
 # The points of a model: those of the problem, or random ones where it leaves them open.
 
@@ -183,11 +184,9 @@ Distance = tuple[Vector, Callable[[Any], Any]]
 """d, and a potential as a function of ‖d‖²."""
 
 
-RATE_SLOTS = 2
-"""Indices of Ż, which may be anything where any forces act; f = Ż + Z² has twice as many."""
-
-FORCE_SLOTS = 3 * RATE_SLOTS + 1
-"""Those of F_i = m_i A f r_i and more, of which a force has what Ż needs."""
+FORCE_SLOTS = 3 * ENTRY + 1
+"""The indices of F_i = m_i A f r_i and more, of which a force has what Ż needs; f = Ż + Z² has
+twice as many as Ż."""
 
 
 class AnyPotential:

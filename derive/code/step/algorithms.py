@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from math import comb
@@ -227,15 +226,14 @@ def on_a_device(given: Mapping[str, Any]) -> str:
         **dict.fromkeys((*none, "INPUT_FUNCTIONS"), False),
         "ADAPTIVE": True,
         "DEVICE": True,
+        "pragma": "#pragma unroll",
         "prefix": f"{prefix}_thread",
         "inline": "static __device__ __forceinline__",
     }
     methods = [{"name": x} for x in ("rk4", "vern9")]
     printer = C(source_of(own, {"explicit": {"methods": methods}}), own)
     parts = [*map("\n".join, map(printer.record, printer.source.records))]
-    text = "\n\n".join([*parts, printer.text(["begin", "rk4", "vern9_to"])])
-    # not those over a part of the state, whose bounds are known when the parts are unrolled
-    return re.sub(r"^ *for \(int \w = \d", r"#pragma unroll\n\g<0>", text, flags=re.M)
+    return "\n\n".join([*parts, printer.text(["begin", "rk4", "vern9_to"])])
 
 
 INPUTS_IN_C = """\

@@ -41,8 +41,8 @@ class Linear:
         e, none = self.e, self.e.zero(self.A)
         t = e.equation("motion", next_free)
         before = f"{self.letter}_0"
-        whole, still = (e.matrix(t, {before: none, "h": e.graph.num(h)}) for h in (1, 0))
-        return entries_of(q.minus(whole, still)) + entries_of(self.centre.push())
+        moved, still = (e.matrix(t, {before: none, "h": e.graph.num(h)}) for h in (1, 0))
+        return entries_of(q.minus(moved, still)) + entries_of(self.centre.push())
 
     def momentum(self) -> list[Node]:
         """The velocity of A, and of R."""
@@ -69,12 +69,12 @@ class Linear:
 
 def whole(e: Ends, momentum: list[Node]) -> Functions:
     """The functions of a step on GL(n): there is nothing to be solved for."""
-    own = Linear(e, momentum)
+    linear = Linear(e, momentum)
     return {
-        "step_momentum": own.momentum(),
-        "step_force": own.push(own.next),
-        "step_end": own.end(own.alpha),
-        "step_velocity": own.velocity(own.alpha),
+        "step_momentum": linear.momentum(),
+        "step_force": linear.push(linear.next),
+        "step_end": linear.end(linear.alpha),
+        "step_velocity": linear.velocity(linear.alpha),
     }
 
 
@@ -82,43 +82,43 @@ def volume(
     e: Ends, momentum: list[Node], begun: list[Node], unknowns: list[Node]
 ) -> dict[str, list[Node]]:
     """The functions of a step on SL(3); ``begun``: leaves of the coefficients of the cubic."""
-    own, (theta,), g = Linear(e, momentum), unknowns, e.graph
-    onward = e.equation("motion", own.next)
-    dual: Tree = ("inv", ("T", f"{own.letter}_1"))
-    given = {dual: q.transposed(e.space.inverse), "H": e.zero(own.A), "θ": e.one}
+    linear, (theta,), g = Linear(e, momentum), unknowns, e.graph
+    onward = e.equation("motion", linear.next)
+    dual: Tree = ("inv", ("T", f"{linear.letter}_1"))
+    given = {dual: q.transposed(e.space.inverse), "H": e.zero(linear.A), "θ": e.one}
     along = e.named(e.matrix(onward, given), "dual")
-    H = e.named(q.plus(own.A, own.alpha), "H")
-    cubic = _cubic(e, own, H, along, theta)
+    H = e.named(q.plus(linear.A, linear.alpha), "H")
+    cubic = _cubic(e, linear, H, along, theta)
     coefficients = _coefficients(e, cubic, theta)
     left = g.num(0)
     for c in reversed(begun):
         left = left * theta + c
     slope = Directional(g, {theta: e.one}, "theta").of(left)
-    alpha = own.alpha
-    det: Tree = ("det", f"{own.letter}_1")
-    off, by = (_along(e, det, own.A, m) for m in (alpha, along))
-    kept = g.value(off * g.recip(by), "multiple")
-    inside = q.minus(alpha, q.scaled(kept, along))
+    alpha = linear.alpha
+    det: Tree = ("det", f"{linear.letter}_1")
+    off, by = (_along(e, det, linear.A, m) for m in (alpha, along))
+    multiple = g.value(off * g.recip(by), "multiple")
+    inside = q.minus(alpha, q.scaled(multiple, along))
     return {
-        "step_momentum": own.momentum(),
-        "step_force": own.push("H"),
+        "step_momentum": linear.momentum(),
+        "step_force": linear.push("H"),
         "step_guess": [g.num(0)],
         "step_begin": coefficients,
         "step_newton": [left * g.recip(slope), slope],
-        "step_end": own.end(e.named(q.plus(alpha, q.scaled(theta, along)), "moved")),
-        "step_velocity": own.velocity(e.named(inside, "alpha")),
+        "step_end": linear.end(e.named(q.plus(alpha, q.scaled(theta, along)), "moved")),
+        "step_velocity": linear.velocity(e.named(inside, "alpha")),
     }
 
 
-def _cubic(e: Ends, own: Linear, H: Matrix, dual: Matrix, theta: Node) -> Node:
+def _cubic(e: Ends, linear: Linear, H: Matrix, dual: Matrix, theta: Node) -> Node:
     """det of the next element, less what it is to be: 0 for the θ that is wanted.
 
     The record has det(g₂)det(J) as well, by the traces of powers of HJḡ₁: of fewer operations, but
     it loses the condition of J.
     """
-    t: Tree = ("det", own.next)
+    t: Tree = ("det", linear.next)
     there = q.plus(H, q.scaled(theta, dual))
-    return e.number(t, {own.next: there}) - e.number(e.equation("relation", t))
+    return e.number(t, {linear.next: there}) - e.number(e.equation("relation", t))
 
 
 def _coefficients(e: Ends, p: Node, x: Node) -> list[Node]:

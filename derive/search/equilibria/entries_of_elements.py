@@ -42,7 +42,7 @@ class EntryConditions:
     positive determinant.
 
     ``sufficient``: have elements all such entries?  ``entries``: those of one matrix of the hull;
-    ``factor``: the factor of the group; ``kept``: its relations.
+    ``factor``: the factor of the group; ``relations``: those of its entries.
     """
 
     constant: tuple[Polynomial, ...]
@@ -56,8 +56,11 @@ class EntryConditions:
     @property
     def open(self) -> bool:
         """Is the factor open in the affine hull of its matrices?"""
-        kept = self.relations
-        return not (kept.form or kept.determinant) and kept.dimension == self.factor.dimension
+        relations = self.relations
+        return (
+            not (relations.form or relations.determinant)
+            and relations.dimension == self.factor.dimension
+        )
 
     def attained(self, at: Sequence[Any]) -> bool:
         """Has an element these entries, which are not refuted?  True is proved."""
@@ -68,14 +71,14 @@ class EntryConditions:
 
     def _exponential(self, a: q.Matrix) -> bool:
         """Is the matrix exp of one in the Lie algebra?  True is proved."""
-        kept, S = self.relations, self.relations.form
-        if kept.dimension > self.factor.dimension or kept.complex_basis:
+        relations, S = self.relations, self.relations.form
+        if relations.dimension > self.factor.dimension or relations.complex_basis:
             return False
         product = q.times(q.transposed(a), q.times(S, a)) if S else ()
         factor = next((y / x for x, y in zip(*map(q.flatten, (S, product)), strict=True) if x), 1)
-        if S and (product != q.scaled(factor, S) or (factor != 1 and not kept.conformal)):
+        if S and (product != q.scaled(factor, S) or (factor != 1 and not relations.conformal)):
             return False
-        if kept.determinant and q.determinant(a) != 1:
+        if relations.determinant and q.determinant(a) != 1:
             return False
         roots = real_roots(minimal_polynomial(a))
         return not (roots.at_zero or roots.negative)
@@ -118,9 +121,9 @@ class _EntryReader:
     ):
         self.factor, self.places, self.offset, self.size = factor, places, offset, size
         self.relations = relations(factor)
-        told = affine_entries(factor)
-        free = sorted({x for row in told for _, weights in row for x in weights})
-        weights = [[[w.get(x, Fraction(0)) for x in free] for _, w in row] for row in told]
+        entries = affine_entries(factor)
+        free = sorted({x for row in entries for _, weights in row for x in weights})
+        weights = [[[w.get(x, Fraction(0)) for x in free] for _, w in row] for row in entries]
         self.weight_rows = [weights[i][j] for i, j in places.values()]
         one = q.identity(len(places))
         rows, pivots = q.echelon(
@@ -158,30 +161,30 @@ class _EntryReader:
 
     def conditions(self, *, left: bool) -> EntryConditions:
         """All of them."""
-        n, kept = self.factor.n, self.relations
-        whole = [row[:n] for row in self.entries[:n]]
+        n, relations = self.factor.n, self.relations
+        linear = [row[:n] for row in self.entries[:n]]
         rows = [i for i in range(n) if all(self.known[i][:n])]
         columns = [j for j in range(n) if all(row[j] for row in self.known[:n])]
         lines = (
-            ("row", rows, [whole[i] for i in rows]),
-            ("column", columns, [[row[j] for row in whole] for j in columns]),
+            ("row", rows, [linear[i] for i in rows]),
+            ("column", columns, [[row[j] for row in linear] for j in columns]),
         )
         _, chosen, moved = lines[not left]
         constant = [self._polynomial(self._combined(row, 0)) for row in self.linear]
-        if kept.form:
-            metric = q.inverse(kept.form) if left else kept.form
+        if relations.form:
+            metric = q.inverse(relations.form) if left else relations.form
             assert metric is not None
             constant += self._products(moved, chosen, metric)
         full = len(rows) == n
-        if full and kept.determinant and not kept.complex_basis:
-            constant.append(self._determinant(whole))
+        if full and relations.determinant and not relations.complex_basis:
+            constant.append(self._determinant(linear))
         positive = [
-            Minor([[whole[j][j]]], f"the entry {j + 1 + self.offset} of the diagonal of g")
+            Minor([[linear[j][j]]], f"the entry {j + 1 + self.offset} of the diagonal of g")
             for j in range(n)
             if self.known[j][j] and self._scales(j)
         ]
-        if full and not (kept.none and not self.factor.larger):
-            positive.append(Minor(whole, "the determinant of g"))
+        if full and not (relations.none and not self.factor.larger):
+            positive.append(Minor(linear, "the determinant of g"))
         return EntryConditions(
             tuple(f for f in constant if any(map(any, f))),
             tuple(self._named(*x) for x in lines if x[1]),
@@ -189,7 +192,7 @@ class _EntryReader:
             self._sufficient(full=full),
             self.entries,
             self.factor,
-            kept,
+            relations,
         )
 
     def _named(self, what: str, places: Sequence[int], matrix: Sequence[Line]) -> Minor:
@@ -206,16 +209,16 @@ class _EntryReader:
 
     def _sufficient(self, *, full: bool) -> bool:
         """Are the conditions sufficient, whatever the values?"""
-        g, kept, S = self.factor, self.relations, self.relations.form
+        g, relations, S = self.factor, self.relations, self.relations.form
         if nilpotent(g.basis):  # its orbits are closed: one that is open in its hull is all of it
             moved = [[e[i][j] for i, j in self.places.values()] for e in g.basis]
             return q.rank(q.matrix(moved)) == q.rank(q.matrix(self.weight_rows))
-        if kept.dimension > g.dimension or (full and kept.complex_basis):
+        if relations.dimension > g.dimension or (full and relations.complex_basis):
             return False
         skew = bool(S) and q.transposed(S) == q.scaled(-1, S)
         definite = bool(S) and any(q.definite(q.scaled(sign, S)) for sign in (1, -1))
-        by_one_form = not S or definite or (skew and not kept.conformal)
-        return not g.larger or (not kept.hull and by_one_form)
+        by_one_form = not S or definite or (skew and not relations.conformal)
+        return not g.larger or (not relations.hull and by_one_form)
 
     # -- polynomials in the variables ------------------------------------------------------------
 

@@ -118,8 +118,7 @@ def equilibria_of(
     whole: IntegralsFound, values: Mapping[str, Number], on: Elements
 ) -> tuple[Equilibrium, ...]:
     """The equilibrium at a point, or those among the points that are tried where none is given;
-    ``NotReducedError`` where parameters have no numbers.  ``on``: what entries of g satisfy."""
-    require_numbers(whole)
+    ``on``: what entries of g satisfy."""
     system, kept = whole.system, [*map(whole.system.algebra.over_the_field, whole.casimirs)]
     found = [given(system, values, kept, on)] if values else tried(system, kept, on)
     return tuple(judged(whole, about, on) for about in found)

@@ -30,26 +30,28 @@ from .reduced import NotReducedError, reduced, without_energy
 
 
 def told(
-    whole: IntegralsFound, steps: Sequence[Step], c: Chapter, *, driven: bool = False
+    result: IntegralsFound, steps: Sequence[Step], c: Chapter, *, driven: bool = False
 ) -> tuple[Step, ...]:
     """The reduced equations, the Casimirs, the integrals, and those on levels, as steps of a
     chapter; ``steps``: of the walk of the problem, which may be ``driven`` by inputs."""
     by_label = {s.label: s for s in steps}
     made_from = [by_label[c.label(x)] for x in ("momenta", "energy", "coadjoint", "motion")]
-    reduced = _reduced(whole, made_from, c, driven=driven)
+    reduced = _reduced(result, made_from, c, driven=driven)
     found = [reduced]
-    if whole.casimirs:
-        found.append(_casimirs(whole, reduced, c))
-    found.append(_integrals(whole, reduced, c))
-    found += [_on_level(whole, on, reduced, k, c) for k, on in enumerate(whole.levels)]
-    if whole.conditions:
-        found += told_conditions(whole, whole.conditions, reduced, c)
+    if result.casimirs:
+        found.append(_casimirs(result, reduced, c))
+    found.append(_integrals(result, reduced, c))
+    found += [_on_level(result, on, reduced, k, c) for k, on in enumerate(result.levels)]
+    if result.conditions:
+        found += told_conditions(result, result.conditions, reduced, c)
     return tuple(found)
 
 
-def _reduced(whole: IntegralsFound, made_from: Iterable[Step], c: Chapter, *, driven: bool) -> Step:
+def _reduced(
+    result: IntegralsFound, made_from: Iterable[Step], c: Chapter, *, driven: bool
+) -> Step:
     """h̃ and the rates, as functions of the variables."""
-    algebra, system = whole.system.algebra, whole.system
+    algebra, system = result.system.algebra, result.system
     draft = c.draft("poisson", "reduction")
     draft.depends_on(*made_from)
     equations = [Equation("h̃", algebra.field_tree(algebra.hamiltonian))]
@@ -57,13 +59,13 @@ def _reduced(whole: IntegralsFound, made_from: Iterable[Step], c: Chapter, *, dr
         equations.append(Equation(rate(x), algebra.field_tree(algebra.flow.get(i, {}))))
     only = len(system.variables) == system.momenta
     kind = "poisson.group" if only else "poisson.advected"
-    prose = draft.claim(kind, dimension=len(system.variables)) + _weights(whole, draft)
+    prose = draft.claim(kind, dimension=len(system.variables)) + _weights(result, draft)
     return draft.step(equations, prose + (say("poisson.undriven") if driven else ()))
 
 
-def _weights(whole: IntegralsFound, draft: Draft) -> Prose:
+def _weights(result: IntegralsFound, draft: Draft) -> Prose:
     """How degrees count, where not all variables are of degree 1."""
-    momenta, weights = whole.system.momenta, whole.grading.degree
+    momenta, weights = result.system.momenta, result.grading.degree
     entries = {*weights[momenta:]}
     if entries <= {1}:
         return ()
@@ -83,41 +85,41 @@ def _conserved(trees: Iterable[Tree]) -> list[Equation]:
     return [Equation(("call", "d/dt", t), 0) for t in trees]
 
 
-def _casimirs(whole: IntegralsFound, reduced: Step, c: Chapter) -> Step:
+def _casimirs(result: IntegralsFound, reduced: Step, c: Chapter) -> Step:
     draft = c.draft("casimirs", "Poisson bracket")
     draft.depends_on(reduced)
     prose = draft.claim("casimirs.kept")
-    prose += draft.claim(f"casimirs.all{_large(whole)}", degree=whole.degree)
-    return draft.step(_conserved(map(whole.system.algebra.tree, whole.casimirs)), prose)
+    prose += draft.claim(f"casimirs.all{_large(result)}", degree=result.degree)
+    return draft.step(_conserved(map(result.system.algebra.tree, result.casimirs)), prose)
 
 
-def _large(whole: IntegralsFound) -> str:
+def _large(result: IntegralsFound) -> str:
     """How the key of a sentence ends that is not computed again for its size."""
-    weights = whole.grading.degree
-    return "_large" if how_many(weights, Fraction(whole.degree), exactly=False) > MONOMIALS else ""
+    weights = result.grading.degree
+    return "_large" if how_many(weights, Fraction(result.degree), exactly=False) > MONOMIALS else ""
 
 
-def _integrals(whole: IntegralsFound, reduced: Step, c: Chapter) -> Step:
-    algebra = whole.system.algebra
+def _integrals(result: IntegralsFound, reduced: Step, c: Chapter) -> Step:
+    algebra = result.system.algebra
     draft = c.draft("first_integrals", "Poisson bracket")
     draft.depends_on(reduced)
-    trees = [algebra.field_tree(algebra.hamiltonian), *map(algebra.tree, whole.integrals)]
-    prose = _said(whole, draft)
-    prose += all_conditions(whole, whole.conditions, draft) if whole.conditions else ()
+    trees = [algebra.field_tree(algebra.hamiltonian), *map(algebra.tree, result.integrals)]
+    prose = _said(result, draft)
+    prose += all_conditions(result, result.conditions, draft) if result.conditions else ()
     return draft.step(_conserved(trees), prose)
 
 
-def _said(whole: IntegralsFound, draft: Draft) -> Prose:
+def _said(result: IntegralsFound, draft: Draft) -> Prose:
     """What is proved of the integrals."""
-    several = bool(whole.integrals)
+    several = bool(result.integrals)
     prose = say("first_integrals.several" if several else "first_integrals.energy")
-    for k, new in enumerate(whole.fresh, 2):
+    for k, new in enumerate(result.fresh, 2):
         prose += () if new else draft.claim("first_integrals.dependent", number=k)
-    generic = "_generic" if whole.system.parameters else ""
-    (these,) = draft.claim(THESE[several, bool(whole.casimirs)])
-    key = f"first_integrals.all{generic}{_large(whole)}"
-    prose += draft.claim(key, degree=whole.degree, these=these)
-    return prose + _integrability(whole.proved, draft)
+    generic = "_generic" if result.system.parameters else ""
+    (these,) = draft.claim(THESE[several, bool(result.casimirs)])
+    key = f"first_integrals.all{generic}{_large(result)}"
+    prose += draft.claim(key, degree=result.degree, these=these)
+    return prose + _integrability(result.proved, draft)
 
 
 THESE = {
@@ -151,12 +153,12 @@ def _integrability(proved: Integrability, draft: Draft) -> Prose:
 # -- on a level ---------------------------------------------------------------------------------
 
 
-def _on_level(whole: IntegralsFound, on: OnLevel, reduced: Step, k: int, c: Chapter) -> Step:
+def _on_level(result: IntegralsFound, on: OnLevel, reduced: Step, k: int, c: Chapter) -> Step:
     """The integrals where a Casimir vanishes: their rates are multiples of it."""
-    algebra = whole.system.algebra
+    algebra = result.system.algebra
     draft = c.draft("level" if not k else f"level_{k + 1}", "Poisson bracket")
     draft.depends_on(reduced)
-    casimir = whole.casimirs[on.casimir]
+    casimir = result.casimirs[on.casimir]
     level = Level(algebra, casimir)
     equations = []
     for f in on.integrals:
@@ -177,17 +179,17 @@ def _on_level(whole: IntegralsFound, on: OnLevel, reduced: Step, k: int, c: Chap
 
 
 def told_conditions(
-    whole: IntegralsFound, found: ParameterConditions, reduced: Step, c: Chapter
+    result: IntegralsFound, found: ParameterConditions, reduced: Step, c: Chapter
 ) -> list[Step]:
     """A step for each condition, with the integrals that there are under it."""
     return [
-        _under(whole, found, x, reduced, f"condition_{k}", c)
+        _under(result, found, x, reduced, f"condition_{k}", c)
         for k, x in enumerate(found.conditions, 1)
     ]
 
 
 def _under(
-    whole: IntegralsFound,
+    result: IntegralsFound,
     found: ParameterConditions,
     x: Condition,
     reduced: Step,
@@ -197,21 +199,23 @@ def _under(
     draft = c.draft(label, "Poisson bracket")
     draft.depends_on(reduced)
     equations = [
-        Equation(("call", "d/dt", x.system.algebra.tree(f)), _rate(whole, found, x, f))
+        Equation(("call", "d/dt", x.system.algebra.tree(f)), _rate(result, found, x, f))
         for f in x.integrals
     ]
     several = "condition.several" if len(x.integrals) > 1 else "condition.one"
-    prose = draft.claim(several, condition=case_tree(whole.system.algebra, x.case))
+    prose = draft.claim(several, condition=case_tree(result.system.algebra, x.case))
     if x.proved.complete:
         rank = x.proved.rank
         prose += draft.claim("condition.complete", rank=rank, half=rank // 2)
     return draft.step(equations, prose)
 
 
-def _rate(whole: IntegralsFound, found: ParameterConditions, x: Condition, f: Any) -> Tree:
+def _rate(result: IntegralsFound, found: ParameterConditions, x: Condition, f: Any) -> Tree:
     """The rate for all parameters, as a sum of multiples of what vanishes in the case."""
-    algebra, own = whole.system.algebra, x.system.algebra
-    terms = {e: algebra.number(own.number_tree(c)) for e, c in own.over_the_field(f).items()}
+    algebra, special = result.system.algebra, x.system.algebra
+    terms = {
+        e: algebra.number(special.number_tree(c)) for e, c in special.over_the_field(f).items()
+    }
     left, summed = algebra.derivative(terms), []
     for j, value in x.case.solved:
         there = found.cases.polynomial_at(Case(((j, value),)), left)
@@ -234,16 +238,16 @@ def solved_letter(algebra: PoissonPolynomials, j: int, value: Any) -> tuple[Tree
     return name if name == "π" else ("par", name), algebra.number_tree(value)
 
 
-def case_tree(algebra: PoissonPolynomials, case: Case, *beside: Any) -> Tree:
+def case_tree(algebra: PoissonPolynomials, case: Case, *others: Any) -> Tree:
     """The equations of a case: letters, each with its value; and others ``beside``, that vanish."""
     rows = [solved_letter(algebra, j, value) for j, value in case.solved]
-    rows += [(algebra.number_tree(algebra.field(f)), 0) for f in beside]
+    rows += [(algebra.number_tree(algebra.field(f)), 0) for f in others]
     return ("matrix", *(("row", *x) for x in rows))
 
 
-def all_conditions(whole: IntegralsFound, found: ParameterConditions, draft: Draft) -> Prose:
+def all_conditions(result: IntegralsFound, found: ParameterConditions, draft: Draft) -> Prose:
     """What is said of all conditions together."""
-    algebra, degree = whole.system.algebra, whole.degree
+    algebra, degree = result.system.algebra, result.degree
     cases = [case_tree(algebra, x.case) for x in found.conditions]
     if cases:
         prose = draft.claim("first_integrals.further", degree=degree, conditions=("row", *cases))
@@ -271,17 +275,17 @@ def first_integrals(problem: Problem, *, beside_symmetries: bool = False) -> dic
     """
     try:
         system = reduced(problem)
-        whole = found(system, _sought(system, problem.name))
+        result = found(system, _sought(system, problem.name))
     except (NotReducedError, TooLargeError) as error:
         return {} if beside_symmetries else _whatever_the_energy(problem, error)
-    algebra = whole.system.algebra
+    algebra = result.system.algebra
     if beside_symmetries:
-        own = [f for f in whole.integrals if nonlinear(f, whole)]
-        return _numbered("integral", map(algebra.tree, own))
+        others = [f for f in result.integrals if nonlinear(f, result)]
+        return _numbered("integral", map(algebra.tree, others))
     return (
         {"energy": "h̃"}
-        | _numbered("casimir", map(algebra.tree, whole.casimirs))
-        | _numbered("integral", map(algebra.tree, whole.integrals))
+        | _numbered("casimir", map(algebra.tree, result.casimirs))
+        | _numbered("integral", map(algebra.tree, result.integrals))
     )
 
 
@@ -289,15 +293,15 @@ def _whatever_the_energy(problem: Problem, error: Refused) -> dict[str, Tree]:
     """The energy, where ℓ has no t, and the Casimirs; ``Refused`` for none of them, by what is
     in the way of a search."""
     timed = problem.lagrangian is None or "t" in nodes(problem.lagrangian.L)
-    kept: dict[str, Tree] = {} if timed else {"energy": "h̃"}
+    quantities: dict[str, Tree] = {} if timed else {"energy": "h̃"}
     try:
         system = without_energy(problem)
         degree = _sought(system, problem.name)
-        kept |= _numbered("casimir", map(system.algebra.tree, casimirs(system, degree)))
+        quantities |= _numbered("casimir", map(system.algebra.tree, casimirs(system, degree)))
     except (NotReducedError, TooLargeError):
         pass  # too many variables
-    if kept:
-        return kept
+    if quantities:
+        return quantities
     raise NotReducedError(f"{error}, and no Casimir of degree 4 or less: leave out --conserved")
 
 
@@ -318,7 +322,7 @@ def _numbered(base: str, trees: Iterable[Tree]) -> dict[str, Tree]:
     return {f"{base}_{k}": t for k, t in enumerate(trees, 1)}
 
 
-def nonlinear(f: Any, whole: IntegralsFound) -> bool:
+def nonlinear(f: Any, result: IntegralsFound) -> bool:
     """Is a polynomial of degree 2 or more in the momenta?"""
-    momenta = whole.system.momenta
+    momenta = result.system.momenta
     return any(sum(m[:momenta]) > 1 for m in f)

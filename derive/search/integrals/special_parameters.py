@@ -41,28 +41,28 @@ Sparse = dict[int, Any]
 """A row: unknown → polynomial in the parameters."""
 
 
-def conditions(whole: IntegralsFound) -> ParameterConditions:
+def conditions(result: IntegralsFound) -> ParameterConditions:
     """The conditions under which there are more integrals, up to the degree of what is found;
     ``TooLargeError`` where there are too many parameters, unknowns or cases."""
-    algebra = whole.system.algebra
-    several = len(whole.system.parameters)
+    algebra = result.system.algebra
+    several = len(result.system.parameters)
     if not 0 < several <= LETTERS:
         raise TooLargeError(
             f"conditions on {several} parameters; from 1 to {LETTERS} are searched"
             + ("" if several else ": without --at-defaults parameters stay letters")
         )
-    largest = max(map(len, blocks(whole.grading, Fraction(whole.degree))), default=0)
+    largest = max(map(len, blocks(result.grading, Fraction(result.degree))), default=0)
     if largest > SIZE:
         raise TooLargeError(
-            f"degree {whole.degree}: conditions on {several} parameters from a linear system of "
+            f"degree {result.degree}: conditions on {several} parameters from a linear system of "
             f"{largest} unknowns; at most {SIZE}"
         )
     cases = Cases(algebra)
-    known = [algebra.energy, *map(algebra.over_the_field, (*whole.casimirs, *whole.integrals))]
-    drop = _Drop(whole, cases)
-    for v in degrees(whole.grading, whole.degree):
-        for block in blocks(whole.grading, v):
-            for matrix in (_equations(whole, block), _products(whole, block, known, v)):
+    known = [algebra.energy, *map(algebra.over_the_field, (*result.casimirs, *result.integrals))]
+    drop = _Drop(result, cases)
+    for v in degrees(result.grading, result.degree):
+        for block in blocks(result.grading, v):
+            for matrix in (_equations(result, block), _products(result, block, known, v)):
                 if matrix:
                     drop.search(matrix, v)
     widest = [x for x in drop.there if not drop.known(x.case, but=x)]
@@ -70,18 +70,21 @@ def conditions(whole: IntegralsFound) -> ParameterConditions:
     return ParameterConditions(cases, (*widest,), (*unsolved,))
 
 
-def _equations(whole: IntegralsFound, block: Sequence[Exponents]) -> list[Sparse]:
+def _equations(result: IntegralsFound, block: Sequence[Exponents]) -> list[Sparse]:
     """{F, H} = 0 over the parameters: a row for each equation."""
-    rows = system_rows(block, [whole.system.algebra.flow]).values()
+    rows = system_rows(block, [result.system.algebra.flow]).values()
     return [_cleared(row) for row in rows if any(row.values())]
 
 
 def _products(
-    whole: IntegralsFound, block: Sequence[Exponents], known: Sequence[Polynomial], degree: Fraction
+    result: IntegralsFound,
+    block: Sequence[Exponents],
+    known: Sequence[Polynomial],
+    degree: Fraction,
 ) -> list[Sparse]:
     """The products of what is known of a degree that are in a block: a row for each monomial."""
     place = {e: j for j, e in enumerate(block)}
-    grading = whole.grading
+    grading = result.grading
     graded = [(f, grading.largest(f)) for f in known]
     found = products(graded, degree, exactly=grading.homogeneous)
     columns = [x for x in found if x and all(e in place for e in x)]
@@ -94,11 +97,11 @@ def _products(
 
 def _cleared(row: Mapping[int, Any]) -> Sparse:
     """A row of the field times the denominators of its entries."""
-    kept = {j: c for j, c in row.items() if c}
-    if not kept:
+    nonzero = {j: c for j, c in row.items() if c}
+    if not nonzero:
         return {}
-    common = reduce(lambda x, y: x.lcm(y), (c.denom for c in kept.values()))
-    return {j: c.numer * common.exquo(c.denom) for j, c in kept.items()}
+    common = reduce(lambda x, y: x.lcm(y), (c.denom for c in nonzero.values()))
+    return {j: c.numer * common.exquo(c.denom) for j, c in nonzero.items()}
 
 
 class _Drop:
@@ -108,8 +111,8 @@ class _Drop:
     order in no letter, which every choice of pivots has; ``work``: products of terms so far.
     """
 
-    def __init__(self, whole: IntegralsFound, cases: Cases):
-        self.whole, self.cases = whole, cases
+    def __init__(self, result: IntegralsFound, cases: Cases):
+        self.result, self.cases = result, cases
         self.there: list[Condition] = []
         self.unsolved: list[tuple[Case, Any]] = []
         self.work = 0
@@ -129,7 +132,7 @@ class _Drop:
                     if rank == self.rank:
                         following += self._within(case, factors)
                     else:
-                        self.there.append(condition(self.whole, self.cases, case, degree))
+                        self.there.append(condition(self.result, self.cases, case, degree))
             level = following
 
     def known(self, case: Case, but: Condition | None = None) -> bool:
@@ -163,8 +166,8 @@ class _Drop:
         field = self.cases.field
         rows = []
         for row in self.rows:
-            own = {j: self.cases.at(case, field(c)) for j, c in row.items()}
-            if cleared := _cleared(own):
+            entries = {j: self.cases.at(case, field(c)) for j, c in row.items()}
+            if cleared := _cleared(entries):
                 rows.append(self._divided(cleared, frozenset(), case))
         found: dict[Any, None] = {}
         rank = 0
@@ -206,8 +209,8 @@ class _Drop:
 
     def _factors(self, f: Any, case: Case) -> frozenset[Any]:
         """The irreducible factors of a polynomial that may vanish."""
-        own = self.cases.factors(f)
-        return frozenset(g for g in own if not self.cases.never_zero(case, g))
+        factors = self.cases.factors(f)
+        return frozenset(g for g in factors if not self.cases.never_zero(case, g))
 
     def _divided(
         self, row: Sparse, debts: frozenset[Any], case: Case
@@ -222,16 +225,16 @@ class _Drop:
     def _reduced(self, row: Sparse, pivot: Sparse, j: int) -> Sparse:
         """A row less the multiple of another that makes an entry vanish."""
         common = row[j].gcd(pivot[j])
-        own, other = pivot[j].exquo(common), row[j].exquo(common)
-        self.work += sum(len(c) for c in row.values()) * len(own)
+        factor, other = pivot[j].exquo(common), row[j].exquo(common)
+        self.work += sum(len(c) for c in row.values()) * len(factor)
         self.work += sum(len(c) for c in pivot.values()) * len(other)
         if self.work > WORK:
-            several = len(self.whole.system.parameters)
+            several = len(self.result.system.parameters)
             raise TooLargeError(
                 f"degree {self.degree}: conditions on {several} parameters by eliminations of more "
                 f"than {WORK} products of terms"
             )
-        found = {k: c * own for k, c in row.items()}
+        found = {k: c * factor for k, c in row.items()}
         for k, c in pivot.items():
             found[k] = found[k] - c * other if k in found else -c * other
         return {k: c for k, c in found.items() if c}
@@ -240,9 +243,9 @@ class _Drop:
 # -- the integrals in a case ----------------------------------------------------------------------
 
 
-def system_in(whole: IntegralsFound, cases: Cases, case: Case) -> LiePoisson:
+def system_in(result: IntegralsFound, cases: Cases, case: Case) -> LiePoisson:
     """The equations in a case, in the letters that are left."""
-    algebra, system = whole.system.algebra, whole.system
+    algebra, system = result.system.algebra, result.system
     solved = {system.parameters[j] for j, _ in case.solved}
     energy = cases.polynomial_at(case, algebra.hamiltonian)
     return replace(
@@ -252,21 +255,23 @@ def system_in(whole: IntegralsFound, cases: Cases, case: Case) -> LiePoisson:
     )
 
 
-def condition(whole: IntegralsFound, cases: Cases, case: Case, degree: Fraction) -> Condition:
+def condition(result: IntegralsFound, cases: Cases, case: Case, degree: Fraction) -> Condition:
     """What there is in a case beside the generic integrals, verified over its letters."""
-    system = system_in(whole, cases, case)
-    algebra, generic = system.algebra, whole.system.algebra
+    system = system_in(result, cases, case)
+    algebra, generic = system.algebra, result.system.algebra
 
     def there(f: Any) -> Any:
-        own = cases.polynomial_at(case, generic.over_the_field(f))
-        return algebra.cleared({e: algebra.number(generic.number_tree(c)) for e, c in own.items()})
+        polynomial = cases.polynomial_at(case, generic.over_the_field(f))
+        return algebra.cleared(
+            {e: algebra.number(generic.number_tree(c)) for e, c in polynomial.items()}
+        )
 
-    casimirs, integrals = ([there(f) for f in x] for x in (whole.casimirs, whole.integrals))
+    casimirs, integrals = ([there(f) for f in x] for x in (result.casimirs, result.integrals))
     known = [algebra.energy, *map(algebra.over_the_field, (*casimirs, *integrals))]
     for attempt in range(ATTEMPTS):
         at = point(algebra, attempt)
         try:
-            search = PolynomialSearch(algebra, whole.grading, [algebra.flow], at)
+            search = PolynomialSearch(algebra, result.grading, [algebra.flow], at)
             new = search.of_degree(degree, [f for f in known if f])
             proved = integrability(algebra, casimirs, [*integrals, *new], at)
         except UnluckyPrimeError:

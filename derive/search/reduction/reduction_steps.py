@@ -10,14 +10,11 @@ from ...language.rational import Matrix
 from ...language.tree import Tree, add, mul, neg, nodes, plain, terms
 from ...record.as_json import encode
 from ...record.record import Derivation, Equation, Hypothesis, Step
-from ...walk.chapter import Chapter, Values, phrase, say, traced
-from ...walk.lie import expressed
-from ...walk.lie.any_lagrangian import AnyLagrangian
-from ...walk.lie.expressed import of_element
-from ...walk.spine.head import problem_data, symbols
-from ...walk.spine.lagrangian import supposing_all
+from ...walk.chapter import Chapter, Values, phrase, say
+from ...walk.spine.head import recorded
 from ..symmetries.found_symmetries import SymmetriesFound
 from ..symmetries.symmetry import Symmetry
+from ..symmetries.symmetry_steps import expressed_on_basis
 from .quadrature import Quadrature, chosen, quadrature_of
 from .routhian import Routhian, Square
 from .state_functions import Element
@@ -337,17 +334,10 @@ class Reduction:
 def record_of(found: SymmetriesFound, general: Values) -> Reduction:
     """The record of a reduction; ``general``: the road of any Lagrangian.  ``ProblemError`` where
     there is nothing to reduce by."""
-    problem, group = found.problem, found.problem.group
-    assert group is not None
     taken = chosen(found)
     routhian = Routhian(found, taken)
-    c = Chapter(problem.name, group.name)
-    road: AnyLagrangian = general["lagrangian"]
-    basis = of_element(problem, group, road, c)
-    own = expressed.expressed(problem, group, road, basis, c)
+    c, _, before, made_from = expressed_on_basis(found.problem, general)
     left = quadrature_of(routhian)
-    last = told(routhian, left, (*own.steps, basis.last), c)
-    steps = supposing_all(traced((*general["steps"], *basis.steps, *own.steps, *last)))
-    data = problem_data(problem) | {"symmetries": [encode(x.displacement) for x in taken]}
-    names = symbols(steps, problem, fields=len(taken))
-    return Reduction(routhian, left, Derivation(data, names, steps))
+    steps = (*before, *told(routhian, left, made_from, c))
+    fields = [encode(x.displacement) for x in taken]
+    return Reduction(routhian, left, recorded(found.problem, steps, symmetries=fields))

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 
 from ...algebra.groups import Group
 from ...language.tree import Tree, add, neg
+from ...problem.problem import Problem
 from ...record.record import Derivation, Equation, Step, stated
-from ...walk.chapter import Chapter, Values, phrase, say, traced
+from ...walk.chapter import Chapter, Values, phrase, say
 from ...walk.lie import expressed
-from ...walk.lie.any_lagrangian import AnyLagrangian
 from ...walk.lie.expressed import of_element
-from ...walk.spine.head import problem_data, symbols
-from ...walk.spine.lagrangian import supposing_all
+from ...walk.spine.head import recorded
 from .found_symmetries import Central, SymmetriesFound
 from .symmetry import ON_FORM, Symmetry
 
@@ -27,20 +26,26 @@ class Symmetries:
 
 def record_of(found: SymmetriesFound, general: Values) -> Derivation:
     """The record of the symmetries of a problem; ``general``: the road of any Lagrangian."""
-    problem, group = found.problem, found.problem.group
+    c, group, before, (*_, basis) = expressed_on_basis(found.problem, general)
+    whole = _summary(found, c)
+    steps = [*before, whole]
+    for k, x in enumerate(found.symmetries, 1):
+        steps.append(_symmetry(x, f"conserved_{k}", group, (whole, basis), c))
+    steps += [_central(found, x, whole, c) for x in found.central]
+    return recorded(found.problem, steps)
+
+
+def expressed_on_basis(
+    problem: Problem, general: Values
+) -> tuple[Chapter, Group, tuple[Step, ...], tuple[Step, ...]]:
+    """The chapter and the group of a problem, the steps up to its L̃ on a basis, and the last of
+    these: of L̃, of its momenta, of its energy and of the basis."""
+    group, road = problem.group, general["lagrangian"]
     assert group is not None
     c = Chapter(problem.name, group.name)
-    road: AnyLagrangian = general["lagrangian"]
     basis = of_element(problem, group, road, c)
-    own = expressed.expressed(problem, group, road, basis, c)
-    whole = _summary(found, c)
-    steps = [*general["steps"], *basis.steps, *own.steps, whole]
-    made_from = (whole, basis.last)
-    for k, x in enumerate(found.symmetries, 1):
-        steps.append(_symmetry(x, f"conserved_{k}", group, made_from, c))
-    steps += [_central(found, x, whole, c) for x in found.central]
-    done = supposing_all(traced(steps))
-    return Derivation(problem_data(problem), symbols(done, problem), done)
+    own = expressed.expressed(problem, group, road, basis, c).steps
+    return c, group, (*general["steps"], *basis.steps, *own), (*own, basis.last)
 
 
 def _summary(found: SymmetriesFound, c: Chapter) -> Step:

@@ -141,8 +141,8 @@ def _with_integers(data: Any) -> Any:
         return {name: _with_integers(x) for name, x in data.items() if x is not False}
     if isinstance(data, list | tuple):
         return [_with_integers(x) for x in data]
-    whole = isinstance(data, float) and data.is_integer() and abs(data) < 1e6
-    return int(data) if whole and str(data) != "-0.0" else data
+    is_integer = isinstance(data, float) and data.is_integer() and abs(data) < 1e6
+    return int(data) if is_integer and str(data) != "-0.0" else data
 
 
 def style() -> str:
@@ -157,17 +157,17 @@ def script(code: EmittedCode, record: Derivation, body: Data) -> str:
     (source,) = emit(
         code.program, record, ("javascript",), code.prefix, options, short=True
     ).values()
-    own = code.program
-    kept = [x for x in KEPT if x in own.functions]
-    if "energy" in own.functions and "energy" not in own.conserved:
-        kept.append("energy")
-    names = [*NAMES, *kept, *(["CONSERVED"] * ("conserved" in kept))]
-    names += ["outputs"] * bool(own.outputs)
+    program = code.program
+    functions = [x for x in KEPT if x in program.functions]
+    if "energy" in program.functions and "energy" not in program.conserved:
+        functions.append("energy")
+    names = [*NAMES, *functions, *(["CONSERVED"] * ("conserved" in functions))]
+    names += ["outputs"] * bool(program.outputs)
     module = called(THROWN.sub("0", LENGTHS.sub("", source.replace("\nexport ", "\n"))), names)
     drawing = "".join(
         (folder("html") / "motion" / f"{x}.js").read_text(encoding="utf-8") for x in SCRIPTS
     )
-    chosen = pieces(body, read=bool(own.outputs))
+    chosen = pieces(body, read=bool(program.outputs))
     drawing = called(drawing, ["mount", *chosen.values()])
     given = ", ".join(f"{name}: {x}" for name, x in chosen.items())
     return lean(
@@ -182,7 +182,7 @@ def script(code: EmittedCode, record: Derivation, body: Data) -> str:
 def called(source: str, names: Sequence[str]) -> str:
     """The functions and tables of a module that are needed for some of them."""
     parts = [(NAME.findall(m[1] or m[2]), m[0]) for m in DEFINED.finditer(plain(source))]
-    defined = {name: text for own, text in parts for name in own}
+    defined = {name: text for names_of_piece, text in parts for name in names_of_piece}
     needed, left = set[str](), [*names]
     while left:
         name = left.pop()
@@ -190,14 +190,18 @@ def called(source: str, names: Sequence[str]) -> str:
             needed.add(name)
             taken = defined[name].startswith("const {")
             left += TAKEN.findall(defined[name].partition("=")[2] if taken else defined[name])
-    return "".join(_of(own, text, needed) for own, text in parts if needed & {*own})
+    return "".join(
+        _of(names_of_piece, text, needed)
+        for names_of_piece, text in parts
+        if needed & {*names_of_piece}
+    )
 
 
-def _of(own: Sequence[str], text: str, needed: Collection[str]) -> str:
+def _of(names: Sequence[str], text: str, needed: Collection[str]) -> str:
     """A part of a module; of a pattern, the names that are needed."""
     if not text.startswith("const {"):
         return text
-    return f"const {{ {', '.join(x for x in own if x in needed)} }} ={text.partition('=')[2]}"
+    return f"const {{ {', '.join(x for x in names if x in needed)} }} ={text.partition('=')[2]}"
 
 
 def plain(source: str) -> str:
@@ -302,8 +306,8 @@ def _turns(E: Sequence[Sequence[Any]]) -> bool:
 def _meaning(name: str, record: Derivation, language: Language) -> str:
     """What the letter of a velocity, or of what is advected, means; empty for any other."""
     letter = GREEK.get(name.partition("_")[0], name.partition("_")[0])
-    told = [language.of(x.meaning) for x in record.symbols if x.name == letter]
-    return told[0] if told and letter in VELOCITIES else ""
+    meanings = [language.of(x.meaning) for x in record.symbols if x.name == letter]
+    return meanings[0] if meanings and letter in VELOCITIES else ""
 
 
 def _unit(text: str) -> str:
@@ -315,8 +319,8 @@ def _labels(rows: Iterable[tuple[str, str, str]], language: Language) -> dict[st
     """Name → meaning and unit; a meaning that is that of the name before is not said again."""
     found, before = {}, ""
     for name, meaning, unit in rows:
-        told = visible(language.word(meaning)) if meaning and meaning != before else ""
-        if told or unit:
-            found[name] = told, _unit(unit)
+        label = visible(language.word(meaning)) if meaning and meaning != before else ""
+        if label or unit:
+            found[name] = label, _unit(unit)
         before = meaning
     return found

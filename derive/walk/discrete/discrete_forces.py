@@ -57,16 +57,16 @@ def forces(
     v = potentials(problem, a, c)
     heard = {f"{a.chapter}.action": named.label}
     heard[f"{a.chapter}.moments"] = Chapter(general.chapter).label("moments")
-    told = tuple(_hearing(x, heard) for x in v.steps)
+    steps_of_potentials = tuple(_hearing(x, heard) for x in v.steps)
     back, moved = inverse_letter(a.A.position), (a.A.d_position, a.T.d_position)
     eta = word(back) * word(moved[1]) if a.affine else None
     images = v.displaced(a, word(back) * word(moved[0]), eta)
     work = reduce(-derivation(v.energy, images.get), cancelling(a.A.position))
-    here = {x.position: word(replace(x.position, name=y)) for x, y in located}
+    at_element = {x.position: word(replace(x.position, name=y)) for x, y in located}
     inverse = Letter(f"{place[0]}⁻¹", a.n, a.n)
     turned = "orthogonal" in group.relations
-    here[back] = here[a.A.position].bar if turned else word(inverse)
-    moments, resultant = (substitute(gradient(work, x), here) for x in moved)
+    at_element[back] = at_element[a.A.position].bar if turned else word(inverse)
+    moments, resultant = (substitute(gradient(work, x), at_element) for x in moved)
     notation = WordNotation(display={inverse: ("inv", place[0])})
     equations = [Equation("U_1", "Ũ"), Equation("N_1", acting.tree(moments, notation))]
     if a.affine:
@@ -74,11 +74,11 @@ def forces(
     steps = (
         *body_step(problem, None, a, c),
         named,
-        *told,
+        *steps_of_potentials,
         acting.step(equations, say("force.at_element")),
     )
     moments, resultant = acting.mark(moments), acting.mark(resultant)
-    return DiscreteForces(moments, resultant, v, a, notation, here[back], named, steps)
+    return DiscreteForces(moments, resultant, v, a, notation, at_element[back], named, steps)
 
 
 def _hearing(step: Step, heard: Mapping[str, str]) -> Step:
@@ -126,19 +126,19 @@ def outside(
         steps.append(_inputs(problem, group, forces, c))
         letters = replace(b.N, name="N_u"), replace(b.F, name="F_u")
         moments, resultant = (word(x).marked(steps[-1].label) for x in letters)
-        whole = b.in_one_matrix(moments, resultant) if group.affine else moments
-        tested = tested - word(a.h) * inner(whole, word(a.xi))
+        balance = b.in_one_matrix(moments, resultant) if group.affine else moments
+        tested = tested - word(a.h) * inner(balance, word(a.xi))
     damping = Letter("D\u0302" if group.affine else "D", group.size, group.size, 1)
     if problem.damping:
         step = _damping(problem, damping, a, c)
         steps.append(step)
         tested = tested + drag(damping, a).marked(step.label)
     draft = c.draft("dalembert", "kernel")
-    whole = rewritten(stage.tested, a.letters, 1) + tested
+    balance = rewritten(stage.tested, a.letters, 1) + tested
     if "orthogonal" in group.relations and not group.affine:
-        whole = _on_skew(whole, a)
-    told = Equation(draft.tree(whole, a.notation), 0, (a.xi.name,))
-    steps.append(draft.step((told,), say("dalembert.balance")))
+        balance = _on_skew(balance, a)
+    equation = Equation(draft.tree(balance, a.notation), 0, (a.xi.name,))
+    steps.append(draft.step((equation,), say("dalembert.balance")))
     found = damping if problem.damping else None
     return Outside(moments, resultant, found, draft.mark(tested), tuple(steps))
 
@@ -162,8 +162,8 @@ def _inputs(problem: Problem, group: Group, forces: DiscreteForces, c: Chapter) 
     assert found is not None
     (step,) = found.steps
     stretched = ("mul", ("T", "A"), "A")
-    told = tuple(Equation(e.lhs, replaced(e.rhs, "C", stretched)) for e in step.equations)
-    return replace(step, equations=told, prose=say("input.discrete") + where_given(problem))
+    equations = tuple(Equation(e.lhs, replaced(e.rhs, "C", stretched)) for e in step.equations)
+    return replace(step, equations=equations, prose=say("input.discrete") + where_given(problem))
 
 
 def drag(D: Letter, a: DiscreteAlphabet) -> Expr:
@@ -181,8 +181,8 @@ def drag(D: Letter, a: DiscreteAlphabet) -> Expr:
 
 def _damping(problem: Problem, D: Letter, a: DiscreteAlphabet, c: Chapter) -> Step:
     """The step of κ_i and D."""
-    own = ("mul", ("at", "κ", "i"), a.place, ("T", a.place))
-    equations = [*damping_coefficients(problem), Equation(D.name, ("sum", "i", own))]
+    term = ("mul", ("at", "κ", "i"), a.place, ("T", a.place))
+    equations = [*damping_coefficients(problem), Equation(D.name, ("sum", "i", term))]
     return c.draft("damping", "input").step(equations, say("damping.discrete"))
 
 
@@ -201,15 +201,15 @@ def conserved(
     c: Chapter,
 ) -> tuple[Step, ...]:
     """The step of the momenta that the discrete motion keeps; none where it keeps none."""
-    kept = kept_momenta(group, forces.potential, forces.letters, vectors=False)
-    if not kept:
+    momenta = kept_momenta(group, forces.potential, forces.letters, vectors=False)
+    if not momenta:
         return ()
     draft = c.draft("conserved", "conservation")
     b = Blocks(group.n, group.size)
     a = DiscreteAlphabet(group.size, affine=group.affine)
     draft.depends_on(motion.balance)
     definitions, laws = [], []
-    for x in kept:
+    for x in momenta:
         momentum = _momentum(stage, ends, a, b, turning=x.turning)
         draft.depends_on(momentum, forces.potential.energy)
         names = _names(x)
@@ -218,8 +218,8 @@ def conserved(
         change = add(names[1], neg(names[0]))
         rate = replaced(x.rate, "ℓ̇" if x.turning else "ṗ", change)
         laws.append(Equation(rate, 0))
-    told = enumerated(sum((x.law for x in kept), ()))
-    prose = say("conserved.discrete", kept=told)
+    sentence = enumerated(sum((x.law for x in momenta), ()))
+    prose = say("conserved.discrete", kept=sentence)
     return (draft.step((*definitions, *laws), prose),)
 
 

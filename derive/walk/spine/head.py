@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from typing import Any
 
 from ...algebra.groups import Group
 from ...language.show import in_sentence
@@ -10,7 +12,7 @@ from ...problem.problem import Problem, data
 from ...record import sentence
 from ...record.as_json import encode
 from ...record.names import DISCRETE, FLUID, Name
-from ...record.record import CONVENTIONS, Step, Symbol
+from ...record.record import CONVENTIONS, Derivation, Step, Symbol
 from ...record.uses import of_steps
 from ...record.vocabulary import (
     CARRYING,
@@ -23,9 +25,16 @@ from ...record.vocabulary import (
 )
 from ..chapter import say
 from ..given.inputs import numbers
+from .lagrangian import completed
 
 SHOWN = 3
 """So many numbers of an input are told one by one."""
+
+
+def recorded(problem: Problem, steps: Iterable[Step], **more: object) -> Derivation:
+    """The record of a problem by its steps; ``more``: what its data have beside the problem's."""
+    data, done = problem_data(problem) | more, completed(steps)
+    return Derivation(data, _symbols(done, problem, data), done)
 
 
 def problem_data(problem: Problem) -> dict[str, object]:
@@ -45,18 +54,18 @@ def problem_data(problem: Problem) -> dict[str, object]:
     return {k: plain(v) for k, v in found.items()}
 
 
-def symbols(
-    steps: tuple[Step, ...], problem: Problem, *, fields: int = 0, discrete: bool = False
+def _symbols(
+    steps: tuple[Step, ...], problem: Problem, data: Mapping[str, Any]
 ) -> tuple[Symbol, ...]:
-    """The names that the steps use, in the order in which they appear; ``fields``: by how many
-    symmetries the problem is reduced; ``discrete``: of the discrete road."""
+    """The names that the steps use, in the order in which they appear."""
     meant, group = _meant(problem), problem.group
+    discrete = "discrete" in data
     if discrete:
         meant = VOCABULARY | DISCRETE[problem.action]
     sizes = _sizes(group) if group else {}
     if problem.torus:
         sizes = {"n": problem.torus.N, "lattice": 2}
-    sizes["fields"] = fields
+    sizes["fields"] = len(data.get("symmetries", ()))
     sizes["carried"] = sum(x.size for x in problem.advected or ())
     sizes["reduced"] = sizes["carried"] + sizes.get("dim", 0)
     meanings = {x: sentence.say(about.meaning) for x, about in meant.items()}

@@ -26,7 +26,7 @@ from ...language.read import read
 from ...language.tree import Tree, add, neg, nodes, operands
 from ...record.record import Equation, Hypothesis, Step, stated
 from ...record.sentence import Prose
-from ..chapter import Chapter, say, say_signed
+from ..chapter import Chapter, say, say_signed, traced
 from .alphabet import Alphabet
 
 # What the walk supposes: hypotheses as data, by the sign of the masses.
@@ -99,9 +99,9 @@ def _matrix(t: Tree) -> bool:
     return t in MATRICES
 
 
-def supposing_all(steps: Iterable[Step]) -> tuple[Step, ...]:
-    """Every step with hypotheses for what it divides by, or inverts."""
-    return tuple(map(supposing, steps))
+def completed(steps: Iterable[Step]) -> tuple[Step, ...]:
+    """Every step with all those that it uses, and hypotheses for what it divides by, or inverts."""
+    return tuple(map(supposing, traced(steps)))
 
 
 def _inverted(t: Tree) -> Iterator[Tree]:
