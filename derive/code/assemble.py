@@ -14,13 +14,13 @@ from ..language.tree import Tree
 from ..record.record import Derivation
 from .conventions import conventions, titles
 from .drift import TEXTS, drift, matrices
+from .emitted_outputs import output_names, outputs
 from .factor import factored
 from .graph import Node, reachable
 from .inverse_dynamics import dynamics
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
-from .observed import output_names, outputs
 from .options import Options
 from .principal_frame import PrincipalFrame, frame_changes, inertia, turning
 from .program import EmittedFunction, Framing, KeptByGauss, LoweringError, Program
@@ -107,15 +107,18 @@ def assemble(
         *((momenta.names, momenta.size) if momenta else ((), 0)),
         mass_fault=lowering.inverses.mass_fault,
         discrete=stepped.step if stepped else None,
-        outputs=output_names(d),
-        **_matrices(lowering.reader.space),
+        **_further(d, lowering.reader.space),
     )
 
 
-def _matrices(space: StateSpace) -> dict[str, Any]:
-    """What the program says of the matrices in a state, or beside its quaternion."""
+def _further(d: Derivation, space: StateSpace) -> dict[str, Any]:
+    """What the program says of outputs, and of matrices in a state or beside its quaternion."""
     door = matrix_state(space)
-    return {"blocks": matrices(space), "matrix_state": door.names if door else ()}
+    return {
+        "outputs": output_names(d),
+        "blocks": matrices(space),
+        "matrix_state": door.names if door else (),
+    }
 
 
 def _of_state(

@@ -59,10 +59,12 @@ def conventions(
             "w is the velocity of the body's origin (r = 0) in the body frame: dT/dt = A w."
         )
     driving = (line for x in inputs for line in _input(group, x, places))
+    read = (line for x in problem.get("outputs", ()) for line in _output(x, places))
     framed = _frame(group, frame, bool(inputs)) if frame else ()
     return (
         *lines,
         *driving,
+        *read,
         *_lengths(problem),
         *framed,
         *textwrap.wrap(_drift(group, options), 92),
@@ -253,6 +255,31 @@ def _input(group: Group, entry: Mapping[str, Any], places: Mapping[int, str]) ->
         return [f"Input {name}: a torque about the fixed point, in the body frame."]
     pair = "(zeta, w)" if group.in_user_basis.free_translations else "zeta"
     return [f"Input {name}: a covector of the Lie algebra; its power is <{name}, {pair}>."]
+
+
+OF_OUTPUTS = {
+    "place": "where it is",
+    "velocity": "the velocity",
+    "acceleration": "the acceleration",
+    "specific_force": "the acceleration less that of uniform gravity",
+    "rate": "the angular velocity in the body",
+    "direction": "a direction",
+    "distance": "the distance to another point, or to a point of space",
+    "momentum": "the momentum, the sum of m v",
+    "tension": "the tension of a spring",
+    "expression": "a function of the state",
+}
+"""What is read, by kinds; of a place beside it, in a frame."""
+
+
+def _output(entry: Mapping[str, Any], places: Mapping[int, str]) -> list[str]:
+    """The sentence about an output."""
+    kind, on = entry["kind"], entry.get("on")
+    at = places.get(on or 0, "").replace(" at ", " of the body at ") or f" of point {on}"
+    frame = "body" if kind == "specific_force" else entry.get("frame", "")
+    seen = f", in the {frame} frame" * bool(frame)
+    told = f"{OF_OUTPUTS[kind]}{at if on else ''}{seen}"
+    return textwrap.wrap(f"Output {entry['name']}: {told}.", 88)
 
 
 # The text of the comment at the head of a file, line by line.

@@ -15,10 +15,10 @@ from ..language.reserved import did_you_mean, near_name
 from ..language.tree import Tree, add, fold, mul
 from ..language.values import OPERATIONS, value
 from . import dense
+from .emitted_outputs import output_names, output_nodes
 from .factor import factored
 from .graph import Graph, Node
 from .lower import Lowering
-from .observed import output_names, output_nodes
 from .options import Options
 from .program import LoweringError, Watched
 from .reader import matrix, scalar

@@ -24,7 +24,7 @@ from .derivatives import DERIVATIVES
 from .show import FIELD_OPERATORS, FRACTIONS, show_name
 from .tree import Tree, neg, plain
 
-FAMILIES = frozenset({*"rmvFQdPχσκEks", "r̂", "Π", "Π̇", "Φ", "𝒥", "𝒜", "d𝒜"})
+FAMILIES = frozenset({*"rmvFQdPχσκEks", "r̂", "v̇", "Π", "Π̇", "Φ", "𝒥", "𝒜", "d𝒜"})
 """Letters of families, whose members an index counts; after any other it tells an entry."""
 IN_THE_BASIS = frozenset({"E", "M", "β", "ζ", "ζ̇", "ψ", "Π", "Π̇", "Φ", "𝕁"})
 """Letters that have the indices a and b; after any other these belong to its name, as in ℓ_b."""

@@ -132,6 +132,24 @@ def numbers_of_input(told: Mapping[str, Any], dimension: int) -> list[str]:
     return [suffixed(name, k) for k in range(1, dimension + 1)]
 
 
+def numbers_of_output(told: Mapping[str, Any], dimension: int) -> list[str]:
+    """The names of the numbers of an output, which is ``told`` as in a record, in a space of so
+    many dimensions: of a vector, of a number, or of expressions."""
+    kind, name = told["kind"], told["name"]
+    size = 1 if kind in ("distance", "tension") else dimension
+    if kind == "rate":
+        size = 3 if dimension == 3 else 1
+    size = len(told["y"]) if kind == "expression" else size
+    return [name] if size == 1 else [suffixed(name, k) for k in range(1, size + 1)]
+
+
+COLUMNS = (
+    *("energy", "defect", "multiplier", "momentum", "angular_momentum", "body_momentum"),
+    *("body_angular_momentum", "circulation", "centre"),
+)
+"""Columns of a run beside its state: the energy, what is off the group, what is conserved."""
+
+
 def letter_and_suffix(name: str) -> tuple[str, str]:
     """What such a name is of, and the rest: ``("zeta", "1")``, ``("re", "m1_2")``."""
     letter, _, suffix = name.partition("_")

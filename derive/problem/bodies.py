@@ -177,13 +177,20 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
 
 
 def outputs(
-    data: Mapping[str, object], reader: FileReader, inputs: Sequence[Input]
+    data: Mapping[str, object],
+    reader: FileReader,
+    inputs: Sequence[Input],
+    potentials: tuple[Potential, ...] = (),
 ) -> tuple[Output, ...]:
     """What is read off a motion; a table of expressions has no kind."""
+    reader.potentials = potentials
     tabled = {f"output {k}": x for k, x in enumerate(tables(data, "output"), 1)}
     for where in tabled if reader.group is None else ():
         raise ProblemError(f"{where}: a text about any group has no motion to read this off")
     kind, reader.observing = ExpressionOutput.kind, True
+    for where, x in tabled.items():
+        if ("y" in x) == (x.get("kind", kind) != kind) or ("kind" not in x and "y" not in x):
+            raise ProblemError(f"{where}: give either a 'kind', or expressions 'y'")
     found = tuple(
         reader.one_of(OUTPUTS, {"kind": kind, **x} if "y" in x else x, where)
         for where, x in tabled.items()

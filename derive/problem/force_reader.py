@@ -97,6 +97,8 @@ class ForceReader(TableReader):
         if "on" in table:
             if "at" in table:
                 raise ProblemError(f"{where}: give either 'on' or 'at'")
+            if "block" in table:
+                raise ProblemError(f"{where}: a point has a block of its own; leave out 'block'")
             if not self.point_masses:
                 raise ProblemError(
                     f"{where}, on: there are no {self.numbered} to number; give 'at', a place of "

@@ -9,7 +9,7 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.structure import TorusLattice
 from ..language.limits import Refused
-from ..language.reserved import numbers_of_input
+from ..language.reserved import numbers_of_input, numbers_of_output
 from ..language.tree import Tree
 from ..schema.body_kinds import AnyBody, Body, MomentBody, NoBody, Place, Point
 from ..schema.kind import (
@@ -27,7 +27,7 @@ from ..schema.kind import (
     StatedForce,
     TorqueInput,
 )
-from ..schema.output_kinds import Output, numbers_of_output
+from ..schema.output_kinds import Output
 from ..schema.table import Table
 
 

@@ -16,10 +16,10 @@ from ..language.derivatives import derivative, weight
 from ..language.expression import names, numbers
 from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, PROBLEM_BYTES, PULLS
 from ..language.tree import Tree, nodes
-from ..schema.body_kinds import GivenBody, MomentBody
+from ..schema.body_kinds import Body, GivenBody, MomentBody
 from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
 from ..schema.kinds import kinds
-from ..schema.table import Table, nearest
+from ..schema.table import ATTACHED, Table, nearest
 from . import inertia
 from .bodies import (
     as_forces,
@@ -128,9 +128,7 @@ def problem_of(
         raise ProblemError(
             "no body: give [[point]] or [[solid]] tables, or a table [body]; or a [lagrangian]"
         )
-    if isinstance(its_body, MomentBody):
-        named = {x: parameters.get(x, p) for x, p in its_body.parameters().items()}
-        parameters = {**named, **{k: p for k, p in parameters.items() if k not in named}}
+    parameters = _with_moments(its_body, parameters)
     if not negative_mass:
         _positive(inertia.negative_mass(its_body, parameters), "mass")
     reader.carries(its_body, parameters)
@@ -138,8 +136,7 @@ def problem_of(
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     linear, damped = as_forces(damping, reader)
-    reader.potentials = potentials
-    observed = outputs(data, reader, inputs)
+    observed = outputs(data, reader, inputs, potentials)
     problem = Problem(
         name,
         moved,
@@ -159,6 +156,14 @@ def problem_of(
     _declared(problem, data)
     _massive(problem, negative_mass)
     return problem
+
+
+def _with_moments(its_body: Body | None, parameters: dict[str, Parameter]) -> dict[str, Parameter]:
+    """The parameters, those before them that symbolic moments are."""
+    if not isinstance(its_body, MomentBody):
+        return parameters
+    named = {x: parameters.get(x, p) for x, p in its_body.parameters().items()}
+    return {**named, **{k: p for k, p in parameters.items() if k not in named}}
 
 
 def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
@@ -198,8 +203,10 @@ def _without_points(
     reader.carries(None, parameters)
     _, inputs, *_ = forces(data, reader)
     for k, x in enumerate(tables(data, "output"), 1):
-        if "y" not in x:
-            raise ProblemError(f"output {k}: beside [{where}] it is of expressions 'y': no points")
+        if "y" not in x or {*ATTACHED} & {*x}:
+            raise ProblemError(
+                f"output {k}: beside [{where}] there are no points; give expressions 'y' of the state"
+            )
     problem = Problem(
         name,
         group,

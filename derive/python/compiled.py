@@ -446,6 +446,14 @@ class Compiled(InMomenta):
         function = getattr(self._library, f"{self._source.name}_{what}", None)
         if function is None and what.endswith("_frame"):
             raise ValueError("not compiled: ask for it by compile(..., frame='principal')")
+        if function is None and what in ("mass_matrix", "bias"):
+            raise ValueError("not compiled: ask for it by compile(..., dynamics=True)")
+        if function is None and "outputs" in what and not self.OUTPUTS:
+            raise ValueError(
+                f"{self._source.name} has no [[output]] tables: nothing is read off it"
+            )
+        if function is None and what.startswith("jacobian_outputs"):
+            raise ValueError("not compiled: ask for it by compile(..., jacobian=['outputs'])")
         if function is None and what.endswith("_matrix"):
             raise ValueError("not compiled: ask for it by compile(..., attitude='quaternion')")
         if function is None and what in ("momentum", "velocity", "momentum_rhs", "poisson"):

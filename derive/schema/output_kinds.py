@@ -3,8 +3,6 @@
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, ClassVar
 
-from ..language.reserved import suffixed
-from ..language.tree import Tree
 from .kind import TurningBlock
 from .table import ATTACHED, Block, End, Frame, Key, Name, Number, Row, Table, place
 
@@ -20,10 +18,9 @@ expressions of the state, t, inputs and parameters."""
 
 
 class Output(Table):
-    """What of a motion has a name: a number, or as many as the space has (``vector``)."""
+    """What of a motion has a name: a number, or as many as the space has."""
 
     section: ClassVar[str] = "output"
-    vector: ClassVar[bool] = True
     name: Name
 
 
@@ -78,7 +75,7 @@ class DirectionOutput(Output):
 class DistanceOutput(Output):
     """That of a point to another, or to a point of space."""
 
-    kind, vector = "distance", False
+    kind = "distance"
     on: End
     other_end: OtherEnd = None
     anchor: Anchor = None
@@ -103,7 +100,7 @@ class MomentumOutput(Output):
 class TensionOutput(Output):
     """k (‖d‖ − length), with which a spring pulls."""
 
-    kind, vector = "tension", False
+    kind = "tension"
     of: SpringNumber
 
 
@@ -157,19 +154,3 @@ OUTPUTS: dict[str, type[Output]] = {
         ExpressionOutput,
     )
 }
-
-
-def numbers_of_output(told: Mapping[str, Any], dimension: int) -> list[str]:
-    """The names of the numbers of an output, which is ``told`` as in a record, in a space of so
-    many dimensions."""
-    size = dimension if OUTPUTS[told["kind"]].vector else 1
-    if told["kind"] == "rate":
-        size = 3 if dimension == 3 else 1
-    size = len(told.get("y", range(size)))
-    name = told["name"]
-    return [name] if size == 1 else [suffixed(name, k) for k in range(1, size + 1)]
-
-
-def trees_of(outputs: Sequence[Output]) -> list[Tree]:
-    """The expressions in them."""
-    return [t for x in outputs for t in x.trees()]

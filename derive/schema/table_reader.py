@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, ClassVar, TypeVar
 
 from ..language.limits import MAGNITUDE, TEXT, TORUS
-from ..language.reserved import WORDS, numbers_of_input, taken
+from ..language.reserved import COLUMNS, WORDS, numbers_of_input, taken
 from ..language.tree import Tree
 from .kind import Input, Parameter
 from .output_kinds import Output
@@ -99,7 +99,8 @@ class TableReader(ABC):
     ) -> None:
         """No output has the name of another, of a parameter or an input, nor of a number of
         these."""
-        known = dict.fromkeys(parameters, "a parameter")
+        known = dict.fromkeys(COLUMNS, "a column of runs")
+        known |= dict.fromkeys(parameters, "a parameter")
         known |= {x.name: "an input" for x in inputs}
         for k, name in enumerate([x.name for x in outputs], 1):
             if what := taken(name):

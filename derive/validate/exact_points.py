@@ -28,9 +28,8 @@ from ..check.values.evaluate import Environment, evaluate
 from ..check.values.residue import Degree, DegreeSource, degrees
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.reserved import numbers_of_input
+from ..language.reserved import numbers_of_input, numbers_of_output
 from ..record.record import Derivation, Equation, RecordError
-from ..schema.output_kinds import numbers_of_output
 from .chart import Chart, Numbers, ReducedChart, chart_of
 from .straight_line import Measured
 from .terms import CodeError

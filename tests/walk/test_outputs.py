@@ -13,7 +13,7 @@ from derive.code.options import Options
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.searches import conserved_without_gravity
-from tests.oracles import general, observed, relative_error
+from tests.oracles import general, relative_error, sensors
 from tests.problems import PROBLEMS
 from tests.support import corpus
 from tests.support.walks import SEED
@@ -41,7 +41,7 @@ def test_they_are_what_the_points_do(name):
     k = space["constants"]([p[x] for x in space["PARAMETERS"]])
     for _ in range(3):
         x, u = general.random_state(data, basis, rng), rng.normal(size=len(space["INPUTS"]))
-        expected = observed.outputs(data, basis, p, T, x, u)
+        expected = sensors.outputs(data, basis, p, T, x, u)
         assert len(expected) == len(space["OUTPUTS"])
         assert relative_error(space["outputs"](T, x, k, u), expected) < 1e-12
 

@@ -43,7 +43,7 @@ from .momenta import (
     rigid_body_values,
     space_values,
 )
-from .observed import Observed, accelerations
+from .output_values import Observed, accelerations
 from .point_masses import listed_count, outer_sum
 
 # The mapping from names to exact values that an environment reads.

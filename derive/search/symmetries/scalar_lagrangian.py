@@ -274,7 +274,8 @@ def with_scalar_lagrangian(
         )
     if problem.forces:
         raise ProblemError(
-            f"{problem.name}: a [[force]] is no part of L̃, and this is of L̃ alone; leave it out"
+            f"{problem.name}: a [[force]], or damping that is quadratic or rotational, is no part "
+            "of L̃, and this is of L̃ alone; leave it out"
         )
     if problem.lagrangian is not None:
         return replace(problem, inputs=())

@@ -77,7 +77,7 @@ def body_step(
         equations.append(Equation(("at", "r", k), embedded(problem, k, p.at, 1)))
     if problem.places:
         low, high = problem.masses + 1, problem.masses + len(problem.places)
-        prose += _massless(low, high)
+        prose += _massless(low, high, "_read" if problem.outputs else "")
     if not equations:
         return ()
     draft = c.draft("body", "definition")
@@ -85,11 +85,11 @@ def body_step(
     return (*steps, draft.step(equations, prose, hypotheses=supposed))
 
 
-def _massless(low: int, high: int) -> Prose:
+def _massless(low: int, high: int, read: str) -> Prose:
     if low == high:
-        return say("body.place", point=str(low))
+        return say(f"body.place{read}", point=str(low))
     return say(
-        "body.places",
+        f"body.places{read}",
         low=str(low),
         high=str(high),
     )

@@ -140,8 +140,11 @@ class _Observed:
             others = [p for p in self.problem.potentials if not isinstance(p, (Gravity, Spring))]
             frame = "_in_fields" if others else ""
         places = {"name": f"‘{x.name}’"}
-        if hasattr(x, "on") and not isinstance(x, ExpressionOutput):
-            places["point"] = f"r_{x.on}"
+        if at := getattr(x, "on", None):
+            places["point"] = f"r_{at}"
+            frame = "_at" if isinstance(x, ExpressionOutput) else frame
+        if isinstance(x, DistanceOutput) and x.other_end:
+            frame, places["other"] = "_between", f"r_{x.other_end}"
         return phrase(f"output.{x.kind}{frame}", **places)
 
     # -- velocities and accelerations of places: A u of u = Z r_i + w, and of Zu + du/dt -----------

@@ -7,9 +7,9 @@ from typing import Any
 
 from ...algebra.groups import Group
 from ...language import rational as q
+from ...language.reserved import numbers_of_output
 from ...record.as_json import decode
 from ...record.record import RecordError
-from ...schema.output_kinds import numbers_of_output
 from ..values.evaluate import evaluate
 from .model import Model
 from .point_masses import Vector, scaled_each

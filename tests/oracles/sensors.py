@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .general import axial, blocks, environment, evaluate, places, rhs, split
+from tests.oracles.general import axial, blocks, environment, evaluate, places, rhs, split
 
 
 def outputs(data, basis, p, t, x, u):
