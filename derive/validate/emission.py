@@ -32,7 +32,10 @@ Judge = Callable[[tuple[str, ...]], Agreement]
 UNREAD = "not validated: such a file is not read back"
 LOOPS = "not validated: its loops, which are not read back in this language"
 CALLED = "the C that it calls is given what it takes: "
-STEPPED = re.compile(r"^(class Motion:|pub struct Motion|export function begin\()", re.MULTILINE)
+STEPPED = re.compile(
+    r"^(class Motion:|pub struct Motion|export function begin\(|.* mutable struct Motion)",
+    re.MULTILINE,
+)
 UNSTEPPED = "not validated: steps in time, which are not read back"
 UNPROVED = "; not validated, for it is a loop: Carlson's duplication, which gives the integrals"
 UNCHECKED = "not validated: what constants refuses"
