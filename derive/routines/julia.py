@@ -117,6 +117,9 @@ class Julia(Printer):
         yield from self.wrapped(f"function {self.signature(f)}")
         if f.name in self.given["public"]:
             yield from self.given["entry"]
+            for x, t in self.arguments.items():  # as time is kept in two numbers of this type
+                if t == Type("real"):
+                    yield f"    {x} = {self.real}({x})"
 
     def body(self, f: ast.FunctionDef) -> list[str]:
         self.counted = set()
