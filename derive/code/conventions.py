@@ -275,11 +275,11 @@ OF_OUTPUTS = {
 def _output(entry: Mapping[str, Any], places: Mapping[int, str]) -> list[str]:
     """The sentence about an output."""
     kind, on = entry["kind"], entry.get("on")
-    at = places.get(on or 0, "").replace(" at ", " of the body at ") or f" of point {on}"
+    at = f",{places[on]} of the body" if places.get(on or 0) else f", at point {on}"
     frame = "body" if kind == "specific_force" else entry.get("frame", "")
     seen = f", in the {frame} frame" * bool(frame)
-    told = f"{OF_OUTPUTS[kind]}{at if on else ''}{seen}"
-    return textwrap.wrap(f"Output {entry['name']}: {told}.", 88)
+    name = f"{entry['name']}{at if on else ''}"
+    return textwrap.wrap(f"Output {name}: {OF_OUTPUTS[kind]}{seen}.", 88)
 
 
 # The text of the comment at the head of a file, line by line.

@@ -246,8 +246,10 @@ _LANGUAGES = (
         HASH,
         {"double": "Float64", "float": "Float32"},
         first=1,
+        batch="{array}[s, {index}]",
         parenthesised=True,
         mutates="!",
+        steps=("gauss", "rk4", "vern9", "discrete"),
     ),
     TargetLanguage(
         "javascript",

@@ -30,12 +30,10 @@ def integrals(
             parts |= _printed(parts, language, prefix, written.real)
         found.append(parts)
     most = max(len(f["whole"]["outputs"]) for f in found)
-    small = written.printer.number(-SMALL_Y)
     return {
         "duplications": DUPLICATIONS,
         "newton": NEWTON_STEPS,
         "most": most,
-        "small": small,
         "functions": found,
     }
 
@@ -53,6 +51,8 @@ def _printed(
         "prefix": prefix,
         "real": real_of_work(language.name, language.reals[real]),
         "written": lines,
+        "public": (),
+        "generic": True,
     }
     source = Source()
     source.read(text_of("carlson").replace("METHOD", f["name"]), given)
@@ -69,11 +69,11 @@ def _lines(f: Mapping[str, Any], part: str, printer: Printer) -> Iterator[str]:
     if part == "end":
         value, *slopes = outputs
         if not f["second"]:
-            yield printer.declared("value", REAL, value) + ";"
+            yield printer.declared("value", REAL, value) + printer.end
         for name, x in zip(f["carried"], slopes, strict=True):
-            yield printer.declared(name, Type("real", (), True), x) + ";"
+            yield printer.declared(name, Type("real", (), True), x) + printer.end
     elif part == "back":
         for name, x in zip(f["carried"], outputs, strict=True):
-            yield printer.declared(f"next_{name}", REAL, x) + ";"
+            yield printer.declared(f"next_{name}", REAL, x) + printer.end
         for name in f["carried"]:
-            yield f"{name} = next_{name};"
+            yield f"{name} = next_{name}{printer.end}"

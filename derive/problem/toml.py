@@ -205,7 +205,7 @@ def _without_points(
     for k, x in enumerate(tables(data, "output"), 1):
         if "y" not in x or {*ATTACHED} & {*x}:
             raise ProblemError(
-                f"output {k}: beside [{where}] there are no points; give expressions 'y' of the state"
+                f"output {k}: beside [{where}] are no points: give expressions 'y' of the state"
             )
     problem = Problem(
         name,

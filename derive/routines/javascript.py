@@ -7,7 +7,7 @@ import ast
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
-from .printer import PRODUCT, Lines, Printer
+from .printer import PRODUCT, Lines, Printer, flat
 from .source import LANES, Type
 
 
@@ -102,12 +102,6 @@ class JavaScript(Printer):
                 return self.hoist(name, value)
         return f"{word} {name} = {value}"
 
-    def hoist(self, name: str, value: str) -> str:
-        """Have a local before the routine."""
-        self.hoisted[name] = f"{self.routine}_{name}"
-        self.before += self.wrapped(f"const {self.hoisted[name]} = {value};")
-        return ""
-
     def made(self, t: Type) -> str:
         """What a number, an array or a record is before it is computed."""
         if t.name in self.source.records:
@@ -128,7 +122,7 @@ class JavaScript(Printer):
     def rows(self, values: Any, kind: Type) -> str:
         """Numbers, by rows; lanes one after the other."""
         if kind.name in LANES:
-            return f"Float64Array.of({', '.join(map(self.constant, _flat(values)))})"
+            return f"Float64Array.of({', '.join(map(self.constant, flat(values)))})"
         if not isinstance(values, (list, tuple)):
             return self.constant(values)
         inner = ", ".join(self.rows(x, kind) for x in values)
@@ -213,13 +207,6 @@ class JavaScript(Printer):
             halved = _halved(values) if kind.name in LANES and kind.sizes else None
             text = f"{halved[0]}({', '.join(map(self.constant, halved[1]))})" if halved else ""
             yield from self.wrapped(f"const {name} = {text or self.rows(values, kind)};")
-
-
-def _flat(values: Any) -> list[float]:
-    """All numbers of rows."""
-    if not isinstance(values, (list, tuple)):
-        return [values]
-    return [x for row in values for x in _flat(row)]
 
 
 def _halved(rows: Sequence[Sequence[float]]) -> tuple[str, list[float]] | None:

@@ -398,6 +398,12 @@ class Printer(ABC):
     def table(self, name: str, kind: Type, values: Any, depth: int = 0) -> str:
         """A local table of numbers that are known."""
 
+    def hoist(self, name: str, value: str) -> str:
+        """Have a local before the routine."""
+        self.hoisted[name] = f"{self.routine}_{name}"
+        self.before += self.wrapped(f"const {self.hoisted[name]} = {value}{self.end}")
+        return ""
+
     @abstractmethod
     def copied(self, to: ast.expr, of: ast.expr) -> str:
         """An array becomes another one."""
@@ -436,6 +442,13 @@ class _Given:
 
     def __format__(self, spec: str) -> str:
         return self.atom if spec else self.bare
+
+
+def flat(values: Any) -> list[float]:
+    """All numbers of rows."""
+    if not isinstance(values, (list, tuple)):
+        return [values]
+    return [x for row in values for x in flat(row)]
 
 
 def _break(line: str) -> int:

@@ -23,16 +23,17 @@ from .torus.torus_files import (
     TorusClaims,
     compare_loops,
     compare_python,
-    has_known_loops,
     unread_parts,
 )
 
 Judge = Callable[[tuple[str, ...]], Agreement]
 """The verdict on files by their names."""
 UNREAD = "not validated: such a file is not read back"
-LOOPS = "not validated: its loops, which are not read back in this language"
 CALLED = "the C that it calls is given what it takes: "
-STEPPED = re.compile(r"^(class Motion:|pub struct Motion|export function begin\()", re.MULTILINE)
+STEPPED = re.compile(
+    r"^(class Motion:|pub struct Motion|export function begin\(|.* mutable struct Motion)",
+    re.MULTILINE,
+)
 UNSTEPPED = "not validated: steps in time, which are not read back"
 UNPROVED = "; not validated, for it is a loop: Carlson's duplication, which gives the integrals"
 UNCHECKED = "not validated: what constants refuses"
@@ -97,9 +98,6 @@ class EmittedFiles:
         unread = {"_steps.h": UNSTEPPED}.get(ending, "" if language else UNREAD)
         if not self.as_given:
             unread = unread or PRINCIPAL
-        elif torus and language in ("rust", "javascript", "julia"):
-            known = has_known_loops(names[-1], self.fresh or self.files, self.prefix)
-            unread = "" if known else LOOPS
         if unread:
             return Report(names, unread, read=False)
         if gone := [name for name in names if not self.files[name]]:

@@ -137,7 +137,7 @@ def test_written_out_up_to_five():
     assert tables.names == {"conserved"}
 
 
-@pytest.mark.parametrize("build", [ONE_BUILD[x] for x in ("rust", "javascript")])
+@pytest.mark.parametrize("build", [ONE_BUILD[x] for x in ("rust", "javascript", "julia")])
 def test_the_rates_are_those_of_c_to_the_bit(build):
     x = np.random.default_rng(3).normal(size=9 * 9 - 1)
     (known,), (found,) = (

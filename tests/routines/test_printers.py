@@ -11,9 +11,11 @@ import pytest
 
 from derive.routines.c import C
 from derive.routines.javascript import JavaScript
+from derive.routines.julia import Julia
 from derive.routines.python import Python
 from derive.routines.source import Source
 from tests.support.needs import need
+from tests.support.read_julia import Module, Numbers
 
 ROOT = Path(__file__).parents[2]
 TEXT = '''
@@ -96,6 +98,14 @@ def test_javascript(tmp_path):
     assert [*map(float, done.stdout.split())] == [TOTAL, *Y, *Z]
 
 
+def test_julia():
+    module = Module(f"module a\n{printed(Julia, real='Float64')}end\n")
+    x, y, z = (Numbers(3, values=map(numpy.float64, values)) for values in (X, [0.0] * 3, Y))
+    assert module.call("added!", 1, x, y, z) == TOTAL
+    assert ([*y], [*z]) == (Y, Z)
+    assert module.call("added!", 0, x, y, z) == 0.0
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -131,7 +141,7 @@ LEFT = {
 """What an algorithm leaves to a template, or is called from one under another name."""
 HEAD = re.compile(
     r"^(?:(?:export )?function |(?:pub )?fn |def _?|static inline [\w ]*\{\{ prefix \}\}_)"
-    r"(\w+)\(",
+    r"(\w+)!?\(",
     re.MULTILINE,
 )
 
@@ -140,7 +150,7 @@ def test_no_template_has_a_function_of_the_name_of_a_routine():
     """As the loops on the torus, which stand in the same file."""
     written = (ROOT / "derive" / "routines" / "algorithms").glob("*.py")
     routines = {x for f in written for x in re.findall(r"def (\w+)", f.read_text(encoding="utf-8"))}
-    for language in ("c", "javascript", "python", "rust"):
+    for language in ("c", "javascript", "julia", "python", "rust"):
         for template in (ROOT / "templates" / language).glob("*.jinja"):
             own = {*HEAD.findall(template.read_text(encoding="utf-8"))}
             assert own & routines <= LEFT, template.name

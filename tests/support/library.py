@@ -47,8 +47,8 @@ BUILDS = {
 """A language, or its compiler and standard → the language, and the words of its program."""
 ONE_BUILD = {language: build for build, (language, _) in reversed(BUILDS.items())}
 """The first build of each language."""
-STEPPED = tuple(x for x in ("c", "python", "javascript", "rust", "cpp"))
-"""Languages that have steps."""
+STEPPED = ("c", "python", "javascript", "rust", "cpp")
+"""Languages that have steps, but for Julia, which is read, and slow."""
 OPTIMISED = {"c": ("-O1",), "rust": ("-Copt-level=1", "-Ccodegen-units=1"), "cpp": ()}
 """Where there are steps to make; to compile takes longer than to run."""
 
@@ -541,6 +541,32 @@ class Read(Library):
             m.call("driven", lambda x, t: arrays["u"])(dx, arrays["x"], arrays["k"], t)
             found.append(np.array(dx.whole()))
         return found
+
+    def places(self, commands, k, u, x):
+        """Events count from 1, and 0 is none."""
+        call, m = self.module.call, None
+
+        def torque(first):
+            return self.vector([first, *[0.0] * (len(u) - 1)])
+
+        given = {"u": self.vector(u)} if len(u) else {}
+        k, x = self.vector(k), self.vector(x)
+        for word, a, b in commands:
+            status, a = 0, np.float64(a)
+            if word == "begin":
+                m = call("Motion", a, x)
+            elif word == "torque":
+                given = {"u": lambda x, t, a=a, b=b: torque(a * np.cos(b * t))}
+            elif word.endswith("_watch"):
+                step = self.module.names[f"{word.removesuffix('_watch')}!"]
+                status = call("watch!", step, m, k, a, np.float64(b), **given)
+            elif word != "dense":
+                count = np.float64(b) if word.endswith("_to") else int(b)
+                status = call(f"{word}!", m, k, a, count, **given)
+            at = call("dense", m, a) if word == "dense" else m["x"]
+            event, rising = m.values.get("event", 0) - 1, m.values.get("rising", False)
+            own = event, rising, m["t"], m["h"], m["evaluations"]
+            yield Place(status, *own, np.array(at.whole(), float))
 
 
 KINDS = {"python": Imported, "julia": Read, "javascript": Asked}

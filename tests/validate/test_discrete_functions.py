@@ -20,9 +20,8 @@ from derive.validate.read_file import read
 from derive.validate.terms import CodeError
 from tests.support.code_mutations import mutants
 from tests.support.corpus import driven
-from tests.validate.test_validation import ENDS
+from tests.validate.test_validation import ENDS, READ
 
-READ = ("c", "python", "rust", "javascript")
 KINDS = {
     "so3": "step_force, step_guess, step_newton",
     "se3": "step_force, step_guess, step_newton",

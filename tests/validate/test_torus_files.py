@@ -26,6 +26,7 @@ from derive.validate.straight_line import Measured
 from derive.validate.syntax import SYNTAX, tokens
 from derive.validate.terms import CodeError
 from derive.validate.torus.loop_reader import LoopReader
+from derive.validate.torus.loops_in_julia import JuliaLoopReader
 from derive.validate.torus.run_loops import Cells, Loops
 from derive.validate.torus.torus_files import (
     TorusClaims,
@@ -34,9 +35,10 @@ from derive.validate.torus.torus_files import (
     cosine,
 )
 from tests.support.needs import CC, need
+from tests.support.read_julia import Module, Numbers
 
 SIZES = (3, 5, 7, 9, 11, 13)
-SOME = {"c": 150, "python": 40}
+SOME = {"c": 150, "python": 40, "julia": 60}
 """Changes of each file, spread over all of it."""
 TOKEN = re.compile(
     r"\*\*|[0-9]+\.[0-9]+(?:e-?[0-9]+)?|[0-9]+|[A-Za-z_]\w*|[<>=!]=|[-+*/]=|\+\+|--|\S"
@@ -84,7 +86,9 @@ def held(N, name, text):
 
 def changes(text, begin, end):
     """(kind, changed text) for the tokens between two places, comments apart."""
-    blank = re.compile(r'/\*.*?\*/|"""[^"]*"""|^ *#[^\n]*|\(void\)\w+;|"[^"]*"', re.S | re.M)
+    beside = r"|^    length\([^\n]*\n[^\n]*"  # an error check, which is not read
+    blank = r'/\*.*?\*/|"""[^"]*"""|^ *#[^\n]*|\(void\)\w+;|"[^"]*"'
+    blank = re.compile(blank + beside, re.S | re.M)
     plain = blank.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text)
     for m in TOKEN.finditer(plain, begin, end):
         token, (a, b) = m[0], m.span()
@@ -204,31 +208,97 @@ def test_what_is_wrong_is_said(old, new, said):
         held(11, "fluid.c", text.replace(old, new))
 
 
+HEADS = {"fluid.rs": "fn rhs", "fluid.mjs": "function rhs", "fluid.jl": "function rhs!"}
+
+
 @pytest.mark.parametrize("N", [3, 5])
 def test_what_is_written_out_is_read_in_other_languages(N):
-    """And of Julia, whose functions of matrices are not read, that is said."""
     d, compiled, _ = emission(N, conserved=False)
     files = emit(compiled, d, ("rust", "javascript", "julia"), "fluid", Options())
     given = Chart(), compiled.numbers(), True, files
-    rust, javascript, julia = EmittedFiles(files, "fluid", *given).reports(d)
-    for report in (rust, javascript):
+    for report in EmittedFiles(files, "fluid", *given).reports(d):
         assert report.holds, report.text
         assert report.text.startswith("constants, rhs, energy equal the record at 1 exact point;")
-    assert not julia.read
-    assert "its loops, which are not read back" in julia.text
-    for file in ("fluid.rs", "fluid.mjs"):
-        start = files[file].index("fn rhs" if file == "fluid.rs" else "function rhs")
+    for file, head in HEADS.items():
+        start = files[file].index(head)
         changed = files[file][:start] + files[file][start:].replace("re_1_0*im", "im_1_0*im", 1)
         assert changed != files[file]
         found = EmittedFiles(files | {file: changed}, "fluid", *given).reports(d)
-        assert [x.holds for x in found] == [file != "fluid.rs", file != "fluid.mjs", True]
+        assert [x.holds for x in found] == [x != file for x in HEADS]
+
+
+def test_what_stands_beside_steps_is_read_in_other_languages():
+    """Their tables are not."""
+    chosen = Options(step=("gauss", "rk4", "vern9"), conserved=True)
+    d, compiled, _ = emission(7, step=chosen.step)
+    files = emit(compiled, d, ("rust", "javascript", "julia"), "fluid", chosen)
+    given = Chart(), compiled.numbers(), True, files
+    for report in EmittedFiles(files, "fluid", *given).reports(d):
+        assert report.holds, report.text
+        assert "constants, rhs, energy, conserved equal the record" in report.text
+        assert "not validated: steps in time" in report.text
+
+
+@pytest.mark.parametrize("N", [7])
+def test_no_change_of_julia_passes(N):
+    """Judged by what evaluates Julia."""
+    d, compiled, _ = emission(N)
+    text = emit(compiled, d, ("julia",), "fluid", Options(conserved=True))["fluid.jl"]
+    code = text[: text.index('"""\n    constants')], text[text.index("function rhs!") :]
+    x, same = np.random.default_rng(1).normal(size=N * N - 1), 0
+    found = [*changes(text, len(code[0]) // 2, len(code[0]))]
+    found += [*changes(text, len(text) - len(code[1]), len(text))]
+    taken = found[:: len(found) // SOME["julia"]]
+
+    def meant(text):
+        m, state = Module(text), Numbers(N * N - 1, values=x)
+        rates, out, k = Numbers(N * N - 1), Numbers(3), Numbers(0)
+        m.call("rhs!", rates, state, k, np.float64(0))
+        m.call("conserved!", out, state, k, np.float64(0))
+        return [*rates, *out, m.call("energy", np.float64(0), state, k)]
+
+    for _, changed in taken:
+        try:
+            compare_loops("fluid.jl", {"fluid.jl": changed}, "fluid", claims(N))
+        except CodeError:
+            continue
+        assert np.array_equal(meant(changed), meant(text)), difference(text, changed)
+        same += 1
+    assert same < len(taken) / 5
 
 
 LISTS = {
+    "julia": "const {} = ()\n",
     "rust": "pub const {}: [&str; N] = [];\n",
     "javascript": "export const {} = Object.freeze([]);\n",
 }
 LOOPS = {
+    "julia": """const WEIGHTS = [1.0, 2.0, 0.5]
+function entries!(x, twice, found)
+    for i in 1:2
+        for j in 1:1:2
+            s = i + j < 4 ? i + j - 2 : i + j - 3
+            if twice && s > 0
+                found[j, i] = 2.0*x[i]
+            else
+                found[j, i] = -x[j]/Float64(s + 1)
+            end
+        end
+    end
+    return nothing
+end
+function energy(t, x, k)
+    found = zeros(float(eltype(x)), 2, 2)
+    total = 0.0
+    entries!(x, true, found)
+    for i in 1:2
+        for j in 1:2
+            total += WEIGHTS[i + j - 1]*found[j, i]
+        end
+    end
+    return total
+end
+""",
     "rust": """const WEIGHTS: [f64; 3] = [1.0, 2.0, 0.5];
 fn entries(x: &[f64; N_STATE], twice: bool, found: &mut [[f64; 2]; 2]) {
     for i in 0..2 {
@@ -273,6 +343,22 @@ export function energy(t, x, k) {
 """,
 }
 WRONG = [
+    ("julia", "i in 1:2", "i in 1:3", "no value"),
+    ("julia", "1:1:2", "1:x:2", "'entries!'|not known here"),
+    ("julia", "eltype(x)), 2, 2)", "eltype(x)), 1, 2)", "no value"),
+    ("julia", "s + 1)", "s/2)", "quotient of integers"),
+    ("julia", "Float64(", "Float32(", "not known here"),
+    ("julia", "twice && s > 0", "twice && x[1] > 0.0", "depends on numbers"),
+    ("julia", "found[j, i] = 2.0", "found[i] = 2.0", "outside of an array"),
+    (
+        "julia",
+        "for j in 1:2\n            total",
+        "for k in 1:2\n            total",
+        "declared twice",
+    ),
+    ("julia", "total = 0.0", "total = x[1]", "'.='"),
+    ("julia", "return nothing", "return nothing\n    i = s", "entries!"),
+    ("julia", "    return total", "    entries! = total\n    return total", "not known here"),
     ("rust", "i in 0..2", "i in 0..3", "no value"),
     ("rust", "[[0.0; 2]; 2];", "[[0.0; 2]; 3];", "other sizes"),
     ("rust", "-x[j] / (s + 1) as f64", "-x[j] / (s / 2) as f64", "quotient of integers"),
@@ -294,7 +380,8 @@ WRONG = [
 def energy_of(language, text):
     """What a text with loops computes, modulo a prime, of x = (3, 5)."""
     text = "".join(map(LISTS[language].format, ("STATE", "PARAMETERS", "INPUTS"))) + text
-    reader = LoopReader(language, tokens(SYNTAX[language], text, "loops"))
+    kind = JuliaLoopReader if language == "julia" else LoopReader
+    reader = kind(language, tokens(SYNTAX[language], text, "loops"))
     reader.module()
     p = 2**61 - 1
     loops = Loops(reader, p, lambda x: int(10 * float(x)) * pow(10, -1, p) % p, None)

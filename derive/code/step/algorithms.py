@@ -11,6 +11,7 @@ from typing import Any
 from ... import routines
 from ...routines.c import C
 from ...routines.javascript import JavaScript
+from ...routines.julia import Julia
 from ...routines.printer import Printer
 from ...routines.python import Python
 from ...routines.rust import Rust
@@ -314,6 +315,38 @@ def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     return _texts(printer, records, steps)
 
 
+def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
+    """The same in Julia."""
+    steps, functions, prefix = fields["steps"], fields["functions"], fields["prefix"]
+    had = {"rhs": "rhs", "project": "projected", "jacobian_raw": "jacobian_raw", "events": "events"}
+    counts = {"k": len(p.constants), "u": len(p.inputs)}
+    right = [f"length({x}) == {n}" for x, n in counts.items() if n]
+    if p.inputs:
+        right[-1] = f"(u isa Function || {right[-1]})"
+    said = ", ".join(f"{x} has {n} numbers" for x, n in counts.items() if n)
+    lengths = [
+        f"    {' && '.join(right)} ||",
+        f'        throw(DimensionMismatch("{prefix}: {said}"))',
+    ]
+    given = known(p, steps) | {
+        "functions": {of: functions[x]["name"] for x, of in had.items() if x in functions}
+        | {x: x for x in functions if x.startswith(STEPPING)},
+        "real": fields["real"],
+        "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] else 0,
+        "NO_EVENT": -1,
+        "public": {*roots(steps)} - {"towards", "begin", "dense"},
+        "begin": "begin_at!",
+        "dense": "dense_at!",
+        "status": "`OK`, or why not: then `m` is as it was after the last good step.",
+        "entry": [
+            *["    u = u === nothing ? ZERO_INPUTS : u"] * bool(p.inputs),
+            *lengths * bool(right),
+        ],
+    }
+    printer = Julia(source_of(given, steps), given)
+    return _texts(printer, [*map(printer.record, printer.source.records)], steps)
+
+
 def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in Python."""
     steps, functions = fields["steps"], fields["functions"]
@@ -353,7 +386,12 @@ def _texts(
     }
 
 
-PRINTERS: dict[str, type[Printer]] = {"c": C, "rust": Rust, "javascript": JavaScript}
+PRINTERS: dict[str, type[Printer]] = {
+    "c": C,
+    "rust": Rust,
+    "javascript": JavaScript,
+    "julia": Julia,
+}
 """The languages whose functions of plain numbers may have loops: in others such take arrays of any
 library, and are written by these."""
 
@@ -363,5 +401,11 @@ def real_of_work(language: str, real: str) -> str:
     return "Float64Array" if language == "javascript" else real
 
 
-ALGORITHMS = {"c": in_c, "rust": in_rust, "javascript": in_javascript, "python": in_python}
+ALGORITHMS = {
+    "c": in_c,
+    "rust": in_rust,
+    "javascript": in_javascript,
+    "julia": in_julia,
+    "python": in_python,
+}
 """Language → the text of the algorithms of its steps."""

@@ -34,6 +34,7 @@ def printed_sums(language: str, loops: Loops, fields: Mapping[str, Any]) -> dict
         "real": real_of_work(language, fields["real"]),
         "inline": f"{prefix}_FUNCTION" if fields["header"] else "static",
         "public": (),
+        "generic": True,
         "item": ["#[allow(clippy::all, clippy::pedantic)]", "#[rustfmt::skip]"],
     }
     source = Source()

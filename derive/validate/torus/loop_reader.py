@@ -122,10 +122,14 @@ class LoopReader(Reader):
         self.kinds |= dict(arguments)
         self.arguments, self.calls = [x for x, _ in arguments], set()
         self.names = {*self.arguments}
-        self.take("{")
+        self._opened()
         body = self._block()
         self.kinds = outer
         self.routines[name] = Routine(name, arguments, returns, body, self.calls)
+
+    def _opened(self) -> None:
+        """Pass what begins the statements of a function."""
+        self.take("{")
 
     # -- declarations ------------------------------------------------------------------------
 
@@ -164,13 +168,23 @@ class LoopReader(Reader):
             kind = self._zeros()  # that of a module has other numbers when it is used again
             body.append(("array", name, kind, None if body is self.tables else 0))
         elif self.took("["):
-            rows = [("real", x) for x in self.listed("]")]
+            rows = self._numbers()
             kind = (len(rows),)
             body.append(("table", name, rows))
         else:
-            body.append(("declare", kind, name, self.expression()))
+            value = self.expression()
+            if value[0] == "list":
+                self.unknown("a table of steps")
+            body.append(("declare", kind, name, value))
         self.kinds[name] = kind
         self.take(";")
+
+    def _numbers(self) -> list[tuple[Kind, Expression]]:
+        """The entries of a table, which has one index: others are those of steps."""
+        found = self.listed("]")
+        if any(x[0] == "list" for x in found):
+            self.unknown("a table of rows")
+        return [("real", x) for x in found]
 
     def _zeros(self) -> tuple[int, ...]:
         """The sizes of an array that is made of zeros."""
@@ -316,7 +330,8 @@ class LoopReader(Reader):
         if self.language == "rust" and self.word == "}":
             body.append(("return", targets[0]))
             return
-        if targets[0][0] == "call" and self.took(";"):
+        if targets[0][0] == "call":
+            self.end()
             body.append(("do", targets[0]))
             return
         sign, value = self._assigned_to(targets[0]), self.expression()
@@ -325,7 +340,7 @@ class LoopReader(Reader):
             self._assigned_to(value)
             value = self.expression()
         body.append(("assign", sign, tuple(targets), value))
-        self.take(";")
+        self.end()
 
     def _assigned_to(self, target: Expression) -> str:
         """The sign after what is assigned to, an entry of an array or a number that varies."""

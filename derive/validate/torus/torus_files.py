@@ -40,6 +40,7 @@ from ..terms import CodeError, DiffersError
 from .exact_arrays import ExactArray, ExactLibrary
 from .loop_reader import LoopReader
 from .loops_in_c import CLoopReader
+from .loops_in_julia import JuliaLoopReader
 from .run_loops import Cells, Loops
 
 SCALE = 1 << 200
@@ -215,16 +216,8 @@ def loops_of(name: str, files: Mapping[str, str], prefix: str) -> LoopReader:
     language = LANGUAGES[PurePath(name).suffix]
     if language == "c":
         return CLoopReader(language, words(name, files, prefix), prefix)
-    return LoopReader(language, tokens(SYNTAX[language], files[name], name), prefix)
-
-
-def has_known_loops(name: str, files: Mapping[str, str], prefix: str) -> bool:
-    """Can a file be read with its loops?"""
-    try:
-        loops_of(name, files, prefix).module()
-    except CodeError:
-        return False
-    return True
+    reader = JuliaLoopReader if language == "julia" else LoopReader
+    return reader(language, tokens(SYNTAX[language], files[name], name), prefix)
 
 
 def unread_parts(name: str, files: Mapping[str, str], prefix: str) -> Beside:
