@@ -274,8 +274,8 @@ OF_OUTPUTS = {
 
 def _output(entry: Mapping[str, Any], places: Mapping[int, str]) -> list[str]:
     """The sentence about an output."""
-    kind, on = entry["kind"], entry.get("on")
-    at = f",{places[on]} of the body" if places.get(on or 0) else f", at point {on}"
+    kind, on = entry["kind"], int(entry.get("on", 0))
+    at = f",{places[on]} of the body" if places.get(on) else f", at point {on}"
     frame = "body" if kind == "specific_force" else entry.get("frame", "")
     seen = f", in the {frame} frame" * bool(frame)
     name = f"{entry['name']}{at if on else ''}"
