@@ -130,7 +130,7 @@ CIRCULATIONS = {  # a body, what acts on it, and is the circulation kept?
     "a star": (CENTRED, [STAR], True),
     "a centred body under weight, as c = 0": (CENTRED, [WEIGHT], True),
     "a star under weight": (CENTRED, [STAR, WEIGHT], True),
-    "a body that hangs": (SHIFTED, [WEIGHT], False),
+    "hung: a body off its centre": (SHIFTED, [WEIGHT], False),
     "a spring at one place": (CENTRED, [Spring([0.3, 0, 0], [1, 0, 0], 5)], False),
 }
 
