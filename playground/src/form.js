@@ -44,7 +44,7 @@ const SHOWN = ["", ...BODY, ...FORCES, "parameters", "initial"];
 
 export class Form {
   constructor(place, schema, changed) {
-    Object.assign(this, { place, schema, changed, text: "", faults: [], forgotten: new Map(), bodies: new Map() });
+    Object.assign(this, { place, schema, changed, text: "", faults: [], forgotten: new Map(), bodies: new Map(), unread: new Map() });
     place.addEventListener("submit", (e) => e.preventDefault());
     document.addEventListener("faults", (e) => {
       this.faults = e.detail;
@@ -59,7 +59,7 @@ export class Form {
   /* `plain`: a text, and whether it is TOML; nothing where the worker had no time to say so */
   show(plain, words) {
     const { text, read } = plain ?? { text: this.latest, read: true };
-    if (text !== this.text) for (const x of [this.forgotten, this.bodies]) x.clear();
+    if (text !== this.text) for (const x of [this.forgotten, this.bodies, this.unread]) x.clear();
     Object.assign(this, { words, text: text ?? "" });
     if (text && read) return this.draw();
     const afresh = make("button", { type: "button", click: () => {
@@ -88,7 +88,7 @@ export class Form {
   /* ---- fields */
 
   field(label, mark, value, put_, more = {}) {
-    const input = make("input", { ...more, "data-mark": mark, change: () => put_(input.value, input) });
+    const input = make("input", { ...more, "data-mark": mark, change: () => put_(input.value) });
     input.value = value;
     return make("label", {}, `${label} `, input);
   }
@@ -110,12 +110,14 @@ export class Form {
     return make("label", {}, `${label} `, select);
   }
 
-  /* a number, with a comma or a point; what is none is told beside it, and not written */
-  number(label, mark, value, put_, more) {
-    return this.field(label, mark, value, (typed, input) => {
+  /* the number of a parameter, with a comma or a point; what is none is told beside it, is not written, and stays there
+   * with what is told until it is one, whatever is drawn or derived meanwhile */
+  number(label, k, key, value, put_, more) {
+    return this.field(label, `${k}.${key}`, this.unread.get(key) ?? value, (typed) => {
       const x = typed.trim() ? numeral(typed) : "";
-      if (x !== null) return put_(x);
-      return this.tell(input, this.words.nonumber(typed.trim()));
+      if (x === null) this.unread.set(key, typed);
+      else this.unread.delete(key);
+      return x === null ? this.mark() : put_(x);
     }, { inputmode: "decimal", ...more });
   }
 
@@ -211,7 +213,7 @@ export class Form {
       const value = this.text.slice(begin, end), told = about(value);
       const set = (x) => this.write(put(this.text, k, key, withDefault(value, x)));
       const label = told.unit ? `${key} (${told.unit})` : key;
-      return make("span", { class: "box" }, this.number(label, `${k}.${key}`, told.default, set, { title: told.meaning ?? false }),
+      return make("span", { class: "box" }, this.number(label, k, key, told.default, set, { title: told.meaning ?? false }),
         make("button", { type: "button", class: "quiet", "aria-label": `${words.remove} ${key}`, click: () => this.write(withoutParameter(this.text, key)) }, "✕"));
     }))];
   }
@@ -253,6 +255,12 @@ export class Form {
     for (const { line, message } of this.faults) {
       const input = this.where(line);
       if (input) this.tell(input, message.replace(/^derive: (\S+\.toml: )?/, ""));
+    }
+    const k = tables(this.text).findIndex((x) => x.name === "parameters");
+    for (const [key, typed] of this.unread) {
+      const input = this.at(`${k}.${key}`);
+      if (input) this.tell(input, this.words.nonumber(typed.trim()));
+      else this.unread.delete(key);
     }
   }
 

@@ -8,8 +8,8 @@ import sys
 import numpy as np
 import pytest
 
-from derive import derive
-from tests.support.emitted import GENERATED, import_python
+from tests.support.cached import ROOT
+from tests.support.library import emission, module_of
 from tests.support.needs import need, needs
 
 JAX = """
@@ -60,7 +60,7 @@ rotation = { axis = [1, 2, 2], angle = "0.7" }
 @pytest.mark.parametrize("name", ["so3", "se3", "sl3"])
 def test_jax(name):
     """jit, vmap, grad, and a batch sharded over four devices of the host."""
-    path = GENERATED / name / f"{name}.py"
+    path = ROOT / "generated" / name / f"{name}.py"
     flags = {"XLA_FLAGS": "--xla_force_host_platform_device_count=4", "JAX_PLATFORMS": "cpu"}
     command = [sys.executable, "-c", JAX, str(path)]
     done = subprocess.run(command, env=os.environ | flags, capture_output=True, text=True)
@@ -74,7 +74,7 @@ def test_other_arrays(name, library):
     need(f"the module {library}")
     if library == "torch":
         need("the module array_api_compat")
-    xp, m = importlib.import_module(library), import_python(name)
+    xp, m = importlib.import_module(library), module_of(name)
     asarray = xp.asarray if hasattr(xp, "asarray") else xp.tensor
     p = np.array([m.DEFAULTS[x] for x in m.PARAMETERS])
     rng = np.random.default_rng(0)
@@ -96,14 +96,13 @@ def test_other_arrays(name, library):
 
 
 @pytest.mark.parametrize("library", ["array_api_strict", "torch", "jax.numpy"])
-def test_a_length_of_0(library, tmp_path):
+def test_a_length_of_0(library):
     """Asking whether a parameter is 0 needs nothing beyond the standard."""
     need(f"the module {library.partition('.')[0]}")
     if library == "torch":
         need("the module array_api_compat")
     xp = importlib.import_module(library)
-    derive("two_tops").emit(tmp_path, languages=["python"])
-    m = import_python("two_tops", tmp_path)
+    m = module_of("two_tops")
     asarray = getattr(xp, "asarray", None) or xp.tensor
     p = np.array([m.DEFAULTS[x] for x in m.PARAMETERS])
     for length in (0.0, 0.4):
@@ -114,14 +113,12 @@ def test_a_length_of_0(library, tmp_path):
 
 
 @needs("the module array_api_strict")
-def test_functions_of_numbers_alone(tmp_path):
+def test_functions_of_numbers_alone():
     """Strict libraries have no cosine of a plain number."""
     import array_api_strict as xp
 
-    (tmp_path / "test.toml").write_text(TURNED)
-    derive(tmp_path / "test.toml").emit(tmp_path, languages=["python"])
-    assert "xp.cos(0.7)" in (tmp_path / "test.py").read_text()
-    m = import_python("test", tmp_path)
+    assert "xp.cos(0.7)" in emission(TURNED, ("python",))[1]["test.py"]
+    m = module_of(TURNED)
     k, x = m.constants([2.0]), np.random.default_rng(0).normal(size=(5, len(m.STATE)))
     found = m.constants(xp.asarray([2.0]))
     assert np.allclose(np.asarray(found), k, rtol=1e-14)
@@ -139,7 +136,7 @@ def test_functions_of_numbers_alone(tmp_path):
 )
 def test_arrays_of_another_size(change, says):
     """The message names the array, how long it is and how long it should be."""
-    m = import_python("so3")
+    m = module_of("so3")
     k = m.constants(np.array([m.DEFAULTS[x] for x in m.PARAMETERS]))
     given = (0.1, np.ones(len(m.STATE)), k, np.ones(len(m.INPUTS)))
     with pytest.raises(ValueError, match=f"so3: {says}"):
@@ -150,7 +147,7 @@ def test_arrays_of_another_size(change, says):
 
 def test_one_state_is_computed_in_plain_numbers():
     """No array for each operation: no call of NumPy's arithmetic but the one that makes dx."""
-    m = import_python("so3")
+    m = module_of("so3")
     k = m.constants(np.array([m.DEFAULTS[x] for x in m.PARAMETERS]))
     x = np.random.default_rng(0).normal(size=len(m.STATE))
     seen = []
@@ -163,7 +160,7 @@ def test_one_state_is_computed_in_plain_numbers():
 
 def test_what_has_no_value_is_not_an_error():
     """1/0 and √−1 of one state are inf and nan, as in a batch."""
-    m = import_python("sl3")
+    m = module_of("sl3")
     k = m.constants(np.array([m.DEFAULTS[x] for x in m.PARAMETERS]))
     with np.errstate(all="ignore"):
         assert not np.isfinite(m.rhs(0, np.zeros(len(m.STATE)), k)).all()

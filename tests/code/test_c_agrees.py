@@ -44,7 +44,7 @@ class Compared:
     def __init__(self, folder, prefixes):
         self.folder, self.prefixes = folder, prefixes
         names = {*prefixes.values()}
-        values = {name: some_parameters(name, folder) for name in sorted(names)}
+        values = {name: some_parameters(name) for name in sorted(names)}
         self.first = built(["gcc", "-O0", *SAME, *multiply_add()], prefixes, folder, "first.so")
         rng = np.random.default_rng(5)
         self.cases = {}

@@ -20,7 +20,7 @@ def exercise(tmp_path_factory):
     """A folder with every form, exercise.c that calls all of it, and the prefixes."""
     folder = tmp_path_factory.mktemp("exercise")
     made = emit_forms(folder)
-    values = {name: some_parameters(name, folder) for name in PROBLEMS}
+    values = {name: some_parameters(name) for name in PROBLEMS}
     headers = {x: (folder / f"{x}.h").read_text(encoding="utf-8") for x in made}
     fixed = {x for x, name in made.items() if name in NUMBERS}
     bodies = {x: values[name] for x, name in made.items()}

@@ -12,7 +12,6 @@ from scipy.integrate import solve_ivp
 from derive.code.emit import emit
 from derive.code.languages import LANGUAGES
 from derive.code.options import Options
-from derive.code.program import LoweringError
 from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.language.limits import Refused
@@ -180,11 +179,6 @@ def test_nothing_else_changes():
     plain, kept = (derive(name).emit(conserved=x)[f"{name}.c"] for x in (False, True))
     rhs = plain[plain.index("void so3_rhs") : plain.index("double so3_energy")]
     assert rhs in kept
-
-
-def test_what_is_refused():
-    with pytest.raises(LoweringError, match="leave out frame"):
-        derive("se3").emit(conserved=True, frame="principal")
 
 
 TOP = """name = "top"

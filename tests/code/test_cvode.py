@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derive import compile, derive
-from tests.support.emitted import import_python
+from tests.support.library import module_of
 from tests.support.needs import CC, needs
 
 MAIN = """\
@@ -115,7 +115,7 @@ def test_cvode_projects_each_step(tmp_path):
     exact = solve_ivp(f, (0, 1), start, method="DOP853", rtol=1e-11, atol=1e-11).y[9, -1]
     assert abs(float(solved.stdout) - exact) < 1e-3
     entries = subprocess.run(["./main", "D"], cwd=tmp_path, capture_output=True, check=True).stdout
-    code = import_python("top", tmp_path)
+    code = module_of("top", jacobian=("raw",))
     expected = code.jacobian_raw(0.0, start, code.constants([800, 0.03, 0.05, 9.81]))
     found = np.array(entries.split(), float).reshape(expected.shape)
     assert np.abs(found - expected).max() < 1e-12 * np.abs(expected).max()

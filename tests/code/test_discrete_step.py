@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 import derive
-from derive.code.program import LoweringError
 from derive.language import rational as q
 from derive.pipeline import discrete
 from derive.problem.toml import problem_of
@@ -216,30 +215,3 @@ def test_too_large_a_step_is_told_on_any_group(name, h):
     with pytest.raises(ArithmeticError, match="no discrete step"):
         m.move(h)
     assert np.array_equal(m.x, x)
-
-
-REFUSED = {
-    "gyrostat": "a Lagrangian of points",
-    "two_tops": "a product of groups",
-    "zeitlin": "on the torus",
-}
-
-
-@pytest.mark.parametrize("name", REFUSED)
-def test_what_has_no_discrete_step_is_refused(name, tmp_path):
-    with pytest.raises(LoweringError, match=REFUSED[name]):
-        derive.derive(name).emit(tmp_path, ("c",), step="discrete")
-    assert not [*tmp_path.iterdir()]
-
-
-@pytest.mark.parametrize(
-    "choice", [{"attitude": "quaternion"}, {"velocity": "tangent"}, {"frame": "principal"}]
-)
-def test_other_forms_of_the_state_are_refused(choice, tmp_path):
-    with pytest.raises(LoweringError, match="leave it out"):
-        derive.derive("so3").emit(tmp_path, ("c",), step="discrete", **choice)
-
-
-def test_an_order_belongs_to_the_discrete_step(tmp_path):
-    with pytest.raises(ValueError, match="order is that of step discrete"):
-        derive.derive("so3").emit(tmp_path, ("c",), step="rk4", order=4)

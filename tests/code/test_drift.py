@@ -1,7 +1,8 @@
 """project and defect: back to the group by one Newton step, in every form and language."""
 
+import ctypes
 import subprocess
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -12,9 +13,8 @@ from derive import derive as walked
 from derive.algebra.families import FAMILIES, group, on_homogeneous, turning_about_a_point
 from derive.algebra.relations import relations
 from derive.code.languages import LANGUAGES
-from derive.problem.toml import problem_of
 from tests.problems import GROUPS, PROBLEMS
-from tests.support.emitted import compile_c, import_python, vector
+from tests.support.library import library, module_of
 from tests.support.needs import CC, needs, present
 
 KEPT = [x for x in (*GROUPS, "SO(3)", "SE(3)", "SU(3)") if not x.startswith(("GL", "Aff"))]
@@ -56,26 +56,6 @@ def text(name):
     rows = [[float(i == j) + 0.1 * (i + j) for j in range(n)] for i in range(n)]
     points = "".join(f"[[point]]\nmass = 1.0\nat = {row}\n" for row in rows)
     return f'name = "test"\ngroup = "{name}"\n{points}'
-
-
-@pytest.fixture(scope="module")
-def module(tmp_path_factory):
-    """A function (name, form) → the emitted Python, made once; with the C beside it."""
-    import tomllib
-
-    made, problems = {}, {}
-
-    def get(name, **options):
-        key = (name, *sorted(options.items()))
-        if key not in made:
-            if name not in problems:
-                problems[name] = walked(problem_of(tomllib.loads(text(name))))
-            folder = tmp_path_factory.mktemp("drift")
-            problems[name].emit(folder, ("c", "python"), **options)
-            made[key] = import_python("test", folder), folder
-        return made[key]
-
-    return get
 
 
 def element(name, seed=3):
@@ -162,9 +142,9 @@ def leaves(m, A, V):
 
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("name", [*KEPT, "SO(3) x SO(3)", "SE(3) x SO(3)"])
-def test_one_step_squares_the_error(name, form, module):
+def test_one_step_squares_the_error(name, form):
     """By oracles that know each group by its definition, not by the emitted relations."""
-    m, _ = module(name, **FORMS[form])
+    m = module_of(text(name), **FORMS[form])
     g, A = element(name)
     x = state_of(m, g, A)
     assert m.defect(x) <= 1e-13
@@ -184,9 +164,9 @@ def test_one_step_squares_the_error(name, form, module):
 
 
 @pytest.mark.parametrize("name", [x for x in KEPT if not x.startswith("UT")])
-def test_a_velocity_that_leaves_the_group_is_made_tangent(name, module):
+def test_a_velocity_that_leaves_the_group_is_made_tangent(name):
     """On the group itself the tangent part of a velocity stays and no other."""
-    m, _ = module(name, velocity="tangent")
+    m = module_of(text(name), velocity="tangent")
     g, A = element(name)
     x = state_of(m, g, A)
     half = len(x) // 2
@@ -200,9 +180,8 @@ def test_a_velocity_that_leaves_the_group_is_made_tangent(name, module):
 
 
 @pytest.mark.parametrize("name", ["so3", "se3"])
-def test_a_quaternion_is_made_unit(name, tmp_path):
-    walked(name).emit(tmp_path, ("python",), attitude="quaternion")
-    m = import_python(name, tmp_path)
+def test_a_quaternion_is_made_unit(name):
+    m = module_of(name, attitude="quaternion")
     rng = np.random.default_rng(1)
     x = rng.normal(size=len(m.STATE))
     x[:4] /= np.linalg.norm(x[:4])
@@ -219,10 +198,9 @@ def test_a_quaternion_is_made_unit(name, tmp_path):
 
 @pytest.mark.parametrize(("name", "law"), [("so3", "SO"), ("se3", "SE"), ("sl3", "SL")])
 @pytest.mark.parametrize("velocity", ["body", "tangent"])
-def test_in_the_principal_frame_the_group_is_the_same(name, law, velocity, tmp_path):
+def test_in_the_principal_frame_the_group_is_the_same(name, law, velocity):
     """A state of the group taken there has no defect, and one beside it is taken back."""
-    walked(name).emit(tmp_path, ("python",), frame="principal", velocity=velocity)
-    m = import_python(name, tmp_path)
+    m = module_of(name, frame="principal", velocity=velocity)
     k = m.constants({x: m.DEFAULTS.get(x, 1.3) for x in m.PARAMETERS})
     g, A = element(f"{law}(3)")
     x = state_of(m, g, A)
@@ -257,8 +235,8 @@ def test_the_header_says_when_they_are_needed(tmp_path):
     assert "group of dimension 2" in " ".join(partly.replace(" * ", " ").split())
 
 
-def test_batches_keep_their_shape(module):
-    m, _ = module("SL(4)", velocity="tangent")
+def test_batches_keep_their_shape():
+    m = module_of(text("SL(4)"), velocity="tangent")
     g, A = element("SL(4)")
     x = state_of(m, g, A) * 1.01
     many = np.tile(x, (5, 4, 1))
@@ -272,15 +250,14 @@ def test_batches_keep_their_shape(module):
 @needs("cc")
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("name", ["SU(3)", "Sim(3)", "Sp(4)", "SAff(2)", "SE(3) x SO(3)", "U(2)"])
-def test_c_does_as_python_and_in_place(name, form, module, tmp_path):
-    m, folder = module(name, **FORMS[form])
-    c = compile_c(CC, "test", tmp_path, folder)
+def test_c_does_as_python_and_in_place(name, form):
+    m, c = (f(text(name), **FORMS[form]) for f in (module_of, partial(library, "c")))
     x = np.random.default_rng(3).normal(size=len(m.STATE))
-    out = c.project(x)
+    out = c.said("project", x)
     assert np.allclose(out, m.project(x), rtol=1e-14, atol=1e-14 * np.abs(out).max())
-    assert np.isclose(c.defect(x), m.defect(x), rtol=1e-14)
-    own = vector(x).copy()
-    c.library.test_project(own, own)
+    assert np.isclose(c.said("defect", x), m.defect(x), rtol=1e-14)
+    own = x.copy()
+    c.shared.test_project(*[ctypes.c_void_p(own.ctypes.data)] * 2)
     assert np.array_equal(own, out)
 
 
@@ -327,9 +304,8 @@ int main(int argc, char **argv)
 @needs("cc")
 def test_a_million_steps_on_sl3_by_tangent_velocities(tmp_path):
     """Left alone, det A = 1 is lost, in NaN in the end; taken back once a step, it stays."""
-    d = walked("sl3")
-    d.emit(tmp_path, ("c", "python"), velocity="tangent")
-    m = import_python("sl3", tmp_path)
+    walked("sl3").emit(tmp_path, ("c",), velocity="tangent")
+    m = module_of("sl3")
     values = ", ".join(repr(float(m.DEFAULTS[x])) for x in m.PARAMETERS)
     (tmp_path / "main.c").write_text(LONG.replace("PARAMETERS}", values + "}"))
     command = [CC, "-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "main.c", "sl3.c"]

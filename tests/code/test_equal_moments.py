@@ -1,15 +1,14 @@
 """Where moments are equal the principal frame is a choice: every build and language makes one."""
 
-import subprocess
-
 import numpy as np
 import pytest
 
-from derive import SE, SL, Covector, Gravity, Moments, Problem, SAff, derive
-from tests.support.emitted import CLibrary, compile_c, import_python
-from tests.support.needs import CC, need
+from derive import SE, SL, Covector, Gravity, Moments, Problem, SAff
+from tests.support.library import library, module_of
+from tests.support.needs import need
 
 BUILDS = {
+    "strict": ["-O2"],
     "plain": ["-O2", "-ffp-contract=off"],
     "fused": ["-O3", "-march=native", "-ffp-contract=fast"],
     "fast": ["-O3", "-march=native", "-fno-math-errno", "-fassociative-math", "-fno-signed-zeros",
@@ -38,20 +37,13 @@ BODIES = {
 
 
 @pytest.fixture(scope="module", params=["SE(3)", "SL(3)", "SAff(3)"])
-def emitted(request, tmp_path_factory):
+def emitted(request):
     """A free body: the module, and the library of each build."""
     need("cc")
-    folder = tmp_path_factory.mktemp("equal")
     group = {"SE(3)": SE(3), "SL(3)": SL(3), "SAff(3)": SAff(3)}[request.param]
     problem = Problem("body", group, Moments(), [Gravity("g", 0, 1), Covector("u")], {"g": 1})
-    derive(problem).emit(folder, ("c", "python"), frame="principal")
-    libraries = {"strict": compile_c(CC, "body", folder, folder)}
-    for name, flags in BUILDS.items():
-        out = folder / f"{name}.so"
-        command = [CC, *flags, "-fPIC", "-shared", "body.c", "probe.c", "-o", out, "-lm"]
-        subprocess.run(command, cwd=folder, check=True)
-        libraries[name] = CLibrary(out, "body")
-    return import_python("body", folder), libraries
+    libraries = {x: library("c", problem, flags, frame="principal") for x, flags in BUILDS.items()}
+    return module_of(problem, frame="principal"), libraries
 
 
 @pytest.mark.parametrize("body", BODIES)
@@ -68,8 +60,8 @@ def test_one_choice(body, emitted):
     expected = module.into_frame(x, k)
     assert np.allclose(module.constants(np.stack([p, p]))[1], k, rtol=1e-12, atol=1e-12)
     assert np.allclose(module.out_of_frame(expected, k), x, rtol=1e-11, atol=1e-11)
-    for name, library in libraries.items():
-        status, constants = library.constants(p)
+    for name, build in libraries.items():
+        status, constants = build.constants(p)
         assert status == 0
-        found = library.carried("into_frame", constants, x)
+        found = build.said("into_frame", x, k=constants)
         assert np.abs(found - expected).max() < 1e-11 * np.abs(expected).max(), name

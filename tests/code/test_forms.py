@@ -9,7 +9,6 @@ import pytest
 
 from derive import compile as compiled
 from derive import derive
-from derive.code.program import LoweringError
 from derive.command.cli import main
 from derive.problem.toml import problem_of
 from tests.problems import MIXED, SKEWED
@@ -373,17 +372,3 @@ def test_compiled_in_its_frame():
     assert np.allclose(f.out_of_frame(f(0.0, y)), g(0.0, x), atol=1e-11)
     with pytest.raises(ValueError, match="frame='principal'"):
         g.into_frame(x)
-
-
-@pytest.mark.parametrize(
-    ("name", "options", "words"),
-    [
-        ("se3", QUATERNION | TANGENT, "not tangent"),
-        ("sl3", QUATERNION, "needs SO"),
-        ("sl3", {"jacobian": ("inputs",)}, "no inputs"),
-        ("so3", FRAMED | {"jacobian": ("parameters",)}, "not smooth"),
-    ],
-)
-def test_what_does_not_go_together(name, options, words):
-    with pytest.raises(LoweringError, match=words):
-        derive(name).emit(None, ("python",), **options)

@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 import derive
-from derive.code.emit import EmitError
 from tests.problems.line import FALLING
-from tests.support.emitted import import_python
+from tests.support.library import module_of
 from tests.support.needs import need
 
 need("the module jax")
@@ -27,22 +26,14 @@ def _doubles():
         yield
 
 
-@pytest.fixture(scope="module")
-def emitted(tmp_path_factory):
-    """A function (problem, options) → the module with both steps, and constants."""
-
-    def get(problem, **options):
-        folder = tmp_path_factory.mktemp("jax")
-        made = derive.derive(problem)
-        made.emit(folder, ("python",), step=("gauss", "gauss_jax"), **options)
-        m = import_python(made.record.name, folder)
-        return m, m.constants([m.DEFAULTS.get(x, 0.7) for x in m.PARAMETERS])
-
-    return get
+def emitted(problem, **options):
+    """The module with both steps, and constants."""
+    m = module_of(problem, step=("gauss", "gauss_jax"), **options)
+    return m, m.constants([m.DEFAULTS.get(x, 0.7) for x in m.PARAMETERS])
 
 
 @pytest.fixture(scope="module")
-def top(emitted):
+def top():
     return emitted("so3")
 
 
@@ -87,7 +78,7 @@ def near_the_identity(names, options):
         ("zeitlin", {}),
     ],
 )
-def test_the_steps_are_those_of_python(emitted, problem, options):
+def test_the_steps_are_those_of_python(problem, options):
     """In every kind of state: fixed steps, within one, and adaptive ones back."""
     m, k = emitted(problem, **options)
     x = near_the_identity(m.STATE, options)
@@ -170,10 +161,9 @@ def test_the_derivative_of_a_motion(top):
     assert np.abs(found - ((np.array(sides[0]) - sides[1]) / (2 * h)).T).max() < 1e-6
 
 
-def test_a_motion_that_ends_leaves_the_others(emitted, tmp_path):
+def test_a_motion_that_ends_leaves_the_others():
     """Points that fall into a centre from 1, where they stop before it and stay, and from 100."""
-    (tmp_path / "line.toml").write_text(FALLING)
-    m, k = emitted(tmp_path / "line.toml")
+    m, k = emitted(FALLING)
     x = np.zeros((4, len(m.STATE)))
     x[:, [m.STATE.index("A_11"), m.STATE.index("A_22")]] = 1
     x[:, m.STATE.index("T_1")] = [1, 100, 100, 1]
@@ -231,7 +221,7 @@ def test_over_devices(tmp_path):
     assert done.returncode == 0, done.stderr[-2000:]
 
 
-def test_what_is_refused(top, tmp_path):
+def test_what_is_refused(top):
     m, _ = top
     with (
         jax.enable_x64(False),
@@ -242,13 +232,3 @@ def test_what_is_refused(top, tmp_path):
         m.begin_jax(0.0, [heavy()])
     with pytest.raises(ValueError, match="so3: x has 11 numbers, not 12"):
         m.begin_jax(0.0, heavy()[1:])
-    so3 = derive.derive("so3")
-    with pytest.raises(EmitError, match="step gauss_jax is written for python, not for c"):
-        so3.emit(tmp_path, ("c", "python"), step="gauss_jax")
-    with pytest.raises(EmitError, match="not for c; emit c apart, without it"):
-        so3.emit(tmp_path, ("c", "python"), step="gauss_jax")
-    with pytest.raises(EmitError, match=r"not for c$"):
-        so3.emit(tmp_path, ("c",), step="gauss_jax")
-    with pytest.raises(EmitError, match="step gauss_jax is of doubles: leave out real float"):
-        so3.emit(tmp_path, ("python",), step="gauss_jax", real="float")
-    assert not [*tmp_path.iterdir()]

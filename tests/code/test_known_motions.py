@@ -13,9 +13,8 @@ from tests.oracles import (
     relative_error,
     sampling,
 )
-from tests.support.emitted import arrange, import_python
 from tests.support.flows import flow
-from tests.support.library import module_of
+from tests.support.library import arrange, module_of
 
 RNG = np.random.default_rng(2)
 BODY_TURN, SPACE_TURN = sampling.random_rotation(RNG), sampling.random_rotation(RNG)
@@ -26,7 +25,7 @@ CENTRE = np.array([0.3, -0.2, 0.5])
 
 def constants(name, body):
     """A committed module, and its constants for a body of points."""
-    code = import_python(name)
+    code = module_of(name)
     return code, code.constants(arrange(code, sampling.parameters(name, body)))
 
 

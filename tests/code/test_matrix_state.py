@@ -9,8 +9,7 @@ import derive
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
 from tests.oracles.sampling import quaternion
-from tests.support.emitted import import_python
-from tests.support.library import library
+from tests.support.library import library, module_of
 
 AXES = [v for v in product((-1.0, 0.0, 1.0), repeat=3) if any(v)]
 CARRIED = ("from_matrix", "to_matrix")
@@ -75,9 +74,8 @@ def test_a_matrix_that_is_off_gives_a_unit_quaternion_near_it(states, compiled):
         assert np.abs(compiled.to_matrix(x) - off)[:9].max() < 2e-5
 
 
-def test_python_does_as_c_also_with_many(states, compiled, tmp_path):
-    derive.derive("se3").emit(tmp_path, ("python",), attitude="quaternion")
-    m = import_python("se3", tmp_path)
+def test_python_does_as_c_also_with_many(states, compiled):
+    m = module_of("se3", attitude="quaternion")
     plain = derive.compile("se3")
     assert plain.STATE == m.MATRIX_STATE
     many = m.from_matrix(states)

@@ -94,14 +94,16 @@ LANGUAGES_OF = [(x, False) for x in ONE_BUILD.values()] + [("c", True), ("python
 @pytest.mark.parametrize("part", range(PARTS))
 @pytest.mark.parametrize(("build", "framed"), LANGUAGES_OF)
 def test_in_a_language(build, framed, part):
-    """Also what finds the principal frame; the numbers are those that C gives of plain names."""
+    """Also what finds the principal frame; the numbers are those of C, and those of its words are
+    the numbers of plain names."""
     language = BUILDS[build][0]
     names = [*dict.fromkeys([*words(language, part, framed=framed), *RESERVED])]
     assert len(names) > 100
     make, options = (of_springs, {"frame": "principal"}) if framed else (problem, {})
     worded = Case(make(names), options, tolerance=1e-12 if framed else 1e-13)
     assert tuple(names) == worded.parameters
-    worded.reference = Case(make(plain(names), "neutral"), options).reference
+    if build == "c":
+        worded.reference = Case(make(plain(names), "neutral"), options).reference
     worded.agrees(build)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.oracles import articulated, relative_error, sampling, sympy_mechanics
-from tests.support.emitted import arrange, import_python
+from tests.support.library import arrange, module_of
 from tests.support.needs import needs
 
 SOLIDS = ("so3", "se3")
@@ -13,7 +13,7 @@ STATES = 100
 
 def cases(name, seed):
     """Bodies with first moments, states, inputs, and what the emitted code makes of them."""
-    code, rng = import_python(name), np.random.default_rng([seed, len(name), ord(name[1])])
+    code, rng = module_of(name), np.random.default_rng([seed, len(name), ord(name[1])])
     for _ in range(STATES):
         body, x = sampling.random_body(name, rng), sampling.random_state(name, rng)
         u = rng.normal(size=sampling.DIMENSION[name])
@@ -31,7 +31,7 @@ def test_kanes_method_of_sympy(name):
 
 def test_lagranges_method_of_sympy():
     """By Euler angles: their second derivatives, turned into those of so3."""
-    code, rng = import_python("so3"), np.random.default_rng(2)
+    code, rng = module_of("so3"), np.random.default_rng(2)
     worst = 0.0
     for _ in range(STATES):
         body, u = sampling.random_body("so3", rng), rng.normal(size=3)

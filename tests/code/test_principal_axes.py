@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from derive import derive
-from tests.support.emitted import import_python
+from tests.support.library import module_of
 
 BODIES = {
     "any": [1.3, 0.1, 0.05, 0.9, -0.07, 0.4],
@@ -31,17 +30,6 @@ POINTS = POINTS.replace("k = {}", "\n".join(f"{x} = {{}}" for x in ("k", *NAMES)
 POINTS += "".join(f'[[point]]\nmass = "m{i}"\nat = ["x{i}", "y{i}", "z{i}"]\n' for i in (1, 2, 3))
 
 
-def emitted(problem, folder):
-    """The Python of a ready-made problem or of a text."""
-    if "\n" in problem:
-        path = folder / "problem.toml"
-        path.write_text(problem)
-        problem = path
-    derived = derive(problem)
-    derived.emit(folder, ["python"])
-    return import_python(derived.problem.name, folder)
-
-
 def rates(module, p, A, T, vectors, forces):
     x = np.concatenate([A.ravel(), T, vectors.ravel()])
     dx = module.rhs(0.0, x, module.constants(p), forces.ravel())
@@ -58,8 +46,8 @@ def parameters(name, body, module, rng):
 
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize("name", ["so3", "se3", POINTS], ids=["so3", "se3", "points"])
-def test_the_motion_is_the_same(name, body, tmp_path):
-    module = emitted(name, tmp_path)
+def test_the_motion_is_the_same(name, body):
+    module = module_of(name)
     rng = np.random.default_rng(4)
     p = parameters(name, body, module, rng)
     moments, R = module.principal_axes(p)
@@ -81,7 +69,7 @@ def test_the_motion_is_the_same(name, body, tmp_path):
 
 
 def test_a_batch_of_bodies():
-    module, rng = import_python("so3"), np.random.default_rng(5)
+    module, rng = module_of("so3"), np.random.default_rng(5)
     batch = np.stack([parameters("so3", body, module, rng) for body in BODIES])
     moments, R = module.principal_axes(batch)
     turned = module.turned(batch, R)
@@ -90,8 +78,8 @@ def test_a_batch_of_bodies():
         assert np.allclose(turned[i], module.turned(p, R[i]))
 
 
-def test_a_ball_has_its_moments(tmp_path):
-    module = emitted("ellipsoid", tmp_path)
+def test_a_ball_has_its_moments():
+    module = module_of("ellipsoid")
     p = dict.fromkeys(module.PARAMETERS, 1.0) | {"rho": 3.0, "a": 2.0, "b": 2.0, "c": 2.0}
     moments, _ = module.principal_axes([p[x] for x in module.PARAMETERS])
     assert np.allclose(moments, 0.4 * (3 * 4 / 3 * np.pi * 8) * 4, rtol=1e-14)
@@ -99,7 +87,7 @@ def test_a_ball_has_its_moments(tmp_path):
 
 def test_parameters_by_name():
     """Wherever parameters are taken, a dictionary will do."""
-    so3 = import_python("so3")
+    so3 = module_of("so3")
     named = {"J_12": 0.2, "c_3": 0.1}
     p = np.array([named.get(x, so3.DEFAULTS.get(x)) for x in so3.PARAMETERS])
     for function in (so3.constants, so3.inertia, lambda p: so3.principal_axes(p)[1]):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from derive import derive
-from tests.support.emitted import import_python
+from tests.support.library import module_of
 from tests.support.needs import CC, need, needs
 
 ARM = ["-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16"]
@@ -45,10 +45,10 @@ def built(request, tmp_path_factory):
     """The name, the folder with the object file, and the module."""
     need("arm-none-eabi-gcc")
     name, folder = request.param, tmp_path_factory.mktemp("arm")
-    derive(name).emit(folder, ["c", "python"], real="float")
+    derive(name).emit(folder, ["c"], real="float")
     command = ["arm-none-eabi-gcc", *ARM, *STRICT, "-fstack-usage", "-c", f"{name}.c"]
     subprocess.run(command, cwd=folder, check=True)
-    return name, folder, import_python(name, folder)
+    return name, folder, module_of(name, real="float")
 
 
 def test_stack_and_size(built):
@@ -102,10 +102,8 @@ def test_it_computes_what_the_host_does(built):
 @pytest.mark.parametrize("name", ["so3", "se3"])
 def test_a_ship_in_single_numbers(name, tmp_path):
     """Moments of 1e13 kg m²: their determinant is no float, and is not needed."""
-    code = derive(name)
-    code.emit(tmp_path, ["c"], real="float")
-    code.emit(tmp_path, ["python"])
-    module = import_python(name, tmp_path)
+    derive(name).emit(tmp_path, ["c"], real="float")
+    module = module_of(name)
     body = {"m": 3e8, "J_11": 3e12, "J_22": 6e11, "J_33": 2e11, "J_13": 3e10, "c_3": 1e9}
     p = [body.get(x, -9.8 if x == "g_3" else 0.0) for x in module.PARAMETERS]
     values = ", ".join(f"{v!r}f" for v in p)

@@ -14,8 +14,7 @@ from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.programs import program
 from tests.oracles import torus
-from tests.support.emitted import compile_c, import_python
-from tests.support.library import ONE_BUILD, STEPPED, library
+from tests.support.library import ONE_BUILD, STEPPED, library, module_of
 from tests.support.needs import CC, need
 
 FILE = """
@@ -35,24 +34,14 @@ def fluid(N):
     return problem_of({"name": f"fluid{N}", "algebra": algebra, "inertia": inertia})
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return tmp_path_factory.mktemp("torus")
-
-
-def emitted(N, folder, **options):
-    derive(fluid(N)).emit(folder, ("c", "python"), **{"conserved": True, **options})
-    return import_python(f"fluid{N}", folder), compile_c(CC, f"fluid{N}", folder, folder)
-
-
 def close(found, expected):
     assert np.abs(found - expected).max() <= 1e-12 * np.abs(expected).max()
 
 
 @pytest.mark.parametrize("N", SIZES)
-def test_c_python_and_plain_sums_agree(N, folder):
+def test_c_python_and_plain_sums_agree(N):
     need("cc")
-    m, c = emitted(N, folder)
+    m, c = module_of(fluid(N), conserved=True), library("c", fluid(N), conserved=True)
     x = np.random.default_rng(N).normal(size=N * N - 1)
     k = m.constants([])
     status, in_c = c.constants(np.zeros(0))
@@ -64,7 +53,7 @@ def test_c_python_and_plain_sums_agree(N, folder):
     close(c.energy(0.0, x, in_c), torus.energy(N, x))
     close(m.conserved(0.0, x, k), torus.traces(N, x))
     both = np.stack([x, 2 * x, x[::-1]], axis=-1)
-    close(c.rhs_batch(0.0, both, in_c, None).T, m.rhs(0.0, both.T, k))
+    close(c.rhs_batch(0.0, both, in_c).T, m.rhs(0.0, both.T, k))
     assert m.STATE[:4] == (
         "re_1_0",
         "im_1_0",
@@ -72,19 +61,17 @@ def test_c_python_and_plain_sums_agree(N, folder):
     )
 
 
-def test_floats(folder):
+def test_floats():
     x = np.random.default_rng(0).normal(size=120)
-    derive(fluid(11)).emit(folder, ("python",), "fluid_float", real="float")
-    m = import_python("fluid_float", folder)
+    m = module_of(fluid(11), real="float")
     found = m.rhs(0.0, x.astype(np.float32), m.constants([]).astype(np.float32))
     assert found.dtype == np.float32
     assert np.abs(found - torus.rates(11, x)).max() < 1e-4
 
 
 @pytest.mark.parametrize("N", [5, 9, 15])
-def test_energy_and_traces_are_kept(N, folder):
-    need("cc")
-    m, _ = emitted(N, folder)
+def test_energy_and_traces_are_kept(N):
+    m = module_of(fluid(N), conserved=True)
     k = m.constants([])
     x = np.random.default_rng(1).normal(size=N * N - 1) / N
     path = solve_ivp(m.rhs, (0, 10), x, "DOP853", args=(k,), rtol=1e-12, atol=1e-13)

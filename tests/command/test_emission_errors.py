@@ -10,7 +10,7 @@ import pytest
 
 from derive import compile as compiled
 from derive.command.cli import main
-from tests.support.emitted import import_python
+from tests.support.library import module_of
 from tests.support.needs import CC, needs
 from tests.support.unmeasured import environment
 
@@ -201,10 +201,9 @@ def test_check_writes_nothing(tmp_path, capsys):
     assert not new.exists()
 
 
-def test_why_constants_are_refused(tmp_path):
+def test_why_constants_are_refused():
     """A rod, a number that is none, and one that is too large are told apart."""
-    assert main(["emit", "so3", "--lang", "python", "--out", str(tmp_path)]) == 0
-    so3 = import_python("so3", tmp_path)
+    so3 = module_of("so3")
     given = dict.fromkeys(so3.PARAMETERS, 0.0)
     with pytest.raises(ValueError, match="the mass matrix is singular"):
         so3.constants(given | {"J_33": 1.0})

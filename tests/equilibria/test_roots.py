@@ -10,20 +10,17 @@ import sympy
 
 from derive import derive
 from derive.check.checker import Checker
-from derive.code.assemble import assemble
-from derive.code.emit import emit
 from derive.command.cli import main
 from derive.language.expression import parse
 from derive.language.tree import add, replaced
 from derive.language.univariate import RootError, root, value_of
-from derive.pipeline import walk
 from derive.record.as_json import from_json, to_json
 from derive.record.sentence import english
 from derive.search.equilibria.energy_casimir import along_the_orbit, kernel, restricted, solutions
 from derive.search.equilibria.stability import roots_of_squares
 from tests.support.coadjoint_orbits import hat, match, orbit_signature
-from tests.support.emitted import import_python
 from tests.support.lagrangians import disc, heavy, lagrangian, squares
+from tests.support.library import module_of
 from tests.support.walks import SEED
 
 MOMENTS = (1, 3, 2)
@@ -42,13 +39,10 @@ def point(found):
     return np.array([*map(float, found.found.about.at)])
 
 
-def test_the_tilted_top_beside_its_emitted_code(tmp_path):
+def test_the_tilted_top_beside_its_emitted_code():
     """The eigenvalues of finite differences of the emitted rates of (Π, Γ)."""
     problem = heavy([*map(str, MOMENTS)], "A_33/2", "")
-    record = walk(problem)
-    for file, text in emit(assemble(record, problem.group), record, ("python",), "top").items():
-        (tmp_path / file).write_text(text, encoding="utf-8")
-    module = import_python("top", tmp_path)
+    module = module_of(problem)
     k = module.constants({})
 
     def rates(x):

@@ -183,27 +183,6 @@ def test_the_command_tells_the_events(tmp_path, capsys):
     assert err == ""
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ('name = "e"', "event 1: key 'when' is missing"),
-        ('when = "A_11"', "event 1: key 'name' is missing"),
-        ('name = "e"\nwhen = "A_11"\ndirection = "up"', "must be one of both, rising, falling"),
-        ('name = "e"\nwhen = "A_11"\nterminal = 1', "key 'terminal' must be true or false"),
-        ('name = "e"\nwhen = "A_11"\nends = true', "event 1: unknown key 'ends'"),
-        ('name = "e"\nwhen = "w"', "event 1, when: nothing in it changes on a motion"),
-        ('name = "e"\nwhen = 1', "event 1, when: nothing in it changes on a motion"),
-        ('name = "e"\nwhen = "A_11 +"', "event 1, when: unexpected end"),
-        ('name = "e f"\nwhen = "A_11"', "event 1, name: letters, digits and _ only"),
-        ('name = "e"\nwhen = "A_11"\n[[event]]\nname = "e"\nwhen = "A_12"', "a second event 'e'"),
-    ],
-)
-def test_a_bad_table_is_told(tmp_path, text, words):
-    with pytest.raises(ProblemError) as caught:
-        load(problem(tmp_path, f"{SPIN}[[event]]\n{text}\n"))
-    assert words in str(caught.value)
-
-
 def test_more_than_their_limit_are_refused(tmp_path):
     listed = "".join(f'[[event]]\nname = "e{k}"\nwhen = "t"\n' for k in range(51))
     with pytest.raises(ProblemError, match="more than 50 tables"):

@@ -108,37 +108,6 @@ def test_off_the_group_it_is_refused_and_can_be_projected(tmp_path, capsys):
     assert main(["simulate", str(path), "--t", "1", "--project"]) == 0
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("[initial]\nexp = [1, 2]", "initial, exp: expected 3 coordinates in the basis, not 2"),
-        ("[initial]\nexp = [1, 2]", "their order is that of E_1 … E_3"),
-        ("[initial]\nzeta = [1, 2, 3]", "initial, zeta: one number each, zeta_1 = …, zeta_2 = …"),
-        ("[initial]\nexp = 1", "initial, exp: expected a list"),
-        ("[initial]\nzeta_1 = true", "initial, zeta_1: expected a number or an expression"),
-        ("[initial]\nzeta_1 = inf", "initial, zeta_1: inf is not a finite number"),
-        ('[initial]\nzeta_1 = "v"', "initial, zeta_1: 'v' is not declared in [parameters]"),
-        ('[initial]\nzeta_1 = "1+"', "initial, zeta_1: unexpected end"),
-        ('[initial]\n"a b" = 1', "initial, a b: letters, digits and _ only"),
-        ("[parameters]\nw = 1\n[initial]\nw = 1", "initial, w: a parameter has its default"),
-        ("[[initial]]\nw = 1", "key 'initial' must be a table [initial]"),
-        ("[initial]\nrpy = [0, 0]", "initial, rpy: expected a list of 3 expressions"),
-        ('[initial]\nrpy = [0, 0, "a"]', "initial, rpy: 'a' is not declared in [parameters]"),
-        ("[initial]\nrpy = [0, 0, 1]\nexp = [1, 0, 0]", "rpy and exp both say where the body is"),
-        ("[initial]\nquaternion = [0, 0, 0, 0]", "initial: a quaternion must be four numbers"),
-        (
-            "[initial]\nrotation = [[1, 0, 0]]",
-            "initial, rotation: expected { axis, angle }",
-        ),
-    ],
-)
-def test_a_bad_table_is_told(tmp_path, text, words):
-    with pytest.raises(ProblemError) as caught:
-        load(problem(tmp_path, BODY + text))
-    assert words in str(caught.value)
-    assert "swing.toml: " in str(caught.value)
-
-
 def test_a_text_about_any_group_has_no_motion(tmp_path):
     with pytest.raises(ProblemError, match="a text about any group has no motion to follow"):
         load(problem(tmp_path, 'name = "x"\ngroup = "any"\naction = "linear"\n[initial]\na = 1\n'))

@@ -15,6 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tests.oracles import ellipsoids
+
 STEP = 1e-30
 FAMILIES = dict.fromkeys(("SO", "SL", "GL", "Sp", "UT"), (1, False))
 FAMILIES |= dict.fromkeys(("SE", "SAff", "Aff", "Sim"), (1, True))
@@ -23,6 +25,7 @@ TOKEN = re.compile(r"\s*(?:((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|([A-Za-z]\w*)|
 SUM = {"+": (1, 1, np.add), "-": (1, 1, np.subtract)}
 BINARY = SUM | {"*": (2, 2, np.multiply), "/": (2, 2, np.divide), "^": (4, 3, np.power)}
 NAMES = ("sqrt", "sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh")
+OF_FRAMES = {"torsion", "far_centre", "volume", "self_gravity"}
 FUNCTIONS = {"atan": np.arctan, **{name: getattr(np, name) for name in NAMES}}
 FUNCTIONS |= {"abs": lambda x: x * np.sign(np.real(x)), "sign": lambda x: np.sign(np.real(x))}
 
@@ -191,7 +194,7 @@ def places(data, p):
         tables = {("point", i): x for i, x in enumerate(data["point"], 1)}
     for kind in ("potential", "input", "force", "output"):
         tables |= {(kind, k): x for k, x in enumerate(data.get(kind, ())) if "at" in x}
-    if {x["kind"] for x in data.get("potential", ())} & {"torsion", "far_centre", "volume"}:
+    if {x["kind"] for x in data.get("potential", ())} & OF_FRAMES:
         ((_, n, affine),) = parts
         axes = [[0] * n] * affine + [*np.eye(n)]
         tables |= {("frame", j): {"at": r} for j, r in enumerate(axes, 1 - affine)}
@@ -262,6 +265,16 @@ def _volume(table, env, q):
     return evaluate(table["U"], env | {"det_A": np.linalg.det(np.array(axes).T)})
 
 
+def _self_gravity(table, env, mass, q):
+    """The gravity of the homogeneous ellipsoid that has the moments of the points about T."""
+    a = {key: q[key] - q.get(("frame", 0), 0) for key in mass}
+    # linear maps do not see m, and points that realise moments have any
+    total = env["m"] if ("realised", 1) in q else sum(mass.values())
+    G = evaluate(table["G"], env)
+    S = sum(m * np.einsum("ib,jb->bij", a[key], a[key]) for key, m in mass.items())
+    return np.array([ellipsoids.energy(5 * x / total, total, G) for x in S])
+
+
 def _term(k, table, env, found, q):
     """The k-th [[potential]] (B,) where the places are at the columns of ``q[key]`` (n_k, B)."""
     mass = {key: found.masses[x][0] for key, x in found.at.items() if found.masses[x][0]}
@@ -286,6 +299,8 @@ def _term(k, table, env, found, q):
         return _volume(table, env, q)
     if table["kind"] == "far_centre":
         return _far_centre(table, env, mass, q)
+    if table["kind"] == "self_gravity":
+        return _self_gravity(table, env, mass, q)
     if table["kind"] == "field":
         E = _vector(table["E"], len(q["point", 1]), env)
         charged = enumerate(table["charges"], 1)

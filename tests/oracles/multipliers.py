@@ -8,7 +8,7 @@ rows of df and these right-hand sides are written out below.
 
 import numpy as np
 
-from tests.oracles import sampling
+from tests.oracles import general, sampling
 
 RANK_TOLERANCE = 1e-11
 
@@ -61,34 +61,18 @@ def accelerations(rows, sides, masses, forces):
     return (solution[: len(root)] / root).reshape(-1, 3)
 
 
-def displacements(name, G, body):
-    """Displacements (d, N, 3) of the points when G moves by ``G E`` for each E of the basis."""
-    points = sampling.homogeneous(name, body.points)
-    return np.array([(points @ (G @ E).T)[:, :3] for E in sampling.basis(name)])
-
-
-def point_forces(moved, u):
-    """The smallest forces (N, 3) whose work in the displacements ``moved`` is the covector u."""
-    d, count, _ = moved.shape
-    return np.linalg.lstsq(moved.reshape(d, -1), u, rcond=RANK_TOLERANCE)[0].reshape(count, 3)
-
-
-def solve(name, x, body, u=None):
-    """dx/dt and the largest acceleration that no element of the algebra accounts for."""
-    G, Z = sampling.split(name, x)
-    q, v = sampling.motion(name, x, body)
-    moved = displacements(name, G, body)
-    forces = body.forces(q)
-    if u is not None:
-        forces = forces + point_forces(moved, np.asarray(u, float))
-    a = accelerations(*CONSTRAINTS[name](q, v, body), body.masses, forces)
-    remaining = a - (sampling.homogeneous(name, body.points) @ (G @ Z @ Z).T)[:, :3]
-    columns = moved.reshape(len(moved), -1).T
-    coordinates = np.linalg.lstsq(columns, remaining.ravel(), rcond=RANK_TOLERANCE)[0]
-    unexplained = np.max(np.abs(columns @ coordinates - remaining.ravel()))
-    return sampling.join(name, G @ Z, coordinates), unexplained
-
-
-def rhs(name, x, body, u=None):
-    """dx/dt in the state ``x``, with the covector ``u`` (d,) turned into forces on the points."""
-    return solve(name, x, body, u)[0]
+def rhs(name, x, body, u):
+    """dx/dt in the state ``x``, with the covector ``u`` (d,) turned into the smallest forces on the
+    points that have its work; the acceleration is one of the group."""
+    data, basis = body.listed(name), sampling.basis(name)
+    G, zeta = general.split(data, x, len(basis))
+    Z, found = np.tensordot(zeta, basis, 1), general.places(data, {})
+    q, v = (found.moved(m).reshape(-1, 3) for m in (G, G @ Z))
+    moved = np.array([found.moved(G @ E) for E in basis])
+    force = general.forces(data, {}, 0.0, found, q.ravel())
+    force = force + np.linalg.lstsq(moved, u, rcond=RANK_TOLERANCE)[0]
+    a = accelerations(*CONSTRAINTS[name](q, v, body), body.masses, force)
+    remaining = a.ravel() - found.moved(G @ Z @ Z)
+    change = np.linalg.lstsq(moved.T, remaining, rcond=RANK_TOLERANCE)[0]
+    assert np.abs(change @ moved - remaining).max() < 1e-9 * np.abs(remaining).max()
+    return general.join(data, G @ Z, change)

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tests.oracles import general
+
 AXES = "123"
 
 
@@ -26,16 +28,16 @@ class Body:
     gravity: np.ndarray
     springs: np.ndarray
 
-    def forces(self, q):
-        """Forces (N, 3) of gravity and springs on the points at ``q`` (N, 3)."""
-        pull = self.springs @ q - self.springs.sum(axis=1)[:, None] * q
-        return self.masses[:, None] * self.gravity + pull
-
-    def energy(self, q, v):
-        """Kinetic and potential energy of the points at ``q`` with velocities ``v``."""
-        gaps = np.sum((q[:, None] - q[None, :]) ** 2, axis=2)
-        kinetic = 0.5 * np.sum(self.masses * np.sum(v * v, axis=1))
-        return kinetic - self.masses @ (q @ self.gravity) + 0.25 * np.sum(self.springs * gaps)
+    def listed(self, name):
+        """The body and its forces as a problem file has them, on the group of so3, se3 or sl3."""
+        points = zip(self.masses, self.points, strict=True)
+        data = {"group": f"{name[:2].upper()}(3)", "input": [{"name": "u", "kind": "covector"}]}
+        data["point"] = [{"mass": m, "at": [*r]} for m, r in points]
+        data["potential"] = [{"kind": "gravity", "g": [*self.gravity]}]
+        for i, j in np.argwhere(np.triu(self.springs)):
+            ends = {"between": [i + 1, j + 1], "stiffness": self.springs[i, j]}
+            data["potential"].append({"kind": "spring", **ends})
+        return data
 
 
 def moments(body):
@@ -74,51 +76,19 @@ def cross_matrix(v):
     return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]], float)
 
 
-def algebra(name, coordinates):
-    """The matrix Z (3 x 3, for se3 4 x 4) with these coordinates."""
-    z = np.asarray(coordinates, float)
-    if name == "so3":
-        return cross_matrix(z)
-    if name == "se3":
-        matrix = np.zeros((4, 4))
-        matrix[:3, :3], matrix[:3, 3] = cross_matrix(z[:3]), z[3:]
-        return matrix
-    return np.append(z, -z[0] - z[4]).reshape(3, 3)
-
-
 DIMENSION = {"so3": 3, "se3": 6, "sl3": 8}
 
 
 def basis(name):
     """The basis (d, n, n) of the Lie algebra in which the coordinates are stated."""
-    return np.array([algebra(name, row) for row in np.eye(DIMENSION[name])])
-
-
-def split(name, x):
-    """A state as matrices ``G``, ``Z``: 3 x 3, and for se3 4 x 4."""
-    G = np.eye(4 if name == "se3" else 3)
-    G[:3, :3] = x[:9].reshape(3, 3)
+    turns = np.array([cross_matrix(e) for e in np.eye(3)])
+    units = np.eye(16).reshape(4, 4, 4, 4)
+    if name == "so3":
+        return turns
     if name == "se3":
-        G[:3, 3] = x[9:12]
-    return G, algebra(name, x[-DIMENSION[name] :])
-
-
-def join(name, G, coordinates):
-    """A state from the matrix ``G`` (or its velocity from dG/dt) and d coordinates."""
-    shift = G[:3, 3] if name == "se3" else []
-    return np.concatenate([G[:3, :3].ravel(), shift, coordinates])
-
-
-def homogeneous(name, points):
-    """Points as the group moves them: (N, 3), and for se3 (N, 4) with a last column of ones."""
-    return np.column_stack([points, np.ones(len(points))]) if name == "se3" else points
-
-
-def motion(name, x, body):
-    """Positions and velocities (N, 3) of the body's points in the state ``x``."""
-    G, Z = split(name, x)
-    points = homogeneous(name, body.points)
-    return (points @ G.T)[:, :3], (points @ (G @ Z).T)[:, :3]
+        return np.concatenate([np.pad(turns, [(0, 0), (0, 1), (0, 1)]), units[:3, 3]])
+    square = np.eye(9).reshape(9, 3, 3)
+    return square[:8] - np.einsum("aii->a", square[:8])[:, None, None] * square[8]
 
 
 def well_spread(name, masses, points):
@@ -149,21 +119,9 @@ def random_rotation(rng):
     return Q if np.linalg.det(Q) > 0 else Q[:, [1, 0, 2]]
 
 
-def random_element(name, rng):
-    """A group element: a rotation, a displacement (4 x 4), or a matrix of determinant 1."""
-    G = np.eye(4 if name == "se3" else 3)
-    G[:3, :3] = random_rotation(rng)
-    if name == "se3":
-        G[:3, 3] = rng.normal(size=3)
-    if name == "sl3":
-        stretch = rng.uniform(-0.6, 0.6, 3)
-        G = G @ np.diag(np.exp(stretch - stretch.mean())) @ random_rotation(rng)
-    return G
-
-
 def random_state(name, rng):
     """A state with a random group element and normally distributed velocity."""
-    return join(name, random_element(name, rng), rng.normal(size=DIMENSION[name]))
+    return general.random_state(Body(*[np.zeros(0)] * 4).listed(name), basis(name), rng)
 
 
 def turn(axis, angle):

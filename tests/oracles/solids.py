@@ -8,17 +8,18 @@ from tests.oracles import general
 
 def moments(data):
     """m, c_1 …, J_11 … of the whole body, from the plain data that TOML gives."""
-    total, env = np.zeros((4, 4)), data["parameters"]
-    if "body" in data:
-        total += given(data["body"]["given"], env)
+    total, env, body = np.zeros((4, 4)), general.parameters(data), data.get("body", {})
+    if "given" in body:
+        total += given(body["given"], env)
     for point in data.get("point", ()):
         r = np.array([general.evaluate(x, env) for x in (*point["at"], 1)])
         total += general.evaluate(point["mass"], env) * np.outer(r, r)
-    for solid in data.get("solid", ()):
+    alone = [body | {"kind": body["solid"]}] if "solid" in body else []
+    for solid in (*data.get("solid", ()), *alone):
         weights, points = nodes(solid, env)
         turn, shift = np.eye(3), np.zeros((3, 1))
         if "rotation" in solid:
-            turn = rotation(solid["rotation"], env)
+            turn = general.turn(solid["rotation"], 3, env)
         if "shift" in solid:
             shift = np.array([[general.evaluate(s, env)] for s in solid["shift"]])
         r = np.vstack([turn @ points + shift, np.ones(points.shape[1])])
@@ -38,19 +39,10 @@ def given(table, env):
     return np.block([[J, np.array(c)[:, None]], [np.array(c), np.array(m)]])
 
 
-def rotation(table, env):
-    """{ axis, angle }, or the rows, as a matrix (3, 3)."""
-    if isinstance(table, list):
-        return np.array([[general.evaluate(x, env) for x in row] for row in table])
-    axis, angle = np.array(table["axis"], float), general.evaluate(table["angle"], env)
-    x, y, z = axis / np.linalg.norm(axis)
-    return general.expm(angle * np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]))
-
-
 def by_moments(data):
     """The problem with its body replaced by its moments, as parameters."""
     other = {k: x for k, x in data.items() if k not in ("solid", "point")}
-    known = data["parameters"] | moments(data)
+    known = general.parameters(data) | moments(data)
     return other | {"parameters": known, "body": {"moments": "symbolic"}}
 
 
@@ -93,6 +85,9 @@ def nodes(solid, env):
     if kind == "hollow_ball":
         outer, inner = sizes["outer"][0], sizes["inner"][0]
         return np.concatenate([W * outer**3, -W * inner**3]), np.hstack([X * outer, X * inner])
+    if "quadric" in solid:
+        Q = np.array([[general.evaluate(y, env) for y in row] for row in solid["quadric"]])
+        return W / np.sqrt(np.linalg.det(Q)), np.linalg.solve(np.linalg.cholesky(Q).T, X)
     axes = sizes["semi_axes"] if kind == "ellipsoid" else np.repeat(sizes["radius"], 3)
     return W * axes.prod(), X * axes[:, None]
 

@@ -110,15 +110,23 @@ def test_a_parameter_that_is_no_longer_used_goes_and_comes_back(form):
 
 
 def test_a_decimal_comma_is_a_number_and_no_number_is_told(form):
-    page = form(PENDULUM)
-    fill(page, "l", "1,5")
-    assert tables(page)["parameters"]["l"] == {"default": 1.5}
-    fill(page, "l", "1,5m")
-    assert tables(page)["parameters"]["l"] == {"default": 1.5}
-    assert page.get_by_label("l", exact=True).get_attribute("aria-invalid") == "true"
-    assert "is no number" in page.inner_text("#form")
+    """What is none stays and is told while the walk of the number before it ends and while the form
+    is drawn anew, until it is one."""
+    page, told = form(PENDULUM), "“1,5m” is no number"
+    arm = page.get_by_label("l", exact=True)
+    with rewalked(page):
+        fill(page, "l", "1,5")
+        fill(page, "l", "1,5m")
+        assert told in page.inner_text("#form")
     fill(page, "at", "0; 0; 2,5", 2)
+    assert tables(page)["parameters"]["l"] == {"default": 1.5}
     assert tables(page)["point"][2]["at"] == [0, 0, 2.5]
+    assert arm.input_value() == "1,5m"
+    assert arm.get_attribute("aria-invalid") == "true"
+    assert told in page.inner_text("#form")
+    fill(page, "l", "2")
+    assert tables(page)["parameters"]["l"] == {"default": 2}
+    assert told not in page.inner_text("#form")
 
 
 def test_a_solid_has_its_springs_at_places_and_points_come_back(form):

@@ -270,24 +270,6 @@ def test_mixtures():
     assert joined_moments(*map(moments, halves)) == moments(whole)
 
 
-@pytest.mark.parametrize(
-    ("kind", "sizes", "message"),
-    [
-        ("ball", {"radius": 0}, "not positive"),
-        ("ball", {"radius": -2}, "not positive"),
-        ("hollow_ball", {"outer": 1, "inner": 2}, "not positive"),
-        ("hollow_ball", {"outer": A, "inner": A}, "not positive"),
-        ("tetrahedron", {"vertices": ((0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0))}, "not positive"),
-        ("ball", {"radius": ("pow", A, 13)}, "a power above 64"),
-        ("ball", {"radius": Fraction(10**80)}, "beyond 1e±300"),
-    ],
-)
-def test_refused(kind, sizes, message):
-    with pytest.raises(SolidError, match=message) as caught:
-        moments(made(kind, RHO, sizes))
-    assert "\n" not in str(caught.value)
-
-
 def test_refused_axes():
     for axis in ((0, 0, 0), (1, 0), (A, 0, 0)):
         with pytest.raises(SolidError, match="three numbers, not all zero"):

@@ -23,7 +23,7 @@ from derive.language.derivatives import DERIVATIVES
 from derive.language.expression import parse
 from derive.python.as_sympy import Translation
 from derive.python.sympy_matrices import FunctionValue
-from tests.support.emitted import import_python
+from tests.support.library import module_of
 from tests.support.walks import NAMES, OTHERS
 
 ROOT = Path(__file__).parents[2]
@@ -126,11 +126,9 @@ def test_every_equation_is_text_and_latex():
         assert sympy.pretty(eq)
 
 
-def test_euler_s_equation_runs_on_as_code_does(tmp_path):
+def test_euler_s_equation_runs_on_as_code_does():
     """ζ̇ of a free solid, from its step through lambdify, and from the emitted file."""
-    d = derive.derive("so3")
-    d.emit(tmp_path, ["python"])
-    code, rng = import_python("so3", tmp_path), np.random.default_rng(4)
+    d, code, rng = derive.derive("so3"), module_of("so3"), np.random.default_rng(4)
     p = np.array([code.DEFAULTS.get(x, 1.5) for x in code.PARAMETERS])
     zeta, own = rng.normal(size=3), dict(zip(code.PARAMETERS, p, strict=True))
     J = np.array([[own[f"J_{min(i, j)}{max(i, j)}"] for j in (1, 2, 3)] for i in (1, 2, 3)])

@@ -1,7 +1,6 @@
 """derive.compile: the emitted C from Python, ready for solve_ivp and other solvers."""
 
 import copy
-import doctest
 import multiprocessing
 import pickle
 import re
@@ -12,8 +11,7 @@ import numpy as np
 import pytest
 
 import derive
-from derive.motion import native
-from tests.support.emitted import import_python
+from tests.support.library import module_of
 from tests.support.needs import needs
 
 pytestmark = needs("cc")
@@ -27,9 +25,8 @@ def top():
 START = np.concatenate([np.eye(3).ravel(), [0.1, 0, 9]])
 
 
-def test_it_is_the_emitted_python(top, tmp_path):
-    derive.derive("so3").emit(tmp_path, ["python"], jacobian=("state",))
-    m = import_python("so3", tmp_path)
+def test_it_is_the_emitted_python(top):
+    m = module_of("so3", jacobian=("state",))
     k = m.constants(top.p)
     assert top.PARAMETERS == m.PARAMETERS
     assert np.allclose(top.k, k, rtol=1e-14)
@@ -41,10 +38,6 @@ def test_it_is_the_emitted_python(top, tmp_path):
         dx, D = top.jacobian(0, x)
         assert np.allclose(dx, top.rhs(0, x))
         assert D.shape == (6, 6)
-
-
-def test_docstring():
-    assert doctest.testmod(native).failed == 0
 
 
 def test_results_are_not_overwritten(top):
@@ -236,7 +229,7 @@ def test_solve_ivp(top):
     found = solve_ivp(top, (0, 1), START, rtol=1e-10, atol=1e-12)
     assert found.success
     assert abs(top.energy(1, found.y[:, -1]) - top.energy(0, START)) < 1e-7
-    m = import_python("so3")
+    m = module_of("so3")
     other = solve_ivp(m.rhs, (0, 1), START, rtol=1e-10, atol=1e-12, args=(m.constants(top.p),))
     assert np.allclose(found.y[:, -1], other.y[:, -1], rtol=1e-9, atol=1e-9)
 

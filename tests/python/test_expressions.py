@@ -1,27 +1,18 @@
 """The equations handed to users as SymPy expressions are those of the emitted code."""
 
-import doctest
-
 import numpy as np
 import pytest
 import sympy
 
 import derive
-from derive.python import expressions as module
-from tests.support.emitted import import_python
+from tests.support.library import module_of
 
 PROBLEMS = ("so3", "se3", "top", "gl3", "saff3", "comet", "two_tops")
 
 
-def test_docstring():
-    assert doctest.testmod(module).failed == 0
-
-
 @pytest.mark.parametrize("name", PROBLEMS)
-def test_the_same_numbers(name, tmp_path):
-    d = derive.derive(name)
-    d.emit(tmp_path, ["python"])
-    code, e = import_python(name, tmp_path), d.expressions()
+def test_the_same_numbers(name):
+    code, e = module_of(name), derive.derive(name).expressions()
     assert [str(x) for x in (*e.x, *e.p, *e.u)] == [*code.STATE, *code.PARAMETERS, *code.INPUTS]
     rng = np.random.default_rng(5)
     p = np.array([code.DEFAULTS.get(x, rng.uniform(0.5, 1.5)) for x in code.PARAMETERS])

@@ -1,6 +1,5 @@
 """Expressions of SymPy as what stands in quotes in a problem file: the same values, or one line."""
 
-import doctest
 import subprocess
 import sys
 from fractions import Fraction
@@ -16,7 +15,6 @@ from derive.language.derivatives import DERIVATIVES
 from derive.language.expression import ExpressionError, parse
 from derive.language.values import value
 from derive.problem.problem import ProblemError
-from derive.python import quoted as module
 from derive.python.quoted import quoted
 
 a, b, x = sympy.symbols("a b r1_x")
@@ -56,10 +54,6 @@ def in_grammar(e):
     except ExpressionError as error:
         assume("division by zero" not in str(error))
         raise
-
-
-def test_docstring():
-    assert doctest.testmod(module).failed == 0
 
 
 @settings(max_examples=150, deadline=None)

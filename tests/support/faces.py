@@ -31,7 +31,13 @@ def steps_in(text, before):
 
 C = """\
 #include "@name@@header@.h"
+#include "@name@@header@.h" /* alone and twice, as anyone may */
 #include <string.h>
+#ifdef __cplusplus
+extern "C"
+#endif
+int face(const char *word, double a, double b, const double *P, const double *K, const double *U,
+    const double *X, const double *Z, double *out);
 typedef @real@ real;
 static void taken(real *to, const double *from, int n)
 {
@@ -46,8 +52,6 @@ static void given(double *to, const real *from, int n)
     }
 }
 @torque@
-int face(const char *word, double a, double b, const double *P, const double *K, const double *U,
-    const double *X, const double *Z, double *out);
 int face(const char *word, double a, double b, const double *P, const double *K, const double *U,
     const double *X, const double *Z, double *out)
 {

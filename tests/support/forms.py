@@ -3,7 +3,8 @@
 from derive import derive
 from derive.code.program import LoweringError
 from derive.problem.problem import ProblemError
-from tests.support.emitted import import_python, some_body
+from tests.support.library import module_of
+from tests.support.states import some_body
 
 PROBLEMS = ("so3", "se3", "sl3", "saff3", "comet", "top", "two_tops")
 FORMS = {
@@ -38,9 +39,8 @@ def emit_forms(folder, problems=PROBLEMS, forms=FORMS, languages=("c",)):
     return made
 
 
-def some_parameters(name, folder):
+def some_parameters(name):
     """Values of the parameters of a problem for which there is a body, in order."""
-    derive(name).emit(folder, ["python"], f"{name}_values")
-    module = import_python(f"{name}_values", folder)
+    module = module_of(name)
     own = some_body(module.PARAMETERS) or module.DEFAULTS
     return [float(own.get(x, module.DEFAULTS.get(x, 1.25))) for x in module.PARAMETERS]

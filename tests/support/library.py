@@ -34,6 +34,8 @@ STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
 SHARED = ("-fPIC", "-shared")
 BUILDS = {
     "c": ("c", (CC, "-std=c99")),
+    "c of clang": ("c", ("clang", "-std=c99")),
+    "c as c++": ("c", ("g++", "-std=c++11", "-xc++")),
     "python": ("python", ()),
     "julia": ("julia", ()),
     "javascript": ("javascript", ("node",)),
@@ -253,6 +255,20 @@ class Library:
         """Those of a motion, after each command."""
         raise NotImplementedError
 
+    def said(self, name, x, t=0.0, **arrays):
+        """What one function says: t, x, and k, p, u by their letters."""
+        (call,) = (c for c in self.calls if c.name == name)
+        values = self.values(x=x, t=t, k=arrays.get("k"), p=arrays.get("p"), u=arrays.get("u"))
+        return self.shown(call, values, values["u"] is not None)[0]
+
+    def rhs(self, t, x, k, u=None):
+        """dx/dt."""
+        return self.said("rhs", x, t, k=k, u=u)
+
+    def energy(self, t, x, k):
+        """A number."""
+        return self.said("energy", x, t, k=k)[0]
+
     def follow(self, commands, x, p=(), u=()):
         """The places of a motion, after each command, which is a word and two numbers: ``begin t
         0``; ``gauss``, ``rk4``, ``vern9 h n``, ``gauss_to t1 tol``, ``rk4_watch t1 h``;
@@ -272,7 +288,8 @@ class Native(Library):
     def __init__(self, build, name, texts, real="double", flags=()):
         super().__init__(build, name, texts, real, flags)
         compiled = {"c": self.of_c, "cpp": self.of_cpp, "rust": self.of_rust}[self.language]
-        self.face = ctypes.CDLL(str(compiled())).face
+        self.shared = ctypes.CDLL(str(compiled()))
+        self.face = self.shared.face
         self.face.restype = ctypes.c_int
         pointers = [ctypes.c_void_p] * 6
         self.face.argtypes = [ctypes.c_char_p, ctypes.c_double, ctypes.c_double, *pointers]
@@ -328,6 +345,15 @@ class Native(Library):
         kept = [None if x is None else np.ascontiguousarray(x, float) for x in given]
         at = [None if x is None else x.ctypes.data for x in (*kept, out)]
         return self.face(word.encode(), a, b, *at), out
+
+    def rhs_batch(self, t, x, k, u=None):
+        """dx/dt of the columns of x (N, n), with inputs (M, n), by the function of C for many."""
+        x, k = (np.ascontiguousarray(a, float) for a in (x, k))
+        dx, u = np.full(x.shape, np.nan), np.ascontiguousarray(0.0 if u is None else u, float)
+        at = [ctypes.c_void_p(a.ctypes.data) for a in (x, k, u, dx)]
+        count, time = ctypes.c_size_t(x.shape[1]), ctypes.c_double(t)
+        getattr(self.shared, f"{self.name}_rhs_batch")(count, time, *at)
+        return dx
 
     def names(self):
         _, out = self.ask("names")
@@ -594,3 +620,8 @@ def module_of(given, **options):
     """The Python module of a problem with some options."""
     name, texts = emission(given, ("python",), **options)
     return module(name, texts[f"{name}.py"])
+
+
+def arrange(module, values):
+    """The parameters, named in ``values``, in the order that the module states."""
+    return np.array([values[key] for key in module.PARAMETERS], float)

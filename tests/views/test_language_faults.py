@@ -5,10 +5,9 @@ import re
 import numpy as np
 import pytest
 
-from tests.support.emitted import compile_c
 from tests.support.languages import ONE_BUILD, Case, T, cvode
-from tests.support.library import BUILDS
-from tests.support.needs import CC, need
+from tests.support.library import BUILDS, loaded
+from tests.support.needs import need
 
 SIZE = 6
 """Rows and columns of the jacobian of so3."""
@@ -147,12 +146,10 @@ STRIDES = {"": None, "inputs": ("u[2*n + s]", "u[2*n]"), "state": ("x[9*n + s]",
 
 
 @pytest.mark.parametrize("fault", STRIDES)
-def test_batches_of_c_are_their_states(fault, so3, tmp_path):
+def test_batches_of_c_are_their_states(fault, so3):
     texts = so3.texts("c")[1]
     texts |= wrong(so3, "c", "so3.c", put(*STRIDES[fault])) if fault else {}
-    for name, text in texts.items():
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    library, rng = compile_c(CC, "so3", tmp_path, tmp_path), np.random.default_rng(8)
+    library, rng = loaded("c", "so3", texts), np.random.default_rng(8)
     x, u, (_, k) = rng.normal(size=(12, 5)), rng.normal(size=(3, 5)), library.constants(so3.p)
     single = [library.rhs(T, *row, k, v) for *row, v in zip(x.T, u.T, strict=True)]
     assert np.allclose(library.rhs_batch(T, x, k, u).T, single, rtol=1e-14) == (not fault)

@@ -4,7 +4,6 @@ import re
 import tomllib
 from fractions import Fraction
 
-import numpy as np
 import pytest
 
 from derive.check.checker import Checker
@@ -14,11 +13,12 @@ from derive.language.tree import mul, neg
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.sentence import english
-from tests.oracles import general, relative_error, solids
+from tests.oracles import solids
 from tests.problems import PROBLEMS
 from tests.support import corpus, walks
 from tests.support.corpus import SOLIDS, SOLIDS_ON
-from tests.support.emitted import compile_c
+from tests.support.gauss import agrees
+from tests.support.library import loaded, module
 from tests.support.needs import present
 from tests.support.walks import SEED
 
@@ -27,51 +27,28 @@ HALF = Fraction(1, 2)
 
 
 def emitted(problem, record):
-    """The emitted files by name, and what the Python module defines."""
+    """The emitted files by name, and the Python module."""
     files = emit(assemble(record, problem.group), record, ("c", "python"), "test")
-    space = {}
-    exec(compile(files["test.py"], "test.py", "exec"), space)
-    return files, space
+    return files, module("test", files["test.py"])
 
 
 @pytest.mark.parametrize("name", PROBLEMS)
-def test_code_agrees_with_the_oracle(name, tmp_path):
+def test_code_agrees_with_the_oracle(name):
     data = tomllib.loads(PROBLEMS[name])
     problem = problem_of(data)
     roads = (x for x in ("ready", "forces", "points") if name in corpus.ROADS[x])
     record = corpus.record(f"{next(roads)} {name}")
-    files, space = emitted(problem, record)
-    for name, text in files.items():
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    library = compile_c("cc", "test", tmp_path, tmp_path) if present("cc") else None
-    rng = np.random.default_rng(5)
-    p = general.parameters(data)
-    basis = space["BASIS"]
-    values = [p[name] for name in space["PARAMETERS"]]
-    k = space["constants"](values)
-    for _ in range(STATES):
-        x = general.random_state(data, basis, rng)
-        t, u = rng.normal(), rng.normal(size=len(space["INPUTS"]))
-        expected = general.rhs(data, basis, p, t, x, u)
-        found = space["rhs"](t, x, k, u)
-        assert relative_error(found, expected) < 1e-11
-        energy = general.energy(data, basis, p, t, x)
-        assert abs(space["energy"](t, x, k) - energy) < 1e-11 * max(1, abs(energy))
-        if library is not None:
-            assert relative_error(library.rhs(t, x, library.constants(values)[1], u), found) < 1e-12
+    files, m = emitted(problem, record)
+    c = loaded("c", "test", files) if present("cc") else None
+    agrees(m, c, data, {}, states=STATES, tolerance=1e-11)
 
 
 @pytest.mark.parametrize("name", ["SE(2) torques", "SO(3) torques", "SE(2) of the state"])
 def test_forces_from_outside(name):
     """Torques, directions, a wind: the Python code of small problems, in every run."""
     data = tomllib.loads(PROBLEMS[name])
-    _, space = emitted(problem_of(data), corpus.record(f"points {name}"))
-    p, basis, rng = general.parameters(data), space["BASIS"], np.random.default_rng(7)
-    k = space["constants"]([p[x] for x in space["PARAMETERS"]])
-    for _ in range(3):
-        x, u = general.random_state(data, basis, rng), rng.normal(size=len(space["INPUTS"]))
-        expected = general.rhs(data, basis, p, 0.4, x, u)
-        assert relative_error(space["rhs"](0.4, x, k, u), expected) < 1e-11
+    _, m = emitted(problem_of(data), corpus.record(f"points {name}"))
+    agrees(m, None, data, {}, states=3, tolerance=1e-11)
 
 
 @pytest.mark.parametrize("group", SOLIDS_ON)
@@ -79,13 +56,9 @@ def test_solids_are_their_moments(group):
     """The body of solids moves like one whose moments are the integrals by quadrature."""
     solid = tomllib.loads(SOLIDS.replace("GROUP", group))
     record, data = corpus.record(f"points solids on {group}"), solids.by_moments(solid)
-    files, space = emitted(problem_of(solid), record)
+    files, m = emitted(problem_of(solid), record)
     assert re.sub(r"/\*.*?\*/", "", files["test.c"], flags=re.DOTALL).isascii()  # cos(π/3) too
-    p, basis, rng = general.parameters(data), space["BASIS"], np.random.default_rng(3)
-    k = space["constants"]([p[x] for x in space["PARAMETERS"]])
-    for _ in range(5):
-        x = general.random_state(data, basis, rng)
-        assert relative_error(space["rhs"](0.0, x, k), general.rhs(data, basis, p, 0.0, x)) < 1e-9
+    agrees(m, None, data, {}, tolerance=1e-9)
 
 
 @pytest.mark.parametrize(

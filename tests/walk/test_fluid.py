@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import sympy
 
-from derive import Fluid, Problem, ProblemError
+from derive import Fluid, Problem
 from derive import derive as derived
 from derive.algebra import forms
 from derive.algebra.calculus import reduce
@@ -312,26 +312,6 @@ def test_fields_with_a_divergence_break_what_rests_on_it(monkeypatch):
     assert {"skew", "divergence", "kernel", "divergence_along", "pressure_equation"} <= broken
     assert "structure" not in broken
     assert "chain" not in broken
-
-
-@pytest.mark.parametrize(
-    ("changed", "words"),
-    [
-        ({"fluid": {"density": "homogenous"}}, "did you mean 'homogeneous'"),
-        ({"fluid": {"forces": "weight"}}, "one of none, potential"),
-        ({"fluid": {"density": 1000}}, "one of homogeneous, advected"),
-        ({"group": "SDiff"}, "a table .fluid."),
-        ({"fluid": 3}, "a table"),
-        ({"fluid": {"viscosity": 1}}, "viscosity"),
-        ({"fluid": {}, "group": "SO(3)"}, "'group'"),
-        ({"fluid": {}, "point": []}, "'point'"),
-        ({"fluid": {}, "name": "left"}, "choose another"),
-        ({"fluid": {}, "name": "a b"}, "'name'"),
-    ],
-)
-def test_bad_input(changed, words):
-    with pytest.raises(ProblemError, match=words):
-        problem_of({"name": "sea", **changed})
 
 
 def test_sympy_has_no_fields():

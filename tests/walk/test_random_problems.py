@@ -14,8 +14,9 @@ from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.record.as_json import from_json, to_json
 from derive.record.record import ANY_GROUP
-from tests.oracles import general, relative_error, solids
-from tests.support.emitted import compile_c
+from tests.oracles import solids
+from tests.support.gauss import agrees
+from tests.support.library import loaded, module
 from tests.support.needs import present
 from tests.support.random_problems import of_both, of_points, of_solids
 from tests.support.walks import SEED
@@ -53,53 +54,38 @@ def derived(data):
     return problem, record
 
 
-def agree(problem, record, data, folder, p):
+def held(problem, record, data, values):
     """The emitted code against the oracle, which gets ``data``; C once in a while."""
     files = emit(assemble(record, problem.group), record, ("c", "python"), "test")
-    space = {}
-    exec(compile(files["test.py"], "test.py", "exec"), space)
-    rng = np.random.default_rng(len(files["test.py"]))
-    values = [{**general.parameters(data), **p}[name] for name in space["PARAMETERS"]]
-    k, basis, library = space["constants"](values), space["BASIS"], None
-    if len(files["test.py"]) % COMPILED == 0 and present("cc"):
-        for name, text in files.items():
-            (folder / name).write_text(text, encoding="utf-8")
-        library = compile_c("cc", "test", folder, folder)
-    for _ in range(STATES):
-        x = general.random_state(data, basis, rng)
-        t, u = rng.normal(), rng.normal(size=len(space["INPUTS"]))
-        try:
-            expected = general.rhs(data, basis, general.parameters(data), t, x, u)
-        except np.linalg.LinAlgError:  # the points are nearly on a plane
-            assume(False)
-        found = space["rhs"](t, x, k, u)
-        assert relative_error(found, expected) < 1e-8
-        energy = general.energy(data, basis, general.parameters(data), t, x)
-        assert abs(space["energy"](t, x, k) - energy) < 1e-9 * max(1, abs(energy))
-        if library is not None:
-            assert relative_error(library.rhs(t, x, library.constants(values)[1], u), found) < 1e-11
+    compiled = len(files["test.py"]) % COMPILED == 0 and present("cc")
+    c = loaded("c", "test", files) if compiled else None
+    m = module("test", files["test.py"])
+    try:
+        agrees(m, c, data, values, states=STATES, tolerance=1e-8)
+    except np.linalg.LinAlgError:  # the points are nearly on a plane
+        assume(False)
 
 
 @RANDOM
 @given(data=of_points())
-def test_points(tmp_path_factory, data):
+def test_points(data):
     problem, record = derived(data)
-    agree(problem, record, data, tmp_path_factory.mktemp("random"), {})
+    held(problem, record, data, {})
 
 
 @FEWER
 @given(data=of_solids())
-def test_solids(tmp_path_factory, data):
+def test_solids(data):
     """The oracle gets the moments of the solids by quadrature."""
     problem, record = derived(data)
     other = solids.by_moments(data)
-    agree(problem, record, other, tmp_path_factory.mktemp("random"), data["parameters"])
+    held(problem, record, other, data["parameters"])
 
 
 @FEWER
 @given(data=of_both())
-def test_solids_and_points(tmp_path_factory, data):
+def test_solids_and_points(data):
     """The oracle gets points in place of the solids, with their moments."""
     problem, record = derived(data)
     other = solids.by_points(data)
-    agree(problem, record, other, tmp_path_factory.mktemp("random"), data["parameters"])
+    held(problem, record, other, data["parameters"])

@@ -5,12 +5,10 @@ import re
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-import derive
 from derive.check.checker import check
 from derive.pipeline import general_road, walk
 from derive.problem.problem import ProblemError
@@ -25,8 +23,7 @@ from derive.views.text import text
 from tests.support.corpus import SIGNED as BODIES_OF_ANY_SIGN
 from tests.support.corpus import of_masses as problem
 from tests.support.corpus import points, record, simplex
-from tests.support.emitted import import_python
-from tests.support.library import ONE_BUILD, library
+from tests.support.library import ONE_BUILD, emission, library, module_of
 from tests.support.walks import repeated
 
 BOOST = {"name": "Boost", "action": "linear", "basis": [[[0, 1], [1, 0]]]}
@@ -159,12 +156,6 @@ def test_the_key_has_one_value():
 # -- constants ----------------------------------------------------------------------------------
 
 
-def module(tmp_path, p, **choices):
-    name = p.name
-    derive.derive(p).emit(tmp_path, ["python"], **choices)
-    return import_python(name, tmp_path)
-
-
 def taken(m, p):
     with suppress(ValueError):
         return bool(m.constants(p) is not None)
@@ -234,30 +225,31 @@ FORMS = [(name, "given") for name in BODIES] + [(name, "principal") for name in 
 
 
 @pytest.mark.parametrize(("name", "frame"), FORMS)
-def test_constants_tell_good_bodies(name, frame, tmp_path):
+def test_constants_tell_good_bodies(name, frame):
     """By value: the problem has a positive parameter, and takes any number for it."""
     group, body, good, bad = BODIES[name]
-    m = module(tmp_path, problem(group, body, default=1), frame=frame)
+    m = module_of(problem(group, body, default=1), frame=frame)
     assert [taken(m, [q]) for q in good] == [True] * len(good)
     assert [taken(m, [q]) for q in bad] == [False] * len(bad)
 
 
-def test_the_metric_at_1_where_masses_may_be_negative(tmp_path):
+def test_the_metric_at_1_where_masses_may_be_negative():
     """The boost of an indefinite J: good at 1, not everywhere, and the header says so."""
     body = BODIES["boost"][1]
     for default, signed in ((0.5, False), (-0.5, True)):
         p = problem(BOOST, body, default=default, negative_mass=signed)
-        folder = tmp_path / str(signed)
-        assert taken(module(folder, p), [-0.5]) == signed
-        assert taken(module(folder, p), [-1.5]) is False
-        assert ("tests the metric at g = 1" in (folder / "hole.py").read_text()) == signed
+        assert taken(module_of(p), [-0.5]) == signed
+        assert taken(module_of(p), [-1.5]) is False
+        text = emission(p, ("python",))[1]["hole.py"]
+        assert ("tests the metric at g = 1" in text) == signed
 
 
-def test_moments_of_numbers_need_no_check_at_run_time(tmp_path):
+def test_moments_of_numbers_need_no_check_at_run_time():
     """A small hole in a body of numbers leaves J positive, which suffices everywhere."""
     data = {"name": "hole", "group": BOOST, **points((2, [1, 0]), (2, [0, 1]), (-1, [1, 0]))}
-    assert taken(module(tmp_path, problem_of(data, negative_mass=True)), [])
-    assert "g = 1" not in Path(tmp_path / "hole.py").read_text()
+    p = problem_of(data, negative_mass=True)
+    assert taken(module_of(p), [])
+    assert "g = 1" not in emission(p, ("python",))[1]["hole.py"]
 
 
 SPHERE = {"kind": "ball", "density": 1, "radius": 1}

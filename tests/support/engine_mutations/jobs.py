@@ -232,7 +232,7 @@ class Job(NamedTuple):
 
     def seen_by_the_oracle(self) -> dict[str, Any]:
         """The oracle knows points and moments: of other bodies it has the moments."""
-        known = "solid" not in self.data and "given" not in self.data.get("body", {})
+        known = "solid" not in self.data and not {"given", "solid"} & {*self.data.get("body", {})}
         return self.data if known else solids.by_moments(self.data)
 
 

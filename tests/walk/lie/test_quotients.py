@@ -7,14 +7,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derive.check.checker import check
-from derive.code.assemble import assemble
-from derive.code.options import Options
-from derive.code.program import LoweringError
 from derive.problem.toml import problem_of
 from derive.record.as_json import from_json, to_json
 from tests.support.corpus import LAGRANGIANS
 from tests.support.library import module_of
-from tests.support.walks import SEED, problem, record
+from tests.support.walks import SEED, record
 
 TURN = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
 DIRECT = {"rtol": 1e-12, "atol": 1e-12, "method": "DOP853"}
@@ -104,10 +101,3 @@ def test_what_is_held_must_be_null():
     data["problem"]["lagrangian"]["held"] = [2]
     refused = [v.label for v in check(from_json(json.dumps(data)), SEED) if not v.holds]
     assert "spherical_pendulum.mass" in refused
-
-
-@pytest.mark.parametrize("options", [{"velocity": "tangent"}, {"jacobian": ("state",)}])
-def test_what_needs_the_whole_velocity_is_refused(options):
-    p = problem("spherical_pendulum")
-    with pytest.raises(LoweringError, match="on a quotient of it"):
-        assemble(record("spherical_pendulum"), p.group, Options(**options))

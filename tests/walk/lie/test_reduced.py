@@ -11,14 +11,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derive.algebra.families import group
-from derive.code.assemble import assemble
-from derive.code.options import Options
-from derive.code.program import LoweringError
 from derive.problem.toml import problem_of
 from tests.oracles.euler_lagrange import acceleration
 from tests.support import advected
 from tests.support.library import module_of
-from tests.support.walks import problem, record
+from tests.support.walks import problem
 
 
 def oracle_representation(name, kind):
@@ -102,18 +99,3 @@ class Small:
 
     def randint(self, low, high):
         return max(low, min(high, self.left.pop()))
-
-
-@pytest.mark.parametrize(
-    "options",
-    [
-        {"velocity": "tangent"},
-        {"attitude": "quaternion"},
-        {"layout": "col"},
-        {"jacobian": ("state",)},
-    ],
-)
-def test_what_needs_an_element_is_refused(options):
-    p = problem("euler_poisson")
-    with pytest.raises(LoweringError, match="a state with an element of the group"):
-        assemble(record("euler_poisson"), p.group, Options(**options))

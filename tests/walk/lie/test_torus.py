@@ -11,11 +11,9 @@ import pytest
 from derive.algebra.structure import TorusLattice
 from derive.algebra.words import Letter, trace, word
 from derive.check.checker import Checker, check
-from derive.command.cli import main
 from derive.language.read import read
 from derive.language.show import show
 from derive.language.tree import add, mul
-from derive.problem.toml import ProblemError, problem_of
 from derive.record.record import ANY_GROUP, Equation
 from derive.walk.spine.alphabet import Alphabet
 from derive.walk.torus import vorticity
@@ -166,56 +164,6 @@ def test_a_record_of_another_group_is_refused():
     for key, value in (("group", "SU(7)"), ("n", 7), ("torus", {"N": 7})):
         wrong = replace(d, problem={**d.problem, key: value})
         assert not all(v.holds for v in check(wrong, SEED))
-
-
-BAD = {
-    "N = 4": "even",
-    "N = 1": "3",
-    "N = 103": "101",
-    'N = "x"': "N",
-    "": "missing",
-    "N = 5\ndimension = 3": "unknown key",
-}
-
-
-@pytest.mark.parametrize("given", BAD)
-def test_bad_sizes_are_one_line(given, tmp_path, capsys):
-    path = tmp_path / "bad.toml"
-    text = f'name = "bad"\n[algebra]\nof = "torus"\n{given}\n[inertia]\noperator = "laplacian"\n'
-    path.write_text(text, encoding="utf-8")
-    assert main(["walk", str(path)]) == 2
-    err = capsys.readouterr().err
-    assert BAD[given] in err
-    assert "bad.toml" in err
-    assert len(err.splitlines()) == 1
-
-
-@pytest.mark.parametrize(
-    "other",
-    [
-        {"group": "SO(3)"},
-        {"point": []},
-        {"parameters": {"a": 1}},
-        {"inertia": {"operator": [[1]]}},
-        {"inertia": {"operator": "laplace"}},
-        {"inertia": {"operator": "laplacian", "trivialisation": "left"}},
-        {"name": "right"},
-    ],
-    ids=str,
-)
-def test_what_else_a_file_says_is_refused(other):
-    given = {
-        "name": "bad",
-        "algebra": {"of": "torus", "N": 5},
-        "inertia": {"operator": "laplacian"},
-    }
-    with pytest.raises(ProblemError):
-        problem_of(given | other)
-
-
-def test_without_inertia():
-    with pytest.raises(ProblemError, match="laplacian"):
-        problem_of({"name": "bad", "algebra": {"of": "torus", "N": 5}})
 
 
 def test_coefficients_follow_from_the_inertia_operator(monkeypatch):
