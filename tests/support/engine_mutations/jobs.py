@@ -227,7 +227,9 @@ class Job(NamedTuple):
     @property
     def coded(self) -> bool:
         """Is code made of it?"""
-        unread = "fluid" in self.data or self.data.get("algebra", {}).get("of") == "torus"
+        algebra = self.data.get("algebra")
+        on_torus = isinstance(algebra, dict) and algebra.get("of") == "torus"
+        unread = "fluid" in self.data or on_torus
         return not (self.any_group or self.sought or unread)
 
     def seen_by_the_oracle(self) -> dict[str, Any]:
