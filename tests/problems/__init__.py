@@ -575,3 +575,35 @@ PROBLEMS |= {
     "SL(2) outputs": read_off("SL(2)", 2),
     "SO(2) outputs": read_off("SO(2)", 2, RATES),
 }
+PROBLEMS["SE(2) outputs"] = """
+name = "test"
+group = "SE(2)"
+point = [{ mass = 1, at = [1, 0.5] }, { mass = 2, at = [-1, 0.2] }]
+[[potential]]
+kind = "expression"
+U = "r1_x^2 + r2_y^4/3"
+[[output]]
+name = "place"
+kind = "place"
+at = [0.2, -0.5]
+frame = "body"
+[[output]]
+name = "pace"
+kind = "velocity"
+on = 1
+[[output]]
+name = "rush"
+kind = "acceleration"
+at = [0.2, -0.5]
+frame = "body"
+[[output]]
+name = "felt"
+kind = "specific_force"
+at = [0.2, -0.5]
+[[output]]
+name = "along"
+kind = "momentum"
+[[output]]
+name = "twice"
+y = ["2*T_1 + zeta_1*w_2"]
+"""

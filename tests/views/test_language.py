@@ -84,7 +84,7 @@ CHOSEN = (
     *("SL(3) forces", "SE(3) forces", "Sim(3) forces", "SO(3) x SO(3)", "SO(3) forces"),
     *("a cylinder", "SL(4)", "Aff(2)", "SAff(2)", "weighted"),
     *("SE(3) x SE(3)", "a flat body", "so(3) skewed", "SE(3) torques", "SE(2) torques"),
-    *("SE(3) of the state", "Aff(3) of the state"),
+    *("SE(3) of the state", "Aff(3) of the state", "SE(3) outputs", "SE(2) outputs"),
 )
 
 
