@@ -117,7 +117,7 @@ class Case:
                 continue
             worst = np.abs(found - expected).max(initial=0)
             most = (tolerance or self.tolerance) * np.abs(expected).max(initial=0)
-            assert worst <= most, (self.name, what, worst)
+            assert worst <= most < np.inf, (self.name, what, worst)
 
     def agrees(self, build, tolerance=None, **changed):
         """In a build, with some files changed, it is what the C makes of it."""
