@@ -145,7 +145,7 @@ def numbers_of_output(told: Mapping[str, Any], dimension: int) -> list[str]:
 
 COLUMNS = (
     *("energy", "defect", "multiplier", "momentum", "angular_momentum", "body_momentum"),
-    *("body_angular_momentum", "circulation", "centre"),
+    *("body_angular_momentum", "circulation", "centre", "integral"),
 )
 """Columns of a run beside its state: the energy, what is off the group, what is conserved."""
 
