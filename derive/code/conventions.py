@@ -15,7 +15,7 @@ from ..language.rational import Matrix
 from ..language.reserved import SPELT
 from ..language.show import show
 from ..record.as_json import decode
-from .languages import TargetLanguage
+from .languages import TargetLanguage, comment
 from .options import Options
 from .program import Program
 from .reader import RecordReader
@@ -279,7 +279,9 @@ def _output(entry: Mapping[str, Any], places: Mapping[int, str]) -> list[str]:
     frame = "body" if kind == "specific_force" else entry.get("frame", "")
     seen = f", in the {frame} frame" * bool(frame)
     name = f"{entry['name']}{at if on else ''}"
-    return textwrap.wrap(f"Output {name}: {OF_OUTPUTS[kind]}{seen}.", 88)
+    told = comment(entry["unit"])
+    unit = f", in {told}" * bool(told and told.isascii())
+    return textwrap.wrap(f"Output {name}: {OF_OUTPUTS[kind]}{seen}{unit}.", 88)
 
 
 # The text of the comment at the head of a file, line by line.

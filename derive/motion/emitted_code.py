@@ -124,15 +124,19 @@ class EmittedCode:
         if kind == "state":
             unit = self._unit_of_state(name)
         elif kind == "output":
-            unit = UNITS_OF_OUTPUTS.get(self._kinds_of_outputs[name], "")
+            kind, said = self._kinds_of_outputs[name]
+            if said:
+                return said
+            unit = UNITS_OF_OUTPUTS.get(kind, "")
         else:
             unit = UNITS.get(parts(name)[0] if kind == "conserved" else kind, "")
         return unit if {*FACTOR.findall(unit.replace("J", "kg m s"))} <= self.base else ""
 
     @cached_property
-    def _kinds_of_outputs(self) -> dict[str, str]:
-        """Name → kind, of the numbers that are read off the motion."""
-        stated = {x["name"]: x["kind"] for x in (self.record.problem or {}).get("outputs", ())}
+    def _kinds_of_outputs(self) -> dict[str, tuple[str, str]]:
+        """Name → kind and stated unit, of the numbers that are read off the motion."""
+        listed = (self.record.problem or {}).get("outputs", ())
+        stated = {x["name"]: (x["kind"], x["unit"]) for x in listed}
         return {x: stated.get(x) or stated[parts(x)[0]] for x in self.program.outputs}
 
     def _unit_of_state(self, name: str) -> str:

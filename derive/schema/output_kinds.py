@@ -11,17 +11,20 @@ OtherEnd = Annotated[int | None, Key("other_end", keys=("to",))]
 Anchor = Annotated[Row | None, Key("anchor", 1, trees=True, keys=("to",))]
 SpringNumber = Annotated[int, Key("spring")]
 ReadAt = Annotated[int | None, Key("end", keys=ATTACHED)]
+Unit = Annotated[str, Key("unit")]
 Expressions = Annotated[Row, Key("observed", 1, trees=True)]
 """A vector that is not 0; the point, or the point of space, up to which a distance is; a potential
 that is a spring, by its number; the place whose r_1, …, v_1, … expressions name, if they do;
-expressions of the state, t, inputs and parameters."""
+a unit; expressions of the state, t, inputs and parameters."""
 
 
 class Output(Table):
-    """What of a motion has a name: a number, or as many as the space has."""
+    """What of a motion has a name: a number, or as many as the space has; in a ``unit``, which
+    columns of runs have beside it."""
 
     section: ClassVar[str] = "output"
     name: Name
+    unit: Unit = ""
 
 
 class PlaceOutput(Output):
@@ -86,7 +89,7 @@ class DistanceOutput(Output):
         if not {"to", "other_end", "anchor"} & {*table}:
             return "give 'to', a point by its number or a point of space by its coordinates"
         given = isinstance(table.get("to", table.get("anchor")), list)
-        return "name", "on", "anchor" if given else "other_end"
+        return "name", "unit", "on", "anchor" if given else "other_end"
 
 
 class MomentumOutput(Output):
@@ -115,7 +118,7 @@ class ExpressionOutput(Output):
     @classmethod
     def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
         """A place where the table says one."""
-        return ("name", "on", "y") if {*ATTACHED} & {*table} else ("name", "y")
+        return ("name", "unit", *["on"] * bool({*ATTACHED} & {*table}), "y")
 
     @classmethod
     def word(
@@ -129,13 +132,15 @@ class ExpressionOutput(Output):
         to: int | Sequence[Number] | None = None,
         direction: Sequence[Number] | None = None,
         of: int | None = None,
+        unit: str | None = None,
     ) -> Any:
         """What is read off a motion: the "place", "velocity", "acceleration" or "specific_force" of
         a point or a place of the body; a "rate", that of turning; a "direction" of the body in
         space, or of space in the frame "body"; the "distance" to a point or an anchor; the
-        "momentum"; the "tension" of a spring, the potential of that number; or expressions y."""
+        "momentum"; the "tension" of a spring, the potential of that number; or expressions y. A
+        unit is beside it in runs."""
         told = {"name": name, "kind": kind, "y": y, "frame": frame, "to": to}
-        told |= {"direction": direction, "of": of, "block": block}
+        told |= {"direction": direction, "of": of, "block": block, "unit": unit}
         return told if on is None else told | place(on, block)
 
 

@@ -17,6 +17,7 @@ from .kind import Input, Parameter
 from .output_kinds import Output
 from .table import Rows, Slot, Table, hint
 
+UNIT = re.compile(r"[\w^*/.·°%⁰¹²³⁴-⁹⁻ -]{0,30}")
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 LONGEST = 16
 """The most entries of a vector whose length is not known."""
@@ -160,6 +161,15 @@ class TableReader(ABC):
     def word(self, slot: Slot) -> str:
         """One of those that the key may have."""
         return self.choice(slot, slot.about.words)
+
+    def unit(self, slot: Slot) -> str:
+        """A unit, which may stand at the head of a column."""
+        found = self.text(slot)
+        if not UNIT.fullmatch(found):
+            raise self.fail(
+                f"{slot.path}: letters, digits and ^ * / . - only, as m/s^2; at most 30"
+            )
+        return found
 
     def name(self, slot: Slot) -> str:
         """A name that every emitted language can take."""

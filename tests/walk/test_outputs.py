@@ -135,3 +135,12 @@ def test_beside_a_lagrangian_they_are_expressions(data, at):
     np.testing.assert_allclose(space["outputs"](T, x, []), expected, rtol=1e-14)
     if at == 0:
         assert space["jacobian_outputs_raw"](T, x, [])[0, at] == of["zeta_1"]
+
+
+def test_a_unit_ends_no_comment():
+    told = [{"name": "y", "y": ["zeta_1"], "unit": "*/ int x /*"}]
+    problem = problem_of(ON_A_GROUP | {"output": told})
+    record = walk(problem)
+    files = emit(assemble(record, problem.group), record, ("c", "javascript"), "test")
+    assert all("* / int x / *" in files[x] for x in ("test.h", "test.mjs"))
+    assert not any("*/ int x" in x for x in files.values())
