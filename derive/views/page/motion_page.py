@@ -214,7 +214,7 @@ def lean(source: str) -> str:
     return re.sub(r"\n\s+", "\n", plain(source))
 
 
-def pieces(body: Data, *, read: bool) -> dict[str, str]:
+def pieces(body: Data, *, read: bool = False) -> dict[str, str]:
     """What draws a body of :func:`.moving_body`, and what is ``read`` off its motion: names of the
     drawing's functions, by what they are for; a function that is not named, nor called by one that
     is, is no part of the page."""
