@@ -27,7 +27,7 @@ export const WORDS = {
       frame: { given: "as in the file", principal: "of its moments" },
       velocity: { body: "Z = g⁻¹ dg/dt", tangent: "dg/dt" },
       state: { whole: "all entries of g", moving: "those that vary" },
-      jacobian: { state: "how a deviation grows", inputs: "what an input changes", parameters: "what a parameter changes", raw: "∂(dx/dt)/∂x, x as stored" },
+      jacobian: { state: "how a deviation grows", inputs: "what an input changes", parameters: "what a parameter changes", raw: "∂(dx/dt)/∂x, x as stored", outputs: "how what is read changes" },
       step: {
         gauss: "collocation at Gauss’s points", rk4: "Runge and Kutta’s, of order 4", vern9: "Verner’s, of order 9",
         discrete: "the discrete motion", gauss_jax: "gauss in JAX",
@@ -76,7 +76,7 @@ export const WORDS = {
       frame: { given: "comme dans le fichier", principal: "de ses moments" },
       velocity: { body: "Z = g⁻¹ dg/dt", tangent: "dg/dt" },
       state: { whole: "tous les coefficients de g", moving: "ceux qui varient" },
-      jacobian: { state: "comment un écart croît", inputs: "ce que change une entrée", parameters: "ce que change un paramètre", raw: "∂(dx/dt)/∂x, x tel que stocké" },
+      jacobian: { state: "comment un écart croît", inputs: "ce que change une entrée", parameters: "ce que change un paramètre", raw: "∂(dx/dt)/∂x, x tel que stocké", outputs: "comment varie ce qui se lit" },
       step: {
         gauss: "collocation aux points de Gauss", rk4: "Runge et Kutta, d’ordre 4", vern9: "Verner, d’ordre 9",
         discrete: "le mouvement discret", gauss_jax: "gauss en JAX",
