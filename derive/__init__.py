@@ -27,20 +27,8 @@ WORDS = (
         "Lagrangian",
         "Laplacian",
     ),
-    *(
-        "Moments",
-        "Output",
-        "Points",
-        "Potential",
-        "Problem",
-        "SAff",
-        "SE",
-        "SL",
-        "SO",
-        "SU",
-        "Sim",
-        "Solid",
-    ),
+    *("Moments", "Output", "Points", "Potential", "Problem", "SAff", "SE", "SL", "SO", "SU"),
+    *("Sim", "Solid"),
     *("Sp", "Spring", "Torque", "Torus", "U", "UT"),
 )
 """And a word for each other kind of potential: ``Attraction`` and so on."""

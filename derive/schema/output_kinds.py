@@ -35,20 +35,16 @@ class PlaceOutput(Output):
     frame: Frame = "space"
 
 
-class VelocityOutput(Output):
+class VelocityOutput(PlaceOutput):
     """Its velocity."""
 
     kind = "velocity"
-    on: End
-    frame: Frame = "space"
 
 
-class AccelerationOutput(Output):
+class AccelerationOutput(PlaceOutput):
     """Its acceleration, along the motion."""
 
     kind = "acceleration"
-    on: End
-    frame: Frame = "space"
 
 
 class SpecificForceOutput(Output):

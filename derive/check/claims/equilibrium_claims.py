@@ -201,11 +201,8 @@ def _exact_squares(system: ReducedSystem, step: Step, claim: Claim) -> str:
     claimed = [_complex(t) for t in _listed(claim["squares"])]
     if any(any(at_complex(f, s)) for s in claimed):
         return "one is no square of an eigenvalue"
-    return (
-        ""
-        if len({*claimed}) == len(claimed) == distinct_roots(f)
-        else "they are not all, each once"
-    )
+    each_once = len({*claimed}) == len(claimed) == distinct_roots(f)
+    return "" if each_once else "they are not all, each once"
 
 
 def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from ...algebra.calculus import derivation, substitute
+from ...algebra.calculus import derivation, gradient, substitute
 from ...algebra.groups import Group
 from ...algebra.word_trees import WordNotation, tree_of
-from ...algebra.words import Expr, Letter, word
+from ...algebra.words import Expr, Letter, inner, word
 from ...language.tree import Tree, add, mul, neg, nodes, replaced
 from ...problem.fields import angular_velocity
 from ...problem.problem import Problem
@@ -31,6 +31,7 @@ from ...schema.output_kinds import (
 )
 from ..chapter import Chapter, Draft, phrase, say
 from ..spine.alphabet import Alphabet
+from ..spine.lagrangian import sum_over
 from ..vectors.isomorphism import ZETA, ZETA_DOT, HatMap
 from .potentials import column, in_space, place
 
@@ -223,14 +224,16 @@ class _Observed:
         return (self._length(x.on, x.other_end, x.anchor),)
 
     def momentum(self, x: MomentumOutput) -> Sequence[Tree]:
-        """Σ m_i v_i over the points of a block; A(Zc + mw) where there is one."""
+        """Σ m_i v_i over the points of a block; by the moments of the body where there is one."""
         b = self.b
         if self.group.factors:
             points = range(1, self.problem.masses + 1)
             inside = [i for i in points if self.problem.block(i) == x.block]
             return self.seen(x, add(*(mul(("at", "m", i), _velocity(i)) for i in inside)))
-        total = word(b.Z.velocity) * word(b.c)
-        total = total + word(b.m) * word(b.w.velocity) if b.affine else total
+        moments = {(b.m_i, b.r_i): word(b.c), (b.m_i,): word(b.m)}
+        along = word(direction := Letter("x", b.n))
+        work = sum_over(word(b.m_i) * inner(self.velocity, along), {b.m_i, b.r_i}, moments)
+        total = gradient(work, direction)
         return (self._in_body(total) if x.frame == "body" else self._in_space(total, 0),)
 
     def tension(self, x: TensionOutput) -> Sequence[Tree]:
