@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from ..language.reserved import suffixed
 from ..record.record import Derivation
 from .factor import factored
 from .graph import Node
@@ -31,7 +32,7 @@ def dynamics(lowering: Lowering) -> dict[str, list[Node]]:
     momenta = EmittedQuantities(lowering).momenta
     speeds = of_velocity(reader.space)
     upper = {
-        (a, b): graph.value(speeds[b].of(momenta[a]), f"M_{a + 1}_{b + 1}", "")
+        (a, b): graph.value(speeds[b].of(momenta[a]), suffixed("M", a + 1, b + 1), "")
         for a in range(count)
         for b in range(a, count)
     }
