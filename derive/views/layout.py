@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -26,12 +26,12 @@ Rows = list[str]
 @dataclass(frozen=True)
 class Quantifiers:
     """The words "for every" and "for some" before names, "along the motion", and the equations of
-    the step, which tell where they stand."""
+    the step that hold along it alone, which tell where they stand."""
 
     every: Formula
     some: Formula
     motion: Formula
-    equations: Sequence[Equation]
+    along: Collection[Equation]
 
 
 def blocks(
@@ -69,7 +69,9 @@ def quantifiers(language: Language, equations: Sequence[Equation]) -> Quantifier
     words = (f"{language.word(x)} " for x in ("for every", "for some"))
     every, some = (text(rf"\text{{{tex_text(x[:-1])} }} ", x) for x in words)
     motion = language.word("along the motion")
-    return Quantifiers(every, some, text(rf"\text{{{tex_text(motion)}}}", motion), equations)
+    return Quantifiers(
+        every, some, text(rf"\text{{{tex_text(motion)}}}", motion), moving(equations)
+    )
 
 
 def rows(x: Entry, names: Mapping[str, str], column: float, every: Quantifiers) -> Rows:
@@ -138,7 +140,7 @@ def quantifier(
         return joined([formula(x, names, notation) for x in these], literal(", "))
 
     clauses = []
-    if over := quantified(e, words.equations):
+    if over := quantified(e, words.along):
         shown, space = listed(over), domain(over)
         shown = paren(shown) if len(over) > 1 and space else shown
         if space:
@@ -146,7 +148,7 @@ def quantifier(
         clauses.append(words.every + shown)
     if e.exists:
         clauses.append(words.some + listed(e.exists))
-    if e in moving(words.equations):
+    if e in words.along:
         clauses.append(words.motion)
     return joined(clauses, literal(r",\ ")) if clauses else Formula("")
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
@@ -286,7 +286,7 @@ def moving(equations: Sequence[Equation]) -> set[Equation]:
     the motion alone: they say something of the acceleration, or of what the others say."""
     free = [e for e in equations if _of_accelerations(e)]
     rated = {e.lhs for e in free}
-    others = (e for e in equations if free and e not in free)
+    others = (e for e in equations if free and not _of_accelerations(e))
     return {e for e in others if e.lhs in rated or _names(e).intersection(ACCELERATIONS)}
 
 
@@ -316,10 +316,10 @@ def domain(for_all: tuple[str, ...]) -> str:
     return (DOMAINS if len(for_all) == 1 else PAIRS).get(for_all[0], "")
 
 
-def quantified(e: Equation, beside: Sequence[Equation]) -> tuple[str, ...]:
-    """The names of "for every …"; accelerations among them where not all of the equations
-    ``beside`` hold for any: else they are spoken of beside the step."""
-    return e.for_all if moving(beside) else tuple(x for x in e.for_all if x not in ACCELERATIONS)
+def quantified(e: Equation, along: Collection[Equation]) -> tuple[str, ...]:
+    """The names of "for every …"; accelerations among them where some equations of the step hold
+    ``along`` the motion alone, by :func:`moving`: else they are spoken of beside the step."""
+    return e.for_all if along else tuple(x for x in e.for_all if x not in ACCELERATIONS)
 
 
 def keys(step: Step) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
@@ -150,11 +150,11 @@ def _equations(equations: tuple[Equation, ...], room: int, language: Language) -
     if len(equations) > TABLE and cell(equations[0]) and len(runs) == 1:
         yield from _table([cell(e) for e in equations], room)
         return
-    left = [show(e.lhs) for e in equations]
+    left, along = [show(e.lhs) for e in equations], moving(equations)
     widest = max(map(display_width, left))
     column = widest if widest <= room * 2 // 5 else 0
     for lhs, e in zip(left, equations, strict=True):
-        for line in _equation(lhs, e, column, room, _clause(e, equations, language), language):
+        for line in _equation(lhs, e, column, room, _clause(e, along, language), language):
             yield " " * EQUATION + line
 
 
@@ -197,18 +197,18 @@ def _equation(
         yield from _paragraph(clause, indent, room)
 
 
-def _clause(e: Equation, beside: tuple[Equation, ...], language: Language) -> str:
-    """For which names an equation holds ``beside`` others: every one, or some; or along the
-    motion; empty where nothing is said."""
+def _clause(e: Equation, along: Collection[Equation], language: Language) -> str:
+    """For which names an equation holds: every one, or some; or along the motion, as those
+    ``along`` it do; empty where nothing is said."""
     clauses = []
-    if names := quantified(e, beside):
+    if names := quantified(e, along):
         shown, space = ", ".join(map(show_name, names)), domain(names)
         shown = f"({shown})" if len(names) > 1 and space else shown
         within = f" ∈ {space}" if space else ""
         clauses.append(f"{language.word('for every')} {shown}{within}")
     if e.exists:
         clauses.append(f"{language.word('for some')} {', '.join(map(show_name, e.exists))}")
-    if e in moving(beside):
+    if e in along:
         clauses.append(language.word("along the motion"))
     return ", ".join(clauses)
 

@@ -192,7 +192,7 @@ def _image_of_ball(Q: list[list[float]]) -> list[Vector]:
 
 def dot(a: Sequence[float], b: Sequence[float]) -> float:
     """⟨a, b⟩."""
-    return sum(x * y for x, y in zip(a, b, strict=True))
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def plus(a: Vector, b: Vector, s: float = 1.0) -> Vector:

@@ -58,6 +58,9 @@ class Shape:
     def __init__(self, solid: DrawnSolid, sight: Vector) -> None:
         self.kind, self.sizes, self.walls = solid.kind, solid.sizes, WALLS[solid.kind]
         self.columns, self.shift = _affine_map(solid)
+        x, y, z = self.columns
+        self.cofactors = cross(y, z), cross(z, x), cross(x, y)
+        self.volume = dot(x, self.cofactors[0])
         self.sight = self.to_reference(sight)
 
     def to_body(self, u: Vector) -> Vector:
@@ -67,15 +70,10 @@ class Shape:
 
     def to_reference(self, v: Vector) -> Vector:
         """A⁻¹ v, by Cramer's rule; 0 for a solid without volume, which hides nothing."""
-        x, y, z = self.columns
-        size = dot(x, cross(y, z))
-        if abs(size) < 1e-300:
+        if abs(self.volume) < 1e-300:
             return 0.0, 0.0, 0.0
-        return (
-            dot(v, cross(y, z)) / size,
-            dot(v, cross(z, x)) / size,
-            dot(v, cross(x, y)) / size,
-        )
+        x, y, z = (dot(v, c) / self.volume for c in self.cofactors)
+        return x, y, z
 
     def hides(self, points: Sequence[Vector]) -> list[bool]:
         """For each point, whether it is behind the solid, or in it."""
