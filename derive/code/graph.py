@@ -129,6 +129,10 @@ class Graph:
         stage = STATE if late else core.stage
         return self.linear([(1 / coefficient, self._intern("recip", None, (core,), stage))])
 
+    def has_reciprocal(self, x: Node) -> bool:
+        """Is 1 / x in the graph, which is then not finite where x is 0?"""
+        return ("recip", None, x.id) in self._nodes
+
     def function(self, name: str, *x: Node) -> Node:
         """An elementary function (``name``) of x, or an integral of several."""
         return self._intern("fun", name, x, max(y.stage for y in x))

@@ -258,6 +258,9 @@ class Directional:
             return self.zero
         if x.op == "recip":
             return g.linear([(Fraction(-1), g.product((x, x, inner)))])
+        if _is_norm(x) and not g.has_reciprocal(x):
+            # 0 where the vector is: right for ‖v‖v, and as good as any for ‖v‖, which has none
+            return g.product((g.num(Fraction(1, 2)), inner, g.recip(x + g.none(x))))
         if x.op == "fun":
             slope = value(DERIVATIVES[x.data]("x"), {"x": x.args[0]}, None, g.function, g.num)
             return g.product((slope, inner))
@@ -269,6 +272,21 @@ class Directional:
             varied = self.of(y)
             if not varied.is_zero:
                 yield self.graph.product([*factors[:k], varied, *factors[k + 1 :]])
+
+
+def _is_norm(x: Node) -> bool:
+    """Is it the root of a sum of squares, with no number among them?"""
+    if x.op != "fun" or x.data != "sqrt":
+        return False
+    inside = x.args[0].args[0] if x.args[0].op == "value" else x.args[0]
+    if inside.op == "add":
+        return min(inside.data) > 0 and all(map(_is_square, inside.args))
+    return _is_square(inside)
+
+
+def _is_square(x: Node) -> bool:
+    """Is it a product in which each factor stands an even number of times?"""
+    return x.op == "mul" and all(x.args.count(y) % 2 == 0 for y in x.args)
 
 
 def by_state(space: StateSpace, accelerations: list[Node]) -> list[Node]:

@@ -50,7 +50,8 @@ def tested_parameters(f: CodeFunction) -> set[int]:
     """The places in p of the parameters that a function tests for being 0, a branch that is tried
     separately.
 
-    ``CodeError`` where it tests anything else.
+    ``CodeError`` where it tests anything else, but for a divisor, x + (x == 0), which stands for x
+    wherever x divides.
     """
     if f.name == SIGNED:
         return set()
@@ -59,6 +60,9 @@ def tested_parameters(f: CodeFunction) -> set[int]:
 
     def visit(e: Any) -> None:
         if isinstance(e, tuple) and e:
+            if e[0] == "div" and _kept_off_zero(e[2]):
+                visit(e[1])
+                return
             if e[0] == "none":
                 if e[1][0] != "var" or e[1][1] not in places:
                     raise CodeError(f"{f.name}: it asks whether something is 0, and no parameter")
@@ -73,6 +77,11 @@ def tested_parameters(f: CodeFunction) -> set[int]:
             places |= {name: i for i, name in enumerate(s[1])}
         visit(s)
     return found
+
+
+def _kept_off_zero(e: Any) -> bool:
+    """Is it x + (x == 0), of a name?"""
+    return isinstance(e, tuple) and e[0] == "add" and e[1][0] == "var" and e[2] == ("none", e[1])
 
 
 def summands(f: CodeFunction) -> CodeFunction:

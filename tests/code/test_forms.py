@@ -2,6 +2,7 @@
 carried along by the map between their states, by a complex step; and derivatives of all kinds."""
 
 import json
+import tomllib
 from functools import cache
 
 import numpy as np
@@ -322,6 +323,33 @@ def test_the_jacobian_is_the_derivative(name):
             ends = [m.rhs(0.3, x, m.constants(p + s * step * e), u)[-d:] for s in (1, -1)]
             difference = (ends[0] - ends[1]) / (2 * step)
             assert np.allclose(found[:, i], difference, rtol=1e-5, atol=1e-5 * np.abs(found).max())
+
+
+DRAG = """
+name = "test"
+group = "SE(3)"
+point = [
+  { mass = 1, at = [1, 0, 0] }, { mass = 2, at = [0, 1, 0] },
+  { mass = 1, at = [0, 0, 1] }, { mass = 3, at = [1, -1, 2] },
+]
+damping = [{ kind = "quadratic", coefficient = 0.4 }]
+[[force]]
+at = [1, 2, 3]
+force = ["-hypot(v_1, v_2, v_3)*v_1", "-2*hypot(v_1, v_2, v_3)*v_2", "-abs(v_3)*v_3"]
+"""
+
+
+def test_at_rest_a_quadratic_drag_has_the_derivative_zero():
+    """||v|| has none there, and ||v||v has; beside rest the derivative is as it was."""
+    m = module_of(problem_of(tomllib.loads(DRAG)), jacobian=("state",))
+    x, k = np.zeros(len(m.STATE)), m.constants(m.DEFAULTS)
+    x[[0, 4, 8]] = 1
+    _, D = m.jacobian(0.0, x, k)
+    assert np.array_equal(D[6:], np.zeros((6, 12)))
+    x[12:] = 1e-9 * np.arange(1, 7)
+    _, D = m.jacobian(0.0, x, k)
+    slopes = [along(lambda x: m.rhs(0.0, x, k), x, e)[-6:] for e in np.eye(18)[12:]]
+    assert near(D[6:, 6:], np.transpose(slopes))
 
 
 def test_the_jacobian_in_the_principal_frame():

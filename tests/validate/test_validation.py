@@ -24,6 +24,7 @@ from derive.validate.emission import EmittedFiles, as_text
 from derive.validate.exact_points import Claims
 from derive.validate.read_file import read as read_file
 from derive.validate.terms import Array, CodeError, DiffersError, Literals, Machine
+from tests import problems
 from tests.project.test_layers import ROOT, imported
 from tests.support.code_mutations import mutants
 from tests.support.engine_mutations.jobs import FUNCTIONS
@@ -168,6 +169,21 @@ def test_what_is_wrong_only_where_a_parameter_is_0_is_refused():
     changed = text.replace("k_l/sqrt(", "(k_l + slack_l)/sqrt(")  # slack_l: 0 but for l = 0
     c, *_ = reports("two_tops", {"two_tops.c": changed})
     assert c.text.startswith("DIFFERS: rhs: the rate of ")
+
+
+def test_a_divisor_kept_off_0_is_read_and_no_other_question_about_the_state():
+    """``x + (x == 0)`` below a line is x wherever x divides; anywhere else it could hide a term."""
+    asked = problem_of(tomllib.loads(problems.PROBLEMS["SE(3) damped"]))
+    d = walk(asked)
+    options = Options(jacobian=("state",))
+    compiled = program(asked, d, options)
+    files = emit(compiled, d, ["c"], "drag", options)
+    old, *_ = re.findall(r"\((\w+) \+ \(\1 == 0\)\)", files["drag.c"])
+    for new, holds in {f"({old} + ({old} == 0))": True, f"({old} + 2*({old} == 0))": False}.items():
+        text = files["drag.c"].replace(f"({old} + ({old} == 0))", new)
+        told = EmittedFiles(files | {"drag.c": text}, "drag", Chart(), compiled.numbers(), True)
+        (report,) = told.reports(d)
+        assert report.holds == holds, report.text
 
 
 def test_the_principal_frame_is_said_not_to_be_validated():
