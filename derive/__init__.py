@@ -14,6 +14,7 @@ WORDS = (
         "Advected",
         "Aff",
         "Algebra",
+        "AppliedCovector",
         "AppliedForce",
         "Covector",
         "Damping",

@@ -40,9 +40,10 @@ def integrals(
     from .search.integrals.all_integrals import found
     from .search.integrals.integral_steps import told
     from .search.integrals.reduced import reduced, require_group, with_defaults
-    from .search.symmetries.scalar_lagrangian import with_scalar_lagrangian
+    from .search.symmetries.scalar_lagrangian import require_no_forces, with_scalar_lagrangian
 
     require_group(problem)
+    require_no_forces(problem)
     driven, problem = bool(problem.inputs), replace(problem, inputs=())
     if problem.lagrangian is None:
         problem = with_scalar_lagrangian(problem, walk(problem))

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..motion.emitted_code import parts
-from ..motion.energy_sources import DAMPING, INPUTS, is_weightless
+from ..motion.energy_sources import DAMPING, FORCES, INPUTS, is_weightless
 from ..motion.ensemble import (
     EnsembleMotions,
     Part,
@@ -161,7 +161,7 @@ def summary(run: Run) -> list[str]:
     lines = [f"{name}: {span}, by {method}, in {how}"]
     drives = run.facts.get("drives", [])
     for kind in ("energy", "conserved"):
-        by = drives if kind == "energy" else [x for x in drives if x == INPUTS]
+        by = drives if kind == "energy" else [x for x in drives if x in (INPUTS, FORCES)]
         why = f": by {' and '.join(by)}" if by else ""
         for label, column in run.of_kind(kind).items():
             if label in run.facts.get("vanishing", ()):

@@ -26,6 +26,7 @@ from ..schema.kind import (
     DAMPING,
     GROUP,
     INPUTS,
+    Acting,
     AnyDamping,
     CovectorInput,
     Damping,
@@ -35,6 +36,7 @@ from ..schema.kind import (
     Potential,
     QuadraticDamping,
     RotationalDamping,
+    StatedCovector,
     StatedForce,
     StatedGroup,
     TorqueInput,
@@ -147,9 +149,7 @@ def _user_group(own: StatedGroup) -> Group:
 
 # The tables [[potential]], [[input]], [[damping]] and [[force]] of a problem file.
 
-Forces = tuple[
-    tuple[Potential, ...], tuple[Input, ...], tuple[AnyDamping, ...], tuple[StatedForce, ...]
-]
+Forces = tuple[tuple[Potential, ...], tuple[Input, ...], tuple[AnyDamping, ...], tuple[Acting, ...]]
 
 
 def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
@@ -173,7 +173,11 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
         reader.one_of(DAMPING, x, w) if "kind" in x else reader.typed(Damping, x, w)
         for w, x in damping.items()
     )
-    return found, given, damped, tuple(reader.typed(StatedForce, x, w) for w, x in stated.items())
+    of_state: tuple[Acting, ...] = tuple(
+        reader.typed(StatedCovector, x, w) if "covector" in x else reader.typed(StatedForce, x, w)
+        for w, x in stated.items()
+    )
+    return found, given, damped, of_state
 
 
 def outputs(

@@ -10,10 +10,11 @@ from ..algebra.groups import Group
 from ..algebra.structure import TorusLattice
 from ..language.limits import Refused
 from ..language.reserved import numbers_of_input, numbers_of_output
-from ..language.tree import Tree
+from ..language.tree import Tree, add
 from ..schema.body_kinds import AnyBody, Body, MomentBody, NoBody, Place, Point
 from ..schema.kind import (
     GROUP,
+    Acting,
     Advected,
     CovectorInput,
     Damping,
@@ -24,6 +25,7 @@ from ..schema.kind import (
     Lagrangian,
     Parameter,
     Potential,
+    StatedCovector,
     StatedForce,
     TorqueInput,
 )
@@ -71,7 +73,7 @@ class Problem:
     inputs: tuple[Input, ...] = ()
     places: tuple[Place, ...] = ()
     damping: tuple[Damping, ...] = ()
-    forces: tuple[StatedForce, ...] = ()
+    forces: tuple[Acting, ...] = ()
     outputs: tuple[Output, ...] = ()
     frame: Mapping[str, Any] | None = None
     signed: bool = False
@@ -150,6 +152,18 @@ class Problem:
     def force_inputs(self) -> tuple[ForceInput | TorqueInput, ...]:
         """The inputs that are forces and torques."""
         return tuple(i for i in self.inputs if not isinstance(i, CovectorInput))
+
+    @property
+    def placed_forces(self) -> tuple[StatedForce, ...]:
+        """The forces of the state that act at a place."""
+        return tuple(x for x in self.forces if isinstance(x, StatedForce))
+
+    @property
+    def stated_covector(self) -> tuple[Tree, ...]:
+        """The sum of the covectors of the state, by its values on the basis that the problem
+        states; empty where there are none."""
+        found = [x.covector for x in self.forces if isinstance(x, StatedCovector)]
+        return tuple(add(*entries) for entries in zip(*found, strict=True))
 
     @property
     def driven(self) -> bool:

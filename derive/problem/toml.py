@@ -188,9 +188,15 @@ def _without_points(
         raise ProblemError("an algebra moves no points: give a [lagrangian] or an [inertia]")
     if moved is None:
         raise ProblemError(f"key {where!r}: a text about any group has no Lagrangian of its own")
-    for key in ("point", "solid", "body", "potential", "damping", "force"):
+    for key in ("point", "solid", "body", "potential", "damping"):
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
+    for k, x in enumerate(tables(data, "force"), 1):
+        if "covector" not in x:
+            raise ProblemError(
+                f"force {k}: beside [{where}] are no points: give a 'covector', expressions of the "
+                "state, one for each element of the basis"
+            )
     given = data.get("input", ())
     if any(isinstance(x, dict) and x.get("kind") in ("force", "torque") for x in given):
         raise ProblemError(f"key 'input': beside [{where}] an input is a covector: no points")
@@ -201,7 +207,7 @@ def _without_points(
     name = reader.name_of(data, of_its_own=moved is not None)
     parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)
-    _, inputs, *_ = forces(data, reader)
+    _, inputs, _, stated = forces(data, reader)
     for k, x in enumerate(tables(data, "output"), 1):
         if "y" not in x or {*ATTACHED} & {*x}:
             raise ProblemError(
@@ -213,16 +219,18 @@ def _without_points(
         title=reader.title_of(data, name),
         parameters=parameters,
         inputs=inputs,
+        forces=stated,
         outputs=outputs(data, reader, inputs),
         lagrangian=lagrangian(data, group, reader),
         advected=advected,
         **motion_fields(data, reader),
     )
     _declared(problem, data)
-    if inputs and problem.lagrangian and problem.lagrangian.held:
+    if problem.driven and problem.lagrangian and problem.lagrangian.held:
         raise ProblemError(
-            "input 1: L has symmetries without kinetic energy, and what pushes along them has no "
-            "motion to answer; add their kinetic energy, or leave the input out"
+            f"{'input' if inputs else 'force'} 1: L has symmetries without kinetic energy, and "
+            "what pushes along them has no motion to answer; add their kinetic energy, or leave "
+            f"the {'input' if inputs else 'force'} out"
         )
     return problem
 

@@ -15,7 +15,18 @@ from ..language.laurent import LEVEL, degree_in_level
 from ..language.limits import BASIS, CARRIED, LAYERS, TORUS
 from ..language.tree import Tree, replaced
 from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
-from ..schema.kind import GROUP, INPUTS, Advected, Damping, Fluid, Lagrangian, StatedForce, Torus
+from ..schema.kind import (
+    GROUP,
+    INPUTS,
+    Acting,
+    Advected,
+    Damping,
+    Fluid,
+    Lagrangian,
+    StatedCovector,
+    StatedForce,
+    Torus,
+)
 from ..schema.kinds import kinds
 from ..schema.output_kinds import OUTPUTS
 from ..schema.table import ACTIONS, DETERMINANT, Rows, Slot, Table
@@ -97,7 +108,7 @@ class _RecordReader(TableReader):
         self.distinct(inputs, data["parameters"])
         self.each("damping", lambda x, where: self.typed(Damping, x, where))
         if "forces" in data:
-            self.each("forces", lambda x, where: self.typed(StatedForce, x, where))
+            self.each("forces", self.acting)
         if "outputs" in data:
             outputs = self.each("outputs", lambda x, where: self.one_of(OUTPUTS, x, where))
             self.distinct_outputs(outputs, inputs, data["parameters"])
@@ -123,6 +134,12 @@ class _RecordReader(TableReader):
         listed = enumerate(self.value(self.top(key), list), 1)
         return [read(x, f"{key.removesuffix('s')} {k}") for k, x in listed]
 
+    def acting(self, data: Any, where: str) -> Acting:
+        """A force of the state, at a place, or a covector."""
+        if isinstance(data, dict) and "covector" in data:
+            return self.typed(StatedCovector, data, where)
+        return self.typed(StatedForce, data, where)
+
     def body(self) -> None:
         """Its points are those that are named by numbers."""
         own = self.value(self.top("body"), dict)
@@ -147,9 +164,11 @@ class _RecordReader(TableReader):
                     "advected, torus: they are of a problem with a Lagrangian of its own"
                 )
             return
-        for key in ("potentials", "places", "damping", "forces"):
+        for key in ("potentials", "places", "damping"):
             if data.get(key):
                 raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
+        if not all("covector" in x for x in data.get("forces", ())):
+            raise ShapeError("lagrangian: the forces of its problem are covectors")
         if any(x["kind"] != "covector" for x in data["inputs"]):
             raise ShapeError("lagrangian: the inputs of its problem are covectors")
         if any(x["kind"] != "expression" for x in data.get("outputs", ())):
@@ -358,7 +377,7 @@ class _RecordReader(TableReader):
 
         return self.listed(self.value(slot), None, slot.path, one)
 
-    stated_couple = observed = stated
+    stated_couple = stated_covector = observed = stated
 
     def is_spring(self, k: int) -> bool:
         """Is it one of the problem?"""

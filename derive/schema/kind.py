@@ -213,8 +213,9 @@ def _said(keys: tuple[str, ...] | str, table: Mapping[str, Any]) -> tuple[str, .
 Stated = Annotated[Row, Key("stated", 1, trees=True)]
 Torque = Annotated[Row, Key("stated_couple", 1, trees=True)]
 Wind = Annotated[Row, Key("wind", 1, trees=True, told=False)]
+Dual = Annotated[Row, Key("stated_covector", 1, trees=True)]
 """Expressions of the state, t, inputs and parameters; a moment of these; a velocity in space, of t
-and the place."""
+and the place; a covector of the Lie algebra."""
 
 
 class StatedForce(Table):
@@ -232,7 +233,7 @@ class StatedForce(Table):
     def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
         """One of force and moment at least."""
         if not table.get("force") and not table.get("moment"):
-            return "give 'force' or 'moment', lists of expressions"
+            return "give 'force' or 'moment', lists of expressions, or a 'covector' alone"
         return super().chosen(table, last)
 
     @classmethod
@@ -250,6 +251,23 @@ class StatedForce(Table):
         t, inputs and parameters, in the frame "space" or "body"."""
         told = {"force": force, "moment": moment, "frame": frame, "relative_to": relative_to}
         return told | place(on, block)
+
+
+class StatedCovector(Table):
+    """A covector of the Lie algebra that is a function of the state, by its values on the basis
+    that the problem states: power ⟨Q, ζ⟩."""
+
+    section, called = "force", "AppliedCovector"
+    covector: Dual
+
+    @classmethod
+    def word(cls, covector: Sequence[Number]) -> Any:
+        """What acts along each element of the basis: expressions of the state, t, inputs and
+        parameters, as many as the group has dimensions."""
+        return {"covector": covector}
+
+
+Acting = StatedForce | StatedCovector
 
 
 class Damping(Table):

@@ -330,6 +330,10 @@ class TableReader(ABC):
     def stated_couple(self, slot: Slot) -> tuple[Tree, ...]:
         """A moment that is one."""
 
+    @abstractmethod
+    def stated_covector(self, slot: Slot) -> tuple[Tree, ...]:
+        """A covector that is one."""
+
     def timed(self, slot: Slot) -> tuple[Tree, ...]:
         """The same, of the time as well."""
         return self.listed(self.value(slot), self.dimension(slot), slot.path, self.in_time)

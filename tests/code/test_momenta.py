@@ -12,7 +12,9 @@ import derive
 from derive.command.cli import main
 from derive.problem.toml import problem_of
 from tests.oracles.euler_lagrange import acceleration
+from tests.oracles.general import evaluate
 from tests.support.library import module_of
+from tests.support.walks import own_verdicts
 
 SQUARE = "zeta_1^2 + zeta_2^2 + zeta_3^2"
 CASES = {  # group, side, ℓ; the last three are found by Newton's method
@@ -93,6 +95,25 @@ def test_c_and_python_beside_the_derivatives_of_the_lagrangian(case):
             assert np.array_equal(skew, -skew.T)
     x, y = map(np.stack, zip(*states, strict=True))
     assert np.abs(m.velocity(0.4, y, k) - x).max() < 1e-12
+
+
+@pytest.mark.parametrize("case", ["gyroscopic", "right", "turning", "light-like"])
+def test_a_covector_of_the_state_acts_as_the_input_with_its_values(case):
+    """Beside an input that acts too; in ζ̇, and in the rates of the momenta."""
+    values = ["-zeta_1", "A_12*zeta_2 + t", "u_1*zeta_3^2"]
+    own = typed(case, force=[{"covector": values}])
+    given, acted = (derive.compile(p, momenta=True) for p in (typed(case), own))
+    rng = np.random.default_rng(6)
+    (_, place), zeta, u = element(own.group, rng), rng.normal(size=3), rng.normal(size=3)
+    x = np.array([*place, *zeta])
+    named = dict(zip(acted.STATE, x, strict=True)) | {"t": 0.4, "u_1": u[0]}
+    pushed = u + [evaluate(text, named) for text in values]
+    assert np.abs(acted.rhs(0.4, x, u) - given.rhs(0.4, x, pushed)).max() < 1e-13
+    y = acted.momentum(0.4, x)
+    assert np.array_equal(y, given.momentum(0.4, x))
+    rates = [f.momentum_rhs(0.4, y, w) for f, w in ((acted, u), (given, pushed))]
+    assert np.abs(rates[0] - rates[1]).max() < 1e-12
+    assert all(v.holds for v in own_verdicts(derive.derive(own).record))
 
 
 @pytest.mark.parametrize("name", ["euler_poisson", "kirchhoff", "manakov", "coupled"])

@@ -387,6 +387,9 @@ def stated(data, basis, p, t, found, G, zeta, u):
     env = environment(data, basis, p, t, G, zeta, u)
     Z = np.tensordot(zeta, basis, 1)
     for k, table in enumerate(data.get("force", ())):
+        if "covector" in table:
+            covector += _vector(table["covector"], len(basis), env)[:, 0]
+            continue
         x = found.at[_key("force", k, table)]
         rows, n = found.row[x], x.stop - x.start
         turn, in_body = G[np.ix_(rows, rows)], table.get("frame", "space") == "body"

@@ -431,7 +431,25 @@ moment = ["-c*zeta_1"]
 on = 4
 frame = "body"
 force = ["-c*v_1 + zeta_4", "A2_12 - v_2"]
+[[force]]
+covector = ["-c*zeta_1", "t*zeta_3", "A1_12", "-zeta_4^3", "A2_11*zeta_1", "c*T1_2"]
 """
+WITH_COVECTOR = """
+[[input]]
+name = "push"
+kind = "covector"
+[[force]]
+covector = [{0}]
+[[force]]
+covector = [{0}]
+"""
+VALUES = ["-zeta_1", "zeta_1*A_12", "t*zeta_3", "push_1*w_1", "A_33*T_2", "-w_2*abs(w_2)"]
+PROBLEMS |= {
+    "SE(3) covector of the state": pushed("SE(3)", WITH_COVECTOR.format(str(VALUES)[1:-1])),
+    "SL(3) covector of the state": pushed(
+        "SL(3)", WITH_COVECTOR.format(str([*VALUES[:3], "push_1*zeta_8", *VALUES[:4]])[1:-1])
+    ).replace("w_1", "zeta_8"),
+}
 DAMPED = """
 parameters = { k = 0.3 }
 point = [
@@ -460,6 +478,8 @@ PROBLEMS["so(3) skewed of the state"] = (
     own_group(SKEWED)
     + """
 [[force]]
+covector = ["-zeta_1*abs(zeta_1)", "zeta_1*A_12", "t*zeta_3"]
+[[force]]
 on = 1
 frame = "body"
 force = ["-v_1", "zeta_1*A_12", "zeta_2 - v_3"]
@@ -469,6 +489,8 @@ moment = [0, 0, "-zeta_3"]
 PROBLEMS["se(3) mixed of the state"] = (
     own_group(MIXED, "affine")
     + """
+[[force]]
+covector = ["-zeta_1", "zeta_1*A_12", "t*zeta_3", "-zeta_4", "T_2*zeta_5", "-zeta_6^3"]
 [[force]]
 on = 1
 frame = "body"

@@ -85,6 +85,7 @@ CHOSEN = (
     *("a cylinder", "SL(4)", "Aff(2)", "SAff(2)", "weighted"),
     *("SE(3) x SE(3)", "a flat body", "so(3) skewed", "SE(3) torques", "SE(2) torques"),
     *("SE(3) of the state", "Aff(3) of the state", "SE(3) outputs", "SE(2) outputs"),
+    "SL(3) covector of the state",
 )
 
 
@@ -125,6 +126,7 @@ WHOLE = {"group": "SL(3)", "body": {"solid": "ellipsoid", "density": 1, "semi_ax
 WEIGHT = {"kind": "gravity", "g": [0, 0, "-9.81"]}
 OWN = [
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT},
+    {"group": "SO(3)", "lagrangian": ON_THE_RIGHT, "force": [{"covector": ["-zeta_1", 0, "t"]}]},
     {"algebra": {"of": "SO(3)"}, "advected": [{"name": "x"}], "lagrangian": ON_THE_RIGHT},
     {"group": "SO(3) x SE(2)", "lagrangian": {"L": TWO}},
     WHOLE | {"potential": [WEIGHT]},

@@ -20,7 +20,7 @@ from tests.support.corpus import SOLIDS, SOLIDS_ON
 from tests.support.gauss import agrees
 from tests.support.library import loaded, module
 from tests.support.needs import present
-from tests.support.walks import SEED
+from tests.support.walks import SEED, own_verdicts
 
 STATES = 12
 HALF = Fraction(1, 2)
@@ -49,6 +49,14 @@ def test_forces_from_outside(name):
     data = tomllib.loads(PROBLEMS[name])
     _, m = emitted(problem_of(data), corpus.record(f"points {name}"))
     agrees(m, None, data, {}, states=3, tolerance=1e-11)
+
+
+@pytest.mark.parametrize("name", ["SL(3) covector of the state", "se(3) mixed of the state"])
+def test_a_covector_of_the_state(name):
+    """By the code, and by the checker."""
+    data, record = tomllib.loads(PROBLEMS[name]), corpus.record(f"points {name}")
+    agrees(emitted(problem_of(data), record)[1], None, data, {}, states=3, tolerance=1e-11)
+    assert all(v.holds for v in own_verdicts(record))
 
 
 @pytest.mark.parametrize("group", SOLIDS_ON)

@@ -185,7 +185,8 @@ class LagrangianModel(PhasePoint):
     @cached_property
     def total_load(self) -> list[Any]:
         """What ζ̇ must give by the second derivatives."""
-        return [u + self._force(e) for u, e in zip(self.covector, self.group.basis, strict=True)]
+        pairs = zip(self.acting_covector, self.group.basis, strict=True)
+        return [u + self._force(e) for u, e in pairs]
 
     def solved(self, metric: Matrix, covector: list[Any]) -> Matrix:
         """``EvaluationError`` where what is held has an equation that is not satisfied."""

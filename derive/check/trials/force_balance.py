@@ -51,13 +51,13 @@ def _summed(model: Model, forces: list[Vector], mark: str, couple: Matrix) -> Va
 
 
 def _with_covector(model: Model, values: Values) -> Values:
-    """The covector input joins N_u and F_u by the rows that read coordinates, μ_u and F_u in R³."""
-    dual = model.group.covector_matrix(model.covector)
+    """Covectors join N_u and F_u by the rows that read coordinates, μ_u and F_u in R³."""
+    dual = model.group.covector_matrix(model.acting_covector)
     found = {"N_u": q.plus(values["N_u"], model.group.linear_part(dual))}
     if model.group.affine:
         found["F_u"] = q.plus(values["F_u"], model.group.translation_part(dual))
     if model.group.turns_space:
-        found["μ_u"] = q.plus(values["μ_u"], q.column(model.covector[:3]))
+        found["μ_u"] = q.plus(values["μ_u"], q.column(model.acting_covector[:3]))
     return found
 
 
@@ -153,7 +153,7 @@ class ForceBalance:
         """The moment in the body, about the centre, of all forces, inputs and damping."""
         forces = zip(self.model.forces, self.model.nonpotential_forces, strict=True)
         total = [tuple(x + y for x, y in zip(f, g, strict=True)) for f, g in forces]
-        dual = self.group.covector_matrix(self.model.covector)
+        dual = self.group.covector_matrix(self.model.acting_covector)
         linear = q.plus(self.moment_in_body(total), self.group.linear_part(dual))
         linear = q.plus(linear, self.model.couple)
         if not self.group.affine:

@@ -157,7 +157,8 @@ class Model(Body, PhasePoint):
         which have none."""
         yield from zip(self.input_forces, self.inputs_of("force", "torque"), strict=True)
         if self.at.driven and not self.generic:
-            yield from (((Fraction(1),), x) for x in self.problem.get("forces", ()))
+            stated = (x for x in self.problem.get("forces", ()) if "on" in x)
+            yield from (((Fraction(1),), x) for x in stated)
 
     def _acted_on(self, data: Mapping[str, Any]) -> tuple[int, Group]:
         """The block, from 1, on which a force or torque acts, and its factor."""
@@ -208,7 +209,7 @@ class Model(Body, PhasePoint):
     def input(self) -> list[Fraction]:
         """The values u(E_a) on the basis of the covector of all inputs and damping."""
         found = []
-        for u, e in zip(self.covector, self.group.basis, strict=True):
+        for u, e in zip(self.acting_covector, self.group.basis, strict=True):
             pairs = zip(self.nonpotential_forces, self.images(q.times(self.g, e)), strict=True)
             found.append(u + sum((q.dot(f, v) for f, v in pairs), self.work_of_couple(e)))
         return found

@@ -10,10 +10,12 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from operator import mul
 from typing import Any, NamedTuple
 
 from ...language import rational as q
 from ...language.rational import Matrix
+from ...record.as_json import decode
 from ..values.arithmetic import (
     EPS,
     EPS_PRIME,
@@ -24,6 +26,7 @@ from ..values.arithmetic import (
     part,
 )
 from ..values.draws import LINEAR, TIME, TRANSLATION, Draws, Locus
+from ..values.evaluate import Environment, evaluate
 from ..values.residue import with_slots
 
 ENTRY = 2
@@ -97,6 +100,17 @@ class PhasePoint(Draws):
         self.covector = [self.draw() if pulled else Fraction(0) for _ in self.group.basis]
         self.parameters |= self.name_covector(self.covector)
 
+    @cached_property
+    def acting_covector(self) -> list[Any]:
+        """The values on the basis of the covector of the inputs and of those of the state."""
+        forces = self.problem.get("forces", ()) if self.at.driven and not self.generic else ()
+        total = [*self.covector]
+        for listed in (x["covector"] for x in forces if "covector" in x):
+            own = [evaluate(decode(x, "covector"), self.of_state) for x in listed]
+            for a, e in enumerate(self.group.basis):
+                total[a] += sum(map(mul, self.group.in_user_basis.nearest(e), own), Fraction(0))
+        return total
+
     def _without_parts(self, parts: Collection[str], xi: Matrix) -> Matrix:
         """A random element of 𝔤 without these parts; ``xi`` where the group has none of them."""
         rows = []
@@ -117,6 +131,11 @@ class PhasePoint(Draws):
             return self.motion
         full = self.second if "′" in name else self.first
         return replace(full, time=Fraction(0)) if "x" in name else full
+
+    @property
+    @abstractmethod
+    def of_state(self) -> Environment:
+        """The environment of expressions of the state."""
 
     # -- the Lagrangian ------------------------------------------------------------------------
 

@@ -245,6 +245,15 @@ class Integrand:
         return ("div", ("par", self.weight), ("fun", "sqrt", cubic))
 
 
+def require_no_forces(problem: Problem) -> None:
+    """``ProblemError`` where a force of the state acts, which is outside L̃."""
+    if problem.forces:
+        raise ProblemError(
+            f"{problem.name}: a [[force]], or damping that is quadratic or rotational, is no part "
+            "of L̃, and this is of L̃ alone; leave it out"
+        )
+
+
 def with_scalar_lagrangian(
     problem: Problem, record: Derivation, integrand: Integrand | None = None
 ) -> Problem:
@@ -272,11 +281,7 @@ def with_scalar_lagrangian(
             "energy at the rate −Σ κ |v|², and keeps momenta whose symmetry moves no damped point, "
             "and those of translations with Σ κ r"
         )
-    if problem.forces:
-        raise ProblemError(
-            f"{problem.name}: a [[force]], or damping that is quadratic or rotational, is no part "
-            "of L̃, and this is of L̃ alone; leave it out"
-        )
+    require_no_forces(problem)
     if problem.lagrangian is not None:
         return replace(problem, inputs=())
     group = problem.group.in_user_basis

@@ -61,10 +61,10 @@ def where_given(problem: Problem) -> Prose:
         for x in problem.force_inputs
     ]
     given = say("input.given", forces=listed("{first}; {second}", forces)) if forces else ()
-    stated = [phrase(f"input.{x.frame}_stated", point=f"r_{x.on}") for x in problem.forces]
+    stated = [phrase(f"input.{x.frame}_stated", point=f"r_{x.on}") for x in problem.placed_forces]
     if stated:
         given += say("input.stated", forces=listed("{first}; {second}", stated))
-    return given
+    return given + (say("input.covector") if problem.stated_covector else ())
 
 
 def _sort(x: ForceInput) -> str:
@@ -117,7 +117,7 @@ def numbers(problem: Problem, *, discrete: bool = False) -> dict[Tree, Tree]:
 def _pushes(problem: Problem) -> list[tuple[int, Push]]:
     """The forces and torques that act beside a covector, those that are given with their number."""
     given: list[Push] = [*problem.force_inputs]
-    return [*enumerate(given, 1), *((0, x) for x in problem.forces)]
+    return [*enumerate(given, 1), *((0, x) for x in problem.placed_forces)]
 
 
 def _velocities(
@@ -126,7 +126,8 @@ def _velocities(
     """The equations of v_i, the velocity in space of each place where a force depends on it;
     ``images``: what stands for the velocities of 𝔤."""
     named = {x for f in problem.forces for t in f.trees() for x in nodes(t)}
-    places = [i for i in sorted({f.on for f in problem.forces}) if ("at", "v", i) in named]
+    listed_places = sorted({f.on for f in problem.placed_forces})
+    places = [i for i in listed_places if ("at", "v", i) in named]
     if not places:
         return []
     g = word(b.A.position)
@@ -208,8 +209,8 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
             pulls.append(force)
         if couple := _couple(problem, e, given):
             moments.append(_skew(problem, given, couple))
-    if problem.covector:
-        moment, pull = _covector(group, b)
+    if any(terms := covector_terms(problem, group)):
+        moment, pull = _matrix_of_covector(group, b, [add(*x) for x in terms])
         moments.append(moment)
         pulls.append(pull)
     equations = [*definitions, Equation(forces.moments.name, add(*moments))]
@@ -235,14 +236,31 @@ def _in_body(
     return f if b.unit == C else mul("C", f)
 
 
-def _covector(group: Group, b: Alphabet) -> tuple[Tree, Tree]:
-    """A matrix (and for an affine group a column) whose pairing with ξ′ (and η′) is u(ξ′), by the
-    rows that read coordinates."""
+def stated_covector(problem: Problem, group: Group) -> list[Tree]:
+    """The covector of the state, by its values on the basis of the record; none without one."""
+    own = problem.stated_covector
+    columns = [group.in_user_basis.nearest(e) for e in group.basis] if own else []
+    return [add(*(mul(plain(x), q) for x, q in zip(c, own, strict=True) if x)) for c in columns]
+
+
+def covector_terms(problem: Problem, group: Group) -> list[tuple[Tree, ...]]:
+    """What covectors have along each element of the basis: the input its entry of u, that of the
+    state an expression; nothing where there is neither."""
+    stated = stated_covector(problem, group)
+    return [
+        (*((("entry", "u", a + 1),) if problem.covector else ()), *stated[a : a + 1])
+        for a in range(group.dimension)
+    ]
+
+
+def _matrix_of_covector(group: Group, b: Alphabet, covector: Sequence[Tree]) -> tuple[Tree, Tree]:
+    """A matrix (and for an affine group a column) whose pairing with ξ′ (and η′) is that with a
+    covector, by the rows that read coordinates."""
     size = group.size
     entries: list[list[list[Tree]]] = [[[] for _ in range(size)] for _ in range(size)]
     for a in range(group.dimension):
         for x, i, j in group.coordinate_terms(a):
-            entries[i][j].append(mul(x, ("entry", "u", a + 1)))
+            entries[i][j].append(mul(x, covector[a]))
     n = b.n
     assert isinstance(n, int)
     rows = tuple(("row", *(add(*entries[i][j]) for j in range(n))) for i in range(n))
@@ -290,7 +308,7 @@ def external_vectors(
     nothing acts from outside dϖ."""
     if not acts(problem):
         return None
-    if not (problem.force_inputs or problem.forces or problem.damping):
+    if not (problem.force_inputs or problem.forces or problem.damping):  # u alone
         return External(word(TORQUE), word(FORCE), ())
     forces, draft = applied(b, "u", vectors=True), c.draft("input", "input")
     definitions, drag = _damping(problem, b)
@@ -311,6 +329,10 @@ def external_vectors(
     if problem.covector:
         moments.append(TORQUE.name)
         pulls.append(FORCE.name)
+    assert problem.group is not None
+    if covector := tuple(stated_covector(problem, problem.group)):
+        moments.append(column(covector[:3]))
+        pulls.append(column(covector[3:]))
     equations = [*definitions, Equation(forces.moments.name, add(*moments))]
     if b.affine:
         equations.append(Equation(forces.resultant.name, add(*pulls)))

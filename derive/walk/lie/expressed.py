@@ -25,6 +25,7 @@ from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
 from ...schema.kind import Lagrangian
 from ..chapter import Chapter, enumerated, phrase, say
+from ..given.inputs import covector_terms
 from ..matrices.coordinates import basis_equations
 from .any_lagrangian import AnyLagrangian
 
@@ -145,7 +146,8 @@ def conserved(
         laws += say("conserved.other")
     if not equations:
         return ()
-    prose = say("conserved.kept_by_any", kept=enumerated(laws))
+    without = "conserved.kept_without_forces" if problem.forces else "conserved.kept_by_any"
+    prose = say(without, kept=enumerated(laws))
     if forced:
         prose += say("conserved.components")
     elif whole and problem.advected is not None:
@@ -254,10 +256,10 @@ def balance(
     turning, weighing = c.draft("coadjoint", "kernel"), c.draft("mass", "components")
     turning.depends_on(general["coadjoint"], *basis.brackets)
     coadjoint = coadjoint_terms(group, general.epsilon)
-    driven = [("entry", "u", a + 1) for a in range(group.dimension)] if problem.inputs else []
+    driven = covector_terms(problem, group)
     forces = [member("Φ", a) if x else 0 for a, x in enumerate(stage.forces)]
     rates = [
-        add(*((x,) if x else ()), *((y,) if y else ()), *driven[a : a + 1])
+        add(*((x,) if x else ()), *((y,) if y else ()), *driven[a])
         for a, (x, y) in enumerate(zip(forces, coadjoint, strict=True))
     ]
     coadjoint_step = turning.step(
