@@ -188,7 +188,7 @@ class ForceReader(TableReader):
 
     def stated_covector(self, slot: Slot) -> Vector:
         """One for each element of the basis."""
-        return self._at_no_place(slot, self.moving().dimension)
+        return self._of_state(slot, self.moving().dimension)
 
     def other_end(self, slot: Slot) -> int:
         """A point in a space of the same dimension."""
@@ -199,23 +199,17 @@ class ForceReader(TableReader):
 
     def observed(self, slot: Slot) -> Vector:
         """Some expressions of the state, which know a place where the table says one."""
-        return self._at_no_place(slot, None) if self.pointless else self._of_state(slot, None)
+        return self._of_state(slot, None)
 
     def is_spring(self, k: int) -> bool:
         """Is it one of those that have been read?"""
         return 1 <= k <= len(self.potentials) and self.potentials[k - 1].kind == "spring"
 
-    def _at_no_place(self, slot: Slot, count: int | None) -> Vector:
-        """Expressions of the state alone, by its names in a Lagrangian where no points give it."""
-        if not self.pointless:
-            return self._of_state(slot, count)
-        known = known_in_lagrangian(self.moving(), self.advected)
-        listed = self.listed(self.value(slot), count, slot.path, self.in_time)
-        return tuple(meant(t, known) for t in listed)
-
     def _of_state(self, slot: Slot, count: int | None) -> Vector:
-        found, on = slot.found, slot.found.get("on")
-        named = names_of_points(self.moving())
+        found, on, group = slot.found, slot.found.get("on"), self.moving()
+        named = (
+            known_in_lagrangian(group, self.advected) if self.pointless else names_of_points(group)
+        )
         if on:
             first, n = self.of_place(on)
             wind = found.get("relative_to") or (0,) * n

@@ -191,15 +191,11 @@ def _without_points(
     for key in ("point", "solid", "body", "potential", "damping"):
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
-    for k, x in enumerate(tables(data, "force"), 1):
-        if "covector" not in x:
-            raise ProblemError(
-                f"force {k}: beside [{where}] are no points: give a 'covector', expressions of the "
-                "state, one for each element of the basis"
-            )
-    given = data.get("input", ())
-    if any(isinstance(x, dict) and x.get("kind") in ("force", "torque") for x in given):
-        raise ProblemError(f"key 'input': beside [{where}] an input is a covector: no points")
+    acting = {f"force {k}": x for k, x in enumerate(tables(data, "force"), 1)}
+    acting |= {f"input {k}": x for k, x in enumerate(tables(data, "input"), 1)}
+    for key, x in acting.items() if advected is not None else ():
+        if "covector" not in x and x.get("kind") != "covector":
+            raise ProblemError(f"{key}: an algebra moves no places: give a covector")
     group = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
     reader = FileReader()
     reader.moves(group)
@@ -219,6 +215,7 @@ def _without_points(
         title=reader.title_of(data, name),
         parameters=parameters,
         inputs=inputs,
+        places=tuple(reader.places),
         forces=stated,
         outputs=outputs(data, reader, inputs),
         lagrangian=lagrangian(data, group, reader),

@@ -164,13 +164,11 @@ class _RecordReader(TableReader):
                     "advected, torus: they are of a problem with a Lagrangian of its own"
                 )
             return
-        for key in ("potentials", "places", "damping"):
+        for key in ("potentials", "damping"):
             if data.get(key):
                 raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
-        if not all("covector" in x for x in data.get("forces", ())):
-            raise ShapeError("lagrangian: the forces of its problem are covectors")
-        if any(x["kind"] != "covector" for x in data["inputs"]):
-            raise ShapeError("lagrangian: the inputs of its problem are covectors")
+        if "advected" in data or "torus" in data:
+            self.covectors_alone()
         if any(x["kind"] != "expression" for x in data.get("outputs", ())):
             raise ShapeError("lagrangian: the outputs of its problem are expressions")
         if "advected" in data:
@@ -181,6 +179,13 @@ class _RecordReader(TableReader):
         self.typed(Torus, data["torus"], "torus")
         if data["lagrangian"] != {"trivialisation": "right"} or "advected" in data:
             raise ShapeError("lagrangian: that of the torus is told by its steps, on the right")
+
+    def covectors_alone(self) -> None:
+        """Without an element of a group nothing acts at a place."""
+        data = self.data
+        placed = data["places"] or any("covector" not in x for x in data.get("forces", ()))
+        if placed or any(x["kind"] != "covector" for x in data["inputs"]):
+            raise ShapeError("lagrangian: what acts on an algebra is a covector")
 
     def fluid(self) -> None:
         """A fluid says all of its problem."""

@@ -127,6 +127,7 @@ WEIGHT = {"kind": "gravity", "g": [0, 0, "-9.81"]}
 OWN = [
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT},
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT, "force": [{"covector": ["-zeta_1", 0, "t"]}]},
+    {"group": "SO(3)", "lagrangian": ON_THE_RIGHT, "input": [{"name": "u", "kind": "torque"}]},
     {"algebra": {"of": "SO(3)"}, "advected": [{"name": "x"}], "lagrangian": ON_THE_RIGHT},
     {"group": "SO(3) x SE(2)", "lagrangian": {"L": TWO}},
     WHOLE | {"potential": [WEIGHT]},

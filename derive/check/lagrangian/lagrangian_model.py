@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -13,7 +14,9 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from ...record.as_json import decode
-from ..trials.phase_point import PhasePoint
+from ..trials.given_forces import GivenForces, Vector
+from ..trials.phase_point import inverse
+from ..trials.point_masses import listed_places
 from ..values.arithmetic import (
     EPS,
     EPS_PRIME,
@@ -32,12 +35,12 @@ PAIRED, WITH_BRACKET = 4, 6
 """The indices of ⟨Π, ξ⟩, of ⟨Π, [ξ′, ξ]⟩: what a claim contracts."""
 
 
-class LagrangianModel(PhasePoint):
+class LagrangianModel(GivenForces):
     """One random point of a problem with the key ``lagrangian``.
 
     ``generic``: ℓ is any polynomial, on the problem's side. ``horizontal``: coordinates that are
-    held are 0.  ``input_forces``: none, without points.  ``symmetries``: by which a record reduces.
-    All that is ``drawn``: see :class:`Draws`.
+    held are 0.  ``points``: the places at which forces act.  ``symmetries``: by which a record
+    reduces.  All that is ``drawn``: see :class:`Draws`.
     """
 
     def __init__(
@@ -83,7 +86,8 @@ class LagrangianModel(PhasePoint):
             self.second = self.given[1].direction(self)
         told = at.contracted or at.along or at.free_acceleration
         self.aim(at_random=bool(told))
-        self.input_forces: list[tuple[Any, ...]] = []
+        self.points, self.blocks = listed_places(self, own.get("places", []))
+        self.draw_inputs()
 
     # -- the Lagrangian ------------------------------------------------------------------------
 
@@ -123,7 +127,36 @@ class LagrangianModel(PhasePoint):
         place = {"Γ": self.advected.start} if self.advected else {"A": self.g}
         zeta = q.column(self.group.nearest(self.Z))
         names = {**self.expressions.names, **place, "t": self.t, "ζ": zeta}
-        return Environment(self.n, names, parameters=self.parameters, elementary=self.elementary)
+        places = [q.column(x) for x in self.images(self.g)]
+        moving: dict[tuple[int, ...], Any] = {
+            (i,): q.column(x) for i, x in enumerate(self.images(self.nu), 1)
+        }
+        return replace(
+            self.expressions,
+            names=names,
+            families={"v": moving},
+            functions={"r": lambda head, *_: places[head[2] - 1]},
+            listed=len(places),
+        )
+
+    def images(self, g: Matrix) -> list[Vector]:
+        """The places in space of the points, (r, 1), moved by g; for a tangent matrix their
+        velocities."""
+        return [q.flatten(q.times(g, q.column(r))) for r in self.points]
+
+    @cached_property
+    def acting_covector(self) -> list[Any]:
+        """With the work of forces and torques at places."""
+        total = super().acting_covector
+        if not self.points and not self.inputs_of("torque"):
+            return total
+        back = inverse(self.g)
+        for a, e in enumerate(self.group.basis):
+            moved = self.ordered(self.g, e)
+            pairs = zip(self.given_forces, self.images(moved), strict=True)
+            work = sum((q.dot(f, v) for f, v in pairs), self.work_of_couple(q.times(back, moved)))
+            total[a] += work
+        return total
 
     @cached_property
     def hoisted(self) -> tuple[Tree, dict[str, Any]]:

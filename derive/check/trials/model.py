@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import product
 from typing import Any
 
 from ...algebra.groups import Group
 from ...algebra.samplers import Source
 from ...language import rational as q
 from ...language.rational import Matrix
-from ...language.reserved import numbers_of_input
-from ...record.as_json import decode
 from ..values.arithmetic import ETA, Nilpotent, nilpotent
 from ..values.draws import Locus
-from ..values.evaluate import Environment, evaluate
-from .phase_point import ENTRY, PhasePoint
+from ..values.evaluate import Environment
+from .given_forces import GivenForces
+from .phase_point import ENTRY
 from .point_masses import (
     AnyPotential,
     AppliedForces,
@@ -29,7 +27,7 @@ from .point_masses import (
 )
 
 
-class Model(Body, PhasePoint):
+class Model(Body, GivenForces):
     """One random point of the evolution space of a problem whose Lagrangian points give.
 
     ``generic``: the potential is any polynomial; ``few``: no more points than are needed, and each
@@ -57,11 +55,7 @@ class Model(Body, PhasePoint):
         self.Z = self.algebra()
         self.vary()
         self.aim(at_random=True)
-        acting = self.inputs_of("force", "torque")
-        named = [numbers_of_input(data, self._acted_on(data)[1].n) for data in acting]
-        given = {x: self.draw() if at.driven else Fraction(0) for names in named for x in names}
-        self.input_forces = [tuple(given[x] for x in names) for names in named]
-        self.parameters |= given
+        self.draw_inputs()
         once = listed_count(self) if self.spare else len(self.points)
         self.copies = [
             Fraction(1) if i < once else self.draw(positive=True) for i in range(len(self.points))
@@ -107,69 +101,6 @@ class Model(Body, PhasePoint):
         if self.any_potential:
             return self.any_potential.forces
         return self.applied.forces(self.t, self.images(self.g), self.masses)
-
-    @cached_property
-    def given_forces(self) -> list[Vector]:
-        """The force on each point, in space, by force inputs."""
-        total = [[Fraction(0)] * self.n for _ in self.points]
-        linear = self.group.linear_part(self.g)
-        for u, data in self._given():
-            found = self._along(u, data, "direction" if "kind" in data else "force")
-            if data.get("kind") == "torque" or not found:
-                continue
-            block, _ = self._acted_on(data)
-            inside = q.column(self.group.in_block(block, found))
-            force = q.times(linear, inside) if data["frame"] == "body" else inside
-            for k, (x,) in enumerate(force):
-                total[data["on"] - 1][k] += x
-        return [tuple(f) for f in total]
-
-    @cached_property
-    def couple(self) -> Matrix:
-        """The skew matrix N in the body of all torques that are given: their power is Tr Z N̄, as
-        that of two opposite forces ±½j(τ)a at ±a, on axes a of length 1."""
-        n, group = self.n, self.group
-        total = q.scaled(Fraction(0), q.identity(n))
-        linear = group.linear_part(self.g)
-        for u, data in self._given():
-            key = "direction" if data.get("kind") == "torque" else "moment"
-            if key == "moment" and not data.get(key):
-                continue
-            block, factor = self._acted_on(data)
-            torque, at = self._along(u, data, key), group.of_block(block)
-            turn = tuple(row[at] for row in linear[at])
-            body = turn if data["frame"] == "space" else q.identity(factor.n)
-            planes = [(0, 1)] if factor.n == 2 else [(1, 2), (2, 0), (0, 1)]
-            for x, (i, j) in zip(torque, planes, strict=True):
-                across = q.times(q.column(body[j]), (body[i],))
-                skew = q.scaled(x * Fraction(1, 2), q.minus(across, q.transposed(across)))
-                for row, column in product(range(factor.n), repeat=2):
-                    place = q.unit(n, at.start + row, at.start + column)
-                    total = q.plus(total, q.scaled(skew[row][column], place))
-        return total
-
-    def work_of_couple(self, xi: Matrix) -> Any:
-        """The work of all torques that are given in a displacement g ξ."""
-        return q.dot(q.flatten(self.couple), q.flatten(self.group.linear_part(xi)))
-
-    def _given(self) -> Iterator[tuple[tuple[Any, ...], Mapping[str, Any]]]:
-        """The forces and torques that are given, each with its numbers, and those that are stated,
-        which have none."""
-        yield from zip(self.input_forces, self.inputs_of("force", "torque"), strict=True)
-        if self.at.driven and not self.generic:
-            stated = (x for x in self.problem.get("forces", ()) if "on" in x)
-            yield from (((Fraction(1),), x) for x in stated)
-
-    def _acted_on(self, data: Mapping[str, Any]) -> tuple[int, Group]:
-        """The block, from 1, on which a force or torque acts, and its factor."""
-        block = int(data["block"]) if "block" in data else self.blocks[data["on"] - 1]
-        return block, self.group.places[block - 1][1]
-
-    def _along(self, u: tuple[Any, ...], data: Mapping[str, Any], key: str) -> tuple[Any, ...]:
-        """The vector that an input's numbers are, or of which its one number is the multiple."""
-        if key not in data:
-            return u
-        return tuple(u[0] * evaluate(decode(x, key), self.of_state) for x in data[key])
 
     @cached_property
     def of_state(self) -> Environment:

@@ -33,12 +33,12 @@ def points_of(model: Draws) -> Points:
     points for what it does not list."""
     body = model.problem.get("body", {})
     listed = [] if model.generic else model.problem.get("places", [])
-    places, blocks = _listed_places(model, listed)
+    places, blocks = listed_places(model, listed)
     empty = [Fraction(0)] * len(places)
     if body.get("kind") in ("points", "given") and not model.generic:
         listed = body.get("points", [])
         own = [evaluate(decode(p["mass"], "mass"), model.expressions) for p in listed]
-        points, first = _listed_places(model, listed)
+        points, first = listed_places(model, listed)
         masses, rest = (
             _points_with_moments(model, *moments_of(model)) if body["kind"] == "given" else ([], [])
         )
@@ -61,7 +61,7 @@ def principal_points(model: Draws) -> Points:
     lists, and those that complete the moments."""
     n, count = model.n, len(model.problem.get("body", {}).get("points", []))
     masses, points = _random_points(model, count)
-    places, blocks = _listed_places(model, model.problem.get("places", []))
+    places, blocks = listed_places(model, model.problem.get("places", []))
     m, c = model.draw(positive=True), model.place()
     J = q.matrix(
         [[model.draw(slots=2) if i == j else Fraction(0) for j in range(n)] for i in range(n)]
@@ -86,7 +86,7 @@ def _random_points(model: Draws, count: int) -> tuple[list[Fraction], list[Vecto
     return masses, [model.place() for _ in range(count)]
 
 
-def _listed_places(model: Draws, listed: list[Mapping[str, Any]]) -> tuple[list[Vector], list[int]]:
+def listed_places(model: Draws, listed: list[Mapping[str, Any]]) -> tuple[list[Vector], list[int]]:
     """The places that the problem lists, in the coordinates of a product, and their blocks."""
     places, blocks = [], []
     for data in listed:

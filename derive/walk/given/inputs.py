@@ -114,7 +114,7 @@ def numbers(problem: Problem, *, discrete: bool = False) -> dict[Tree, Tree]:
     return found
 
 
-def _pushes(problem: Problem) -> list[tuple[int, Push]]:
+def pushes(problem: Problem) -> list[tuple[int, Push]]:
     """The forces and torques that act beside a covector, those that are given with their number."""
     given: list[Push] = [*problem.force_inputs]
     return [*enumerate(given, 1), *((0, x) for x in problem.placed_forces)]
@@ -138,7 +138,7 @@ def _velocities(
     return [Equation(("at", "v", i), replaced(general, b.r_i.name, ("at", "r", i))) for i in places]
 
 
-def _entries(problem: Problem, e: int, x: Push) -> tuple[Tree, ...]:
+def entries_of(problem: Problem, e: int, x: Push) -> tuple[Tree, ...]:
     """The entries of the force ``e``, or of the torque, in its own frame: the numbers of the member
     of f_u, the one number times a direction, or what is stated."""
     if isinstance(x, StatedForce):
@@ -147,11 +147,11 @@ def _entries(problem: Problem, e: int, x: Push) -> tuple[Tree, ...]:
     return numbers if x.direction is None else tuple(mul(y, *numbers) for y in x.direction)
 
 
-def _couple(problem: Problem, e: int, x: Push) -> tuple[Tree, ...]:
+def couple_of(problem: Problem, e: int, x: Push) -> tuple[Tree, ...]:
     """The entries of a torque, or of the moment that goes with a force, in the same frame; none
     where there is none."""
     if isinstance(x, TorqueInput):
-        return _entries(problem, e, x)
+        return entries_of(problem, e, x)
     if isinstance(x, StatedForce):
         return x.moment
     return tuple(mul(y, ("entry", ("at", "f_u", e), 1)) for y in x.moment or ())
@@ -202,12 +202,12 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
     xi, eta = Letter("ξ′", b.n, b.n), Letter("η′", b.n)
     moments, pulls = [draft.tree(gradient(drag, xi))], [draft.tree(gradient(drag, eta))]
     definitions += _velocities(draft, problem, b, {})
-    for e, given in _pushes(problem):
-        if not isinstance(given, TorqueInput) and _entries(problem, e, given):
+    for e, given in pushes(problem):
+        if not isinstance(given, TorqueInput) and entries_of(problem, e, given):
             force = _in_body(draft, problem, e, given, C, b)
             moments.append(mul(force, ("T", ("at", "r", given.on))))
             pulls.append(force)
-        if couple := _couple(problem, e, given):
+        if couple := couple_of(problem, e, given):
             moments.append(_skew(problem, given, couple))
     if any(terms := covector_terms(problem, group)):
         moment, pull = _matrix_of_covector(group, b, [add(*x) for x in terms])
@@ -229,7 +229,7 @@ def _in_body(
     group = problem.group
     assert group is not None
     if group.factors or isinstance(given, StatedForce) or given.direction is not None:
-        f = embedded(problem, given.on, _entries(problem, e, given), 0)
+        f = embedded(problem, given.on, entries_of(problem, e, given), 0)
     if given.frame == "space":
         return mul(("T", "A"), f)
     d.depends_on(C)
@@ -318,12 +318,12 @@ def external_vectors(
     if problem.damping:
         definitions.append(Equation("I_D", tree_of(inertia_of(Letter("D", 3, 3, 1)))))
     definitions += _velocities(draft, problem, b, {b.Z.velocity: hat_map.hatted(ZETA)})
-    for e, given in _pushes(problem):
-        if not isinstance(given, TorqueInput) and _entries(problem, e, given):
+    for e, given in pushes(problem):
+        if not isinstance(given, TorqueInput) and entries_of(problem, e, given):
             force = _in_body(draft, problem, e, given, C, b)
             moments.append(("wedge", ("at", "r", given.on), force))
             pulls.append(force)
-        if couple := _couple(problem, e, given):
+        if couple := couple_of(problem, e, given):
             torque = column(couple)
             moments.append(mul(("T", "A"), torque) if given.frame == "space" else torque)
     if problem.covector:

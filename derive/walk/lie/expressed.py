@@ -25,9 +25,10 @@ from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
 from ...schema.kind import Lagrangian
 from ..chapter import Chapter, enumerated, phrase, say
-from ..given.inputs import covector_terms
+from ..given.inputs import pushes
 from ..matrices.coordinates import basis_equations
 from .any_lagrangian import AnyLagrangian
+from .at_places import from_outside
 
 # The basis of 𝔤 in which a Lagrangian is expressed: coordinates, brackets, and how what it
 # depends on moves with the group.
@@ -256,15 +257,14 @@ def balance(
     turning, weighing = c.draft("coadjoint", "kernel"), c.draft("mass", "components")
     turning.depends_on(general["coadjoint"], *basis.brackets)
     coadjoint = coadjoint_terms(group, general.epsilon)
-    driven = covector_terms(problem, group)
+    driven = from_outside(problem, group)
     forces = [member("Φ", a) if x else 0 for a, x in enumerate(stage.forces)]
     rates = [
         add(*((x,) if x else ()), *((y,) if y else ()), *driven[a])
         for a, (x, y) in enumerate(zip(forces, coadjoint, strict=True))
     ]
-    coadjoint_step = turning.step(
-        [Equation(member("Π̇", a), t) for a, t in enumerate(rates)], say("coadjoint.basis")
-    )
+    prose = say("coadjoint.basis") + (say("coadjoint.at_places") if pushes(problem) else ())
+    coadjoint_step = turning.step([Equation(member("Π̇", a), t) for a, t in enumerate(rates)], prose)
     assert problem.lagrangian is not None
     held = {a - 1 for a in problem.lagrangian.held}
     left = [

@@ -23,9 +23,9 @@ from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...schema.kind import Advected
 from ..chapter import Chapter, say
-from ..given.inputs import covector_terms
 from ..spine.alphabet import Alphabet
 from .any_lagrangian import SIDES, AnyLagrangian, sign_of
+from .at_places import from_outside
 from .expressed import Basis, Expressed, brackets, coadjoint_terms, member, tidied
 
 # The motion told by momenta: the velocity from them, and the Poisson tensor of the variables.
@@ -124,7 +124,7 @@ def _moving(stage: Expressed, problem: Problem, group: Group) -> Equation:
     if problem.advected is None:
         pushed = [member("Φ", a) if x else 0 for a, x in enumerate(stage.forces)]
     if problem.driven:
-        driven = [*(add(*terms) for terms in covector_terms(problem, group)), *(0 for _ in carried)]
+        driven = [*(add(*terms) for terms in from_outside(problem, group)), *(0 for _ in carried)]
         pushed = [add(x, y) for x, y in zip(pushed, driven, strict=True)]
     turned = mul("𝕁", _column((*coordinates(group), *slopes)))
     return Equation(_column(rates), add(_column(pushed), turned) if any(pushed) else turned)
