@@ -17,6 +17,7 @@ from .drift import TEXTS, drift, matrices
 from .emitted_outputs import output_names, outputs
 from .factor import factored
 from .graph import Node, reachable
+from .group_functions import GroupFunctions
 from .inverse_dynamics import dynamics
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
@@ -107,17 +108,19 @@ def assemble(
         *((momenta.names, momenta.size) if momenta else ((), 0)),
         mass_fault=lowering.inverses.mass_fault,
         discrete=stepped.step if stepped else None,
-        **_further(d, lowering.reader.space),
+        **_further(d, lowering.reader.space, chosen),
     )
 
 
-def _further(d: Derivation, space: StateSpace) -> dict[str, Any]:
-    """What the program says of outputs, and of matrices in a state or beside its quaternion."""
+def _further(d: Derivation, space: StateSpace, chosen: Options) -> dict[str, Any]:
+    """What the program says of outputs, of matrices in a state or beside its quaternion, and of the
+    group."""
     door = matrix_state(space)
     return {
         "outputs": output_names(d),
         "blocks": matrices(space),
         "matrix_state": door.names if door else (),
+        "group_functions": GroupFunctions.of(space) if chosen.exponential else None,
     }
 
 

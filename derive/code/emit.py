@@ -16,6 +16,7 @@ from ..language.templating import environment
 from ..record.record import Derivation
 from .conventions import heading
 from .ellipsoid import BUNDLES, is_integral
+from .group_functions import printed_group
 from .languages import LANGUAGES, SourcePrinter, Statements, TargetLanguage, comment
 from .naming import taken_prefix
 from .options import Options
@@ -110,6 +111,9 @@ def planned(languages: Sequence[str], prefix: str, chosen: Options) -> dict[str,
         for file in (*LANGUAGES[name].files[form], *apart):
             source, _, suffix = file.rpartition(":")
             places[prefix + suffix] = name, f"problem{source or suffix}.jinja"
+        if chosen.exponential and not LANGUAGES[name].needs:
+            suffix = "_group" + LANGUAGES[name].files["source"][0]
+            places[prefix + suffix] = name, f"problem{suffix}.jinja"
     return places
 
 
@@ -190,6 +194,8 @@ def _fields(
         fields["steps"]["turns"] = []
     if fields["steps"] and language.name in ALGORITHMS:
         fields["steps"]["algorithms"] = ALGORITHMS[language.name](p, fields)
+    if p.group_functions and not language.needs:
+        fields["maps"] = printed_group(language.name, p, fields)
     if p.loops:
         fields["loops"] = _loops(p.loops, language.name, printer, fields)
     return fields

@@ -232,6 +232,8 @@ class Program:
     """The names of what is conserved where gravity is 0, and not elsewhere."""
     outputs: tuple[str, ...] = ()
     """The names of what ``outputs`` gives, what is read off a motion."""
+    group_functions: Any = None
+    """What the functions of the group know (``group_functions.GroupFunctions``), if asked for."""
 
     @property
     def momentum_range(self) -> tuple[int, int]:

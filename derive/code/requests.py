@@ -13,7 +13,7 @@ from ..algebra.groups import Group
 from ..language.limits import SLOPES, SLOPES_BY_PARAMETERS
 from ..language.reserved import STANDARD_MACROS
 from ..record.record import Derivation
-from . import inverse_dynamics
+from . import group_functions, inverse_dynamics
 from .languages import LANGUAGES, TargetLanguage
 from .momentum_state import refuse
 from .options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
@@ -130,6 +130,8 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
         refuse(d, group, chosen)
     if chosen.dynamics:
         inverse_dynamics.refuse(d)
+    if chosen.exponential:
+        group_functions.refuse(d, group, chosen)
     if "discrete" in chosen.step:
         discrete_step.refuse(d, group, chosen)
     if chosen.attitude == "quaternion" and not group.rotates:

@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..code.emit import emit
+from ..code.group_functions import FUNCTIONS, sizes
 from ..code.languages import LANGUAGES
 from ..code.naming import own_prefix
 from ..code.options import ADDED, options_of
@@ -41,7 +42,9 @@ from ..motion.start import OFF_THE_GROUP
 from ..motion.trajectory import reflection
 from ..problem.problem import Problem, ProblemError
 from ..programs import program
+from . import on_the_group
 from .derived import Derived, derive
+from .on_the_group import OnTheGroup
 from .simulated import InMomenta
 
 __all__ = ["CompileError", "Compiled", "compile"]
@@ -121,7 +124,7 @@ class Buffers:
         self.run = partial(run, ctypes.byref(in_c))
 
 
-class Compiled(InMomenta):
+class Compiled(InMomenta, OnTheGroup):
     """The functions of one problem in compiled C, for one body; called, it is dx/dt = f(t, x, u).
 
     ``STATE``, ``PARAMETERS``, ``INPUTS``, ``CONSERVED``, ``OUTPUTS``, ``STEPS``: names; ``p``,
@@ -427,6 +430,17 @@ class Compiled(InMomenta):
         result = ctypes.c_int if by_newton else None
         return self._call_at(what, result, t, x, self._in_use().k, *driven, out) or 0
 
+    def _on_the_group(self, what: str, *given: Any) -> Array:
+        function = getattr(self._library, f"derive_{what}", None)
+        if function is None:
+            raise ValueError("not compiled: ask for it by compile(..., exponential=True)")
+        d, (takes, writes) = self._names.algebra, FUNCTIONS[what]
+        size = sizes(what, len(self.STATE) - d, d)
+        out = np.zeros((d, d) if writes == "J" else size[writes])
+        arrays = [_array(value, size[x]) for x, value in zip(takes, given, strict=True)]
+        function(*map(pointer, (*arrays, out)))
+        return out
+
     def _has(self, what: str) -> bool:
         return hasattr(self._library, f"{self._source.name}_{what}")
 
@@ -525,6 +539,8 @@ def compile(
     name = own_prefix(derived.problem.name)
     files = emit(made_of, derived.record, ("c",), name, options)
     files["binding.c"] = BINDING.format(name=name)
+    if options.exponential:
+        files["group.c"] = on_the_group.binding(name)
     if options.moves:
         files["steps.c"] = binding(
             name, options.step, FIXED, ensemble=options.ensemble, events=bool(made_of.events)

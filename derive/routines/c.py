@@ -162,8 +162,8 @@ class C(Printer):
 
     def called(self, name: str, given: Sequence[ast.expr]) -> str:
         match name:
-            case "sqrt" if self.real == "float":
-                return f"sqrtf({self.bare(given[0])})"
+            case "sqrt" | "sin" | "atan2" if self.real == "float":
+                return f"{name}f({', '.join(map(self.bare, given))})"
             case "abs":
                 return f"{self.given['fabs']}({self.bare(given[0])})"
             case "real" | "whole":

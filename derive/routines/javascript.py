@@ -29,6 +29,8 @@ class JavaScript(Printer):
         "real": "{:.}",
         "whole": "Math.floor({})",
         "sqrt": "Math.sqrt({})",
+        "sin": "Math.sin({})",
+        "atan2": "Math.atan2({}, {})",
         "power": "{:.}**({})",
         "fused": "({2} + {0:.}*{1:.})",
         "in_memory": "",

@@ -31,6 +31,7 @@ class Julia(Printer):
         "abs": "abs({})",
         "whole": "trunc(Int, {})",
         "sqrt": "sqrt({})",
+        "atan2": "atan({}, {})",
         "power": "{:.}^({})",
         "fused": "muladd({}, {}, {})",
         "in_memory": "",

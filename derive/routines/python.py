@@ -21,6 +21,8 @@ class Python(Printer):
         "real": "float({})",
         "whole": "int({})",
         "sqrt": "math.sqrt({})",
+        "sin": "math.sin({})",
+        "atan2": "math.atan2({}, {})",
         "power": "{:.} ** ({})",
         "fused": "({2} + {0:.} * {1:.})",
         "in_memory": "",
@@ -153,7 +155,8 @@ class Python(Printer):
 
     def is_index_alone(self, x: ast.stmt, i: str) -> bool:
         """Is i in a statement nothing but the last index of arrays, or that before the last?"""
-        indices = {id(y.slice) for y in ast.walk(x) if isinstance(y, ast.Subscript)}
+        entries = [y for y in ast.walk(x) if isinstance(y, ast.Subscript)]
+        indices = {id(y.slice) for y in entries}
         named = (y for y in ast.walk(x) if isinstance(y, ast.Name) and y.id == i)
         deep = any(
             isinstance(y, ast.Subscript)
@@ -162,8 +165,12 @@ class Python(Printer):
             and ast.unparse(y.value.value.slice) == i
             for y in ast.walk(x)
         )
+        # an index that is read from a table, or a diagonal
+        looked_up = any(isinstance(z, ast.Subscript) for y in entries for z in ast.walk(y.slice))
+        twice = any(self.last_two(y) == [i, i] for y in entries)
         calls = {ast.unparse(y.func) for y in ast.walk(x) if isinstance(y, ast.Call)}
-        return all(id(y) in indices for y in named) and not deep and calls <= ELEMENTWISE
+        alone = all(id(y) in indices for y in named) and not (deep or looked_up or twice)
+        return alone and calls <= ELEMENTWISE
 
     def is_extreme(self, left: ast.expr, chosen: ast.expr) -> bool:
         """a if a > left else left, or left if a <= left else a."""

@@ -31,6 +31,8 @@ class Rust(Printer):
     builtin: ClassVar = {
         "abs": "abs({})",
         "sqrt": "{:.}.sqrt()",
+        "sin": "{:.}.sin()",
+        "atan2": "{:.}.atan2({})",
         "power": "{:.}.powf({})",
         "fused": "({2} + {0:.} * {1:.})",
         "in_memory": "",

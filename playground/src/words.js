@@ -95,6 +95,7 @@ export const WORDS = {
       step: "aussi un pas de temps, et un mouvement qui avance par lui ; gauss_jax est gauss en JAX ; plusieurs à la fois",
       momenta: "aussi le mouvement en moments : vers eux et retour, leurs dérivées, le tenseur de Poisson",
       dynamics: "ajoute la matrice de masse M et le biais b : les entrées doivent fournir M a + b pour les accélérations a",
+      exponential: "ajoute exp, log, leurs jacobiennes, retract et local, dans un fichier NAME_group",
       multiplier: "ajoute le multiplicateur du volume, l’intégrale de la pression dans un fluide",
       conserved: "ajoute ce que le mouvement conserve, comme le trouve derive symmetries",
       ensemble: "ajoute beaucoup de mouvements à la fois, en voies vectorielles et sur tous les cœurs (C)",

@@ -200,8 +200,10 @@ def elementary(name):
     """NumPy's function, which takes what Julia's does."""
     function = getattr(np, {"atan": "arctan"}.get(name, name))
 
-    def value(x):
-        out = function(x)
+    def value(x, *more):
+        if more and name == "atan":
+            return np.arctan2(x, *more)
+        out = function(x, *more)
         if np.isnan(out) and not np.isnan(x):
             raise DomainError(f"{name}({x})")
         return out

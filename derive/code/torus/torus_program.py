@@ -126,6 +126,7 @@ def require_on_torus(d: Derivation, chosen: Options) -> None:
         (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
         (chosen.momenta, "--momenta"),
         (chosen.dynamics, "--dynamics"),
+        (chosen.exponential, "--exponential"),
         ("discrete" in chosen.step, "--step discrete"),
         (chosen.multiplier, "--multiplier"),
     ):

@@ -1,0 +1,261 @@
+"""The functions of the group, in a file of their own: exponential, logarithm, their derivatives,
+and steps from state to state, on groups whose factors turn a plane or space and shift it.
+
+A factor is a block [[R, S], [0, 1]]: R turns its first rows, 2 or 3, or is 1; S has any number of
+columns.  So are SO(2), SO(3), SE(2), SE(3), Rⁿ, their products, SE_2(3) as a group of one's own
+basis, and groups inside of these.
+"""
+
+from __future__ import annotations
+
+import ast
+import textwrap
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import factorial
+from typing import Any
+
+from ..algebra.groups import Group
+from ..language.rational import Matrix, identity
+from ..record.record import Derivation
+from ..routines.python import Python
+from ..routines.source import Source
+from .conventions import basis_lines, listed
+from .options import Options
+from .program import LoweringError, Program
+from .state import StateSpace
+from .step.algorithms import PRINTERS, real_of_work, text_of
+
+FUNCTIONS: dict[str, tuple[tuple[str, ...], str]] = {
+    "exp": (("eta",), "g"),
+    "log": (("g",), "eta"),
+    "exp_jacobian": (("eta",), "J"),
+    "log_jacobian": (("g",), "J"),
+    "retract": (("x", "eta"), "y"),
+    "local": (("x", "y"), "eta"),
+}
+"""Function → what it takes, and what it writes."""
+
+TERMS = 14
+"""Terms of a series in −t²: for t² < 4 the next one is below 1e-18 of the first."""
+
+
+@dataclass(frozen=True)
+class Factor:
+    """Rows and columns from ``start`` to ``end`` of the matrix, of which the first ``rows`` move,
+    and the first ``turns``, 2, 3 or none, turn; ``members``: which E_a are in it, from 0."""
+
+    start: int
+    rows: int
+    end: int
+    turns: int
+    members: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class GroupFunctions:
+    """What the algorithms know of a group and its state.
+
+    ``entries``: row and column of each number of an element; ``origin``: the matrix of the
+    identity, with what never varies; ``read``: of each coordinate the terms (coefficient, row,
+    column) that it is read by; ``brackets``: the coordinates of [E_a, E_b]; ``right``: is a
+    variation δg = η g, and Z = ġ g⁻¹?
+    """
+
+    entries: tuple[tuple[int, int], ...]
+    origin: Matrix
+    read: tuple[tuple[tuple[Fraction, int, int], ...], ...]
+    brackets: tuple[Matrix, ...]
+    factors: tuple[Factor, ...]
+    right: bool
+
+    @classmethod
+    def of(cls, space: StateSpace) -> GroupFunctions:
+        """Those of a state, on a group that :func:`refuse` does not refuse."""
+        group = space.group
+
+        def place(x: Any) -> tuple[int, int]:
+            return x.row, group.n if x.letter == "T" else x.column
+
+        origin = [[*row] for row in identity(group.size)]
+        for x, value in space.still.items():
+            i, j = place(x)
+            origin[i][j] = value
+        return cls(
+            tuple(map(place, space.slots)),
+            tuple(map(tuple, origin)),
+            tuple(tuple(group.coordinate_terms(a)) for a in range(group.dimension)),
+            group.structure_constants,
+            tuple(_factors(group) or ()),
+            space.right,
+        )
+
+
+def sizes(function: str, element: int, d: int) -> dict[str, int]:
+    """How many numbers each argument of a function has, of an element and of coordinates."""
+    state = element + d
+    eta = 2 * d if "x" in FUNCTIONS[function][0] else d
+    return {"g": element, "x": state, "y": state, "eta": eta, "J": d * d}
+
+
+def refuse(d: Derivation, group: Group, chosen: Options) -> None:
+    """``LoweringError`` for a group or a state for which these functions are not written."""
+    reduced = "advected" in d.problem or bool(d.problem.get("lagrangian", {}).get("held"))
+    for on, what in (
+        (chosen.attitude == "quaternion", "not written with --attitude quaternion"),
+        (chosen.velocity == "tangent", "not written with --velocity tangent"),
+        (reduced, "not written for a state without all of g and Z"),
+        (
+            _factors(group.in_user_basis) is None,
+            "for SO(2), SO(3), SE(2), SE(3), translations, groups inside of these and products, "
+            f"not for {group.name}",
+        ),
+    ):
+        if on:
+            raise LoweringError(f"{d.name}: --exponential is {what}: leave it out")
+
+
+def _factors(group: Group) -> list[Factor] | None:
+    """The factors, or ``None`` where one does something else than turn and shift, or an element of
+    the basis is in several."""
+    found, members = list[Factor](), list[int]()
+    for start, factor in group.places:
+        span = range(start, start + factor.size)
+        own = [a for a, e in enumerate(group.basis) if any(e[i][j] for i in span for j in span)]
+        inside = [group.basis[a] for a in own]
+        moved = [i for i in span if any(e[i][j] for e in inside for j in span)]
+        turning = range(start, moved[-1] + 1 if moved else start)
+        pairs = [(e[i][j], e[j][i]) for e in inside for i in turning for j in turning]
+        turns = len(turning) if any(x for x, _ in pairs) else 0
+        if any(x != -y for x, y in pairs) or turns not in (0, 2, 3):
+            return None
+        found.append(Factor(start, len(turning), span.stop, turns, tuple(own)))
+        members += own
+    return found if sorted(members) == [*range(group.dimension)] else None
+
+
+def _series() -> list[list[float]]:
+    """The series of ``turning`` in −t²: of a, b and c, of the slopes of b and c, of that of b's."""
+
+    def derived(order: int, times: int) -> list[float]:
+        rows = range(times, times + TERMS)
+        factors = [factorial(m) // factorial(m - times) for m in rows]
+        terms = (Fraction(x, factorial(2 * m + order)) for m, x in zip(rows, factors, strict=True))
+        return [*map(float, terms)]
+
+    return [derived(*x) for x in ((1, 0), (2, 0), (3, 0), (2, 1), (3, 1), (2, 2))]
+
+
+def _sparse(name: str, terms: Iterable[tuple[int, int, int, Any]]) -> dict[str, Any]:
+    """A table of terms: three indices, and the number of each."""
+    found = [*terms] or [(0, 0, 0, 0)]
+    places, values = [[*x[:3]] for x in found], [float(x[3]) for x in found]
+    return {f"N_{name}": len(found), f"{name}_PLACES": places, f"{name}_VALUES": values}
+
+
+def _entries(matrices: Sequence[Matrix]) -> list[tuple[int, int, int, Any]]:
+    """Row, column, number of the matrix and value of all that is not 0."""
+    cells = (
+        (a, i, j) for a, m in enumerate(matrices) for i in range(len(m)) for j in range(len(m))
+    )
+    return [(i, j, a, matrices[a][i][j]) for a, i, j in cells if matrices[a][i][j]]
+
+
+def known(p: Program) -> dict[str, Any]:
+    """What the algorithms know, whatever the language."""
+    f: GroupFunctions = p.group_functions
+    d, element = p.dimension, len(f.entries)
+    terms = ((a, x) for a, found in enumerate(f.read) for x in found)
+    return {
+        "SIZE": len(f.origin),
+        "N_ELEMENT": element,
+        "N_ALGEBRA": d,
+        "N_STATE": element + d,
+        "N_TANGENT": 2 * d,
+        "N_JACOBIAN": d * d,
+        "N_FACTORS": len(f.factors),
+        "ENTRIES": [[*x] for x in f.entries],
+        "ORIGIN": [[*map(float, row)] for row in f.origin],
+        **_sparse("HAT", _entries(p.basis)),
+        **_sparse("READ", ((i, j, a, c) for a, (c, i, j) in terms)),
+        # ad of E_a has the coordinates of [E_a, E_b] in column b
+        **_sparse("BRACKET", ((c, b, *x) for b, c, *x in _entries(f.brackets))),
+        "FACTOR_OF": [k for a in range(d) for k, x in enumerate(f.factors) if a in x.members],
+        "STARTS": [x.start for x in f.factors],
+        "ROWS": [x.rows for x in f.factors],
+        "ENDS": [x.end for x in f.factors],
+        "IN_PLANE": [x.turns == 2 for x in f.factors],
+        "IN_SPACE": [x.turns == 3 for x in f.factors],
+        "TERMS": TERMS,
+        "SERIES": _series(),
+        "RIGHT": f.right,
+        "SIGN": 1.0 if f.right else -1.0,
+        "BACK": -0.5 if f.right else 0.5,
+        "JACOBIAN": f"exp(eta + d) = {'exp(J d) exp(eta)' if f.right else 'exp(eta) exp(J d)'}",
+        "INVERSE": f"{'exp(d) g' if f.right else 'g exp(d)'} = exp(log(g) + J d)",
+        "PRODUCT": "exp(eta) g" if f.right else "g exp(eta)",
+    }
+
+
+def _conventions(p: Program) -> list[str]:
+    """What a reader of the file must know, in lines."""
+    f: GroupFunctions = p.group_functions
+    element = len(f.entries)
+    text = (
+        f"eta are coordinates in the basis below, exp(eta) = exp(eta_1 E_1 + ...). x and y are "
+        f"states, g the first {element} numbers of one, on the group. In retract and local eta has "
+        f"{2 * p.dimension} numbers: eta, then what is added to the velocity: the coordinates of "
+        f"the linearised equations, of variations delta g = {p.variation} and delta zeta."
+    )
+    if any(x.turns for x in f.factors):
+        text += (
+            " log and local turn by at most pi; at pi, where two signs are as good, by one of them."
+            " log_jacobian is that of this log."
+        )
+    return [
+        *textwrap.wrap(text, 92),
+        *listed("  g = (", p.state[:element], ")", 88),
+        *(f"  {line}" for line in basis_lines(p)),
+    ]
+
+
+def printed_group(language: str, p: Program, fields: Mapping[str, Any]) -> dict[str, Any]:
+    """The tables and routines of the file of a language, with what its template says of them."""
+    f: GroupFunctions = p.group_functions
+    given = known(p) | {
+        "prefix": fields["prefix"],
+        "real": real_of_work(language, fields["real"]),
+        "inline": "static inline",
+        "public": {*FUNCTIONS} if language == "rust" else (),
+        "generic": True,
+        "item": ["#[allow(dead_code, non_snake_case, unused, clippy::all)]", "#[rustfmt::skip]"],
+        "named": (),
+        "returned": {},
+        # JavaScript has functions of these names that make what they write
+        **({name: f"{name}_into" for name in FUNCTIONS} if language == "javascript" else {}),
+    }
+    source = Source()
+    source.read(text_of("group_maps"), given)
+    printer = PRINTERS.get(language, Python)(source, given)
+    told, element = [], len(f.entries)
+    for name, (takes, writes) in FUNCTIONS.items():
+        count = sizes(name, element, p.dimension)
+        doc = printer.with_numbers(ast.get_docstring(source.routines[name]) or "")
+        given_sizes = [(x, count[x]) for x in takes]
+        told.append(
+            {
+                "name": name,
+                "takes": given_sizes,
+                "writes": writes,
+                "count": count[writes],
+                "doc": doc,
+            }
+        )
+    return {
+        "tables": "\n".join(printer.tables()),
+        "routines": printer.text([*FUNCTIONS]),
+        "functions": told,
+        "size": p.dimension,
+        "conventions": _conventions(p),
+    }

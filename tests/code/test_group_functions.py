@@ -1,0 +1,397 @@
+"""--exponential: exp, log, their Jacobians, retract and local, against series of 50 digits."""
+
+import re
+import subprocess
+from functools import cache
+
+import mpmath
+import numpy as np
+import pytest
+
+import derive
+from derive.code.group_functions import FUNCTIONS
+from derive.code.options import Options
+from derive.code.program import LoweringError
+from derive.command.cli import main
+from derive.problem.toml import problem_of
+from derive.programs import program
+from tests.support import walks
+from tests.support.lagrangians import lagrangian, squares
+from tests.support.library import STRICT, emission, module
+from tests.support.needs import need
+from tests.support.read_julia import Module, Numbers
+
+DIGITS = 50
+ANGLES = (0.0, 1e-12, 1e-8, 1e-4, 1.0, 1.99, 2.01, np.pi - 1e-4, np.pi - 1e-8)
+"""The largest angle of a factor; at 2 the series end."""
+
+
+def unit(n, i, j):
+    return [[int((r, c) == (i, j)) for c in range(n)] for r in range(n)]
+
+
+def skew(n, i, j):
+    return (np.array(unit(n, j, i)) - np.array(unit(n, i, j))).tolist()
+
+
+TWO_FRAMES = [skew(5, 1, 2), skew(5, 2, 0), skew(5, 0, 1)]
+TWO_FRAMES += [unit(5, i, j) for j in (3, 4) for i in range(3)]
+"""SE_2(3): velocities and places that turn with one frame."""
+SCREW = [[[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, "1/10"], [0, 0, 0, 0]]]
+LINE = [[[0, 1], [0, 0]]]
+
+
+def of_points(group, n, **more):
+    rng = np.random.default_rng(4)
+    blocks = len(group.split(" x ")) if isinstance(group, str) else 1
+    points = [
+        {"mass": 1, "at": rng.integers(-3, 4, size=n).tolist(), "block": block}
+        for block in range(1, blocks + 1)
+        for _ in range(n + 2)
+    ]
+    return problem_of({"name": "test", "group": group, "point": points, **more})
+
+
+def of_basis(basis, action="linear"):
+    group = {"name": "G", "action": action, "basis": basis}
+    L = " + ".join(f"zeta_{a}^2" for a in range(1, len(basis) + 1))
+    data = {"name": "test", "group": group}
+    return problem_of(data | {"lagrangian": {"L": L, "trivialisation": "left"}})
+
+
+PROBLEMS = {
+    "SO(2)": lambda: of_points("SO(2)", 2),
+    "SO(3)": lambda: of_points("SO(3)", 3),
+    "SE(2)": lambda: of_points("SE(2)", 2),
+    "SE(3)": lambda: of_points("SE(3)", 3),
+    "SO(3) x SE(3)": lambda: of_points("SO(3) x SE(3)", 3),
+    "SE_2(3)": lambda: of_basis(TWO_FRAMES),
+    "screw": lambda: of_basis(SCREW, "affine"),
+    "line": lambda: of_basis(LINE),
+    "right": lambda: lagrangian(squares(1, 2, 3, 1, 2, 3), "SE(3)", side="right"),
+}
+OPTIONS = {"SE(3)": {"layout": "col"}, "SE(2)": {"state": "moving"}}
+
+
+@cache
+def case(name):
+    """What is compiled of a problem, the basis, and where the numbers of an element are."""
+    need("cc")
+    chosen = OPTIONS.get(name, {})
+    problem = PROBLEMS[name]()
+    f = derive.compile(problem, exponential=True, jacobian="state", **chosen)
+    group = problem.group
+    d, basis = group.dimension, group.in_user_basis.basis
+    sizes = [x.size for x in group.factors or (group,)]
+    places = []
+    for entry in f.STATE[:-d]:
+        letter, block, i, j = re.fullmatch(r"([AT])(\d?)_(\d)(\d?)", entry).groups()
+        start = sum(sizes[: int(block or 1) - 1])
+        end = start + sizes[int(block or 1) - 1]
+        places.append((start + int(i) - 1, start + int(j) - 1 if j else end - 1))
+        assert letter == "T" or j
+    matrices = [
+        mpmath.matrix([[mpmath.mpf(x.numerator) / x.denominator for x in r] for r in e])
+        for e in basis
+    ]
+    return f, matrices, places
+
+
+def hat(E, eta):
+    return sum((mpmath.mpf(x) * e for x, e in zip(eta, E, strict=True)), 0 * E[0])
+
+
+def exp(M):
+    """The exponential of a matrix, by its series and squares."""
+    power = total = mpmath.eye(M.rows)
+    for n in range(1, 40):
+        power = power * M / (n * 2**8)
+        total += power
+    for _ in range(8):
+        total = total * total
+    return total
+
+
+def entries(G, places):
+    return np.array([float(G[i, j]) for i, j in places])
+
+
+def element(g, places, size):
+    """The matrix of an element of doubles."""
+    G = mpmath.eye(size)
+    for x, (i, j) in zip(g, places, strict=True):
+        G[i, j] = mpmath.mpf(float(x))
+    return G
+
+
+def coordinates(E, M):
+    """Those of a matrix of the algebra."""
+    flat = mpmath.matrix([[*e] for e in E]).T
+    found = mpmath.lu_solve(flat, mpmath.matrix([*M]))
+    assert mpmath.norm(flat * found - mpmath.matrix([*M])) < mpmath.mpf(10) ** -15
+    return [*found]
+
+
+def turned(E, angle, rng):
+    """Coordinates of the largest angle that is asked for; those of shifts alone are of size 1."""
+    turns = [any(e[i, j] * e[j, i] for i in range(e.rows) for j in range(i)) for e in E]
+    eta = rng.normal(size=len(E))
+    if not any(turns):
+        return eta
+    M = hat(E, eta * turns)
+    largest = max(abs(z.imag) for z in np.linalg.eigvals(np.array(M.tolist(), dtype=float)))
+    return np.where(turns, eta * angle / largest, eta)
+
+
+def drawn(name, angle):
+    f, E, places = case(name)
+    return f, E, places, turned(E, angle, np.random.default_rng([7, int(angle * 1e3)]))
+
+
+CASES = pytest.mark.parametrize("angle", ANGLES, ids=lambda x: f"{x:.3g}")
+NAMES = pytest.mark.parametrize("name", PROBLEMS)
+
+
+def far(found, wanted):
+    """The largest error, of numbers beyond 1 relative to the largest of them."""
+    wanted = np.array(wanted, dtype=float)
+    return np.max(np.abs(found - wanted)) / max(1, np.max(np.abs(wanted)))
+
+
+@CASES
+@NAMES
+def test_exp_and_log_have_all_digits(name, angle):
+    """Of numbers of size 1; the largest error of these is 4e-16."""
+    with mpmath.workdps(DIGITS):
+        f, E, places, eta = drawn(name, angle)
+        g = entries(exp(hat(E, eta)), places)
+        assert far(f.exp(eta), g) < 1e-15
+        assert far(f.log(g), eta) < 1e-15
+
+
+@pytest.mark.parametrize("angle", [3.5, 50.0])
+@NAMES
+def test_exp_beyond_half_a_turn(name, angle):
+    """There the error grows as the angle does: to 2e-15 at 50."""
+    with mpmath.workdps(DIGITS):
+        f, E, places, eta = drawn(name, angle)
+        assert far(f.exp(eta), entries(exp(hat(E, eta)), places)) < 1e-16 * max(10, angle)
+
+
+@CASES
+@NAMES
+def test_jacobians_are_those_of_differences(name, angle):
+    """The largest error of these is 5e-16; differences of 50 digits are right to 1e-30."""
+    with mpmath.workdps(DIGITS):
+        f, E, places, eta = drawn(name, angle)
+        h, X = mpmath.mpf(10) ** -18, hat(E, eta)
+        columns = []
+        for e in E:
+            change = (exp(X + h * e) - exp(X - h * e)) / (2 * h)
+            change = change * exp(-X) if name == "right" else exp(-X) * change
+            columns.append(coordinates(E, change))
+        J = mpmath.matrix(columns).T
+        back = np.array((J**-1).tolist(), dtype=float)
+        assert far(f.exp_jacobian(eta), J.tolist()) < 1e-15
+        assert far(f.log_jacobian(entries(exp(X), places)), back) < 1e-15
+
+
+@pytest.mark.parametrize("angle", [1e-12, 1e-8])
+def test_small_turns_have_all_their_digits(angle):
+    """Of what is small itself: the skew part of a rotation."""
+    f = case("SO(3)")[0]
+    eta = angle * np.array([1.0, -2.0, 0.5])
+    np.testing.assert_allclose(f.log(f.exp(eta)), eta, rtol=4e-16, atol=0)
+
+
+def test_half_a_turn_has_one_of_two_signs():
+    f = case("SO(3)")[0]
+    for n in np.eye(3), np.array([[0.6, 0.8, 0], [0, -0.6, 0.8]]):
+        for axis in n:
+            g = (2 * np.outer(axis, axis) - np.eye(3)).ravel()
+            found = f.log(g)
+            np.testing.assert_allclose(np.abs(found @ axis), np.pi, rtol=1e-15)
+            np.testing.assert_allclose(np.abs(found), np.pi * np.abs(axis), atol=1e-15)
+
+
+@CASES
+@NAMES
+def test_local_is_the_inverse_of_retract(name, angle):
+    """The largest error of these is 5e-16."""
+    with mpmath.workdps(DIGITS):
+        f, E, places, eta = drawn(name, angle)
+        d, size, rng = len(E), E[0].rows, np.random.default_rng(5)
+        x = np.concatenate([f.exp(turned(E, 2.0, rng)), rng.normal(size=d)])
+        moved = np.concatenate([eta, rng.normal(size=d)])
+        y, X = f.retract(x, moved), element(x[:-d], places, size)
+        by = exp(hat(E, eta))
+        wanted = by * X if name == "right" else X * by
+        assert far(y[:-d], entries(wanted, places)) < 2e-15
+        np.testing.assert_array_equal(y[-d:], x[-d:] + moved[d:])
+        assert far(f.local(x, y), moved) < 2e-15
+
+
+@NAMES
+def test_its_coordinates_are_those_of_the_linearised_equations(name):
+    """D of --jacobian by differences of the rates along retract, seen by local: to 3e-8."""
+    f, E, _ = case(name)
+    d, rng, h = len(E), np.random.default_rng(6), 1e-4
+    x = np.concatenate([f.exp(turned(E, 1.0, rng)), rng.normal(size=d)])
+    _, D = f.jacobian(0.0, x)
+
+    def between(y):
+        """The rate of local(x, y) as both move."""
+        ends = [f.local(x + s * f(0.0, x), y + s * f(0.0, y)) for s in (h, -h)]
+        return (ends[0] - ends[1]) / (2 * h)
+
+    steps = h * np.eye(2 * d)
+    found = [(between(f.retract(x, s)) - between(f.retract(x, -s))) / (2 * h) for s in steps]
+    assert far(np.transpose(found), D) < 2e-7
+
+
+# -- languages -----------------------------------------------------------------------------------
+
+
+def in_python(prefix, text, calls):
+    made = module(prefix, text)
+    return [getattr(made, name)(*given).ravel() for name, given, _ in calls]
+
+
+def in_julia(_, text, calls):
+    found, real = [], np.float32 if "--real float" in text else np.float64
+    made = Module(text)
+    for name, given, count in calls:
+        arrays = [Numbers(len(x), values=map(real, x)) for x in given]
+        out = Numbers(count, kind=real)
+        made.call(f"{name}!", *arrays, out)
+        found.append(np.array(out.array, dtype=float))
+    return found
+
+
+def printed(lines):
+    return [np.array(line.split(), dtype=float) for line in lines.splitlines()]
+
+
+def listed(x):
+    return f"[{', '.join(map(repr, map(float, x)))}]"
+
+
+def in_javascript(prefix, text, calls, folder):
+    need("node")
+    (folder / f"{prefix}_group.mjs").write_text(text, encoding="utf-8")
+    lines = [f'import * as m from "./{prefix}_group.mjs";']
+    for name, given, _ in calls:
+        lines.append(f"console.log(m.{name}({', '.join(map(listed, given))}).join(' '));")
+    (folder / "main.mjs").write_text("\n".join(lines), encoding="utf-8")
+    return printed(subprocess.check_output(["node", "main.mjs"], cwd=folder, text=True))
+
+
+def in_rust(prefix, text, calls, folder):
+    need("rustc")
+    (folder / f"{prefix}_group.rs").write_text(text, encoding="utf-8")
+    lines = [f"mod {prefix}_group;", "fn main() {"]
+    for name, given, count in calls:
+        arrays = ", ".join(f"&{listed(x)}" for x in given)
+        lines += [f"let mut out = [0.0; {count}];", f"{prefix}_group::{name}({arrays}, &mut out);"]
+        lines += ['for x in out { print!("{x:e} "); }', "println!();"]
+    (folder / "main.rs").write_text("\n".join([*lines, "}"]), encoding="utf-8")
+    command = ["rustc", "--edition=2021", "-Dwarnings", "main.rs"]
+    subprocess.run(command, cwd=folder, check=True)
+    return printed(subprocess.check_output(["./main"], cwd=folder, text=True))
+
+
+RUN = {
+    "python": (".py", in_python),
+    "julia": (".jl", in_julia),
+    "javascript": (".mjs", in_javascript),
+    "rust": (".rs", in_rust),
+}
+
+
+COMPARED = [(name, x, "double") for name in ("SO(3) x SE(3)", "SE(2)", "right") for x in RUN]
+COMPARED += [("SE(2)", x, "float") for x in RUN if x != "python"]  # where it is of doubles
+
+
+@pytest.mark.parametrize(("name", "language", "real"), COMPARED)
+def test_every_language_says_what_c_says(name, language, real, tmp_path):
+    ending, run = RUN[language]
+    f, E, _ = case(name)
+    d, rng = len(E), np.random.default_rng(8)
+    chosen = {"exponential": True, "real": real, **OPTIONS.get(name, {})}
+    prefix, texts = emission(PROBLEMS[name](), (language,), **chosen)
+    calls = []
+    for angle in ANGLES:
+        eta = turned(E, angle, rng)
+        g = f.exp(eta)
+        x, moved = (np.concatenate([a, rng.normal(size=d)]) for a in (g, eta))
+        values = {"g": g, "x": x, "y": f.retract(x, moved)}
+        for function, (takes, _) in FUNCTIONS.items():
+            own = {**values, "eta": moved if function == "retract" else eta}
+            given = [own[x] for x in takes]
+            calls.append((function, given, getattr(f, function)(*given).size))
+    folder = [tmp_path] if language in ("javascript", "rust") else []
+    found = run(prefix, texts[f"{prefix}_group{ending}"], calls, *folder)
+    for (function, given, _), there in zip(calls, found, strict=True):
+        error = far(there, getattr(f, function)(*given).ravel())
+        assert error < (2e-15 if real == "double" else 2e-6), function
+
+
+COMPILERS = ("gcc -std=c99", "clang -std=c99", "g++ -xc++ -std=c++11", "clang++ -xc++")
+
+
+@pytest.mark.parametrize("real", ["double", "float"])
+@pytest.mark.parametrize("compiler", COMPILERS)
+def test_every_compiler_takes_the_header(compiler, real, tmp_path):
+    words = compiler.split()
+    need(words[0])
+    prefix, texts = emission(PROBLEMS["SO(3) x SE(3)"](), ("c",), exponential=True, real=real)
+    header = f"{prefix}_group.h"
+    (tmp_path / header).write_text(texts[header], encoding="utf-8")
+    source = f'#include "{header}"\nint main(void) {{ return 0; }}\n'
+    (tmp_path / "main.c").write_text(source, encoding="utf-8")
+    more = ["-Wdouble-promotion"] if real == "float" else []
+    subprocess.run([*words, *STRICT, *more, "main.c", "-lm"], cwd=tmp_path, check=True)
+
+
+def test_what_is_not_read_back_is_told(tmp_path, capsys):
+    """--validate says that of these files, and of the others what they are."""
+    assert main(["emit", "so3", "--exponential", "--validate", "--out", str(tmp_path)]) == 0
+    told = capsys.readouterr().err.splitlines()
+    assert [x.split(": ")[0] for x in told if "not read back" in x] == [
+        "so3_group.h",
+        "so3_group.py",
+    ]
+    assert sum("equal the record" in x for x in told) == 2
+
+
+# -- what is refused ------------------------------------------------------------------------------
+
+REFUSED = {
+    "sl3": ({}, r"--exponential is for SO\(2\), SO\(3\), SE\(2\), SE\(3\), .*, not for SL\(3\)"),
+    "manakov": ({}, r"not for SO\(4\): leave it out"),
+    "heisenberg": ({}, r"not for UT\(3\)"),
+    "so3": ({"attitude": "quaternion"}, "not written with --attitude quaternion"),
+    "se3": ({"velocity": "tangent"}, "not written with --velocity tangent"),
+    "spherical_pendulum": ({}, "without all of g and Z"),
+    "euler_poisson": ({}, "without all of g and Z"),
+    "zeitlin": ({}, "--exponential is not written on the torus"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_has_no_such_functions_is_told(name):
+    choices, message = REFUSED[name]
+    with pytest.raises(LoweringError, match=message):
+        program(walks.problem(name), walks.record(name), Options(exponential=True, **choices))
+
+
+def test_arrays_of_another_length_are_told():
+    f = case("SO(3)")[0]
+    with pytest.raises(ValueError, match="expected 3 numbers, not 4"):
+        f.exp(np.zeros(4))
+    with pytest.raises(ValueError, match=r"compile\(..., exponential=True\)"):
+        derive.compile("so3").log(np.eye(3).ravel())
+    prefix, texts = emission("so3", ("python",), exponential=True)
+    made = module(prefix, texts[f"{prefix}_group.py"])
+    with pytest.raises(ValueError, match="so3: eta has 4 numbers, not 3"):
+        made.exp(np.zeros(4))
