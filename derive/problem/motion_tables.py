@@ -1,4 +1,4 @@
-"""[initial] and [[event]] of a problem file, and the names of the state that they need."""
+"""[initial], [[event]] and [[signal]] of a problem file, and the names that they need."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from ..algebra.groups import Group
 from ..language.expression import names
 from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
-from ..schema.kind import Event
+from ..schema.motion_kinds import Event, Signal
 from ..schema.table import hint, nearest
 from . import rotations
 from .fields import entries, known_in_lagrangian, state_names, tables
 from .file_reader import FileReader
 from .problem import Initial, Problem, ProblemError
 
-KEYS = ("initial", "event")
+KEYS = ("initial", "event", "signal")
 
 
 def motion_fields(data: Mapping[str, Any], reader: FileReader) -> dict[str, Any]:
@@ -38,12 +38,36 @@ def motion_fields(data: Mapping[str, Any], reader: FileReader) -> dict[str, Any]
     for k, name in enumerate(seen, 1):
         if name in seen[: k - 1]:
             raise ProblemError(f"event {k}: a second event {name!r}; give each its own name")
-    return {"initial": _initial(data.get("initial", {}), reader), "events": events}
+    start = _initial(data.get("initial", {}), reader)
+    return {"initial": start, "events": events, "signals": _signals(data, start, reader)}
+
+
+def _signals(data: Mapping[str, Any], start: Initial, reader: FileReader) -> tuple[Signal, ...]:
+    """The tables [[signal]], each of a number of its own."""
+    found: list[Signal] = []
+    if "signal" in data and not data.get("input"):
+        raise ProblemError("signal 1: there is no [[input]] for it")
+    for k, table in enumerate(tables(data, "signal"), 1):
+        where = f"signal {k}"
+        x = reader.typed(Signal, table, where)
+        if any(x.input == y.input for y in found):
+            raise ProblemError(f"{where}: a second signal of {x.input!r}; give it one")
+        if x.input in start.numbers:
+            both = f"[initial] {x.input} and this both say what the input is"
+            raise ProblemError(f"{where}: {both}; leave out one")
+        if len(x.times or ()) != len(x.samples or ()):
+            count = f"{len(x.times or ())} times and {len(x.samples or ())} values"
+            raise ProblemError(f"{where}: {count}; give a value for each time")
+        for t in x.trees():
+            _require_declared(t, where, reader, "t" if x.u is not None else "")
+        found.append(x)
+    return tuple(found)
 
 
 def named(problem: Problem) -> set[str]:
-    """The names in the expressions of start and events, parameters among them."""
-    trees = [*problem.initial.trees(), *(t for x in problem.events for t in x.trees())]
+    """The names in the expressions of start, events and signals, parameters among them."""
+    listed = (*problem.events, *problem.signals)
+    trees = [*problem.initial.trees(), *(t for x in listed for t in x.trees())]
     return {name for t in trees for name in names(t)}
 
 
@@ -82,9 +106,9 @@ def _number(value: Any, where: str, reader: FileReader) -> Tree:
     return found
 
 
-def _require_declared(t: Tree, where: str, reader: FileReader) -> None:
+def _require_declared(t: Tree, where: str, reader: FileReader, time: str = "") -> None:
     for name in names(t):
-        if name not in reader.parameters:
+        if name not in reader.parameters and name != time:
             near = nearest(name, reader.parameters)
             raise ProblemError(f"{where}: {name[:40]!r} is not declared in [parameters]{near}")
 
@@ -144,7 +168,8 @@ def numbers_followed(problem: Problem, group: Group) -> list[str]:
 
 
 def named_twice(problem: Problem) -> str:
-    """That a number of the state is a parameter, or one of an input, in words; "" where none is."""
+    """That a number of the state is a parameter, or one of an input, or a signal that of none, in
+    words; "" where none is."""
     if problem.group is None:
         return ""
     state = {*numbers_of_state(problem, problem.group)}
@@ -154,6 +179,11 @@ def named_twice(problem: Problem) -> str:
         if clash := next(filter(state.__contains__, problem.numbers_of(x)), ""):
             told = f"{clash!r} is one of its numbers, and of the state as well"
             return f"input {k}, {x.name!r}: {told}; choose another name"
+    inputs = [name for x in problem.inputs for name in problem.numbers_of(x)]
+    for k, z in enumerate(problem.signals, 1):
+        if z.input not in inputs:
+            near = nearest(z.input, inputs) or f"; there is {', '.join(inputs)}"
+            return f"signal {k}: no number of an input {z.input!r}{near}"
     for k, y in enumerate(problem.outputs, 1):
         if clash := next(filter(state.__contains__, (y.name, *problem.numbers_of_output(y))), ""):
             return f"output {k}, {y.name!r}: {clash!r} is of the state; choose another name"
