@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -17,6 +18,8 @@ from .file_reader import FileReader
 from .problem import Initial, Problem, ProblemError
 
 KEYS = ("initial", "event", "signal")
+TURNED = re.compile(rf"({'|'.join(rotations.KEYS)})[1-9]?")
+"""The keys of [initial] that turn a body, or a block of a product by its number."""
 
 
 def motion_fields(data: Mapping[str, Any], reader: FileReader) -> dict[str, Any]:
@@ -76,7 +79,7 @@ def _initial(table: Any, reader: FileReader) -> Initial:
         raise ProblemError("key 'initial' must be a table [initial]")
     found = _turned(table, reader)
     for name, value in table.items():
-        if name == "exp" or name in rotations.KEYS:
+        if name == "exp" or TURNED.fullmatch(name):
             continue
         where = f"initial, {name[:40]}"
         if name in reader.parameters:
@@ -114,19 +117,42 @@ def _require_declared(t: Tree, where: str, reader: FileReader, time: str = "") -
 
 
 def _turned(table: Mapping[str, Any], reader: FileReader) -> dict[str, Tree]:
-    """The entries of A by the rotation that a start says, none where it says none."""
-    where = "initial"
-    name, said = rotations.turn_in(table, where)
-    if not name:
-        return {}
-    if reader.group is None or reader.advected is not None or not reader.group.rotates:
-        raise ProblemError(f"{where}, {name}: the state has no rotation of R^3; give its numbers")
-    if other := next((x for x in table if x == "exp" or x.startswith("A_")), ""):
-        raise ProblemError(f"{where}: {name} and {other} both say where the body is; leave out one")
-    rows = reader.turned(said, 3, f"{where}, {name}" if name == "rotation" else where)
-    entries = {suffixed("A", i, j): x for i, r in enumerate(rows, 1) for j, x in enumerate(r, 1)}
+    """The entries of A by the rotation that a start says, or of A1, A2, … of a product by those of
+    its blocks; none where it says none."""
+    group = None if reader.advected is not None else reader.group
+    places = group.places if group else ()
+    marks = [str(k) for k in range(1, len(places) + 1)] if len(places) > 1 else [""]
+    found: dict[str, Tree] = {}
+    for k, mark in enumerate(marks):
+        own = {x: table[x + mark] for x in rotations.KEYS if x + mark in table}
+        name, said = rotations.turn_in(own, f"initial{f', block {mark}' if mark else ''}")
+        if name:
+            turns = bool(places) and places[k][1].turns_space
+            found |= _entries_turned(table, name, mark, said, reader, turns=turns)
+    for name in table:
+        if len(marks) > 1 and name in rotations.KEYS:
+            blocks = f"{name}1 … {name}{marks[-1]}"
+            raise ProblemError(f"initial, {name}: say of which block of the product, {blocks}")
+    return found
+
+
+def _entries_turned(
+    table: Mapping[str, Any], name: str, mark: str, said: Any, reader: FileReader, *, turns: bool
+) -> dict[str, Tree]:
+    """Those of A, or of a block, by a rotation that is said under a key ``name`` with the ``mark``
+    of the block; does this turn R³?"""
+    where, A = f"initial, {name}{mark}", f"A{mark}"
+    if not turns:
+        whose = f"block {mark}" if mark else "the state"
+        raise ProblemError(f"{where}: {whose} has no rotation of R^3; give its numbers")
+    if other := next((x for x in table if x == "exp" or x.startswith(f"{A}_")), ""):
+        both = f"{name}{mark} and {other} both say where the body is"
+        raise ProblemError(f"initial: {both}; leave out one")
+    of_block = f"initial, block {mark}" if mark else "initial"
+    rows = reader.turned(said, 3, where if name == "rotation" else of_block)
+    entries = {suffixed(A, i, j): x for i, r in enumerate(rows, 1) for j, x in enumerate(r, 1)}
     for x in entries.values():
-        _require_declared(x, f"{where}, {name}", reader)
+        _require_declared(x, where, reader)
     return entries
 
 
