@@ -149,27 +149,23 @@ def inputs_in_time(
     """The ``inputs`` by the signals of a problem, but of those that are ``said`` to be held, and by
     what is ``given``, which wins; the others as they are at ``first``; ``None`` where all are held.
     ``MotionError`` for what is no such table, and a name that is none."""
+    if linear and (given is None or callable(given)):
+        raise MotionError("--linear joins the rows of --input: give a table, or leave it out")
+    table = None if given is None or callable(given) else _table(given, inputs, linear=linear)
+    held = {*said, *(table.names if table else ())}
     listed: list[Signals] = []
     changes: list[Change] = []
     for k, signal in enumerate(problem.signals, 1):
-        if signal.input not in said:
+        if signal.input not in held:
             where = f"{problem.name}, signal {k}"
             if signal.u is not None:
                 changes.append(_expressed(signal, inputs, parameters, where))
             else:
                 listed.append(_sampled(signal, parameters, where))
+    if table:
+        listed.append(table)
     if callable(given):
         changes.append(_asked(given, inputs))
-    elif given is not None:
-        table, where = read(given, linear=linear)
-        for name in table.names:
-            if name not in inputs:
-                near = did_you_mean(near_name(name, [*inputs]), after=" ").rstrip()
-                has = ", ".join(inputs) or "none"
-                raise MotionError(f"{where}: no input {name[:40]!r}; {near or f'there is {has}'}")
-        listed.append(table)
-    if linear and (given is None or callable(given)):
-        raise MotionError("--linear joins the rows of --input: give a table, or leave it out")
     if not listed and not changes:
         return None
     times = np.unique(np.concatenate([[0.0], *(x.times for x in listed)]))
@@ -178,6 +174,19 @@ def inputs_in_time(
         columns = [[*inputs].index(name) for name in x.names]
         rows[:, columns], rates[:, columns] = x.lines(times)
     return InputsInTime(times, rows, rates, tuple(changes))
+
+
+def _table(
+    given: str | Path | Mapping[str, Any], inputs: Sequence[str], *, linear: bool
+) -> Signals:
+    """The table that is given, of numbers of the inputs."""
+    table, where = read(given, linear=linear)
+    for name in table.names:
+        if name not in inputs:
+            near = did_you_mean(near_name(name, [*inputs]), after=" ").rstrip()
+            has = ", ".join(inputs) or "none"
+            raise MotionError(f"{where}: no input {name[:40]!r}; {near or f'there is {has}'}")
+    return table
 
 
 def _sampled(signal: Signal, parameters: Mapping[str, float], where: str) -> Signals:
@@ -213,6 +222,8 @@ def _expressed(
 
 def _asked(function: Callable[[float, Array], Any], inputs: Sequence[str]) -> Change:
     """A function of time and state, whose numbers are looked at."""
+    if not inputs:
+        raise MotionError("inputs: the problem has no [[input]]; leave them out")
     places = {name: i for i, name in enumerate(inputs)}
 
     def change(t: float, x: Array, u: Array) -> None:

@@ -184,6 +184,11 @@ def test_what_a_function_gives_is_looked_at(inputs, words, compiled):
         ball().simulate(1, inputs=inputs, compiled=compiled)
 
 
+def test_a_function_of_what_has_no_inputs():
+    with pytest.raises(MotionError, match="the problem has no"):
+        derive("top").simulate(1, inputs=lambda t, x: {})
+
+
 @needs("cc")
 @pytest.mark.parametrize("compiled", [True, False])
 def test_what_a_function_raises_is_raised(compiled):
@@ -197,9 +202,9 @@ def test_what_is_given_wins(tmp_path, capsys):
     held = d.simulate(1, points=4, start={"F_3": 2.0})
     assert np.abs(held["T_3"] - held.t**2 / 2).max() < 1e-9
     path, table = tmp_path / "ball.toml", tmp_path / "push.csv"
-    path.write_text(BALL + RAMP)
     table.write_text("t,F_3\n0,0\n2,4\n")
     command = ["simulate", str(path), "--t", "1", "--points", "1"]
+    path.write_text(BALL + '[[signal]]\ninput = "F_3"\nu = "5*w*t"\n')
     for more, end in (["--linear"], 1 / 6), ([], 0):
         assert main([*command, "--input", str(table), *more, "--out", f"{tmp_path}/r.npz"]) == 0
         assert abs(np.load(tmp_path / "r.npz")["table"][-1][12] - end) < 1e-9
