@@ -29,7 +29,6 @@ from derive.schema.kind import (
     REPRESENTATIONS,
     SECTIONS,
     Damping,
-    Event,
     Fluid,
     Parameter,
     StatedAdvected,
@@ -37,6 +36,7 @@ from derive.schema.kind import (
     StatedGroup,
 )
 from derive.schema.kinds import kinds
+from derive.schema.motion_kinds import Event, Signal
 from derive.schema.table import Table
 from derive.views.language import language
 from derive.views.outline import system, title
@@ -132,7 +132,7 @@ def schema() -> dict[str, object]:
 STATED: tuple[tuple[str, type[Table]], ...] = (
     *(("parameters", Parameter), ("group", StatedGroup), ("algebra", StatedAlgebra)),
     *(("advected", StatedAdvected), ("point", Point), ("damping", Damping), ("event", Event)),
-    *(("fluid", Fluid), *SECTIONS.items()),
+    *(("signal", Signal), ("fluid", Fluid), *SECTIONS.items()),
 )
 """The tables of one kind."""
 OTHERS = {"moments": ("symbolic",), "representation": REPRESENTATIONS}

@@ -229,6 +229,8 @@ def add_motion_options(simulated: argparse.ArgumentParser) -> None:
     simulated.add_argument("--set", action="append", type=number, metavar="NAME=NUMBER", help=about)
     about = "inputs in time: FILE.csv with columns t and NAME, each row held up to the next one"
     simulated.add_argument("--input", metavar="FILE", help=about)
+    about = "join the rows of --input by straight lines"
+    simulated.add_argument("--linear", action="store_true", help=about)
     about = "such numbers from a .toml file, or the end of a run (whole|moving is of derive emit)"
     simulated.add_argument("--state", metavar="FILE", help=about)
     about = "start at exp of these coordinates in the basis of the Lie algebra, as 0.3,0,0"

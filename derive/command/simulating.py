@@ -58,10 +58,13 @@ def page_of(
     """The page that a command asks for; ``Refused`` where there is none."""
     if not args.html.endswith(".html"):
         raise MotionError(f"{args.html}: the name of a page must end in .html")
-    if args.input:
+    if args.input or args.linear:
         raise MotionError(
-            "--html: the inputs of a page are held, set by its sliders: leave out --input"
+            "--html: the inputs of a page are held, set by its sliders: leave out --input, --linear"
         )
+    if problem.signals:
+        told = "the inputs of a page are held, set by its sliders: it has no [[signal]]"
+        print(f"derive: warning: {problem.name}: {told}", file=sys.stderr)
     if args.dt is not None or args.method not in (None, STEPS[0]):
         raise MotionError("--html: the page moves by gauss to a tolerance: leave out --dt, --step")
     return moving_page(problem, record, args.t, method_of(args), args.lang, **start)
@@ -120,6 +123,7 @@ def run_of(
         **start,
         progress=lambda parts, total: with_progress(parts, total, problem.name),
         inputs=args.input,
+        linear=args.linear,
     )
 
 
@@ -251,7 +255,7 @@ def _told(run: Run) -> int:
 
 def plan_of(args: argparse.Namespace, start: dict[str, Any]) -> Plan:
     """The ensemble that a command asks for; ``MotionError`` for options that are not for one."""
-    if args.html or args.input:
+    if args.html or args.input or args.linear:
         given = "--html shows" if args.html else "--input is for"
         raise MotionError(f"{given} one motion: leave out --ensemble")
     require_steps_of_an_ensemble(args.method, args.dt, args.order)

@@ -38,10 +38,13 @@ TABLES = {
     "damping": 100,
     "event": 50,
     "output": 60,
+    "signal": 60,
 }
 """Tables of each kind in a file. Of more points the moments are better given ([body] given);
 moments of solids have products that grow with the square of their number; each other table is a
 term of every view."""
+SAMPLES = 1000
+"""Rows of a signal in a file; of more there are tables apart, .csv."""
 PULLS = 150
 """Points times attractions, each of which is a sum with a root in the emitted code."""
 PARAMETERS = 1000

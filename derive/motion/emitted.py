@@ -22,9 +22,11 @@ from ..language.values import value
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..schema.body_kinds import Body, GivenBody
-from ..schema.kind import Event, Lagrangian
+from ..schema.kind import Lagrangian
+from ..schema.motion_kinds import Event
 from ..views.figure.drawn_body import ExpressionValues, parts
 from ..views.figure.shapes import Curve, Shape
+from .c_binding import binding, binding_on_card, binding_to_events
 from .emitted_code import EmittedCode, base_units
 from .first_numbers import MotionError
 from .native import (
@@ -32,9 +34,6 @@ from .native import (
     FLAGS,
     CSource,
     Motion,
-    binding,
-    binding_on_card,
-    binding_to_events,
     compiler_of_cards,
     loaded,
     over_cores,
@@ -106,7 +105,8 @@ class Emitted(EmittedCode):
         ``CompileError`` where there is no compiler."""
         name = self.prefix
         files = emit(self.program, self.record, ("c",), name, self.options)
-        files["steps.c"] = binding(name, (self.step,), FIXED, events=bool(self.events))
+        has = {"events": bool(self.events), "driven": bool(self.program.inputs)}
+        files["steps.c"] = binding(name, (self.step,), FIXED, **has)
         to_rounding = f"-D{name}_ENOUGH=0"
         return loaded(CSource(name, tuple(files.items()), None, (*FLAGS, to_rounding)))
 

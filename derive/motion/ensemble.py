@@ -174,6 +174,10 @@ class EnsembleMotions:
 
     def __init__(self, code: Emitted, problem: Problem, plan: Plan):
         self.code, self.problem, self.plan, self.t = code, problem, plan, plan.times
+        held = {*plan.given, *plan.names}
+        if moving := next((x.input for x in problem.signals if x.input not in held), ""):
+            why = f"the [[signal]] of {moving} is for one motion: hold it, as --set {moving}=0"
+            raise MotionError(f"{code.name}: {why}")
         first = dict(
             zip(plan.names, ParameterDraws(plan.varied, plan.seed).next(1)[0], strict=True)
         )

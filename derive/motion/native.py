@@ -25,6 +25,7 @@ from typing import Any
 import numpy as np
 
 from .first_numbers import MotionError
+from .signals import InputFunction, Line
 
 # Emitted C as a shared library: compiled by the compiler at hand, loaded once.
 
@@ -119,159 +120,6 @@ def has_card() -> bool:
 Array = np.ndarray[Any, np.dtype[np.float64]]
 Integers = np.ndarray[Any, np.dtype[np.intc]]
 
-INCLUDE = '#include "{name}_steps.h"\n'
-HEAD = """\
-size_t derive_motion_size(void);
-size_t derive_motion_size(void)
-{{
-    return sizeof({name}_motion);
-}}
-void derive_begin({name}_motion *m, double t, const double *x);
-void derive_begin({name}_motion *m, double t, const double *x)
-{{
-    {name}_begin(m, t, x);
-}}
-void derive_dense(const {name}_motion *m, double t, double *x);
-void derive_dense(const {name}_motion *m, double t, double *x)
-{{
-    {name}_dense(m, t, x);
-}}
-void derive_now(const {name}_motion *m, double *now, double *x);
-void derive_now(const {name}_motion *m, double *now, double *x)
-{{
-    now[0] = m->t;
-    now[1] = m->t_low;
-    now[2] = m->h;
-    now[3] = (double)m->evaluations;
-    memcpy(x, m->x, sizeof m->x);
-}}
-"""
-EVENT = """\
-int derive_event(const {name}_motion *m, int *rising);
-int derive_event(const {name}_motion *m, int *rising)
-{{
-    *rising = m->rising;
-    return m->event;
-}}
-"""
-MOVE = """\
-void derive_{step}({name}_motion *m, const double *k, const double *u, double h, size_t n,
-    int *told);
-void derive_{step}({name}_motion *m, const double *k, const double *u, double h, size_t n,
-    int *told)
-{{
-    *told = {name}_{step}(m, k, u, h, n);
-}}
-"""
-MOVE_TO_EVENT = """\
-void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
-    int *told);
-void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
-    int *told)
-{{
-    *told = {name}_{step}_to(m, k, u, t1, tol);
-}}
-"""
-MOVE_TO = """\
-void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
-    size_t n, int *told);
-void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
-    size_t n, int *told)
-{{
-    int fault = {name}_{step}(m, k, u, 0, 0); /* dense asks for the numbers of a call */
-    for (; fault == 0 && n > 0 && t1 - m->t - m->t_low != 0; --n) {{
-        fault = {name}_towards({name}_{step}_step, m, k, u, t1, tol);
-    }}
-    *told = fault;
-}}
-"""
-WATCH = """\
-void derive_{step}_watch({name}_motion *m, const double *k, const double *u, double t1, double h,
-    int *told);
-void derive_{step}_watch({name}_motion *m, const double *k, const double *u, double t1, double h,
-    int *told)
-{{
-    *told = {name}_watch({name}_{step}, m, k, u, t1, h);
-}}
-"""
-ENSEMBLE = """\
-size_t derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
-    size_t u_each, double t0, double t1, double tol, double *h, int *status);
-size_t derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
-    size_t u_each, double t0, double t1, double tol, double *h, int *status)
-{{
-    return {name}_ensemble(n, x, k, k_each, u, u_each, t0, t1, tol, h, status);
-}}
-"""
-ENDED = """\
-void derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
-    size_t u_each, double t0, double t1, double tol, double *h, int *status, double *ended);
-void derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
-    size_t u_each, double t0, double t1, double tol, double *h, int *status, double *ended)
-{{
-#ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic)
-#endif
-    for (long long j = 0; j < (long long)n; ++j) {{
-        const size_t i = (size_t)j;
-        {name}_motion m;
-        {name}_begin(&m, t0, x + i*{name}_N_STATE);
-        m.h_next = h[i];
-        status[i] = {name}_{step}_to(&m, k + i*k_each, u + i*u_each, t1, tol);
-        status[i] += status[i] == {name}_EVENT ? m.event : 0;
-        memcpy(x + i*{name}_N_STATE, m.x, sizeof m.x);
-        h[i] = m.h_next;
-        ended[i] = m.t;
-    }}
-}}
-"""
-ON_CARD = """\
-const char *derive_ensemble_on_card(size_t n, double *x, const double *k, size_t k_each,
-    const double *u, size_t u_each, double t0, double t1, double tol, double *h, int *status)
-{{
-    const int fault = {name}_ensemble_device(n, x, k, k_each, u, u_each, t0, t1, tol, h, status);
-    return fault ? cudaGetErrorString((cudaError_t)fault) : 0;
-}}
-"""
-CONSTANTS = """\
-void derive_constants(size_t n, const double *p, double *k, int *wrong);
-void derive_constants(size_t n, const double *p, double *k, int *wrong)
-{{
-    for (size_t i = 0; i < n; ++i) {{
-        wrong[i] = {name}_constants(p + i*{name}_N_PARAMETERS, k + i*{name}_N_CONSTANTS);
-    }}
-}}
-"""
-
-
-def binding(
-    name: str,
-    steps: Sequence[str],
-    fixed: Sequence[str] = (),
-    *,
-    ensemble: bool = False,
-    events: bool = False,
-) -> str:
-    """C that makes functions of a library of the inline functions of a header of steps; those that
-    are ``fixed`` have no size of their own; are there ``events``?"""
-    every, to = ((MOVE, WATCH), MOVE_TO_EVENT) if events else ((MOVE,), MOVE_TO)
-    moves = [text.format(name=name, step=x) for x in steps for text in every]
-    moves += [to.format(name=name, step=x) for x in steps if x not in fixed]
-    parts = [INCLUDE, HEAD * bool(steps), EVENT * events, (ENSEMBLE + CONSTANTS) * ensemble]
-    return "\n".join([*(x.format(name=name) for x in parts if x), *moves])
-
-
-def binding_to_events(name: str, step: str) -> str:
-    """The same of an ensemble whose motions end at their events, by one of those steps."""
-    return "\n".join(x.format(name=name, step=step) for x in (INCLUDE, ENDED, CONSTANTS))
-
-
-def binding_on_card(name: str) -> str:
-    """The same of an ensemble on a graphics card, in CUDA."""
-    parts = INCLUDE, 'extern "C" {{\n', ON_CARD, CONSTANTS, "}}\n"
-    return "".join(x.format(name=name) for x in parts)
-
-
 FAULTS = {
     2: "the equations have no finite value at t = {:.9g}",
     5: "there is no discrete step of this size at t = {:.9g}: take a smaller one "
@@ -286,6 +134,32 @@ AT_EVENT = 4
 
 MANY = 100_000
 """The most steps of one call: Ctrl-C is heard between calls."""
+
+
+InputsInC = ctypes.CFUNCTYPE(
+    None, ctypes.c_double, *(ctypes.POINTER(ctypes.c_double),) * 2, ctypes.c_void_p
+)
+"""A C function of a time, a state, the inputs, which it writes, and data."""
+
+
+class AskedInputs:
+    """A function of Python that C asks for the inputs, of states of a ``size``; ``fault``: what it
+    has raised, after which it gives no numbers, so that steps end."""
+
+    def __init__(self, inputs: InputFunction, size: int):
+        self.fault: BaseException | None = None
+
+        def write(t: float, x: Any, u: Any, _: Any) -> None:
+            try:
+                found = [] if self.fault else inputs(t, np.array(x[:size])).tolist()
+            except BaseException as fault:  # Ctrl-C as well: it is raised again behind the step
+                self.fault, found = fault, []
+            if not found:
+                u[0] = math.nan
+            for i, number in enumerate(found):
+                u[i] = number
+
+        self.function = InputsInC(write)
 
 
 class StepError(ArithmeticError):
@@ -315,6 +189,8 @@ class Motion:
         self._events, self.event, self.rising = events, "", False
         self.t, self.h, self.x = float(t), 0.0, np.array(x, dtype=float)
         self._t_low, self.evaluations, self._status = 0.0, 0, ctypes.c_int()
+        self._asked: AskedInputs | None = None
+        self._line: Array | None = None
         self._ask_for_memory()
         self._function("begin")(self._at, ctypes.c_double(t), pointer(self.x))
 
@@ -331,10 +207,19 @@ class Motion:
         ctypes.memmove(other._at, self._at, self._size)
         return other
 
-    def hold(self, u: Array) -> None:
-        """Make the next moves with other inputs."""
+    def hold(self, u: Array | InputFunction) -> None:
+        """Make the next moves with other inputs, which may be a function of t and x."""
         k, _ = self._numbers()
-        self._numbers = lambda: (k, u)
+        self._line, self._asked = None, None
+        if isinstance(u, Line):
+            self._line = np.concatenate([[u.begin], u.values, u.rates])
+        elif callable(u):
+            self._asked = AskedInputs(u, len(self.x))
+        else:
+            self._numbers = lambda: (k, u)
+        function = self._asked.function if self._asked else InputsInC()
+        line = None if self._line is None else pointer(self._line)
+        self._function("drive")(self._at, function, line)
 
     def left(self, t: float) -> float:
         """The time up to another, in as many digits as the motion has."""
@@ -391,6 +276,8 @@ class Motion:
         self._status = ctypes.c_int()
         self._function(name)(self._at, k, u, *how, ctypes.byref(self._status))
         self.settle()
+        if self._asked and self._asked.fault:
+            raise self._asked.fault
         if (status := self._status.value) not in (0, AT_EVENT):
             raise StepError(FAULTS[status].format(self.t))
         return self

@@ -1,34 +1,48 @@
-"""Inputs in time: a table, each row of which is held up to the time of the next one."""
+"""Inputs in time: tables whose rows are held or joined by lines, expressions, functions."""
 
 from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..language.reserved import did_you_mean, near_name
+from ..language.values import approximate
+from ..problem.problem import Problem
+from ..schema.motion_kinds import Signal
 from .first_numbers import MotionError
 from .run import Array
 
 TIME = "t"
 """The column of the times."""
 
+InputFunction = Callable[[float, Array], Array]
+"""The inputs at a time and a state."""
+Given = str | Path | Mapping[str, Any] | Callable[[float, Array], Any]
+"""Inputs as a user says them: a .csv file, columns by name, or a function of time and state that
+gives all of them, or some by name."""
+
 
 @dataclass(frozen=True)
 class Signals:
-    """Inputs ``names`` in time: ``times`` (rows,), which increase, and ``values`` (rows, names)."""
+    """Inputs ``names`` in time: ``times`` (rows,), which increase, and ``values`` (rows, names),
+    each held up to the next or, if they are ``linear``, joined by straight lines."""
 
     names: tuple[str, ...]
     times: Array
     values: Array
+    linear: bool = False
 
     @classmethod
-    def of(cls, columns: Mapping[str, Sequence[float]], where: str) -> Signals:
+    def of(
+        cls, columns: Mapping[str, Sequence[float]], where: str, *, linear: bool = False
+    ) -> Signals:
         """Those of columns by name, one of which has the times; ``MotionError`` for no such."""
         if TIME not in columns:
             raise MotionError(f"{where}: no column {TIME!r} of times; it has {', '.join(columns)}")
@@ -51,46 +65,191 @@ class Signals:
             )
         if times[0] > 0:
             raise MotionError(f"{where}: the first time is {times[0]:g}: a motion begins at t = 0")
-        return cls(names, times, values)
+        return cls(names, times, values, linear)
 
-    def among(self, inputs: Sequence[str], first: Array, where: str) -> HeldInputs:
-        """The rows with all ``inputs``, the others as they are at ``first``; ``MotionError`` for a
-        name that is none."""
-        for name in self.names:
-            if name not in inputs:
-                near = did_you_mean(near_name(name, [*inputs]), after=" ").rstrip()
-                has = ", ".join(inputs) or "none"
-                raise MotionError(f"{where}: no input {name[:40]!r}; {near or f'there is {has}'}")
-        rows = np.tile(first, (len(self.times), 1))
-        rows[:, [[*inputs].index(x) for x in self.names]] = self.values
-        return HeldInputs(self.times, rows)
+    def lines(self, times: Array) -> tuple[Array, Array]:
+        """The values at some times, its own among them, and their rates up to the next."""
+        rates = np.zeros_like(self.values)
+        if self.linear:
+            rates[:-1] = np.diff(self.values, axis=0) / np.diff(self.times)[:, None]
+        k = np.maximum(np.searchsorted(self.times, times, side="right") - 1, 0)
+        return self.values[k] + (times - self.times[k])[:, None] * rates[k], rates[k]
 
 
 @dataclass(frozen=True)
-class HeldInputs:
-    """All inputs, (rows, inputs), each row from its time on."""
+class Line:
+    """Inputs with constant ``rates`` (inputs,): those at the time ``begin`` are ``values``."""
+
+    begin: float
+    values: Array
+    rates: Array
+
+    def __call__(self, t: float, x: Array) -> Array:
+        """The inputs at a time."""
+        del x
+        return self.values + (t - self.begin) * self.rates
+
+
+Change = Callable[[float, Array, Array], None]
+"""Writes some of the inputs at a time and a state, which come first, over those that come last."""
+
+
+@dataclass(frozen=True)
+class InputsInTime:
+    """All inputs, (rows, inputs), each row from its time on, with its ``rates``; and what else
+    ``changes`` them, in this order."""
 
     times: Array
     rows: Array
+    rates: Array
+    changes: tuple[Change, ...] = ()
 
-    def at(self, t: Array | float) -> Array:
-        """The inputs at times, (…, inputs); at a time of the table those of its row."""
-        found: Array = self.rows[np.searchsorted(self.times, t, side="right") - 1]
+    def at(self, t: float, x: Array) -> Array:
+        """The inputs (inputs,) at a time of the table those of its row, and a state."""
+        found: Array = self._of(self._row(t))(t, x)
         return found
 
-    def parts(self, begin: float, end: float) -> Iterator[tuple[Array, float]]:
-        """The inputs from one time to another, with the time up to which they are held."""
-        between = self.times[(self.times > begin) & (self.times < end)]
+    def parts(self, begin: float, end: float) -> Iterator[tuple[Array | InputFunction, float]]:
+        """The inputs from one time to another, an array where they are held, with the time up to
+        which they are so."""
+        between = self.times[(self.times > begin) & (self.times < end)].tolist()
         for start, stop in zip([begin, *between], [*between, end], strict=True):
-            yield self.at(start), float(stop)
+            k = self._row(start)
+            held = not self.changes and not self.rates[k].any()
+            yield self.rows[k] if held else self._of(k), stop
+
+    def _row(self, t: float) -> int:
+        return max(int(np.searchsorted(self.times, t, side="right")) - 1, 0)
+
+    def _of(self, k: int) -> InputFunction:
+        """The inputs from a row on, as a function."""
+        line = Line(float(self.times[k]), self.rows[k], self.rates[k])
+        if not self.changes:
+            return line
+
+        def inputs(t: float, x: Array) -> Array:
+            u = line(t, x)
+            for change in self.changes:
+                change(t, x, u)
+            return u
+
+        return inputs
 
 
-def read(given: str | Path | Mapping[str, Any]) -> tuple[Signals, str]:
+def inputs_in_time(
+    problem: Problem,
+    inputs: Sequence[str],
+    first: Array,
+    parameters: Mapping[str, float],
+    said: Collection[str],
+    given: Given | None,
+    *,
+    linear: bool = False,
+) -> InputsInTime | None:
+    """The ``inputs`` by the signals of a problem, but of those that are ``said`` to be held, and by
+    what is ``given``, which wins; the others as they are at ``first``; ``None`` where all are held.
+    ``MotionError`` for what is no such table, and a name that is none."""
+    if linear and (given is None or callable(given)):
+        raise MotionError("--linear joins the rows of --input: give a table, or leave it out")
+    table = None if given is None or callable(given) else _table(given, inputs, linear=linear)
+    held = {*said, *(table.names if table else ())}
+    listed: list[Signals] = []
+    changes: list[Change] = []
+    for k, signal in enumerate(problem.signals, 1):
+        if signal.input not in held:
+            where = f"{problem.name}, signal {k}"
+            if signal.u is not None:
+                changes.append(_expressed(signal, inputs, parameters, where))
+            else:
+                listed.append(_sampled(signal, parameters, where))
+    if table:
+        listed.append(table)
+    if callable(given):
+        changes.append(_asked(given, inputs))
+    if not listed and not changes:
+        return None
+    times = np.unique(np.concatenate([[0.0], *(x.times for x in listed)]))
+    rows, rates = np.tile(first, (len(times), 1)), np.zeros((len(times), len(first)))
+    for x in listed:
+        columns = [[*inputs].index(name) for name in x.names]
+        rows[:, columns], rates[:, columns] = x.lines(times)
+    return InputsInTime(times, rows, rates, tuple(changes))
+
+
+def _table(
+    given: str | Path | Mapping[str, Any], inputs: Sequence[str], *, linear: bool
+) -> Signals:
+    """The table that is given, of numbers of the inputs."""
+    table, where = read(given, linear=linear)
+    for name in table.names:
+        if name not in inputs:
+            near = did_you_mean(near_name(name, [*inputs]), after=" ").rstrip()
+            has = ", ".join(inputs) or "none"
+            raise MotionError(f"{where}: no input {name[:40]!r}; {near or f'there is {has}'}")
+    return table
+
+
+def _sampled(signal: Signal, parameters: Mapping[str, float], where: str) -> Signals:
+    """The table of a signal of a problem file."""
+    found = {
+        name: [approximate(t, parameters, float) for t in trees or ()]
+        for name, trees in ((TIME, signal.times), (signal.input, signal.samples))
+    }
+    columns = {name: [math.nan if x is None else x for x in row] for name, row in found.items()}
+    return Signals.of(columns, where, linear=not signal.hold)
+
+
+def _expressed(
+    signal: Signal, inputs: Sequence[str], parameters: Mapping[str, float], where: str
+) -> Change:
+    """The expression of a signal of a problem file, as numbers."""
+    i, u = [*inputs].index(signal.input), signal.u
+    assert u is not None
+
+    @lru_cache(maxsize=64)  # the iterations of a step ask at the same few times
+    def number(t: float) -> float:
+        found = approximate(u, {**parameters, TIME: t}, float)
+        if found is None or not math.isfinite(found):
+            raise MotionError(f"{where}, u: no finite number at t = {t:.9g}")
+        return found
+
+    def change(t: float, x: Array, to: Array) -> None:
+        del x
+        to[i] = number(float(t))
+
+    return change
+
+
+def _asked(function: Callable[[float, Array], Any], inputs: Sequence[str]) -> Change:
+    """A function of time and state, whose numbers are looked at."""
+    if not inputs:
+        raise MotionError("inputs: the problem has no [[input]]; leave them out")
+    places = {name: i for i, name in enumerate(inputs)}
+
+    def change(t: float, x: Array, u: Array) -> None:
+        found = function(float(t), np.array(x))
+        if isinstance(found, Mapping):
+            for name, number in found.items():
+                if name not in places:
+                    raise MotionError(f"inputs: no input {str(name)[:40]!r}; {has}")
+                u[places[name]] = number
+        elif np.shape(found) == u.shape:
+            u[:] = found
+        else:
+            raise MotionError(f"inputs: expected {len(u)} numbers, or some by name; {has}")
+        if not np.isfinite(u).all():
+            raise MotionError(f"inputs: no finite number at t = {t:.9g}")
+
+    has = f"there is {', '.join(inputs) or 'none'}"
+    return change
+
+
+def read(given: str | Path | Mapping[str, Any], *, linear: bool = False) -> tuple[Signals, str]:
     """The signals of a .csv file with a line of names, or of columns by name, and what they are
     called in a message; ``MotionError``."""
     if isinstance(given, Mapping):
         columns = {str(x): np.asarray(y, dtype=float).ravel().tolist() for x, y in given.items()}
-        return Signals.of(columns, "inputs"), "inputs"
+        return Signals.of(columns, "inputs", linear=linear), "inputs"
     where = str(given)
     try:
         with Path(given).open(newline="", encoding="utf-8") as file:
@@ -102,7 +261,7 @@ def read(given: str | Path | Mapping[str, Any]) -> tuple[Signals, str]:
     names = [x.strip() for x in rows[0]]
     if len({*names}) < len(names):
         raise MotionError(f"{where}: two columns of one name")
-    return Signals.of(_columns(names, rows[1:], where), where), where
+    return Signals.of(_columns(names, rows[1:], where), where, linear=linear), where
 
 
 def _columns(

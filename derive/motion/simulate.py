@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -24,7 +23,7 @@ from .energy_sources import drives
 from .first_numbers import MotionError
 from .native import CompileError, Motion
 from .run import Array, Run
-from .signals import HeldInputs, read
+from .signals import Given, InputsInTime, inputs_in_time
 from .start import OFF_THE_GROUP, Start, start
 from .trajectory import (
     INTERRUPTED,
@@ -59,17 +58,18 @@ def run(
     project: bool = False,
     compiled: bool | None = None,
     progress: Progress = lambda parts, _: iter(parts),
-    inputs: str | Path | Mapping[str, Any] | None = None,
+    inputs: Given | None = None,
+    linear: bool = False,
 ) -> Run:
     """The motion of a problem from 0 to ``duration``, from :func:`start`, as a table; by C or by
-    Python, or, for ``None``, by C where that pays and there is a compiler; with ``inputs`` in
-    time, a file or columns as :func:`.signals.read` takes them."""
+    Python, or, for ``None``, by C where that pays and there is a compiler; with the
+    signals of the problem and ``inputs`` in time, as :func:`.signals.inputs_in_time` takes them."""
     times = instants(method, duration, points)
-    signals, where = read(inputs) if inputs is not None else (None, "")
     begin = beginning(code, problem, given=given, exponent=exponent, project=project)
-    held = signals.among(code.program.inputs, begin.u, where) if signals else None
-    begin = replace(begin, u=held.at(0.0)) if held else begin
-    follow = following(code, begin, method, duration, compiled, held)
+    named, numbers = code.program.inputs, begin.parameters
+    driven = inputs_in_time(problem, named, begin.u, numbers, given, inputs, linear=linear)
+    begin = replace(begin, u=driven.at(0.0, begin.x)) if driven else begin
+    follow = following(code, begin, method, duration, compiled, driven)
     return simulate(code, begin, method, times, follow, progress)
 
 
@@ -79,7 +79,7 @@ def following(
     method: Method,
     duration: float,
     compiled: bool | None = None,
-    held: HeldInputs | None = None,
+    driven: InputsInTime | None = None,
 ) -> Trajectory:
     """The motion at its begin; ``CompileError`` where C is asked for and there is no compiler."""
     k, u = code.constants(begin.p), begin.u
@@ -91,8 +91,8 @@ def following(
             if compiled:
                 raise
         else:
-            return Trajectory(motion, method, ends, held)
-    return Trajectory(code.motion(k, u, begin.x, compiled=False), method, ends, held)
+            return Trajectory(motion, method, ends, driven)
+    return Trajectory(code.motion(k, u, begin.x, compiled=False), method, ends, driven)
 
 
 def is_long(code: Emitted, k: Array, begin: Start, method: Method, duration: float) -> bool:
@@ -204,11 +204,13 @@ def simulate(
         t, x = np.append(t, last[0]), np.append(x, last[1][None], axis=0)
     elif len(x) == 1 and ended not in ("", INTERRUPTED) and not follow.happened:
         raise MotionError(f"{code.name}: {ended}")
-    u = begin.u if follow.held is None else follow.held.at(t)
+    u = begin.u
+    if follow.driven is not None:
+        u = np.array([follow.driven.at(*pair) for pair in zip(t.tolist(), x, strict=True)])
     inputs = dict(zip(code.program.inputs, np.atleast_2d(u)[-1].tolist(), strict=True))
     largest = dict(zip(inputs, np.abs(np.atleast_2d(u)).max(axis=0).tolist(), strict=True))
     columns, table = code.columns(), code.table(t, x, k, u)
-    if follow.held is not None:
+    if follow.driven is not None:
         columns += tuple(Column(name, "input", "") for name in inputs)
         table = np.column_stack([table, u])
     facts = {

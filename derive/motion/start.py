@@ -85,9 +85,12 @@ def continued(run: Run, problem: Problem, record: Derivation) -> tuple[dict[str,
         raise MotionError("a run of no instants")
     facts, state = run.facts, {x: float(a[-1]) for x, a in run.of_kind("state").items()}
     if facts.get("hash") == problem_hash(record):
-        again = "its equations depend on t, which begins again at 0"
-        told = again if TIME in drives(record.problem or {}, {}) else ""
-        return {**facts.get("parameters", {}), **facts.get("inputs", {}), **state}, told
+        signals = {x.input for x in problem.signals}
+        inputs = {x: v for x, v in facts.get("inputs", {}).items() if x not in signals}
+        what = "signals" if signals else "equations"
+        timed = signals or TIME in drives(record.problem or {}, {})
+        told = f"its {what} depend on t, which begins again at 0" if timed else ""
+        return {**facts.get("parameters", {}), **inputs, **state}, told
     other, group = facts.get("problem", "?"), facts.get("group", "?")
     whose = f"a run of {other!r}, not of {problem.name!r}"
     if other == problem.name:

@@ -19,7 +19,7 @@ from ..language.reserved import did_you_mean, near_name
 from .first_numbers import MotionError
 from .native import AT_EVENT, FAULTS, StepError
 from .run import Array, Happening
-from .signals import HeldInputs
+from .signals import InputFunction, InputsInTime
 
 # How a motion is followed: the step, and its size or its tolerance; when its states are kept.
 
@@ -131,7 +131,7 @@ class MotionUnderWay(Protocol):
     def evaluations(self) -> int:
         """How often its stages have asked for the rates."""
 
-    def hold(self, u: Array) -> None:
+    def hold(self, u: Array | InputFunction) -> None:
         """Make the next moves with other inputs."""
 
     def left(self, t: float) -> float:
@@ -152,16 +152,16 @@ class MotionUnderWay(Protocol):
 
 class Trajectory:
     """A motion under way, and the events that ``happened`` on it; ``ends``: name of an event →
-    does the motion end there?  ``held``: its inputs in time, if they change."""
+    does the motion end there?  ``driven``: its inputs in time, if they change."""
 
     def __init__(
         self,
         motion: MotionUnderWay,
         method: Method,
         ends: Mapping[str, bool],
-        held: HeldInputs | None = None,
+        driven: InputsInTime | None = None,
     ):
-        self.motion, self.method, self.ends, self.held = motion, method, ends, held
+        self.motion, self.method, self.ends, self.driven = motion, method, ends, driven
         self.happened: list[Happening] = []
 
     def reach(self, times: Array) -> tuple[Array, str]:
@@ -182,9 +182,9 @@ class Trajectory:
 
     def _with_inputs(self, end: float) -> str:
         """Steps up to a time, by the inputs of each instant; why not, as below."""
-        if self.held is None:
+        if self.driven is None:
             return self._until(end)
-        for u, stop in self.held.parts(self.motion.t, end):
+        for u, stop in self.driven.parts(self.motion.t, end):
             self.motion.hold(u)
             if why := self._until(stop):
                 return why
@@ -229,7 +229,8 @@ class MotionInPython:
     """A motion under way, by a step of the emitted module ``code``, with constants and inputs."""
 
     def __init__(self, code: ModuleType, step: str, k: Array, u: Array, x: Array):
-        self._code, self._step, self._numbers = code, step, (k, u)
+        self._code, self._step = code, step
+        self._numbers: tuple[Array, Array | InputFunction] = k, u
         self._motion, self.event = code.begin(0.0, x), ""
         self._sure = 0.0, x  # time and state at the end of the last move
 
@@ -259,7 +260,7 @@ class MotionInPython:
         """How often its stages have asked for the rates."""
         return int(self._motion.evaluations)
 
-    def hold(self, u: Array) -> None:
+    def hold(self, u: Array | InputFunction) -> None:
         """Make the next moves with other inputs."""
         self._numbers = self._numbers[0], u
 

@@ -1,7 +1,8 @@
-"""[initial] and [[event]] of a problem file, and the names of the state that they need."""
+"""[initial], [[event]] and [[signal]] of a problem file, and the names that they need."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -9,14 +10,16 @@ from ..algebra.groups import Group
 from ..language.expression import names
 from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
-from ..schema.kind import Event
+from ..schema.motion_kinds import Event, Signal
 from ..schema.table import hint, nearest
 from . import rotations
 from .fields import entries, known_in_lagrangian, state_names, tables
 from .file_reader import FileReader
 from .problem import Initial, Problem, ProblemError
 
-KEYS = ("initial", "event")
+KEYS = ("initial", "event", "signal")
+TURNED = re.compile(rf"({'|'.join(rotations.KEYS)})[1-9]?")
+"""The keys of [initial] that turn a body, or a block of a product by its number."""
 
 
 def motion_fields(data: Mapping[str, Any], reader: FileReader) -> dict[str, Any]:
@@ -38,12 +41,36 @@ def motion_fields(data: Mapping[str, Any], reader: FileReader) -> dict[str, Any]
     for k, name in enumerate(seen, 1):
         if name in seen[: k - 1]:
             raise ProblemError(f"event {k}: a second event {name!r}; give each its own name")
-    return {"initial": _initial(data.get("initial", {}), reader), "events": events}
+    start = _initial(data.get("initial", {}), reader)
+    return {"initial": start, "events": events, "signals": _signals(data, start, reader)}
+
+
+def _signals(data: Mapping[str, Any], start: Initial, reader: FileReader) -> tuple[Signal, ...]:
+    """The tables [[signal]], each of a number of its own."""
+    found: list[Signal] = []
+    if "signal" in data and not data.get("input"):
+        raise ProblemError("signal 1: there is no [[input]] for it")
+    for k, table in enumerate(tables(data, "signal"), 1):
+        where = f"signal {k}"
+        x = reader.typed(Signal, table, where)
+        if any(x.input == y.input for y in found):
+            raise ProblemError(f"{where}: a second signal of {x.input!r}; give it one")
+        if x.input in start.numbers:
+            both = f"[initial] {x.input} and this both say what the input is"
+            raise ProblemError(f"{where}: {both}; leave out one")
+        if len(x.times or ()) != len(x.samples or ()):
+            count = f"{len(x.times or ())} times and {len(x.samples or ())} values"
+            raise ProblemError(f"{where}: {count}; give a value for each time")
+        for t in x.trees():
+            _require_declared(t, where, reader, "t" if x.u is not None else "")
+        found.append(x)
+    return tuple(found)
 
 
 def named(problem: Problem) -> set[str]:
-    """The names in the expressions of start and events, parameters among them."""
-    trees = [*problem.initial.trees(), *(t for x in problem.events for t in x.trees())]
+    """The names in the expressions of start, events and signals, parameters among them."""
+    listed = (*problem.events, *problem.signals)
+    trees = [*problem.initial.trees(), *(t for x in listed for t in x.trees())]
     return {name for t in trees for name in names(t)}
 
 
@@ -52,7 +79,7 @@ def _initial(table: Any, reader: FileReader) -> Initial:
         raise ProblemError("key 'initial' must be a table [initial]")
     found = _turned(table, reader)
     for name, value in table.items():
-        if name == "exp" or name in rotations.KEYS:
+        if name == "exp" or TURNED.fullmatch(name):
             continue
         where = f"initial, {name[:40]}"
         if name in reader.parameters:
@@ -82,27 +109,50 @@ def _number(value: Any, where: str, reader: FileReader) -> Tree:
     return found
 
 
-def _require_declared(t: Tree, where: str, reader: FileReader) -> None:
+def _require_declared(t: Tree, where: str, reader: FileReader, time: str = "") -> None:
     for name in names(t):
-        if name not in reader.parameters:
+        if name not in reader.parameters and name != time:
             near = nearest(name, reader.parameters)
             raise ProblemError(f"{where}: {name[:40]!r} is not declared in [parameters]{near}")
 
 
 def _turned(table: Mapping[str, Any], reader: FileReader) -> dict[str, Tree]:
-    """The entries of A by the rotation that a start says, none where it says none."""
-    where = "initial"
-    name, said = rotations.turn_in(table, where)
-    if not name:
-        return {}
-    if reader.group is None or reader.advected is not None or not reader.group.rotates:
-        raise ProblemError(f"{where}, {name}: the state has no rotation of R^3; give its numbers")
-    if other := next((x for x in table if x == "exp" or x.startswith("A_")), ""):
-        raise ProblemError(f"{where}: {name} and {other} both say where the body is; leave out one")
-    rows = reader.turned(said, 3, f"{where}, {name}" if name == "rotation" else where)
-    entries = {suffixed("A", i, j): x for i, r in enumerate(rows, 1) for j, x in enumerate(r, 1)}
+    """The entries of A by the rotation that a start says, or of A1, A2, … of a product by those of
+    its blocks; none where it says none."""
+    group = None if reader.advected is not None else reader.group
+    places = group.places if group else ()
+    marks = [str(k) for k in range(1, len(places) + 1)] if len(places) > 1 else [""]
+    found: dict[str, Tree] = {}
+    for k, mark in enumerate(marks):
+        own = {x: table[x + mark] for x in rotations.KEYS if x + mark in table}
+        name, said = rotations.turn_in(own, f"initial{f', block {mark}' if mark else ''}")
+        if name:
+            turns = bool(places) and places[k][1].turns_space
+            found |= _entries_turned(table, name, mark, said, reader, turns=turns)
+    for name in table:
+        if len(marks) > 1 and name in rotations.KEYS:
+            blocks = f"{name}1 … {name}{marks[-1]}"
+            raise ProblemError(f"initial, {name}: say of which block of the product, {blocks}")
+    return found
+
+
+def _entries_turned(
+    table: Mapping[str, Any], name: str, mark: str, said: Any, reader: FileReader, *, turns: bool
+) -> dict[str, Tree]:
+    """Those of A, or of a block, by a rotation that is said under a key ``name`` with the ``mark``
+    of the block; does this turn R³?"""
+    where, A = f"initial, {name}{mark}", f"A{mark}"
+    if not turns:
+        whose = f"block {mark}" if mark else "the state"
+        raise ProblemError(f"{where}: {whose} has no rotation of R^3; give its numbers")
+    if other := next((x for x in table if x == "exp" or x.startswith(f"{A}_")), ""):
+        both = f"{name}{mark} and {other} both say where the body is"
+        raise ProblemError(f"initial: {both}; leave out one")
+    of_block = f"initial, block {mark}" if mark else "initial"
+    rows = reader.turned(said, 3, where if name == "rotation" else of_block)
+    entries = {suffixed(A, i, j): x for i, r in enumerate(rows, 1) for j, x in enumerate(r, 1)}
     for x in entries.values():
-        _require_declared(x, f"{where}, {name}", reader)
+        _require_declared(x, where, reader)
     return entries
 
 
@@ -144,7 +194,8 @@ def numbers_followed(problem: Problem, group: Group) -> list[str]:
 
 
 def named_twice(problem: Problem) -> str:
-    """That a number of the state is a parameter, or one of an input, in words; "" where none is."""
+    """That a number of the state is a parameter, or one of an input, or a signal that of none, in
+    words; "" where none is."""
     if problem.group is None:
         return ""
     state = {*numbers_of_state(problem, problem.group)}
@@ -154,6 +205,11 @@ def named_twice(problem: Problem) -> str:
         if clash := next(filter(state.__contains__, problem.numbers_of(x)), ""):
             told = f"{clash!r} is one of its numbers, and of the state as well"
             return f"input {k}, {x.name!r}: {told}; choose another name"
+    inputs = [name for x in problem.inputs for name in problem.numbers_of(x)]
+    for k, z in enumerate(problem.signals, 1):
+        if z.input not in inputs:
+            near = nearest(z.input, inputs) or f"; there is {', '.join(inputs)}"
+            return f"signal {k}: no number of an input {z.input!r}{near}"
     for k, y in enumerate(problem.outputs, 1):
         if clash := next(filter(state.__contains__, (y.name, *problem.numbers_of_output(y))), ""):
             return f"output {k}, {y.name!r}: {clash!r} is of the state; choose another name"

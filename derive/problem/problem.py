@@ -18,7 +18,6 @@ from ..schema.kind import (
     Advected,
     CovectorInput,
     Damping,
-    Event,
     Fluid,
     ForceInput,
     Input,
@@ -29,6 +28,7 @@ from ..schema.kind import (
     StatedForce,
     TorqueInput,
 )
+from ..schema.motion_kinds import Event, Signal
 from ..schema.output_kinds import Output
 from ..schema.table import Table
 
@@ -60,7 +60,8 @@ class Problem:
     ``advected``: what the algebra carries along, where the state has no element of the group; the
     last blocks of the group's matrices. ``fluid``: of a problem whose group has no matrices.
     ``torus``: su(N) in the basis of the torus, where there is no table of the group.
-    ``initial``, ``events``: of motions that are followed; the record of the equations has neither.
+    ``initial``, ``events``, ``signals``: of motions that are followed; the record of the equations
+    has none of them.
     """
 
     name: str
@@ -83,6 +84,7 @@ class Problem:
     fluid: Fluid | None = None
     initial: Initial = field(default_factory=Initial)
     events: tuple[Event, ...] = ()
+    signals: tuple[Signal, ...] = ()
 
     def __repr__(self) -> str:
         return f"<problem {self.name}: {self.group_name}>"

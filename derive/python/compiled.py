@@ -25,13 +25,13 @@ from ..code.options import ADDED, options_of
 from ..code.program import Block, Program
 from ..code.step.step_numbers import FIXED
 from ..language.reserved import did_you_mean, near_name
+from ..motion.c_binding import binding
 from ..motion.native import (
     FLAGS,
     Array,
     CompileError,
     CSource,
     Motion,
-    binding,
     constants,
     ensemble,
     loaded,

@@ -17,6 +17,7 @@ from .quoted import loaded
 from .shown import Shown
 
 if TYPE_CHECKING:
+    from ..motion.signals import Given
     from ..views.figure.drawing import Scene
     from .as_sympy import Translation
     from .conserved_quantities import SymmetriesOf
@@ -173,7 +174,8 @@ class Derived:
         points: int | None = None,
         project: bool = False,
         compiled: bool | None = None,
-        inputs: Mapping[str, Any] | str | Path | None = None,
+        inputs: Given | None = None,
+        linear: bool = False,
         ensemble: int | None = None,
         vary: Mapping[str, Any] | None = None,
         seed: int | None = None,
@@ -185,7 +187,9 @@ class Derived:
         ``start``: numbers of the state, parameters and inputs by name; ``exp``: the element of the
         group is exp of these coordinates; ``compiled``: by the C or by the Python, else by the C
         where that pays and there is a compiler; ``inputs``: in time, columns of numbers by name, t
-        and those of inputs, or a .csv file of them, each row held up to the next one.
+        and those of inputs, or a .csv file of them, each row held up to the next one or, if they
+        are ``linear``, joined to it by a straight line; or a function of t and the state (numbers
+        in the order of the emitted code) that gives all inputs, or some by name.
 
         ``ensemble``: so many motions, by the C alone, each with numbers of its own for the names of
         ``vary``, drawn by (low, high) or ("normal", mean, deviation) from a ``seed`` (0); kept is
@@ -204,7 +208,7 @@ class Derived:
         )
         begin: dict[str, Any] = {"given": start or {}, "exponent": exp, "project": project}
         if ensemble is not None:
-            if inputs is not None:
+            if inputs is not None or linear:
                 raise MotionError("inputs in time are for one motion: leave out ensemble")
             how = {"step": step, "dt": dt, "order": order, "compiled": compiled}
             return self._many(ensemble, vary or {}, t, points or 1, tol, seed or 0, begin, how)
@@ -213,7 +217,8 @@ class Derived:
         light = is_weightless(self.record.problem or {}, begin["given"])
         code = motion_of(self.problem, self.record, method.step, method.order, weightless=light)
         kept = 500 if points is None else points
-        found = run(code, self.problem, method, t, kept, **begin, compiled=compiled, inputs=inputs)
+        begin |= {"compiled": compiled, "inputs": inputs, "linear": linear}
+        found = run(code, self.problem, method, t, kept, **begin)
         return Simulated.of(found)
 
     def _many(

@@ -1,4 +1,4 @@
-"""What a problem may say: parameters, a group, an algebra, a fluid, forces, events, potentials."""
+"""What a problem may say: parameters, a group, an algebra, a fluid, forces, potentials."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
@@ -91,32 +91,6 @@ class StatedGroup(Table):
     name: Letters
     action: Action = "linear"
     basis: Basis
-
-
-# What a file says of motions that are followed, and no record of equations has: events.
-
-Watched = Annotated[Tree, Key("watched", trees=True)]
-Direction = Annotated[str, Key("word", words=("both", "rising", "falling"))]
-Flag = Annotated[bool, Key("flag")]
-"""An expression of the state, the time and the parameters; from where 0 is reached; true or
-false."""
-
-
-class Event(Table):
-    """An instant at which the expression ``when`` changes its sign: ``rising`` from below 0,
-    ``falling`` from above; a ``terminal`` one ends the run."""
-
-    section, called = "event", "Event"
-    name: Name
-    when: Watched
-    direction: Direction = "both"
-    terminal: Flag = False
-
-    @classmethod
-    def word(cls, name: str, when: Number, direction: str = "both", terminal: bool = False) -> Any:
-        """An event of a motion: an expression of the state, t and the parameters crosses 0, from
-        below, "rising", or from above, "falling", or either, "both"; a terminal one ends a run."""
-        return {"name": name, "when": when, "direction": direction, "terminal": terminal}
 
 
 # Forces outside dϖ: inputs, given at every call, and damping.

@@ -7,7 +7,6 @@ from .kind import (
     INPUTS,
     SECTIONS,
     Damping,
-    Event,
     Fluid,
     StatedAdvected,
     StatedAlgebra,
@@ -17,6 +16,7 @@ from .kind import (
     TorusInertia,
 )
 from .kinds import kinds
+from .motion_kinds import Event, Signal
 from .output_kinds import ExpressionOutput
 from .table import Table
 
@@ -36,6 +36,7 @@ def words() -> dict[str, type[Table]]:
         StatedCovector,
         ExpressionOutput,
         Event,
+        Signal,
         Fluid,
         Point,
         Moments,

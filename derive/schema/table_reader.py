@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, ClassVar, TypeVar
 
-from ..language.limits import MAGNITUDE, TEXT, TORUS
+from ..language.limits import MAGNITUDE, SAMPLES, TEXT, TORUS
 from ..language.reserved import COLUMNS, WORDS, numbers_of_input, taken
 from ..language.tree import Tree
 from .kind import Input, Parameter
@@ -337,6 +337,15 @@ class TableReader(ABC):
     def timed(self, slot: Slot) -> tuple[Tree, ...]:
         """The same, of the time as well."""
         return self.listed(self.value(slot), self.dimension(slot), slot.path, self.in_time)
+
+    def samples(self, slot: Slot) -> tuple[Tree, ...]:
+        """As many expressions as there are, under the key of a file."""
+        (key,) = slot.about.keys
+        slot = slot._replace(key=key)
+        listed = self.value(slot, list)
+        if len(listed) > SAMPLES:
+            raise self.fail(f"{slot.path}: more than {SAMPLES}; give them as a table, .csv")
+        return self.listed(listed, len(listed) or None, slot.path)
 
     def charges(self, slot: Slot) -> tuple[Tree, ...]:
         """A number for each point."""

@@ -161,6 +161,28 @@ def defect(x):
     return _evaluated(_defect, 0.0, x, numpy.zeros(0), kept=())[..., 0]
 
 
+def rhs_of(xp, t, x, k, u=ZEROS):
+    """The entries of dx/dt, a list, by those of x, k and u: numbers, arrays or symbols.
+
+    xp: where their functions are, as math, numpy, jax.numpy, torch, casadi.
+    """
+    x, k, u = _counted("x", x, STATE), _counted("k", k, CONSTANTS), _counted("u", u, INPUTS)
+    return _rhs(xp, t, x, k, u)
+
+
+def constants_of(xp, p):
+    """The entries of k, a list, by those of p, also by name; whether there is such a body is not asked."""
+    return _constants(xp, _counted("p", _named(p), PARAMETERS))[0]
+
+
+def _counted(letter, entries, names):
+    """The entries as a list; ValueError where they are not as many as the names."""
+    entries = list(entries)
+    if len(entries) != len(names):
+        raise ValueError(f"so3: {letter} has {len(entries)} numbers, not {len(names)}")
+    return entries
+
+
 def inertia(p):
     """The tensor of inertia about the body's origin, (3, 3), in the body frame."""
     xp, (p,) = _arrays(_named(p))

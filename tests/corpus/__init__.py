@@ -82,6 +82,10 @@ def commands():
     for when, *said in rows["event"]:
         held = {"initial": {"zeta_3": "w"}, "event": [{"name": "e", "when": when}]}
         yield ["simulate", "event.toml", "--t", "1"], {"event.toml": toml(spin | held)}, said
+    driven = spin | {"initial": {"zeta_3": "w"}, "input": [{"name": "u", "kind": "covector"}]}
+    for signal, *said in rows["signal"]:
+        text = toml(driven | {"signal": [{"input": "u_1"} | signal]})
+        yield ["simulate", "signal.toml", "--t", "1"], {"signal.toml": text}, said
     for initial, *said in rows["start"]:
         start = toml(spin | {"initial": initial})
         yield ["simulate", "start.toml", "--t", "1"], {"start.toml": start}, said

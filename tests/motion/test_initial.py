@@ -99,6 +99,28 @@ def test_a_start_is_turned(tmp_path, text, A):
     assert np.array(found) == pytest.approx(A, abs=1e-15)
 
 
+def test_the_blocks_of_a_product_are_turned(tmp_path):
+    """Each by what has its number; one that nothing turns is at 1."""
+    blocks = "".join(
+        f"[[point]]\nmass = 1\nat = {at}\nblock = {k}\n"
+        for k in (1, 2, 3)
+        for at in ("[1, 0, 0]", "[0, 1, 0]", "[0, 0, 2]")
+    )
+    start = '[initial]\nrpy2 = [0, 0, "pi/2"]\nquaternion3 = [1, 2, 3, 4]\nT3_1 = 2\n'
+    x, _ = first(
+        problem(tmp_path, f'name = "three"\ngroup = "SO(3) x SO(3) x SE(3)"\n{blocks}{start}')
+    )
+    expected = [
+        np.eye(3),
+        turns(2, np.pi / 2),
+        np.array([[-10, 2, 11], [10, -5, 10], [5, 14, 2]]) / 15,
+    ]
+    for k, A in enumerate(expected, 1):
+        found = [[x[f"A{k}_{i}{j}"] for j in (1, 2, 3)] for i in (1, 2, 3)]
+        assert np.array(found) == pytest.approx(A, abs=1e-15)
+    assert x["T3_1"] == 2
+
+
 def test_off_the_group_it_is_refused_and_can_be_projected(tmp_path, capsys):
     path = problem(tmp_path, BODY + "[initial]\nA_11 = 1.1\nzeta_1 = 1\n")
     assert main(["simulate", str(path), "--t", "1"]) == 2

@@ -1,11 +1,11 @@
-"""Inputs in time, from a table whose rows are held."""
+"""Inputs in time: tables whose rows are held or joined, expressions, functions of the state."""
 
 import tomllib
 
 import numpy as np
 import pytest
 
-from derive import MotionError, derive
+from derive import SE, Force, MotionError, Points, Problem, Signal, derive
 from derive.command.cli import main
 from derive.problem.toml import problem_of
 from tests.problems import thrown
@@ -98,3 +98,142 @@ def test_it_is_for_one_motion(body, tmp_path):
         body[0].simulate(1, ensemble=2, inputs=columns())
     with pytest.raises(MotionError, match="cannot be read"):
         body[0].simulate(1, inputs=tmp_path / "none.csv")
+
+
+# Inputs that change all the time: a mass at the tip of a body that does not turn, pushed along z.
+
+OMEGA = 3.0
+BALL = """
+name = "ball"
+group = "SE(3)"
+parameters = { w = 3.0 }
+[body]
+given = { m = "w - 1", centre = [0, 0, 0], I = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }
+[[input]]
+name = "F"
+kind = "force"
+at = [0, 0, 0]
+"""
+RAMP = """
+[[signal]]
+input = "F_3"
+times = [0, 0.5, "w/4"]
+values = [0, 2, "w - 3"]
+hold = false
+"""
+SINE = """
+[[signal]]
+input = "F_1"
+u = "sin(w*t)"
+"""
+STEPS = [({}, 1e-9), ({"step": "vern9"}, 1e-9), ({"step": "rk4", "dt": 0.01}, 1e-7)]
+
+
+def ball(more=""):
+    return derive(problem_of(tomllib.loads(BALL + more)))
+
+
+def height(t):
+    """Of the ball under the force 4t up to ½, then 2 − 8(t − ½) up to ¾, by its integral twice."""
+    a, b = np.clip(t - 0.5, 0, None), np.clip(t - 0.75, 0, None)
+    return (4 * t**3 - 12 * a**3 + 8 * b**3) / 6 / 2
+
+
+@needs("cc")
+@pytest.mark.parametrize("compiled", [True, False])
+@pytest.mark.parametrize(("how", "near"), STEPS)
+def test_signals_of_the_file(how, near, compiled):
+    """Lines are met at their kinks, so that even the steps of a fixed size lose no order there."""
+    run = ball(RAMP + SINE).simulate(1, points=8, compiled=compiled, **how)
+    across = (run.t / OMEGA - np.sin(OMEGA * run.t) / OMEGA**2) / 2
+    assert np.abs(run["T_3"] - height(run.t)).max() < near
+    assert np.abs(run["T_1"] - across).max() < near
+    assert np.allclose(run["F_1"], np.sin(OMEGA * run.t), atol=1e-15)
+    assert np.allclose(run["F_3"], np.interp(run.t, [0, 0.5, 0.75], [0, 2, 0]), atol=1e-15)
+    assert not run["F_2"].any()
+
+
+@needs("cc")
+@pytest.mark.parametrize("compiled", [True, False])
+@pytest.mark.parametrize(("how", "near"), STEPS)
+def test_a_function_of_time_and_state(how, near, compiled):
+    """A spring by feedback: T_3 = cos(ωt)."""
+    drive = lambda t, x: {"F_3": -2 * OMEGA**2 * x[11]}  # noqa: E731
+    start = {"T_3": 1.0}
+    run = ball(RAMP).simulate(1, start=start, points=8, inputs=drive, compiled=compiled, **how)
+    assert np.abs(run["T_3"] - np.cos(OMEGA * run.t)).max() < near * 10
+    assert np.allclose(run["F_3"], -2 * OMEGA**2 * run["T_3"])
+    listed = ball().simulate(
+        1, start=start, points=8, inputs=lambda t, x: [0, 0, drive(t, x)["F_3"]], **how
+    )
+    assert np.abs(listed.states - run.states).max() < 1e-12
+
+
+@needs("cc")
+@pytest.mark.parametrize("compiled", [True, False])
+@pytest.mark.parametrize(
+    ("inputs", "words"),
+    [
+        (lambda t, x: [1], "expected 3 numbers, or some by name; there is F_1, F_2, F_3"),
+        (lambda t, x: {"F": 1}, "no input 'F'; there is F_1"),
+        (lambda t, x: {"F_1": np.inf if t > 0.5 else 0}, "no finite number at t = 0.5"),
+    ],
+)
+def test_what_a_function_gives_is_looked_at(inputs, words, compiled):
+    with pytest.raises(MotionError, match=words):
+        ball().simulate(1, inputs=inputs, compiled=compiled)
+
+
+def test_a_function_of_what_has_no_inputs():
+    with pytest.raises(MotionError, match="the problem has no"):
+        derive("top").simulate(1, inputs=lambda t, x: {})
+
+
+@needs("cc")
+@pytest.mark.parametrize("compiled", [True, False])
+def test_what_a_function_raises_is_raised(compiled):
+    with pytest.raises(ZeroDivisionError):
+        ball().simulate(1, inputs=lambda t, x: [0, 0, 1 / (t < 0.5)], compiled=compiled)
+
+
+def test_what_is_given_wins(tmp_path, capsys):
+    """A table over a signal, and so a number that is set; lines by --linear."""
+    d = ball(RAMP)
+    held = d.simulate(1, points=4, start={"F_3": 2.0})
+    assert np.abs(held["T_3"] - held.t**2 / 2).max() < 1e-9
+    path, table = tmp_path / "ball.toml", tmp_path / "push.csv"
+    table.write_text("t,F_3\n0,0\n2,4\n")
+    command = ["simulate", str(path), "--t", "1", "--points", "1"]
+    path.write_text(BALL + '[[signal]]\ninput = "F_3"\nu = "5*w*t"\n')
+    for more, end in (["--linear"], 1 / 6), ([], 0):
+        assert main([*command, "--input", str(table), *more, "--out", f"{tmp_path}/r.npz"]) == 0
+        assert abs(np.load(tmp_path / "r.npz")["table"][-1][12] - end) < 1e-9
+    capsys.readouterr()
+    assert main([*command, "--linear"]) == 2
+    assert "--linear joins the rows of --input" in capsys.readouterr().err
+    assert main([*command[:2], "--t", "1", "--html", str(tmp_path / "ball.html")]) == 0
+    assert "it has no [[signal]]" in capsys.readouterr().err
+
+
+def test_a_run_that_goes_on_has_its_signals_again(tmp_path, capsys):
+    path, run = tmp_path / "ball.toml", tmp_path / "run.npz"
+    path.write_text(BALL + RAMP)
+    ball(RAMP).simulate(0.5, points=1).save(run)
+    assert main(["simulate", str(path), "--t", "1", "--state", str(run)]) == 0
+    told = capsys.readouterr()
+    assert "its signals depend on t, which begins again at 0" in told.err
+    speed, at = 0.5 / 2, height(np.array([0.5, 1.0]))
+    assert f"T_3 = {at[0] + speed + at[1]:.6g}" in told.out
+
+
+def test_in_an_ensemble_they_are_held():
+    vary = {"w": (1, 2)}
+    with pytest.raises(MotionError, match="F_3 is for one motion: hold it, as start F_3=0"):
+        ball(RAMP).simulate(1, ensemble=2, vary=vary)
+
+
+def test_the_word_of_python():
+    forces = [Force("F", 1), Signal("F_3", times=[0, 0.5, 0.75], values=[0, 2, 0], hold=False)]
+    body = Points((1, [1, 0, 0]), (1, [-1, 0, 0]), (1, [0, 1, 0]), (1, [0, 0, 1]))
+    problem = Problem("word", SE(3), body, [*forces, Signal("F_1", u="2*t")])
+    assert [x.input for x in problem.signals] == ["F_3", "F_1"]

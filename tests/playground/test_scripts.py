@@ -225,6 +225,7 @@ OFFERED = {
     "[fluid]\n": {"density", "forces"},
     "[[advected]]\n": {"name", "representation"},
     "[[event]]\n": {"when", "terminal"},
+    "[[signal]]\n": {"input", "times", "values", "u"},
     "[[damping]]\n": {"coefficient", "on"},
     '[[potential]]\nkind = "spring"\nsti': {"stiffness"},
     '[[input]]\nkind = "force"\n': {"frame", "on"},

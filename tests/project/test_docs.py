@@ -154,6 +154,8 @@ TABLES = [
     {"body": {"given": {"zz": 1}}, "point": []},
     {"damping": [{"zz": 1}]},
     {"force": [{"zz": 1}]},
+    {"event": [{"zz": 1}]},
+    {"input": [{"name": "u", "kind": "covector"}], "signal": [{"zz": 1}]},
     *({"damping": [{"kind": x, "zz": 1}]} for x in ("quadratic", "rotational")),
     *({"input": [{"name": "u", "kind": x, "zz": 1}]} for x in ("covector", "force", "torque")),
     *(

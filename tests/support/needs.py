@@ -59,6 +59,7 @@ ELSEWHERE = {
     for module, project in {
         "array_api_compat": "array-api-compat",
         "array_api_strict": "array-api-strict",
+        "casadi": "casadi",
         "distributed": "distributed",
         "ipykernel": "ipykernel",
         "jax": "jax",

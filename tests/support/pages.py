@@ -52,6 +52,8 @@ IMPORTED = {
     "import dask": "the module distributed",
     "derive.compile": "cc",
     "import jax": "the module jax",
+    "import casadi": "the module casadi",
+    "import torch": "the module torch",
     "ensemble=": "cc",
 }
 MARK = "-- the next part --"
