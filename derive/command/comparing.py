@@ -33,5 +33,5 @@ def command_compare(args: argparse.Namespace) -> int:
     seed = args.seed or 0
     held = comparison(problem, made, Path(args.file), args.function, table, seed, states)
     agrees, lines = reports(held, made)
-    print("\n".join(one_line(x) if x[:1] != " " else f"  {one_line(x)}" for x in lines))
+    print(*map(one_line, lines), sep="\n")
     return 0 if agrees else 1

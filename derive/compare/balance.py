@@ -74,6 +74,14 @@ class Balance:
         found: Array = np.einsum("...ij,...j->...i", M, self.a) + b
         return found
 
+    def checked(self, left: Array, of_mass: Mapping[str, float]) -> Array:
+        """What is left, by the rates that it stands for: a mass near 0 explains nothing."""
+        M, own = (
+            self.code.mass_matrix(self.t, self.x, self.k(x)) for x in (self.values(), of_mass)
+        )
+        found: Array = (M @ np.linalg.solve(own, left[:, :, None]))[:, :, 0]
+        return found
+
     def about_centre(self) -> Array | None:
         """What takes M a = Σ terms of a body in space to moments about its centre of mass, (6, 6);
         ``None`` where these are the same."""

@@ -69,9 +69,14 @@ class Comparison:
 
     def in_the_users(self, difference: Array) -> Array:
         """A difference in our numbers as the smallest one in the user's, (N, size)."""
+        items = self.table.items
+        if not any(x.name in WORDS for x in items):
+            places = [self.program.state.index(x.name) for x in items]
+            units: Array = np.array([x.unit for x in items])
+            return np.asarray(difference[:, places] * units)
         to, x = self.ours(self.table), self.given["x"]
-        units = np.eye(x.shape[1])
-        D = np.stack([rates(to, x, np.broadcast_to(e, x.shape)) for e in units], axis=-1)
+        each = np.eye(x.shape[1])
+        D = np.stack([rates(to, x, np.broadcast_to(e, x.shape)) for e in each], axis=-1)
         found: Array = np.einsum("nij,nj->ni", np.linalg.pinv(D), difference)
         return found
 
@@ -152,7 +157,10 @@ def _rates_of(c: Comparison, path: Path) -> Array:
     places = np.concatenate([np.arange(x.start, x.stop) for x in moving])
     d = len(places)
     M, b = values(path, {calls[0]: d * d, calls[1]: d}, c.given)
-    a = -np.linalg.solve(M.reshape(-1, d, d), b[:, :, None])[:, :, 0]
+    try:
+        a = -np.linalg.solve(M.reshape(-1, d, d), b[:, :, None])[:, :, 0]
+    except np.linalg.LinAlgError:
+        raise CompareError(f"{path}: {calls[0].name} gives a matrix that is singular") from None
     dx = c.in_the_users(c.rates(c.ours(c.table)(c.given["x"])))
     dx[:, places] = a
     return dx

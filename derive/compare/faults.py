@@ -95,39 +95,51 @@ def told(name: str, old: float, new: float, others: Mapping[str, float]) -> tupl
     return f"{name} is {new:.6g}, not {old:.6g}", 4
 
 
-def fitted(left: Callable[[float], Array], start: float) -> tuple[float, Array] | None:
-    """The number for which the least is left, by Newton's method, and what is left then."""
-    value, here = start, left(start)
-    for _ in range(TURNS):
-        step = 1e-6 * max(abs(value), 1e-3)
-        try:
+Values = Mapping[str, float]
+
+
+def fitted(
+    b: Balance, values: Callable[[float], tuple[Values, Values]], start: float
+) -> tuple[float, Array] | None:
+    """The number for which the least is left, by Newton's method, and what is left then;
+    ``values``: of it, those of b and those of M."""
+
+    def left(number: float) -> Array:
+        of_bias, of_mass = values(number)
+        return b.left(of_bias, of_mass=of_mass)
+
+    try:
+        value, here = start, left(start)
+        for _ in range(TURNS):
+            step = 1e-6 * max(abs(value), 1e-3)
             slope = (left(value + step) - left(value - step)) / (2 * step)
             square = float((slope * slope).sum())
             if not square:
                 return None
             further = value - float((slope * here).sum()) / square
             there = left(further)
-        except ValueError:  # no body has this number
-            return None
-        if not np.abs(there).sum() < np.abs(here).sum():
-            break
-        value, here = further, there
-    return value, here
+            if not np.abs(there).sum() < np.abs(here).sum():
+                break
+            value, here = further, there
+        return value, b.checked(here, values(value)[1])
+    except (ValueError, np.linalg.LinAlgError):  # no body has this number
+        return None
 
 
 def of_numbers(b: Balance) -> Iterator[Hypothesis]:
     """A parameter of the problem, or one of its numbers, is another."""
     base = b.values()
-    for name in b.parameters:
-        found = fitted(lambda v, name=name: b.left(b.values({name: v})), b.parameters[name])  # type: ignore[misc]
+    for name, old in b.parameters.items():
+        found = fitted(b, lambda v, name=name: (b.values({name: v}),) * 2, old)  # type: ignore[misc]
         if found:
-            words, rank = told(name, b.parameters[name], found[0], b.parameters)
+            words, rank = told(name, old, found[0], b.parameters)
             yield Hypothesis(words, rank, found[1])
     for slot in b.opened.slots:
-        found = fitted(lambda v, s=slot.name: b.left({**base, s: v}), base[slot.name])  # type: ignore[misc]
+        old = base[slot.name]
+        found = fitted(b, lambda v, name=slot.name: ({**base, name: v},) * 2, old)  # type: ignore[misc]
         if found:
             same = {x.words: base[x.name] for x in b.opened.slots if x.key == slot.key}
-            words, rank = told(slot.words, base[slot.name], found[0], same)
+            words, rank = told(slot.words, old, found[0], same)
             yield Hypothesis(words, rank + 1, found[1])
 
 
@@ -162,10 +174,10 @@ def of_vectors(b: Balance) -> Iterator[Hypothesis]:
             continue
         name = f"the lever arm ({key})" if key.startswith("at of the") else key
 
-        def left(s: float, own: list[str] = own) -> Array:
-            return b.left({**base, **{x: s * base[x] for x in own}})
+        def scaled(s: float, own: list[str] = own) -> tuple[Values, Values]:
+            return ({**base, **{x: s * base[x] for x in own}},) * 2
 
-        if found := fitted(left, 1.0):
+        if found := fitted(b, scaled, 1.0):
             words, rank = changed(name, found[0])
             yield Hypothesis(words, rank, found[1])
 
@@ -185,13 +197,11 @@ def of_the_point(b: Balance) -> Iterator[Hypothesis]:
 
     for where in ("", " in the mass matrix alone", " in ω × Iω alone"):
 
-        def left(s: float, where: str = where) -> Array:
-            other = {name: base[name] + s * shift[i, j] for i, j, name in upper}
-            if "mass" in where:
-                return b.left(base, of_mass={**base, **other})
-            return b.left({**base, **other}, of_mass=base if where else None)
+        def shifted(s: float, where: str = where) -> tuple[Values, Values]:
+            other = {**base, **{name: base[name] + s * shift[i, j] for i, j, name in upper}}
+            return base if "mass" in where else other, base if "ω" in where else other
 
-        if r.any() and (found := fitted(left, 0.0)):
+        if r.any() and (found := fitted(b, shifted, 0.0)):
             simple = min(abs(abs(found[0]) - x) for x in (1, 2)) <= NEAR
             words = f"the tensor of inertia{where} is about another point: it is ours with "
             words += f"{found[0]:+.6g} times the term of parallel axes, m(r²1 − r r̄)"
@@ -214,13 +224,19 @@ def of_term(b: Balance, term: Term, view: tuple[str, Array]) -> Iterator[Hypothe
             continue
         # M a = Σ terms with f times this one: what is left is (f − 1) times it
         factor = 1 + float((part * here).sum()) / square
-        kind = next((x for x, own in b.rows.items() if {*rows} <= {*own}), "")
+        kind = _kind(b, rows)
         called = f"{term.name(kind)}{about}" + (f" in {name}" if name in single else "")
         words, rank = changed(called, factor)
         yield Hypothesis(words, rank + (name in single), (here - (factor - 1) * part) @ back)
         if name in sets:
             for x in _powers(b, term, called, part, here):
                 yield replace(x, left=x.left @ back)
+
+
+def _kind(b: Balance, rows: list[int]) -> str:
+    """Of which set some rows are, where there are two."""
+    kinds = b.rows.items() if len(b.rows) > 1 else ()
+    return next((x for x, own in kinds if {*rows} <= {*own}), "")
 
 
 def changed(name: str, factor: float) -> tuple[str, int]:
@@ -270,7 +286,7 @@ def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> list[s
     said: list[str] = []
     for row in range(here.shape[1]):
         columns = [(x, y[:, row]) for x, y in whole if np.abs(y[:, row]).max() > 1e-12 * size[row]]
-        kind = next((name for name, rows in b.rows.items() if row in rows), "")
+        kind = _kind(b, [row])
         if not columns:
             if not exact(here[:, row], size[row]):
                 return []
@@ -323,7 +339,7 @@ def of_tables(b: Balance) -> list[str]:
             if there is None:
                 break
             here = there
-            if exact(here, size):
+            if exact(here, size) and exact(b.checked(here, values), size):
                 changed = [x for x in own if abs(values[x] - base[x]) > NEAR * max(abs(base[x]), 1)]
                 every = {words[x]: base[x] for x in own}
                 return [told(words[x], base[x], values[x], every)[0] for x in changed]

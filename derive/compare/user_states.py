@@ -106,7 +106,7 @@ def own_blocks(state: Sequence[str], rates: Sequence[str]) -> dict[str, tuple[st
     """The blocks of our own state on SO(3) or SE(3) → their names; ``rates``: those of ζ, w."""
     A = tuple(x for x in state if x.startswith("A_"))
     T = tuple(x for x in state if x.startswith("T_"))
-    found = {"position": T, "matrix": A, "omega": tuple(rates[:3]), "velocity": tuple(rates[3:])}
+    found = {"matrix": A, "position": T, "omega": tuple(rates[:3]), "velocity": tuple(rates[3:])}
     return {name: x for name, x in found.items() if x}
 
 
@@ -126,9 +126,12 @@ def read(
     known = ("call", "state", "inputs", "units", "parameters", *WORDS)
     _require_known(told, known, str(path))
     state = tuple(x.name for x in default.items)
-    listed = _texts(told.get("state", [*state]), f"{path}: state")
+    listed = _texts(told.get("state", [*(blocks or state)]), f"{path}: state")
+    _require_known([x for x in told if x in WORDS], listed, f"{path}: tables of the state")
     units = _numbers(told.get("units", {}), f"{path}: units")
-    _require_known(units, listed, f"{path}: units")
+    _require_known(units, [x for x in listed if x not in SIZES], f"{path}: units")
+    if not all(units.values()):
+        raise CompareError(f"{path}: units: a unit is not 0")
     items = []
     for name in listed:
         if name in WORDS and not blocks:
