@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[1]
 CONTENTS = {
     "Use": "tutorial playground commands problem-file potentials/* lagrangian dirichlet fluid "
     "zeitlin symmetries integrals reduction equilibria motion ensembles plot notes code options "
-    "steps discrete build python sympy record",
+    "steps discrete build compare python sympy record",
     "Trust": "trust performance not-here strangers ../SECURITY paper",
     "Inside": "architecture extending reference ../CONTRIBUTING ../CHANGELOG",
 }

@@ -184,6 +184,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
             about = f"warn of a negative {what} instead of refusing it"
             one.add_argument(f"--allow-negative-{name}", action="store_true", help=about)
     add_picture_options(command("plot"))
+    add_comparison_options(command("compare"))
     paper = command("paper")
     paper.add_argument("--format", choices=("text", "json"), default="text")
     paper.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
@@ -192,6 +193,21 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     build.add_argument("--out", type=named_file, metavar="DIR", default="generated")
     build.add_argument("--print", action="store_true", help="print the walks as well")
     return top
+
+
+def add_comparison_options(compare: argparse.ArgumentParser) -> None:
+    """Add the options of ``compare``: whose code, as what, at how many states."""
+    compare.add_argument("problem", help="a ready-made name or a .toml file")
+    about = "your code: FILE.c, LIB.so or MODULE.py; it is compiled and run"
+    compare.add_argument("--with", dest="file", metavar="FILE", required=True, help=about)
+    about = "the function in it (default: rhs, NAME_rhs in C, or that of the table)"
+    compare.add_argument("--function", metavar="NAME", default="", help=about)
+    about = "your conventions, a .toml file (default: the state and the signature of our code)"
+    compare.add_argument("--as", dest="table", metavar="TABLE", help=about)
+    about = "at how many states (default: 24)"
+    compare.add_argument("--states", type=natural, metavar="N", help=about)
+    about = "the seed of the states (default: 0)"
+    compare.add_argument("--seed", type=natural, metavar="N", help=about)
 
 
 def add_picture_options(plot: argparse.ArgumentParser) -> None:

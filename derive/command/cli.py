@@ -1,5 +1,5 @@
 """The command line: ``derive list | walk | symmetries | reduction | integrals | equilibria |
-notes | emit | simulate | plot | check | paper | build``."""
+notes | emit | simulate | plot | check | compare | paper | build``."""
 
 from __future__ import annotations
 
@@ -245,6 +245,13 @@ def _trial_text(v: Verdict) -> str:
     return f"{count} {v.of}{'s' * (count != 1)} on {', '.join(groups)}{note}"
 
 
+def command_compare(args: argparse.Namespace) -> int:
+    """Hold a right-hand side of your own, in C or Python, against that of a problem."""
+    from .comparing import command_compare
+
+    return command_compare(args)
+
+
 def command_paper(args: argparse.Namespace) -> int:
     """The paper's numbered equations against the derivation."""
     from ..views.book import as_json, as_text
@@ -296,6 +303,7 @@ COMMANDS = {
     "simulate": command_simulate,
     "plot": command_plot,
     "check": command_check,
+    "compare": command_compare,
     "paper": command_paper,
     "build": command_build,
 }

@@ -43,6 +43,16 @@ from .start import central_inertia, inertia_of
 from .trajectory import MotionInPython, MotionUnderWay
 
 
+def python_of(program: Program, record: Derivation, prefix: str, options: Options) -> ModuleType:
+    """The emitted module of Python, whose iterations end at rounding."""
+    module = ModuleType(program.name)
+    (text,) = emit(program, record, ("python",), prefix, options).values()
+    exec(compile(text, f"{program.name}.py", "exec"), module.__dict__)  # our own templates
+    if "ENOUGH" in module.__dict__:
+        module.__dict__["ENOUGH"] = 0.0
+    return module
+
+
 @dataclass(frozen=True)
 class Emitted(EmittedCode):
     """A step in time that is emitted with a program, of an ``order`` if it is the discrete one,
@@ -92,12 +102,7 @@ class Emitted(EmittedCode):
     @cached_property
     def python(self) -> ModuleType:
         """The emitted module of Python, whose iterations end at rounding."""
-        module = ModuleType(self.name)
-        (text,) = emit(self.program, self.record, ("python",), self.prefix, self.options).values()
-        exec(compile(text, f"{self.name}.py", "exec"), module.__dict__)  # our own templates
-        if "ENOUGH" in module.__dict__:
-            module.__dict__["ENOUGH"] = 0.0
-        return module
+        return python_of(self.program, self.record, self.prefix, self.options)
 
     @cached_property
     def compiled(self) -> CDLL:

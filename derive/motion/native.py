@@ -64,15 +64,22 @@ def over_cores(source: CSource) -> CSource:
 @cache
 def _built(source: CSource, compiler: str) -> ctypes.CDLL:
     with tempfile.TemporaryDirectory(prefix="derive-") as folder:
-        for name, text in source.files:
-            (Path(folder) / name).write_text(text, encoding="utf-8")
-        target = Path(folder) / f"{source.name}.so"
-        sources = map(str, sorted(Path(folder).glob("*.c")))
-        command = [compiler, *source.flags, *sources, "-o", str(target), "-lm"]
-        done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode:
-            raise CompileError(f"{compiler} refused the emitted C: {done.stderr.strip()[:500]}")
-        return ctypes.CDLL(str(target))  # once it is loaded, its file may go
+        made = compiled_into(Path(folder), source, "the emitted C", compiler)
+        return ctypes.CDLL(str(made))  # once it is loaded, its file may go
+
+
+def compiled_into(folder: Path, source: CSource, what: str, compiler: str | None = None) -> Path:
+    """The shared library of a source, made in a folder and not loaded; ``CompileError`` says that
+    the compiler refused ``what`` it is."""
+    command = [compiler or _compiler(source.compiler), *source.flags]
+    for name, text in source.files:
+        (folder / name).write_text(text, encoding="utf-8")
+    target = folder / f"{source.name}.so"
+    command += [*map(str, sorted(folder.glob("*.c"))), "-o", str(target), "-lm"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        raise CompileError(f"{command[0]} refused {what}: {done.stderr.strip()[:500]}")
+    return target
 
 
 def _compiler(requested: str | None) -> str:

@@ -69,6 +69,7 @@ def test_every_command_may_be_stopped(command, tmp_path):
         "notes": ["so3", "--out", str(tmp_path / "n.html")],
         "build": ["--out", str(tmp_path)],
         "simulate": ["so3", "--t", "1", "--set", "zeta_1=1"],
+        "compare": ["so3", "--with", "users.py"],
         "plot": [str(tmp_path / "run.csv"), "--out", str(tmp_path / "run.svg")],
     }
     columns = Column("t", "time"), Column("A_11", "state")

@@ -1,0 +1,215 @@
+"""M a + b of our equations at the rates a of a user's: what is left over, and the terms of b."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from ..code.program import Program
+from ..language.limits import Refused
+from ..language.values import approximate
+from ..problem.problem import Problem
+from .opened import Opened, called
+from .users_code import Array
+
+Made = Callable[[Problem, bool], tuple[Program, ModuleType]]
+"""The program of a problem, with its dynamics or without, and its Python."""
+EXACT = 1e-9
+"""What is left of an explained difference, relative to the largest term."""
+
+
+@dataclass(frozen=True)
+class Term:
+    """A term of M a = Σ terms at each state, (N, d), in words of its rows."""
+
+    values: Array
+    name: Callable[[str], str]
+    centre: Array | None = None
+    part: bool = False
+    """Is it only a part of another term?"""
+
+
+@dataclass
+class Balance:
+    """Our equations with a parameter for every number, at the states of a comparison.
+
+    ``x`` (N, state), ``u`` (N, inputs), ``t`` (N,), ``a`` (N, d): the user's rates of the velocity.
+    ``parameters``: those of the problem by name; ``rows``: names of sets of rows → which.
+    """
+
+    code: ModuleType
+    opened: Opened
+    make: Made
+    parameters: Mapping[str, float]
+    t: Array
+    x: Array
+    u: Array
+    a: Array
+    rows: Mapping[str, list[int]]
+
+    def k(self, values: Mapping[str, float], code: ModuleType | None = None) -> Array:
+        """The constants for all parameters by name; ``ValueError`` where no body has them."""
+        module = code or self.code
+        found: Array = module.constants([values[name] for name in module.PARAMETERS])
+        return found
+
+    def values(self, own: Mapping[str, float] | None = None) -> dict[str, float]:
+        """All parameters for those of the problem, some of which may be others."""
+        return self.opened.values({**self.parameters, **(own or {})})
+
+    def left(
+        self,
+        values: Mapping[str, float],
+        u: Array | None = None,
+        of_mass: Mapping[str, float] | None = None,
+    ) -> Array:
+        """M a + b, (N, d), 0 where these parameters make our equations the user's, M by those
+        ``of_mass`` where they are others; ``ValueError`` where no body has them."""
+        M = self.code.mass_matrix(self.t, self.x, self.k(of_mass or values))
+        b = self.code.bias(self.t, self.x, self.k(values), self.u if u is None else u)
+        found: Array = np.einsum("...ij,...j->...i", M, self.a) + b
+        return found
+
+    def checked(self, left: Array, of_mass: Mapping[str, float]) -> Array:
+        """What is left, by the rates that it stands for: a mass near 0 explains nothing."""
+        M, own = (
+            self.code.mass_matrix(self.t, self.x, self.k(x)) for x in (self.values(), of_mass)
+        )
+        found: Array = (M @ np.linalg.solve(own, left[:, :, None]))[:, :, 0]
+        return found
+
+    def about_centre(self) -> Array | None:
+        """What takes M a = Σ terms of a body in space to moments about its centre of mass, (6, 6);
+        ``None`` where these are the same."""
+        body = self.opened.problem.body
+        if body is None or [len(x) for x in self.rows.values()] != [3, 3]:
+            return None
+        own, known = body.moments(), self.values()
+        m, *c = (approximate(x, known, float) for x in (own.m, *own.c))
+        if not m or None in c or not any(c):
+            return None
+        r = np.array(c, float) / m
+        found = np.eye(6)
+        found[:3, 3:] = np.cross(np.eye(3), r).T  # less r × force
+        return found
+
+    def size(self) -> Array:
+        """The size of the terms of each row, (d,)."""
+        k = self.k(self.values())
+        M, b = self.code.mass_matrix(self.t, self.x, k), self.bias(self.x, self.u)
+        known = self.code.rhs(self.t, self.x, k, self.u)[:, -self.a.shape[1] :]
+        found = np.abs(b) + np.einsum("...ij,...j->...i", np.abs(M), np.abs(self.a) + np.abs(known))
+        size: Array = np.maximum(found.max(axis=0), 1e-3 * found.max())
+        return size
+
+    def bias(self, x: Array, u: Array, code: ModuleType | None = None) -> Array:
+        """The bias b at some states and inputs, by the values of the problem."""
+        module = code or self.code
+        found: Array = module.bias(self.t, x, self.k(self.values(), module), u)
+        return found
+
+    def terms(self) -> Iterator[Term]:
+        """What stands in M a = Σ terms: inputs, forces, damping, potentials, then what is left, by
+        its degree in the velocity."""
+        problem, here = self.opened.problem, self.bias(self.x, self.u)
+        d = self.a.shape[1]
+        for i, name in enumerate(self.code.INPUTS):
+            u = self.u.copy()
+            u[:, i] = 0
+            yield Term(self.bias(self.x, u) - here, _of(f"the input {name}"))
+        bare = self.u * 0
+        for key in ("forces", "damping", "potentials"):
+            listed: tuple[Any, ...] = getattr(problem, key)
+            for i, table in enumerate(listed):
+                fewer: Any = {key: (*listed[:i], *listed[i + 1 :])}
+                try:
+                    _, code = self.make(replace(problem, **fewer), True)
+                except Refused:
+                    continue
+                # u is kept: what a force makes of an input is its own
+                values, name = self.bias(self.x, self.u, code) - here, called(problem, table)
+                yield Term(values, _of(name), self._centre(table))
+                if key != "potentials":
+                    yield from self._by_velocities(code, name)
+        try:
+            _, rest = self.make(replace(problem, forces=(), damping=(), potentials=()), True)
+        except Refused:
+            return
+
+        def at(part: slice, sign: float = 1.0) -> Array:
+            return self.bias(self._moving(part, sign), bare, rest)
+
+        still, every = at(slice(0)), slice(None)
+
+        def square(part: slice) -> Array:
+            return still - (at(part) + at(part, sign=-1.0)) / 2
+
+        yield Term(-still, _of("the force of the place in ℓ"))
+        linear = (at(every) - at(every, sign=-1.0)) / 2
+        yield Term(-linear, _of("what is linear in the velocity (gyroscopic)"))
+        turning = len(self.rows["moment"])
+        if turning == d:
+            yield Term(square(every), lambda _: "ω × Iω" if d == 3 else f"{SQUARES} the velocity")
+            return
+        of_w, of_v = square(slice(0, turning)), square(slice(turning, d))
+        yield Term(of_w, lambda row: "ω × (ω × c)" if row == "force" else "ω × Iω")
+        yield Term(of_v, _of(f"{SQUARES} v"))
+        crossed = square(every) - of_w - of_v
+        yield Term(crossed, lambda row: "ω × Mv" if row == "force" else "the product of ω and v")
+        if turning == 3:
+            yield from self._of_momenta()
+
+    def _of_momenta(self) -> Iterator[Term]:
+        """The same by Kirchhoff's equations: −ω × π − v × p about the origin, −ω × p."""
+        velocity = self.x[:, -6:]
+        M = self.code.mass_matrix(self.t, self.x, self.k(self.values()))
+        momenta = np.split(np.einsum("...ij,...j->...i", M, velocity), 2, axis=1)
+        for letters, momentum, vector in zip(
+            ("ω × π", "v × p"), momenta, np.split(velocity, 2, axis=1), strict=True
+        ):
+            moment = -np.cross(vector, momentum)
+            name = f"{letters} of the momenta π = ∂ℓ/∂ω, p = ∂ℓ/∂v"
+            yield Term(np.hstack([moment, 0 * moment]), _of(name), part=True)
+
+    def _moving(self, part: slice, sign: float = 1.0) -> Array:
+        """The states with some of the velocity alone."""
+        x, d = self.x.copy(), self.a.shape[1]
+        x[:, -d:] = 0
+        x[:, -d:][:, part] = sign * self.x[:, -d:][:, part]
+        return x
+
+    def _by_velocities(self, without: ModuleType, name: str) -> Iterator[Term]:
+        """The parts of a force that ω and v make alone; ``without``: the code that lacks it."""
+        turning = len(self.rows["moment"])
+        if turning < self.a.shape[1]:
+            for word, part in (("ω", slice(0, turning)), ("v", slice(turning, None))):
+                x = self._moving(part)
+                values = self.bias(x, self.u, without) - self.bias(x, self.u)
+                yield Term(values, _of(f"the part by {word} of {name}"), part=True)
+
+    def _centre(self, table: Any) -> Array | None:
+        """The vector to the body's origin from the centre of a force, (N, 3)."""
+        names = [x for x in self.code.STATE if x.startswith("T_")]
+        if not names:
+            return None
+        T = self.x[:, [self.code.STATE.index(x) for x in names]]
+        known = self.values()
+        places = [known.get(x[1]) if x[0] == "par" else None for x in getattr(table, "centre", ())]
+        return T - np.array(places, float) if places and None not in places else T
+
+
+SQUARES = "what is quadratic in"
+
+
+def _of(name: str) -> Callable[[str], str]:
+    """The words of a term in some rows."""
+    return lambda row: f"the {row} of {name}" if row in ("moment", "force") else name
+
+
+def exact(left: Array, size: Array) -> bool:
+    """Is nothing left, to rounding?"""
+    return bool(np.isfinite(left).all() and (np.abs(left) <= EXACT * size).all())

@@ -1,0 +1,274 @@
+"""A user's code beside our equations: do they agree at random states, and if not, by what?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from ..code.naming import own_prefix
+from ..code.program import Program
+from ..language.limits import Refused
+from ..motion.first_numbers import first_numbers
+from ..problem.problem import Problem
+from .balance import Balance, Made
+from .faults import NEAR, Explanation, explained, told
+from .opened import Opened, opened
+from .user_states import RATES, WORDS, Item, Table, drawn, ours, own_blocks, rates, read
+from .users_code import Array, Call, CompareError, values
+
+AGREES = 1e-9
+"""The largest difference, relative to the size of the numbers, of what agrees."""
+STATES = 24
+
+
+@dataclass
+class Comparison:
+    """What is compared: our Python, the user's table, both sides' states and rates."""
+
+    problem: Problem
+    program: Program
+    code: ModuleType
+    table: Table
+    blocks: Mapping[str, tuple[str, ...]]
+    parameters: Mapping[str, float]
+    given: Mapping[str, Array]
+    dx: Array
+
+    @property
+    def k(self) -> Array:
+        """The constants of our code."""
+        found: Array = self.code.constants([self.parameters[x] for x in self.code.PARAMETERS])
+        return found
+
+    @property
+    def u(self) -> Array:
+        """Our inputs at each state."""
+        places = [self.table.inputs.index(x) for x in self.program.inputs]
+        found: Array = self.given["u"][:, places]
+        return found
+
+    def ours(self, table: Table) -> Callable[[Any], Any]:
+        """What takes a state as a table means it to ours."""
+        return lambda x: ours(table, x, self.program.state, self.blocks)
+
+    def rates(self, x: Array) -> Array:
+        """Our dx/dt at states of ours."""
+        found: Array = self.code.rhs(self.given["t"], x, self.k, self.u)
+        return found
+
+    def differences(self, table: Table) -> tuple[Array, Array]:
+        """Our dx/dt, and by how much the user's is another, in our numbers, as a table means it."""
+        to, x = self.ours(table), self.given["x"]
+        known = self.rates(to(x))
+        return known, rates(to, x, self.dx) - known
+
+    def in_the_users(self, difference: Array) -> Array:
+        """A difference in our numbers as the smallest one in the user's, (N, size)."""
+        items = self.table.items
+        if not any(x.name in WORDS for x in items):
+            places = [self.program.state.index(x.name) for x in items]
+            units: Array = np.array([x.unit for x in items])
+            return np.asarray(difference[:, places] * units)
+        to, x = self.ours(self.table), self.given["x"]
+        each = np.eye(x.shape[1])
+        D = np.stack([rates(to, x, np.broadcast_to(e, x.shape)) for e in each], axis=-1)
+        found: Array = np.einsum("nij,nj->ni", np.linalg.pinv(D), difference)
+        return found
+
+
+def comparison(
+    problem: Problem, make: Made, path: Path, function: str, as_: Path | None, seed: int, n: int
+) -> Comparison:
+    """The user's code called at n states; ``CompareError`` says why this cannot be."""
+    program, code = make(problem, False)
+    default = _default(problem, program, path, function)
+    blocks = _blocks(problem, program, code)
+    table = read(as_, default, blocks, problem.parameters)
+    if function and len(table.calls) == 1:
+        table = replace(table, calls=(replace(table.calls[0], name=function),))
+    known = {name: x.default for name, x in problem.parameters.items()} | dict(table.parameters)
+    if missing := [x[0] for x in program.parameters if known[x[0]] is None]:
+        raise CompareError(
+            f"{problem.name}: no value for {', '.join(missing)}: give it in [parameters] of a "
+            "table for --as"
+        )
+    parameters = {name: float(x) for name, x in known.items() if x is not None}
+    random = np.random.default_rng(seed)
+    own = []
+    for _ in range(n):
+        exponent = random.normal(size=program.dimension if program.blocks else 0).tolist()
+        # where a group moves matrices, exp says where they are
+        kept = program.state[-program.dimension :] if program.blocks else program.state
+        moving = dict(zip(kept, random.normal(size=len(kept)).tolist(), strict=True))
+        moving |= {x[0]: parameters[x[0]] for x in program.parameters}
+        own.append(first_numbers(program, problem, moving, exponent).x)
+    made = Comparison(problem, program, code, table, blocks, parameters, {}, np.zeros(0))
+    arguments = {a for x in table.calls for a in x.arguments}
+    k, sizes = made.k, (n, len(program.inputs))
+    made.given = {
+        "x": drawn(table, np.array(own), program.state, blocks, seed),
+        "t": random.uniform(size=n) if "t" in arguments else np.zeros(n),
+        "u": random.normal(size=sizes) if "u" in arguments else np.zeros(sizes),
+        "k": np.broadcast_to(k, (n, len(k))),
+        "p": np.broadcast_to(
+            [parameters[x[0]] for x in program.parameters], (n, len(program.parameters))
+        ),
+    }
+    made.dx = _rates_of(made, path)
+    return made
+
+
+def _default(problem: Problem, program: Program, path: Path, function: str) -> Table:
+    """Our own state, and the signature of our own code."""
+    in_c = path.suffix != ".py"
+    name = function or (f"{own_prefix(problem.name)}_rhs" if in_c else "rhs")
+    call = Call(name, ("t", "x", "k", "u", *(["dx"] if in_c else [])), not in_c)
+    return Table((call,), tuple(Item(x) for x in program.state), program.inputs, {})
+
+
+def _blocks(problem: Problem, program: Program, code: ModuleType) -> dict[str, tuple[str, ...]]:
+    """The blocks of a state on SO(3) and SE(3) whose velocity is in the body, in the usual basis;
+    none of others."""
+    if program.group not in ("SO(3)", "SE(3)") or problem.advected is not None:
+        return {}
+    if problem.lagrangian and problem.lagrangian.trivialisation != "left":
+        return {}
+    own: dict[str, tuple[str, ...]] = own_blocks(program.state, program.state[-program.dimension :])
+    usual = np.zeros((program.dimension, *code.BASIS.shape[1:]))
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        usual[i, k, j], usual[i, j, k] = 1, -1
+        if program.dimension == 6:
+            usual[3 + i, i, 3] = 1
+    return own if (usual == code.BASIS).all() else {}
+
+
+def _rates_of(c: Comparison, path: Path) -> Array:
+    """The user's dx/dt; of M and bias, where M a + bias = 0, with our own rates of the place."""
+    size, calls = c.table.size, c.table.calls
+    if len(calls) == 1:
+        return values(path, {calls[0]: size}, c.given)[0]
+    moving = [place for item, place in c.table.places() if _is_rate(c, item)]
+    places = np.concatenate([np.arange(x.start, x.stop) for x in moving])
+    d = len(places)
+    M, b = values(path, {calls[0]: d * d, calls[1]: d}, c.given)
+    try:
+        a = -np.linalg.solve(M.reshape(-1, d, d), b[:, :, None])[:, :, 0]
+    except np.linalg.LinAlgError:
+        raise CompareError(f"{path}: {calls[0].name} gives a matrix that is singular") from None
+    dx = c.in_the_users(c.rates(c.ours(c.table)(c.given["x"])))
+    dx[:, places] = a
+    return dx
+
+
+def _is_rate(c: Comparison, item: Item) -> bool:
+    """Is an item of the state a velocity?"""
+    return item.name in RATES or item.name in c.program.state[-c.program.dimension :]
+
+
+def reports(c: Comparison, make: Made) -> tuple[bool, list[str]]:
+    """Do both agree, and what is to be told, in lines."""
+    known, difference = c.differences(c.table)
+    off = c.in_the_users(difference)
+    size = np.maximum(np.abs(c.dx).max(axis=0), np.abs(c.in_the_users(known)).max(axis=0))
+    size = np.maximum(size, 1e-3 * size.max())
+    worst = np.abs(off).max(axis=0) / size
+    n = len(off)
+    if (worst <= AGREES).all():
+        return True, [f"agrees to {worst.max():.0e} at {n} states"]
+    names = c.table.called()
+    told_of = [f"{names[i]} ({worst[i]:.1g})" for i in np.flatnonzero(worst > AGREES)]
+    lines = [f"differs at {n} states, relative to its size, in the rate of {', '.join(told_of)}"]
+    if others := _other_conventions(c):
+        return False, lines + [f"  it agrees if {x}" for x in others]
+    lines += _of_places(c, off, known)
+    d = c.program.dimension
+    if all(worst[place].max() <= AGREES for item, place in c.table.places() if _is_rate(c, item)):
+        return False, lines
+    found = _explained(c, make, off, d)
+    link = "and" if found.together else "or"
+    lines += [f"  {f'{link}: ' if i else ''}{x}" for i, x in enumerate(found.changes[:6])]
+    if not found.changes:
+        lines.append("  no change of our equations that was tried explains this")
+        lines += [f"  nearest: {found.nearest}"] * bool(found.nearest)
+    return False, lines
+
+
+def _other_conventions(c: Comparison) -> list[str]:
+    """The changes of one convention with which all agrees, in words."""
+    found = []
+    for words, table in c.table.others():
+        known, difference = c.differences(table)
+        on = np.abs(c.code.defect(c.ours(table)(c.given["x"]))) if hasattr(c.code, "defect") else 0
+        size = np.abs(known).max(axis=0)
+        size = np.maximum(size, 1e-3 * size.max())
+        if np.max(on) < AGREES and (np.abs(difference) <= AGREES * size).all():
+            found.append(words)
+    return found
+
+
+def _of_places(c: Comparison, off: Array, known: Array) -> list[str]:
+    """What is wrong with the rates of places, not with the equations of motion, in lines."""
+    lines, right = [], c.in_the_users(known)
+    for item, place in c.table.places():
+        if _is_rate(c, item) or np.abs(off[:, place]).max() <= AGREES * np.abs(right).max():
+            continue
+        square = float((right[:, place] ** 2).sum())
+        factor = 1 + float((off[:, place] * right[:, place]).sum()) / square if square else 1.0
+        rest = off[:, place] - (factor - 1) * right[:, place]
+        if np.abs(rest).max() <= NEAR * np.abs(right).max():
+            lines.append(f"  {told(f'the rate of {item.name}', 1.0, factor, {})[0]}")
+            continue
+        for words, table in c.table.others():
+            to, x = c.ours(table), c.given["x"]
+            # what this item says, by the same kinematics in other words
+            taken = rates(to, x, c.dx) - c.rates(to(x))
+            own = [c.program.state.index(y) for y in c.blocks.get(_block_of(item), ())]
+            if own and np.abs(taken[:, own]).max() <= AGREES * np.abs(known).max():
+                lines.append(f"  the rate of {item.name} is right if {words}")
+                break
+        else:
+            lines.append(f"  the rate of {item.name} is not that of its velocity")
+    return lines
+
+
+def _block_of(item: Item) -> str:
+    return "matrix" if item.name in ("quaternion", "euler") else item.name
+
+
+def _explained(c: Comparison, make: Made, off: Array, d: int) -> Explanation:
+    """What explains that the rates of the velocity differ, with our own rates of places."""
+    own = np.array(c.dx)
+    for item, place in c.table.places():
+        if not _is_rate(c, item):
+            own[:, place] -= off[:, place]
+    to, x = c.ours(c.table), c.given["x"]
+    a = rates(to, x, own)[:, -d:]
+    whole = opened(c.problem, c.parameters)
+    for part in (whole, Opened(replace(c.problem, outputs=(), events=()), ())):
+        try:
+            _, code = make(part.problem, True)
+            break
+        except Refused:
+            continue
+    else:
+        return Explanation()
+    if not hasattr(code, "bias"):
+        return Explanation()
+    E = np.asarray(code.BASIS)
+    n = E.shape[1] - 1
+    moves = [
+        i for i in range(d) if c.program.group in ("SE(2)", "SE(3)") and not E[i][:n, :n].any()
+    ]
+    turns = [i for i in range(d) if i not in moves]
+    rows = {"moment": turns, "force": moves} if moves and turns else {"moment": turns}
+    b = Balance(code, part, make, c.parameters, c.given["t"], to(x), c.u, a, rows)
+    return explained(b, list(b.terms()))
+
+
+__all__ = ("STATES", "WORDS", "CompareError", "Comparison", "comparison", "reports")

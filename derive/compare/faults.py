@@ -1,0 +1,353 @@
+"""Which change of our equations makes them the user's: hypotheses from data, tried one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from .balance import Balance, Term, exact
+from .users_code import Array
+
+SIMPLE = {-1.0: "has the other sign", 0.0: "is missing"}
+SIMPLE |= {x: f"has the factor {words}" for x, words in ((2.0, "2"), (0.5, "1/2"), (4.0, "4"))}
+SIMPLE |= {-2.0: "has the factor −2", -0.5: "has the factor −1/2", 0.25: "has the factor 1/4"}
+"""Factors that say what happened."""
+NEAR = 1e-7
+"""How near a number is to one that has a name."""
+ABOUT = " about the centre of mass"
+TURNS = 12
+"""The most steps of Newton's method."""
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """What may be otherwise in the user's code, in ``words``; how far it is from saying what
+    happened (``rank``, the least first); what it leaves, (N, d)."""
+
+    words: str
+    rank: int
+    left: Array
+
+
+def hypotheses(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
+    """All that are generated from the numbers and the terms of a problem."""
+    yield from of_numbers(b)
+    yield from of_exchanges(b)
+    yield from of_vectors(b)
+    yield from of_the_point(b)
+    for view in views(b):
+        for term in terms:
+            yield from of_term(b, term, view)
+
+
+def views(b: Balance) -> list[tuple[str, Array]]:
+    """M a = Σ terms as it stands, and with moments about the centre of mass: words, a matrix."""
+    centred = b.about_centre()
+    plain = [("", np.eye(b.a.shape[1]))]
+    return plain if centred is None else [*plain, (ABOUT, centred)]
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """Changes of our equations that make them the user's, each alone or all ``together``; else
+    which one is ``nearest``."""
+
+    changes: tuple[str, ...] = ()
+    together: bool = False
+    nearest: str = ""
+
+
+def explained(b: Balance, terms: list[Term]) -> Explanation:
+    """What explains the whole difference, the most telling first; else what leaves the least."""
+    size = b.size()
+    tried = [x for x in hypotheses(b, terms) if np.isfinite(x.left).all()]
+    good = sorted((x for x in tried if exact(x.left, size)), key=lambda x: x.rank)
+    if good:
+        least = [x.words for x in good if x.rank <= max(1, good[0].rank)]
+        first = [x for x in least if ABOUT not in x or x.replace(ABOUT, "") not in least]
+        return Explanation(tuple(dict.fromkeys(first)))
+    for found in (*(of_several(b, terms, x) for x in views(b)), of_tables(b)):
+        if found:
+            return Explanation(tuple(found), together=True)
+    if not tried:
+        return Explanation()
+    whole = float(np.abs(b.left(b.values()) / size).max())
+    nearest = min(tried, key=lambda x: float(np.abs(x.left / size).max()))
+    part = float(np.abs(nearest.left / size).max()) / whole
+    near = f"{nearest.words}: this would leave {part:.0%} of the difference"
+    return Explanation(nearest=near if part < 0.9 else "")
+
+
+def told(name: str, old: float, new: float, others: Mapping[str, float]) -> tuple[str, int]:
+    """What became of a number, in words, and how telling this is."""
+    if old:
+        for factor, words in SIMPLE.items():
+            if abs(new - factor * old) <= NEAR * abs(old):
+                return (f"{name} {words}" if factor else f"{name} is 0, not {old:.6g}"), 0
+        if abs(new * old - 1) <= NEAR:
+            return f"{name} stands as its reciprocal", 0
+    for other, value in others.items():
+        if other != name and value and abs(abs(new) - abs(value)) <= NEAR * abs(value):
+            return f"{name} is {'−' * (new * value < 0)}{other}", 1
+    return f"{name} is {new:.6g}, not {old:.6g}", 4
+
+
+Values = Mapping[str, float]
+
+
+def fitted(
+    b: Balance, values: Callable[[float], tuple[Values, Values]], start: float
+) -> tuple[float, Array] | None:
+    """The number for which the least is left, by Newton's method, and what is left then;
+    ``values``: of it, those of b and those of M."""
+
+    def left(number: float) -> Array:
+        of_bias, of_mass = values(number)
+        return b.left(of_bias, of_mass=of_mass)
+
+    try:
+        value, here = start, left(start)
+        for _ in range(TURNS):
+            step = 1e-6 * max(abs(value), 1e-3)
+            slope = (left(value + step) - left(value - step)) / (2 * step)
+            square = float((slope * slope).sum())
+            if not square:
+                return None
+            further = value - float((slope * here).sum()) / square
+            there = left(further)
+            if not np.abs(there).sum() < np.abs(here).sum():
+                break
+            value, here = further, there
+        return value, b.checked(here, values(value)[1])
+    except (ValueError, np.linalg.LinAlgError):  # no body has this number
+        return None
+
+
+def of_numbers(b: Balance) -> Iterator[Hypothesis]:
+    """A parameter of the problem, or one of its numbers, is another."""
+    base = b.values()
+    for name, old in b.parameters.items():
+        found = fitted(b, lambda v, name=name: (b.values({name: v}),) * 2, old)  # type: ignore[misc]
+        if found:
+            words, rank = told(name, old, found[0], b.parameters)
+            yield Hypothesis(words, rank, found[1])
+    for slot in b.opened.slots:
+        old = base[slot.name]
+        found = fitted(b, lambda v, name=slot.name: ({**base, name: v},) * 2, old)  # type: ignore[misc]
+        if found:
+            same = {x.words: base[x.name] for x in b.opened.slots if x.key == slot.key}
+            words, rank = told(slot.words, old, found[0], same)
+            yield Hypothesis(words, rank + 1, found[1])
+
+
+def of_exchanges(b: Balance) -> Iterator[Hypothesis]:
+    """Two numbers of one key are exchanged, or two inputs."""
+    base = b.values()
+    for one, other in combinations(b.opened.slots, 2):
+        same = one.key == other.key and base[one.name] != base[other.name]
+        changed = {**base, one.name: base[other.name], other.name: base[one.name]}
+        if same and (left := _left(b, changed)) is not None:
+            yield Hypothesis(f"{one.words} and {other.words} are exchanged", 0, left)
+    for one_name, other_name in combinations(b.parameters, 2):
+        changed = {one_name: b.parameters[other_name], other_name: b.parameters[one_name]}
+        units = [b.opened.problem.parameters[x].unit for x in changed]
+        same = units[0] == units[1] and len({*changed.values()}) == 2
+        if same and (left := _left(b, b.values(changed))) is not None:
+            yield Hypothesis(f"{one_name} and {other_name} are exchanged", 0, left)
+    for i, j in combinations(range(b.u.shape[1]), 2):
+        u = b.u.copy()
+        u[:, [i, j]] = u[:, [j, i]]
+        names = b.code.INPUTS[i], b.code.INPUTS[j]
+        words = f"the inputs {names[0]} and {names[1]} are exchanged"
+        yield Hypothesis(words, 1, b.left(base, u))
+
+
+def of_vectors(b: Balance) -> Iterator[Hypothesis]:
+    """A vector of the problem, as the place where a force acts, is a multiple of itself."""
+    base = b.values()
+    for key in dict.fromkeys(x.key for x in b.opened.slots):
+        own = [x.name for x in b.opened.slots if x.key == key and base[x.name]]
+        if len(own) < 1:
+            continue
+        name = f"the lever arm ({key})" if key.startswith("at of the") else key
+
+        def scaled(s: float, own: list[str] = own) -> tuple[Values, Values]:
+            return ({**base, **{x: s * base[x] for x in own}},) * 2
+
+        if found := fitted(b, scaled, 1.0):
+            words, rank = changed(name, found[0])
+            yield Hypothesis(words, rank, found[1])
+
+
+def of_the_point(b: Balance) -> Iterator[Hypothesis]:
+    """The tensor of inertia is about another point: the origin, or the centre of mass."""
+    base = b.values()
+    named = {x.words: x.name for x in b.opened.slots}
+    letter, first = ("I_centre", "centre") if b.opened.central else ("I", "c")
+    if f"{letter}_11" not in named:
+        return
+    r = np.array([base[named[f"{first}_{i}"]] for i in (1, 2, 3)])
+    mass = base.get(named.get("the mass m", ""), 1.0)
+    r = r if b.opened.central else r / mass
+    shift = mass * (r @ r * np.eye(3) - np.outer(r, r))
+    upper = [(i, j, named[f"{letter}_{i + 1}{j + 1}"]) for i in range(3) for j in range(i, 3)]
+
+    for where in ("", " in the mass matrix alone", " in ω × Iω alone"):
+
+        def shifted(s: float, where: str = where) -> tuple[Values, Values]:
+            other = {**base, **{name: base[name] + s * shift[i, j] for i, j, name in upper}}
+            return base if "mass" in where else other, base if "ω" in where else other
+
+        if r.any() and (found := fitted(b, shifted, 0.0)):
+            simple = min(abs(abs(found[0]) - x) for x in (1, 2)) <= NEAR
+            words = f"the tensor of inertia{where} is about another point: it is ours with "
+            words += f"{found[0]:+.6g} times the term of parallel axes, m(r²1 − r r̄)"
+            yield Hypothesis(words.replace("-", "−"), 0 if simple else 4, found[1])
+
+
+def of_term(b: Balance, term: Term, view: tuple[str, Array]) -> Iterator[Hypothesis]:
+    """A term has another factor, in all rows or in some, or another power of a distance or of a
+    speed."""
+    about, to = view
+    here, values = b.left(b.values()) @ to.T, term.values @ to.T
+    back, d = np.linalg.inv(to).T, here.shape[1]
+    sets = {"": [*range(d)], **(b.rows if len(b.rows) > 1 else {})}
+    single = {f"row {i + 1}": [i] for i in range(d)}
+    for name, rows in {**sets, **single}.items():
+        part = np.zeros_like(here)
+        part[:, rows] = values[:, rows]
+        square = float((part * part).sum())
+        if not square:
+            continue
+        # M a = Σ terms with f times this one: what is left is (f − 1) times it
+        factor = 1 + float((part * here).sum()) / square
+        kind = _kind(b, rows)
+        called = f"{term.name(kind)}{about}" + (f" in {name}" if name in single else "")
+        words, rank = changed(called, factor)
+        yield Hypothesis(words, rank + (name in single), (here - (factor - 1) * part) @ back)
+        if name in sets:
+            for x in _powers(b, term, called, part, here):
+                yield replace(x, left=x.left @ back)
+
+
+def _kind(b: Balance, rows: list[int]) -> str:
+    """Of which set some rows are, where there are two."""
+    kinds = b.rows.items() if len(b.rows) > 1 else ()
+    return next((x for x, own in kinds if {*rows} <= {*own}), "")
+
+
+def changed(name: str, factor: float) -> tuple[str, int]:
+    """What is said of a term that has a factor, and how telling this is."""
+    if abs(factor) <= NEAR:
+        return f"{name} is missing", 0
+    words, rank = told(name, 1.0, factor, {})
+    return (words, 0) if rank == 0 else (f"{name} has the factor {factor:.6g}", 4)
+
+
+def _powers(b: Balance, term: Term, name: str, part: Array, here: Array) -> Iterator[Hypothesis]:
+    """A term times a power of the distance from its centre, or of a speed."""
+    squares = (part * part).sum(axis=1)
+    if not squares.all():
+        return
+    factors = 1 + (part * here).sum(axis=1) / squares
+    if not (factors > 0).all():
+        return
+    d = here.shape[1]
+    turning = len(b.rows.get("moment", ())) or d
+    velocity = b.x[:, -d:]
+    about = {"|ω|": velocity[:, :turning], "|v|": velocity[:, turning:]}
+    if term.centre is not None:
+        about = {"r, the distance from the centre": term.centre, **about}
+    for words, vectors in about.items():
+        if not vectors.shape[1]:
+            continue
+        rows = np.stack([np.log(np.linalg.norm(vectors, axis=1)), np.ones(len(vectors))], axis=1)
+        (power, constant), *_ = np.linalg.lstsq(rows, np.log(factors), rcond=None)
+        simple = round(2 * power) / 2
+        if not simple or abs(power - simple) > NEAR:
+            continue
+        scaled = np.exp(rows @ np.array([simple, constant]))[:, None]
+        more = "" if abs(constant) <= NEAR else f", and the factor {np.exp(constant):.6g}"
+        told_as = f"{name} has the power {simple:+g} of {words}, too many{more}"
+        told_as = told_as.replace("+", "").replace(", too many", " beside its own")
+        yield Hypothesis(told_as, 1, here - (scaled - 1) * part)
+
+
+def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> list[str]:
+    """Factors of several terms, row by row, where these explain all; terms that cannot be told
+    apart are said to be so."""
+    about, to = view
+    here, size = b.left(b.values()) @ to.T, b.size() @ np.abs(to).T
+    whole = [(x, x.values @ to.T) for x in terms if not x.part]
+    found: dict[str, dict[int, float]] = {}
+    said: list[str] = []
+    for row in range(here.shape[1]):
+        columns = [(x, y[:, row]) for x, y in whole if np.abs(y[:, row]).max() > 1e-12 * size[row]]
+        kind = _kind(b, [row])
+        if not columns:
+            if not exact(here[:, row], size[row]):
+                return []
+            continue
+        names = [f"{x.name(kind)}{about}" for x, _ in columns]
+        design = np.stack([y for _, y in columns], axis=1)
+        scale = np.abs(design).max(axis=0)
+        factors, _, rank, _ = np.linalg.lstsq(design / scale, here[:, row], rcond=1e-9)
+        if not exact(here[:, row] - (design / scale) @ factors, size[row]):
+            return []
+        if rank < len(columns):
+            null = np.linalg.svd(design / scale)[2][rank:]
+            alike = [x for x, n in zip(names, null.T, strict=True) if np.abs(n).max() > 1e-6]
+            said.append(f"cannot be told apart in row {row + 1}: {', '.join(alike)}")
+        for name, factor in zip(names, factors / scale, strict=True):
+            if abs(factor) > NEAR:
+                found.setdefault(name, {})[row] = 1 + float(factor)
+    for name, rows in found.items():
+        values = [*rows.values()]
+        if max(values) - min(values) <= NEAR:
+            said.append(changed(name, values[0])[0])
+        else:
+            said += [changed(f"{name} in row {i + 1}", x)[0] for i, x in rows.items()]
+    return said
+
+
+def of_tables(b: Balance) -> list[str]:
+    """Several numbers of the body, or of one force, where other values of these explain all."""
+    base, size = b.values(), b.size()
+    groups: dict[str, list[str]] = {}
+    for x in b.opened.slots:
+        groups.setdefault(x.key.partition(" of ")[2] or "body", []).append(x.name)
+    groups["parameters"] = []
+    words = {x.name: x.words for x in b.opened.slots}
+    for own in groups.values():
+        values, here = dict(base), b.left(base)
+        for _ in range(TURNS if own else 0):
+            slopes = []
+            for name in own:
+                step = 1e-6 * max(abs(values[name]), 1e-3)
+                up, down = (_left(b, {**values, name: values[name] + s}) for s in (step, -step))
+                if up is None or down is None:
+                    break
+                slopes.append(((up - down) / (2 * step)).ravel())
+            if len(slopes) < len(own):
+                break
+            change = np.linalg.lstsq(np.stack(slopes, axis=1), -here.ravel(), rcond=1e-9)[0]
+            values |= {x: values[x] + float(y) for x, y in zip(own, change, strict=True)}
+            there = _left(b, values)
+            if there is None:
+                break
+            here = there
+            if exact(here, size) and exact(b.checked(here, values), size):
+                changed = [x for x in own if abs(values[x] - base[x]) > NEAR * max(abs(base[x]), 1)]
+                every = {words[x]: base[x] for x in own}
+                return [told(words[x], base[x], values[x], every)[0] for x in changed]
+    return []
+
+
+def _left(b: Balance, values: Mapping[str, float]) -> Array | None:
+    try:
+        return b.left(values)
+    except ValueError:
+        return None

@@ -1,0 +1,172 @@
+"""A problem in which every number is a parameter of its own: what a fault in code may change."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+from ..language.tree import Tree, add, mul, neg
+from ..language.values import approximate
+from ..problem.problem import Problem
+from ..schema.body_kinds import GivenBody, MomentBody, Moments, PointBody
+from ..schema.kind import Parameter
+from ..schema.table import Table
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A number of a problem: the ``name`` of its parameter, the ``tree`` that it is, in words the
+    ``key`` that it is an entry of, and itself."""
+
+    name: str
+    tree: Tree
+    key: str
+    words: str
+
+
+@dataclass(frozen=True)
+class Opened:
+    """The problem with a parameter for each of its ``slots``; ``central``: are those of its body
+    the centre of mass and the tensor about it?"""
+
+    problem: Problem
+    slots: tuple[Slot, ...]
+    central: bool = False
+
+    def values(self, parameters: Mapping[str, float]) -> dict[str, float]:
+        """All parameters by name, for those of the problem that was opened."""
+        known = dict(parameters)
+        for x in self.slots:
+            found = approximate(x.tree, parameters, float)
+            assert found is not None
+            known[x.name] = found
+        return known
+
+
+class Opening:
+    """Makes slots of the numbers of tables."""
+
+    def __init__(self, parameters: Mapping[str, float]):
+        self.parameters = parameters
+        self.slots: list[Slot] = []
+
+    def slot(self, tree: Tree, key: str, words: str) -> Tree:
+        """The parameter that stands for a number; a function of the state stays as it is."""
+        if approximate(tree, self.parameters, float) is None:
+            return tree
+        name = f"slot_{len(self.slots) + 1}"
+        self.slots.append(Slot(name, tree, key, words))
+        return ("par", name)
+
+    def table(self, table: Any, of: str) -> Any:
+        """A table with parameters for its numbers; ``of``: whose it is, in words."""
+        changed = {}
+        for name, about, value in table.values():
+            if about.trees:
+                changed[name] = self._entries(value, about.depth, f"{name} of {of}", name, of)
+        return replace(table, **changed)
+
+    def _entries(self, value: Any, depth: int, key: str, words: str, of: str) -> Any:
+        if value is None or not depth:
+            return value if value is None else self.slot(value, key, f"{words} of {of}")
+        mark = "" if words[-1].isdigit() else "_"
+        pairs = enumerate(value, 1)
+        return tuple(self._entries(x, depth - 1, key, f"{words}{mark}{i}", of) for i, x in pairs)
+
+    def moments(self, given: Moments, turns: bool) -> Moments:
+        """Of a body: the mass, the first moment or the centre, J or the tensor of inertia."""
+        n, central = len(given.c), given.central and turns
+        span = range(n)
+        m = self.slot(given.m, "mass", "the mass m")
+        c, J = given.c, given.J
+        if central:
+            c = tuple(div(x, given.m) for x in c)
+            J = _shifted(J, c, neg(given.m))
+        first = "centre" if central else "c"
+        own = tuple(self.slot(x, first, f"{first}_{i}") for i, x in enumerate(c, 1))
+        letter = ("I_centre" if central else "I") if turns else "J"
+        tensor = _other(J, 1) if turns else J
+        made: dict[tuple[int, int], Tree] = {}
+        for i in span:
+            for j in range(i, n):
+                key = f"{letter} on the diagonal" if i == j else f"{letter} off the diagonal"
+                entry = self.slot(tensor[i][j], key, f"{letter}_{i + 1}{j + 1}")
+                made[i, j] = made[j, i] = entry
+        rows = tuple(tuple(made[i, j] for j in span) for i in span)
+        rows = _other(rows, Fraction(1, 2)) if turns else rows
+        if central:
+            rows, own = _shifted(rows, own, m), tuple(mul(m, x) for x in own)
+        return Moments(m=m, c=own, J=rows, central=given.central)
+
+
+def div(a: Tree, b: Tree) -> Tree:
+    """A quotient."""
+    return ("div", a, b)
+
+
+def _shifted(J: Any, c: Any, m: Tree) -> Any:
+    """J + m c c̄."""
+    span = range(len(c))
+    return tuple(tuple(add(J[i][j], mul(m, c[i], c[j])) for j in span) for i in span)
+
+
+def _other(J: Any, half: int | Fraction) -> Any:
+    """(Tr J)1 − J of J, with 1; J = ½(Tr I)1 − I of I, with ½."""
+    span = range(len(J))
+    trace = mul(half, add(*(J[i][i] for i in span)))
+    return tuple(tuple(add(*([trace] if i == j else []), neg(J[i][j])) for j in span) for i in span)
+
+
+def opened(problem: Problem, parameters: Mapping[str, float]) -> Opened:
+    """The problem with a parameter for every number of its body, forces, inputs and damping;
+    ``parameters``: the values of its own."""
+    made = Opening(parameters)
+    body, masses = problem.body, problem.masses
+    turns = problem.group is not None and problem.group.name in ("SO(3)", "SE(3)")
+    central = False
+    if isinstance(body, PointBody):
+        points = (made.table(x, f"point {k}") for k, x in enumerate(body.points, 1))
+        body = replace(body, points=tuple(points))
+    elif isinstance(body, GivenBody | MomentBody) and not masses:
+        given = body.moments()
+        central = given.central and turns
+        own = made.moments(given, turns)
+        body = GivenBody(given=own, solids=body.solids if isinstance(body, GivenBody) else ())
+
+    def each(tables: tuple[Any, ...], word: Callable[[int, Any], str]) -> tuple[Any, ...]:
+        return tuple(made.table(x, word(k, x)) for k, x in enumerate(tables, 1))
+
+    acting: dict[int, str] = {}
+    for x in (*problem.inputs, *problem.forces, *problem.damping, *problem.potentials):
+        named = getattr(x, "on", ())
+        for i in named if isinstance(named, tuple) else (named,):
+            acting.setdefault(i, called(problem, x))
+    replaced = replace(
+        problem,
+        body=body,
+        potentials=each(problem.potentials, lambda _, x: called(problem, x)),
+        inputs=each(problem.inputs, lambda _, x: called(problem, x)),
+        damping=each(problem.damping, lambda _, x: called(problem, x)),
+        forces=each(problem.forces, lambda _, x: called(problem, x)),
+        places=each(problem.places, lambda k, _: acting.get(masses + k, f"place {k}")),
+        outputs=(),
+        events=(),
+    )
+    more = {x.name: Parameter() for x in made.slots}
+    return Opened(
+        replace(replaced, parameters={**problem.parameters, **more}), tuple(made.slots), central
+    )
+
+
+def called(problem: Problem, table: Table) -> str:
+    """A force of a problem in words."""
+    if table in problem.inputs:
+        return f"the input {table.plain()['name']}"
+    for word, tables in (("force", problem.forces), ("damping", problem.damping)):
+        if table in tables:
+            return f"{word} {tables.index(table) + 1}" if len(tables) > 1 else f"the {word}"
+    kind = table.kind.replace("_", " ")
+    same = [x for x in problem.potentials if x.kind == table.kind]
+    return f"{kind} {[*map(id, same)].index(id(table)) + 1}" if len(same) > 1 else kind

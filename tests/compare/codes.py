@@ -1,0 +1,214 @@
+"""Right-hand sides as people write them, and the faults of such code."""
+
+SATELLITE = """
+name = "satellite"
+group = "SE(3)"
+[parameters]
+mu = 3.7
+[body]
+given = { m = 1.3, centre = [0, 0, 0], I_centre = [[0.3, 0, 0], [0, 0.4, 0], [0, 0, 0.6]] }
+[[potential]]
+kind = "far_centre"
+strength = "mu"
+"""
+
+SATELLITE_CODE = """
+import numpy as np
+
+mu, m, I, N = 3.7, 1.3, np.diag([0.3, 0.4, 0.6]), 5
+
+
+def f(x):
+    A, T, w, v = x[:9].reshape(3, 3), A_T(x), x[12:15], x[15:]
+    r = np.linalg.norm(T)
+    n = A.T @ T / r
+    J = np.trace(I) / 2 * np.eye(3) - I
+    pull = -mu * m / r**2 * n
+    pull += mu / r**4 * (3 * J @ n + 1.5 * np.trace(J) * n - 7.5 * (n @ J @ n) * n)
+    moment = 3 * mu / r**(N - 2) * np.cross(n, I @ n)
+    dw = np.linalg.solve(I, moment - np.cross(w, I @ w))
+    dv = pull / m - np.cross(w, v)
+    return np.concatenate([(A @ hat(w)).ravel(), A @ v, dw, dv])
+
+
+def A_T(x):
+    return x[9:12]
+
+
+def hat(v):
+    return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+"""
+
+VEHICLE = """
+name = "vehicle"
+group = "SE(3)"
+[parameters]
+a = { default = 1.7, unit = "kg" }
+[inertia]
+operator = [
+  [1.1, 0, 0, 0, 0.2, 0], [0, 1.5, 0, -0.2, 0, 0], [0, 0, 2.1, 0, 0, 0],
+  [0, -0.2, 0, "2 + a", 0, 0], [0.2, 0, 0, 0, 3.9, 0], [0, 0, 0, 0, 0, 4.3],
+]
+"""
+
+VEHICLE_CODE = """
+import numpy as np
+
+M = np.array([[1.1, 0, 0, 0, 0.2, 0], [0, 1.5, 0, -0.2, 0, 0], [0, 0, 2.1, 0, 0, 0],
+              [0, -0.2, 0, 3.7, 0, 0], [0.2, 0, 0, 0, 3.9, 0], [0, 0, 0, 0, 0, 4.3]])
+
+
+def hat(v):
+    return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def mass(x):
+    return M
+
+
+def bias(x):
+    w, v = x[12:15], x[15:]
+    p = M @ x[12:]
+    moment = np.cross(w, p[:3]) + np.cross(v, p[3:])
+    return np.concatenate([moment, np.cross(w, p[3:])])
+"""
+
+TOP = """
+name = "heavy"
+group = "SO(3)"
+[parameters]
+m = 1.3
+[body]
+given = { m = "m", centre = [0.1, 0.05, 0.4], I_centre = [
+  [0.3, 0.01, 0], [0.01, 0.4, 0], [0, 0, 0.5]] }
+[[potential]]
+kind = "gravity"
+g = [0, 0, -9.81]
+"""
+
+TOP_CODE = """
+#include <math.h>
+
+void top(const double *x, double *dx)
+{
+    const double m = 1.3, c[3] = {0.1, 0.05, 0.4}, g = 9.81;
+    double I[3][3] = {{0.3, 0.01, 0}, {0.01, 0.4, 0}, {0, 0, 0.5}};
+    const double *A = x, *w = x + 9;
+    double L[3], n[3], det, r[3], cc = c[0]*c[0] + c[1]*c[1] + c[2]*c[2];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            I[i][j] += STEINER * m * ((i == j) * cc - c[i]*c[j]);
+    for (int i = 0; i < 3; ++i) {
+        const double *R = A + 3*i;
+        dx[3*i] = R[1]*w[2] - R[2]*w[1];
+        dx[3*i + 1] = R[2]*w[0] - R[0]*w[2];
+        dx[3*i + 2] = R[0]*w[1] - R[1]*w[0];
+        L[i] = I[i][0]*w[0] + I[i][1]*w[1] + I[i][2]*w[2];
+    }
+    for (int i = 0; i < 3; ++i) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        n[i] = L[j]*w[k] - L[k]*w[j] - m*g*(c[j]*A[6 + k] - c[k]*A[6 + j]);
+    }
+    det = 0;
+    for (int j = 0; j < 3; ++j)
+        det += I[0][j]*(I[1][(j+1)%3]*I[2][(j+2)%3] - I[1][(j+2)%3]*I[2][(j+1)%3]);
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j)
+            r[j] = I[(i+1)%3][(j+1)%3]*I[(i+2)%3][(j+2)%3]
+                 - I[(i+1)%3][(j+2)%3]*I[(i+2)%3][(j+1)%3];
+        dx[9 + i] = (r[0]*n[0] + r[1]*n[1] + r[2]*n[2])/det;
+    }
+}
+"""
+
+WHEEL = """
+name = "wheel"
+group = "SO(3)"
+[parameters]
+A = { default = 1.1, unit = "kg m^2" }
+B = { default = 1.7, unit = "kg m^2" }
+C = { default = 2.3, unit = "kg m^2" }
+R = { default = 0.31, unit = "kg m^2" }
+h = { default = 0.8, unit = "kg m^2/s" }
+[lagrangian]
+L = "(A*zeta_1^2 + B*zeta_2^2 + (C + R)*zeta_3^2)/2 + h*zeta_3"
+"""
+
+WHEEL_CODE = """
+import numpy as np
+
+R, H = 0.31, 0.8
+I = np.diag([1.1, 1.7, 2.3 + R])
+
+
+def f(t, q, dx):
+    print("called")
+    w, x, y, z = q[:4]
+    o = q[4:]
+    L = I @ o + [0, 0, H]
+    dx[:4] = 0.5 * np.array([-x*o[0] - y*o[1] - z*o[2], w*o[0] + y*o[2] - z*o[1],
+                             w*o[1] + z*o[0] - x*o[2], w*o[2] + x*o[1] - y*o[0]])
+    dx[4:] = np.linalg.solve(I, np.cross(L, o))
+"""
+
+DRONE = """
+name = "drone"
+group = "SE(3)"
+[parameters]
+m = 1.3
+g = 9.81
+kappa = 0.17
+arm = 0.23
+[body]
+given = { m = "m", centre = [0.02, -0.05, 0.11], I_centre = [
+  [0.31, 0.012, -0.023], [0.012, 0.42, 0.017], [-0.023, 0.017, 0.55]] }
+[[potential]]
+kind = "gravity"
+g = [0, 0, "-g"]
+[[input]]
+name = "thrust"
+kind = "force"
+at = ["arm", 0.04, -0.3]
+frame = "body"
+direction = [0, 0, 1]
+[[input]]
+name = "side"
+kind = "force"
+at = [0.1, -0.2, 0.15]
+frame = "body"
+direction = [0, 1, 0]
+[[damping]]
+coefficient = "kappa"
+at = [0.07, 0.03, -0.13]
+"""
+
+DRONE_CODE = """
+import numpy as np
+
+m, g, kappa = 1.3, 9.81, 0.17
+c = np.array([0.02, -0.05, 0.11])
+I = np.array([[0.31, 0.012, -0.023], [0.012, 0.42, 0.017], [-0.023, 0.017, 0.55]])
+ARM = {"thrust": np.array([0.23, 0.04, -0.3]), "side": np.array([0.1, -0.2, 0.15])}
+DIRECTION = {"thrust": np.array([0, 0, 1.0]), "side": np.array([0, 1.0, 0])}
+DAMPED = np.array([0.07, 0.03, -0.13])
+GYRO = np.ones(3)
+
+
+def hat(v):
+    return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def f(x, u):
+    A, w, v = x[:9].reshape(3, 3), x[12:15], x[15:]
+    force = m * A.T @ [0, 0, -g]
+    moment = np.cross(c, force)
+    for name, number in zip(ARM, u):
+        force = force + number * DIRECTION[name]
+        moment = moment + np.cross(ARM[name], number * DIRECTION[name])
+    drag = -kappa * (v + np.cross(w, DAMPED))
+    force, moment = force + drag, moment + np.cross(DAMPED, drag)
+    moment = moment - np.cross(c, force)
+    dw = np.linalg.solve(I, moment - GYRO * np.cross(w, I @ w))
+    dv = force / m - np.cross(w, v + np.cross(w, c)) - np.cross(dw, c)
+    return np.concatenate([(A @ hat(w)).ravel(), A @ v, dw, dv])
+"""

@@ -1,0 +1,166 @@
+"""``derive compare`` names what is wrong in someone's code, and nothing in right code."""
+
+import pytest
+
+from derive.command.cli import main
+from tests.compare import codes
+
+CALLS = {
+    "satellite": 'call = "f(x) -> dx"',
+    "vehicle": 'call = ["mass(x) -> M", "bias(x) -> b"]',
+    "top": 'call = "top(x, dx)"',
+    "wheel": 'call = "f(t, x, dx)"\nstate = ["quaternion", "omega"]',
+    "drone": 'call = "f(x, u) -> dx"',
+}
+"""Problem → how its code is called."""
+STEINER = ("STEINER", "1")
+
+
+def compared(capsys, folder, name, *changes, table=None):
+    """The exit code and what is printed of a code with some of its text changed."""
+    problem, code = (getattr(codes, name.upper() + x) for x in ("", "_CODE"))
+    for old, new in changes:
+        assert old in code
+        code = code.replace(old, new)
+    file = folder / ("users.c" if "#include" in code else "users.py")
+    file.write_text(code, encoding="utf-8")
+    (folder / "problem.toml").write_text(problem, encoding="utf-8")
+    (folder / "as.toml").write_text(table or CALLS[name], encoding="utf-8")
+    words = ["compare", str(folder / "problem.toml"), "--with", str(file)]
+    code = main([*words, "--as", str(folder / "as.toml")])
+    return code, capsys.readouterr()
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_right_code_agrees(name, capsys, tmp_path):
+    code, told = compared(capsys, tmp_path, name, *[STEINER] * (name == "top"))
+    assert (code, told.out[:9]) == (0, "agrees to"), told
+
+
+FAULTS = {
+    "sign of a gyroscopic row": (
+        "drone",
+        ("GYRO = np.ones(3)", "GYRO = np.array([1, -1, 1])"),
+        "ω × Iω about the centre of mass in row 2 has the other sign",
+    ),
+    "Coriolis of added mass": (
+        "vehicle",
+        (" + np.cross(v, p[3:])", ""),
+        "v × p of the momenta π = ∂ℓ/∂ω, p = ∂ℓ/∂v is missing",
+    ),
+    "lever arm": (
+        "drone",
+        ("[0.23, 0.04, -0.3]", "[-0.23, -0.04, 0.3]"),
+        "the lever arm (at of the input thrust) has the other sign",
+    ),
+    "products of inertia": (
+        "drone",
+        (
+            "[[0.31, 0.012, -0.023], [0.012, 0.42, 0.017], [-0.023, 0.017, 0.55]]",
+            "[[0.31, -0.023, 0.012], [-0.023, 0.42, 0.017], [0.012, 0.017, 0.55]]",
+        ),
+        "I_centre_12 and I_centre_13 are exchanged",
+    ),
+    "frame of ω": (
+        "drone",
+        ("A @ hat(w)", "hat(w) @ A"),
+        "the rate of matrix is right if omega has frame 'space'",
+    ),
+    "ω × Iω": (
+        "wheel",
+        ("L = I @ o + [0, 0, H]", "L = np.array([0, 0, H])"),
+        "ω × Iω is missing",
+    ),
+    "parallel axis": (
+        "top",
+        ("STEINER", "0"),
+        "the tensor of inertia is about another point",
+    ),
+    "power of the gravity gradient": (
+        "satellite",
+        ("N = 3.7, 1.3, np.diag([0.3, 0.4, 0.6]), 5", "N = 3.7, 1.3, np.diag([0.3, 0.4, 0.6]), 4"),
+        "the moment of far centre has the power 1 of r, the distance from the centre",
+    ),
+    "wheel counted twice": ("wheel", ("2.3 + R", "2.3 + 2 * R"), "R has the factor 2"),
+    "arm of a damping": (
+        "drone",
+        ("moment + np.cross(DAMPED, drag)", "moment"),
+        "the moment of the damping is missing",
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_fault_is_named(fault, capsys, tmp_path):
+    name, change, words = FAULTS[fault]
+    code, told = compared(capsys, tmp_path, name, change)
+    first = next(x for x in told.out.splitlines() if x[:1] == " ")
+    assert code == 1
+    assert first.strip().startswith(words), told.out
+
+
+BAD = {
+    "crashes (SIGSEGV)": "import ctypes\ndef f(x, u):\n    ctypes.string_at(0)",
+    "more than 2 seconds": "def f(x, u):\n    while True: pass",
+    "gives 3 numbers, not 18": "def f(x, u):\n    return x[:3]",
+    "a number that is not finite, at [0]": "def f(x, u):\n    return [float('nan'), *x[1:]]",
+    "f fails: ZeroDivisionError": "def f(x, u):\n    return 1 / 0",
+    "importing it fails: SyntaxError": "def f(x, u:",
+    "it has no function f": "g = 1",
+    "ends with exit code 3": "import os\nos._exit(3)",
+    "f fails: MemoryError": "def f(x, u):\n    return bytearray(1 << 40)",
+}
+
+
+@pytest.mark.parametrize("words", BAD)
+def test_bad_code_is_one_line(words, capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr("derive.compare.users_code.SECONDS", 2)
+    monkeypatch.setattr(codes, "DRONE_CODE", BAD[words])
+    code, told = compared(capsys, tmp_path, "drone")
+    assert (code, told.out) == (2, "")
+    assert words in told.err
+    assert told.err.count("\n") == 1
+
+
+LOOP = "void top(double *x, double *dx) { for (int i = 0; i < N; ++i) dx[i] = x[0]; }"
+BAD_C = {
+    "refused": "void top(double *x, double *dx) { x = }",
+    "writes more than 12 numbers": LOOP.replace("N", "20"),
+    "does not write [11]": LOOP.replace("N", "11"),
+}
+
+
+@pytest.mark.parametrize("words", BAD_C)
+def test_bad_c_is_one_line(words, capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr(codes, "TOP_CODE", f"#include <math.h>\n{BAD_C[words]}")
+    code, told = compared(capsys, tmp_path, "top")
+    assert (code, told.out) == (2, "")
+    assert words in told.err
+    assert told.err.count("\n") == 1
+
+
+TABLES = {
+    "'positon' means nothing here; did you mean 'position'?": 'state = ["positon"]',
+    "the state does not say A_11": 'state = ["position", "omega", "velocity"]',
+    "the state says twice T_1": 'state = ["matrix", "position", "T_1", "omega", "velocity"]',
+    "'xywz' means nothing here": 'state = ["quaternion"]\n[quaternion]\norder = "xywz"',
+    "arguments are t, x, k, u, p, dx": 'call = "f(y)"',
+    "expected thrust, side in an order": 'inputs = ["thrust"]',
+    "parameters: 'M' means nothing": "[parameters]\nM = 1",
+}
+
+
+@pytest.mark.parametrize("words", TABLES)
+def test_a_bad_table_is_one_line(words, capsys, tmp_path):
+    code, told = compared(capsys, tmp_path, "drone", table=TABLES[words])
+    assert (code, told.out) == (2, "")
+    assert words in told.err
+
+
+def test_several_faults_are_named_together(capsys, tmp_path):
+    changes = ("GYRO = np.ones(3)", "GYRO = np.zeros(3)"), ("9.81, 0.17", "2 * 9.81, 0.17")
+    code, told = compared(capsys, tmp_path, "drone", *changes)
+    assert code == 1
+    assert "ω × Iω about the centre of mass is missing" in told.out
+    assert "the force of gravity about the centre of mass has the factor 2" in told.out
+    assert "and: " in told.out
