@@ -25,7 +25,7 @@ from .walk.fluid import circulation, fluid_forms, fluid_kernel
 from .walk.fluid.fluid_forms import FluidAlphabet
 from .walk.given import body, inputs, outputs, potentials
 from .walk.given.inputs import acts, by_name
-from .walk.lie import any_lagrangian, expressed, momentum_side
+from .walk.lie import any_lagrangian, at_places, expressed, momentum_side
 from .walk.matrices import (
     conserved, coordinates, explicit, isometry, separation, solution, specialisation,
 )
@@ -155,7 +155,7 @@ EXPRESSED = (
           "Steps", expressed.conserved),
     Stage("by_momenta", "expressed problem group lagrangian basis balance c c_u",
           "Steps", momentum_side.by_momenta),
-    Stage("outputs", "problem c_u", "Steps", outputs.of_state),
+    Stage("outputs", "problem group balance c_u", "Steps", at_places.outputs),
     Stage("explicit", "problem group balance expressed.momenta_step c_u",
           "Steps", explicit.of_lagrangian),
 )

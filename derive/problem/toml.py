@@ -19,6 +19,7 @@ from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
 from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
 from ..schema.kinds import kinds
+from ..schema.output_kinds import OUTPUTS
 from ..schema.table import ATTACHED, Table, nearest
 from . import inertia
 from .bodies import (
@@ -178,6 +179,11 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
     return Problem(name, None, title=reader.title_of(data, name), fluid=fluid)
 
 
+OF_PLACES = ("place", "velocity", "acceleration", "rate", "direction")
+OF_POINTS = tuple(x for x in OUTPUTS if x not in OF_PLACES)
+"""Outputs of what a group moves, and of masses, their weights and springs."""
+
+
 def _without_points(
     data: Mapping[str, Any], moved: Group | None, advected: tuple[Advected, ...] | None = None
 ) -> Problem:
@@ -205,10 +211,13 @@ def _without_points(
     reader.carries(None, parameters)
     _, inputs, _, stated = forces(data, reader)
     for k, x in enumerate(tables(data, "output"), 1):
-        if "y" not in x or {*ATTACHED} & {*x}:
+        placed = "y" not in x or {*ATTACHED} & {*x}
+        if placed and (advected is not None or x.get("kind") in OF_POINTS):
             raise ProblemError(
                 f"output {k}: beside [{where}] are no points: give expressions 'y' of the state"
+                + ("" if advected is not None else f", or one of {', '.join(OF_PLACES)}")
             )
+    observed = outputs(data, reader, inputs)
     problem = Problem(
         name,
         group,
@@ -217,7 +226,7 @@ def _without_points(
         inputs=inputs,
         places=tuple(reader.places),
         forces=stated,
-        outputs=outputs(data, reader, inputs),
+        outputs=observed,
         lagrangian=lagrangian(data, group, reader),
         advected=advected,
         **motion_fields(data, reader),

@@ -169,8 +169,9 @@ class _RecordReader(TableReader):
                 raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
         if "advected" in data or "torus" in data:
             self.covectors_alone()
-        if any(x["kind"] != "expression" for x in data.get("outputs", ())):
-            raise ShapeError("lagrangian: the outputs of its problem are expressions")
+        masses = {"specific_force", "distance", "momentum", "tension"}
+        if any(x["kind"] in masses for x in data.get("outputs", ())):
+            raise ShapeError("lagrangian: an output of its problem is of masses, and it has none")
         if "advected" in data:
             self.each("advected", lambda x, where: self.typed(Advected, x, where))
         if "torus" not in data:
@@ -186,6 +187,8 @@ class _RecordReader(TableReader):
         placed = data["places"] or any("covector" not in x for x in data.get("forces", ()))
         if placed or any(x["kind"] != "covector" for x in data["inputs"]):
             raise ShapeError("lagrangian: what acts on an algebra is a covector")
+        if any(x["kind"] != "expression" for x in data.get("outputs", ())):
+            raise ShapeError("lagrangian: the outputs of an algebra are expressions")
 
     def fluid(self) -> None:
         """A fluid says all of its problem."""

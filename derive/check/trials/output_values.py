@@ -11,7 +11,7 @@ from ...language.reserved import numbers_of_output
 from ...record.as_json import decode
 from ...record.record import RecordError
 from ..values.evaluate import evaluate
-from .model import Model
+from .phase_point import inverse
 from .point_masses import Vector, scaled_each
 
 Data = Mapping[str, Any]
@@ -19,7 +19,7 @@ Data = Mapping[str, Any]
 
 class Observed(Mapping[str, Any]):
     """The parameters of a model, and the outputs of its problem by their names, each found when it
-    is first asked for; of one whose Lagrangian no points give, expressions of the state alone."""
+    is first asked for."""
 
     def __init__(self, model: Any):
         self.model, self.known = model, dict(model.parameters)
@@ -76,7 +76,8 @@ class Observed(Mapping[str, Any]):
     def _given(self, data: Data, trees: Any) -> Vector:
         """A vector that the problem states, among those of all blocks."""
         block, _ = self._acted_on(data)
-        found: Vector = self.model.group.in_block(block, self.model.applied.vector(trees))
+        given = [evaluate(decode(x, "vector"), self.model.expressions) for x in trees]
+        found: Vector = self.model.group.in_block(block, given)
         return found
 
     def specific_force(self, data: Data) -> Vector:
@@ -92,7 +93,9 @@ class Observed(Mapping[str, Any]):
         """ω with Z x = ω ∧ x on the axes of the body."""
         block, factor = self._acted_on(data)
         at = self.model.group.of_block(block)
-        Z = tuple(row[at] for row in self.model.Z[at])
+        model = self.model
+        velocity = model.Z if model.side == "left" else q.times(inverse(model.g), model.nu)
+        Z = tuple(row[at] for row in velocity[at])
         if factor.n == 2:
             return (Z[1][0],)
         if factor.n != 3:
@@ -138,7 +141,8 @@ class Observed(Mapping[str, Any]):
         return tuple(evaluate(decode(x, "y"), self.model.of_state) for x in data["y"])
 
 
-def accelerations(model: Model) -> list[Vector]:
-    """g(Ż + Z²)r of all points, along the motion."""
+def accelerations(model: Any) -> list[Vector]:
+    """g(Ż + Z²)r of all points, along the motion, on the right (Ż + Z²)gr."""
     rate = q.plus(model.acceleration, q.times(model.Z, model.Z))
-    return model.images(q.times(model.g, rate))
+    found: list[Vector] = model.images(model.ordered(model.g, rate))
+    return found

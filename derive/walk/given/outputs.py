@@ -13,7 +13,7 @@ from ...language.tree import Tree, add, mul, neg, nodes, replaced
 from ...problem.fields import angular_velocity
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
-from ...record.sentence import Sentence, listed
+from ...record.sentence import Prose, Sentence, listed
 from ...schema.kinds.gravity import Gravity, gravity
 from ...schema.kinds.spring import Spring
 from ...schema.output_kinds import (
@@ -65,23 +65,33 @@ def of_vectors(
     return _Observed(problem, group, b, C, images, c).steps((motion,), [])
 
 
-def of_state(problem: Problem, c: Chapter) -> tuple[Step, ...]:
-    """The same where no points give the Lagrangian: expressions of the state."""
-    read = [x for x in problem.outputs if isinstance(x, ExpressionOutput)]
-    if not read:
-        return ()
-    given = [_equation(problem, x, x.y) for x in read]
-    told = [phrase(f"output.{x.kind}", name=f"‘{x.name}’") for x in read]
-    prose = say("output.read", outputs=listed("{first}; {second}", told))
-    return (c.draft("outputs", "output").step(given, prose),)
-
-
-def _equation(problem: Problem, x: Output, found: Sequence[Tree]) -> Equation:
+def equation_of(problem: Problem, x: Output, found: Sequence[Tree]) -> Equation:
     """The numbers of an output: of a vector together where it is one of words."""
     names = tuple(("par", name) for name in problem.numbers_of_output(x))
     if len(found) == 1:
         return Equation(names[0] if len(names) == 1 else column(names), found[0])
     return Equation(column(names), column(tuple(found)))
+
+
+def in_words(problem: Problem, x: Output) -> Sentence:
+    """An output in words."""
+    frame = f"_{x.frame}" if hasattr(x, "frame") else ""
+    if isinstance(x, SpecificForceOutput):
+        others = [p for p in problem.potentials if not isinstance(p, (Gravity, Spring))]
+        frame = "_in_fields" if others else ""
+    places = {"name": f"‘{x.name}’"}
+    if at := getattr(x, "on", None):
+        places["point"] = f"r_{at}"
+        frame = "_at" if isinstance(x, ExpressionOutput) else frame
+    if isinstance(x, DistanceOutput) and x.other_end:
+        frame, places["other"] = "_between", f"r_{x.other_end}"
+    return phrase(f"output.{x.kind}{frame}", **places)
+
+
+def prose_of(problem: Problem) -> Prose:
+    """The sentence that says what is read off."""
+    told = [in_words(problem, x) for x in problem.outputs]
+    return say("output.read", outputs=listed("{first}; {second}", told))
 
 
 class _Observed:
@@ -118,7 +128,7 @@ class _Observed:
         outputs = self.problem.outputs
         if not outputs:
             return ()
-        given = [_equation(self.problem, x, self.read[type(x)](x)) for x in outputs]
+        given = [equation_of(self.problem, x, self.read[type(x)](x)) for x in outputs]
         named = {x for e in given for x in nodes(e.rhs)}
         listed_places = range(1, self.problem.masses + len(self.problem.places) + 1)
         moved = [i for i in listed_places if _velocity(i) in named]
@@ -131,22 +141,7 @@ class _Observed:
         equations += [
             Equation(_acceleration(i), self._in_space(self.acceleration, i)) for i in pushed
         ]
-        prose = say("output.read", outputs=listed("{first}; {second}", [*map(self.told, outputs)]))
-        return (self.draft.step([*equations, *given], prose),)
-
-    def told(self, x: Output) -> Sentence:
-        """An output in words."""
-        frame = f"_{x.frame}" if hasattr(x, "frame") else ""
-        if isinstance(x, SpecificForceOutput):
-            others = [p for p in self.problem.potentials if not isinstance(p, (Gravity, Spring))]
-            frame = "_in_fields" if others else ""
-        places = {"name": f"‘{x.name}’"}
-        if at := getattr(x, "on", None):
-            places["point"] = f"r_{at}"
-            frame = "_at" if isinstance(x, ExpressionOutput) else frame
-        if isinstance(x, DistanceOutput) and x.other_end:
-            frame, places["other"] = "_between", f"r_{x.other_end}"
-        return phrase(f"output.{x.kind}{frame}", **places)
+        return (self.draft.step([*equations, *given], prose_of(self.problem)),)
 
     # -- velocities and accelerations of places: A u of u = Z r_i + w, and of Zu + du/dt -----------
 

@@ -1,5 +1,5 @@
-"""Forces and torques at places of a body whose Lagrangian no points give: their work on the
-displacements along the basis of the Lie algebra."""
+"""Places of a body whose Lagrangian no points give: the work of forces and torques there on the
+displacements along the basis of the Lie algebra, and what is read off a motion."""
 
 from __future__ import annotations
 
@@ -7,11 +7,23 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from ...algebra.groups import Group
 from ...language.rational import Matrix
-from ...language.tree import Tree, add, mul, plain
+from ...language.tree import Tree, add, mul, nodes, plain
 from ...problem.fields import coordinates, velocity_at_place
-from ...problem.problem import Problem
+from ...problem.problem import Problem, ProblemError
+from ...record.record import Step
 from ...schema.kind import TorqueInput
+from ...schema.output_kinds import (
+    AccelerationOutput,
+    DirectionOutput,
+    ExpressionOutput,
+    Output,
+    PlaceOutput,
+    RateOutput,
+    VelocityOutput,
+)
+from ..chapter import Chapter
 from ..given.inputs import Push, couple_of, covector_terms, entries_of, pushes
+from ..given.outputs import equation_of, prose_of
 
 Trees = list[Tree]
 
@@ -30,9 +42,25 @@ def from_outside(problem: Problem, group: Group) -> list[tuple[Tree, ...]]:
     ]
 
 
+def outputs(
+    problem: Problem, group: Group, balance: Sequence[Step], c: Chapter
+) -> tuple[Step, ...]:
+    """The step of what is read off a motion, none where nothing is; ``balance``: the steps up to
+    the equations of motion."""
+    if not problem.outputs:
+        return ()
+    places, draft = Places(problem, group), c.draft("outputs", "output")
+    given = [equation_of(problem, x, places.read(x)) for x in problem.outputs]
+    named = {t for e in given for t in nodes(e.rhs)}
+    if not named.isdisjoint(places.rates):
+        draft.depends_on(next(x for x in balance if x.label == c.label("motion")))
+    return (draft.step(given, prose_of(problem)),)
+
+
 class Places:
-    """The places at which forces act, moved by A, a matrix that acts on (r, 1): with an element of
-    the basis a force f at r has the work ⟨f, A E_a r⟩, on the right ⟨f, E_a A r⟩."""
+    """The places at which forces act, and what is read, moved by A, a matrix that acts on (r, 1):
+    with an element of the basis a force f at r has the work ⟨f, A E_a r⟩, on the right
+    ⟨f, E_a A r⟩."""
 
     def __init__(self, problem: Problem, group: Group) -> None:
         assert problem.lagrangian is not None
@@ -41,6 +69,8 @@ class Places:
         span = range(1, group.n + 1)
         self.A: list[Trees] = [[("entry", "A", i, j) for j in span] for i in span]
         self.body: list[Trees] = [[*group.in_block(x.block, x.at, 1)] for x in problem.places]
+        self.zeta = coordinates(group)
+        self.rates: Trees = [("entry", "ζ̇", a + 1) for a in range(group.dimension)]
         self.known = dict(self._moving())
 
     def works(self, e: int, x: Push) -> Trees:
@@ -79,13 +109,15 @@ class Places:
         R = [row[at] for row in self.A[at]]
         return _times(_transposed(R) if self.left else R, torque)
 
+    def _along(self, speeds: Sequence[Tree], r: Trees) -> Trees:
+        """The velocity of a place with these coordinates of Z: Zr in the body, ZAr in space."""
+        return [_dot(row, speeds) for row in _transposed(self._displacements(r))]
+
     def _moving(self) -> Iterable[tuple[Tree, Tree]]:
         """The coordinates of the places in space, and of their velocities, by A and ζ."""
-        zeta = coordinates(self.group)
         for i, r in enumerate(self.body, 1):
             place = _times(self.A, r)
-            along = _transposed(self._displacements(r))
-            rates = [_dot(row, zeta) for row in along]
+            rates = self._along(self.zeta, r)
             v = _times(self.A, rates) if self.left else rates
             for k in range(1, self.group.n + 1):
                 yield ("entry", ("call", ("at", "r", i), "t"), k), place[k - 1]
@@ -95,6 +127,60 @@ class Places:
                 still = (0,) * factor.n
                 turned = velocity_at_place(factor.n, first, i, still, turned=True).values()
                 yield from zip(turned, rates[first : first + factor.n], strict=True)
+
+    # -- what is read off --------------------------------------------------------------------------
+
+    def read(self, x: Output) -> Trees:
+        """The numbers of an output."""
+        match x:
+            case ExpressionOutput():
+                return [_with(y, self.known) for y in x.y]
+            case RateOutput():
+                turns = [_axial(_block(e, self.group.of_block(x.block))) for e in self.group.basis]
+                whole = [_dot(row, self.zeta) for row in _transposed(turns)]
+                return whole if self.left else self._turned_back(whole, x.block)
+            case DirectionOutput():
+                d = self.group.in_block(x.block, x.direction)
+                turned = _times(self.A if x.frame == "space" else _transposed(self.A), d)
+                return turned[self.group.of_block(x.block)]
+            case PlaceOutput():  # velocities and accelerations are such, too
+                return self._of_place(x)
+        raise ProblemError(f"output {x.name!r}: beside a Lagrangian no points have it")
+
+    def _of_place(self, x: PlaceOutput) -> Trees:
+        """The place, the velocity or the acceleration of one, in a frame: Ä is A(Ż + Z²), on the
+        right (Ż + Z²)A."""
+        r, block = self.body[x.on - 1], self.problem.block(x.on)
+        vector = _times(self.A, r)
+        if isinstance(x, VelocityOutput | AccelerationOutput):
+            vector = self._along(self.zeta, r)
+        if isinstance(x, AccelerationOutput):
+            again = [_dot(row, vector) for row in self._velocity_matrix()]
+            rated = zip(self._along(self.rates, r), again, strict=True)
+            vector = [add(*y) for y in rated]
+        moved = not isinstance(x, VelocityOutput | AccelerationOutput)
+        at = self.group.of_block(block)
+        in_space = vector if moved or not self.left else _times(self.A, vector)
+        if x.frame == "space":
+            return in_space[at]
+        _, factor = self.group.places[block - 1]
+        if not moved and self.left and "orthogonal" in factor.relations:
+            return vector[at]
+        return self._turned_back(in_space[at], block)
+
+    def _velocity_matrix(self) -> list[Trees]:
+        """Z by ζ."""
+        span = range(self.group.n)
+        return [
+            [_dot([plain(e[i][j]) for e in self.group.basis], self.zeta) for j in span]
+            for i in span
+        ]
+
+    def _turned_back(self, vector: Sequence[Tree], block: int) -> Trees:
+        """Ā on a vector of a block; a rate in the plane is the same in both frames."""
+        at = self.group.of_block(block)
+        R = [row[at] for row in self.A[at]]
+        return [*vector] if len(vector) < len(R) else _times(_transposed(R), vector)
 
 
 def _trees(e: Matrix) -> list[Trees]:

@@ -26,6 +26,17 @@ PUSHED = {
         {"at": [0, 2, 0], "frame": "body", "relative_to": [1, "k", 0],
          "force": ["-v_1*v_2", 0, "v_3"]},
     ],
+    "output": [
+        {"name": "spot", "kind": "place", "at": [1, 0, "b"]},
+        {"name": "pace", "kind": "velocity", "at": [1, 0, "b"], "frame": "body"},
+        {"name": "drift", "kind": "velocity", "at": [1, "k", 0]},
+        {"name": "felt", "kind": "acceleration", "at": [1, 2, "b"], "frame": "body"},
+        {"name": "rush", "kind": "acceleration", "at": [1, 2, 0]},
+        {"name": "gyro", "kind": "rate"},
+        {"name": "north", "kind": "direction", "direction": [1, 0, "b"], "frame": "body"},
+        {"name": "mast", "kind": "direction", "direction": [1, 0, 2]},
+        {"name": "power", "at": [0, 0, 1], "y": ["r_3*v_1 + t", "port*v_2"]},
+    ],
 }  # fmt: skip
 
 
@@ -90,6 +101,8 @@ def test_what_acts_at_places_acts_as_on_points(group, side):
         found = typed.rhs(0.4, y, u)
         assert np.abs(found - expected)[-count:].max() < 1e-11 * np.abs(expected).max()
         assert np.abs(found - expected)[:-count].max() < 1e-13 * np.abs(expected).max()
+        seen, read = points.outputs(0.4, x, u), typed.outputs(0.4, y, u)
+        assert np.abs(read - seen).max() < 1e-11 * np.abs(seen).max()
     assert all(v.holds for v in own_verdicts(derive.derive(own).record))
 
 
