@@ -230,9 +230,12 @@ def _told(run: Run) -> int:
     """The exit code, and on stderr what is amiss."""
     name = run.facts["problem"]
     if why := run.facts.get("unsought"):
-        damped = DAMPING in run.facts.get("drives", ())  # and the energy is not kept
+        drives = run.facts.get("drives", ())
+        damped = DAMPING in drives  # and the energy is not kept
         lead = "" if damped else "of what it keeps the energy alone is told: "
         text = lead + why.removeprefix(f"{name}: ")
+        if FORCES in drives:
+            text = "what it keeps without its forces of the state is not sought"
         print(f"derive: note: {one_line(f'{name}: {text}')}", file=sys.stderr)
     for label, column in run.of_kind("multiplier").items():
         if run.facts.get("filled") and (where := negative(run.t, column)):

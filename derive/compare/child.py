@@ -69,7 +69,9 @@ def in_python(path: str, call: Mapping[str, Any]) -> Callable[[Sequence[Any]], A
     except (Exception, SystemExit) as error:
         raise FaultError(f"importing it fails: {type(error).__name__}: {error}") from None
     if not callable(function := getattr(module, name, None)):
-        raise FaultError(f"it has no function {name}")
+        raise FaultError(
+            f"it has no function {name}; name it by --function, or 'call' in the table"
+        )
 
     def evaluated(arguments: Sequence[Any]) -> Any:
         out = np.full(size, UNTOUCHED)
@@ -77,7 +79,11 @@ def in_python(path: str, call: Mapping[str, Any]) -> Callable[[Sequence[Any]], A
             made = function(*(out if a is None else a[()] for a in arguments))
             found = np.asarray(made if call["returns"] else out, dtype=float)
         except (Exception, SystemExit) as error:
-            raise FaultError(f"{name} fails: {type(error).__name__}: {error}") from None
+            why = f"{name} fails: {type(error).__name__}: {error}"
+            if isinstance(error, TypeError):
+                listed = ", ".join(call["arguments"])
+                why += f"; it is called as {name}({listed}): 'call' in a table for --as says how"
+            raise FaultError(why) from None
         if found.size != size:
             raise FaultError(f"{name} gives {found.size} numbers, not {size}")
         return _written(found.reshape(size), name)

@@ -18,6 +18,8 @@ SIMPLE |= {-2.0: "has the factor −2", -0.5: "has the factor −1/2", 0.25: "ha
 NEAR = 1e-7
 """How near a number is to one that has a name."""
 ABOUT = " about the centre of mass"
+NEARER = 0.5
+"""What a change leaves of the difference at most, to be told as the nearest."""
 TURNS = 12
 """The most steps of Newton's method."""
 
@@ -78,7 +80,7 @@ def explained(b: Balance, terms: list[Term]) -> Explanation:
     nearest = min(tried, key=lambda x: float(np.abs(x.left / size).max()))
     part = float(np.abs(nearest.left / size).max()) / whole
     near = f"{nearest.words}: this would leave {part:.0%} of the difference"
-    return Explanation(nearest=near if part < 0.9 else "")
+    return Explanation(nearest=near if part < NEARER else "")
 
 
 def told(name: str, old: float, new: float, others: Mapping[str, float]) -> tuple[str, int]:

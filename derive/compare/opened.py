@@ -138,6 +138,10 @@ def opened(problem: Problem, parameters: Mapping[str, float]) -> Opened:
     def each(tables: tuple[Any, ...], word: Callable[[int, Any], str]) -> tuple[Any, ...]:
         return tuple(made.table(x, word(k, x)) for k, x in enumerate(tables, 1))
 
+    lagrangian = problem.lagrangian
+    if lagrangian and problem.group and problem.group.dimension <= ENTRIES:
+        more = quadratic(problem.group.dimension, made)
+        lagrangian = replace(lagrangian, L=add(lagrangian.L, *more))
     acting: dict[int, str] = {}
     for x in (*problem.inputs, *problem.forces, *problem.damping, *problem.potentials):
         named = getattr(x, "on", ())
@@ -146,6 +150,7 @@ def opened(problem: Problem, parameters: Mapping[str, float]) -> Opened:
     replaced = replace(
         problem,
         body=body,
+        lagrangian=lagrangian,
         potentials=each(problem.potentials, lambda _, x: called(problem, x)),
         inputs=each(problem.inputs, lambda _, x: called(problem, x)),
         damping=each(problem.damping, lambda _, x: called(problem, x)),
@@ -154,10 +159,29 @@ def opened(problem: Problem, parameters: Mapping[str, float]) -> Opened:
         outputs=(),
         events=(),
     )
-    more = {x.name: Parameter() for x in made.slots}
+    slots = {x.name: Parameter() for x in made.slots}
     return Opened(
-        replace(replaced, parameters={**problem.parameters, **more}), tuple(made.slots), central
+        replace(replaced, parameters={**problem.parameters, **slots}), tuple(made.slots), central
     )
+
+
+ENTRIES = 6
+"""A kinetic energy of so many coordinates at most is opened entry by entry."""
+
+
+def quadratic(d: int, made: Opening) -> list[Tree]:
+    """What may be added to the entries of the operator of inertia, as terms of ℓ, each 0."""
+    zeta = [("entry", "ζ", a) for a in range(1, d + 1)]
+    pairs = [(a, b) for a in range(d) for b in range(a, d)]
+    return [
+        mul(
+            Fraction(1, 2) if a == b else 1,
+            made.slot(0, "operator", f"what is added to operator_{a + 1}{b + 1}"),
+            zeta[a],
+            zeta[b],
+        )
+        for a, b in pairs
+    ]
 
 
 def called(problem: Problem, table: Table) -> str:

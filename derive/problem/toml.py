@@ -31,7 +31,14 @@ from .bodies import (
     outputs,
 )
 from .entries_on_orbit import hessian, vanishes
-from .fields import LIKE_A_PLACE, coordinates, tables, used_at
+from .fields import (
+    LIKE_A_PLACE,
+    coordinates,
+    known_in_lagrangian,
+    tables,
+    undeclared,
+    used_at,
+)
 from .file_reader import FileReader
 from .inertia import impossible, negative_mass
 from .lagrangian_tables import group_of_algebra, lagrangian, on_torus, torus_problem
@@ -309,6 +316,9 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
                 where = used_at(data, name, *(x for x, _ in keys_with(name)))
                 raise ProblemError(f"{where}: {name!r} is known in {known_in(name)} alone")
             where, shown = used_at(data, name), name[:40]
+            if problem.group and problem.lagrangian:
+                own = known_in_lagrangian(problem.group, problem.advected)
+                raise ProblemError(undeclared(name, where, problem.parameters, problem.group, own))
             hint = nearest(shown, problem.parameters).removeprefix("; ")
             other = f"{hint} Else " if hint else ""
             raise ProblemError(f"{where}: {shown!r} is not declared; {other}add it to [parameters]")

@@ -53,6 +53,11 @@ FAULTS = {
         ("[0.23, 0.04, -0.3]", "[-0.23, -0.04, 0.3]"),
         "the lever arm (at of the input thrust) has the other sign",
     ),
+    "added mass": (
+        "vehicle",
+        ("[0.2, 0, 0, 0, 3.9, 0]", "[0.2, 0, 0, 0, 4.4, 0]"),
+        "what is added to operator_55 is 0.5, not 0",
+    ),
     "products of inertia": (
         "drone",
         (
@@ -105,6 +110,7 @@ BAD = {
     "gives 3 numbers, not 18": "def f(x, u):\n    return x[:3]",
     "a number that is not finite, at [0]": "def f(x, u):\n    return [float('nan'), *x[1:]]",
     "f fails: ZeroDivisionError": "def f(x, u):\n    return 1 / 0",
+    "it is called as f(x, u): 'call' in a table for --as says how": "def f(x):\n    return x",
     "importing it fails: SyntaxError": "def f(x, u:",
     "it has no function f": "g = 1",
     "ends with exit code 3": "import os\nos._exit(3)",
