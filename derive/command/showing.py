@@ -169,7 +169,9 @@ def steps_of(record: Derivation, labels: Sequence[str]) -> list[Step]:
     found = []
     for label in labels:
         if label not in by_label and label not in short:
-            hint = nearest(label, {*short, *by_label})
+            own = [x for x, y in short.items() if y.startswith(f"{record.name}.")]
+            listed = f"; of this problem are {', '.join(own)}" if own else ""
+            hint = nearest(label, {*short, *by_label}) or listed
             raise UsageError(f"{record.name} has no step {label[:60]!r}{hint}")
         found.append(by_label[short.get(label, label)])
     return found
