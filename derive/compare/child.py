@@ -31,11 +31,24 @@ def main(folder: Path) -> None:
     """Read the request, call, and leave the answer."""
     request = json.loads((folder / "request.json").read_text(encoding="utf-8"))
     given = dict(np.load(folder / "given.npz"))
+    limit(request["seconds"], request["bytes"])
     try:
         found = {call["name"]: results(request, call, given) for call in request["calls"]}
         np.savez(folder / "found.npz", **found)  # type: ignore[arg-type]
     except FaultError as error:
         (folder / "fault.txt").write_text(" ".join(str(error).split()), encoding="utf-8")
+
+
+def limit(seconds: int, size: int) -> None:
+    """Limits of this process, before anything of the user's runs; of its threads together twice
+    the time, which who has started it watches."""
+    try:
+        import resource
+    except ImportError:  # Windows: the time alone
+        return
+    resource.setrlimit(resource.RLIMIT_AS, (size, size))
+    resource.setrlimit(resource.RLIMIT_CPU, (2 * seconds, 2 * seconds))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
 def results(

@@ -173,6 +173,16 @@ def test_a_name_says_which_file():
     assert {p.name for p in ROOT.glob("*.py")} == {x for x in BOTH_SIDES if x.endswith(".py")}
 
 
+def test_no_test_hides_another():
+    """Python knows a file of tests by its name alone, where no ``__init__.py`` is beside it."""
+    alone = [
+        x
+        for x in (ROOT.parent / "tests").rglob("test_*.py")
+        if not (x.parent / "__init__.py").is_file()
+    ]
+    assert len({x.name for x in alone}) == len(alone)
+
+
 def test_no_circle_of_files():
     """Nor one that is closed by an import inside a function, or for types alone."""
     state = {}
