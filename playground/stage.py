@@ -54,15 +54,20 @@ UNUSED = {
 """Folders of a library that its other modules import for tasks alone that nobody has here."""
 
 
+WITH_PROCESSES = ("derive/compare/", "derive/command/comparing.py")
+"""What starts processes, which a page has not."""
+
+
 def wheel(out: Path) -> None:
-    """The wheel of the checkout, unpacked as an installer would."""
+    """The wheel of the checkout, unpacked as an installer would, without what a page cannot do."""
     pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
     made = out.with_name("wheel")
     shutil.rmtree(made, ignore_errors=True)
     subprocess.run([*pip, "wheel", "--no-deps", "-w", str(made), str(HERE.parent)], check=True)
     (file,) = made.glob("*.whl")
     with zipfile.ZipFile(file) as archive:
-        names = [x for x in archive.namelist() if x.startswith("derive/")]
+        own = (x for x in archive.namelist() if x.startswith("derive/"))
+        names = [x for x in own if not x.startswith(WITH_PROCESSES)]
         archive.extractall(out, names)
 
 
