@@ -23,7 +23,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 BOUNDS = dict(x.split(">=") for x in PROJECT["dependencies"])
 OLDEST = [f"{name}=={version}" for name, version in BOUNDS.items()]
 NEWEST_PYTHON = 20
-BESIDE = ("python-flint", "scipy", "matplotlib", "jax", "distributed")
+BESIDE = ("python-flint", "scipy", "matplotlib", "jax", "distributed", "casadi")
 QUIET = ("-m", "pip", "--quiet", "--disable-pip-version-check")
 
 
