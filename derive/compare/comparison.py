@@ -269,6 +269,3 @@ def _explained(c: Comparison, make: Made, off: Array, d: int) -> Explanation:
     rows = {"moment": turns, "force": moves} if moves and turns else {"moment": turns}
     b = Balance(code, part, make, c.parameters, c.given["t"], to(x), c.u, a, rows)
     return explained(b, list(b.terms()))
-
-
-__all__ = ("STATES", "WORDS", "CompareError", "Comparison", "comparison", "reports")

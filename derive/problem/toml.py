@@ -19,7 +19,7 @@ from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
 from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
 from ..schema.kinds import kinds
-from ..schema.output_kinds import OUTPUTS
+from ..schema.output_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
 from ..schema.table import ATTACHED, Table, nearest
 from . import inertia
 from .bodies import (
@@ -186,11 +186,6 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
     return Problem(name, None, title=reader.title_of(data, name), fluid=fluid)
 
 
-OF_PLACES = ("place", "velocity", "acceleration", "rate", "direction")
-OF_POINTS = tuple(x for x in OUTPUTS if x not in OF_PLACES)
-"""Outputs of what a group moves, and of masses, their weights and springs."""
-
-
 def _without_points(
     data: Mapping[str, Any], moved: Group | None, advected: tuple[Advected, ...] | None = None
 ) -> Problem:
@@ -217,12 +212,13 @@ def _without_points(
     parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)
     _, inputs, _, stated = forces(data, reader)
+    others = [x for x in OUTPUTS if x not in (*OF_MASSES, ExpressionOutput.kind)]
     for k, x in enumerate(tables(data, "output"), 1):
         placed = "y" not in x or {*ATTACHED} & {*x}
-        if placed and (advected is not None or x.get("kind") in OF_POINTS):
+        if placed and (advected is not None or x.get("kind") in OF_MASSES):
             raise ProblemError(
                 f"output {k}: beside [{where}] are no points: give expressions 'y' of the state"
-                + ("" if advected is not None else f", or one of {', '.join(OF_PLACES)}")
+                + ("" if advected is not None else f", or one of {', '.join(others)}")
             )
     observed = outputs(data, reader, inputs)
     problem = Problem(

@@ -28,7 +28,7 @@ from ..schema.kind import (
     Torus,
 )
 from ..schema.kinds import kinds
-from ..schema.output_kinds import OUTPUTS
+from ..schema.output_kinds import OF_MASSES, OUTPUTS
 from ..schema.table import ACTIONS, DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
 from .record import CONVENTIONS
@@ -169,8 +169,7 @@ class _RecordReader(TableReader):
                 raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
         if "advected" in data or "torus" in data:
             self.covectors_alone()
-        masses = {"specific_force", "distance", "momentum", "tension"}
-        if any(x["kind"] in masses for x in data.get("outputs", ())):
+        if any(x["kind"] in OF_MASSES for x in data.get("outputs", ())):
             raise ShapeError("lagrangian: an output of its problem is of masses, and it has none")
         if "advected" in data:
             self.each("advected", lambda x, where: self.typed(Advected, x, where))

@@ -155,3 +155,7 @@ OUTPUTS: dict[str, type[Output]] = {
         ExpressionOutput,
     )
 }
+
+OF_MASSES = ("specific_force", "distance", "momentum", "tension")
+"""Kinds that need masses, their weights or springs: where no points give the Lagrangian there are
+none."""

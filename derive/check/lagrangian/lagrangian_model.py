@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -14,9 +13,9 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from ...record.as_json import decode
-from ..trials.given_forces import GivenForces, Vector
+from ..trials.given_forces import GivenForces
 from ..trials.phase_point import inverse
-from ..trials.point_masses import listed_places
+from ..trials.point_masses import Vector, listed_places
 from ..values.arithmetic import (
     EPS,
     EPS_PRIME,
@@ -127,17 +126,7 @@ class LagrangianModel(GivenForces):
         place = {"Γ": self.advected.start} if self.advected else {"A": self.g}
         zeta = q.column(self.group.nearest(self.Z))
         names = {**self.expressions.names, **place, "t": self.t, "ζ": zeta}
-        places = [q.column(x) for x in self.images(self.g)]
-        moving: dict[tuple[int, ...], Any] = {
-            (i,): q.column(x) for i, x in enumerate(self.images(self.nu), 1)
-        }
-        return replace(
-            self.expressions,
-            names=names,
-            families={"v": moving},
-            functions={"r": lambda head, *_: places[head[2] - 1]},
-            listed=len(places),
-        )
+        return self.with_places(names)
 
     def images(self, g: Matrix) -> list[Vector]:
         """The places in space of the points, (r, 1), moved by g; for a tangent matrix their

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
@@ -14,10 +15,9 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.reserved import numbers_of_input
 from ...record.as_json import decode
-from ..values.evaluate import evaluate
+from ..values.evaluate import Environment, evaluate
 from .phase_point import PhasePoint
-
-Vector = tuple[Any, ...]
+from .point_masses import Vector
 
 
 class GivenForces(PhasePoint):
@@ -31,6 +31,20 @@ class GivenForces(PhasePoint):
     @abstractmethod
     def images(self, g: Matrix) -> list[Vector]:
         """The places in space of the points moved by g; for a tangent matrix their velocities."""
+
+    def with_places(self, names: Mapping[str, Any]) -> Environment:
+        """The environment of expressions of these names, of places and of their velocities."""
+        places = [q.column(x) for x in self.images(self.g)]
+        moving: dict[tuple[int, ...], Any] = {
+            (i,): q.column(x) for i, x in enumerate(self.images(self.nu), 1)
+        }
+        return replace(
+            self.expressions,
+            names=names,
+            families={"v": moving},
+            functions={"r": lambda head, *_: places[head[2] - 1]},
+            listed=len(places),
+        )
 
     def draw_inputs(self) -> None:
         """Draw the numbers of forces and torques, which have names."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -106,7 +105,7 @@ class Model(Body, GivenForces):
     def of_state(self) -> Environment:
         """The environment of expressions of the state: of t, the entries of g and of the velocity,
         places and their velocities."""
-        group, places = self.group, [q.column(x) for x in self.images(self.g)]
+        group = self.group
         names: dict[str, Any] = {"t": self.t, "π": self.pi}
         for g, linear, translation in ((self.g, "A", "T"), (self.Z, "Z", "w")):
             names[linear] = group.linear_part(g)
@@ -114,16 +113,7 @@ class Model(Body, GivenForces):
                 names[translation] = group.translation_part(g)
         if group.turns_space:
             names["ζ"] = q.column(group.nearest(self.Z)[:3])
-        moving: dict[tuple[int, ...], Any] = {
-            (i,): q.column(x) for i, x in enumerate(self.images(self.nu), 1)
-        }
-        return replace(
-            self.expressions,
-            names=names,
-            families={"v": moving},
-            functions={"r": lambda head, *_: places[head[2] - 1]},
-            listed=len(places),
-        )
+        return self.with_places(names)
 
     @cached_property
     def nonpotential_forces(self) -> list[Vector]:

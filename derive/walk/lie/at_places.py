@@ -105,9 +105,13 @@ class Places:
         one."""
         if len(torque) == 1 or frame == ("body" if self.left else "space"):
             return [*torque]
-        at = self.group.of_block(block)
-        R = [row[at] for row in self.A[at]]
+        R = self._rotation(block)
         return _times(_transposed(R) if self.left else R, torque)
+
+    def _rotation(self, block: int) -> list[Trees]:
+        """The entries of A that turn a block."""
+        at = self.group.of_block(block)
+        return [row[at] for row in self.A[at]]
 
     def _along(self, speeds: Sequence[Tree], r: Trees) -> Trees:
         """The velocity of a place with these coordinates of Z: Zr in the body, ZAr in space."""
@@ -151,20 +155,18 @@ class Places:
         """The place, the velocity or the acceleration of one, in a frame: Ä is A(Ż + Z²), on the
         right (Ż + Z²)A."""
         r, block = self.body[x.on - 1], self.problem.block(x.on)
-        vector = _times(self.A, r)
-        if isinstance(x, VelocityOutput | AccelerationOutput):
-            vector = self._along(self.zeta, r)
+        moving = isinstance(x, VelocityOutput | AccelerationOutput)
+        vector = self._along(self.zeta, r) if moving else _times(self.A, r)
         if isinstance(x, AccelerationOutput):
             again = [_dot(row, vector) for row in self._velocity_matrix()]
             rated = zip(self._along(self.rates, r), again, strict=True)
             vector = [add(*y) for y in rated]
-        moved = not isinstance(x, VelocityOutput | AccelerationOutput)
         at = self.group.of_block(block)
-        in_space = vector if moved or not self.left else _times(self.A, vector)
+        in_space = _times(self.A, vector) if moving and self.left else vector
         if x.frame == "space":
             return in_space[at]
         _, factor = self.group.places[block - 1]
-        if not moved and self.left and "orthogonal" in factor.relations:
+        if moving and self.left and "orthogonal" in factor.relations:
             return vector[at]
         return self._turned_back(in_space[at], block)
 
@@ -178,8 +180,7 @@ class Places:
 
     def _turned_back(self, vector: Sequence[Tree], block: int) -> Trees:
         """Ā on a vector of a block; a rate in the plane is the same in both frames."""
-        at = self.group.of_block(block)
-        R = [row[at] for row in self.A[at]]
+        R = self._rotation(block)
         return [*vector] if len(vector) < len(R) else _times(_transposed(R), vector)
 
 
