@@ -23,6 +23,8 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 BOUNDS = dict(x.split(">=") for x in PROJECT["dependencies"])
 OLDEST = [f"{name}=={version}" for name, version in BOUNDS.items()]
 NEWEST_PYTHON = 20
+JULIA = ("tree-sitter", "tree-sitter-julia")
+"""What reads Julia, where it is not installed: the library of emitted files has it."""
 BESIDE = ("python-flint", "scipy", "matplotlib", "jax", "distributed", "casadi")
 QUIET = ("-m", "pip", "--quiet", "--disable-pip-version-check")
 
@@ -159,7 +161,7 @@ def test_from_a_wheel_on_the_newest_python(base, installed, tmp_path):
 
 
 def test_on_the_oldest_libraries(base, installed, tmp_path):
-    python = installed(sys.executable, *OLDEST, "scipy", "pytest", "array-api-strict")
+    python = installed(sys.executable, *OLDEST, "scipy", "pytest", "array-api-strict", *JULIA)
     frozen = run(python, *QUIET, "freeze", cwd=tmp_path).lower()
     for name, oldest in BOUNDS.items():
         assert re.search(rf"^{name}=={re.escape(oldest)}(\.0)*$", frozen, flags=re.M)
