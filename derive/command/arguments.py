@@ -237,7 +237,8 @@ def add_motion_options(simulated: argparse.ArgumentParser) -> None:
     about = "the error of a short run, relative to the size of the state (default: 1e-9)"
     simulated.add_argument("--tol", type=real, metavar="TOL", help=about)
     simulated.add_argument("--dt", type=real, metavar="DT", help="steps of this size instead")
-    about = "how the motion is followed: gauss (the default), vern9, or, with --dt, rk4 or discrete"
+    about = "how the motion is followed: gauss (the default), vern9 (that where a force has abs, "
+    about += "sign, min, max or hypot), or, with --dt, rk4 or discrete"
     simulated.add_argument("--step", dest="method", metavar="STEP", help=about)
     values, about = DEPENDENT["order"]
     simulated.add_argument("--order", choices=values, help=about)

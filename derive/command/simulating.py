@@ -29,7 +29,7 @@ from ..motion.native import AT_EVENT
 from ..motion.run import Array, Run, format_of, written
 from ..motion.simulate import beginning, run
 from ..motion.start import state_file
-from ..motion.trajectory import STEPS, Method, instants
+from ..motion.trajectory import STEPS, Method, instants, step_of
 from ..problem.problem import Problem
 from ..programs import motion_of, motion_of_many
 from ..record.record import Derivation
@@ -67,7 +67,7 @@ def page_of(
         print(f"derive: warning: {problem.name}: {told}", file=sys.stderr)
     if args.dt is not None or args.method not in (None, STEPS[0]):
         raise MotionError("--html: the page moves by gauss to a tolerance: leave out --dt, --step")
-    return moving_page(problem, record, args.t, method_of(args), args.lang, **start)
+    return moving_page(problem, record, args.t, method_of(args, STEPS[0]), args.lang, **start)
 
 
 def moving_page(
@@ -88,10 +88,10 @@ def picture_of(problem: Problem, record: Derivation, t: float, name: str, lang: 
     return plot(found, name, word=words.word, mark=words.mark)
 
 
-def method_of(args: argparse.Namespace) -> Method:
+def method_of(args: argparse.Namespace, step: str) -> Method:
     """The step, and its size or tolerance."""
     chosen = {} if args.tol is None else {"tol": args.tol}
-    return Method(args.method or STEPS[0], args.dt, **chosen, order=args.order or "")
+    return Method(step, args.dt, **chosen, order=args.order or "")
 
 
 def start_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> dict[str, Any]:
@@ -112,7 +112,7 @@ def run_of(
     args: argparse.Namespace, problem: Problem, record: Derivation, start: dict[str, Any]
 ) -> Run:
     """The run that a command asks for; ``Refused`` where there is none."""
-    method = method_of(args)
+    method = method_of(args, step_of(record.problem or {}, args.method, args.dt))
     light = is_weightless(record.problem or {}, start["given"])
     return run(
         motion_of(problem, record, method.step, method.order, weightless=light),

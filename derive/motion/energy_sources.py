@@ -50,6 +50,20 @@ def is_free(problem: Mapping[str, Any]) -> bool:
     return not acting and not _placed(problem.get("lagrangian"))
 
 
+def may_bend(problem: Mapping[str, Any]) -> bool:
+    """Has a force of the problem of a record a root, as in |v| and so in sign, min and max, where
+    its derivatives may jump?"""
+    return _rooted(problem.get("forces"))
+
+
+def _rooted(data: Any) -> bool:
+    if isinstance(data, dict):
+        return any(map(_rooted, data.values()))
+    if not isinstance(data, list | tuple):
+        return False
+    return [*data[:2]] == ["fun", "sqrt"] or any(map(_rooted, data))
+
+
 def _placed(data: Any) -> bool:
     """Does what tells where a body is stand in ℓ, an entry of g or of a vector that it carries?"""
     if isinstance(data, dict):

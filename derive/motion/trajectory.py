@@ -16,6 +16,7 @@ from ..code.program import Block
 from ..code.step.step_numbers import FIXED
 from ..language.limits import STEPS_OF_A_MOTION
 from ..language.reserved import did_you_mean, near_name
+from .energy_sources import may_bend
 from .first_numbers import MotionError
 from .native import AT_EVENT, FAULTS, StepError
 from .run import Array, Happening
@@ -30,7 +31,15 @@ has, too."""
 ORDERS = DEPENDENT["order"][0]
 """The orders that the discrete step can have, the first one by default."""
 
+BENT = "vern9"
+"""The default where what acts may bend: it sees that, which ``gauss``, of order 16, does not."""
+
 LEAST_TOLERANCE, TOLERANCE, MOST_INSTANTS = 1e-15, 1e-9, 10_000_000
+
+
+def step_of(problem: Mapping[str, Any], step: str | None, dt: float | None) -> str:
+    """The step that is asked for, or the default for the problem of a record."""
+    return step or (BENT if dt is None and may_bend(problem) else STEPS[0])
 
 
 @dataclass(frozen=True)

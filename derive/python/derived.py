@@ -199,7 +199,7 @@ class Derived:
         from ..motion.ensemble import require_an_ensemble
         from ..motion.first_numbers import MotionError, require_numbers
         from ..motion.simulate import run
-        from ..motion.trajectory import STEPS, Method
+        from ..motion.trajectory import Method, step_of
         from ..programs import motion_of
         from .simulated import Simulated
 
@@ -213,7 +213,7 @@ class Derived:
             how = {"step": step, "dt": dt, "order": order, "compiled": compiled}
             return self._many(ensemble, vary or {}, t, points or 1, tol, seed or 0, begin, how)
         require_an_ensemble(vary, seed)
-        method = Method(step or STEPS[0], dt, tol, str(order))
+        method = Method(step_of(self.record.problem or {}, step, dt), dt, tol, str(order))
         light = is_weightless(self.record.problem or {}, begin["given"])
         code = motion_of(self.problem, self.record, method.step, method.order, weightless=light)
         kept = 500 if points is None else points
