@@ -10,7 +10,7 @@
 # PROBLEM     a file, relative to the current source folder, or one of `derive list`
 # TARGET      with C among the files a static library, with headers alone an interface library, both
 #             with a public include folder and libm; else a target that emits the files, in `all`
-# LANG        c cpp cvode python rust julia javascript, as for `derive emit --lang`; c when left out
+# LANG        c cpp cvode fmu python rust julia javascript, as for `derive emit --lang`; c when left out
 # PREFIX      of the files and the functions; TARGET when left out
 # OPTIONS     as for `derive emit`: --real float, --jacobian state, --validate, …
 # OUTPUT_DIR  relative to the current binary folder; derive/TARGET when left out

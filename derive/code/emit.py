@@ -14,6 +14,7 @@ from ..language.limits import Refused
 from ..language.reserved import did_you_mean, near_name
 from ..language.templating import environment
 from ..record.record import Derivation
+from . import fmu
 from .conventions import heading
 from .ellipsoid import BUNDLES, is_integral
 from .group_functions import printed_group
@@ -91,6 +92,7 @@ def planned(languages: Sequence[str], prefix: str, chosen: Options) -> dict[str,
         raise EmitError(f"--frame principal is written in {framed}, not in {', '.join(plain)}")
     of_double = [f"--step {x}" for x in chosen.step if x not in IN_FLOAT]
     of_double += ["--ensemble"] * chosen.ensemble
+    of_double += ["--lang fmu"] * ("fmu" in languages)
     if chosen.real == "float" and of_double:
         raise EmitError(f"{of_double[0]} is of doubles: leave out --real float")
     if chosen.ensemble and not {"c"} & {x for y in languages for x in (y, LANGUAGES[y].needs)}:
@@ -196,6 +198,8 @@ def _fields(
         fields["steps"]["algorithms"] = ALGORITHMS[language.name](p, fields)
     if p.group_functions and not language.needs:
         fields["maps"] = printed_group(language.name, p, fields)
+    if language.name == "fmu":
+        fields |= fmu.fields_of(p, asked, generated)
     if p.loops:
         fields["loops"] = _loops(p.loops, language.name, printer, fields)
     return fields

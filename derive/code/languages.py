@@ -216,6 +216,16 @@ _LANGUAGES = (
     C,
     replace(C, name="cpp", files=_one_file(".hpp"), batch="", needs="c", step_files=()),
     replace(C, name="cvode", files=_one_file("_cvode.h"), batch="", needs="c", step_files=()),
+    replace(
+        C,
+        name="fmu",
+        files=dict.fromkeys(("source", "header"), ("_fmu.c", "_fmu.xml", "_fmi2.xml")),
+        batch="",
+        needs="c",
+        framed=False,
+        steps=("gauss", "vern9"),
+        step_files=(),
+    ),
     TargetLanguage(
         "python",
         _one_file(".py"),

@@ -232,6 +232,8 @@ class Program:
     """The names of what is conserved where gravity is 0, and not elsewhere."""
     outputs: tuple[str, ...] = ()
     """The names of what ``outputs`` gives, what is read off a motion."""
+    start: tuple[tuple[float, ...], ...] = ((), (), ())
+    """State, parameters and inputs at the start, where a language asks for these."""
     group_functions: Any = None
     """What the functions of the group know (``group_functions.GroupFunctions``), if asked for."""
 

@@ -130,6 +130,7 @@ def command_emit(args: argparse.Namespace) -> int:
         languages,
         made,
         options,
+        packed,
         require_one_text,
         validated,
         wanted,
@@ -154,7 +155,7 @@ def command_emit(args: argparse.Namespace) -> int:
     if args.out == STDOUT:
         save("".join(files.values()), None, "code")
         return 0
-    for path in write(files, Path(args.out or ".")):
+    for path in write(packed(asked, files), Path(args.out or ".")):
         print(path)
     return 0
 

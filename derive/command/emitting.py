@@ -10,12 +10,14 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..code.emit import emit, included, planned
+from ..code.emit import EmitError, emit, included, planned
+from ..code.fmu import archives
 from ..code.languages import LANGUAGES
 from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 from ..code.program import Program
 from ..code.requests import EmissionRequest, request_of
 from ..language.limits import Refused
+from ..motion.first_numbers import first_numbers
 from ..problem.bodies import negative_stiffness_of
 from ..problem.problem import Problem, ProblemError
 from ..programs import program, require_program
@@ -79,7 +81,24 @@ def made(p: Problem, record: Derivation, e: EmissionRequest) -> tuple[Program, d
             raise
         require_program(p, record, e.options)  # what has no code at all says so itself
         raise ProblemError(f"{error}; without --conserved the rest is written") from None
+    if "fmu" in e.languages:
+        compiled = replace(compiled, start=at_start(compiled, p))
     return compiled, emit(compiled, record, e.languages, e.prefix, e.options, e.allowed)
+
+
+def at_start(compiled: Program, p: Problem) -> tuple[tuple[float, ...], ...]:
+    """The state, parameters and inputs at the start, all of which an FMU states."""
+    if missing := [name for name, default, _, _ in compiled.parameters if default is None]:
+        raise EmitError(
+            f"{p.name}: --lang fmu needs a number for each parameter: give {missing[0]} a default "
+            "in the problem"
+        )
+    return tuple(tuple(x) for x in first_numbers(compiled, p, {})[:3])
+
+
+def packed(e: EmissionRequest, files: Mapping[str, str]) -> dict[str, str | bytes]:
+    """The emitted files, and their archives where they have some."""
+    return {**files, **(archives(e.prefix, files) if "fmu" in e.languages else {})}
 
 
 def checked(args: argparse.Namespace) -> int:
@@ -107,14 +126,15 @@ def checked(args: argparse.Namespace) -> int:
         command = ["derive", "emit", args.problem, "--out", str(folder)]
         full = f"run: {shlex.join(command)} {' '.join(now.words)}"
         remedy = REMEDY if now == wanted(args, p) else full
-        old = stale(files, folder, included(args.lang or now.languages), remedy)
+        both = packed(now, files) if "fmu" in (args.lang or now.languages) else files
+        old = stale(both, folder, included(args.lang or now.languages), remedy)
         for path, how in old.items():
             print(f"{path}: {how}")
         right = right and not old
         if args.validate:
             kept = {x: text_on_disk(folder / x) for x in files}
             reports += validated(kept, files, record, compiled, now)
-    right = (all_hold(reports) or not args.validate) and right
+    right = (not args.validate or all_hold(reports)) and right
     return 0 if right else 1
 
 

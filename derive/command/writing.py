@@ -134,17 +134,24 @@ REMEDY = "run the same command without --check"
 
 
 def stale(
-    files: Mapping[str, str], out: Path, foreign: Iterable[str] = (), remedy: str = REMEDY
+    files: Mapping[str, str | bytes],
+    out: Path,
+    foreign: Iterable[str] = (),
+    remedy: str = REMEDY,
 ) -> dict[Path, str]:
     """The files of a folder that are not these, and how; ``OSError`` for unreadable ones.
 
     ``foreign``: names of files that must not be beside them; ``remedy``: what makes them.
     """
     found = {}
-    for name, text in files.items():
-        path, wanted = out / name, text.encode("utf-8")
+    for name, content in files.items():
+        path = out / name
+        wanted = content.encode("utf-8") if isinstance(content, str) else content
         if not path.is_file():
             found[path] = f"missing; {remedy}"
+        elif isinstance(content, bytes):
+            if path.read_bytes() != wanted:
+                found[path] = f"not current; {remedy}"
         elif (old := path.read_bytes()) != wanted:
             lines = zip_longest(old.split(b"\n"), wanted.split(b"\n"))
             first = next(k for k, (a, b) in enumerate(lines, 1) if a != b)

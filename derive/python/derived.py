@@ -308,7 +308,7 @@ class Derived:
         from ..code.emit import EmitError
         from ..code.options import options_of
         from ..code.requests import EmissionRequest
-        from ..command.emitting import allowances, made
+        from ..command.emitting import allowances, made, packed
         from ..command.writing import write
 
         own = self.problem
@@ -320,7 +320,7 @@ class Derived:
         asked = EmissionRequest(own.name, prefix or own.name, named, options, allowances(own))
         files = made(own, self.record, asked)[1]
         if out is not None:
-            write(files, Path(out))
+            write(packed(asked, files), Path(out))
         return files
 
 

@@ -182,7 +182,7 @@ DRAG = 0.3
 
 
 def squared_speed(x, since, side):
-    """v² at a place of a half swing: y' = -2x - 2 side c y from a place and its y, in closed form."""
+    """v² at x in a half swing: y' = -2x - 2 side c y from a place and its y, in closed form."""
     a = 2 * side * DRAG
     free = [-2 * q / a + 2 / a**2 for q in (x, since[0])]
     return free[0] + (since[1] - free[1]) * np.exp(-a * (x - since[0]))
@@ -199,9 +199,7 @@ def test_the_default_step_sees_where_a_drag_bends(tmp_path):
     x, v = run["T_1"][-1], run["w_1"][-1]
     since, side, swings = (0.0, 1.0), 1, 0
     while not (side * v > 0 and swings >= 6):
-        at = optimize.brentq(
-            squared_speed, 1e-3 * side, 2.0 * side, args=(since, side), xtol=1e-15
-        )
+        at = optimize.brentq(squared_speed, 1e-3 * side, 2.0 * side, args=(since, side), xtol=1e-15)
         since, side, swings = (at, 0.0), -side, swings + 1
     assert abs(squared_speed(x, since, side) - v * v) < 3e-9
     by_gauss = d.simulate(20.0, start={"w_1": 1.0}, points=1, compiled=False, step="gauss")

@@ -142,7 +142,7 @@ cmake_minimum_required(VERSION 3.20)
 project(many C CXX)
 list(APPEND CMAKE_MODULE_PATH "${MODULES}")
 include(DeriveEmit)
-set(all c cpp cvode python rust julia javascript)
+set(all c cpp cvode fmu python rust julia javascript)
 set(place "made $dollar")
 derive_emit(PROBLEM so2.toml TARGET so2 LANG ${all} OUTPUT_DIR "${place}"
   OPTIONS --jacobian state --layout col --validate)
@@ -203,6 +203,7 @@ def test_cmake_all_languages_and_strange_paths(builder, build, tmp_path):
     project.run(f"{build}/main")
     project.run(f"{build}/other")
     names = {f"so2{x}" for x in (".h", ".c", ".hpp", "_cvode.h", ".py", ".rs", ".jl", ".mjs")}
+    names |= {f"so2{x}" for x in ("_fmu.c", "_fmu.xml", "_fmi2.xml", ".fmu", "_fmi2.fmu")}
     names |= {"solid.h", "solid.hpp", "top.h", "top.c", "text.rs", "text.py"}
     assert {x.name for x in made.iterdir()} == names
     assert emitted() == set()

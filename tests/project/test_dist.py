@@ -25,7 +25,7 @@ OLDEST = [f"{name}=={version}" for name, version in BOUNDS.items()]
 NEWEST_PYTHON = 20
 JULIA = ("tree-sitter", "tree-sitter-julia")
 """What reads Julia, where it is not installed: the library of emitted files has it."""
-BESIDE = ("python-flint", "scipy", "matplotlib", "jax", "distributed", "casadi")
+BESIDE = ("python-flint", "scipy", "matplotlib", "jax", "distributed", "casadi", "fmpy")
 QUIET = ("-m", "pip", "--quiet", "--disable-pip-version-check")
 
 

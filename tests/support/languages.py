@@ -12,7 +12,7 @@ from tests.support.library import BUILDS, ONE_BUILD, emission, loaded, module
 from tests.support.needs import CC, need
 
 T = 0.3
-PIECES = ("cvode",)
+PIECES = ("cvode", "fmu")
 """Languages of one function, run by themselves."""
 REFERENCE = ("c", "python")
 OTHERS = tuple(x for x in LANGUAGES if x not in (*REFERENCE, *PIECES))

@@ -69,6 +69,7 @@ ELSEWHERE = {
         "playwright": "playwright",
         "scipy": "scipy",
         "sksundae": "scikit-sundae",
+        "fmpy": "fmpy",
         "torch": "torch",
         "matplotlib": "matplotlib",
         "pyarrow": "pyarrow",

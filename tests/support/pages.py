@@ -53,6 +53,7 @@ IMPORTED = {
     "derive.compile": "cc",
     "import jax": "the module jax",
     "import casadi": "the module casadi",
+    "import fmpy": "the module fmpy",
     "import torch": "the module torch",
     "ensemble=": "cc",
 }

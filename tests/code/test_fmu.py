@@ -1,0 +1,159 @@
+"""The FMUs of a problem, of both standards, as another's importer reads and runs them (FMPy)."""
+
+import subprocess
+import zipfile
+
+import numpy as np
+import pytest
+
+import derive
+from tests.support.needs import CC, need
+
+DRONE = """
+name = "drone"
+group = "SE(3)"
+[body]
+given = { m = "m", c = [0, 0, "c_3"], J = [["J_1", 0, 0], [0, 2, 0], [0, 0, 3]] }
+[parameters]
+m = { default = 2, unit = "kg", meaning = "mass & more" }
+c_3 = 0.1
+J_1 = 1
+[[potential]]
+kind = "gravity"
+g = [0, 0, -9.81]
+[[input]]
+name = "f"
+kind = "force"
+at = [0, 0.2, 1]
+direction = [0, 0, 1]
+[[output]]
+name = "tip"
+kind = "place"
+at = [0, 0, 1]
+[initial]
+zeta_1 = 0.5
+zeta_3 = 2
+"""
+OPTIONS = {"step": ("gauss",), "conserved": True}
+BINARIES = {"drone.fmu": "x86_64-linux", "drone_fmi2.fmu": "linux64"}
+TIME, CHANGED = 2.0, {"c_3": 0.3, "w_1": 0.25}
+
+
+@pytest.fixture(scope="module")
+def drone(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("drone")
+    (folder / "drone.toml").write_text(DRONE, encoding="utf-8")
+    return derive.derive(folder / "drone.toml")
+
+
+@pytest.fixture(scope="module")
+def emitted(drone, tmp_path_factory):
+    """The folder of the files, with what a compiler makes of the sources of each archive."""
+    need("cc")
+    folder = tmp_path_factory.mktemp("emitted")
+    drone.emit(folder, "fmu", **OPTIONS)
+    for name, binaries in BINARIES.items():
+        apart = folder / name.removesuffix(".fmu")
+        with zipfile.ZipFile(folder / name) as archive:
+            archive.extractall(apart)
+        to = apart / "binaries" / binaries
+        to.mkdir(parents=True)
+        flags = ("-std=c99", "-O1", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fPIC", "-shared")
+        sources = sorted((apart / "sources").glob("*.c"))
+        subprocess.run([CC, *flags, *sources, "-lm", "-o", to / "drone.so"], check=True)
+    return folder
+
+
+def pushed(t):
+    return 3.0 * np.ones_like(t)
+
+
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+@pytest.mark.parametrize("name", BINARIES)
+def test_an_importer_follows_the_same_motion(drone, emitted, name, kind):
+    """With a parameter, a start and an input that are not those of the file."""
+    fmpy = pytest.importorskip("fmpy")
+    ours = drone.simulate(TIME, start={**CHANGED, "f": 3.0}, points=20, tol=1e-12)
+    read = ("energy", "tip_1", "tip_3")
+    names = (*ours.of_kind("state"), *read)
+    told = {"tol": 1e-9} if kind == "CoSimulation" else {}
+    found = fmpy.simulate_fmu(
+        emitted / name.removesuffix(".fmu"),
+        fmi_type=kind,
+        stop_time=TIME,
+        output_interval=0.1,
+        relative_tolerance=told.get("tol", 1e-10),
+        start_values={**CHANGED, "f": 3.0},
+        output=(*names, "f"),
+    )
+    assert np.allclose(found["time"], ours.t, atol=1e-12)
+    bound = 1e-8 if kind == "CoSimulation" else 1e-6  # that of CVODE, after 20 000 of its errors
+    for x in names:
+        assert np.abs(found[x] - ours[x]).max() < bound, x
+    assert (found["f"] == 3.0).all()
+
+
+@pytest.mark.parametrize("name", BINARIES)
+def test_the_archive_is_valid(emitted, name):
+    validation = pytest.importorskip("fmpy.validation")
+    assert validation.validate_fmu(str(emitted / name)) == []
+
+
+@pytest.mark.parametrize("name", BINARIES)
+def test_an_instance_is_kept_and_restored(emitted, name):
+    """As bytes, too; and the motion goes on from there by the same bits."""
+    fmpy = pytest.importorskip("fmpy")
+    unit = Instance(fmpy, emitted / name.removesuffix(".fmu"))
+    places = list(range(1, 19))
+    kept = unit.get()
+    saved = unit.bytes_of(kept)
+    unit.step(0.0, 0.25)
+    first = unit.read(places)
+    for state in (kept, unit.of_bytes(saved)):
+        unit.put(state)
+        assert unit.read(places)[12:15] == [0.5, 0.0, 2.0]
+        unit.step(0.0, 0.25)
+        assert unit.read(places) == first
+        unit.free(state)
+
+
+class Instance:
+    """A unit under co-simulation, the same for both standards."""
+
+    def __init__(self, fmpy, folder):
+        described = fmpy.read_model_description(folder)
+        self.two = described.fmiVersion == "2.0"
+        kind = fmpy.fmi2.FMU2Slave if self.two else fmpy.fmi3.FMU3Slave
+        self.unit = kind(
+            guid=described.guid if self.two else described.instantiationToken,
+            unzipDirectory=str(folder),
+            modelIdentifier="drone",
+            instanceName="one",
+        )
+        self.unit.instantiate()
+        if self.two:
+            self.unit.setupExperiment(startTime=0.0)
+        self.unit.enterInitializationMode()
+        self.unit.exitInitializationMode()
+
+    def step(self, t, h):
+        self.unit.doStep(currentCommunicationPoint=t, communicationStepSize=h)
+
+    def read(self, places):
+        return list(self.unit.getReal(places) if self.two else self.unit.getFloat64(places))
+
+    def get(self):
+        return self.unit.getFMUstate() if self.two else self.unit.getFMUState()
+
+    def put(self, state):
+        (self.unit.setFMUstate if self.two else self.unit.setFMUState)(state)
+
+    def free(self, state):
+        (self.unit.freeFMUstate if self.two else self.unit.freeFMUState)(state)
+
+    def bytes_of(self, state):
+        return (self.unit.serializeFMUstate if self.two else self.unit.serializeFMUState)(state)
+
+    def of_bytes(self, data):
+        of = self.unit.deSerializeFMUstate if self.two else self.unit.deserializeFMUState
+        return of(data)
