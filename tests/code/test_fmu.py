@@ -100,6 +100,51 @@ def test_the_archive_is_valid(emitted, name):
 
 
 @pytest.mark.parametrize("name", BINARIES)
+def test_each_rate_is_that_of_its_state(emitted, name):
+    fmpy = pytest.importorskip("fmpy")
+    described = fmpy.read_model_description(emitted / name)
+    rates = [x.variable for x in described.derivatives]
+    assert [x.name for x in rates] == [f"der({x.derivative.name})" for x in rates]
+    assert len(rates) == 18
+    mass = next(x for x in described.modelVariables if x.name == "m")
+    assert (mass.unit, mass.description, mass.start) == ("kg", "mass & more", "2.0")
+
+
+@pytest.mark.parametrize("name", BINARIES)
+def test_a_coarse_integrator_is_taken_back_to_the_group(drone, emitted, name):
+    fmpy = pytest.importorskip("fmpy")
+    names = [f"A_{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]
+    found = fmpy.simulate_fmu(
+        emitted / name.removesuffix(".fmu"),
+        fmi_type="ModelExchange",
+        stop_time=5.0,
+        relative_tolerance=1e-2,
+        output=names,
+    )
+    A = np.array([[found[x][-1] for x in names[3 * i : 3 * i + 3]] for i in range(3)])
+    assert np.abs(A.T @ A - np.eye(3)).max() < 1e-5
+
+
+@pytest.mark.parametrize("name", BINARIES)
+def test_what_is_set_between_steps_counts(drone, emitted, name):
+    """A parameter, an input and a number of the state, each after a step; then start again."""
+    fmpy = pytest.importorskip("fmpy")
+    unit = Instance(fmpy, emitted / name.removesuffix(".fmu"))
+    at = {x.name: x.valueReference for x in unit.described.modelVariables}
+    state = [*range(1, 19)]
+    unit.step(0.0, 0.25)
+    x = drone.simulate(0.25, points=1, tol=1e-12)
+    for k, (place, value) in enumerate([("J_1", 1.5), ("f", 2.0), ("w_3", -0.5)], 1):
+        unit.write([at[place]], [value])
+        unit.step(0.25 * k, 0.25)
+        given = {name: float(column[-1]) for name, column in x.of_kind("state").items()}
+        given |= x.facts["inputs"] | x.facts["parameters"]
+        x = drone.simulate(0.25, start=given | {place: value}, points=1, tol=1e-12)
+        ours = [float(column[-1]) for column in x.of_kind("state").values()]
+        assert np.allclose(unit.read(state), ours, atol=1e-9), place
+
+
+@pytest.mark.parametrize("name", BINARIES)
 def test_an_instance_is_kept_and_restored(emitted, name):
     """As bytes, too; and the motion goes on from there by the same bits."""
     fmpy = pytest.importorskip("fmpy")
@@ -121,7 +166,7 @@ class Instance:
     """A unit under co-simulation, the same for both standards."""
 
     def __init__(self, fmpy, folder):
-        described = fmpy.read_model_description(folder)
+        self.described = described = fmpy.read_model_description(folder)
         self.two = described.fmiVersion == "2.0"
         kind = fmpy.fmi2.FMU2Slave if self.two else fmpy.fmi3.FMU3Slave
         self.unit = kind(
@@ -141,6 +186,9 @@ class Instance:
 
     def read(self, places):
         return list(self.unit.getReal(places) if self.two else self.unit.getFloat64(places))
+
+    def write(self, places, values):
+        (self.unit.setReal if self.two else self.unit.setFloat64)(places, values)
 
     def get(self):
         return self.unit.getFMUstate() if self.two else self.unit.getFMUState()
