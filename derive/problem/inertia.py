@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from math import gcd, lcm
 from random import Random
@@ -23,6 +23,7 @@ from .problem import Problem, points_of
 from .solids import fault_of_quadric
 
 Vector = tuple[Any, ...]
+Rows = Sequence[Sequence[Tree]]
 
 ROUNDED, DIGITS = 10**9, 10**3
 """One over the relative error that is allowed: of floats, and of moments in few digits."""
@@ -236,6 +237,20 @@ def impossible(group: Group, body: Body | None, parameters: Mapping[str, Paramet
     drawn = isinstance(body, GivenBody) and n == 3 and m > 0 and not body.given.central
     drawn = drawn and not _negative(group, J)
     return f"no masses have these moments: {why}{f'; {CAD}' * drawn}" if why else ""
+
+
+def negative_kinetic_energy(second: Rows, parameters: Mapping[str, Parameter]) -> str:
+    """Is the matrix ``second`` of the second derivatives of L by the velocity not positive for the
+    defaults of the parameters, and how; "" where it is, or where that is not known."""
+    found = [[approximate(t, defaults(parameters)) for t in row] for row in second]
+    if any(x is None for row in found for x in row):
+        return ""
+    M = [[Fraction(x) for x in row if x is not None] for row in found]
+    least = _least(M)
+    if least >= -sum(abs(M[k][k]) for k in range(len(M))) / ROUNDED:
+        return ""
+    told = f"its matrix has the eigenvalue {float(least):.4g}"
+    return f"the kinetic energy is negative in some direction: {told}"
 
 
 CAD = (

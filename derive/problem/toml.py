@@ -40,7 +40,7 @@ from .fields import (
     used_at,
 )
 from .file_reader import FileReader
-from .inertia import impossible, negative_mass
+from .inertia import impossible, negative_kinetic_energy, negative_mass
 from .lagrangian_tables import group_of_algebra, lagrangian, on_torus, torus_problem
 from .motion_tables import KEYS, faults, motion_fields, named, named_twice
 from .problem import Problem, ProblemError
@@ -472,6 +472,9 @@ def doubts(p: Problem, given: Mapping[str, float], *, followed: bool = False) ->
     yield from (f"{where} is negative" for where in negative if where)
     if p.group and not p.signed and (why := impossible(p.group, p.body, values)):
         yield f"body: {why}"
+    if p.group and p.lagrangian and not p.signed:
+        second = hessian(p.lagrangian.L, coordinates(p.group))
+        yield from filter(None, [negative_kinetic_energy(second, values)])
     if metric_in_time(p):
         yield (
             "the metric ∂²L/∂Z² depends on the time: if by a mass m(t), the equations are "

@@ -12,6 +12,7 @@ from derive import (
     SE,
     SL,
     Force,
+    Inertia,
     Lagrangian,
     Moments,
     MotionError,
@@ -334,3 +335,17 @@ def test_a_mass_that_depends_on_the_time(L, told):
     found = [*doubts(Problem("b", "SO(3)", Lagrangian(L)), {})]
     assert bool(found) == told
     assert all("a rocket has m dv/dt = F + dm/dt c" in x for x in found)
+
+
+@pytest.mark.parametrize(
+    ("diagonal", "told"),
+    [((1, 2, "3 - a"), True), ((1, 2, 3), False), ((1, 2, "b"), False), ((0, 1, 1), False)],
+)
+def test_a_kinetic_energy_that_is_negative_somewhere(diagonal, told):
+    """By the defaults: a mass that was added with the wrong sign, say; nothing of what has none."""
+    rows = [[x if i == k else 0 for i in range(3)] for k, x in enumerate(diagonal)]
+    known = {"a": 5.0, "b": {}}
+    parameters = {name: x for name, x in known.items() if any(name in str(d) for d in diagonal)}
+    found = [*doubts(Problem("b", "SO(3)", Inertia(rows), parameters=parameters), {})]
+    words = "the kinetic energy is negative in some direction: its matrix has the eigenvalue -2"
+    assert found == [words] * told
