@@ -30,9 +30,10 @@ def drives(
 
 
 def weight(problem: Mapping[str, Any]) -> list[Any]:
-    """The entries of all accelerations of gravity in the problem of a record, as JSON has them."""
+    """The entries of all accelerations of gravity in the problem of a record, as JSON has them; 1
+    for one that depends on the time."""
     given = (p["g"] for p in problem.get("potentials") or () if p["kind"] == "gravity")
-    return [x for g in given for x in g]
+    return [1 if _timed(x, ()) else x for g in given for x in g]
 
 
 def is_weightless(problem: Mapping[str, Any], given: Mapping[str, float]) -> bool:

@@ -172,6 +172,11 @@ class Problem:
         """Are there functions of time and state that act from outside dϖ?"""
         return bool(self.inputs or self.forces)
 
+    @property
+    def timed(self) -> bool:
+        """Does U depend on the time by itself?"""
+        return any(_timed(t) for p in self.potentials for t in p.trees())
+
     def acted_on(self, x: ForceInput | TorqueInput | StatedForce) -> tuple[int, Group]:
         """The block, counted from 1, on which a force or a torque acts, with its factor."""
         assert self.group is not None
@@ -193,6 +198,13 @@ class Problem:
         assert self.group is not None
         _, factor = self.group.places[self.block_of(x.plain()) - 1]
         return numbers_of_output(x.plain(), factor.n)
+
+
+def _timed(t: Tree) -> bool:
+    """Does t stand in a tree outside the places r_i(t)?"""
+    if not isinstance(t, tuple):
+        return t == "t"
+    return t[0] != "call" and any(map(_timed, t[1:]))
 
 
 def points_of(body: Body | None) -> tuple[Point, ...]:

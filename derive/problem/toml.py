@@ -18,7 +18,6 @@ from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, 
 from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
 from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
-from ..schema.kinds import kinds
 from ..schema.output_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
 from ..schema.table import ATTACHED, Table, nearest
 from . import inertia
@@ -51,6 +50,13 @@ DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
 )
 """A dotted key of too many parts. Tried at dots alone, and possessive: no text is slow."""
+
+
+KNOWN = (
+    "the 'U' of an expression",
+    "potentials, in forces of the state and in what is read off a motion",
+)
+"""Where a place r1_x, and where t, is known."""
 
 
 def load(path: Path, **allowed: bool) -> Problem:
@@ -309,8 +315,9 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     for name in used:
         if name not in problem.parameters:
             if name == "t" or LIKE_A_PLACE.fullmatch(name):
-                where = used_at(data, name, *(x for x, _ in keys_with(name)))
-                raise ProblemError(f"{where}: {name!r} is known in {known_in(name)} alone")
+                known, timed = KNOWN[name == "t"], () if name != "t" else ("potential",)
+                where = used_at({k: x for k, x in data.items() if k not in timed}, name, "U")
+                raise ProblemError(f"{where}: {name!r} is known in {known} alone")
             where, shown = used_at(data, name), name[:40]
             if problem.group and problem.lagrangian:
                 own = known_in_lagrangian(problem.group, problem.advected)
@@ -323,20 +330,6 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     for name in data.get("parameters", {}):
         if name not in used and name not in elsewhere:
             raise ProblemError(f"parameter {name!r} is declared but not used; leave it out")
-
-
-def keys_with(name: str) -> list[tuple[str, str]]:
-    """Keys with the kind of their potential, whose expressions know t, or a place r1_x."""
-    types = ("energy", "of_volume", "timed") if name == "t" else ("energy",)
-    return [
-        (x, k) for k, kind in kinds().items() for x, y in kind.keys().items() if y.type in types
-    ]
-
-
-def known_in(name: str) -> str:
-    """The keys whose expressions know a name, with the kinds of potentials, in words."""
-    *others, last = (f"the {x!r} of a{'n' * (k[0] in 'aeiou')} {k}" for x, k in keys_with(name))
-    return f"{', '.join(others)} and {last}" if others else last
 
 
 def _trees(listed: Iterable[Table]) -> list[Tree]:

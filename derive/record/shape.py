@@ -291,8 +291,8 @@ class _RecordReader(TableReader):
     # -- values ----------------------------------------------------------------------------------
 
     def expression(self, value: Any, where: str) -> Tree:
-        """A tree of parameters."""
-        return self.made_of(value, where)
+        """A tree of parameters, and of t where the table knows it."""
+        return self.made_of(value, where, timed=self.timed)
 
     def in_time(self, value: Any, where: str) -> Tree:
         """The same, of t as well."""

@@ -50,7 +50,7 @@ class Potential(Table):
     in the place, at each point of a body? ``letters``: those that its words have for their own.
     """
 
-    section = "potential"
+    section, timed = "potential", True
     rank: ClassVar[int] = 100
     phrase: ClassVar[str]
     several: ClassVar[str] = ""

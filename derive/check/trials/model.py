@@ -45,10 +45,10 @@ class Model(Body, GivenForces):
         super().__init__(problem, group, random, size, **drawn)
         self.s = group.size
         self.embody(principal=at.principal)
+        self.stand(at, inside=at.inside and group.has_inner_samples)
         self.applied = AppliedForces(
             {} if self.generic else problem, group, self.blocks, self.expressions
-        )
-        self.stand(at, inside=at.inside and group.has_inner_samples)
+        ).at_time(self.t)
         places = self.images(self.g)
         self.any_potential = AnyPotential(self, self.t, places) if self.generic else None
         self.Z = self.algebra()
