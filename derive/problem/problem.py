@@ -18,6 +18,7 @@ from ..schema.kind import (
     Advected,
     CovectorInput,
     Damping,
+    Flow,
     Fluid,
     ForceInput,
     Input,
@@ -60,6 +61,7 @@ class Problem:
     ``advected``: what the algebra carries along, where the state has no element of the group; the
     last blocks of the group's matrices. ``fluid``: of a problem whose group has no matrices.
     ``torus``: su(N) in the basis of the torus, where there is no table of the group.
+    ``flows``: of mass that leaves or comes; ``flow_forces``: how it pushes, the last of ``forces``.
     ``initial``, ``events``, ``signals``: of motions that are followed; the record of the equations
     has none of them.
     """
@@ -82,6 +84,8 @@ class Problem:
     advected: tuple[Advected, ...] | None = None
     torus: TorusLattice | None = None
     fluid: Fluid | None = None
+    flows: tuple[Flow, ...] = ()
+    flow_forces: tuple[StatedForce, ...] = ()
     initial: Initial = field(default_factory=Initial)
     events: tuple[Event, ...] = ()
     signals: tuple[Signal, ...] = ()
@@ -154,6 +158,11 @@ class Problem:
     def force_inputs(self) -> tuple[ForceInput | TorqueInput, ...]:
         """The inputs that are forces and torques."""
         return tuple(i for i in self.inputs if not isinstance(i, CovectorInput))
+
+    @property
+    def stated_forces(self) -> tuple[Acting, ...]:
+        """The forces of the state without those of flows."""
+        return self.forces[: len(self.forces) - len(self.flow_forces)]
 
     @property
     def placed_forces(self) -> tuple[StatedForce, ...]:
@@ -229,7 +238,8 @@ def data(problem: Problem) -> dict[str, Any]:
         "inputs": [*_plain(problem.inputs)],
         "places": [*_plain(problem.places)],
         "damping": [*_plain(problem.damping)],
-        **({"forces": [*_plain(problem.forces)]} if problem.forces else {}),
+        **({"forces": [*_plain(problem.stated_forces)]} if problem.stated_forces else {}),
+        **({"flows": [*_plain(problem.flows)]} if problem.flows else {}),
         **({"outputs": [*_plain(problem.outputs)]} if problem.outputs else {}),
         **({"frame": dict(problem.frame)} if problem.frame else {}),
         **({"masses": "of any sign"} if problem.signed else {}),

@@ -17,7 +17,7 @@ from ..language.expression import names, numbers
 from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, PROBLEM_BYTES, PULLS
 from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
-from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
+from ..schema.kind import SECTIONS, Advected, Flow, Fluid, Parameter
 from ..schema.output_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
 from ..schema.table import ATTACHED, Table, nearest
 from . import inertia
@@ -39,13 +39,15 @@ from .fields import (
     used_at,
 )
 from .file_reader import FileReader
+from .flows import flow_forces
 from .inertia import impossible, negative_mass
 from .lagrangian_tables import group_of_algebra, lagrangian, on_torus, torus_problem
 from .motion_tables import KEYS, faults, motion_fields, named, named_twice
 from .problem import Problem, ProblemError
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
-TOP |= {"damping", "force", "output", "solid", "algebra", "advected", "fluid", *SECTIONS, *KEYS}
+TOP |= {"damping", "flow", "force", "output", "solid", "algebra", "advected", "fluid"}
+TOP |= {*SECTIONS, *KEYS}
 DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
 )
@@ -54,7 +56,7 @@ DOTTED = re.compile(
 
 KNOWN = (
     "the 'U' of an expression",
-    "potentials, in forces of the state and in what is read off a motion",
+    "potentials, masses, flows, forces of the state and what is read off a motion",
 )
 """Where a place r1_x, and where t, is known."""
 
@@ -150,6 +152,10 @@ def problem_of(
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     linear, damped = as_forces(damping, reader)
+    flows = tuple(
+        reader.typed(Flow, x, f"flow {k}") for k, x in enumerate(tables(data, "flow"), 1)
+    )
+    pushed = flow_forces(flows, its_body, reader, inputs)
     observed = outputs(data, reader, inputs, potentials)
     problem = Problem(
         name,
@@ -162,8 +168,10 @@ def problem_of(
         inputs,
         tuple(reader.places),
         linear,
-        (*stated, *damped),
+        (*stated, *damped, *pushed),
         observed,
+        flows=flows,
+        flow_forces=pushed,
         signed=negative_mass,
         **motion_fields(data, reader),
     )
@@ -202,7 +210,7 @@ def _without_points(
         raise ProblemError("an algebra moves no points: give a [lagrangian] or an [inertia]")
     if moved is None:
         raise ProblemError(f"key {where!r}: a text about any group has no Lagrangian of its own")
-    for key in ("point", "solid", "body", "potential", "damping"):
+    for key in ("point", "solid", "body", "potential", "damping", "flow"):
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
     acting = {f"force {k}": x for k, x in enumerate(tables(data, "force"), 1)}

@@ -16,7 +16,7 @@ from ...record.as_json import decode
 from ...record.record import RecordError
 from ..kinds import accounts, uses_body_axes
 from ..values.arithmetic import ETA, Nilpotent, nilpotent, part
-from ..values.draws import Draws
+from ..values.draws import Draws, at_time
 from ..values.evaluate import Environment, evaluate
 from .equimomental import equimomental_points, moments_of, remaining_moments
 from .phase_point import ENTRY
@@ -274,8 +274,7 @@ class AppliedForces:
 
     def at_time(self, t: Any) -> AppliedForces:
         """The same at another time."""
-        env = replace(self.env, names={**self.env.names, "t": t})
-        return AppliedForces(self.problem, self.group, self.blocks, env)
+        return AppliedForces(self.problem, self.group, self.blocks, at_time(self.env, t))
 
     def root(self, x: Any) -> Any:
         """√x."""
