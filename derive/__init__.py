@@ -18,6 +18,7 @@ WORDS = (
         "AppliedForce",
         "Covector",
         "Damping",
+        "Flow",
         "Event",
         "Fluid",
         "Force",

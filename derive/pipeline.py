@@ -218,9 +218,11 @@ def walk(problem: Problem) -> Derivation:
         c = Chapter(problem.name, group.name)
         acting = c.with_input() if acts(problem) else c
         own = {"problem": problem, "group": group, "c": c, "c_u": acting}
-        road = EXPRESSED if given else VECTORS if group.turns_space else MATRICES
+        road: tuple[Stage, ...] = EXPRESSED if given else VECTORS if group.turns_space else MATRICES
         kinds = {"affine" if group.affine else "linear", *group.relations}
         kinds |= {"element" if problem.advected is None else "reduced"}
+        if problem.flows:  # what is said of Π̇ and of momenta in space is of masses that stay
+            road = tuple(x for x in road if x.name not in ("by_momenta", "conserved"))
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
         steps += by_name(problem, follow(road, values | own, kinds)["steps"])
     if problem.torus:

@@ -223,7 +223,10 @@ class Inverses:
             self._check([] if pivot else [(self.graph.recip(x), scale)])
 
     def _check(self, checks: Iterable[tuple[Node, Node | None]]) -> None:
-        """Note checks that are not noted yet."""
+        """Note checks that are not noted yet; of masses that flow they are at the time 0."""
+        if self.reader.record.problem.get("flows"):
+            start = {self.reader.leaf("t", "time"): self.graph.num(0)}
+            checks = [(replaced(x, start), size and replaced(size, start)) for x, size in checks]
         self.checks += [x for x in dict.fromkeys(checks) if x not in self.checks]
 
     def _unit_determinant(self, t: Tree) -> bool:

@@ -74,6 +74,7 @@ def refuse(d: Derivation, group: Group, chosen: Options) -> None:
     own = d.problem.get("lagrangian", {})
     for on, reason in (
         (own.get("held"), "is for motions on the whole group, and these are on a quotient"),
+        (d.problem.get("flows"), "is for masses that stay, and here mass flows"),
         (chosen.velocity == "tangent", "has Pi in the state, and --velocity tangent has dg/dt"),
         (chosen.frame != "given", "is for the body as given, and --frame turns it"),
         (

@@ -13,7 +13,7 @@ from ..language.rational import Matrix
 from ..language.reserved import suffixed
 from ..record.as_json import decode
 from . import dense
-from .graph import Node
+from .graph import PARAMETER, Node
 from .program import AxesTurning
 from .reader import RecordReader, scalar
 from .slots import conjugate, horn, multiplied
@@ -25,10 +25,13 @@ MOMENTS = tuple(f"J_{i}{j}" for i in (1, 2, 3) for j in range(i, 4))
 
 
 def inertia(reader: RecordReader) -> list[Node]:
-    """I_11, I_12, I_13, I_22, I_23, I_33 about the body's origin; empty where space is not R³."""
+    """I_11, I_12, I_13, I_22, I_23, I_33 about the body's origin; empty where space is not R³, or
+    they depend on the time."""
     if not reader.group.turns_space or reader.record.definition("I") is None:
         return []
     tensor = reader.vector("I")
+    if dense.stage_of(tensor) != PARAMETER:
+        return []
     return [tensor[i][j] for i in range(3) for j in range(i, 3)]
 
 

@@ -36,6 +36,7 @@ TABLES = {
     "input": 60,
     "force": 60,
     "damping": 100,
+    "flow": 20,
     "event": 50,
     "output": 60,
     "signal": 60,

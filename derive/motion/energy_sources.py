@@ -25,14 +25,15 @@ def drives(
     zero = [["par", name] for name, x in numbers.items() if x == 0]
     timed = _timed([problem.get(x) for x in ("potentials", "lagrangian")], zero)
     there = {DAMPING: damped, TIME: timed, INPUTS: any(inputs.values())}
-    there[FORCES] = bool(problem.get("forces"))
+    there[FORCES] = bool(problem.get("forces") or problem.get("flows"))
     return [what for what, is_there in there.items() if is_there]
 
 
 def weight(problem: Mapping[str, Any]) -> list[Any]:
-    """The entries of all accelerations of gravity in the problem of a record, as JSON has them."""
+    """The entries of all accelerations of gravity in the problem of a record, as JSON has them; 1
+    for one that depends on the time."""
     given = (p["g"] for p in problem.get("potentials") or () if p["kind"] == "gravity")
-    return [x for g in given for x in g]
+    return [1 if _timed(x, ()) else x for g in given for x in g]
 
 
 def is_weightless(problem: Mapping[str, Any], given: Mapping[str, float]) -> bool:
@@ -46,7 +47,7 @@ def is_weightless(problem: Mapping[str, Any], given: Mapping[str, float]) -> boo
 
 def is_free(problem: Mapping[str, Any]) -> bool:
     """Does a motion keep the kinetic energy, as nothing can act on the body?"""
-    acting = any(problem.get(x) for x in ("potentials", "inputs", "damping", "forces"))
+    acting = any(problem.get(x) for x in ("potentials", "inputs", "damping", "forces", "flows"))
     return not acting and not _placed(problem.get("lagrangian"))
 
 

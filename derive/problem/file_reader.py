@@ -167,15 +167,16 @@ class FileReader(ForceReader):
     # -- expressions ---------------------------------------------------------------------------
 
     def expression(self, value: Any, where: str) -> Tree:
-        """A number or a string of the grammar."""
+        """A number or a string of the grammar, where t may be the time."""
         if isinstance(value, bool) or not isinstance(value, (int, float, str)):
             raise ProblemError(f"{where}: expected a number or an expression in quotes")
         if isinstance(value, float) and not math.isfinite(value):
             raise ProblemError(f"{where}: {value} is not a finite number")
         try:
-            return parse(value if isinstance(value, str) else repr(value))
+            found = parse(value if isinstance(value, str) else repr(value))
         except ExpressionError as error:
             raise ProblemError(f"{where}: {error}") from None
+        return replaced(found, ("par", "t"), "t") if self.timed else found
 
     def layered(self, slot: Slot) -> Tree:
         """A density, where ``s`` may be the level of a place in an ellipsoid or a ball."""

@@ -239,27 +239,25 @@ class ForceReader(TableReader):
 
     def of_volume(self, slot: Slot) -> Tree:
         """An expression of ``det_A``, which must be in it, and the time."""
-        found = replaced(self.in_time(self.value(slot), slot.path), ("par", "det_A"), DETERMINANT)
+        found = replaced(self.scalar(slot), ("par", "det_A"), DETERMINANT)
         if not any(x == DETERMINANT for _, x in subtrees(found)):
             raise ProblemError(f"{slot.path}: no det_A, the volume, so no force; leave it out")
         return found
 
     def _placed(self, t: Tree, where: str) -> Tree:
-        """r1_x, r1_2, … as entries of the places in space; t as the time."""
+        """r1_x, r1_2, … as entries of the places in space."""
         if not isinstance(t, tuple):
             return t
         if t[0] != "par":
             return (t[0], *(self._placed(x, where) for x in t[1:]))
         name = t[1]
         match = PLACE.fullmatch(name)
-        if match is None and name != "t":
+        if match is None:
             if LIKE_A_PLACE.fullmatch(name) and name not in self.parameters:
                 raise ProblemError(
                     f"{where}: {name!r}: a place in space is r1_x, r1_y, r1_z, or r1_1, r1_2, …"
                 )
             return t
-        if match is None:
-            return "t"
         i = int(match[1])
         if not self.point_masses:
             raise ProblemError(f"{where}: {name!r}: there are no {self.numbered} to number")

@@ -116,8 +116,9 @@ class _Values:
         return mass
 
     def of(self, t: Tree) -> Fraction:
-        """The value of a tree."""
-        return Fraction(value(t, {"π": self._opaque("π")}, self.parameters, self._opaque))
+        """The value of a tree, at the time 0."""
+        known = {"π": self._opaque("π"), "t": Fraction(0)}
+        return Fraction(value(t, known, self.parameters, self._opaque))
 
     def _opaque(self, *function: Fraction | str) -> Fraction:
         return self._own.setdefault(function, Fraction(self._random.randint(1, 999), 1000))

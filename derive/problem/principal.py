@@ -50,6 +50,8 @@ def principal(problem: Problem) -> Problem:
     vectors = (x for x in problem.inputs if x.kind == "torque" or "direction" in x.plain())
     unturned = [p.unturned for p in problem.potentials if p.unturned]
     unturned += [f"the input {x.name}" for x in vectors]
+    unturned += ["a potential of the time"] * problem.timed
+    unturned += ["a [[flow]]"] * bool(problem.flows)
     unturned += ["a [[force]]"] * bool(problem.forces) + ["an [[output]]"] * bool(problem.outputs)
     if unturned:
         raise ProblemError(

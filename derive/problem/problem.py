@@ -18,6 +18,7 @@ from ..schema.kind import (
     Advected,
     CovectorInput,
     Damping,
+    Flow,
     Fluid,
     ForceInput,
     Input,
@@ -60,6 +61,7 @@ class Problem:
     ``advected``: what the algebra carries along, where the state has no element of the group; the
     last blocks of the group's matrices. ``fluid``: of a problem whose group has no matrices.
     ``torus``: su(N) in the basis of the torus, where there is no table of the group.
+    ``flows``: of mass that leaves or comes; ``flow_forces``: how it pushes, the last of ``forces``.
     ``initial``, ``events``, ``signals``: of motions that are followed; the record of the equations
     has none of them.
     """
@@ -82,6 +84,8 @@ class Problem:
     advected: tuple[Advected, ...] | None = None
     torus: TorusLattice | None = None
     fluid: Fluid | None = None
+    flows: tuple[Flow, ...] = ()
+    flow_forces: tuple[StatedForce, ...] = ()
     initial: Initial = field(default_factory=Initial)
     events: tuple[Event, ...] = ()
     signals: tuple[Signal, ...] = ()
@@ -156,6 +160,11 @@ class Problem:
         return tuple(i for i in self.inputs if not isinstance(i, CovectorInput))
 
     @property
+    def stated_forces(self) -> tuple[Acting, ...]:
+        """The forces of the state without those of flows."""
+        return self.forces[: len(self.forces) - len(self.flow_forces)]
+
+    @property
     def placed_forces(self) -> tuple[StatedForce, ...]:
         """The forces of the state that act at a place."""
         return tuple(x for x in self.forces if isinstance(x, StatedForce))
@@ -171,6 +180,11 @@ class Problem:
     def driven(self) -> bool:
         """Are there functions of time and state that act from outside dϖ?"""
         return bool(self.inputs or self.forces)
+
+    @property
+    def timed(self) -> bool:
+        """Does U depend on the time by itself?"""
+        return any(_timed(t) for p in self.potentials for t in p.trees())
 
     def acted_on(self, x: ForceInput | TorqueInput | StatedForce) -> tuple[int, Group]:
         """The block, counted from 1, on which a force or a torque acts, with its factor."""
@@ -195,6 +209,13 @@ class Problem:
         return numbers_of_output(x.plain(), factor.n)
 
 
+def _timed(t: Tree) -> bool:
+    """Does t stand in a tree outside the places r_i(t)?"""
+    if not isinstance(t, tuple):
+        return t == "t"
+    return t[0] != "call" and any(map(_timed, t[1:]))
+
+
 def points_of(body: Body | None) -> tuple[Point, ...]:
     """The points of a body that have a mass, if any are listed."""
     return () if body is None or isinstance(body, MomentBody) else body.points or ()
@@ -217,7 +238,8 @@ def data(problem: Problem) -> dict[str, Any]:
         "inputs": [*_plain(problem.inputs)],
         "places": [*_plain(problem.places)],
         "damping": [*_plain(problem.damping)],
-        **({"forces": [*_plain(problem.forces)]} if problem.forces else {}),
+        **({"forces": [*_plain(problem.stated_forces)]} if problem.stated_forces else {}),
+        **({"flows": [*_plain(problem.flows)]} if problem.flows else {}),
         **({"outputs": [*_plain(problem.outputs)]} if problem.outputs else {}),
         **({"frame": dict(problem.frame)} if problem.frame else {}),
         **({"masses": "of any sign"} if problem.signed else {}),

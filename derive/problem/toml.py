@@ -17,8 +17,7 @@ from ..language.expression import names, numbers
 from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, PROBLEM_BYTES, PULLS
 from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
-from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
-from ..schema.kinds import kinds
+from ..schema.kind import SECTIONS, Advected, Flow, Fluid, Parameter
 from ..schema.output_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
 from ..schema.table import ATTACHED, Table, nearest
 from . import inertia
@@ -40,17 +39,26 @@ from .fields import (
     used_at,
 )
 from .file_reader import FileReader
+from .flows import flow_forces
 from .inertia import impossible, negative_kinetic_energy, negative_mass
 from .lagrangian_tables import group_of_algebra, lagrangian, on_torus, torus_problem
 from .motion_tables import KEYS, faults, motion_fields, named, named_twice
 from .problem import Problem, ProblemError
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
-TOP |= {"damping", "force", "output", "solid", "algebra", "advected", "fluid", *SECTIONS, *KEYS}
+TOP |= {"damping", "flow", "force", "output", "solid", "algebra", "advected", "fluid"}
+TOP |= {*SECTIONS, *KEYS}
 DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
 )
 """A dotted key of too many parts. Tried at dots alone, and possessive: no text is slow."""
+
+
+KNOWN = (
+    "the 'U' of an expression",
+    "potentials, masses, flows, forces of the state and what is read off a motion",
+)
+"""Where a place r1_x, and where t, is known."""
 
 
 def load(path: Path, **allowed: bool) -> Problem:
@@ -144,6 +152,10 @@ def problem_of(
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     linear, damped = as_forces(damping, reader)
+    flows = tuple(
+        reader.typed(Flow, x, f"flow {k}") for k, x in enumerate(tables(data, "flow"), 1)
+    )
+    pushed = flow_forces(flows, its_body, reader, inputs)
     observed = outputs(data, reader, inputs, potentials)
     problem = Problem(
         name,
@@ -156,8 +168,10 @@ def problem_of(
         inputs,
         tuple(reader.places),
         linear,
-        (*stated, *damped),
+        (*stated, *damped, *pushed),
         observed,
+        flows=flows,
+        flow_forces=pushed,
         signed=negative_mass,
         **motion_fields(data, reader),
     )
@@ -196,7 +210,7 @@ def _without_points(
         raise ProblemError("an algebra moves no points: give a [lagrangian] or an [inertia]")
     if moved is None:
         raise ProblemError(f"key {where!r}: a text about any group has no Lagrangian of its own")
-    for key in ("point", "solid", "body", "potential", "damping"):
+    for key in ("point", "solid", "body", "potential", "damping", "flow"):
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
     acting = {f"force {k}": x for k, x in enumerate(tables(data, "force"), 1)}
@@ -309,8 +323,9 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     for name in used:
         if name not in problem.parameters:
             if name == "t" or LIKE_A_PLACE.fullmatch(name):
-                where = used_at(data, name, *(x for x, _ in keys_with(name)))
-                raise ProblemError(f"{where}: {name!r} is known in {known_in(name)} alone")
+                known, timed = KNOWN[name == "t"], () if name != "t" else ("potential",)
+                where = used_at({k: x for k, x in data.items() if k not in timed}, name, "U")
+                raise ProblemError(f"{where}: {name!r} is known in {known} alone")
             where, shown = used_at(data, name), name[:40]
             if problem.group and problem.lagrangian:
                 own = known_in_lagrangian(problem.group, problem.advected)
@@ -323,20 +338,6 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     for name in data.get("parameters", {}):
         if name not in used and name not in elsewhere:
             raise ProblemError(f"parameter {name!r} is declared but not used; leave it out")
-
-
-def keys_with(name: str) -> list[tuple[str, str]]:
-    """Keys with the kind of their potential, whose expressions know t, or a place r1_x."""
-    types = ("energy", "of_volume", "timed") if name == "t" else ("energy",)
-    return [
-        (x, k) for k, kind in kinds().items() for x, y in kind.keys().items() if y.type in types
-    ]
-
-
-def known_in(name: str) -> str:
-    """The keys whose expressions know a name, with the kinds of potentials, in words."""
-    *others, last = (f"the {x!r} of a{'n' * (k[0] in 'aeiou')} {k}" for x, k in keys_with(name))
-    return f"{', '.join(others)} and {last}" if others else last
 
 
 def _trees(listed: Iterable[Table]) -> list[Tree]:

@@ -21,6 +21,7 @@ from ..schema.kind import (
     Acting,
     Advected,
     Damping,
+    Flow,
     Fluid,
     Lagrangian,
     StatedCovector,
@@ -109,6 +110,8 @@ class _RecordReader(TableReader):
         self.each("damping", lambda x, where: self.typed(Damping, x, where))
         if "forces" in data:
             self.each("forces", self.acting)
+        if "flows" in data:
+            self.each("flows", lambda x, where: self.typed(Flow, x, where))
         if "outputs" in data:
             outputs = self.each("outputs", lambda x, where: self.one_of(OUTPUTS, x, where))
             self.distinct_outputs(outputs, inputs, data["parameters"])
@@ -164,7 +167,7 @@ class _RecordReader(TableReader):
                     "advected, torus: they are of a problem with a Lagrangian of its own"
                 )
             return
-        for key in ("potentials", "damping"):
+        for key in ("potentials", "damping", "flows"):
             if data.get(key):
                 raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
         if "advected" in data or "torus" in data:
@@ -197,7 +200,7 @@ class _RecordReader(TableReader):
             raise ShapeError(f"fluid: its group is {GROUP}, its n any, and it has no body")
         if "lagrangian" in data or data["homogeneous"] or data["action"] != "linear":
             raise ShapeError("fluid: nothing else says its Lagrangian or its action")
-        for key in ("advected", "frame", "masses", "forces", "outputs"):
+        for key in ("advected", "frame", "masses", "forces", "flows", "outputs"):
             if key in data:
                 raise ShapeError(f"fluid: it has no key {key!r}")
         for key in ("potentials", "places", "damping", "inputs", "parameters", "basis"):
@@ -291,8 +294,8 @@ class _RecordReader(TableReader):
     # -- values ----------------------------------------------------------------------------------
 
     def expression(self, value: Any, where: str) -> Tree:
-        """A tree of parameters."""
-        return self.made_of(value, where)
+        """A tree of parameters, and of t where the table knows it."""
+        return self.made_of(value, where, timed=self.timed)
 
     def in_time(self, value: Any, where: str) -> Tree:
         """The same, of t as well."""

@@ -115,7 +115,7 @@ class Place(Table):
 class Point(Table):
     """A point mass."""
 
-    section, called = "point", "Points"
+    section, called, timed = "point", "Points", True
     mass: Scalar
     at: At
     block: Block = 1
@@ -133,7 +133,7 @@ class Moments(Table):
     ``central``: did it say J by the tensor of inertia about the centre of mass?
     """
 
-    section, called = "body", "Moments"
+    section, called, timed = "body", "Moments", True
     m: Scalar
     c: First
     J: Second

@@ -17,9 +17,11 @@ from .table import (
     Number,
     Points,
     Row,
+    Scalar,
     Stiffness,
     Table,
     Text,
+    Vector,
     place,
 )
 
@@ -50,7 +52,7 @@ class Potential(Table):
     in the place, at each point of a body? ``letters``: those that its words have for their own.
     """
 
-    section = "potential"
+    section, timed = "potential", True
     rank: ClassVar[int] = 100
     phrase: ClassVar[str]
     several: ClassVar[str] = ""
@@ -239,6 +241,24 @@ class StatedCovector(Table):
         """What acts along each element of the basis: expressions of the state, t, inputs and
         parameters, as many as the group has dimensions."""
         return {"covector": covector}
+
+
+class Flow(Table):
+    """Mass that comes to a place of the body, or leaves there: the ``rate`` dm/dt, below 0 where it
+    leaves, and its ``velocity`` relative to the body, along the axes of this."""
+
+    section, timed = "flow", True
+    on: End
+    rate: Scalar
+    velocity: Vector
+
+    @classmethod
+    def word(
+        cls, on: int | Sequence[Number], rate: Number, velocity: Sequence[Number] | None = None
+    ) -> Any:
+        """Mass that flows at a point or a place of the body: dm/dt, below 0 where it leaves, and
+        its velocity relative to the body; expressions of t."""
+        return {"rate": rate, "velocity": velocity, **place(on, None)}
 
 
 Acting = StatedForce | StatedCovector

@@ -82,12 +82,11 @@ Energy = Annotated[Tree, Key("energy", trees=True)]
 OfVolume = Annotated[Tree, Key("of_volume", trees=True)]
 Vector = Annotated[Row, Key("vector", 1, trees=True)]
 Symmetric = Annotated[Rows, Key("symmetric", 2, trees=True)]
-Timed = Annotated[Row, Key("timed", 1, trees=True)]
 Charges = Annotated[Row, Key("charges", 1, trees=True)]
 Rotation = Annotated[Rows, Key("rotation", 2, trees=True)]
-"""Expressions of the parameters; an energy is of places and the time as well, one of the volume of
-that and the time, and ``Timed``, a vector, of the time. A vector and the rows of a rotation are of
-the space of the points; there is a charge for each point."""
+"""Expressions of the parameters, in a table that is ``timed`` of the time as well; an energy is of
+places too, one of the volume of that. A vector and the rows of a rotation are of the space of the
+points; there is a charge for each point."""
 
 Pair = Annotated[tuple[int, int], Key("pair", 1)]
 End = Annotated[int, Key("end", keys=ATTACHED)]
@@ -251,13 +250,15 @@ class Table:
     """A table of a problem; each class of it is a dataclass.
 
     ``kind``: its name, where there are several kinds; ``needs``: what the problem must be;
-    ``section``: the key of a file under which such tables stand; ``called``: its word in Python;
+    ``section``: the key of a file under which such tables stand; ``timed``: do its expressions know
+    the time?  ``called``: its word in Python;
     ``word``: what that makes of arguments, a table or a list of them, where they are not its keys.
     """
 
     kind: ClassVar[str] = ""
     needs: ClassVar[tuple[str, ...]] = ()
     section: ClassVar[str] = ""
+    timed: ClassVar[bool] = False
     called: ClassVar[str] = ""
     word: ClassVar[Any] = None
 
@@ -295,12 +296,14 @@ class Table:
         for need in cls.needs:
             reader.meets(need, cls.kind, where)
         found: dict[str, Any] = {}
+        outer, reader.timed = reader.timed, cls.timed
         for x in fields(cls):
             about = cls.keys()[x.name]
             slot = Slot(table, x.name, where, about, x.default, found)
             needed = x.default is MISSING or (x.default is None and not about.null)
             if x.name in chosen and (needed or reader.has(slot)):
                 found[x.name] = getattr(reader, about.type)(slot)
+        reader.timed = outer
         return cls(**found)
 
     def values(self) -> Iterator[tuple[str, Key, Any]]:

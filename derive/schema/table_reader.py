@@ -28,7 +28,7 @@ class TableReader(ABC):
     """What files and records have in common.
 
     ``last``: points are numbered from 1 to this; ``count``: how many have a mass; ``blocks``: how
-    many blocks the group has.
+    many blocks the group has; ``timed``: do the expressions of the table know the time?
     """
 
     error: ClassVar[type[Exception]]
@@ -36,6 +36,7 @@ class TableReader(ABC):
     last: int = 0
     count: int = 0
     blocks: int = 1
+    timed: bool = False
 
     @abstractmethod
     def names(self, own: type[Table]) -> tuple[str, ...]:
@@ -237,7 +238,7 @@ class TableReader(ABC):
 
     @abstractmethod
     def expression(self, value: Any, where: str) -> Tree:
-        """An expression of the parameters."""
+        """An expression of the parameters; in a table that is ``timed`` of the time as well."""
 
     @abstractmethod
     def in_time(self, value: Any, where: str) -> Tree:
@@ -333,10 +334,6 @@ class TableReader(ABC):
     @abstractmethod
     def stated_covector(self, slot: Slot) -> tuple[Tree, ...]:
         """A covector that is one."""
-
-    def timed(self, slot: Slot) -> tuple[Tree, ...]:
-        """The same, of the time as well."""
-        return self.listed(self.value(slot), self.dimension(slot), slot.path, self.in_time)
 
     def samples(self, slot: Slot) -> tuple[Tree, ...]:
         """As many expressions as there are, under the key of a file."""

@@ -431,6 +431,8 @@ def _acting(problem: Mapping[str, Any]) -> Iterator[Sentence]:
         yield phrase("viscous damping")
     if _many(problem.get("forces")):
         yield phrase("forces of the state")
+    if _many(problem.get("flows")):
+        yield phrase("mass that flows")
     for x in inputs if isinstance(inputs, list) else []:
         yield phrase("the input {name}", name=str(x.get("name")))
 

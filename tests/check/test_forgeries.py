@@ -266,7 +266,7 @@ NAMED = {
     "two inputs": lambda p: p["inputs"].append(p["inputs"][0]),
     "a letter": lambda p: p["potentials"][0].update(g=["Z", 0, 0]),
     "a parameter": lambda p: p["potentials"][0].update(g=[["par", "0 = 1"], 0, 0]),
-    "a time": lambda p: p["potentials"][0].update(g=["t", 0, 0]),
+    "a time": lambda p: p["places"].append({"at": ["t", 0, 0], "block": 1}),
     "a point": lambda p: p["potentials"].append(
         {"kind": "expression", "U": ["entry", ["call", ["at", "r", 0], "t"], 1]}
     ),

@@ -26,11 +26,17 @@ coordinate = st.one_of(
     eighths, eighths, st.sampled_from(["a", "-b", "a + 1/2", "b*a", "2 - a", "a^2"])
 )
 timed = st.sampled_from(["sin(w*t)", "a*t", "b*cos(2*t) + 1"])
+driven = st.one_of(coefficient, coefficient, st.sampled_from(["k*(2 + sin(w*t))", "mu + t^2"]))
 
 
 def vectors(n):
     """n expressions."""
     return st.lists(coordinate, min_size=n, max_size=n)
+
+
+def moving(n):
+    """n expressions, some of the time."""
+    return st.lists(st.one_of(coordinate, coordinate, timed), min_size=n, max_size=n)
 
 
 @st.composite
@@ -90,12 +96,12 @@ def of_the_whole(draw, group, n, count):
     found = []
     if group in TURNING and draw(st.booleans()):
         rest = {"rest": draw(rotations(n))} if draw(st.booleans()) else {}
-        found.append({"kind": "torsion", "stiffness": draw(coefficient), **rest})
+        found.append({"kind": "torsion", "stiffness": draw(driven), **rest})
     if group in MOVING and draw(st.booleans()):
-        centre = [draw(st.sampled_from([9, "-8 - a"])), *draw(vectors(3))[1:]]
-        found.append({"kind": "far_centre", "strength": draw(coefficient), "centre": centre})
+        centre = [draw(st.sampled_from([9, "-8 - a"])), *draw(moving(3))[1:]]
+        found.append({"kind": "far_centre", "strength": draw(driven), "centre": centre})
     if count and draw(st.booleans()):
-        field = draw(st.lists(st.one_of(coordinate, timed), min_size=n, max_size=n))
+        field = draw(moving(n))
         charges = draw(st.lists(coordinate, min_size=count, max_size=count))
         found.append({"kind": "field", "E": field, "charges": charges})
     return found
@@ -109,7 +115,7 @@ def forces(draw, data, sizes):
     potentials, inputs = [], []
     turning = {*data["group"].split(" x ")} <= {*TURNING}
     if len({*sizes}) == 1 and draw(st.booleans()):
-        potentials.append({"kind": "gravity", "g": draw(vectors(sizes[0]))})
+        potentials.append({"kind": "gravity", "g": draw(moving(sizes[0]))})
 
     if len({*sizes}) == 1:
         potentials += draw(of_the_whole(data["group"], sizes[0], len(listed)))
@@ -124,9 +130,9 @@ def forces(draw, data, sizes):
 
     for _ in range(draw(st.integers(0, 2))):
         on, n = end()
-        anchor = [*draw(vectors(n))]
+        anchor = [*draw(moving(n))]
         anchor[0] = draw(st.sampled_from([7, "7 + a", -9]))
-        spring = {"kind": "spring", **on, "anchor": anchor, "stiffness": draw(coefficient)}
+        spring = {"kind": "spring", **on, "anchor": anchor, "stiffness": draw(driven)}
         potentials.append(spring | ({"length": draw(length)} if draw(st.booleans()) else {}))
     if len(listed) > 1 and draw(st.booleans()):
         i, j = draw(st.lists(st.integers(1, len(listed)), min_size=2, max_size=2, unique=True))
@@ -134,12 +140,12 @@ def forces(draw, data, sizes):
             quadratic = draw(st.booleans())
             more = {} if quadratic else {"length": draw(length)}
             potentials.append(
-                {"kind": "spring", "between": [i, j], "stiffness": draw(coefficient), **more}
+                {"kind": "spring", "between": [i, j], "stiffness": draw(driven), **more}
             )
     alone = listed and "solid" not in data
     if alone and len({*sizes}) == 1 and draw(st.integers(0, 3)) == 0:
-        centre = [9, *draw(vectors(sizes[0]))[1:]]
-        potentials.append({"kind": "attraction", "strength": draw(coefficient), "centre": centre})
+        centre = [9, *draw(moving(sizes[0]))[1:]]
+        potentials.append({"kind": "attraction", "strength": draw(driven), "centre": centre})
     if listed and draw(st.booleans()):
         U = draw(energies(len(listed), [sizes[b - 1] for b in blocks]))
         potentials.append({"kind": "expression", "U": U})

@@ -127,6 +127,11 @@ WEIGHT = {"kind": "gravity", "g": [0, 0, "-9.81"]}
 OWN = [
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT},
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT, "force": [{"covector": ["-zeta_1", 0, "t"]}]},
+    {
+        "group": "SO(2)",
+        "point": [{"mass": "2 - t", "at": [1, 0]}],
+        "flow": [{"at": [2, 0], "rate": -1, "velocity": [0, 1]}],
+    },
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT, "input": [{"name": "u", "kind": "torque"}]},
     {"algebra": {"of": "SO(3)"}, "advected": [{"name": "x"}], "lagrangian": ON_THE_RIGHT},
     {"group": "SO(3) x SE(2)", "lagrangian": {"L": TWO}},

@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import derive
 from derive import SO, Moments, Points, Problem, Solid
+from derive.pipeline import discrete
 from derive.problem.toml import problem_of
 from tests.support.gauss import agrees, cloud, moments
 from tests.support.library import arrange, library, module_of
@@ -43,6 +44,25 @@ FORCES = {
         {"mu": 3.0, "g": 1.0, "h": 0.5},
         [{"kind": "far_centre", "strength": "mu", "centre": ["h", -1, 2]}, WEIGHT],
     ),
+    "driven": (
+        {"k": 2.0, "w": 1.5},
+        [
+            {"kind": "gravity", "g": ["t", "-9*cos(w*t)", 1]},
+            {"kind": "spring", "at": [1, 0, 2], "anchor": ["7 + sin(w*t)", "t", 1]}
+            | {"stiffness": "k*(2 + cos(t))", "length": "1 + t^2/9"},
+        ],
+    ),
+    "driven and twisted": (
+        {"k": 2.0, "w": 1.5},
+        [
+            torsion(rest={"axis": [1, 2, 2], "angle": "w*t"}) | {"stiffness": "k + t^2"},
+            {"kind": "far_centre", "strength": "2 + sin(t)", "centre": ["cos(w*t)", 1, "t"]},
+        ],
+    ),
+    "driven in matrices": (
+        {"k": 2.0, "w": 1.5},
+        [{"kind": "harmonic", "W": [["k*t", "cos(t)", 0], ["cos(t)", 1, 0], [0, 0, "w*t"]]}],
+    ),
     "swollen": (
         {"k": 2.0, "a": 0.3},
         [
@@ -59,6 +79,9 @@ GROUPS = {
     "charged": ("SO(3)", "SE(3)", "SL(3)", "SAff(3)", "Aff(3)", "SE(2)", "GL(2)"),
     "attracted": ("SE(3)", "SAff(3)", "Aff(3)", "Sim(3)"),
     "attracted from aside": ("SE(3)", "SAff(3)", "Aff(3)", "Sim(3)"),
+    "driven": ("SO(3)", "SE(3)", "SL(3)", "Aff(3)", "Sim(3)"),
+    "driven and twisted": ("SE(3)",),
+    "driven in matrices": ("SL(3)", "SAff(3)"),
     "swollen": ("GL(2)", "GL(3)", "Aff(2)", "Sim(3)", "GL(4)"),
 }
 CASES = [(what, group) for what, groups in GROUPS.items() for group in groups]
@@ -77,6 +100,31 @@ def test_it_moves_as_gauss_says(what, group):
     problem, apart = problem_of(data | body), [4, 3, 5] if "attracted" in what else None
     c = library("c", problem) if present("cc") else None
     agrees(module_of(problem), c, data | {"point": points}, moments(masses, r), apart=apart)
+
+
+def test_a_pendulum_on_a_shaken_pivot_stands_where_it_is_fast():
+    """Kapitza: upright it is stable where a²w² > 2gl; a is the amplitude, l = 1."""
+    shaken = derive.Gravity(0, "-g - a*w^2*cos(w*t)")
+    values = {"g": 9.81, "a": 0.1, "w": 1}
+    m = module_of(Problem("rod", derive.SO(2), Points((1, [0, 1])), [shaken], values))
+
+    def leans(w):
+        k = m.constants(arrange(m, values | {"w": w}))
+        start = [np.cos(0.05), -np.sin(0.05), np.sin(0.05), np.cos(0.05), 0]
+        run = solve_ivp(m.rhs, (0, 4), start, args=(k,), rtol=1e-9, atol=1e-9, max_step=1e-2)
+        return np.max(np.abs(np.arctan2(run.y[2], run.y[0])))
+
+    fastest = np.sqrt(2 * 9.81) / 0.1
+    assert leans(2 * fastest) < 0.2
+    assert leans(0.5 * fastest) > 3
+
+
+@pytest.mark.parametrize("what", ["driven", "driven and twisted"])
+def test_the_discrete_motion_knows_the_time(what):
+    parameters, forces = deepcopy(FORCES[what])
+    data = {"name": "own", "group": "SE(3)", "parameters": parameters, "potential": forces}
+    record = discrete(problem_of(data | {"body": {"moments": "symbolic"}}))
+    assert all(v.holds for v in own_verdicts(record))
 
 
 def test_the_energy_of_an_angle():

@@ -1,6 +1,7 @@
 """The checker's own account of each kind of potential: each module of this folder is one.
 
-Each has ``KIND``, its name, and ``energy(at, p, t, r, masses)``, U from the places of the points.
+Each has ``KIND``, its name, and ``energy(at, p, r, masses)``, U from the places of the points, at
+the time of ``at``.
 Where the walk sums a kind up in words, ``values(model, members)`` says what its letters are, and
 ``summed(at, p)`` which ones these are of, if not of all; where it has distances,
 ``radial(at, p, r, masses)`` gives each of them with U as a function of its square.

@@ -11,8 +11,8 @@ KIND = "expression"
 
 
 def energy(
-    at: AppliedForces, p: Mapping[str, Any], t: Any, r: Sequence[Vector], masses: Sequence[Any]
+    at: AppliedForces, p: Mapping[str, Any], r: Sequence[Vector], masses: Sequence[Any]
 ) -> Any:
     """Its value."""
     del masses
-    return at.value(p["U"], t, r)
+    return at.value(p["U"], r)

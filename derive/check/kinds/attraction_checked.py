@@ -14,9 +14,8 @@ KIND = "attraction"
 Data = Mapping[str, Any]
 
 
-def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+def energy(at: AppliedForces, p: Data, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
     """The sum over the masses."""
-    del t
     terms = (_pulled(at, pull, q.dot(d, d)) for d, pull in _attracted(at, p, r, masses))
     return sum(terms, Fraction(0))
 

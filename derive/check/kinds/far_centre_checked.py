@@ -14,9 +14,8 @@ KIND, OF_BODY_AXES = "far_centre", True
 Data = Mapping[str, Any]
 
 
-def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+def energy(at: AppliedForces, p: Data, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
     """The sum over the masses."""
-    del t
     origin, _ = at.body_axes(r)
     T = _seen(at, p, origin)
     R = at.root(q.dot(T, T))

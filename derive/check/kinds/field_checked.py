@@ -13,10 +13,10 @@ KIND = "field"
 
 
 def energy(
-    at: AppliedForces, p: Mapping[str, Any], t: Any, r: Sequence[Vector], masses: Sequence[Any]
+    at: AppliedForces, p: Mapping[str, Any], r: Sequence[Vector], masses: Sequence[Any]
 ) -> Any:
     """Over the points that the problem lists, the first of all."""
     del masses
-    E = tuple(at.value(x, t, r) for x in p["E"])
+    E = tuple(at.value(x, r) for x in p["E"])
     pairs = enumerate(at.vector(p["charges"]), 1)
     return -sum((charge * q.dot(E, at.place(r, i)) for i, charge in pairs), Fraction(0))

@@ -14,9 +14,8 @@ KIND = "gravity"
 Data = Mapping[str, Any]
 
 
-def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+def energy(at: AppliedForces, p: Data, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
     """The weight of the points that have one."""
-    del t
     g = at.group.in_every_block(at.vector(p["g"]))
     pairs = zip(masses, r, strict=True)
     return -sum((m * q.dot(g, x) for m, x in pairs if m), Fraction(0))

@@ -14,9 +14,8 @@ KIND = "harmonic"
 Data = Mapping[str, Any]
 
 
-def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+def energy(at: AppliedForces, p: Data, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
     """The sum over the masses, row by row of W."""
-    del t
     rows = [at.vector(row) for row in p["W"]]
     pairs = [(m, x) for m, x in zip(masses, r, strict=True) if m]
     work = (m * y * q.dot(row, x) for m, x in pairs for y, row in zip(x, rows, strict=True))

@@ -24,9 +24,8 @@ Data = Mapping[str, Any]
 NODES = 2
 
 
-def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+def energy(at: AppliedForces, p: Data, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
     """By the moments of the masses at their places."""
-    del t
     m, S = _ellipsoid(r, masses)
     n = range(len(S))
     total: Any = Fraction(0)
@@ -98,7 +97,7 @@ def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
 
     def moved(matrix: Matrix) -> Any:
         places = q.transposed(q.times(matrix, q.transposed(tuple(model.points))))
-        return energy(at, p, None, places, model.masses)
+        return energy(at, p, places, model.masses)
 
     def work(i: int, j: int) -> Any:
         xi = q.scaled(nilpotent(ETA), q.unit(3, i, j))

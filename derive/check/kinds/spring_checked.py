@@ -22,9 +22,9 @@ def summed(at: AppliedForces, p: Data) -> bool:
     return bool(at.blocks[i - 1] == at.blocks[j - 1])
 
 
-def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+def energy(at: AppliedForces, p: Data, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
     """By the square of the distance."""
-    del t, masses
+    del masses
     d = _difference(at, p, r)
     return _stretch(at, p, q.dot(d, d))
 

@@ -16,9 +16,9 @@ KIND, OF_BODY_AXES = "torsion", True
 Data = Mapping[str, Any]
 
 
-def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+def energy(at: AppliedForces, p: Data, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
     """By the cosines of the axes with where they rest."""
-    del t, masses
+    del masses
     _, axes = at.body_axes(r)
     cosines = [q.dot(x, y) for x, y in zip(axes, _rest(at, p), strict=True)]
     return at.number(p["stiffness"]) * (len(axes) - sum(cosines, Fraction(0))) * Fraction(1, 2)
@@ -40,7 +40,7 @@ def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
         eta = nilpotent(ETA)
         moved = q.transposed(q.plus(A, q.times(A, q.scaled(eta, q.unit(n, i, j)))))
         places = [(Fraction(0),) * n, *moved]
-        total = sum((energy(at, p, None, places, ()) for p in members), Fraction(0))
+        total = sum((energy(at, p, places, ()) for p in members), Fraction(0))
         return -Nilpotent.of(total).part(ETA)
 
     N = tuple(tuple(work(i, j) for j in range(n)) for i in range(n))

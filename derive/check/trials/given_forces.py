@@ -75,8 +75,7 @@ class GivenForces(PhasePoint):
     def couple(self) -> Matrix:
         """The skew matrix N in the body of all torques that are given: their power is Tr Z N̄, as
         that of two opposite forces ±½j(τ)a at ±a, on axes a of length 1."""
-        n, group = self.n, self.group
-        total = q.scaled(Fraction(0), q.identity(n))
+        n, group, total = self.n, self.group, self.moments_of_flow
         linear = group.linear_part(self.g)
         for u, data in self._given():
             key = "direction" if data.get("kind") == "torque" else "moment"
@@ -94,6 +93,11 @@ class GivenForces(PhasePoint):
                     place = q.unit(n, at.start + row, at.start + column)
                     total = q.plus(total, q.scaled(skew[row][column], place))
         return total
+
+    @property
+    def moments_of_flow(self) -> Matrix:
+        """What flows inside the body has of moments: none where nothing flows."""
+        return q.scaled(Fraction(0), q.identity(self.n))
 
     def work_of_couple(self, xi: Matrix) -> Any:
         """The work of all torques that are given in a displacement g ξ."""

@@ -12,8 +12,9 @@ from ...algebra.samplers import Source
 from ...language import rational as q
 from ...language.rational import Matrix
 from ..values.arithmetic import ETA, Nilpotent, nilpotent
-from ..values.draws import Locus
+from ..values.draws import Locus, at_time
 from ..values.evaluate import Environment
+from .flowing import Flowing, flowing
 from .given_forces import GivenForces
 from .phase_point import ENTRY
 from .point_masses import (
@@ -45,10 +46,9 @@ class Model(Body, GivenForces):
         super().__init__(problem, group, random, size, **drawn)
         self.s = group.size
         self.embody(principal=at.principal)
-        self.applied = AppliedForces(
-            {} if self.generic else problem, group, self.blocks, self.expressions
-        )
         self.stand(at, inside=at.inside and group.has_inner_samples)
+        env = at_time(self.expressions, self.t)
+        self.applied = AppliedForces({} if self.generic else problem, group, self.blocks, env)
         places = self.images(self.g)
         self.any_potential = AnyPotential(self, self.t, places) if self.generic else None
         self.Z = self.algebra()
@@ -116,6 +116,17 @@ class Model(Body, GivenForces):
         return self.with_places(names)
 
     @cached_property
+    def flow(self) -> Flowing | None:
+        """What flows in the body pushes by this; ``None`` where nothing does."""
+        flows = self.at.driven and not self.generic and self.problem.get("flows")
+        return flowing(self, self.group.linear_part(self.Z)) if flows else None
+
+    @property
+    def moments_of_flow(self) -> Matrix:
+        """Those of what flows inside."""
+        return self.flow.moments if self.flow else super().moments_of_flow
+
+    @cached_property
     def nonpotential_forces(self) -> list[Vector]:
         """The force on each point, in space, by force inputs and damping together."""
         total = [[*f] for f in self.given_forces]
@@ -124,6 +135,10 @@ class Model(Body, GivenForces):
             for i, kappa in damping_members(self).items():
                 for k, x in enumerate(velocities[i - 1]):
                     total[i - 1][k] -= kappa * x
+        if self.flow:
+            for i, force in self.flow.forces:
+                pushed = q.times(self.group.linear_part(self.g), force)
+                total[i - 1] = [x + y for x, (y,) in zip(total[i - 1], pushed, strict=True)]
         return [tuple(f) for f in total]
 
     @cached_property

@@ -69,7 +69,7 @@ class PhasePoint(Draws):
         """Draw t and g, which is ``inside`` the least algebraic group that has 𝔤 or in any."""
         self.at = at
         self.hypothesis_failures: dict[Any, str] = {}
-        self.t = self.draw()
+        _ = self.t
         sample = self.group.sample_inside if inside else self.group.sample
         self.g = sample(self.random, self.size)
 

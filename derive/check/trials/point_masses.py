@@ -16,7 +16,7 @@ from ...record.as_json import decode
 from ...record.record import RecordError
 from ..kinds import accounts, uses_body_axes
 from ..values.arithmetic import ETA, Nilpotent, nilpotent, part
-from ..values.draws import Draws
+from ..values.draws import Draws, at_time
 from ..values.evaluate import Environment, evaluate
 from .equimomental import equimomental_points, moments_of, remaining_moments
 from .phase_point import ENTRY
@@ -223,7 +223,8 @@ def minus_gradient(energy: Callable[[Sequence[Vector]], Any], r: Sequence[Vector
 
 
 class AppliedForces:
-    """The potentials of a problem and their forces, for points in these blocks."""
+    """The potentials of a problem and their forces, for points in these blocks; ``env``: that of
+    their expressions, with a time."""
 
     def __init__(
         self, problem: Mapping[str, Any], group: Group, blocks: Sequence[int], env: Environment
@@ -268,22 +269,26 @@ class AppliedForces:
         self, t: Any, r: Sequence[Vector], masses: Sequence[Any], *, single: bool = False
     ) -> Any:
         """U(t, r); ``single``: U_Q, the part of it point by point."""
-        chosen = self.single if single else self.potentials
-        return sum((_account(p).energy(self, p, t, r, masses) for p in chosen), Fraction(0))
+        chosen, at = self.single if single else self.potentials, self.at_time(t)
+        return sum((_account(p).energy(at, p, r, masses) for p in chosen), Fraction(0))
+
+    def at_time(self, t: Any) -> AppliedForces:
+        """The same at another time."""
+        return AppliedForces(self.problem, self.group, self.blocks, at_time(self.env, t))
 
     def root(self, x: Any) -> Any:
         """√x."""
         assert self.env.elementary is not None
         return self.env.elementary("sqrt", x)
 
-    def value(self, tree: Any, t: Any, r: Sequence[Vector], **names: Any) -> Any:
+    def value(self, tree: Any, r: Sequence[Vector], **names: Any) -> Any:
         """The value of an expression of the time and the places, and of other ``names``."""
 
         def point(head: Any, arguments: tuple[Tree, ...], env: Environment) -> Any:
             del arguments, env
             return q.column(r[head[2] - 1])
 
-        env = replace(self.env, names={**self.env.names, **names, "t": t}, functions={"r": point})
+        env = replace(self.env, names={**self.env.names, **names}, functions={"r": point})
         return evaluate(decode(tree, "U"), env)
 
     def forces(

@@ -39,6 +39,11 @@ SPARE = 2
 a symmetry of few points."""
 
 
+def at_time(env: Environment, t: Any) -> Environment:
+    """An environment of expressions at a time."""
+    return replace(env, names={**env.names, "t": t})
+
+
 class Draws:
     """The random numbers of a model before it has points, and the values of the problem's own
     expressions in them.
@@ -86,11 +91,18 @@ class Draws:
         return self.group.hat([self.draw(slots=2) for _ in self.group.basis])
 
     @cached_property
+    def t(self) -> Any:
+        """The time."""
+        return self.draw()
+
+    @cached_property
     def expressions(self) -> Environment:
-        """The environment of the problem's own expressions, in its parameters and π."""
-        return Environment(
+        """The environment of the problem's own expressions, in its parameters and π; where mass
+        flows, in t."""
+        known = Environment(
             self.n, {"π": self.pi}, parameters=self.parameters, elementary=self.elementary
         )
+        return at_time(known, self.t) if "flows" in self.problem else known
 
     def name_covector(self, covector: Sequence[Any]) -> dict[str, Any]:
         """The numbers of the covector by their names in the problem, ``u_3``: its values on the

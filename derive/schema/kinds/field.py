@@ -1,7 +1,7 @@
 """U = −Σ q_i ⟨E(t), r_i⟩, a uniform field on charged points."""
 
 from ..kind import Potential
-from ..table import Charges, Timed
+from ..table import Charges, Vector
 
 
 class Field(Potential):
@@ -11,5 +11,5 @@ class Field(Potential):
     legend = "Fields are not drawn."
     needs = ("one space",)
     unturned = "a field on charged points"
-    E: Timed
+    E: Vector
     charges: Charges

@@ -246,7 +246,12 @@ class Integrand:
 
 
 def require_no_forces(problem: Problem) -> None:
-    """``ProblemError`` where a force of the state acts, which is outside L̃."""
+    """``ProblemError`` where a force of the state acts, or mass flows, which are outside L̃."""
+    if problem.flows:
+        raise ProblemError(
+            f"{problem.name}: mass flows in a [[flow]], which is no part of L̃, and this is of L̃ "
+            "alone; leave it out"
+        )
     if problem.forces:
         raise ProblemError(
             f"{problem.name}: a [[force]], or damping that is quadratic or rotational, is no part "

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from itertools import combinations, pairwise
 from typing import Any
 
+from ...language.tree import replaced
 from ...language.values import approximate
 from ...record.as_json import decode
 from .drawing import Box, Dot, Label, Point, Stroke, from_segment
@@ -68,11 +69,11 @@ class ExpressionValues:
         self.parameters = values
 
     def of(self, data: Any) -> float:
-        """The number of an expression; 1 where the values at hand give none."""
+        """The number of an expression, at the time 0; 1 where the values at hand give none."""
         try:
             found = _fraction(data)
             if found is None:
-                found = approximate(decode(data, "figure"), self.parameters)
+                found = approximate(replaced(decode(data, "figure"), "t", 0), self.parameters)
         except (ValueError, OverflowError, ZeroDivisionError):
             return 1.0
         if found is None or not abs(found) < LARGEST:

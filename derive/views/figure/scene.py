@@ -227,6 +227,8 @@ def _caption(
         sentences.append(say("Damping is not drawn."))
     if problem.get("forces"):
         sentences.append(say("Forces of the state are not drawn."))
+    if problem.get("flows"):
+        sentences.append(say("Mass that flows is not drawn."))
     if value.invented:
         sentences.append(say("Parameters without a default have sample values."))
     return tuple(sentence for prose in sentences for sentence in prose)

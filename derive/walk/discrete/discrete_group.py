@@ -175,6 +175,8 @@ def require(problem: Problem) -> None:
         reason = "its Lagrangian is not one of points"
     elif problem.group and len(problem.group.factors) > 1:
         reason = "its group is a product"
+    elif problem.flows:
+        reason = "mass flows, and a step has no velocity at an instant"
     elif problem.forces:
         reason = "a [[force]] may depend on the velocity at an instant, and a step has none"
     if reason:

@@ -75,6 +75,7 @@ def body_step(
         if isinstance(body, PointBody):
             equations.append(Equation(("at", "m", k), 0))
         equations.append(Equation(("at", "r", k), embedded(problem, k, p.at, 1)))
+    prose += say("body.flow") if problem.flows else ()
     if problem.places:
         low, high = problem.masses + 1, problem.masses + len(problem.places)
         prose += _massless(low, high, "_read" if problem.outputs else "")

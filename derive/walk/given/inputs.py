@@ -61,10 +61,12 @@ def where_given(problem: Problem) -> Prose:
         for x in problem.force_inputs
     ]
     given = say("input.given", forces=listed("{first}; {second}", forces)) if forces else ()
-    stated = [phrase(f"input.{x.frame}_stated", point=f"r_{x.on}") for x in problem.placed_forces]
+    own = [x for x in problem.stated_forces if isinstance(x, StatedForce)]
+    stated = [phrase(f"input.{x.frame}_stated", point=f"r_{x.on}") for x in own]
     if stated:
         given += say("input.stated", forces=listed("{first}; {second}", stated))
-    return given + (say("input.covector") if problem.stated_covector else ())
+    given += say("input.covector") if problem.stated_covector else ()
+    return given + (say("input.flow") if problem.flows else ())
 
 
 def _sort(x: ForceInput) -> str:

@@ -219,15 +219,13 @@ class Potentials:
     """The potentials of a problem: ``energy`` = Ũ on words in A, T, c, m, γ, K, U_Q; ``work(ξ, η)``
     of what U_Q exerts.
 
-    ``pointwise``: what is in U_Q; ``timed``: does U depend on the time by itself? ``own``: letters
-    of the potentials beside these.
+    ``pointwise``: what is in U_Q; ``own``: letters of the potentials beside these.
     """
 
     energy: Expr
     steps: tuple[Step, ...]
     work: Callable[[Expr, Expr | None], Expr]
     pointwise: PointPotentials
-    timed: bool
     own: tuple[PotentialLetter, ...] = ()
 
     def displaced(
@@ -271,22 +269,14 @@ def potentials(problem: Problem, a: Alphabet, c: Chapter, C: Expr | None = None)
     steps = [draft.step((*definitions, *energies), prose)]
     if found.energies:
         steps.append(point_forces_step(found, forces, a, c, C))
-    timed = any(map(_timed, over_points))
     own = tuple(x for w in parts for x in w.own)
-    return Potentials(draft.mark(energy), tuple(steps), forces.work, found, timed, own)
+    return Potentials(draft.mark(energy), tuple(steps), forces.work, found, own)
 
 
 def _opening(over_points: list[Tree]) -> Prose:
     if not over_points:
         return say("potential.none")
     return say("potential.pulled_back")
-
-
-def _timed(t: Tree) -> bool:
-    """Does t stand in a tree outside the places r_i(t)?"""
-    if not isinstance(t, tuple):
-        return t == "t"
-    return t[0] != "call" and any(map(_timed, t[1:]))
 
 
 def virtual_work(

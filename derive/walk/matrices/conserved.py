@@ -11,7 +11,7 @@ from ...algebra.word_trees import hat, normal_form, tree_of
 from ...algebra.words import Expr, Letter, inner, one, word, zero
 from ...language import rational as q
 from ...language.derivatives import product
-from ...language.tree import Tree, add, mul, names, neg
+from ...language.tree import Tree, add, mul, names, neg, nodes, replaced
 from ...problem.entries_on_orbit import vanishes
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
@@ -27,7 +27,8 @@ from ..spine.alphabet import Alphabet
 from ..vectors.isomorphism import anticommute, vector_sum
 
 # The line through the origin about which space may be turned without moving what a potential is
-# given by: the acceleration of gravity, anchors, centres, the axes of harmonic forces.
+# given by: the acceleration of gravity, anchors, centres, the axes of harmonic forces; where
+# these depend on the time, one along which they stay.
 #
 # Whether two vectors are parallel is decided by residues modulo large primes (vanishes); what is
 # then claimed is checked.
@@ -63,18 +64,36 @@ class Given:
         vectors = (*weight, *_not_zero(places))
         return cls(n, vectors, bool(weight), tuple(summed) if W else ())
 
+    @property
+    def timed(self) -> bool:
+        """Does a vector, or W, depend on the time?"""
+        return any("t" in nodes(x) for v in (*self.vectors, *self.W) for x in v)
+
+    @property
+    def by_gravity(self) -> bool:
+        """Is γ the vector of the line?"""
+        return self.weighs and not self.timed
+
+    def along(self, line: Vector) -> Tree:
+        """The tree of a vector of the line."""
+        return GAMMA.name if self.by_gravity else column(line)
+
     def lines(self) -> tuple[Vector, ...]:
         """A vector of R³ along each line to try: the one of all vectors, where there are some, else
-        the axes that W_r may have."""
-        if self.vectors:
-            first, *others = self.vectors
-            return (first,) if all(_parallel(first, x) for x in others) else ()
-        return tuple(x for x in _axes(self.W) if not all(map(_is_zero, x))) if self.W else ()
+        the axes that W_r may have; one that stays, an axis or where these are at some time."""
+        found: Iterable[Vector] = self.vectors[:1] or (_axes(self.W) if self.W else ())
+        if self.timed:
+            moving = [*found]
+            found = (tuple(replaced(x, "t", k) for x in v) for v in moving for k in (0, 1))
+            found = (*UNITS, *found)
+        return tuple(x for x in _not_zero(found) if all(_parallel(x, y) for y in self.vectors))
 
     def known(self, line: Vector | None, axis: Letter | None = None) -> dict[Letter, Expr]:
-        """γ as 0 where it is; W_r as w, or as w + v x x̄ with the letter ``axis`` x of the ``line``,
-        where it is that."""
-        found = {} if self.weighs else {Letter("γ", self.n): zero(self.n)}
+        """γ as 0 where it is, or along the letter ``axis`` x of the ``line``; W_r as w, or as
+        w + v x x̄, where it is that."""
+        found: dict[Letter, Expr] = {} if self.weighs else {Letter("γ", self.n): zero(self.n)}
+        if self.weighs and axis == AXIS:
+            found[GAMMA] = word(Letter("v_γ")) * word(axis)
         W, w, v = Letter("W_r", self.n, self.n, 1), Letter("w"), Letter("v")
         if self.W and _is_scalar(self.W):
             found[W] = word(w) * one(self.n)
@@ -163,7 +182,7 @@ def conserved_steps(
     draft = c.draft("conserved", "conservation")
     vectors = momenta.vectors
     write = vector_sum if vectors else tree_of
-    kept = [Equation("ḣ", 0)] if not v.timed else []
+    kept = [Equation("ḣ", 0)] if not problem.timed else []
     laws = say("conserved.energy") if kept else ()
     definitions = []
     for x in kept_momenta(group, v, b, vectors=vectors):
@@ -263,8 +282,7 @@ def _turning(v: Potentials, b: Alphabet, *, vectors: bool) -> Tree | None:
     if not given.vectors and not _varied(v, word(Y), None, b, given.known(None)):
         return "ℓ̇"
     for line in given.lines() if b.n == 3 else ():
-        along: Tree = GAMMA.name if given.weighs else column(line)
-        axis = GAMMA if given.weighs else AXIS
+        axis, along = GAMMA if given.by_gravity else AXIS, given.along(line)
         if not normal_form(_varied(v, word(hat(axis)), None, b, given.known(line, axis))):
             return ("inner", along if vectors else ("hat", along), "ℓ̇")
     return None
@@ -286,10 +304,12 @@ def _shifting(group: Group, v: Potentials, b: Alphabet) -> Tree | None:
     known = given.known(None)
     if not _varied(v, None, word(Letter("b", b.n)), b, known):
         return "ṗ"
-    across = word(hat(GAMMA)) * word(AXIS)
-    if b.n != 3 or not given.lines() or normal_form(_varied(v, None, across, b, known)):
-        return None
-    return ("wedge", "γ", "ṗ")
+    axis, other = (GAMMA, AXIS) if given.by_gravity else (AXIS, Letter("b", 3))
+    across = word(hat(axis)) * word(other)
+    for line in given.lines() if b.n == 3 else ():
+        if not normal_form(_varied(v, None, across, b, given.known(line, axis))):
+            return ("wedge", given.along(line), "ṗ")
+    return None
 
 
 def _varied(

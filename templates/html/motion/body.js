@@ -12,7 +12,7 @@ function valued(module, p) {
     if (typeof t === "number") return t;
     if (typeof t === "string") {
       const [over, under = 1] = t.split("/");
-      return t === "π" ? PI : over / under;
+      return t === "π" ? PI : t === "t" ? 0 : over / under; /* what moves is drawn as it is at first */
     }
     if (t[0] === "par") return by[t[1]] ?? 1; /* a mass that the motion does not need */
     if (t[0] === "fun") return Math[t[1]](number(t[2]));

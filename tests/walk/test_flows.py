@@ -1,0 +1,281 @@
+"""Mass that flows: beside the balances of momentum of a control volume, and known solutions."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import derive
+from derive.command.cli import main
+from derive.problem.problem import ProblemError
+from derive.problem.toml import problem_of
+from tests.oracles import relative_error
+from tests.support.library import arrange, library, module_of
+from tests.support.needs import present
+from tests.support.walks import own_verdicts
+
+G, RATE, SPEED = 9.81, 0.3, 4.0
+LOST = "m0 - b*t*(1 + t/9)"
+ROCKET = {
+    "name": "rocket",
+    "group": "SE(3)",
+    "parameters": {"m0": 10.0, "b": RATE, "u": SPEED},
+    "point": [
+        {"mass": LOST, "at": [0.1, 0.2, 1]},
+        {"mass": "2 + sin(t)/4", "at": [1, 0, 0]},
+        {"mass": 3, "at": [0, 1, -1]},
+        {"mass": 1, "at": [-1, 0.5, -0.3]},
+    ],
+    "potential": [{"kind": "gravity", "g": [0, 0, -G]}],
+    "flow": [
+        {"at": [0.3, -0.2, -2], "rate": "-b*(1 + 2*t/9)", "velocity": [0.5, "1 + t", "-u"]},
+        {"on": 3, "rate": "cos(t)/4", "velocity": ["t", 0, "u"]},
+    ],
+}
+PLACES = np.array([[0.1, 0.2, 1], [1, 0, 0], [0, 1, -1], [-1, 0.5, -0.3]])
+EXITS = np.array([[0.3, -0.2, -2], [0, 1, -1]])
+
+
+def masses(t):
+    return np.array([10 - RATE * t * (1 + t / 9), 2 + np.sin(t) / 4, 3 + 0 * t, 1 + 0 * t])
+
+
+def mass_rates(t):
+    return np.array([-RATE * (1 + 2 * t / 9), np.cos(t) / 4, 0 * t, 0 * t])
+
+
+def rates(t):
+    return mass_rates(t)[:2]
+
+
+def velocities(t):
+    return np.array([[0.5, 1 + t, -SPEED], [t, 0, SPEED]])
+
+
+def on(group):
+    """The problem on a group of R³ or of the plane, where the last two coordinates are its own."""
+    n = int(group[-2])
+
+    def cut(x):
+        return x[-n:] if isinstance(x, list) else x
+
+    listed = {
+        key: [{k: cut(v) for k, v in table.items()} for table in ROCKET[key]]
+        for key in ("point", "flow", "potential")
+    }
+    return ROCKET | listed | {"group": group}
+
+
+def with_moments():
+    """The same body by its moments, expressions of the time."""
+    told = [f"({x['mass']})" for x in ROCKET["point"]]
+
+    def summed(weights):
+        return " + ".join(f"{m}*({w})" for m, w in zip(told, weights, strict=True))
+
+    m, c = " + ".join(told), [summed(PLACES[:, i]) for i in range(3)]
+    J = [[summed(PLACES[:, i] * PLACES[:, j]) for j in range(3)] for i in range(3)]
+    rest = {k: v for k, v in ROCKET.items() if k not in ("point", "flow")}
+    first, other = ROCKET["flow"]
+    flows = [first, {"at": [0, 1, -1], **{k: x for k, x in other.items() if k != "on"}}]
+    return rest | {"body": {"given": {"m": m, "c": c, "J": J}}, "flow": flows}
+
+
+def unbalanced(t, A, spin, speed, d_spin, d_speed):
+    """What is left of the balances of angular and linear momentum, along the axes of a body in R³
+    and about its origin, of all that is in the body, what flows there with it; and their size."""
+    places, exits = np.array(PLACES), np.array(EXITS)
+    if np.shape(A) == (2, 2):  # as the plane of the last two axes, which turns about the first
+        places[:, 0], exits[:, 0] = 0, 0
+        A = np.block([[np.eye(1), np.zeros((1, 2))], [np.zeros((2, 1)), A]])
+
+    def momenta(s):
+        w, v, m = spin + (s - t) * d_spin, speed + (s - t) * d_speed, masses(s)
+        flowing = mass_rates(s) @ places - rates(s) @ exits
+        turning = sum(x * np.cross(r, np.cross(w, r)) for x, r in zip(m, places, strict=True))
+        return np.concatenate(
+            [turning + np.cross(m @ places, v), m.sum() * v + np.cross(w, m @ places) + flowing]
+        )
+
+    now, change = momenta(t), np.imag(momenta(t + 1e-30j)) / 1e-30
+    H, P = now[:3], now[3:]
+    u = velocities(t) * ([0, 1, 1] if not places[:, 0].any() else 1)
+    leaving = speed + np.cross(spin, exits) + u
+    g = A.T @ [0, 0, -G]
+    terms = [
+        change,
+        np.concatenate([np.cross(spin, H) + np.cross(speed, P), np.cross(spin, P)]),
+        -np.concatenate([np.cross(masses(t) @ places, g), masses(t).sum() * g]),
+        -np.concatenate([rates(t) @ np.cross(exits, leaving), rates(t) @ leaving]),
+    ]
+    return sum(terms), max(np.abs(x).max() for x in terms)
+
+
+@cache
+def made(what):
+    problem = problem_of(with_moments() if what == "moments" else on(what))
+    return problem, module_of(problem), library("c", problem) if present("cc") else None
+
+
+@pytest.mark.parametrize("what", ["SE(3)", "SO(3)", "SE(2)", "SO(2)", "moments"])
+def test_momentum_is_lost_with_what_leaves_alone(what):
+    """Of a body about a fixed point the reaction there is not known, and the moment alone told."""
+    _, m, c = made(what)
+    n, turns, moves = len(m.BASIS[0]), 3, "SO" not in what
+    n -= moves
+    turns = 3 if n == 3 else 1
+    rng, p = np.random.default_rng(3), arrange(m, {"m0": 10, "b": RATE, "u": SPEED})
+    k = m.constants(p)
+    for _ in range(5):
+        t, velocity = rng.uniform(0, 3), rng.normal(size=turns + n * moves)
+        A = np.linalg.qr(rng.normal(size=(n, n)))[0]
+        A[:, 0] *= np.linalg.det(A)
+        x = np.concatenate([A.ravel(), rng.normal(size=n * moves), velocity])
+        found = m.rhs(t, x, k)
+        if c is not None:
+            assert relative_error(c.rhs(t, x, c.constants(p)[1]), found) < 1e-12
+
+        def embedded(v):
+            shift = v[turns:] if moves else np.zeros(n)
+            if n == 3:
+                return v[:3], shift
+            return np.array([v[0], 0, 0]), np.array([0, *shift])
+
+        left, size = unbalanced(t, A, *embedded(velocity), *embedded(found[-len(velocity) :]))
+        kept = left if moves else left[:3]
+        kept = kept if n == 3 else kept[[0, 4, 5]] if moves else kept[:1]
+        assert np.abs(kept).max() < 1e-12 * size
+
+
+@pytest.mark.parametrize("what", ["SE(3)", "SO(3)", "SE(2)", "SO(2)", "moments"])
+def test_the_record_holds(what):
+    problem, *_ = made(what)
+    record = derive.derive(problem).record
+    assert all(v.holds for v in own_verdicts(record))
+    labels = {s.label.removeprefix("rocket.") for s in record.steps}
+    assert "input" in labels
+    assert labels.isdisjoint({"conserved", "by_momenta", "poisson_tensor"})
+
+
+def test_a_record_with_another_flow_is_seen():
+    record = derive.derive(made("SE(3)")[0]).record
+    for key, other in (("rate", ["mul", -2, ["par", "b"]]), ("velocity", [0, 0, ["par", "u"]])):
+        told = [dict(x) for x in record.problem["flows"]]
+        told[0][key] = other
+        forged = replace(record, problem={**record.problem, "flows": told})
+        assert {v.label for v in own_verdicts(forged) if not v.holds} >= {"rocket.input"}
+
+
+def test_the_linearised_equations_are_the_derivatives():
+    """By complex steps, along the group and along the velocity."""
+    problem, *_ = made("SE(3)")
+    m = module_of(problem, jacobian=("state",))
+    k = m.constants(arrange(m, {"m0": 10, "b": RATE, "u": SPEED}))
+    rng, step = np.random.default_rng(4), 1e-30
+    A = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    T, velocity, t = rng.normal(size=3), rng.normal(size=6), 0.7
+    *_, J = m.jacobian(t, np.concatenate([A.ravel(), T, velocity]), k)
+    g = np.block([[A, T[:, None]], [np.zeros((1, 3)), np.eye(1)]]).astype(complex)
+    for a, E in enumerate(np.array(m.BASIS, float)):
+        moved = g + 1j * step * g @ E
+        x = np.concatenate([moved[:3, :3].ravel(), moved[:3, 3], velocity])
+        slope = m.rhs(t, x, k)[-6:].imag / step
+        assert np.abs(J[6:, a] - slope).max() < 1e-11 * max(1, np.abs(slope).max())
+        v = velocity + 1j * step * np.eye(6)[a]
+        slope = m.rhs(t, np.concatenate([A.ravel(), T, v]), k)[-6:].imag / step
+        assert np.abs(J[6:, 6 + a] - slope).max() < 1e-11 * max(1, np.abs(slope).max())
+
+
+def test_tsiolkovsky():
+    """Along its axis a rocket gains u log(m₀/m) − gt."""
+    data = ROCKET | {
+        "point": [{"mass": m, "at": at} for m, at in (("m0 - b*t", [0, 0, 0]), (1, [1, 0, 0]))],
+        "flow": [{"at": [0, 0, -2], "rate": "-b", "velocity": [0, 0, "-u"]}],
+    }
+    data["point"] += [{"mass": 1, "at": [-1, 0, 0]}, {"mass": 1, "at": [0, 0, 1]}]
+    m = module_of(problem_of(data))
+    k = m.constants(arrange(m, {"m0": 10, "b": RATE, "u": SPEED}))
+    start = np.concatenate([np.eye(3).ravel(), np.zeros(9)])
+    run = solve_ivp(m.rhs, (0, 20), start, args=(k,), rtol=1e-11, atol=1e-11)
+    expected = SPEED * np.log(13 / (13 - 20 * RATE)) - G * 20
+    assert run.y[-1, -1] == pytest.approx(expected, rel=1e-9)
+
+
+def test_jet_damping():
+    """Of a body that turns about a fixed point, whose fuel at the distance r leaves at l: ω falls
+    as I to the power (l² − r²)/r² (Thomson)."""
+    r, outlet, b = 0.6, 1.5, 0.2
+    body = derive.Points(("5 - b*t", ["r", 0]), (2, [0, 1]))
+    flow = derive.Flow(["l", 0], "-b", [3, 0])
+    problem = derive.Problem(
+        "wheel", derive.SO(2), body, [flow], parameters={"b": b, "r": r, "l": outlet}
+    )
+    m = module_of(problem)
+    k = m.constants(arrange(m, {"b": b, "r": r, "l": outlet}))
+    run = solve_ivp(m.rhs, (0, 10), [1, 0, 0, 1, 2], args=(k,), rtol=1e-11, atol=1e-12)
+    left = (2 + (5 - 10 * b) * r**2) / (2 + 5 * r**2)
+    assert run.y[-1, -1] == pytest.approx(2 * left ** ((outlet**2 - r**2) / r**2), rel=1e-9)
+
+
+def test_mass_that_moves_inside_keeps_the_angular_momentum():
+    body = derive.Points(("2 - sin(t)", [2, 0]), ("1 + sin(t)", [1, 0]), (1, [0, 1]))
+    problem = derive.Problem("wheel", derive.SO(2), body, [derive.Flow([0, 0], 0, [0, 0])])
+    m = module_of(problem)
+    run = solve_ivp(m.rhs, (0, 3), [1, 0, 0, 1, 2], args=(m.constants([]),), rtol=1e-11)
+    inertia = [(2 - s) * 4 + 1 + s + 1 for s in (0, np.sin(3))]
+    assert inertia[1] * run.y[-1, -1] == pytest.approx(inertia[0] * 2, rel=1e-9)
+
+
+LINE = {"name": "b", "group": "SE(3)", "body": {"moments": "symbolic"}}
+BAD = [
+    ({"flow": []}, "body: its masses depend on t, and no [[flow]] says where the mass leaves"),
+    ({"flow": [{"at": [0, 0, 0], "rate": "-b", "velocity": [0, 0, 0]}]}, "flow 1, rate: the rates"),
+    (
+        {
+            "flow": [{"at": [0, 0, 0], "rate": "-throttle", "velocity": [0, 0, 0]}],
+            "input": [{"name": "throttle", "kind": "force", "on": 1, "direction": [0, 0, 1]}],
+        },
+        "flow 1, rate: 'throttle' is an input",
+    ),
+    ({"flow": [{"at": [0, 0, 0], "rate": "-b"}]}, "flow 1: key 'velocity' is missing"),
+    ({"group": "SL(3)"}, "flow 1: mass flows in one body that turns in the plane or in R^3"),
+    ({"group": "SO(3) x SO(3)"}, "flow 1: mass flows in one body that turns"),
+    ({"flow": [], "point": [{"mass": 1, "at": ["t", 0, 0]}]}, "point 1, at: t: a place"),
+]
+
+
+@pytest.mark.parametrize(("change", "message"), BAD)
+def test_it_is_refused_in_one_line(change, message):
+    with pytest.raises(ProblemError) as error:
+        problem_of(ROCKET | change)
+    assert message in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+BALLOON = """
+name = "balloon"
+group = "SE(3)"
+[body]
+given = { m = "3 - t", c = [0, 0, 0], J = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }
+[[flow]]
+at = [0, 0, 0]
+rate = -1
+velocity = [0, 0, 0]
+"""
+
+
+@pytest.mark.parametrize("words", ["symmetries", "equilibria", "walk --discrete", "emit --momenta"])
+def test_what_is_of_masses_that_stay_refuses_it(words, tmp_path, capsys):
+    """Where what leaves pushes with nothing, too."""
+    path = tmp_path / "balloon.toml"
+    path.write_text(BALLOON, encoding="utf-8")
+    command, *more = words.split()
+    assert main([command, str(path), *more]) == 2
+    assert "mass flows" in capsys.readouterr().err.splitlines()[-1]
+
+
+def test_moments_that_are_parameters_do_not_say_how_they_change():
+    with pytest.raises(ProblemError, match="do not say how they change"):
+        problem_of(LINE | {"flow": [{"at": [0, 0, 0], "rate": -1, "velocity": [0, 0, -1]}]})
