@@ -152,9 +152,7 @@ def problem_of(
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     linear, damped = as_forces(damping, reader)
-    flows = tuple(
-        reader.typed(Flow, x, f"flow {k}") for k, x in enumerate(tables(data, "flow"), 1)
-    )
+    flows = tuple(reader.typed(Flow, x, f"flow {k}") for k, x in enumerate(tables(data, "flow"), 1))
     pushed = flow_forces(flows, its_body, reader, inputs)
     observed = outputs(data, reader, inputs, potentials)
     problem = Problem(
