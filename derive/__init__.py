@@ -25,6 +25,7 @@ WORDS = (
         "Gravity",
         "Group",
         "Inertia",
+        "Kinematics",
         "Lagrangian",
         "Laplacian",
     ),

@@ -1,0 +1,65 @@
+"""What the names of a record of kinematics of first order mean: a motion, its estimate, errors."""
+
+from __future__ import annotations
+
+from .names import (
+    ALGEBRA,
+    COORDINATES,
+    SQUARE,
+    VECTOR,
+    Name,
+    defined,
+    family,
+    function,
+    letter,
+    name,
+    rate,
+)
+
+# fmt: off
+KINEMATICS: dict[str, Name] = {
+    "A": name("element of the group", "élément du groupe", "A", letter(SQUARE)),
+    "Ȧ": name("dA/dt along the motion", "dA/dt le long du mouvement", r"\dot A", rate(SQUARE)),
+    "Â": name("estimate of A, which moves by f with the same inputs",
+        "estimation de A, qui évolue par f avec les mêmes entrées", r"\hat A", letter(SQUARE)),
+    "f": name("velocity at an element of the group, for the inputs of this time",
+        "vitesse en un élément du groupe, pour les entrées de cet instant",
+        "f", function(SQUARE, SQUARE)),
+    "Z": name("A⁻¹f(A), in the Lie algebra", "A⁻¹f(A), dans l’algèbre de Lie",
+        "Z", defined(SQUARE)),
+    "ζ": name("coordinates of Z in the basis of the Lie algebra",
+        "coordonnées de Z dans la base de l’algèbre de Lie", r"\zeta", defined(COORDINATES)),
+    "E": name("basis of the Lie algebra", "base de l’algèbre de Lie",
+        "E", letter(family("basis", ALGEBRA))),
+    "d/dt": name("derivative in time, both elements moving by f",
+        "dérivée dans le temps, les deux éléments évoluant par f",
+        r"\frac{\mathrm{d}}{\mathrm{d}t}",
+        function(SQUARE, SQUARE), function(COORDINATES, COORDINATES)),
+    "η_L": name("left error of the estimate", "erreur à gauche de l’estimation",
+        r"\eta_L", defined(SQUARE)),
+    "η_R": name("right error of the estimate", "erreur à droite de l’estimation",
+        r"\eta_R", defined(SQUARE)),
+    "ξ_L": name("coordinates of the logarithm of η_L", "coordonnées du logarithme de η_L",
+        r"\xi_L", letter(COORDINATES)),
+    "ξ_R": name("coordinates of the logarithm of η_R", "coordonnées du logarithme de η_R",
+        r"\xi_R", letter(COORDINATES)),
+    "𝒜_L": name("what moves ξ_L, by the inputs alone", "ce qui fait évoluer ξ_L, par les entrées "
+        "seules", r"\mathcal{A}_L", defined(("matrix", "d", "d"))),
+    "𝒜_R": name("what moves ξ_R, by the inputs alone", "ce qui fait évoluer ξ_R, par les entrées "
+        "seules", r"\mathcal{A}_R", defined(("matrix", "d", "d"))),
+    "ς": name("noise on the inputs, in their order", "bruit sur les entrées, dans leur ordre",
+        r"\varsigma", letter(("vector", "inputs"))),
+    "W_L": name("Â⁻¹ times the derivative of f(Â) by the inputs along ς",
+        "Â⁻¹ fois la dérivée de f(Â) par rapport aux entrées le long de ς",
+        "W_L", defined(SQUARE)),
+    "W_R": name("the derivative of f(Â) by the inputs along ς, times Â⁻¹",
+        "la dérivée de f(Â) par rapport aux entrées le long de ς, fois Â⁻¹",
+        "W_R", defined(SQUARE)),
+    "o": name("what is seen by the element or its inverse",
+        "ce qui est vu par l’élément ou son inverse",
+        "o", letter(VECTOR)),
+    "z_L": name("innovation of o seen by A", "innovation de o vu par A", "z_L", defined(VECTOR)),
+    "z_R": name("innovation of o seen by A⁻¹", "innovation de o vu par A⁻¹",
+        "z_R", defined(VECTOR)),
+}
+# fmt: on
