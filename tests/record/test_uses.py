@@ -186,8 +186,6 @@ def test_the_road_runs_through(name):
     """L → L̃ → ϖ → dϖ → kernel, of any group and of this one, to the motion."""
     d = record(name)
     general = "affine" if d.problem["action"] == "affine" else "linear"
-    if "kinematics" in d.problem:
-        return  # there is no Lagrangian: tests/walk/test_kinematics.py
     below = ancestors(d, f"{name}.motion")
     if "lagrangian" in d.problem:
         side = d.problem["lagrangian"]["trivialisation"]

@@ -171,9 +171,10 @@ def environment(model: KinematicsModel) -> Environment:
         return model.rate_of(t, env)
 
     def at(_: Tree, a: tuple[Tree, ...], env: Environment) -> Any:
-        return model.velocity(evaluate(a[0], env))
+        g = evaluate(a[0], env)
+        return model.velocity(g if isinstance(g, tuple) else q.scaled(g, q.identity(model.n)))
 
-    functions: dict[str, Callable[..., Any]] = {"d/dt": rate, "f": at}
+    functions: dict[str, Callable[..., Any]] = {"d/dt": rate, "𝒻": at}
     o = model.observed
     names = {
         **model.names(A, B),

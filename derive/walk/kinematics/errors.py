@@ -14,12 +14,11 @@ from .condition import Velocity, multiplied, numbers, short
 SIDES = ("L", "R")
 """Left and right, as the names of a record have them."""
 BACK: Tree = ("inv", "Â")
-ONE: Tree = ("one",)
 
 
 def f(t: Tree) -> Tree:
     """The velocity at an element."""
-    return ("call", "f", t)
+    return ("call", "𝒻", t)
 
 
 def in_time(t: Tree) -> Tree:
@@ -81,7 +80,7 @@ def _errors(first: Step, c: Chapter) -> Step:
 
 def _parts() -> Tree:
     """f(A)Â + A f(Â) − A f(1)Â."""
-    return add(mul(f("A"), "Â"), mul("A", f("Â")), neg(mul("A", f(ONE), "Â")))
+    return add(mul(f("A"), "Â"), mul("A", f("Â")), neg(mul("A", f(1), "Â")))
 
 
 def _affine(first: Step, c: Chapter) -> Step:
@@ -105,8 +104,8 @@ def _counterexample(velocity: Velocity, first: Step, c: Chapter) -> Step:
 def _error_rates(made_from: tuple[Step, ...], c: Chapter) -> Step:
     draft = c.draft("error_rates", "error equation")
     draft.depends_on(*made_from)
-    left = add(f("η_L"), neg(mul(f(ONE), "η_L")))
-    right = add(f("η_R"), neg(mul("η_R", f(ONE))))
+    left = add(f("η_L"), neg(mul(f(1), "η_L")))
+    right = add(f("η_R"), neg(mul("η_R", f(1))))
     return draft.step(
         [Equation(in_time("η_L"), left), Equation(in_time("η_R"), right)], say("error_rates.both")
     )
