@@ -194,7 +194,7 @@ class _Filter:
 
     def rates(self) -> list[Node]:
         """Those of the entries of the estimate."""
-        found = self.matrix(self._definition("kinematics", ("call", "𝒻", "A")))
+        found = self.matrix(self._definition("kinematics", ("call", "ℱ", "A")))
         return [found[x.row][x.column] for x in self.slots]
 
     def covariance_rates(self) -> list[Node]:

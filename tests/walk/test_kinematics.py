@@ -176,9 +176,9 @@ def test_the_condition_is_refused_where_it_does_not_hold():
 def test_other_rates_of_the_errors_are_refused():
     d = record("imu")
     left, right = d["error_rates"].equations
-    plain = ("call", "𝒻", "η_L")
+    plain = ("call", "ℱ", "η_L")
     assert refused(d, "error_rates", Equation(left.lhs, plain), right)
-    turned = add(("call", "𝒻", "η_R"), neg(mul(("call", "𝒻", 1), "η_R")))
+    turned = add(("call", "ℱ", "η_R"), neg(mul(("call", "ℱ", 1), "η_R")))
     assert refused(d, "error_rates", left, Equation(right.lhs, turned))
     L, R, moved, other = d["log_linear"].equations
     assert refused(d, "log_linear", Equation("𝒜_L", R.rhs), R, moved, other)

@@ -87,9 +87,7 @@ VARIED_PRIME = ArgumentKind(
 )
 ALONG_FIELDS = ArgumentKind("ξ, ξ′ or Z", ("ξ", "ξ′", "Z"))
 
-ON_GROUP = ArgumentKind(
-    "A, Â, A Â, an error or 1", ("A", "Â", ("mul", "A", "Â"), *ERRORS, 1)
-)
+ON_GROUP = ArgumentKind("A, Â, A Â, an error or 1", ("A", "Â", ("mul", "A", "Â"), *ERRORS, 1))
 
 HEADS: dict[str, tuple[ArgumentKind, ...]] = {
     "ϖ": (VARIATION,),
@@ -106,7 +104,7 @@ HEADS: dict[str, tuple[ArgumentKind, ...]] = {
     "∫": (INTEGRAND,),
     "g": (PLACE,),
     "M̃": (FIRST_FIELD, SECOND_FIELD),
-    "𝒻": (ON_GROUP,),
+    "ℱ": (ON_GROUP,),
     "ρ": (CARRYING,),
     "ϖ_h": (VARIATION,),
     "dϖ_h": (VARIATION, VARIATION),

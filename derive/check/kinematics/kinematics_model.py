@@ -174,7 +174,7 @@ def environment(model: KinematicsModel) -> Environment:
         g = evaluate(a[0], env)
         return model.velocity(g if isinstance(g, tuple) else q.scaled(g, q.identity(model.n)))
 
-    functions: dict[str, Callable[..., Any]] = {"d/dt": rate, "𝒻": at}
+    functions: dict[str, Callable[..., Any]] = {"d/dt": rate, "ℱ": at}
     o = model.observed
     names = {
         **model.names(A, B),

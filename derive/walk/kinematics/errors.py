@@ -18,7 +18,7 @@ BACK: Tree = ("inv", "Â")
 
 def f(t: Tree) -> Tree:
     """The velocity at an element."""
-    return ("call", "𝒻", t)
+    return ("call", "ℱ", t)
 
 
 def in_time(t: Tree) -> Tree:
