@@ -26,6 +26,7 @@ WORDS = (
         "Gravity",
         "Group",
         "Inertia",
+        "Kinematics",
         "Lagrangian",
         "Laplacian",
     ),

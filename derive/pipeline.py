@@ -25,6 +25,7 @@ from .walk.fluid import circulation, fluid_forms, fluid_kernel
 from .walk.fluid.fluid_forms import FluidAlphabet
 from .walk.given import body, inputs, outputs, potentials
 from .walk.given.inputs import acts, by_name
+from .walk.kinematics import errors
 from .walk.lie import any_lagrangian, at_places, expressed, momentum_side
 from .walk.matrices import (
     conserved, coordinates, explicit, isometry, separation, solution, specialisation,
@@ -177,6 +178,8 @@ FLUID = (
     Stage("kelvin", "kernel points a c", "Steps", circulation.kelvin),
 )
 """An incompressible fluid: the road of ANY_GROUP, affine, with composition for matrices."""
+KINEMATICS = (Stage("errors", "problem group c", "Steps", errors.kinematics_steps),)
+"""A motion of first order on a group, and the errors of an estimate of it."""
 ON_THE_TORUS = (Stage("fluid", "problem lagrangian a c", "Steps", vorticity.torus_steps),)
 """The kinetic energy of a fluid on su(N), in the basis of the torus."""
 
@@ -209,6 +212,8 @@ def walk(problem: Problem) -> Derivation:
         values = follow(FLUID, {"a": a, "c": Chapter(problem.name, problem.group_name)}, ())
     elif problem.torus:
         values = lagrangian_road("right")
+    elif problem.kinematics:
+        values = {"steps": ()}
     elif given is not None:
         values = lagrangian_road(given.trivialisation)
     else:
@@ -218,7 +223,8 @@ def walk(problem: Problem) -> Derivation:
         c = Chapter(problem.name, group.name)
         acting = c.with_input() if acts(problem) else c
         own = {"problem": problem, "group": group, "c": c, "c_u": acting}
-        road: tuple[Stage, ...] = EXPRESSED if given else VECTORS if group.turns_space else MATRICES
+        given_road = KINEMATICS if problem.kinematics else EXPRESSED if given else ()
+        road: tuple[Stage, ...] = given_road or (VECTORS if group.turns_space else MATRICES)
         kinds = {"affine" if group.affine else "linear", *group.relations}
         kinds |= {"element" if problem.advected is None else "reduced"}
         if problem.flows:  # what is said of Π̇ and of momenta in space is of masses that stay

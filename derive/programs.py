@@ -50,6 +50,11 @@ def moving_program(
     looked for?  ``weightless``: also what is kept where gravity is 0?"""
     from .code.options import Options
 
+    if problem.kinematics:
+        raise ProblemError(
+            f"{problem.name}: kinematics of first order are a filter, which is not simulated: emit "
+            "its code, with --step and --exponential"
+        )
     has, why = record.definition("θ") is not None, ""
     plain = Options(step=(step,), order=order)
     told = replace(plain, multiplier=has)
@@ -115,6 +120,10 @@ def program(
 
         return torus_program(record, problem.torus, options, events)
     assert problem.group
+    if problem.kinematics:
+        from .code.kinematics_program import kinematics_program
+
+        return kinematics_program(record, problem.group, options)
     if options is None or options.frame == "given":
         kept = conserved_quantities(problem, record) if options and options.conserved else None
         more = conserved_without_gravity(problem) if kept is not None and weightless else {}
@@ -138,6 +147,10 @@ def require_program(problem: Problem, record: Derivation, options: Options | Non
     watched(problem.name, problem.events, chosen)
     if problem.torus:
         require_on_torus(record, chosen)
+    elif problem.kinematics:
+        from .code.kinematics_program import require_kinematics
+
+        require_kinematics(record, chosen)
     elif problem.group is None:
         raise ProblemError(
             f"{problem.name}: {problem.without_matrices}, so it has no numeric code; "

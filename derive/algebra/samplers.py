@@ -211,6 +211,21 @@ def one_parameter(e: Matrix) -> OneParameter | None:
     return OneParameter(tuple(powers), q.times(S, plane), plane, square, q.minus(e, S))
 
 
+class _Largest:
+    """A source of the largest numbers."""
+
+    def randint(self, a: int, b: int, /) -> int:
+        """The last one."""
+        del a
+        return b
+
+
+def simple_elements(basis: Sequence[Matrix]) -> list[Matrix]:
+    """Elements exp(sE) with small numbers, for E in a basis: a shear, a turn by a quarter."""
+    known = [x for x in map(one_parameter, basis) if x is not None]
+    return [x.sample(_Largest(), size) for size in (1, 2) for x in known]
+
+
 def minimal_polynomial(e: Matrix) -> Polynomial:
     """The minimal polynomial of a matrix."""
     power, rows = q.identity(len(e)), []

@@ -325,7 +325,8 @@ def _costs(language: TargetLanguage, cost: Mapping[str, str], besides: str = "")
     """What the functions cost."""
     return [
         f"Operations: constants {cost['constants']}{besides};",
-        f"            rhs{language.mutates} {cost['rhs']}; energy {cost['energy']}.",
+        f"            rhs{language.mutates} {cost['rhs']}"
+        + (f"; energy {cost['energy']}." if "energy" in cost else "."),
     ]
 
 

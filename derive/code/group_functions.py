@@ -24,6 +24,7 @@ from ..routines.source import Source
 from .conventions import basis_lines, listed
 from .options import Options
 from .program import LoweringError, Program
+from .slots import StateSlot
 from .state import StateSpace
 from .step.algorithms import PRINTERS, real_of_work, text_of
 
@@ -36,6 +37,12 @@ FUNCTIONS: dict[str, tuple[tuple[str, ...], str]] = {
     "local": (("x", "y"), "eta"),
 }
 """Function → what it takes, and what it writes."""
+
+OF_FILTER: dict[str, tuple[tuple[str, ...], str]] = {
+    **{x: FUNCTIONS[x] for x in ("exp", "log", "exp_jacobian", "log_jacobian")},
+    **dict.fromkeys(("update_left", "update_right"), (("x", "o", "Y", "N"), "y")),
+}
+"""The same where the state is an estimate with the covariance of its error."""
 
 TERMS = 14
 """Terms of a series in −t²: for t² < 4 the next one is below 1e-18 of the first."""
@@ -60,7 +67,8 @@ class GroupFunctions:
     ``entries``: row and column of each number of an element; ``origin``: the matrix of the
     identity, with what never varies; ``read``: of each coordinate the terms (coefficient, row,
     column) that it is read by; ``brackets``: the coordinates of [E_a, E_b]; ``right``: is a
-    variation δg = η g, and Z = ġ g⁻¹?
+    variation δg = η g, and Z = ġ g⁻¹? ``covariance``: is an element followed in the state by the
+    upper triangle of a covariance, not by a velocity?
     """
 
     entries: tuple[tuple[int, int], ...]
@@ -69,34 +77,61 @@ class GroupFunctions:
     brackets: tuple[Matrix, ...]
     factors: tuple[Factor, ...]
     right: bool
+    covariance: bool = False
 
     @classmethod
     def of(cls, space: StateSpace) -> GroupFunctions:
         """Those of a state, on a group that :func:`refuse` does not refuse."""
-        group = space.group
+        return cls.of_group(space.group, space.slots, space.still, right=space.right)
+
+    @classmethod
+    def of_group(
+        cls,
+        group: Group,
+        slots: Sequence[StateSlot],
+        still: Mapping[StateSlot, Fraction],
+        *,
+        right: bool,
+        covariance: bool = False,
+    ) -> GroupFunctions:
+        """Those of an element kept in ``slots``, without what is ``still``."""
 
         def place(x: Any) -> tuple[int, int]:
             return x.row, group.n if x.letter == "T" else x.column
 
         origin = [[*row] for row in identity(group.size)]
-        for x, value in space.still.items():
+        for x, value in still.items():
             i, j = place(x)
             origin[i][j] = value
         return cls(
-            tuple(map(place, space.slots)),
+            tuple(map(place, slots)),
             tuple(map(tuple, origin)),
             tuple(tuple(group.coordinate_terms(a)) for a in range(group.dimension)),
             group.structure_constants,
             tuple(_factors(group) or ()),
-            space.right,
+            right,
+            covariance,
         )
 
+    @property
+    def functions(self) -> dict[str, tuple[tuple[str, ...], str]]:
+        """Function → what it takes, and what it writes."""
+        return OF_FILTER if self.covariance else FUNCTIONS
 
-def sizes(function: str, element: int, d: int) -> dict[str, int]:
-    """How many numbers each argument of a function has, of an element and of coordinates."""
-    state = element + d
-    eta = 2 * d if "x" in FUNCTIONS[function][0] else d
-    return {"g": element, "x": state, "y": state, "eta": eta, "J": d * d}
+    @property
+    def observed(self) -> list[int]:
+        """The rows of a matrix of the group that vary."""
+        return sorted({i for i, _ in self.entries})
+
+    def count(self, function: str, argument: str) -> int:
+        """How many numbers an argument of a function has."""
+        element, d, seen = len(self.entries), len(self.read), len(self.observed)
+        state = element + (d * (d + 1) // 2 if self.covariance else d)
+        twice = argument == "eta" and "x" in self.functions[function][0]  # with a velocity
+        return {
+            **{"g": element, "x": state, "y": state, "eta": 2 * d if twice else d, "J": d * d},
+            **{"o": len(self.origin), "Y": seen, "N": seen * seen},
+        }[argument]
 
 
 def refuse(d: Derivation, group: Group, chosen: Options) -> None:
@@ -171,7 +206,10 @@ def known(p: Program) -> dict[str, Any]:
         "SIZE": len(f.origin),
         "N_ELEMENT": element,
         "N_ALGEBRA": d,
-        "N_STATE": element + d,
+        "N_STATE": f.count("exp", "x"),
+        "N_OBSERVED": len(f.observed),
+        "N_NOISE": len(f.observed) ** 2,
+        "OBSERVED": f.observed,
         "N_TANGENT": 2 * d,
         "N_JACOBIAN": d * d,
         "N_FACTORS": len(f.factors),
@@ -202,15 +240,24 @@ def _conventions(p: Program) -> list[str]:
     """What a reader of the file must know, in lines."""
     f: GroupFunctions = p.group_functions
     element = len(f.entries)
-    text = (
-        f"eta are coordinates in the basis below, exp(eta) = exp(eta_1 E_1 + ...). x and y are "
-        f"states, g the first {element} numbers of one, on the group. In retract and local eta has "
-        f"{2 * p.dimension} numbers: eta, then what is added to the velocity: the coordinates of "
-        f"the linearised equations, of variations delta g = {p.variation} and delta zeta."
-    )
-    if any(x.turns for x in f.factors):
+    text = "eta are coordinates in the basis below, exp(eta) = exp(eta_1 E_1 + ...). "
+    if f.covariance:
         text += (
-            " log and local turn by at most pi; at pi, where two signs are as good, by one of them."
+            f"x and y are states, an estimate g, the first {element} numbers, and a covariance. o "
+            f"has {len(f.origin)} numbers, Y those of A o, or of A^-1 o, that vary: rows "
+            f"{', '.join(str(i + 1) for i in f.observed)}."
+        )
+    else:
+        text += (
+            f"x and y are states, g the first {element} numbers of one, on the group. In retract "
+            f"and local eta has {2 * p.dimension} numbers: eta, then what is added to the "
+            "velocity: the coordinates of the linearised equations, of variations delta g = "
+            f"{p.variation} and delta zeta."
+        )
+    if any(x.turns for x in f.factors):
+        turning = "log turns" if f.covariance else "log and local turn"
+        text += (
+            f" {turning} by at most pi; at pi, where two signs are as good, by one of them."
             " log_jacobian is that of this log."
         )
     return [
@@ -227,34 +274,34 @@ def printed_group(language: str, p: Program, fields: Mapping[str, Any]) -> dict[
         "prefix": fields["prefix"],
         "real": real_of_work(language, fields["real"]),
         "inline": "static inline",
-        "public": {*FUNCTIONS} if language == "rust" else (),
+        "public": {*f.functions} if language == "rust" else (),
         "generic": True,
         "item": ["#[allow(dead_code, non_snake_case, unused, clippy::all)]", "#[rustfmt::skip]"],
         "named": (),
         "returned": {},
         # JavaScript has functions of these names that make what they write
-        **({name: f"{name}_into" for name in FUNCTIONS} if language == "javascript" else {}),
+        **({name: f"{name}_into" for name in f.functions} if language == "javascript" else {}),
     }
     source = Source()
     source.read(text_of("group_maps"), given)
+    if f.covariance:
+        source.read(text_of("invariant_update"), given)
     printer = PRINTERS.get(language, Python)(source, given)
-    told, element = [], len(f.entries)
-    for name, (takes, writes) in FUNCTIONS.items():
-        count = sizes(name, element, p.dimension)
+    told = []
+    for name, (takes, writes) in f.functions.items():
         doc = printer.with_numbers(ast.get_docstring(source.routines[name]) or "")
-        given_sizes = [(x, count[x]) for x in takes]
         told.append(
             {
                 "name": name,
-                "takes": given_sizes,
+                "takes": [(x, f.count(name, x)) for x in takes],
                 "writes": writes,
-                "count": count[writes],
+                "count": f.count(name, writes),
                 "doc": doc,
             }
         )
     return {
         "tables": "\n".join(printer.tables()),
-        "routines": printer.text([*FUNCTIONS]),
+        "routines": printer.text([*f.functions]),
         "functions": told,
         "size": p.dimension,
         "conventions": _conventions(p),

@@ -93,6 +93,26 @@ def request_of(text: str) -> EmissionRequest | None:
 # Options of an emission that exclude one another, the group or the Lagrangian: one line each.
 
 
+def require_options(d: Derivation, chosen: Options, where: str, *written: str) -> None:
+    """``LoweringError`` for an option that is not written where a state is no motion of a body, in
+    words; but for those that are ``written``."""
+    for name, on, option in (
+        ("layout", chosen.layout != "row", f"--layout {chosen.layout}"),
+        ("attitude", chosen.attitude != "matrix", f"--attitude {chosen.attitude}"),
+        ("frame", chosen.frame != "given", f"--frame {chosen.frame}"),
+        ("velocity", chosen.velocity != "body", f"--velocity {chosen.velocity}"),
+        ("state", chosen.state != "whole", f"--state {chosen.state}"),
+        ("jacobian", chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
+        ("momenta", chosen.momenta, "--momenta"),
+        ("dynamics", chosen.dynamics, "--dynamics"),
+        ("exponential", chosen.exponential, "--exponential"),
+        ("discrete", "discrete" in chosen.step, "--step discrete"),
+        ("multiplier", chosen.multiplier, "--multiplier"),
+    ):
+        if on and name not in written:
+            raise LoweringError(f"{d.name}: {option} is not written {where}: leave it out")
+
+
 def require_written(d: Derivation, group: Group, chosen: Options) -> None:
     """``LoweringError`` for options that exclude one another or the group, and for a Jacobian of
     more entries than compilers manage."""

@@ -169,6 +169,18 @@ SIGNATURES = (
         "b: M a + b is the covector to be added to what acts, so that the velocity has the rates a",
     ),
     Signature(
+        "error_generator",
+        (T, X, K, U),
+        (Argument("D", ("ALGEBRA", "ALGEBRA")),),
+        "the matrix A of d xi/dt = A xi, of the logarithm xi of the error, by rows",
+    ),
+    Signature(
+        "error_noise",
+        (T, X, K, U),
+        (Argument("D", ("ALGEBRA", "INPUTS")),),
+        "the matrix G by which noise on the inputs adds to d xi/dt, by rows",
+    ),
+    Signature(
         "momentum", (T, X, K), (OUT,), "the state x with its momenta in place of the velocity"
     ),
     Signature(

@@ -51,10 +51,11 @@ def command_walk(args: argparse.Namespace) -> int:
     walked = discrete_walk if args.discrete else derive
     problem, record = walked(args.problem, **allowed(args))
     if args.trivialisation:
-        if problem.fluid:
-            raise UsageError(
-                f"{record.name}: a fluid is told on the right alone: leave out --trivialisation"
-            )
+        if problem.fluid or problem.kinematics:
+            told = "errors are told on both sides"
+            if problem.fluid:
+                told = "a fluid is told on the right alone"
+            raise UsageError(f"{record.name}: {told}: leave out --trivialisation")
         if args.format == "json":
             raise UsageError("--trivialisation both is to be read: choose another --format")
         record = both_trivialisations(record)

@@ -82,7 +82,7 @@ def with_constant_entries(t: Tree, group: Group) -> Tree:
     """An expression with numbers for the entries of g that are the same in all of the group;
     ``ZeroDivisionError`` where it divides by one that is 0."""
     still = {("entry", "A", i + 1, j + 1) for i, j in constant_entries(group)}
-    return _with_entries(t, element(group)) if still & {*nodes(t)} else t
+    return with_entries(t, element(group)) if still & {*nodes(t)} else t
 
 
 def vanishes_on(group: Group, t: Tree) -> bool:
@@ -98,12 +98,12 @@ def vanishes_on(group: Group, t: Tree) -> bool:
         source = ResidueVectorSource(p, 1, k)
         g = group.sample_inside(source, 1)
         rows = tuple(tuple((source.constant(0) + x).values[0] for x in row) for row in g)
-        if residue(_with_entries(t, rows), p):
+        if residue(with_entries(t, rows), p):
             return False
     return True
 
 
-def _with_entries(t: Tree, g: Rows) -> Tree:
+def with_entries(t: Tree, g: Rows) -> Tree:
     """An expression with those of a matrix for the entries of g."""
 
     @fold

@@ -79,6 +79,11 @@ def undeclared(
     )
 
 
+def is_entry(t: Tree) -> bool:
+    """Is it an entry of g?"""
+    return isinstance(t, tuple) and t[:2] == ("entry", "A")
+
+
 def coordinates(group: Group) -> list[Tree]:
     """The coordinates ζ_1 … ζ_d of a velocity, as trees."""
     return [("entry", "ζ", a) for a in range(1, group.dimension + 1)]

@@ -14,13 +14,15 @@ from ..language import rational as q
 from ..language.expression import ExpressionError, parse
 from ..language.laurent import LEVEL, WRITTEN, degree_in_level, is_layered
 from ..language.limits import BASIS, LAYERS, MATRIX, TEXT
+from ..language.reserved import taken
 from ..language.tree import Tree, mul, nodes, replaced
 from ..language.values import approximate
 from ..schema.body_kinds import LAYERED, Body, GivenBody, PointBody, is_ellipsoid
 from ..schema.kind import SIDES, Advected
 from ..schema.table import Rows, Slot, Table
 from ..schema.table_reader import NAME
-from .fields import known_in_lagrangian, meant, state_names
+from .entries_on_orbit import with_constant_entries
+from .fields import is_entry, known_in_lagrangian, meant, state_names
 from .force_reader import ForceReader, Vector
 from .moments import SolidError, first_moment, given_by, second_moment
 from .problem import ProblemError, points_of
@@ -211,6 +213,33 @@ class FileReader(ForceReader):
         """One for each coordinate of the Lie algebra."""
         found = self.listed(self.value(slot), self.moving().dimension, slot.path)
         return tuple(meant(t, self.state_names) for t in found)
+
+    def meaning_of(self, name: str) -> str:
+        """A parameter, or what the grammar or the state has."""
+        if name in self.parameters:
+            return "a parameter"
+        return taken(name) or ("an entry of the state" if name in self.state_names else "")
+
+    def rate(self, slot: Slot) -> Rows:
+        """Of the entries of g, numbers where they are the same in all of the group."""
+        g = self.moving()
+        entries = {x: t for x, t in self.state_names.items() if is_entry(t)}
+        found = self.rows(self.value(slot), g.size, g.size, slot.path)
+        try:
+            return tuple(
+                tuple(with_constant_entries(meant(t, entries), g) for t in row) for row in found
+            )
+        except ZeroDivisionError:
+            raise ProblemError(
+                f"{slot.path}: it divides by an entry of g that is 0 on {g.name}"
+            ) from None
+
+    def densities(self, slot: Slot) -> Vector:
+        """None of them below 0."""
+        found = super().densities(slot)
+        if any((approximate(t, {}) or 0) < 0 for t in found):
+            raise ProblemError(f"{slot.path}: a density is not negative")
+        return found
 
     def operator(self, slot: Slot) -> Rows:
         """A matrix of its size."""

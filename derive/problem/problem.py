@@ -22,6 +22,7 @@ from ..schema.kind import (
     Fluid,
     ForceInput,
     Input,
+    Kinematics,
     Lagrangian,
     Parameter,
     Potential,
@@ -62,6 +63,7 @@ class Problem:
     last blocks of the group's matrices. ``fluid``: of a problem whose group has no matrices.
     ``torus``: su(N) in the basis of the torus, where there is no table of the group.
     ``flows``: of mass that leaves or comes; ``flow_forces``: how it pushes, the last of ``forces``.
+    ``kinematics``: ġ as a function of g, where there is no Lagrangian.
     ``initial``, ``events``, ``signals``: of motions that are followed; the record of the equations
     has none of them.
     """
@@ -86,6 +88,7 @@ class Problem:
     fluid: Fluid | None = None
     flows: tuple[Flow, ...] = ()
     flow_forces: tuple[StatedForce, ...] = ()
+    kinematics: Kinematics | None = None
     initial: Initial = field(default_factory=Initial)
     events: tuple[Event, ...] = ()
     signals: tuple[Signal, ...] = ()
@@ -121,6 +124,11 @@ class Problem:
             return (
                 f"{self.name}: symmetries, integrals, equilibria and reductions are not written "
                 f"for the torus, which keeps the energy and Tr Wᵏ: step {self.name}.conserved"
+            )
+        if self.kinematics:
+            return (
+                f"{self.name}: kinematics of first order have no Lagrangian, in which symmetries, "
+                "integrals, equilibria and reductions are sought"
             )
         return f"{self.name}: {self.without_matrices}; {self.with_matrices}"
 
@@ -247,6 +255,7 @@ def data(problem: Problem) -> dict[str, Any]:
         **({"fluid": problem.fluid.plain()} if problem.fluid else {}),
         **({"lagrangian": {"trivialisation": "right"}} if problem.torus else {}),
         **({"torus": {"N": problem.torus.N}} if problem.torus else {}),
+        **({"kinematics": problem.kinematics.plain()} if problem.kinematics else {}),
         **({} if problem.advected is None else {"advected": [*_plain(problem.advected)]}),
     }
 
@@ -257,5 +266,5 @@ def _plain(tables: Iterable[Table]) -> Iterator[dict[str, Any]]:
 
 def _body(problem: Problem) -> Table:
     """The body, or why there is none."""
-    given = problem.lagrangian or problem.torus or problem.fluid
+    given = problem.lagrangian or problem.torus or problem.fluid or problem.kinematics
     return problem.body or (NoBody() if given else AnyBody())

@@ -41,12 +41,13 @@ from .fields import (
 from .file_reader import FileReader
 from .flows import flow_forces
 from .inertia import impossible, negative_kinetic_energy, negative_mass
+from .kinematics_tables import kinematics_problem
 from .lagrangian_tables import group_of_algebra, lagrangian, on_torus, torus_problem
 from .motion_tables import KEYS, faults, motion_fields, named, named_twice
 from .problem import Problem, ProblemError
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
-TOP |= {"damping", "flow", "force", "output", "solid", "algebra", "advected", "fluid"}
+TOP |= {"damping", "flow", "force", "output", "solid", "algebra", "advected", "fluid", "kinematics"}
 TOP |= {*SECTIONS, *KEYS}
 DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
@@ -136,7 +137,7 @@ def problem_of(
     reader.moves(moved)
     name = reader.name_of(data, of_its_own=moved is not None)
     parameters = _parameters(data.get("parameters", {}), reader)
-    if any(key in data for key in SECTIONS):
+    if "kinematics" in data or any(key in data for key in SECTIONS):
         return _without_points(data, moved)
     reader.parameters = parameters
     its_body = body(data, reader)
@@ -203,12 +204,15 @@ def _without_points(
 ) -> Problem:
     """A problem that says all of its Lagrangian; its group acts by matrices on (r, 1), or, with
     something ``advected`` or nothing, is known by its algebra alone."""
+    if "kinematics" in data and advected is None:
+        known = _parameters(data.get("parameters", {}), FileReader())
+        return kinematics_problem(data, moved, known)
     where = next((key for key in SECTIONS if key in data), None)
     if where is None:
         raise ProblemError("an algebra moves no points: give a [lagrangian] or an [inertia]")
     if moved is None:
         raise ProblemError(f"key {where!r}: a text about any group has no Lagrangian of its own")
-    for key in ("point", "solid", "body", "potential", "damping", "flow"):
+    for key in ("point", "solid", "body", "potential", "damping", "flow", "kinematics"):
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
     acting = {f"force {k}": x for k, x in enumerate(tables(data, "force"), 1)}

@@ -163,7 +163,7 @@ def Problem(
 
     ``group``: or an algebra that moves no points, or a fluid, which has nothing else. ``body``:
     points, moments, solids; or a Lagrangian that no points give, with what an algebra carries
-    along.
+    along; or kinematics of first order.
 
     ``negative_mass``, ``negative_stiffness``: may a mass, or the stiffness of a spring and the
     coefficient of a damping, be given as a negative number?  ``initial``: where motions start, by
@@ -180,7 +180,7 @@ def Problem(
     if initial is not None:
         data["initial"] = {k: _plain(x, f"initial, {k}") for k, x in initial.items()}
     for table in (*_tables(body), *_tables(forces)):
-        if table.key in ("body", *SECTIONS):
+        if table.key in ("body", "kinematics", *SECTIONS):
             data[table.key] = table.fields
         else:
             data.setdefault(table.key, []).append(table.fields)

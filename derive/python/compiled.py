@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..code.emit import emit
-from ..code.group_functions import FUNCTIONS, sizes
+from ..code.group_functions import GroupFunctions
 from ..code.languages import LANGUAGES
 from ..code.naming import own_prefix
 from ..code.options import ADDED, options_of
@@ -84,6 +84,7 @@ class Names(NamedTuple):
     reduced: int
     unread: tuple[str, ...]
     blocks: tuple[Block, ...]
+    group: GroupFunctions | None
 
     @classmethod
     def of(
@@ -96,7 +97,8 @@ class Names(NamedTuple):
         events = tuple(x.name for x in program.events)
         named = program.state, program.inputs, program.conserved, program.outputs, events
         unread = tuple(x for x in declared if x not in defaults)
-        return cls(*named, defaults, steps, *sizes, unread, program.blocks)
+        own = unread, program.blocks, program.group_functions
+        return cls(*named, defaults, steps, *sizes, *own)
 
 
 class CompiledValues(NamedTuple):
@@ -432,12 +434,12 @@ class Compiled(InMomenta, OnTheGroup):
 
     def _on_the_group(self, what: str, *given: Any) -> Array:
         function = getattr(self._library, f"derive_{what}", None)
-        if function is None:
+        known, d = self._names.group, self._names.algebra
+        if known is None or function is None:
             raise ValueError("not compiled: ask for it by compile(..., exponential=True)")
-        d, (takes, writes) = self._names.algebra, FUNCTIONS[what]
-        size = sizes(what, len(self.STATE) - d, d)
-        out = np.zeros((d, d) if writes == "J" else size[writes])
-        arrays = [_array(value, size[x]) for x, value in zip(takes, given, strict=True)]
+        takes, writes = known.functions[what]
+        out = np.zeros((d, d) if writes == "J" else known.count(what, writes))
+        arrays = [_array(x, known.count(what, a)) for a, x in zip(takes, given, strict=True)]
         function(*map(pointer, (*arrays, out)))
         return out
 
@@ -540,7 +542,7 @@ def compile(
     files = emit(made_of, derived.record, ("c",), name, options)
     files["binding.c"] = BINDING.format(name=name)
     if options.exponential:
-        files["group.c"] = on_the_group.binding(name)
+        files["group.c"] = on_the_group.binding(name, made_of.group_functions)
     if options.moves:
         files["steps.c"] = binding(
             name, options.step, FIXED, ensemble=options.ensemble, events=bool(made_of.events)

@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from ..code.group_functions import FUNCTIONS
+from ..code.group_functions import GroupFunctions
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
-def binding(name: str) -> str:
+def binding(name: str, group: GroupFunctions) -> str:
     """C that is compiled beside the emitted one: the functions of its header, to be called."""
     lines = [f'#include "{name}_group.h"']
-    for function, (takes, writes) in FUNCTIONS.items():
+    for function, (takes, writes) in group.functions.items():
         given = ", ".join(f"const double *{x}" for x in takes)
         head = f"void derive_{function}({given}, double *{writes})"
         lines += [f"{head};", f"{head} {{ {name}_{function}({', '.join((*takes, writes))}); }}"]
@@ -54,3 +54,12 @@ class OnTheGroup:
     def local(self, x: Any, y: Any) -> Array:
         """The (η, δζ), (2d,), that :meth:`retract` takes x to y by, turning by at most π."""
         return self._on_the_group("local", x, y)
+
+    def update_left(self, x: Any, o: Any, Y: Any, N: Any) -> Array:
+        """The state, (N,), an estimate and the covariance of its error, after an observation of
+        what varies of A o + V: Y, (m,), V a noise of the covariance N, (m, m)."""
+        return self._on_the_group("update_left", x, o, Y, np.reshape(N, -1))
+
+    def update_right(self, x: Any, o: Any, Y: Any, N: Any) -> Array:
+        """The same for A⁻¹ o + V."""
+        return self._on_the_group("update_right", x, o, Y, np.reshape(N, -1))

@@ -190,6 +190,18 @@ RULES: dict[str, Rule] = {
         "Les nombres du problème sont mis dans ses équations.",
         "solution",
     ),
+    "group-affine": Rule(
+        "affinité",
+        "A velocity on the group is tried on products of its elements.",
+        "Une vitesse sur le groupe est éprouvée sur les produits de ses éléments.",
+        "identity",
+    ),
+    "error equation": Rule(
+        "équation de l’erreur",
+        "What parts two motions by the same inputs is followed in time.",
+        "On suit dans le temps ce qui sépare deux mouvements par les mêmes entrées.",
+        "identity",
+    ),
     "solution": Rule(
         "résolution",
         "The equations are solved for the accelerations.",

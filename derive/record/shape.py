@@ -13,7 +13,8 @@ from typing import Any, TypeVar
 from ..language.derivatives import DERIVATIVES
 from ..language.laurent import LEVEL, degree_in_level
 from ..language.limits import BASIS, CARRIED, LAYERS, TORUS
-from ..language.tree import Tree, replaced
+from ..language.reserved import taken
+from ..language.tree import Tree, nodes, replaced
 from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
 from ..schema.kind import (
     GROUP,
@@ -23,6 +24,7 @@ from ..schema.kind import (
     Damping,
     Flow,
     Fluid,
+    Kinematics,
     Lagrangian,
     StatedCovector,
     StatedForce,
@@ -157,6 +159,9 @@ class _RecordReader(TableReader):
         if "fluid" in data:
             self.fluid()
             return
+        if "kinematics" in data:
+            self.kinematics()
+            return
         if data["group"] == GROUP:
             raise ShapeError(f"fluid: the problem of {GROUP} has this key")
         if ("lagrangian" in data) != (data["body"]["kind"] == "none"):
@@ -206,6 +211,41 @@ class _RecordReader(TableReader):
         for key in ("potentials", "places", "damping", "inputs", "parameters", "basis"):
             if data[key]:
                 raise ShapeError(f"fluid: {key} must be empty")
+
+    def kinematics(self) -> None:
+        """ġ says all of the motion, on the matrices of a group."""
+        data = self.data
+        if data["body"]["kind"] != "none" or not data["basis"] or data["action"] != "linear":
+            raise ShapeError("kinematics: they are of a group of matrices, without a body")
+        for key in ("lagrangian", "advected", "frame", "masses", "forces", "outputs", "torus"):
+            if key in data:
+                raise ShapeError(f"kinematics: they have no key {key!r}")
+        for key in ("potentials", "places", "damping", "inputs"):
+            if data[key]:
+                raise ShapeError(f"kinematics: {key} must be empty")
+        self.typed(Kinematics, data["kinematics"], "kinematics")
+
+    def meaning_of(self, name: str) -> str:
+        """A parameter, or what the grammar has."""
+        return "a parameter" if name in self.data["parameters"] else taken(name)
+
+    def rate(self, slot: Slot) -> Rows:
+        """Of the entries of A, parameters and inputs."""
+        n, inputs = self.data["n"], slot.found["inputs"]
+        listed = self.value(slot, list)
+        if len(listed) != n or not all(isinstance(x, list) and len(x) == n for x in listed):
+            raise ShapeError(f"{slot.path}: expected a matrix of {n} rows")
+
+        def one(value: Any) -> Tree:
+            t = self.read(value, slot.path)
+            plain = t
+            for name in inputs:
+                plain = replaced(plain, ("par", name), 1)
+            if "ζ" in nodes(t) or not self.is_scalar(plain, False, False, len(self.data["basis"])):
+                raise ShapeError(f"{slot.path}: expected the expression of a number")
+            return t
+
+        return tuple(tuple(map(one, row)) for row in listed)
 
     def symmetries(self) -> None:
         """The fields δA by which a record reduces, which is of a Lagrangian on a group."""

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from ..schema.kind import Own
 from ..schema.kinds import kinds
+from .kinematics_names import KINEMATICS
 from .names import (
     ADVECTED,
     ALGEBRA,
@@ -353,6 +354,7 @@ def add_letters(known: dict[str, Name], letters: Iterable[Own]) -> None:
 
 add_letters(VOCABULARY, (x for kind in kinds().values() for x in kind.letters))
 VOCABULARY |= {x: about for x, about in FLUID.items() if x not in VOCABULARY}
+VOCABULARY |= {x: about for x, about in KINEMATICS.items() if x not in VOCABULARY}
 for _action in DISCRETE.values():
     VOCABULARY |= {x: about for x, about in _action.items() if x not in VOCABULARY}
 
@@ -492,5 +494,6 @@ def meanings() -> Iterator[tuple[str, str]]:
         *LAGRANGIANS.values(),
         *DISCRETE.values(),
         CARRYING,
+        KINEMATICS,
     ):
         yield from ((x.meaning, x.french) for x in table.values())

@@ -334,17 +334,36 @@ class Fluid(Table):
     forces: Forces = "none"
 
 
+# Kinematics of first order: ġ = f_u(g), of whose state a filter keeps an estimate.
+
+SIDES = ("left", "right")
+Side = Annotated[str, Key("word", words=SIDES)]
+InputNames = Annotated[tuple[str, ...], Key("input_names", 1)]
+Rate = Annotated[tuple[tuple[Tree, ...], ...], Key("rate", 2, trees=True)]
+Densities = Annotated[tuple[Tree, ...], Key("densities", 1, trees=True)]
+"""The side of a trivialisation, or of an error; names of numbers; ġ, a matrix of expressions in the
+entries of g and the inputs; an expression of the parameters for each input."""
+
+
+class Kinematics(Table):
+    """ġ = f_u(g), the matrix ``rate``, u the numbers ``inputs``; ``noise``: the spectral density of
+    the noise on each of them; ``error``: the side of the error whose covariance the code has."""
+
+    section = "kinematics"
+    inputs: InputNames
+    rate: Rate
+    noise: Densities = ()
+    error: Side = "left"
+
+
 # Lagrangians that no points give: an expression ℓ(t, g, Z), or an inertia operator on 𝔤.
 
 Lettered = Annotated[Tree, Key("lettered", trees=True)]
 Coordinates = Annotated[tuple[Tree, ...], Key("coordinates", 1, trees=True)]
 Operator = Annotated[tuple[tuple[Tree, ...], ...], Key("operator", 2, trees=True)]
-SIDES = ("left", "right")
-Side = Annotated[str, Key("word", words=SIDES)]
 Held = Annotated[tuple[int, ...], Key("held", 1, keys=())]
 """An expression in the time and the names of the state; one for each coordinate of 𝔤; a symmetric
-matrix of these; the side on which velocities are carried to 𝔤; numbers of coordinates, which no
-file tells."""
+matrix of these; numbers of coordinates, which no file tells."""
 
 
 class Lagrangian(Table):

@@ -186,6 +186,30 @@ class TableReader(ABC):
             raise self.fail(f"{where}: {name!r} is {WORDS[name]}; call it {name + '_'!r}, say")
         return name
 
+    def input_names(self, slot: Slot) -> tuple[str, ...]:
+        """Names of numbers, each its own."""
+        listed = self.value(slot, list)
+        if not 1 <= len(listed) <= LONGEST:
+            raise self.fail(f"{slot.path}: expected a list of 1 to {LONGEST} names")
+        found = [self.name(Slot({slot.key: x}, slot.key, slot.where)) for x in listed]
+        for k, name in enumerate(found):
+            known = "another input" if name in found[:k] else ""
+            if what := known or self.meaning_of(name):
+                raise self.fail(f"{slot.path}: {name!r} is {what} as well; choose another name")
+        return tuple(found)
+
+    @abstractmethod
+    def meaning_of(self, name: str) -> str:
+        """What a name is already in expressions of the state, in words; "" if nothing."""
+
+    @abstractmethod
+    def rate(self, slot: Slot) -> Rows:
+        """A matrix of the size of the group, of expressions in its entries and the inputs."""
+
+    def densities(self, slot: Slot) -> tuple[Tree, ...]:
+        """An expression for each input."""
+        return self.listed(self.value(slot), len(slot.found["inputs"]), slot.path)
+
     def number(self, slot: Slot) -> float | None:
         """A number that a double holds, or none."""
         value = self.value(slot)

@@ -39,6 +39,7 @@ UNPROVED = "; not validated, for it is a loop: Carlson's duplication, which give
 UNCHECKED = "not validated: what constants refuses"
 SHOWN = 3
 """The most decimals that a report lists."""
+FILTER = "not validated: an estimate with the covariance of its error is not read back"
 PRINCIPAL = "not validated: the principal frame has eigenvectors, which are not rational"
 
 
@@ -75,6 +76,8 @@ class EmittedFiles:
     def reports(self, d: Derivation) -> list[Report]:
         """The results, one for each file, or for a header with its source."""
         whole = "".join(self.files.values())  # all of one emission are tried at the same points
+        if "kinematics" in d.problem:
+            return [Report(names, FILTER, read=False) for names in self._groups()]
         torus = "torus" in d.problem
         if torus:
             on_torus = cache(lambda: TorusClaims(d, whole, self.numbers))

@@ -76,8 +76,12 @@ ROAD_DISCRETE = (
     "The Lagrangian $L_d$ of two elements of the group gives the one-forms $Θ⁺$ and $Θ⁻$; where "
     "$Θ⁺$ of a step and $Θ⁻$ of the next agree, there is the motion."
 )
+ROAD_OF_ERRORS = (
+    "The velocity on the group is tried on products of its elements; where it is group-affine, the "
+    "logarithm of the error of an estimate moves linearly."
+)
 """What the walk does, in one sentence: from points, from a given Lagrangian, from some of each; in
-steps of time."""
+steps of time; of kinematics of first order."""
 PAPER = (
     "Numbers in the margin or beside the name of a step are those of the paper, "
     "P. Iglesias-Zemmour, “D’où viennent les équations du mouvement des solides ?”; what is "
@@ -177,6 +181,8 @@ def road(records: Sequence[Derivation]) -> str:
     steps of time."""
     if all(map(discrete, records)):
         return ROAD_DISCRETE
+    if all("kinematics" in d.problem for d in records):
+        return ROAD_OF_ERRORS
     stated = {given(d.problem) for d in records}
     return ROAD_BOTH if len(stated) > 1 else ROAD_GIVEN if True in stated else ROAD
 

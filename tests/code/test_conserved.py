@@ -24,10 +24,10 @@ from derive.validate.emission import EmittedFiles
 from tests.oracles import general
 from tests.support.walks import FLUIDS, problem, record, repeated
 
-WITHOUT = ("linear", "affine", "zeitlin", *FLUIDS)
-"""About any group, or without matrices; on the torus see test_torus."""
+WITHOUT = ("linear", "affine", "zeitlin", "imu", *FLUIDS)
+"""About any group, or without matrices or a Lagrangian; on the torus see test_torus."""
 APART = ("zeitlin", "euler_poisson", "jelly", "linear", "affine", "rod", "spherical_pendulum")
-APART += ("riemann_ellipsoid", *FLUIDS)
+APART += ("riemann_ellipsoid", "imu", *FLUIDS)
 """Without symmetries, or with states of other numbers than the oracle has."""
 NAMES = [x for x in ready_made() if x not in APART]
 SHORT = dict.fromkeys(("se3", "hammer", "screw", "heisenberg", "sp4", "saff3", "sim3"), 5.0)

@@ -395,3 +395,20 @@ def test_arrays_of_another_length_are_told():
     made = module(prefix, texts[f"{prefix}_group.py"])
     with pytest.raises(ValueError, match="so3: eta has 4 numbers, not 3"):
         made.exp(np.zeros(4))
+
+
+@pytest.mark.parametrize("language", RUN)
+def test_every_language_updates_as_c_does(language, tmp_path):
+    """An estimate and its covariance, by an observation of A o and of A⁻¹ o."""
+    ending, run = RUN[language]
+    problem, rng = walks.problem("imu"), np.random.default_rng(3)
+    f = derive.compile(problem, exponential=True)
+    root = rng.normal(size=(9, 9))
+    x = [*f.exp(rng.normal(size=9)), *(root @ root.T)[np.triu_indices(9)]]
+    given = [np.array(x), rng.normal(size=5), rng.normal(size=3), np.diag([1.0, 2, 3]).ravel()]
+    calls = [(f"update_{side}", given, len(x)) for side in ("left", "right")]
+    prefix, texts = emission(problem, (language,), exponential=True)
+    folder = [tmp_path] if language in ("javascript", "rust") else []
+    found = run(prefix, texts[f"{prefix}_group{ending}"], calls, *folder)
+    for (function, _, _), there in zip(calls, found, strict=True):
+        assert far(there, getattr(f, function)(*given)) < 1e-13, function

@@ -26,7 +26,7 @@ from tests.support.walks import record as ready_made_record
 
 PROBLEMS = sorted((Path(__file__).parents[2] / "derive" / "problems").glob("*.toml"))
 GENERAL = ("affine", "linear")
-BODILESS = {"lagrangian", "inertia", "fluid"}
+BODILESS = {"lagrangian", "inertia", "fluid", "kinematics"}
 STATED = [p.stem for p in PROBLEMS if BODILESS & {*tomllib.loads(p.read_text(encoding="utf-8"))}]
 NAMES = [p.stem for p in PROBLEMS if p.stem not in (*GENERAL, *STATED)]
 OWN = {

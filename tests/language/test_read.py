@@ -17,7 +17,7 @@ from derive.language.read import (
 from derive.language.show import FIELD_OPERATORS, in_quotes, show
 from derive.language.tree import add, mul, neg, subtrees
 from derive.record.vocabulary import VOCABULARY
-from tests.support.walks import NAMES, OTHERS, record
+from tests.support.walks import ESTIMATES, NAMES, OTHERS, record
 
 
 def first(t):
@@ -44,7 +44,7 @@ def trees_of(found):
             yield in_quotes(t, VOCABULARY)
 
 
-@pytest.mark.parametrize("name", NAMES + OTHERS)
+@pytest.mark.parametrize("name", NAMES + OTHERS + ESTIMATES)
 def test_all_that_is_printed_is_read(name):
     found = {*trees_of(record(name))}
     parameters = {

@@ -505,7 +505,7 @@ TEXTS += ("charged_body", "coupled", "euler_poisson", "gyrostat", "kirchhoff")
 TEXTS += ("rod", "spherical_pendulum", "zeitlin")
 TEXTS += ("euler_top", "lagrange_top", "kovalevskaya_top", "manakov")
 TEXTS += ("dirichlet", "riemann_ellipsoid", "gas_cloud", "ideal_fluid", "inhomogeneous_fluid")
-TEXTS += ("stratified_fluid",)
+TEXTS += ("stratified_fluid", "imu")
 PROBLEMS |= {
     path.stem: path.read_text(encoding="utf-8")
     for path in sorted(READY.glob("*.toml"))

@@ -118,6 +118,7 @@ def letters_of(d):
     sides = (x for s in d.steps for e in s.equations for t in (e.lhs, e.rhs) for x in nodes(t))
     named = (x[1] for x in sides if isinstance(x, tuple) and x[0] == "par")
     given |= {x for x in named if inputs and re.fullmatch(rf"({inputs})_\d+", x)}
+    given |= {*d.problem.get("kinematics", {}).get("inputs", ())}
     body = d.problem.get("body") or {}
     n = range(1, 10)
     entries = {"m", *(f"c_{i}" for i in n), *(f"J_{i}{j}" for i in n for j in n if i <= j)}

@@ -10,7 +10,7 @@ TOKEN = re.compile(
 )
 LETTERS = {rf"\{x}": letter for x, letter in GREEK.items()} | {
     r"\varphi": "φ", r"\varpi": "ϖ", r"\Cartanform": "ϖ", r"\ell": "ℓ", r"\delta": "δ",
-    r"\nabla": "∇", r"\vartheta": "ϑ",
+    r"\nabla": "∇", r"\vartheta": "ϑ", r"\varsigma": "ς",
     r"\variation": "δ",
 }  # fmt: skip
 WORDS = {r"\Tr": "Tr", r"\sum": "Σ", r"\int": "∫", r"\det": "det", r"\dd": "d", r"\partial": "∂"}
@@ -35,7 +35,7 @@ SPACES = (r"\,", r"\quad", r"\qquad", r"\ ", r"\;")
 
 STYLES = {
     r"\mathbb": {"J": "𝕁", "I": "𝕀", "R": "ℝ"},
-    r"\mathcal": {"J": "𝒥", "A": "𝒜", "R": "ℛ", "V": "𝒱"},
+    r"\mathcal": {"J": "𝒥", "A": "𝒜", "R": "ℛ", "V": "𝒱", "F": "ℱ"},
     r"\mathfrak": {"g": "𝔤", "s": "𝔰", "o": "𝔬"},
 }
 STYLES[r"\algebraof"] = STYLES[r"\mathfrak"]

@@ -21,10 +21,10 @@ from tests.support import advected, reduced, symmetric
 from tests.support.cached import on_disk
 from tests.support.lagrangians import heavy, lagrangian, squares
 from tests.support.record_mutations import TWINS, twin
-from tests.support.walks import FLUIDS, NAMES, OTHERS, SEED, problem
+from tests.support.walks import ESTIMATES, FLUIDS, NAMES, OTHERS, SEED, problem
 from tests.support.walks import record as ready_made_record
 
-READY = tuple(dict.fromkeys((*NAMES, *OTHERS, *FLUIDS)))
+READY = tuple(dict.fromkeys((*NAMES, *OTHERS, *FLUIDS, *ESTIMATES)))
 
 
 def read(text, **allowed):

@@ -8,7 +8,7 @@ A rule that leaves out what is true says nothing false: this table notices it.
 import json
 from pathlib import Path
 
-from tests.support.walks import FLUIDS, NAMES, OTHERS, record
+from tests.support.walks import ESTIMATES, FLUIDS, NAMES, OTHERS, record
 
 TABLE = Path(__file__).with_name("steps.json")
 
@@ -21,7 +21,7 @@ def counted(name):
 def table():
     """Of all problems, with the number of steps; what they share stands with the first of them."""
     found, seen = {}, {}
-    for name in dict.fromkeys((*NAMES, *OTHERS, *FLUIDS)):
+    for name in dict.fromkeys((*NAMES, *OTHERS, *FLUIDS, *ESTIMATES)):
         counts = counted(name)
         own = {x: k for x, k in counts.items() if seen.get(x) != k}
         found[name] = {"steps": len(counts), **own}

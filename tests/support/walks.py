@@ -13,7 +13,9 @@ from tests.support.cached import on_disk
 NAMES = ("linear", "affine", "so3", "se3", "sl3")
 FLUIDS = ("ideal_fluid", "inhomogeneous_fluid", "stratified_fluid")
 """Problems whose group has no matrices, and that have nothing to emit."""
-OTHERS = tuple(sorted({*ready_made()} - {*NAMES, *FLUIDS}))
+ESTIMATES = ("imu",)
+"""Problems of first order, which have no Lagrangian: tests/walk/test_kinematics.py."""
+OTHERS = tuple(sorted({*ready_made()} - {*NAMES, *FLUIDS, *ESTIMATES}))
 SPECIAL = ("so3", "se3", "sl3")
 
 SEED = 20

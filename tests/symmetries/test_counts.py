@@ -82,6 +82,7 @@ REFUSED = {
     "linear": "any group",
     "affine": "any group",
     **dict.fromkeys(FLUIDS, "no matrices"),
+    "imu": "no Lagrangian",
 }
 
 

@@ -124,7 +124,18 @@ OF_THE_CORPUS = [
 """Records that together have all sentences with the ready-made ones and these:"""
 WHOLE = {"group": "SL(3)", "body": {"solid": "ellipsoid", "density": 1, "semi_axes": [3, 2, 1]}}
 WEIGHT = {"kind": "gravity", "g": [0, 0, "-9.81"]}
+
+
+def kinematics(*rate, inputs=("u",)):
+    """Of first order, on the group of the plane that moves (r, 1)."""
+    table = {"inputs": [*inputs], "rate": [*rate, [0] * 3]}
+    return {"group": "SE(2)", "kinematics": table}
+
+
 OWN = [
+    kinematics(["-A_21*u", "-A_11*u", 0], ["A_11*u", "-A_21*u", "A_11"]),
+    kinematics([0, 0, "u"], [0, 0, 0]),
+    kinematics(["-A_21*w", "-A_11*w", "u"], ["A_11*w", "-A_21*w", 0], inputs=("u", "w")),
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT},
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT, "force": [{"covector": ["-zeta_1", 0, "t"]}]},
     {

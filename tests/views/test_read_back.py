@@ -10,7 +10,7 @@ from derive.views.rendering import FORMATS
 from tests.readers.read import PAGES, READERS, faults, misread
 from tests.support import printing_mutations, random_trees
 from tests.support.renamed import renamed
-from tests.support.walks import FLUIDS, NAMES, OTHERS, record, repeated
+from tests.support.walks import ESTIMATES, FLUIDS, NAMES, OTHERS, record, repeated
 
 SEEDS = 4
 TREES = 500
@@ -21,7 +21,7 @@ def test_every_format_has_a_reader():
     assert {*READERS} <= {*PAGES}
 
 
-@pytest.mark.parametrize("name", repeated(dict.fromkeys((*NAMES, *FLUIDS, *OTHERS))))
+@pytest.mark.parametrize("name", repeated(dict.fromkeys((*NAMES, *FLUIDS, *OTHERS, *ESTIMATES))))
 def test_every_page_says_what_its_record_says(name):
     assert [x for kind in PAGES for x in faults(record(name), kind)] == []
 

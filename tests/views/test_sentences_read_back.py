@@ -16,11 +16,11 @@ from tests.readers.formula import letters_of
 from tests.readers.read import misread_sentences
 from tests.support import corpus, reduced, symmetric
 from tests.support.lagrangians import every_record
-from tests.support.walks import FLUIDS, NAMES, OTHERS, record, repeated
+from tests.support.walks import ESTIMATES, FLUIDS, NAMES, OTHERS, record, repeated
 
 LANGUAGES = ("en", "fr")
 D = r"\mathrm{d}"
-WALKS = tuple(dict.fromkeys((*NAMES, *FLUIDS, *OTHERS)))
+WALKS = tuple(dict.fromkeys((*NAMES, *FLUIDS, *OTHERS, *ESTIMATES)))
 
 
 BESIDE = [

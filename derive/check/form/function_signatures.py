@@ -54,9 +54,11 @@ ON_TORUS: tuple[Tree, ...] = (
     *(("call", "ω̂", a, b) for a in COORDINATE.letters for b in COORDINATE.letters),
     *(("tr", ("mul", *["W"] * k)) for k in (2, 3, 4)),
 )
+ERRORS = ("η_L", "η_R")
+OF_ESTIMATE: tuple[Tree, ...] = ("Â", *ERRORS, "ξ_L", "ξ_R")
 FORM = ArgumentKind(
     "ϖ(δy), less a function or not, r_i(t), v_i, or a polynomial in Π_a and entries of A or Γ",
-    (("call", "ϖ", "δy"), *ON_TORUS),
+    (("call", "ϖ", "δy"), *ON_TORUS, *OF_ESTIMATE),
     "r",
     polynomial=True,
     less=True,
@@ -85,6 +87,8 @@ VARIED_PRIME = ArgumentKind(
 )
 ALONG_FIELDS = ArgumentKind("ξ, ξ′ or Z", ("ξ", "ξ′", "Z"))
 
+ON_GROUP = ArgumentKind("A, Â, A Â, an error or 1", ("A", "Â", ("mul", "A", "Â"), *ERRORS, 1))
+
 HEADS: dict[str, tuple[ArgumentKind, ...]] = {
     "ϖ": (VARIATION,),
     "dϖ": (VARIATION, VARIATION),
@@ -100,6 +104,7 @@ HEADS: dict[str, tuple[ArgumentKind, ...]] = {
     "∫": (INTEGRAND,),
     "g": (PLACE,),
     "M̃": (FIRST_FIELD, SECOND_FIELD),
+    "ℱ": (ON_GROUP,),
     "ρ": (CARRYING,),
     "ϖ_h": (VARIATION,),
     "dϖ_h": (VARIATION, VARIATION),

@@ -109,7 +109,7 @@ REGULAR = "the metric of the kinetic energy is not degenerate"
 MASSES = Hypothesis("positive", ("at", "m", "i"))
 CENTRAL: Tree = ("add", "J", ("mul", -1, ("inv", "m"), "c", ("T", "c")))
 MOMENTS = (Hypothesis("positive", "m"), Hypothesis("semidefinite", CENTRAL))
-_OF_GROUP = ("A", "g_1", "A_1")
+_OF_GROUP = ("A", "Â", "g_1", "A_1")
 INVERTIBLE = (
     *("C", *_OF_GROUP, *(("T", x) for x in _OF_GROUP)),
     *(("norm2", x) for x in LATTICE),

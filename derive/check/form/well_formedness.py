@@ -185,6 +185,7 @@ _PRIMITIVE = """
     Γ Γ̇ ρ Ψ Ψ_0 Ψ_1 Ψ_2 t π i a b e m U v r F A T E z u f_u X δ δ′ α τ α̇ τ̇ Ż ẇ ζ̇ ṗ ℓ̇ Ũ dŨ ∂ₜŨ ∂ₜL̃
     𝐦 𝐧 Ẇ δΠ δ′Π Π̇ Π̇_o δp_b δ′p_b ṗ_b δℓ_b δ′ℓ_b ℓ̇_b
     ι o r̂ h g_0 g_1 g_2 U_0 U_1 δg_0 δg_1 δ′g_0 δ′g_1
+    Â ξ_L ξ_R ς
     ∫ d/dt δA δT δt δα δτ δx δy δZ δw δζ δ′A δ′T δ′t δ′α δ′τ δ′x δ′y δ′Z δ′w δ′ζ
     """
 PRIMITIVE = frozenset(_PRIMITIVE.split()) | ELEMENTARY

@@ -18,6 +18,7 @@ from ...language.show import show
 from ...language.tree import Tree, nodes
 from ...record.record import ANY_GROUP, Equation, RecordError, Step
 from ...record.shape import IDENTIFIER
+from ..kinematics import kinematics_model
 from ..lagrangian import lagrangian_values
 from ..lagrangian.lagrangian_model import LagrangianModel
 from ..torus import torus_model
@@ -52,7 +53,7 @@ def group_of(problem: Mapping[str, Any]) -> Group | None:
     if "advected" in problem:
         return _carrying(problem, name, basis)
     found = _user_group(problem, name, basis) if IDENTIFIER.fullmatch(name) else _named(name, basis)
-    if "lagrangian" in problem:
+    if "lagrangian" in problem or "kinematics" in problem:
         found = (on_homogeneous(found) if found.affine else found).in_user_basis
     homogeneous = len(found.factors) == 1
     if homogeneous != problem.get("homogeneous"):
@@ -238,6 +239,8 @@ def model_at(
     problem: Mapping[str, Any], g: Group, source: Source, size: int, at: Locus, **chosen: Any
 ) -> AnyModel:
     """A random model at a locus; ``chosen``: what is drawn otherwise (:class:`Model`)."""
+    for name, value in at.elements:
+        raise RecordError(f"the element {name} = {show(value)[:60]} is of another kind of problem")
     if "lagrangian" in problem:
         return LagrangianModel(problem, g, source, size, at, **chosen)
     for name, value in (*at.field, *at.field_prime):
@@ -344,6 +347,9 @@ class TrialPoints:
                 torus_of(self.problem), source, size, free=at.free_acceleration
             )
             return fluid, torus_model.environment(fluid)
+        if "kinematics" in self.problem:
+            errors: Any = kinematics_model.KinematicsModel(self.problem, g, source, size, at)
+            return errors, kinematics_model.environment(errors)
         model = model_at(self.problem, g, source, size, at, generic=generic)
         return model, names_at(model)
 

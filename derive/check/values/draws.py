@@ -160,7 +160,8 @@ class Locus:
     acceleration is any, and that of X. ``driven``: inputs and damping act. ``field``: δt and δA
     where δ is a field, functions of t and A; ``field_prime``: those of δ′. ``inside``: g is in the
     least algebraic group that has 𝔤, not in a larger one with the same relations.
-    ``still``: δt = 0. ``stepping``: g₂ is where the discrete motion goes.
+    ``still``: δt = 0. ``stepping``: g₂ is where the discrete motion goes. ``elements``: those that
+    are given, by their names.
     """
 
     principal: bool = False
@@ -174,6 +175,7 @@ class Locus:
     inside: bool = False
     still: bool = False
     stepping: bool = False
+    elements: tuple[tuple[str, Tree], ...] = ()
 
     @property
     def as_text(self) -> str:
@@ -187,6 +189,7 @@ class Locus:
             + " inside" * self.inside
             + " still" * self.still
             + " stepping" * self.stepping
+            + (f" {self.elements}" if self.elements else "")
         )
 
 
@@ -201,9 +204,13 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
     along: set[str] = set()
     fields = [_field(step, names) for names in (("δt", "δA"), ("δ′t", "δ′A"))]
     known = {name for field in fields for name, _ in field}
+    elements: dict[str, Tree] = {}
     for e in step.given:
         lhs, rhs = e.lhs, e.rhs
         if lhs in known:
+            continue
+        if lhs in ("A", "Â") and isinstance(rhs, tuple) and rhs[0] == "matrix":
+            elements[str(lhs)] = rhs
             continue
         if (lhs, rhs) == ("I", PRINCIPAL):
             principal = True
@@ -225,7 +232,13 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
     if still and contracted:
         raise RecordError("the hypotheses δt = 0 and δt = 1 exclude each other")
     inside = step.rule == EVALUATION or bool(step.names & {*CARRIED})
-    return replace(found, inside=inside, still=still, stepping=_steps(step))
+    return replace(
+        found,
+        inside=inside,
+        still=still,
+        stepping=_steps(step),
+        elements=(*elements.items(),),
+    )
 
 
 CARRIED = ("Π_o", "Π̇_o")

@@ -20,7 +20,8 @@ from ..factor import factored
 from ..graph import Graph, Node
 from ..naming import ClaimedNames
 from ..options import Options
-from ..program import EmittedFunction, Load, LoweringError, Program
+from ..program import EmittedFunction, Load, Program
+from ..requests import require_options
 from ..schedule import Scheduler, Source, frontier
 from ..watched_functions import EmittedEvent, table, values_of
 from .lattice_state import described, names, position
@@ -117,24 +118,7 @@ def torus_program(
 
 def require_on_torus(d: Derivation, chosen: Options) -> None:
     """``LoweringError`` for an option that is not written on the torus."""
-    for on, option in (
-        (chosen.layout != "row", f"--layout {chosen.layout}"),
-        (chosen.attitude != "matrix", f"--attitude {chosen.attitude}"),
-        (chosen.frame != "given", f"--frame {chosen.frame}"),
-        (chosen.velocity != "body", f"--velocity {chosen.velocity}"),
-        (chosen.state != "whole", f"--state {chosen.state}"),
-        (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
-        (chosen.momenta, "--momenta"),
-        (chosen.dynamics, "--dynamics"),
-        (chosen.exponential, "--exponential"),
-        ("discrete" in chosen.step, "--step discrete"),
-        (chosen.multiplier, "--multiplier"),
-    ):
-        if on:
-            raise LoweringError(
-                f"{d.name}: {option} is not written on the torus, whose state is the vorticity "
-                "alone: leave it out"
-            )
+    require_options(d, chosen, "on the torus, whose state is the vorticity alone")
 
 
 def _scratch(torus: TorusLattice) -> tuple[str, ...]:

@@ -30,8 +30,8 @@ class NotReducedError(Refused, ValueError):
 
 
 def require_group(problem: Problem) -> None:
-    """``NotReducedError`` for a text about any group, and for a fluid."""
-    if problem.group is None:
+    """``NotReducedError`` for a text about any group, for a fluid and for kinematics."""
+    if problem.group is None or problem.kinematics:
         raise NotReducedError(problem.unsearched)
 
 

@@ -267,7 +267,7 @@ def with_scalar_lagrangian(
 
     ``integrand``: what stands there for an integral, if anything may.
     """
-    if problem.group is None:
+    if problem.group is None or problem.kinematics:
         raise ProblemError(problem.unsearched)
     if problem.advected is not None:
         raise ProblemError(

@@ -54,8 +54,10 @@ def named(tex: str) -> Formula:
         return fraction(upright("d"), upright("d") + literal("t"), RATE)
     if upright_word := WORD.fullmatch(tex):
         return operator(upright_word[1], near=True)
-    if tex in STYLED | BOLD:
-        return Formula(tex, (f"<mi>{(STYLED | BOLD)[tex]}</mi>",))
+    plain, _, below = tex.partition("_")
+    if plain in STYLED | BOLD:
+        letter = Formula(plain, (f"<mi>{(STYLED | BOLD)[plain]}</mi>",))
+        return _letter_in_full(tex, "", letter, "", below)
     if tex.startswith(DIFFERENTIAL) and tex.removeprefix(DIFFERENTIAL) in STYLED:
         styled = STYLED[tex.removeprefix(DIFFERENTIAL)]
         return Formula(tex, (*upright("d").items, f"<mi>{styled}</mi>"))

@@ -34,7 +34,7 @@ class Notation:
 
 LETTERS = GREEK | {
     "varphi": "φ", "phi": "ϕ", "varpi": "ϖ", "lambda": "λ", "Lambda": "Λ", "partial": "∂",
-    "nabla": "∇", "ell": "ℓ", "vartheta": "ϑ", "infty": "∞",
+    "nabla": "∇", "ell": "ℓ", "vartheta": "ϑ", "varsigma": "ς", "infty": "∞",
 }  # fmt: skip
 """Command of LaTeX (without its backslash) → letter, for commands that are letters."""
 MATH_ACCENTS = {"\u0304": r"\bar", "\u0303": r"\tilde", "\u0307": r"\dot", "\u0302": r"\hat"}
@@ -47,7 +47,7 @@ SYMBOLS = {letter: rf"\{name}" for name, letter in LETTERS.items()} | {
     "¼": r"\tfrac14", "⅔": r"\tfrac23", "∘": r"\circ", "⊤": r"\top", "∫": r"\int",
     "𝟏": r"\mathbf{1}", "𝔰": r"\mathfrak{s}", "𝔬": r"\mathfrak{o}", "𝕁": r"\mathbb{J}",
     "𝕀": r"\mathbb{I}", "𝒥": r"\mathcal{J}", "𝒜": r"\mathcal{A}", "ℛ": r"\mathcal{R}",
-    "𝒱": r"\mathcal{V}",
+    "𝒱": r"\mathcal{V}", "ℱ": r"\mathcal{F}",
     "𝐦": r"\mathbf m", "𝐧": r"\mathbf n",
 }  # fmt: skip
 STYLED = {x: letter for letter, x in SYMBOLS.items() if x[:7] in (r"\mathbb", r"\mathca")}

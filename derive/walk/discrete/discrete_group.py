@@ -171,6 +171,8 @@ def require(problem: Problem) -> None:
     reason = ""
     if problem.fluid:
         reason = problem.without_matrices
+    elif problem.kinematics:
+        reason = "kinematics of first order have no Lagrangian"
     elif problem.torus or problem.lagrangian or problem.advected:
         reason = "its Lagrangian is not one of points"
     elif problem.group and len(problem.group.factors) > 1:

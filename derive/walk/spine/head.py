@@ -11,6 +11,7 @@ from ...language.show import in_sentence
 from ...problem.problem import Problem, data
 from ...record import sentence
 from ...record.as_json import encode
+from ...record.kinematics_names import KINEMATICS
 from ...record.names import DISCRETE, FLUID, Name
 from ...record.record import CONVENTIONS, Derivation, Step, Symbol
 from ...record.uses import of_steps
@@ -65,6 +66,7 @@ def _symbols(
     sizes = _sizes(group) if group else {}
     if problem.torus:
         sizes = {"n": problem.torus.N, "lattice": 2}
+    sizes["inputs"] = len(problem.kinematics.inputs) if problem.kinematics else 0
     sizes["fields"] = len(data.get("symmetries", ()))
     sizes["carried"] = sum(x.size for x in problem.advected or ())
     sizes["reduced"] = sizes["carried"] + sizes.get("dim", 0)
@@ -90,6 +92,8 @@ def _meant(problem: Problem) -> dict[str, Name]:
     group = problem.group
     if problem.fluid:
         return VOCABULARY | FLUID
+    if problem.kinematics:
+        return VOCABULARY | KINEMATICS
     if problem.torus:
         return VOCABULARY | LAGRANGIANS["right"] | ON_THE_TORUS
     if problem.lagrangian:

@@ -35,7 +35,7 @@ from .alphabet import Alphabet
 # is a quadratic form, degenerate for some bodies and, where it changes from place to place, at
 # some elements of the group: then the steps hold wherever it is invertible, and say so.
 
-ALWAYS = ("A", "C", read("Ā"), "g_1", ("T", "g_1"), "A_1", ("T", "A_1"))
+ALWAYS = ("A", "Â", "C", read("Ā"), "g_1", ("T", "g_1"), "A_1", ("T", "A_1"))
 """The element of the group and C = ĀA, which have inverses without a hypothesis."""
 
 

@@ -1,0 +1,1 @@
+"""Kinematics of first order on a group: the errors of an estimate, and when they move linearly."""
