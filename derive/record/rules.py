@@ -190,6 +190,12 @@ RULES: dict[str, Rule] = {
         "Les nombres du problème sont mis dans ses équations.",
         "solution",
     ),
+    "trim": Rule(
+        "équilibrage",
+        "A state and inputs are found at which the rates of the velocity vanish.",
+        "On trouve un état et des entrées où les dérivées de la vitesse s’annulent.",
+        "solution",
+    ),
     "solution": Rule(
         "résolution",
         "The equations are solved for the accelerations.",
