@@ -1,5 +1,5 @@
 """The numeric code of a problem, as a program and at work: its record assembled with what the
-options ask for, conserved quantities and the discrete motion among it."""
+options ask for, conserved quantities and the discrete motion among it; trims, of its values."""
 
 from __future__ import annotations
 
@@ -14,9 +14,13 @@ from .record.record import Derivation
 from .searches import conserved_quantities, conserved_without_gravity
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from .code.options import Options
     from .code.program import Program
+    from .language.univariate import Number
     from .motion.emitted import Emitted, OneDegree
+    from .search.trim.trimmed import Trim
 
 
 def motion_of(
@@ -99,6 +103,37 @@ def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
     V = next(e.rhs for e in told if e.lhs == "𝒱")
     turns = problem.group is not None and "orthogonal" in problem.group.relations
     return OneDegree((left.entry[2], left.entry[3]), V, momenta_of(found), turns)
+
+
+def trim(
+    problem: Problem, at: Mapping[str, Number], free: Sequence[str] | None = None
+) -> tuple[Trim, Derivation]:
+    """The inputs ``free``, else all that are not given, with which the velocity of a state stays as
+    it is, and the record of the problem with the step that tells them; ``at``: numbers of the state
+    and of inputs, else those of g = 1, and 0; parameters have their defaults."""
+    from .code.options import Options
+    from .code.program import LoweringError
+    from .search.trim.trim_steps import told
+    from .search.trim.trimmed import trimmed
+    from .walk.chapter import Chapter
+    from .walk.spine.lagrangian import completed
+
+    record = walk(problem)
+    try:
+        made = program(problem, record, Options(jacobian=("state",)))
+    except LoweringError:
+        raise ProblemError(
+            f"{problem.name}: a trim is by linearised equations on a whole group of matrices, "
+            "which are not written here; derive equilibria may tell what is steady"
+        ) from None
+    assert problem.group
+    try:
+        found = trimmed(problem, made, at, free)
+    except Refused as error:
+        raise ProblemError(f"{problem.name}: {error}") from None
+    c = Chapter(problem.name, problem.group_name)
+    step = told(found, problem.group, record.steps, c)
+    return found, replace(record, steps=completed((*record.steps, step)))
 
 
 def program(

@@ -12,13 +12,14 @@ values and stores outputs.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
 from ..language.limits import Refused
 from ..language.tree import Tree, nodes
+from ..language.values import arithmetic
 
 
 class LoweringError(Refused, ValueError):
@@ -106,6 +107,25 @@ class EmittedFunction:
         """The expressions of all values, outputs and checks."""
         checked = (x for c in self.checks for x in (c.value, c.scale))
         return [*self.computed, *(x for x in checked if x is not None)]
+
+    def values(
+        self, arrays: Mapping[str, Sequence[Any]], call: Callable[[str, Any], Any]
+    ) -> list[Any]:
+        """The outputs in any ring, by the numbers of its arrays; ``call(name, x)``: the value of an
+        elementary function, of "abs" and of "none"."""
+        known: dict[Any, Any] = {x.name: arrays[x.array][x.index] for x in self.loads}
+
+        def of(e: Expression) -> Any:
+            if not isinstance(e, tuple):
+                return known[e] if isinstance(e, str) else Fraction(e)
+            if e[0] in ("fun", "abs", "none"):
+                return call(str(e[-2]), of(e[-1]))
+            return arithmetic(e, of)
+
+        for section in self.sections:
+            for v in section.values:
+                known[v.name] = of(v.expression)
+        return [of(e) for e in self.outputs]
 
     def calls(self) -> set[str]:
         """The names of the elementary functions that it calls."""

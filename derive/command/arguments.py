@@ -154,11 +154,11 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
         return made
 
     command("list")
-    walk, symmetries, reduction, searched, steady, made, emit, check = map(
-        command,
-        ("walk", "symmetries", "reduction", "integrals", "equilibria", "notes", "emit", "check"),
+    walk, symmetries, reduction, searched, steady, held = map(
+        command, ("walk", "symmetries", "reduction", "integrals", "equilibria", "trim")
     )
-    add_reading_options((walk, symmetries, reduction), (searched, steady), made)
+    made, emit, check = map(command, ("notes", "emit", "check"))
+    add_reading_options((walk, symmetries, reduction), (searched, steady, held), made)
     about = "first what holds for any Lagrangian, on the left beside the right"
     walk.add_argument("--trivialisation", type=both, metavar="both", help=about)
     about = "the discrete motion, a time step h apart"
@@ -171,6 +171,10 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     steady.add_argument(
         "--near", action="append", type=coordinate, metavar="NAME=NUMBER", help=about
     )
+    about = "of the state or an input, as zeta_3=1/2; repeated, others are those of g = 1, and 0"
+    held.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)
+    about = "an input to be found; repeated (default: all that --at does not give)"
+    held.add_argument("--free", action="append", metavar="NAME", help=about)
     emit.add_argument("problem", help="a ready-made name or a .toml file")
     add_writing_options(emit)
     add_emission_options(emit)

@@ -1,4 +1,4 @@
-"""The command line: ``derive list | walk | symmetries | reduction | integrals | equilibria |
+"""The command line: ``derive list | walk | symmetries | reduction | integrals | equilibria | trim |
 notes | emit | simulate | plot | check | compare | paper | build``."""
 
 from __future__ import annotations
@@ -32,6 +32,7 @@ from .writing import StoppedError, one_line, replacing_unencodable, time_limit, 
 
 if TYPE_CHECKING:
     from ..check.form.hypotheses_checked import Verdict
+    from ..language.univariate import Number
 
 
 def command_list(_: argparse.Namespace) -> int:
@@ -79,15 +80,12 @@ def command_equilibria(args: argparse.Namespace) -> int:
 
     if args.near and args.at:
         raise UsageError("--at is exact and --near is not: give one of them")
-    for option, given in (("--at", args.at), ("--near", args.near)):
-        several = Counter(name for name, _ in given or ())
-        if twice := [name for name, count in several.items() if count > 1]:
-            raise UsageError(f"{option} {twice[0]}: given more than once; leave out all but one")
+    at, near = _each_once("--at", args.at), _each_once("--near", args.near)
     found: object
-    if args.near:
-        found, record = equilibrium_near(doubted(args.problem), dict(args.near), args.degree)
+    if near:
+        found, record = equilibrium_near(doubted(args.problem), near, args.degree)
     else:
-        found, record = equilibria(doubted(args.problem), dict(args.at or ()), args.degree)
+        found, record = equilibria(doubted(args.problem), at, args.degree)
     if not found:
         raise UsageError(
             f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "
@@ -95,6 +93,23 @@ def command_equilibria(args: argparse.Namespace) -> int:
         )
     save_found(record, args)
     return 0
+
+
+def command_trim(args: argparse.Namespace) -> int:
+    """Find the inputs that keep the velocity of a state as it is, and its stability."""
+    from ..programs import trim
+
+    at = _each_once("--at", args.at)
+    save_found(trim(doubted(args.problem), at, args.free)[1], args)
+    return 0
+
+
+def _each_once(option: str, pairs: Sequence[tuple[str, Number]] | None) -> dict[str, Number]:
+    """The numbers that an option gives by names; ``UsageError`` for a name that stands twice."""
+    several = Counter(name for name, _ in pairs or ())
+    if twice := [name for name, count in several.items() if count > 1]:
+        raise UsageError(f"{option} {twice[0]}: given more than once; leave out all but one")
+    return dict(pairs or ())
 
 
 def command_symmetries(args: argparse.Namespace) -> int:
@@ -298,6 +313,7 @@ COMMANDS = {
     "walk": command_walk,
     "integrals": command_integrals,
     "equilibria": command_equilibria,
+    "trim": command_trim,
     "symmetries": command_symmetries,
     "reduction": command_reduction,
     "notes": command_notes,

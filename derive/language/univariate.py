@@ -199,10 +199,10 @@ def grows(f: Sequence[Any]) -> bool:
     both = common_divisor(own, opposite)
     at_zero = next(k for k, x in enumerate(both) if x != 0)
     squares = real_roots(both[at_zero::2])
-    return squares.negative < squares.distinct or not _routh(division(own, both)[0][::-1])
+    return squares.negative < squares.distinct or not routh(division(own, both)[0][::-1])
 
 
-def _routh(f: Coefficients) -> bool:
+def routh(f: Coefficients) -> bool:
     """Have all roots of a polynomial, given from the highest power, negative real parts?"""
     first, second = [*f[::2]], [*f[1::2]]
     while second:

@@ -14,8 +14,9 @@ Spacecraft 7 (1970)).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import product as pairs
+from typing import Any
 
 from ..language.derivatives import derivative, product
 from ..language.expression import names
@@ -31,11 +32,20 @@ from ..schema.body_kinds import (
 )
 from ..schema.kind import Flow, Input, StatedForce
 from .entries_on_orbit import vanishes
-from .fields import angular_velocity
+from .fields import angular_velocity, tables
 from .file_reader import FileReader
 from .problem import ProblemError, points_of
 
 Row = tuple[Tree, ...]
+
+
+def flows_of(
+    data: Mapping[str, Any], body: Body | None, reader: FileReader, inputs: Sequence[Input]
+) -> tuple[tuple[Flow, ...], tuple[StatedForce, ...]]:
+    """The flows of a file, and how they push."""
+    listed = enumerate(tables(data, "flow"), 1)
+    flows = tuple(reader.typed(Flow, x, f"flow {k}") for k, x in listed)
+    return flows, flow_forces(flows, body, reader, inputs)
 
 
 def flow_forces(

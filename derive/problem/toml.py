@@ -17,7 +17,7 @@ from ..language.expression import names, numbers
 from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, PROBLEM_BYTES, PULLS
 from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
-from ..schema.kind import SECTIONS, Advected, Flow, Fluid, Parameter
+from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
 from ..schema.output_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
 from ..schema.table import ATTACHED, Table, nearest
 from . import inertia
@@ -39,7 +39,7 @@ from .fields import (
     used_at,
 )
 from .file_reader import FileReader
-from .flows import flow_forces
+from .flows import flows_of
 from .inertia import impossible, negative_kinetic_energy, negative_mass
 from .kinematics_tables import kinematics_problem
 from .lagrangian_tables import group_of_algebra, lagrangian, on_torus, torus_problem
@@ -125,14 +125,8 @@ def problem_of(
     """
     reader = FileReader(folder)
     reader.known(data, TOP, "file")
-    if "fluid" in data:
-        return _fluid(data, reader)
-    if on_torus(data):
-        return torus_problem(data, reader)
-    if "algebra" in data:
-        return _without_points(data, *group_of_algebra(data))
-    if "advected" in data:
-        raise ProblemError("key 'advected' goes with [algebra]: a group has its entries A_11, …")
+    if found := _without_group(data, reader):
+        return found
     moved, action = group_of(data, reader)
     reader.moves(moved)
     name = reader.name_of(data, of_its_own=moved is not None)
@@ -153,8 +147,7 @@ def problem_of(
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     linear, damped = as_forces(damping, reader)
-    flows = tuple(reader.typed(Flow, x, f"flow {k}") for k, x in enumerate(tables(data, "flow"), 1))
-    pushed = flow_forces(flows, its_body, reader, inputs)
+    flows, pushed = flows_of(data, its_body, reader, inputs)
     observed = outputs(data, reader, inputs, potentials)
     problem = Problem(
         name,
@@ -177,6 +170,19 @@ def problem_of(
     _declared(problem, data)
     _massive(problem, negative_mass)
     return problem
+
+
+def _without_group(data: Mapping[str, Any], reader: FileReader) -> Problem | None:
+    """A fluid, or what moves on an algebra; ``None`` for the problem of a group."""
+    if "fluid" in data:
+        return _fluid(data, reader)
+    if on_torus(data):
+        return torus_problem(data, reader)
+    if "algebra" in data:
+        return _without_points(data, *group_of_algebra(data))
+    if "advected" in data:
+        raise ProblemError("key 'advected' goes with [algebra]: a group has its entries A_11, …")
+    return None
 
 
 def _with_moments(its_body: Body | None, parameters: dict[str, Parameter]) -> dict[str, Parameter]:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .as_sympy import Translation
     from .conserved_quantities import SymmetriesOf
     from .expressions import Expressions
-    from .found import Equilibria, FirstIntegrals, Near, Reduced
+    from .found import Equilibria, FirstIntegrals, Near, Reduced, Trimmed
     from .simulated import Simulated, SimulatedEnsemble
 
 
@@ -135,6 +135,21 @@ class Derived:
 
         values = {x: number_from(str(v)) for x, v in at.items()}
         return Near(*equilibrium_near(self.problem, values, degree))
+
+    def trim(
+        self,
+        at: Mapping[str, Fraction | int | str] | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Trimmed:
+        """The inputs ``free``, else all that are not given, which keep the velocity of a state as
+        it is; ``at``: numbers of the state and of inputs, as ``{"zeta_3": "1/2"}``, else those of
+        g = 1, and 0.  ``ValueError`` where there is none, or there are many."""
+        from ..programs import trim
+        from ..search.equilibria.equilibrium_points import number_from
+        from .found import Trimmed
+
+        values = {x: number_from(str(v)) for x, v in (at or {}).items()}
+        return Trimmed(*trim(self.problem, values, free))
 
     def symmetries(self) -> SymmetriesOf:
         """All symmetries of L̃ of a kind, and what the motion keeps by each; ``ProblemError`` where

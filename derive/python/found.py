@@ -20,6 +20,7 @@ from ..search.equilibria.equilibrium_points import coordinate
 from ..search.equilibria.stability import Equilibrium
 from ..search.integrals.all_integrals import Condition, IntegralsFound
 from ..search.reduction.routhian import Routhian
+from ..search.trim.trimmed import Trim
 from .api import in_keywords
 from .quoted import loaded
 from .shown import Finding, Shown, ShownEquation
@@ -111,6 +112,41 @@ class Equilibria(Finding):
 
     def __iter__(self) -> Iterator[Steady]:
         return map(Steady, self.found)
+
+
+@dataclass(frozen=True)
+class Trimmed(Finding):
+    """An equilibrium under inputs.  ``found``: all that is known of it, exact numbers; ``record``:
+    its derivation."""
+
+    _search = "trim"
+
+    found: Trim
+    record: Derivation
+
+    @property
+    def x(self) -> list[float]:
+        """The state, in the order of the emitted code."""
+        return [*map(float, self.found.state.values())]
+
+    @property
+    def u(self) -> list[float]:
+        """All inputs, in that order."""
+        return [*map(float, self.found.inputs.values())]
+
+    @property
+    def verdict(self) -> str:
+        """What is proved with the inputs held: "stable", "unstable", or "open" for nothing."""
+        return self.found.verdict
+
+    @property
+    def eigenvalues(self) -> tuple[complex, ...]:
+        """About those of the equations linearised along the group, in 1/s."""
+        return self.found.eigenvalues
+
+    def __repr__(self) -> str:
+        inputs = ", ".join(f"{x} = {y}" for x, y in self.found.inputs.items())
+        return f"<trim, {self.verdict}: {inputs or 'no inputs'}>"
 
 
 # The reduction of a problem as Python holds it, and its record.

@@ -202,6 +202,12 @@ RULES: dict[str, Rule] = {
         "On suit dans le temps ce qui sépare deux mouvements par les mêmes entrées.",
         "identity",
     ),
+    "trim": Rule(
+        "équilibrage",
+        "A state and inputs are found at which the rates of the velocity vanish.",
+        "On trouve un état et des entrées où les dérivées de la vitesse s’annulent.",
+        "solution",
+    ),
     "solution": Rule(
         "résolution",
         "The equations are solved for the accelerations.",

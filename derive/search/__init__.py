@@ -5,5 +5,6 @@ FIRST = {
     "integrals": "poisson",
     "equilibria": "equilibrium_1",
     "reduction": "momentum_1",
+    "trim": "trim",
 }
 """Search → the first of the steps that tell, in its record, what was found."""

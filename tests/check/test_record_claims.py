@@ -23,7 +23,7 @@ from derive.record.prose import message
 from derive.record.sentence import CLAIMS, Claim, Sentence
 from derive.search.integrals import integral_steps
 from tests.problems import PROBLEMS
-from tests.support import walks
+from tests.support import trims, walks
 from tests.support.lagrangians import (
     APART,
     LINE,
@@ -73,6 +73,9 @@ RECORDS = {
     "no symmetries": lambda: derive(heavy("123", "t*A_11 + A_22 + A_12^2", "")).symmetries().record,
     "a tetrahedron": lambda: walks.record("sl3"),
     "a tetrahedron, displaced": lambda: walks.record("saff3"),
+    "a trim": lambda: trims.leaning().record,
+    "a trim, unstable": lambda: trims.upside_down().record,
+    "a trim, steady": lambda: trims.drifting().record,
     "large": lambda: large("euler_top"),
     "large at defaults": lambda: large("euler_top", at_defaults=True),
 }
@@ -86,8 +89,12 @@ OPEN = {"degree", "weight"}
 variables count."""
 TOLD = {"first_integrals.further", "first_integrals.no_further"}
 """Claims up to the degree that another one tells."""
-FALSE = {("first_integrals.complete_by_one", "number"): (1, 0)}
-"""Numbers that make a claim false where another one does not: the energy of a ball is a Casimir."""
+FALSE = {
+    ("first_integrals.complete_by_one", "number"): (1, 0),
+    ("trim.unique", "inputs"): (("row", ("par", "u"), ("par", "u")),),
+}
+"""Values that make a claim false where another one does not: the energy of a ball is a Casimir, and
+fewer inputs are independent, too."""
 MONOMIALS = 4
 
 

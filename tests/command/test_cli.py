@@ -59,6 +59,7 @@ TEXTS = (
     ("walk", "so3", "linear.kernel"),
     ("integrals", "euler_top"),
     ("equilibria", "euler_top"),
+    ("trim", "so3"),
     ("symmetries", "euler_top"),
     ("paper",),
 )

@@ -24,6 +24,10 @@ SEARCHES = {
         *("euler_top", "equilibrium_1", "energy_casimir_3"),
         *("A relative equilibrium", "Un équilibre relatif"),
     ),
+    "trim --at A_11=-1 --at A_22=-1": (
+        *("pendulum", "trim", "trim"),
+        *("The velocity stays 0 where", "La vitesse reste nulle où"),
+    ),
     "equilibria --near Pi_2=1": (
         *("euler_top", "enclosure_1", "enclosure_1"),
         *("(Krawczyk)", "(Krawczyk)"),

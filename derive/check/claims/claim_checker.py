@@ -9,7 +9,14 @@ from ...language.rational import Matrix
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim, fault
 from ..form.hypotheses_checked import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
-from . import enclosure, equilibrium_claims, integral_claims, reduction_claims, symmetry_count
+from . import (
+    enclosure,
+    equilibrium_claims,
+    integral_claims,
+    reduction_claims,
+    symmetry_count,
+    trim_claims,
+)
 from .reduced_system import ClaimedRecord
 
 # The claims about the orbit of a body's configurations: its dimension, and that of the group.
@@ -85,6 +92,7 @@ OBLIGATORY = {
     ),
     "expansion": ("equilibrium.form",),
     "enclosure": ("enclosure.within",),
+    "trim": trim_claims.POINTS,
 }
 """Rule → the claims of which each of its steps makes one: without it no claim is judged there."""
 
@@ -117,6 +125,7 @@ def _of_symmetries(judge: symmetry_count.Judge) -> Judge:
 JUDGES: dict[str, Judge] = {
     **reduction_claims.JUDGES,
     **ORBIT_JUDGES,
+    **trim_claims.JUDGES,
     **{kind: _of_symmetries(judge) for kind, judge in symmetry_count.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in equilibrium_claims.JUDGES.items()},

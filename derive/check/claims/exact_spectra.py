@@ -134,6 +134,12 @@ def _hermite_hurwitz(f: Sequence[Number]) -> Matrix:
     return [row[:d] for row in b]
 
 
+def all_negative(f: Sequence[Number]) -> bool:
+    """Have all roots negative real parts?  Hermite's form has a positive square for each such root
+    then, and no others."""
+    return signature(_hermite_hurwitz(f)) == (len(f) - 1, 0)
+
+
 def negative_or_zero(f: Sequence[Number]) -> bool:
     """Is a root real and at most 0?"""
     (more, fewer), (positive, negative) = (signature(hermite(f, k)) for k in (0, 1))

@@ -13,7 +13,7 @@ from typing import Any
 from ...algebra.groups import Group
 from ...language import rational as q
 from ...language.rational import Matrix
-from ...language.reserved import numbers_of_input
+from ...language.reserved import numbers_of_input, suffixed
 from ...record.as_json import decode
 from ..values.evaluate import Environment, evaluate
 from .phase_point import PhasePoint
@@ -54,6 +54,20 @@ class GivenForces(PhasePoint):
         given = {x: self.draw() if driven else Fraction(0) for names in named for x in names}
         self.input_forces = [tuple(given[x] for x in names) for names in named]
         self.parameters |= given
+
+    def hold(self, values: Mapping[str, Any]) -> None:
+        """Let inputs have these values by their names, those of a covector on the basis that the
+        problem states, and 0 where none is given, in the place of what was drawn."""
+        acting = self.inputs_of("force", "torque")
+        known = dict.fromkeys(self.parameters, Fraction(0)) | {**values}
+        named = [numbers_of_input(data, self._acted_on(data)[1].n) for data in acting]
+        self.input_forces = [tuple(known[x] for x in names) for names in named]
+        self.parameters |= values
+        for data in self.inputs_of("covector"):
+            basis = self.group.in_user_basis.basis
+            rows = q.matrix([self.group.nearest(e) for e in basis])
+            own = [known[suffixed(data["name"], a)] for a, _ in enumerate(basis, 1)]
+            self.covector = [x for (x,) in q.solve(rows, q.column(own)) or ()]
 
     @cached_property
     def given_forces(self) -> list[Vector]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -50,8 +50,7 @@ class Draws:
 
     ``size``: integers are drawn within ±size. ``generic``: the potential is left open, and with it
     inputs and places. ``pi``: the value of π, as in code, where roots of numbers are numbers like
-    others; else any number. ``few``: no spare points; ``zero``: the names of parameters that
-    vanish.
+    others; else any number. ``few``: no spare points; ``given``: the values of some parameters.
     """
 
     def __init__(
@@ -64,12 +63,12 @@ class Draws:
         generic: bool = False,
         pi: Fraction | None = None,
         few: bool = False,
-        zero: Collection[str] = (),
+        given: Mapping[str, Any] | None = None,
     ):
         self.problem, self.group, self.random, self.size = problem, group, random, size
         self.generic, self.spare, self.n = generic, 0 if few else SPARE, group.n
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
-        self.parameters |= dict.fromkeys(zero, Fraction(0))
+        self.parameters |= given or {}
         exact = pi is None and not isinstance(random, ResidueSource)
         self.elementary = ElementaryValues(lambda: self.draw(positive=True), exact=exact)
         self.graded = isinstance(random, DegreeSource)

@@ -121,6 +121,9 @@ class Residue(FieldElement):
         y = self._other(other)
         return NotImplemented if y is None else self.n == y % self.p
 
+    def __bool__(self) -> bool:
+        return self.n != 0
+
     def __hash__(self) -> int:
         return hash(self.n)
 

@@ -12,10 +12,9 @@ much as its error is, and nothing else is kept better.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from fractions import Fraction
 from functools import reduce
 from itertools import combinations_with_replacement
-from operator import add, mul
+from operator import add
 from typing import Any
 from zlib import crc32
 
@@ -23,7 +22,7 @@ from ...algebra.exact_kernel import PRIMES, ResidueVector, ResidueVectorSource, 
 from ...language import rational as q
 from ...language.tree import nodes
 from ..ellipsoid import BUNDLES
-from ..program import EmittedFunction, Expression, KeptByGauss
+from ..program import EmittedFunction, KeptByGauss
 from ..state import StateSpace
 
 LARGEST, MORE = 26, 20
@@ -104,30 +103,13 @@ class _Points:
         return self._evaluated(self.functions[name])
 
     def _evaluated(self, f: EmittedFunction) -> list[ResidueVector]:
-        known: dict[str, Any] = {x.name: self.arrays[x.array][x.index] for x in f.loads}
-        for section in f.sections:
-            for v in section.values:
-                known[v.name] = self._value(v.expression, known)
-        return [self._value(e, known) + self.source.constant(0) for e in f.outputs]
-
-    def _value(self, e: Expression, known: Mapping[str, Any]) -> Any:
-        if isinstance(e, str):
-            return known[e]
-        if not isinstance(e, tuple):
-            return Fraction(e)
-        if e[0] in ("fun", "abs"):
-            return self._any_function(str(e[-2]), self._value(e[-1], known))
-        parts = [self._value(x, known) for x in e[1:]]
-        if e[0] == "none":
-            return ResidueVector(
-                [int(x == 0) for x in (parts[0] + self.source.constant(0)).values], P
-            )
-        if e[0] == "div":
-            return parts[0] / parts[1]
-        return reduce({"add": add, "mul": mul}[e[0]], parts)
+        zero = self.source.constant(0)
+        return [x + zero for x in f.values(self.arrays, self._any_function)]
 
     def _any_function(self, name: str, x: Any) -> ResidueVector:
         """A function of no property but that it is one; of the name alone."""
+        if name == "none":
+            return ResidueVector([int(v == 0) for v in (x + self.source.constant(0)).values], P)
         shifted: ResidueVector = x + self.source.constant(crc32(name.encode()))
         return shifted ** (P // 3 + len(name))
 

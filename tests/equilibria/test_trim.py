@@ -1,0 +1,167 @@
+"""Equilibria under inputs: what is found beside what is known by hand, and what is refused."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from derive import ProblemError, derive
+from derive import compile as compiled
+from derive.check.claims.claim_checker import ClaimChecker
+from derive.command.cli import main
+from derive.problem.toml import problem_of
+from derive.record.sentence import Claim, english
+from tests.check.test_record_claims import said
+from tests.support.lagrangians import LINE, heavy, lagrangian, squares
+from tests.support.trims import DRONE, PENDULUM, TURNED, drifting, drone, leaning, upside_down
+from tests.support.walks import SEED
+
+
+def holds(found):
+    return all(v.holds for v in found.check(SEED))
+
+
+def test_a_torque_keeps_a_damped_pendulum_aside():
+    """2 θ̈ = −20 sin θ − 6 θ̇ + u: u = 12, λ² + 3λ + 8, where cos θ = 4/5."""
+    found = leaning()
+    assert found.found.inputs == {"u": 12}
+    assert found.found.characteristic == (1, 3, 8)
+    assert (found.verdict, found.found.resting) == ("stable", True)
+    assert max(x.real for x in found.eigenvalues) == pytest.approx(-1.5)
+    assert holds(found)
+
+
+def test_energy_claims_nothing():
+    """A pendulum that hangs is stable, which its eigenvalues do not prove."""
+    found = derive("pendulum").trim()
+    assert found.found.characteristic == (1, 0, Fraction(981, 80))
+    assert found.verdict == "open"
+    assert holds(found)
+
+
+def test_a_pendulum_stands_unstably():
+    found = upside_down()
+    assert found.found.characteristic == (1, 0, Fraction(-981, 80))
+    assert (found.verdict, holds(found)) == ("unstable", True)
+
+
+def test_a_steady_motion_is_no_rest():
+    found = drifting()
+    assert found.found.inputs == {"u": 10, "v": 10}
+    assert "A steady motion" in english(found.record.steps[-1].prose)
+    assert (found.found.resting, found.verdict, holds(found)) == (False, "open", True)
+
+
+def test_the_rates_vanish_in_the_emitted_code():
+    for found, problem in ((leaning(), PENDULUM), (drifting(), DRONE)):
+        f = compiled(problem_of(problem))
+        assert np.allclose(f(0.0, found.x, found.u)[-f._names.algebra :], 0, atol=1e-15)
+
+
+def test_a_sleeping_top_has_the_frequencies_of_its_tilts():
+    """Of moments 1, 1, 2 and weight ½, turning at 2: a small tilt τ, a complex number in space, has
+    τ̈ = 4i τ̇ + τ/2, so the frequencies 2 ± √(7/2), and seen from the body these less 2."""
+    found = derive(heavy("112", "A_33/2", "")).trim({"zeta_3": 2})
+    assert found.found.characteristic == (1, 0, 7, 0, Fraction(49, 4), 0, 0)
+    assert (found.verdict, holds(found)) == ("open", True)
+
+
+def test_other_groups_and_sides():
+    solid = squares(1, 2, 3, 1, 1, 1)
+    for problem, at in (
+        (lagrangian(squares(1, 2), LINE), {}),
+        (lagrangian(solid, "SE(3)"), {"zeta_4": 1}),
+        (lagrangian(solid, "SE(3)", side="right"), {"zeta_1": 1}),
+        (lagrangian(solid, "SE(3)", side="right"), {"A_11": -1, "A_22": -1, "zeta_3": 1}),
+    ):
+        found = derive(problem).trim(at)
+        assert (found.found.resting, holds(found)) == (not at, True)
+
+
+def test_no_trim_says_which_rate_is_left():
+    with pytest.raises(ProblemError, match=r"no trim: dzeta_1/dt is -6, no input is free$"):
+        derive(problem_of(PENDULUM)).trim({**TURNED, "u": 0})
+    with pytest.raises(ProblemError, match=r"dw_1/dt is -6, whatever u, v are"):
+        drone().trim(TURNED)
+
+
+def test_of_a_family_its_dimension_is_said():
+    third = {"name": "z", "kind": "torque"}
+    many = drone(input=[*DRONE["input"], third])
+    with pytest.raises(ProblemError, match=r"a family of dimension 1, .* \(u, v, z\)"):
+        many.trim()
+    assert many.trim({"z": 2}).found.inputs == {"u": 9, "v": 11, "z": 2}
+
+
+def test_a_velocity_that_stays_for_an_instant_is_refused():
+    """Turning, it leans the next moment; a torque that is given changes nothing of that."""
+    with pytest.raises(ProblemError, match="no steady motion is proved: dw_1/dt is 0 now"):
+        drone().trim({"zeta_1": 1})
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ("--at A_11=3/5", "no element of SO(2) has the entries"),
+        ("--at A_22=-1", "no element of SO(2) has the entries"),
+        ("--at A_11=sqrt(2)", "A_11 is √(2): give a rational number"),
+        ("--at A_11=1/0", "is no exact number"),
+        ("--at m=1", "m is no number of the state and no input"),
+        ("--free zeta_1", "inputs alone are found"),
+        ("--free u", "u is no number of the state and no input"),
+        ("--at zeta_1=1 --at zeta_1=2", "given more than once"),
+        ("--at A_11=0 --at A_22=0 --at A_12=-1 --at A_21=1", "no trim: dzeta_1/dt is -981/80"),
+    ],
+)
+def test_bad_input_is_one_line(options, said, capsys):
+    try:
+        status = main(["trim", "pendulum", *options.split()])
+    except SystemExit as stopped:
+        status = stopped.code
+    out, err = capsys.readouterr()
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert said in err
+
+
+@pytest.mark.parametrize(
+    ("problem", "said"),
+    [
+        ("euler_poisson", "derive equilibria may tell"),
+        ("top", "π, or a root, is in the equations"),
+        ("sl3", "no trim: dzeta_1/dt is"),
+        ("zeitlin", "derive equilibria may tell"),
+        ("ideal_fluid", "no numeric code"),
+    ],
+)
+def test_what_has_no_exact_trim(problem, said):
+    with pytest.raises(ValueError, match=said):
+        derive(problem).trim()
+
+
+def test_what_acts_must_be_steady_smooth_and_linear():
+    def acting(torque, **more):
+        return PENDULUM | {"force": [{"covector": [torque]}]} | more
+
+    parameter = {"parameters": {"k": {}}}
+    for problem, why in (
+        (acting("t"), "depends on the time"),
+        (acting("u^2"), "inputs do not act linearly"),
+        (acting("abs(zeta_1)"), "sqrt is in the equations"),
+        (acting("sin(zeta_1)"), "sin is in the equations"),
+        (acting("k*zeta_1", **parameter), "k has no default"),
+    ):
+        with pytest.raises(ProblemError, match=why):
+            derive(problem_of(problem)).trim(TURNED)
+    squared = derive(problem_of(acting("u^2"))).trim({**TURNED, "u": 3})
+    assert squared.found.free == ()
+    assert holds(squared)
+
+
+def test_inputs_that_may_take_each_other_s_place_are_not_the_only_ones():
+    third = {"name": "z", "kind": "torque"}
+    record = drone(input=[*DRONE["input"], third]).trim({"z": 2}).record
+    judge, step = ClaimChecker(record, SEED).fault, record.steps[-1]
+    (told,) = (x for x in step.claims if x.kind == "trim.unique")
+    more = Claim(told.kind, (("inputs", (*told["inputs"], ("par", "z"))),))
+    assert not judge(step)
+    assert "others do so as well" in judge(said(step, told, more))

@@ -1,0 +1,49 @@
+"""Equilibria under inputs of which the answer is known by hand."""
+
+from derive import derive
+from derive.problem.toml import problem_of
+
+PENDULUM = {
+    "name": "arm",
+    "group": "SO(2)",
+    "point": [{"mass": 2, "at": [0, -1]}],
+    "potential": [{"kind": "gravity", "g": [0, -10]}],
+    "damping": [{"coefficient": 6}],
+    "input": [{"name": "u", "kind": "torque"}],
+}
+"""2 θ̈ = −20 sin θ − 6 θ̇ + u."""
+
+TURNED = {"A_11": "4/5", "A_12": "-3/5", "A_21": "3/5", "A_22": "4/5"}
+"""sin θ = 3/5."""
+
+DRONE = {
+    "name": "drone",
+    "group": "SE(2)",
+    "body": {"given": {"m": 2, "centre": [0, 0], "I": 3}},
+    "potential": [{"kind": "gravity", "g": [0, -10]}],
+    "input": [
+        {"name": x, "kind": "force", "at": [at, 0], "frame": "body", "direction": [0, 1]}
+        for x, at in (("u", 1), ("v", -1))
+    ],
+}
+"""Two rotors, a length 1 from the centre, carry 20 together."""
+
+
+def leaning(**more):
+    """A damped pendulum that a torque keeps aside."""
+    return derive(problem_of(PENDULUM | more)).trim(TURNED)
+
+
+def upside_down():
+    """A pendulum that stands: λ² = g/l."""
+    return derive("pendulum").trim({"A_11": -1, "A_22": -1})
+
+
+def drone(**more):
+    """A body in the plane with two rotors."""
+    return derive(problem_of(DRONE | more))
+
+
+def drifting():
+    """It moves aside."""
+    return drone().trim({"w_1": 1})
