@@ -113,8 +113,9 @@ class Claims:
     def _point(self, seed: str, zero: tuple[str, ...]) -> Point:
         random, problem = Random(seed), self.record.problem
         chosen = {"horizontal": True} if self.state.held else {}
+        given = dict.fromkeys(zero, Fraction(0))
         model = model_at(
-            problem, self.group, random, self.size, self.at, pi=PI, zero=zero, **chosen
+            problem, self.group, random, self.size, self.at, pi=PI, given=given, **chosen
         )
         env = names_at(model)
         x, rates = self._state_and_rates(model, env)
