@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import product, starmap
+from itertools import product
+from random import Random
 from typing import Any
 
 from ...algebra.exact_kernel import PRIMES, ResidueVectorSource
@@ -163,10 +164,12 @@ class Residues:
 
 
 def _pairs(group: Group) -> Iterator[Pair]:
-    """Pairs of simple elements of a group, then of products of two of these."""
+    """Pairs of simple elements of a group, then some of products of two of these."""
     simple = simple_elements(group.basis)
     yield from product(simple, repeat=2)
-    yield from product(starmap(q.times, product(simple, repeat=2)), repeat=2)
+    twice = [q.times(a, b) for a, b in product(simple, repeat=2)]
+    Random(0).shuffle(twice)  # the same each time
+    yield from zip(twice, twice[::-1], strict=True)
 
 
 # Matrices of expressions.
