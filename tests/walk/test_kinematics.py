@@ -8,15 +8,17 @@ from functools import cache
 
 import pytest
 
-from derive.check.checker import check
+from derive.check.checker import Checker, check
 from derive.language.expression import parse
 from derive.language.tree import add, mul, neg, nodes
 from derive.pipeline import walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.record.record import Equation
+from derive.walk.kinematics.condition import Velocity, numbers
+from derive.walk.kinematics.errors import matrix
 from tests.support.cached import ROOT
-from tests.support.walks import record
+from tests.support.walks import SEED, record
 
 STEPS = ("kinematics", "tangent", "errors", "affine", "error_rates", "log_linear", "noise")
 STEPS += ("observation",)
@@ -187,22 +189,28 @@ def test_other_rates_of_the_errors_are_refused():
 
 def test_a_linear_rate_of_the_logarithm_is_refused_where_it_is_not_exact():
     """Near the identity every error moves linearly: the series of the checker goes further."""
-    d = walk(gyroscope())
-    zero = ("matrix", *[("row", *[0] * 6)] * 6)
-    wrong = [Equation(x, zero) for x in ("𝒜_L", "𝒜_R")]
-    wrong += [Equation(("call", "d/dt", x), mul(f"𝒜_{x[-1]}", x)) for x in ("ξ_L", "ξ_R")]
-    step = replace(record("imu")["log_linear"], label="biased.log_linear", scope="G")
-    step = replace(step, uses=(d.steps[0].label, d.steps[2].label), equations=(*wrong,))
-    changed = replace(d, steps=(*d.steps, step))
-    assert not check(changed)[-1].holds
+    d, right = walk(gyroscope()), record("imu")["log_linear"]
+    for moved in right.equations[2:]:
+        step = replace(right, scope="G", equations=(moved,))
+        assert Checker(record("imu").problem, SEED).check(replace(step, scope="SE_2_3")).holds
+        assert "the sides differ" in Checker(d.problem, SEED).check(step).reason
 
 
 def test_a_counterexample_off_the_group_is_refused():
-    d = walk(gyroscope())
-    A, estimate = d.steps[-1].given
-    twice = ("matrix", *(("row", *(2 * x for x in row[1:])) for row in A.rhs[1:]))
-    assert refused(d, "counterexample", given=(Equation("A", twice), estimate))
+    """Also where the difference is that of the two matrices."""
+    problem = gyroscope()
+    d = walk(problem)
     assert refused(d, "counterexample", given=())
+    velocity = Velocity(problem.group, problem.kinematics.rate)
+    A, estimate = velocity.counterexample()
+    twice = tuple(tuple(2 * x for x in row) for row in A)
+    step = d["counterexample"]
+    for first, holds in ((A, True), (twice, False)):
+        found = Equation(step.equations[0].lhs, matrix(velocity.defect(first, estimate)))
+        pair = zip(("A", "Â"), (first, estimate), strict=True)
+        where = tuple(Equation(x, matrix(numbers(m))) for x, m in pair)
+        told = Checker(d.problem, SEED).check(replace(step, equations=(found,), given=where))
+        assert told.holds == holds
 
 
 # -- bad input ------------------------------------------------------------------------------------
