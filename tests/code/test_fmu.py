@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import derive
-from tests.support.needs import CC, need
+from tests.support.needs import CC, need, needs
 
 DRONE = """
 name = "drone"
@@ -68,11 +68,13 @@ def pushed(t):
     return 3.0 * np.ones_like(t)
 
 
+@needs("the module fmpy")
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
 @pytest.mark.parametrize("name", BINARIES)
 def test_an_importer_follows_the_same_motion(drone, emitted, name, kind):
     """With a parameter, a start and an input that are not those of the file."""
-    fmpy = pytest.importorskip("fmpy")
+    import fmpy
+
     ours = drone.simulate(TIME, start={**CHANGED, "f": 3.0}, points=20, tol=1e-12)
     read = ("energy", "tip_1", "tip_3")
     names = (*ours.of_kind("state"), *read)
@@ -93,15 +95,19 @@ def test_an_importer_follows_the_same_motion(drone, emitted, name, kind):
     assert (found["f"] == 3.0).all()
 
 
+@needs("the module fmpy")
 @pytest.mark.parametrize("name", BINARIES)
 def test_the_archive_is_valid(emitted, name):
-    validation = pytest.importorskip("fmpy.validation")
+    from fmpy import validation
+
     assert validation.validate_fmu(str(emitted / name)) == []
 
 
+@needs("the module fmpy")
 @pytest.mark.parametrize("name", BINARIES)
 def test_each_rate_is_that_of_its_state(emitted, name):
-    fmpy = pytest.importorskip("fmpy")
+    import fmpy
+
     described = fmpy.read_model_description(emitted / name)
     rates = [x.variable for x in described.derivatives]
     assert [x.name for x in rates] == [f"der({x.derivative.name})" for x in rates]
@@ -110,9 +116,11 @@ def test_each_rate_is_that_of_its_state(emitted, name):
     assert (mass.unit, mass.description, mass.start) == ("kg", "mass & more", "2.0")
 
 
+@needs("the module fmpy")
 @pytest.mark.parametrize("name", BINARIES)
 def test_a_coarse_integrator_is_taken_back_to_the_group(drone, emitted, name):
-    fmpy = pytest.importorskip("fmpy")
+    import fmpy
+
     names = [f"A_{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]
     found = fmpy.simulate_fmu(
         emitted / name.removesuffix(".fmu"),
@@ -125,10 +133,12 @@ def test_a_coarse_integrator_is_taken_back_to_the_group(drone, emitted, name):
     assert np.abs(A.T @ A - np.eye(3)).max() < 1e-5
 
 
+@needs("the module fmpy")
 @pytest.mark.parametrize("name", BINARIES)
 def test_what_is_set_between_steps_counts(drone, emitted, name):
     """A parameter, an input and a number of the state, each after a step; then start again."""
-    fmpy = pytest.importorskip("fmpy")
+    import fmpy
+
     unit = Instance(fmpy, emitted / name.removesuffix(".fmu"))
     at = {x.name: x.valueReference for x in unit.described.modelVariables}
     state = [*range(1, 19)]
@@ -144,10 +154,12 @@ def test_what_is_set_between_steps_counts(drone, emitted, name):
         assert np.allclose(unit.read(state), ours, atol=1e-9), place
 
 
+@needs("the module fmpy")
 @pytest.mark.parametrize("name", BINARIES)
 def test_an_instance_is_kept_and_restored(emitted, name):
     """As bytes, too; and the motion goes on from there by the same bits."""
-    fmpy = pytest.importorskip("fmpy")
+    import fmpy
+
     unit = Instance(fmpy, emitted / name.removesuffix(".fmu"))
     places = list(range(1, 19))
     kept = unit.get()
