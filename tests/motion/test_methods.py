@@ -188,10 +188,12 @@ def squared_speed(x, since, side):
     return free[0] + (since[1] - free[1]) * np.exp(-a * (x - since[0]))
 
 
+@needs("the module scipy")
 def test_the_default_step_sees_where_a_drag_bends(tmp_path):
     """A drag -c|v|v, seven times through rest: v² at the end by the amplitudes in closed form. The
     estimate of gauss does not see that its second derivative jumps."""
-    optimize = pytest.importorskip("scipy.optimize")
+    from scipy import optimize
+
     (tmp_path / "slider.toml").write_text(SLIDER, encoding="utf-8")
     d = derive.derive(tmp_path / "slider.toml")
     run = d.simulate(20.0, start={"w_1": 1.0}, points=1, compiled=False)
