@@ -183,6 +183,14 @@ def collected(t: Tree) -> Tree:
     return written(polynomial(t))
 
 
+def shortened(t: Tree) -> Tree:
+    """The same with like terms added, where that is not too long."""
+    try:
+        return collected(t)
+    except OverlongError:
+        return t
+
+
 def written(p: Laurent) -> Tree:
     """The tree of a polynomial, a sum of its terms."""
     return grouped(p, lambda _: False, lambda _: False)

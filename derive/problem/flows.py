@@ -20,7 +20,7 @@ from typing import Any
 
 from ..language.derivatives import derivative, product
 from ..language.expression import names
-from ..language.laurent import OverlongError, collected
+from ..language.laurent import shortened
 from ..language.tree import Tree, add, mul, neg, nodes
 from ..schema.body_kinds import (
     Body,
@@ -151,9 +151,4 @@ def _within(flows: Sequence[Flow], moments: Moments, reader: FileReader) -> tupl
 
 def _collected(t: Tree) -> Tree:
     """The same with like terms added, 0 where it is."""
-    if vanishes(t):
-        return 0
-    try:
-        return collected(t)
-    except OverlongError:
-        return t
+    return 0 if vanishes(t) else shortened(t)

@@ -19,9 +19,9 @@ from ...algebra.groups import Group
 from ...algebra.samplers import simple_elements
 from ...language import rational as q
 from ...language.derivatives import derivative, residue
-from ...language.laurent import OverlongError, collected
+from ...language.laurent import shortened
 from ...language.rational import Matrix
-from ...language.tree import Tree, add, mul, neg
+from ...language.tree import add, mul, neg
 from ...problem.entries_on_orbit import (
     EntriesOfElement,
     Rows,
@@ -44,7 +44,7 @@ class Velocity:
 
     def at(self, g: Rows) -> Rows:
         """f at another matrix."""
-        return tuple(tuple(short(with_entries(t, g)) for t in row) for row in self.rate)
+        return tuple(tuple(shortened(with_entries(t, g)) for t in row) for row in self.rate)
 
     @property
     def at_one(self) -> Rows:
@@ -129,7 +129,7 @@ class Velocity:
         parts = multiplied(self.at(A), B), multiplied(A, self.at(B))
         return tuple(
             tuple(
-                short(add(whole[i][j], neg(parts[0][i][j]), neg(parts[1][i][j]), one[i][j]))
+                shortened(add(whole[i][j], neg(parts[0][i][j]), neg(parts[1][i][j]), one[i][j]))
                 for j in range(len(A))
             )
             for i in range(len(A))
@@ -173,14 +173,6 @@ def _pairs(group: Group) -> Iterator[Pair]:
 
 
 # Matrices of expressions.
-
-
-def short(t: Tree) -> Tree:
-    """An expression with its terms collected, where it is not too long."""
-    try:
-        return collected(t)
-    except OverlongError:
-        return t
 
 
 def numbers(m: Matrix) -> Rows:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from ...algebra.groups import Group
+from ...language.laurent import shortened
 from ...language.tree import Tree, add, mul, neg, plain
 from ...problem.entries_on_orbit import Rows
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Equation, Step
 from ..chapter import Chapter, say
 from ..matrices.coordinates import basis_equations
-from .condition import Velocity, multiplied, numbers, short
+from .condition import Velocity, multiplied, numbers
 
 SIDES = ("L", "R")
 """Left and right, as the names of a record have them."""
@@ -120,7 +121,7 @@ def generator(velocity: Velocity, *, left: bool) -> Rows:
         slope, turned = velocity.slope(a), multiplied(one, E) if left else multiplied(E, one)
         columns.append(
             [
-                short(
+                shortened(
                     add(
                         *(
                             mul(plain(x), add(slope[i][j], neg(turned[i][j])))
