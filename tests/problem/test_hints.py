@@ -77,6 +77,7 @@ def test_every_command_may_be_stopped(command, tmp_path):
     run = written(Run(columns, np.zeros((2, 2))), "run.csv")
     (tmp_path / "run.csv").write_bytes(run)
     needed |= {x: ["so3"] for x in ("walk", "emit", "check", "symmetries")}
+    needed |= {"trim": ["so3", "--at", "zeta_1=1"]}
     needed |= {x: ["gyrostat"] for x in ("integrals", "equilibria", "reduction")}
     words = [sys.executable, "-c", STOPPED, command, *needed.get(command, [])]
     untraced = {x: y for x, y in os.environ.items() if x != "COVERAGE_PROCESS_CONFIG"}
