@@ -9,6 +9,7 @@ from functools import partial
 
 from ..language.read import FormulaError, read
 from ..language.templating import environment
+from ..views.figure.drawing import Scene, svg, tikz
 from ..views.html import escaped
 from ..views.language import Language
 from ..views.language import typeset as typeset_french
@@ -17,12 +18,12 @@ from ..views.layout import broken, indented
 from ..views.printing import typeset
 from ..views.printing.letters import definitions
 from ..views.printing.sentences import spelt
-from ..views.printing.signs import Notation, tex_text
+from ..views.printing.signs import SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal
+from .figures import AXES, FIGURES
 from .lecture_text import (
     LANGUAGES,
-    NUMBERED,
     PROVED,
     RELATION,
     Block,
@@ -33,14 +34,15 @@ from .lecture_text import (
 )
 
 TITLE = "Where do the equations of motion of solids come from?"
-WORDS = ("Lemma", "Proposition", "Theorem", "Proof", "Exercise", "Solution", "Solutions")
+WORDS = (
+    *("Lemma", "Proposition", "Theorem", "Proof"),
+    *("Exercise", "Solution", "Solutions", "Fig."),
+)
 """The words of the templates."""
 MARKED = re.compile(r"_([^_]+)_|@([a-z_]+)")
 """What is marked among words: emphasis, and the number of a block."""
 CLOSED = re.compile(r"(<math>(?:(?!<math).)*</math>)([.,;:)]+)", re.S)
 """A formula of a page and the signs after it, between which no line breaks."""
-SIGNS = {"≠": r"\ne ", "≤": r"\le ", "≥": r"\ge ", "∈": r"\in ", "↦": r"\mapsto ", "→": r"\to "}
-SIGNS |= {"⟺": r"\iff "}
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,7 @@ class Medium:
     reference: str
     inline: Callable[[typeset.Formula], str]
     display: Callable[[typeset.Formula], str]
+    picture: Callable[[Scene], str]
 
 
 WIDTH = 34.0
@@ -73,6 +76,7 @@ LATEX = Medium(
     r"\ref{{{label}}}",
     lambda x: f"${typeset.plain(x.tex)}$",
     lambda x: _lines(x),
+    lambda x: tikz(x, colours=frozenset(AXES)),
 )
 PAGE = Medium(
     escaped,
@@ -80,6 +84,7 @@ PAGE = Medium(
     '<a href="#{label}">{number}</a>',
     lambda x: x.mathml(),
     lambda x: x.mathml().replace("<math>", '<math display="block">'),
+    svg,
 )
 
 
@@ -96,13 +101,14 @@ class SetEntry:
 
 @dataclass(frozen=True)
 class SetBlock:
-    """A block as a template takes it; ``number``: of a statement or an exercise."""
+    """A block as a template takes it; ``number``: of a statement, an exercise or a figure."""
 
     kind: str
     label: str
     title: str
     number: int
     entries: tuple[SetEntry, ...]
+    picture: str = ""
 
 
 @dataclass(frozen=True)
@@ -154,11 +160,13 @@ def _word(language: Language, escape: Callable[[str], str], message: str) -> str
 def numbers_of(chapters: Sequence[Chapter]) -> dict[int, int]:
     """The number of each block that has one, by its id: statements are counted together, and a
     solution has that of the exercise before it."""
-    found, counts = {}, {"statement": 0, "exercise": 0}
+    found, counts = {}, {"statement": 0, "exercise": 0, "figure": 0}
     for block in (x for c in chapters for x in c.blocks):
-        counter = "statement" if block.kind in PROVED else "exercise"
-        counts[counter] += block.kind in NUMBERED
-        if block.kind in (*NUMBERED, "solution"):
+        counter = (
+            "statement" if block.kind in PROVED else block.kind.replace("solution", "exercise")
+        )
+        if counter in counts:
+            counts[counter] += block.kind != "solution"
             found[id(block)] = counts[counter]
     return found
 
@@ -187,7 +195,8 @@ class _Setter:
     def block(self, b: Block, number: int) -> SetBlock:
         """A block with its entries."""
         entries = tuple(map(self.entry, b.entries))
-        return SetBlock(b.kind, b.label, self.medium.text(b.title), number, entries)
+        picture = self.medium.picture(FIGURES[b.label]()) if b.kind == "figure" else ""
+        return SetBlock(b.kind, b.label, self.medium.text(b.title), number, entries, picture)
 
     def entry(self, x: Entry) -> SetEntry:
         """A sentence or a display with its margins."""
@@ -240,7 +249,7 @@ def formula(text: str) -> typeset.Formula:
     found = _side(sides[0])
     for sign, side in zip((x.strip() for x in signs), sides[1:], strict=True):
         among = sign in "∈↦"
-        found += literal(f" {SIGNS.get(sign, sign)}") + (spelt(side) if among else _side(side))
+        found += literal(f" {SYMBOLS.get(sign, sign)} ") + (spelt(side) if among else _side(side))
     return found
 
 

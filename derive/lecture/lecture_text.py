@@ -30,11 +30,11 @@ FOLDER = Path(__file__).with_name("chapters")
 LANGUAGES = ("en", "fr")
 PROVED = ("lemma", "proposition", "theorem")
 NUMBERED = (*PROVED, "exercise")
-KINDS = ("text", "section", *NUMBERED, "proof", "solution")
+KINDS = ("text", "section", *NUMBERED, "proof", "solution", "figure")
 """What a block may be; those of ``NUMBERED`` have a number of their own."""
 HEAD = re.compile(r'([a-z]+)(?: ([a-z_]+))?(?: "([^"]+)")?')
 NUMBERS = re.compile(r"\s*\((\d+(?:, \d+)*)\)$")
-RELATION = re.compile(r" (?:[=≠<>≤≥∈↦→]|⟺) ")
+RELATION = re.compile(r" [=≠<>≤≥∈↦→] ")
 SAID, OPEN = "said", "open"
 
 

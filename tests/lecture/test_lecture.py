@@ -4,12 +4,13 @@ import re
 from dataclasses import replace
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 
 from derive.command.cli import main
 from derive.command.lecturing import own, records_of
 from derive.language.show import show
-from derive.lecture import document
+from derive.lecture import document, figures
 from derive.lecture.lecture_text import LANGUAGES, PROVED, Formula, LectureError, chapters, parsed
 from derive.lecture.trials import tied, tried
 from derive.views.language import language
@@ -140,3 +141,18 @@ def test_the_command(tmp_path, capsys):
     assert r"\begin{theorem}" in out.read_text(encoding="utf-8")
     assert main(["lecture", "--out", str(tmp_path / "lecture.docx")]) == 2
     assert "must end in .tex, .pdf, .html" in capsys.readouterr().err
+
+
+def test_the_polhodes_are_levels_of_the_energy_on_the_sphere():
+    curves = [*figures._curves()]
+    assert len(curves) == 18
+    for role, curve in curves:
+        points = np.array(curve)
+        assert np.allclose((points**2).sum(axis=1), 1, rtol=0, atol=1e-14)
+        energy = (points**2 / figures.MOMENTS).sum(axis=1)
+        assert np.ptp(energy) < 1e-14
+        least, middle, most = sorted(1 / np.array(figures.MOMENTS))
+        level = energy.mean()
+        assert {"first": middle < level < most, "third": least < level < middle}.get(
+            role, abs(level - middle) < 1e-14
+        )
