@@ -68,6 +68,7 @@ sys.exit(main([*sys.argv[1:], "--seconds", "0.0001"]))
 def test_every_command_may_be_stopped(command, tmp_path):
     needed = {
         "notes": ["so3", "--out", str(tmp_path / "n.html")],
+        "lecture": ["--out", str(tmp_path / "l.html")],
         "build": ["--out", str(tmp_path)],
         "simulate": ["so3", "--t", "1", "--set", "zeta_1=1"],
         "compare": ["so3", "--with", "users.py"],

@@ -20,6 +20,7 @@ CC = next(filter(shutil.which, ("cc", "gcc", "clang")), "cc")
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 TEX = "texlive-latex-base texlive-latex-recommended texlive-latex-extra texlive-pictures lmodern"
+TEX += " texlive-fonts-recommended texlive-lang-french"
 PACKAGES = {
     "cc": "gcc libc6-dev",
     "gcc": "gcc",
