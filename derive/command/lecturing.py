@@ -16,7 +16,6 @@ from .simulating import pdf_of
 from .writing import with_progress, write
 
 ENDINGS = (".tex", ".pdf", ".html")
-EQUILIBRIA = ":equilibria"
 
 
 def command_lecture(args: argparse.Namespace) -> int:
@@ -52,11 +51,14 @@ def records_of(chapters: Sequence[lecture_text.Chapter]) -> dict[str, Derivation
 
 
 def record_of(name: str) -> Derivation:
-    """The record of a ready-made problem or of one beside the chapters; NAME:equilibria, of its
-    equilibria."""
-    from ..searches import equilibria
+    """The record of a ready-made problem or of one beside the chapters; NAME:equilibria or
+    NAME:reduction, of what is found of it."""
+    from ..searches import equilibria, reduction
 
-    problem_name = name.removesuffix(EQUILIBRIA)
+    problem_name, _, search = name.partition(":")
     file = lecture_text.FOLDER / f"{problem_name}.toml"
     problem = load(file) if file.is_file() else load_problem(problem_name)
-    return equilibria(problem, {})[1] if name.endswith(EQUILIBRIA) else walk(problem)
+    if search == "equilibria":
+        return equilibria(problem, {})[1]
+    record = walk(problem)
+    return reduction(problem, record).record if search == "reduction" else record

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from ..language.read import FormulaError, read
+from ..language.read import FormulaError
 from ..language.templating import environment
 from ..views.figure.drawing import Scene, svg, tikz
 from ..views.html import escaped
@@ -22,16 +22,8 @@ from ..views.printing.signs import SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal
 from .figures import AXES, FIGURES
-from .lecture_text import (
-    LANGUAGES,
-    PROVED,
-    RELATION,
-    Block,
-    Chapter,
-    Entry,
-    Formula,
-    Words,
-)
+from .lecture_text import LANGUAGES, PROVED, RELATION, Block, Chapter, Entry, Formula, Words
+from .lecture_text import tree as tree_of
 
 TITLE = "Where do the equations of motion of solids come from?"
 WORDS = (
@@ -255,6 +247,6 @@ def formula(text: str) -> typeset.Formula:
 
 def _side(text: str) -> typeset.Formula:
     try:
-        return of_tree(read(text))
+        return of_tree(tree_of(text))
     except FormulaError:
         return spelt(text)

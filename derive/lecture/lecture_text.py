@@ -24,6 +24,7 @@ from pathlib import Path
 
 from ..language.limits import Refused
 from ..language.read import FormulaError, read
+from ..language.tree import Tree
 from ..record.record import Equation
 
 FOLDER = Path(__file__).with_name("chapters")
@@ -55,9 +56,22 @@ class Formula:
         found: list[Equation] = []
         for part in () if self.condition else re.split(r",\s\s+", self.text):
             if " = " in part and {*RELATION.findall(part)} == {" = "}:
-                sides = [*map(read, part.split(" = "))]
+                sides = [*map(tree, part.split(" = "))]
                 found += (Equation(a, b) for a, b in pairwise(sides))
         return tuple(found)
+
+
+def tree(text: str) -> Tree:
+    """The tree of an expression, in which parameters stand in ‘quotes’."""
+    return _unquoted(read(text))
+
+
+def _unquoted(t: Tree) -> Tree:
+    if not isinstance(t, tuple):
+        return t
+    if t[0] == "par":
+        return ("par", str(t[1]).strip("‘’"))
+    return (t[0], *map(_unquoted, t[1:]))
 
 
 Words = tuple[str | Formula, ...]
@@ -195,7 +209,7 @@ def _entry(lines: _Lines) -> Entry:
     line, first = lines.next()
     display = first.startswith("  = ")
     if display:
-        texts: Sequence[Words] = [(Formula(first[4:].strip()),)] * len(LANGUAGES)
+        texts: Sequence[Words] = [words_of(f"`{first[4:].strip()}`")] * len(LANGUAGES)
     else:
         texts = [words_of(first.strip()), words_of(lines.next()[1].strip())]
     ties = []

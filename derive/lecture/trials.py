@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from ..check.checker import Checker
+from ..check.checker import Checker, checker_of
+from ..check.fluid.fluid_checker import FluidChecker
 from ..language.show import show
 from ..record.record import ANY_GROUP, Derivation, Equation, Step
 from .lecture_text import Chapter, Entry, LectureError
@@ -45,9 +46,9 @@ def tried(
     that is any group, then the group of the problem.  A step that supposes equations is company
     for its own left sides alone: under what it supposes much else is true, as 0 = 0.
     """
-    companies: dict[str, list[tuple[Checker, Step]]] = {}
+    companies: dict[str, list[tuple[Checker | FluidChecker, Step]]] = {}
     for d in records.values():
-        checker, own = Checker(d.problem, seed), group_of(d)
+        checker, own = checker_of(d.problem, seed), group_of(d)
         for s in d.steps:
             several = dict.fromkeys((s, replace(s, scope=own)))
             companies.setdefault(s.label, [(checker, one) for one in several])
@@ -59,8 +60,9 @@ def tried(
 
 
 def _own(equation: Equation, step: Step) -> Equation | None:
-    """The equation of a step with the same left side."""
-    return next((e for e in step.equations if e.lhs == equation.lhs), None)
+    """The equation of a step that is the same, or else one with the same left side."""
+    same = [e for e in step.equations if e.lhs == equation.lhs]
+    return next((e for e in same if e.rhs == equation.rhs), same[0] if same else None)
 
 
 def group_of(d: Derivation) -> str:
@@ -69,7 +71,10 @@ def group_of(d: Derivation) -> str:
 
 
 def _claim(
-    chapter: Chapter, entry: Entry, equation: Equation, company: list[tuple[Checker, Step]]
+    chapter: Chapter,
+    entry: Entry,
+    equation: Equation,
+    company: list[tuple[Checker | FluidChecker, Step]],
 ) -> Claim:
     reasons: dict[str, str] = {}
     for checker, step in company:
