@@ -126,7 +126,7 @@ def test_without_solutions(lang):
         assert mark not in shown(CHAPTERS, words, solutions=False)
 
 
-@needs("pdflatex")
+@needs("the TeX of the lecture")
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_pdf(lang, tmp_path, capsys):
     assert main(["lecture", "--lang", lang, "--out", str(tmp_path / "lecture.pdf")]) == 0
