@@ -51,14 +51,16 @@ def records_of(chapters: Sequence[lecture_text.Chapter]) -> dict[str, Derivation
 
 
 def record_of(name: str) -> Derivation:
-    """The record of a ready-made problem or of one beside the chapters; NAME:equilibria or
-    NAME:reduction, of what is found of it."""
-    from ..searches import equilibria, reduction
+    """The record of a ready-made problem or of one beside the chapters; NAME:equilibria,
+    NAME:integrals or NAME:reduction, of what is found of it."""
+    from ..searches import equilibria, integrals, reduction
 
     problem_name, _, search = name.partition(":")
     file = lecture_text.FOLDER / f"{problem_name}.toml"
     problem = load(file) if file.is_file() else load_problem(problem_name)
     if search == "equilibria":
         return equilibria(problem, {})[1]
+    if search == "integrals":
+        return integrals(problem)[1]
     record = walk(problem)
     return reduction(problem, record).record if search == "reduction" else record

@@ -10,8 +10,8 @@ from ..views.figure.drawing import Label, Point, Scene, Stroke, arrow
 
 RADIUS = 24.0
 """Of the sphere, in millimetres."""
-MARGIN, LABEL = 12.0, 1.36
-AZIMUTH, ELEVATION = math.radians(38), math.radians(22)
+MARGIN, LABEL = 16.0, 1.5
+AZIMUTH, ELEVATION = math.radians(42), math.radians(24)
 MOMENTS = (1.0, 2.0, 2.6)
 """The principal moments of inertia of the body whose polhodes are drawn."""
 LEVELS = (0.1, 0.3, 0.55, 0.8)
