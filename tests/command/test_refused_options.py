@@ -42,6 +42,7 @@ def test_the_reasons_are_those_of_the_command(name, capsys, tmp_path):
 
 
 REFUSED_OF_SO3 = ("form header", *(f"order {k}" for k in (2, 4, 6, 8)), "multiplier", "ensemble")
+REFUSED_OF_SO3 += ("jacobian step",)
 CHOICES_OF_SO3 = dict(further(("python",), Options()))
 
 
