@@ -192,17 +192,28 @@ class ExactJacobians:
             "jacobian_inputs": self._inputs(),
             "jacobian_parameters": self._parameters(),
             "jacobian_raw": self._raw(),
+            "jacobian_raw_inputs": self._raw_inputs(),
+            "jacobian_project": self._projected(),
+            "variations": self._variations(),
             "jacobian_outputs": self._outputs_along(),
             "jacobian_outputs_inputs": self._outputs_by("u"),
             "jacobian_outputs_raw": self._outputs_by("x"),
         }
 
-    def _outputs_along(self) -> Iterator[list[Fraction]]:
-        """The columns of the derivative of ``outputs`` along η = E_a, then along δζ = E_a."""
+    def _varied(self) -> Iterator[Sequence[Any]]:
+        """The state, in nilpotent numbers, along η = E_a, then along δζ = E_a."""
         none, basis = q.scaled(ZERO, self.point.Z), self.state.group.basis
         for pairs in (((e, none) for e in basis), ((none, e) for e in basis)):
             for eta, change in pairs:
-                yield self._read({"x": self.state.varied(self.point.g, self.point.Z, eta, change)})
+                yield self.state.varied(self.point.g, self.point.Z, eta, change)
+
+    def _variations(self) -> Iterator[list[Fraction]]:
+        """The columns of the derivative of the numbers of the state along these."""
+        return ([part(y, EPS) for y in x] for x in self._varied())
+
+    def _outputs_along(self) -> Iterator[list[Fraction]]:
+        """The columns of the derivative of ``outputs`` along these."""
+        return (self._read({"x": x}) for x in self._varied())
 
     def _outputs_by(self, array: str) -> Iterator[list[Fraction]]:
         """The columns of the derivative of ``outputs`` by the numbers of an array."""
@@ -237,6 +248,20 @@ class ExactJacobians:
         for j in range(len(x)):
             rates = self._rates({"x": [y + EPSILON if i == j else y for i, y in enumerate(x)]})
             yield [part(y, EPS) for y in rates]
+
+    def _raw_inputs(self) -> Iterator[list[Fraction]]:
+        """The columns of the derivative of ``rhs`` by the inputs u."""
+        u = self.point.arguments["u"]
+        for j in range(len(u)):
+            rates = self._rates({"u": [y + EPSILON if i == j else y for i, y in enumerate(u)]})
+            yield [part(y, EPS) for y in rates]
+
+    def _projected(self) -> Iterator[list[Fraction]]:
+        """The columns of the derivative of ``project`` by the numbers of the state."""
+        x = self.point.arguments["x"]
+        for j in range(len(x)):
+            beside = {"x": [y + EPSILON if i == j else y for i, y in enumerate(x)]}
+            yield [part(y, EPS) for y in self._called("project", "out", len(x), beside)]
 
     def _inputs(self) -> Iterator[list[Fraction]]:
         """The columns of the Jacobian in the inputs u."""

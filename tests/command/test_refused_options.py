@@ -42,7 +42,8 @@ def test_the_reasons_are_those_of_the_command(name, capsys, tmp_path):
 
 
 ORDERS = [f"order {k}" for k in (2, 4, 6, 8)]
-REFUSED_OF_SO3 = ("form header", *ORDERS, "multiplier", "ensemble", "jacobian outputs")
+REFUSED_OF_SO3 = ("form header", *ORDERS, "multiplier", "ensemble")
+REFUSED_OF_SO3 += ("jacobian outputs", "jacobian step")
 CHOICES_OF_SO3 = dict(further(("python",), Options()))
 
 
