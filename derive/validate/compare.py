@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from random import Random
@@ -36,6 +36,7 @@ from .straight_line import (
     require_straight_line,
     summands,
     tested_parameters,
+    with_roots,
 )
 from .terms import Array, CodeError, DiffersError, Literals, Machine, Module, run
 
@@ -117,11 +118,13 @@ def compare(
     file cannot aim it at them.
     """
     compare_names(module, claims)
+    functions = {name: with_roots(f) for name, f in module.functions.items()}
+    module = replace(module, functions=functions)
     literal = Literals(exact)
     drawn_from = to_json(claims.record) + text
     digest = hashlib.sha256(drawn_from.encode("utf-8", "surrogatepass")).hexdigest()
     first = Comparison(module, claims, literal, claims.point(f"{digest} 0"), measured=True)
-    functions = first.compare_all()
+    found = first.compare_all()
     one, points = min(1.0, first.degree / claims.size), 1
     while points < FEWEST or one**points >= bound:
         if points == MOST:
@@ -132,7 +135,7 @@ def compare(
         _compare_at_zero(module, claims, literal, digest, zero)
     size = module.sizes.get("CONSTANTS", 0)
     unread = tuple(f"k[{i}]" for i in range(size) if i not in first.read)
-    return Agreement(functions, points, one**points, tuple(sorted(literal.rounded)), unread)
+    return Agreement(found, points, one**points, tuple(sorted(literal.rounded)), unread)
 
 
 def _tested_sets(module: Module) -> list[tuple[str, ...]]:
