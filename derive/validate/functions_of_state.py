@@ -193,7 +193,6 @@ class ExactJacobians:
             "jacobian_parameters": self._parameters(),
             "jacobian_raw": self._raw(),
             "jacobian_raw_inputs": self._raw_inputs(),
-            "jacobian_project": self._projected(),
             "variations": self._variations(),
             "jacobian_outputs": self._outputs_along(),
             "jacobian_outputs_inputs": self._outputs_by("u"),
@@ -255,13 +254,6 @@ class ExactJacobians:
         for j in range(len(u)):
             rates = self._rates({"u": [y + EPSILON if i == j else y for i, y in enumerate(u)]})
             yield [part(y, EPS) for y in rates]
-
-    def _projected(self) -> Iterator[list[Fraction]]:
-        """The columns of the derivative of ``project`` by the numbers of the state."""
-        x = self.point.arguments["x"]
-        for j in range(len(x)):
-            beside = {"x": [y + EPSILON if i == j else y for i, y in enumerate(x)]}
-            yield [part(y, EPS) for y in self._called("project", "out", len(x), beside)]
 
     def _inputs(self) -> Iterator[list[Fraction]]:
         """The columns of the Jacobian in the inputs u."""

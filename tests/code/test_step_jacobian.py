@@ -8,6 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 import derive
+from derive.command.cli import main
 from tests.problems.line import FALLING
 from tests.support.library import ONE_BUILD, STEPPED, library, module_of
 from tests.support.states import element_names, hat, state
@@ -329,3 +330,24 @@ def test_in_python_by_the_compiled_c():
     for wrong in ({"step": "vern9"}, {"n": 0}):
         with pytest.raises(ValueError, match=r"not compiled|number of steps"):
             f.step_jacobian(0, x, 0.05, **wrong)
+
+
+REFUSED = {
+    ("so3", "c"): "--jacobian step is that of --step gauss, rk4, vern9: add one of these",
+    ("so3", "c", "discrete"): "is that of --step gauss, rk4, vern9: add one of these",
+    ("zeitlin", "c", "rk4"): "--jacobian step is not written on the torus",
+    ("imu", "c", "rk4"): "--jacobian step is not written for kinematics of first order",
+    ("euler_poisson", "c", "rk4"): "--jacobian step is for a state with an element of the group",
+    ("spherical_pendulum", "c", "rk4"): "--jacobian step is for motions on the whole group",
+}
+
+
+@pytest.mark.parametrize("case", REFUSED, ids=" ".join)
+def test_where_there_are_none_it_is_refused(case, tmp_path, capsys):
+    name, language, *steps = case
+    words = [f"--step={x}" for x in steps] + ["--jacobian", "step", "--out", str(tmp_path / "out")]
+    assert main(["emit", name, "--lang", language, *words]) == 2
+    told = capsys.readouterr().err
+    assert REFUSED[case] in told
+    assert told.count("\n") == 1
+    assert not (tmp_path / "out").exists()
