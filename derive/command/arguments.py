@@ -139,7 +139,6 @@ class Parser(argparse.ArgumentParser):
 
 def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
     """The parser of all commands: name → function, whose docstring is its help."""
-
     top = Parser(prog="derive", description=about)
     top.add_argument("--version", action="version", version=f"derive {__version__}")
     subcommands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")

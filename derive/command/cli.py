@@ -131,7 +131,7 @@ def command_reduction(args: argparse.Namespace) -> int:
 
 
 def command_lecture(args: argparse.Namespace) -> int:
-    """The lecture: a text for people whose every claim is a step of a walk; .tex, .pdf or .html."""
+    """The lecture, a text for people that names the steps that prove it: .tex, .pdf or .html."""
     from .lecturing import command_lecture
 
     return command_lecture(args)

@@ -26,9 +26,9 @@ def command_lecture(args: argparse.Namespace) -> int:
     chapters = lecture_text.chapters()
     records = records_of(chapters)
     for chapter in chapters:
-        trials.tied(chapter, own(chapter, records))
+        trials.tied(chapter, named_by(chapter, records))
     if args.check:
-        tried = (len([*trials.tried(x, own(x, records))]) for x in chapters)
+        tried = (len([*trials.tried(x, named_by(x, records))]) for x in chapters)
         print(f"{sum(with_progress(tried, len(chapters), 'chapters'))} equations hold")
     shown = document.page if out.suffix == ".html" else document.latex
     text = shown(chapters, language(args.lang), solutions=args.solutions == "end")
@@ -38,7 +38,9 @@ def command_lecture(args: argparse.Namespace) -> int:
     return 0
 
 
-def own(chapter: lecture_text.Chapter, records: dict[str, Derivation]) -> dict[str, Derivation]:
+def named_by(
+    chapter: lecture_text.Chapter, records: dict[str, Derivation]
+) -> dict[str, Derivation]:
     """The records that the ties of a chapter speak of."""
     return {name: records[name] for name in chapter.problems}
 

@@ -11,7 +11,7 @@ from ..language.read import FormulaError
 from ..language.templating import environment
 from ..views.figure.drawing import Scene, svg, tikz
 from ..views.html import escaped
-from ..views.language import Language
+from ..views.language import LANGUAGES, Language
 from ..views.language import typeset as typeset_french
 from ..views.latex import DELIMITERS
 from ..views.layout import broken, indented
@@ -22,7 +22,7 @@ from ..views.printing.signs import SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal
 from .figures import AXES, FIGURES
-from .lecture_text import LANGUAGES, PROVED, RELATION, Block, Chapter, Entry, Formula, Words
+from .lecture_text import PROVED, RELATION, Block, Chapter, Entry, Formula, Words
 from .lecture_text import tree as tree_of
 
 TITLE = "Where do the equations of motion of solids come from?"
@@ -67,7 +67,7 @@ LATEX = Medium(
     r"\emph{{{}}}",
     r"\ref{{{label}}}",
     lambda x: f"${typeset.plain(x.tex)}$",
-    lambda x: _lines(x),
+    _lines,
     lambda x: tikz(x, colours=frozenset(AXES)),
 )
 PAGE = Medium(
@@ -149,14 +149,16 @@ def _word(language: Language, escape: Callable[[str], str], message: str) -> str
     return escape(language.word(message))
 
 
+COUNTED = {**dict.fromkeys(PROVED, "statement"), "solution": "exercise"}
+"""Kind of a block → what its number is counted with, if not its own kind."""
+
+
 def numbers_of(chapters: Sequence[Chapter]) -> dict[int, int]:
     """The number of each block that has one, by its id: statements are counted together, and a
     solution has that of the exercise before it."""
     found, counts = {}, {"statement": 0, "exercise": 0, "figure": 0}
     for block in (x for c in chapters for x in c.blocks):
-        counter = (
-            "statement" if block.kind in PROVED else block.kind.replace("solution", "exercise")
-        )
+        counter = COUNTED.get(block.kind, block.kind)
         if counter in counts:
             counts[counter] += block.kind != "solution"
             found[id(block)] = counts[counter]

@@ -9,7 +9,8 @@ same in both; then what it rests on::
     < said                       it says what letters mean, or what is supposed
     < open  English  |  French   proved here, and no step yet
 
-Formulas stand in `backquotes`, as ``derive walk`` shows them; `?Ũ = 0` is a condition; emphasis in
+Formulas stand in `backquotes`, as ``derive walk`` shows them; `?Ũ = 0` is
+not tried: it is supposed, sought, or true under what the text alone supposes; emphasis in
 _underscores_; ``@label`` is the number of a block.  ``#`` begins a comment.
 """
 
@@ -26,9 +27,9 @@ from ..language.limits import Refused
 from ..language.read import FormulaError, read
 from ..language.tree import Tree
 from ..record.record import Equation
+from ..views.language import LANGUAGES
 
 FOLDER = Path(__file__).with_name("chapters")
-LANGUAGES = ("en", "fr")
 PROVED = ("lemma", "proposition", "theorem")
 NUMBERED = (*PROVED, "exercise")
 KINDS = ("text", "section", *NUMBERED, "proof", "solution", "figure")
@@ -45,7 +46,7 @@ class LectureError(Refused, ValueError):
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula among the words, as it is typed; ``condition``: it is supposed, or sought."""
+    """A formula among the words, as it is typed; ``condition``: it is not tried."""
 
     text: str
     condition: bool = False

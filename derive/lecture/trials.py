@@ -48,18 +48,18 @@ def tried(
     """
     companies: dict[str, list[tuple[Checker | FluidChecker, Step]]] = {}
     for d in records.values():
-        checker, own = checker_of(d.problem, seed), group_of(d)
+        checker, group = checker_of(d.problem, seed), group_of(d)
         for s in d.steps:
-            several = dict.fromkeys((s, replace(s, scope=own)))
+            several = dict.fromkeys((s, replace(s, scope=group)))
             companies.setdefault(s.label, [(checker, one) for one in several])
     for entry in chapter.entries:
         for equation in entry.equations if entry.labels else ():
             company = [x for label in entry.labels for x in companies[label]]
-            fit = [x for x in company if not x[1].given or _own(equation, x[1])]
+            fit = [x for x in company if not x[1].given or _of_step(equation, x[1])]
             yield _claim(chapter, entry, equation, fit)
 
 
-def _own(equation: Equation, step: Step) -> Equation | None:
+def _of_step(equation: Equation, step: Step) -> Equation | None:
     """The equation of a step that is the same, or else one with the same left side."""
     same = [e for e in step.equations if e.lhs == equation.lhs]
     return next((e for e in same if e.rhs == equation.rhs), same[0] if same else None)
@@ -89,5 +89,5 @@ def _claim(
 
 def _quantified(equation: Equation, step: Step) -> Equation:
     """The equation for all values for which the step's own with the same left side is."""
-    same = _own(equation, step) or equation
+    same = _of_step(equation, step) or equation
     return replace(equation, for_all=same.for_all, exists=same.exists)

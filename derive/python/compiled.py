@@ -23,7 +23,7 @@ from ..code.languages import LANGUAGES
 from ..code.naming import own_prefix
 from ..code.options import ADDED, options_of
 from ..code.program import Block, Program
-from ..code.step.step_numbers import FIXED, VARIED
+from ..code.step.step_numbers import FIXED, VARIED, varied
 from ..language.reserved import did_you_mean, near_name
 from ..motion.c_binding import binding
 from ..motion.native import (
@@ -577,7 +577,7 @@ def compile(
             FIXED,
             ensemble=options.ensemble,
             events=bool(made_of.events),
-            varied=[x for x in options.step if x in VARIED and "step" in options.jacobian],
+            varied=varied(options),
         )
     names = Names.of(made_of, options.step, [*derived.problem.parameters])
     source = CSource(name, tuple(files.items()), compiler, tuple(flags))

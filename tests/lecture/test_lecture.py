@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from derive.command.cli import main
-from derive.command.lecturing import own, records_of
+from derive.command.lecturing import named_by, records_of
 from derive.language.show import show
 from derive.lecture import document, figures
-from derive.lecture.lecture_text import LANGUAGES, PROVED, Formula, LectureError, chapters, parsed
+from derive.lecture.lecture_text import PROVED, Formula, LectureError, chapters, parsed
 from derive.lecture.trials import tied, tried
-from derive.views.language import language
+from derive.views.language import LANGUAGES, language
 from tests.support.needs import needs
 from tests.support.walks import SEED
 
@@ -39,7 +39,7 @@ def zero(entry):
 @pytest.mark.parametrize("chapter", CHAPTERS, ids=NAMES)
 def test_every_claim_holds_and_none_with_another_sign(chapter, records):
     """Of each equation the right side is turned about, where it is not said to be zero."""
-    mine = own(chapter, records)
+    mine = named_by(chapter, records)
     tied(chapter, mine)
     claims = [*tried(chapter, mine, SEED)]
     assert len(claims) > 8
@@ -54,7 +54,7 @@ def test_every_claim_holds_and_none_with_another_sign(chapter, records):
 
 @pytest.mark.parametrize("chapter", CHAPTERS, ids=NAMES)
 def test_a_step_that_is_withdrawn_is_missed(chapter, records):
-    mine = own(chapter, records)
+    mine = named_by(chapter, records)
     for label in dict.fromkeys(x for e in chapter.entries for x in e.labels):
         fewer = {
             name: replace(d, steps=tuple(s for s in d.steps if s.label != label))
@@ -70,7 +70,7 @@ def test_most_claims_are_tied():
     assert 12 * sum(bool(x.open) for x in ties) <= len(ties)
 
 
-def test_every_statement_but_one_beside_its_proof_rests_on_something():
+def test_every_statement_says_what_it_rests_on():
     for chapter in CHAPTERS:
         for block in chapter.blocks:
             if block.kind in PROVED:

@@ -72,8 +72,8 @@ def known(p: Program, steps: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-HAD = {x: x for x in ("jacobian_raw", "jacobian_raw_inputs", "jacobian_project", "variations")}
-HAD["events"] = "events"
+CALLED = {x: x for x in ("jacobian_raw", "jacobian_raw_inputs", "jacobian_project", "variations")}
+CALLED["events"] = "events"
 """Function of the file → what it is called in the algorithms."""
 
 
@@ -229,7 +229,7 @@ def roots(steps: Mapping[str, Any]) -> list[str]:
 def in_c(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The records, tables and routines of the steps in C, for these fields of the templates."""
     steps, prefix, functions = fields["steps"], fields["prefix"], fields["functions"]
-    had = {"project": "projected", **HAD}
+    had = {"project": "projected", **CALLED}
     given = known(p, steps) | {
         **{of: f"{prefix}_{functions[x]['name']}" for x, of in had.items() if x in functions},
         "prefix": prefix,
@@ -280,7 +280,7 @@ def in_rust(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     steps, functions = fields["steps"], fields["functions"]
     moving = ("t", "t_low", "x", "low", "h", "start", "evaluations", "event", "rising")
     given = known(p, steps) | {
-        **{of: functions[x]["name"] for x, of in HAD.items() if x in functions},
+        **{of: functions[x]["name"] for x, of in CALLED.items() if x in functions},
         "project": functions["project"]["name"] if "project" in functions else "",
         "real": fields["real"],
         **{f"N_{x}": f"N_{x}" for x in (p.discrete.sizes if p.discrete else ())},
@@ -307,7 +307,7 @@ def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     wrong = " || ".join(f"{x}.length !== {n}" for x, n in lengths.items())
     right = ", ".join(f"{x} has {n} numbers" for x, n in lengths.items())
     given = known(p, steps) | {
-        **{of: functions[x]["name"] for x, of in HAD.items() if x in functions},
+        **{of: functions[x]["name"] for x, of in CALLED.items() if x in functions},
         **{f"N_{name}": n for name, n in sizes.items()},
         "N_EVENTS": len(p.events),
         "SIZE_U": len(p.inputs),
@@ -349,7 +349,7 @@ def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
 def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in Julia."""
     steps, functions, prefix = fields["steps"], fields["functions"], fields["prefix"]
-    had = {"rhs": "rhs", "project": "projected", **HAD}
+    had = {"rhs": "rhs", "project": "projected", **CALLED}
     counts = {"k": len(p.constants), "u": len(p.inputs)}
     right = [f"length({x}) == {n}" for x, n in counts.items() if n]
     if p.inputs:
@@ -382,7 +382,7 @@ def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
 def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in Python."""
     steps, functions = fields["steps"], fields["functions"]
-    had = {"rhs": "rhs", "project": "projected", **HAD}
+    had = {"rhs": "rhs", "project": "projected", **CALLED}
     sizes = {"STATE": len(p.state), "CONSTANTS": len(p.constants), "INPUTS": len(p.inputs)}
     given = known(p, steps) | {
         **{f"N_{name}": n for name, n in sizes.items()},
