@@ -174,6 +174,28 @@ def test_an_instance_is_kept_and_restored(emitted, name):
         unit.free(state)
 
 
+@needs("the module fmpy")
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+@pytest.mark.parametrize("name", BINARIES)
+def test_a_refused_parameter_is_said_to_the_importer(emitted, name, kind):
+    """By the function for messages of either standard, once; and no number comes out."""
+    import fmpy
+
+    heard = []
+    with pytest.raises(fmpy.fmi1.FMICallException):
+        fmpy.simulate_fmu(
+            emitted / name.removesuffix(".fmu"),
+            fmi_type=kind,
+            stop_time=1.0,
+            start_values={"m": -1.0},
+            logger=lambda *message: heard.append(message),
+        )
+    (message,) = heard
+    text = b" ".join(part for part in message if isinstance(part, bytes)).decode()
+    assert "logStatusError" in text
+    assert "the mass matrix singular or not positive" in text
+
+
 class Instance:
     """A unit under co-simulation, the same for both standards."""
 
