@@ -5,7 +5,7 @@
  * service keeps every file, under the hash of them all. */
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
-import { copyFileSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { loadPyodide } from "pyodide";
@@ -49,11 +49,13 @@ for (const file of ["index.html", "moving.html", "play.css", "icon.svg", "play.w
 }
 for (const file of ["page.css", "motion.css"]) copyFileSync(join(html, file), join(out, file));
 for (const file of ["data.json", "motion.js"]) copyFileSync(join(stage, file), join(out, file));
+cpSync(join(stage, "ready"), join(out, "ready"), { recursive: true });
 
 const all = files(out).map((x) => relative(out, x));
 const hash = createHash("sha256");
 for (const file of all) hash.update(file).update(readFileSync(join(out, file)));
-const LATE = ["sympy.tar.gz"]; // too large to be kept before it is asked for
+// too large, or too many, to be kept before they are asked for
+const LATE = all.filter((x) => x === "sympy.tar.gz" || x.startsWith("ready/"));
 const kept = all.filter((x) => x !== "index.html" && !LATE.includes(x));
 writeFileSync(join(out, "keep.js"), readFileSync(join(here, "src", "keep.js"), "utf8")
   .replace("__LATE__", JSON.stringify(LATE))

@@ -4,8 +4,10 @@ libraries in pure Python that it needs, and ``data.json``: ready-made problems, 
 ``python -m playground.stage DIR``
 """
 
+import gzip
 import importlib
 import json
+import pickle
 import re
 import shutil
 import subprocess
@@ -23,6 +25,7 @@ from derive.command.showing import READY, ready_made
 from derive.language.limits import TABLES
 from derive.problem.motion_tables import of_points
 from derive.problem.toml import TOP
+from derive.record.record import AMENDED
 from derive.schema.body_kinds import SOLIDS, Point
 from derive.schema.kind import (
     INPUTS,
@@ -41,6 +44,7 @@ from derive.schema.table import Table
 from derive.views.language import language
 from derive.views.outline import system, title
 from derive.views.page.motion_page import SCRIPTS
+from derive.views.paper.findings import amendments
 
 HERE = Path(__file__).parent
 LIBRARIES, LATER = ("jinja2", "markupsafe"), ("mpmath", "sympy")
@@ -166,6 +170,34 @@ def moved(g: Group, meaning: str) -> dict[str, object]:
     return {"n": g.n, "d": g.dimension, "w": w, "meaning": meaning}
 
 
+def stored(out: Path) -> None:
+    """What the worker tells of the ready-made problems, so that these are read, and move, before
+    there is Python: a file for each, in each language, in the order of its news."""
+    sys.path.insert(0, str(HERE / "python"))
+    import play
+
+    folder = out.with_name("stored")
+    folder.mkdir()
+    play.FOLDER, play.STORED = folder / "problem", folder / "amendments.pickle"
+    play.STORED.write_bytes(pickle.dumps(amendments(AMENDED)))
+    heard: list[tuple[str, object]] = []
+    played = play.Play(lambda kind, news: heard.append((kind, json.loads(news))))
+    for name in ready_made():
+        text = (READY / f"{name}.toml").read_text(encoding="utf-8")
+        for lang in ("en", "fr"):
+            told = {}
+            for ask in STORED:
+                heard.clear()
+                getattr(played, ask)(text, lang)
+                told[ask] = [*heard]
+            made = json.dumps(told, ensure_ascii=False, separators=(",", ":")).encode()
+            (out / f"{name}.{lang}.json.gz").write_bytes(gzip.compress(made, 9, mtime=0))
+
+
+STORED = ("walk", "motion", "kept")
+"""What is asked of a ready-made problem before it is changed."""
+
+
 def drawing() -> str:
     """What moves a body, and its functions by name."""
     folder = HERE.parent / "templates" / "html" / "motion"
@@ -189,6 +221,8 @@ def main(out: Path) -> None:
         shutil.copy(HERE / "python" / f"{module}.py", first)
     told = {"version": derive.__version__, "problems": problems(), **options(), "schema": schema()}
     (out / "motion.js").write_text(drawing(), encoding="utf-8")
+    (out / "ready").mkdir()
+    stored(out / "ready")
     (out / "data.json").write_text(json.dumps(told, ensure_ascii=False, sort_keys=True))
 
 

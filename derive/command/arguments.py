@@ -159,6 +159,8 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     add_reading_options((walk, symmetries, reduction), (searched, steady, held), made)
     about = "first what holds for any Lagrangian, on the left beside the right"
     walk.add_argument("--trivialisation", type=both, metavar="both", help=about)
+    about = "the equations of motion alone, with what their letters are"
+    walk.add_argument("--answer", action="store_true", help=about)
     about = "the discrete motion, a time step h apart"
     for one in (walk, made):
         one.add_argument("--discrete", action="store_true", help=about)
@@ -220,8 +222,8 @@ def add_picture_options(plot: argparse.ArgumentParser) -> None:
     about = "a column of an ensemble that is drawn; repeated"
     plot.add_argument("--column", metavar="NAME", action="append", default=[], help=about)
     plot.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
-    about = "FILE.svg, .pdf or .png"
-    plot.add_argument("--out", type=named_file, metavar="FILE", required=True, help=about)
+    about = "FILE.svg, .pdf or .png (default: the first RUN, as .svg)"
+    plot.add_argument("--out", type=named_file, metavar="FILE", help=about)
 
 
 def add_motion_options(simulated: argparse.ArgumentParser) -> None:
@@ -232,7 +234,8 @@ def add_motion_options(simulated: argparse.ArgumentParser) -> None:
     simulated.epilog = """An [[event]] of the file happens where its expression changes its sign;
     what only touches 0 is none, or is one by rounding."""
     simulated.add_argument("problem", help="a ready-made name or a .toml file")
-    simulated.add_argument("--t", type=real, required=True, metavar="T", help="the time, from 0 on")
+    about = "the time, from 0 on (default: about ten turns or swings)"
+    simulated.add_argument("--t", type=real, metavar="T", help=about)
     about = "the error of a short run, relative to the size of the state (default: 1e-9)"
     simulated.add_argument("--tol", type=real, metavar="TOL", help=about)
     simulated.add_argument("--dt", type=real, metavar="DT", help="steps of this size instead")
@@ -376,7 +379,7 @@ def add_reading_options(
         one.add_argument("--format", choices=FORMATS, default="text")
         one.add_argument("--out", type=text_file, metavar="FILE", help=FILE)
     for one in walks:
-        about = "steps to print alone, as kernel or linear.kernel"
+        about = "steps to print alone, as kernel or linear.kernel; answer: the equations of motion"
         one.add_argument("labels", nargs="*", metavar="step", help=about)
     notes.add_argument("problem", nargs="*", help="ready-made names or .toml files")
     about = "FILE.tex, .pdf, .html or .sty"

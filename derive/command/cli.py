@@ -24,10 +24,12 @@ from .showing import (
     load_problem,
     ready_made,
     save,
+    save_answer,
     save_found,
     save_steps,
     steps_of,
 )
+from .terminal import working
 from .writing import StoppedError, one_line, replacing_unencodable, time_limit, with_progress
 
 if TYPE_CHECKING:
@@ -49,8 +51,14 @@ def command_walk(args: argparse.Namespace) -> int:
 
     if args.discrete and args.trivialisation:
         raise UsageError("--discrete and --trivialisation are of two roads: leave out one")
+    if args.answer and (args.labels or args.trivialisation):
+        raise UsageError("--answer shows its own steps: leave out steps and --trivialisation")
     walked = discrete_walk if args.discrete else derive
-    problem, record = walked(args.problem, **allowed(args))
+    with working(args.problem):
+        problem, record = walked(args.problem, **allowed(args))
+    if args.answer:
+        save_answer(record, args)
+        return 0
     if args.trivialisation:
         if problem.fluid or problem.kinematics:
             told = "errors are told on both sides"
@@ -70,7 +78,9 @@ def command_integrals(args: argparse.Namespace) -> int:
 
     problem = doubted(args.problem)
     chosen = {"at_defaults": args.at_defaults, "conditions": args.conditions}
-    save_found(integrals(problem, args.degree, **chosen)[1], args)
+    with working(args.problem):
+        _, record = integrals(problem, args.degree, **chosen)
+    save_found(record, args)
     return 0
 
 
@@ -82,10 +92,12 @@ def command_equilibria(args: argparse.Namespace) -> int:
         raise UsageError("--at is exact and --near is not: give one of them")
     at, near = _each_once("--at", args.at), _each_once("--near", args.near)
     found: object
-    if near:
-        found, record = equilibrium_near(doubted(args.problem), near, args.degree)
-    else:
-        found, record = equilibria(doubted(args.problem), at, args.degree)
+    problem = doubted(args.problem)
+    with working(args.problem):
+        if near:
+            found, record = equilibrium_near(problem, near, args.degree)
+        else:
+            found, record = equilibria(problem, at, args.degree)
     if not found:
         raise UsageError(
             f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "
@@ -117,7 +129,9 @@ def command_symmetries(args: argparse.Namespace) -> int:
     from ..searches import symmetries
 
     problem, walked = derive(args.problem, **allowed(args))
-    save_found(symmetries(problem, walked).record, args)
+    with working(args.problem):
+        record = symmetries(problem, walked).record
+    save_found(record, args)
     return 0
 
 
@@ -126,7 +140,9 @@ def command_reduction(args: argparse.Namespace) -> int:
     from ..searches import reduction
 
     problem, walked = derive(args.problem, **allowed(args))
-    save_found(reduction(problem, walked).record, args)
+    with working(args.problem):
+        record = reduction(problem, walked).record
+    save_found(record, args)
     return 0
 
 
@@ -201,8 +217,9 @@ def command_plot(args: argparse.Namespace) -> int:
     from ..views.plot.plot_sheet import ending
     from .writing import write
 
-    ending(args.out)
-    out, paths, words = Path(args.out), [Path(x) for x in args.run_file], language(args.lang)
+    paths, words = [Path(x) for x in args.run_file], language(args.lang)
+    out = Path(args.out) if args.out else Path(paths[0].with_suffix(".svg").name)
+    ending(str(out))
     word, mark = words.word, words.mark
     if args.kind == PRECISION:
         picture = plot_precision(paths, out.name, word, mark)
@@ -351,8 +368,9 @@ shown as text, LaTeX or a web page, and emitted as code."""
 
 def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
     """Run the command of the arguments: its exit code."""
+    given = sys.argv[1:] if argv is None else argv
     try:
-        args = options.parse_args(argv)
+        args = options.parse_args(given or ["--help"])
     except SystemExit:
         sys.stdout.flush()  # the help: main tells what cannot be written
         raise

@@ -7,18 +7,19 @@ import os
 import shutil
 import sys
 from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 from ..algebra.families import FAMILIES
 from ..language.limits import Refused
-from ..language.reserved import did_you_mean, near_name
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation, Step
 from ..schema.table import nearest
 from ..search import FIRST
 from ..views.printing.line_breaking import WIDTH
 from ..views.rendering import render, unprinted
+from .terminal import show
 from .writing import as_in_a_file, one_line
 
 # The list of groups and ready-made problems that ``derive list`` prints.
@@ -41,6 +42,8 @@ def listing(problems: Mapping[str, Problem]) -> str:
 
 # The problem that a command names, and its walk.
 
+NEAR = 3
+"""How many ready-made problems are named that are nearly called so."""
 READY = Path(__file__).resolve().parents[1] / "problems"
 
 
@@ -65,12 +68,12 @@ def load_problem(name: str, **allowances: bool) -> Problem:
         return load(path, **allowances)
     if "\n" in name:
         raise ProblemError("a problem is a name or a .toml file, not its text: write it to a file")
-    near = near_name(name.lower(), ready_made())
+    near = get_close_matches(name.lower()[:60], ready_made(), NEAR, 0.5)
     if path.with_name(f"{path.name}.toml").is_file():
-        near = f"{name}.toml"
-    hint = did_you_mean(near[:60], after=" ")
+        near = [f"{name}.toml"[:60]]
+    hint = f"did you mean {' or '.join(map(repr, near))}? " if near else ""
     raise ProblemError(
-        f"unknown problem {name[:60]!r}; {hint}ready-made: {', '.join(ready_made())}; "
+        f"unknown problem {name[:60]!r}; {hint}derive list has the ready-made ones; "
         "or give a .toml file"
     )
 
@@ -117,6 +120,9 @@ def allowed(args: argparse.Namespace) -> dict[str, bool]:
     return {f"negative_{x}": getattr(args, f"allow_negative_{x}") for x in ALLOWED}
 
 
+ANSWER = "answer"
+"""What the steps are called, of any problem, in which its equations of motion stand."""
+
 # What a command shows of a record: which of its steps, in which notation, to where.
 
 LEAST = 40
@@ -130,7 +136,8 @@ def save(text: str, out: str | None, form: str) -> None:
     if out is None:
         if form != "text":
             as_in_a_file()
-        sys.stdout.write(text if text.endswith("\n") else text + "\n")
+        text = text if text.endswith("\n") else text + "\n"
+        show(text) if form == "text" else sys.stdout.write(text)
     else:
         path = Path(out)
         write({path.name: text}, path.parent, links=True)
@@ -153,6 +160,20 @@ def save_steps(record: Derivation, steps: Sequence[Step], args: argparse.Namespa
     save(shown, args.out, args.format)
 
 
+def save_answer(record: Derivation, args: argparse.Namespace) -> None:
+    """Write the equations of motion of a record: as text with what their letters are, in other
+    formats the steps in which they stand."""
+    from ..views.answer import answer, steps_of_answer
+    from ..views.language import language
+
+    if args.format != "text":
+        save_steps(record, steps_of_answer(record), args)
+        return
+    if args.fragment:
+        raise UsageError("--fragment is for --format latex and html")
+    save(answer(record, columns(args.out), language=language(args.lang)), args.out, args.format)
+
+
 def save_found(record: Derivation, args: argparse.Namespace) -> None:
     """Write the steps of a record that are asked for, else those that tell what the search of the
     command found; in JSON all, which can be checked."""
@@ -163,11 +184,17 @@ def save_found(record: Derivation, args: argparse.Namespace) -> None:
 
 
 def steps_of(record: Derivation, labels: Sequence[str]) -> list[Step]:
-    """The steps with these labels, which may lack the problem's name; ``UsageError`` for others."""
+    """The steps with these labels, which may lack the problem's name, or those of the ``answer``;
+    ``UsageError`` for others."""
+    from ..views.answer import steps_of_answer
+
     by_label = {s.label: s for s in record.steps}
     short = {x.removeprefix(f"{record.name}."): x for x in by_label}
-    found = []
+    found: list[Step] = []
     for label in labels:
+        if label == ANSWER:
+            found += steps_of_answer(record)
+            continue
         if label not in by_label and label not in short:
             own = [x for x, y in short.items() if y.startswith(f"{record.name}.")]
             listed = f"; of this problem are {', '.join(own)}" if own else ""

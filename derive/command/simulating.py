@@ -27,7 +27,7 @@ from ..motion.ensemble_files import writer
 from ..motion.first_numbers import MotionError
 from ..motion.native import AT_EVENT
 from ..motion.run import Array, Run, format_of, written
-from ..motion.simulate import beginning, run
+from ..motion.simulate import beginning, run, some_turns
 from ..motion.start import state_file
 from ..motion.trajectory import STEPS, Method, instants, step_of
 from ..problem.problem import Problem
@@ -38,6 +38,7 @@ from ..views.page.motion_page import motion_page
 from ..views.plot.pictures import plot
 from ..views.rendering import NOTES, RenderError, notes, pdf
 from .showing import UsageError, allowed, derive, discrete_walk, notation, warn_of_letters
+from .terminal import working
 from .writing import growing, heard, one_line, require_place, with_progress, write
 
 # ``derive simulate``: from a problem to a run in one command.
@@ -71,11 +72,13 @@ def page_of(
 
 
 def moving_page(
-    problem: Problem, record: Derivation, t: float, method: Method, lang: str, **start: Any
+    problem: Problem, record: Derivation, t: float | None, method: Method, lang: str, **start: Any
 ) -> str:
-    """The page of a motion from 0 to t, from a start as ``beginning`` takes it; ``Refused``."""
+    """The page of a motion from 0 to t, for ``None`` some turns, from a start as ``beginning``
+    takes it; ``Refused``."""
     code = motion_of(replace(problem, events=()), record, weightless=True)
     begin = beginning(code, problem, **start)
+    t = some_turns(code, begin) if t is None else t
     instants(method, t, 1)  # refuses a time that is none
     return motion_page(code, problem, record, begin, t, method.tol, language(lang))
 
@@ -131,6 +134,8 @@ def command_simulate(args: argparse.Namespace) -> int:
     """Run ``derive simulate``: its exit code."""
     if args.dt is not None and args.tol is not None:
         raise MotionError("--dt is a step of one size, --tol chooses it: give one of them")
+    if args.t is None and (args.dt is not None or args.ensemble is not None or args.input):
+        raise MotionError("for how long? give --t with --dt, --ensemble or --input")
     if args.ensemble is None:
         require_an_ensemble(args.vary, args.seed, args.device)
     if args.out:
@@ -138,7 +143,8 @@ def command_simulate(args: argparse.Namespace) -> int:
     for file in filter(None, (args.out, args.html)):
         require_place(Path(file))
     chosen = {"followed": True, "given": dict(args.set or ())}
-    problem, record = derive(args.problem, **chosen, **allowed(args))
+    with working(args.problem):
+        problem, record = derive(args.problem, **chosen, **allowed(args))
     start = start_of(args, problem, record)
     if args.ensemble is not None:
         return command_ensemble(args, problem, record, start)

@@ -40,6 +40,9 @@ LONG, TURN = 500, 2.0
 """A motion of more steps is compiled, where there is a compiler; in a step for a tolerance no part
 of the state changes by more than about TURN of its size."""
 
+TURNS = 10
+"""How many turns are followed, about, where no time is given."""
+
 CHUNKS = 200
 """The parts of a run between which it can be stopped and its progress is shown."""
 
@@ -50,7 +53,7 @@ def run(
     code: Emitted,
     problem: Problem,
     method: Method,
-    duration: float,
+    duration: float | None,
     points: int,
     *,
     given: Mapping[str, float],
@@ -61,11 +64,15 @@ def run(
     inputs: Given | None = None,
     linear: bool = False,
 ) -> Run:
-    """The motion of a problem from 0 to ``duration``, from :func:`start`, as a table; by C or by
-    Python, or, for ``None``, by C where that pays and there is a compiler; with the
-    signals of the problem and ``inputs`` in time, as :func:`.signals.inputs_in_time` takes them."""
-    times = instants(method, duration, points)
+    """The motion of a problem from 0 to ``duration``, for ``None`` :func:`some_turns`, from
+    :func:`start`, as a table; by C or by Python, or, for ``None``, by C where that pays and there
+    is a compiler; with the signals of the problem and ``inputs`` in time, as
+    :func:`.signals.inputs_in_time` takes them."""
+    if duration is not None:
+        instants(method, duration, points)  # refused before the start is looked at
     begin = beginning(code, problem, given=given, exponent=exponent, project=project)
+    duration = some_turns(code, begin) if duration is None else duration
+    times = instants(method, duration, points)
     named, numbers = code.program.inputs, begin.parameters
     driven = inputs_in_time(problem, named, begin.u, numbers, given, inputs, linear=linear)
     begin = replace(begin, u=driven.at(0.0, begin.x)) if driven else begin
@@ -99,10 +106,22 @@ def is_long(code: Emitted, k: Array, begin: Start, method: Method, duration: flo
     """Does the Python take longer for a motion than a compiler for its C?"""
     if method.dt:
         return duration / method.dt > LONG
-    dx = np.abs(code.python.rhs(0.0, begin.x, k, begin.u))
-    both = [(np.abs(begin.x[a:b]).max(), dx[a:b].max()) for a, b in parts(code.program)]
-    fastest = max((rate / size for size, rate in both if size), default=0.0)
+    fastest = max((rate / size for size, rate in speeds(code, k, begin) if size), default=0.0)
     return bool(duration * fastest / TURN > LONG)
+
+
+def speeds(code: Emitted, k: Array, begin: Start) -> list[tuple[float, float]]:
+    """Of each part of the state at the start its size, and that of its rate."""
+    dx = np.abs(code.python.rhs(0.0, begin.x, k, begin.u))
+    return [(np.abs(begin.x[a:b]).max(), dx[a:b].max()) for a, b in parts(code.program)]
+
+
+def some_turns(code: Emitted, begin: Start) -> float:
+    """The time of TURNS turns at the rates of the start, or of swings that begin at rest there, to
+    one digit; 10 where nothing moves."""
+    measured = speeds(code, code.constants(begin.p), begin)
+    fastest = max(rate / size if size else math.sqrt(rate) for size, rate in measured)
+    return float(f"{2 * math.pi * TURNS / fastest:.0e}") if fastest else 10.0
 
 
 def beginning(

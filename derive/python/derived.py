@@ -14,7 +14,7 @@ from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
 from .api import in_keywords
 from .quoted import loaded
-from .shown import Shown
+from .shown import Answer, Shown
 
 if TYPE_CHECKING:
     from ..motion.signals import Given
@@ -80,8 +80,14 @@ class Derived:
 
         return render(self.record, "markdown", lang)
 
+    @property
+    def answer(self) -> Answer:
+        """The equations of motion alone, and what their letters are."""
+        return Answer(self.record)
+
     def _repr_markdown_(self) -> str:
-        return self.markdown()
+        head = f"<details><summary>The walk: {len(self.labels)} steps</summary>"
+        return f"{self.answer.markdown()}\n{head}\n\n{self.markdown()}\n</details>\n"
 
     def figure(self) -> Figure | None:
         """The drawing of the body; ``None`` where the problem has no body."""

@@ -53,6 +53,42 @@ class ShownEquation:
 
 
 @dataclass(frozen=True)
+class Answer:
+    """The equations of motion of a derivation, and what their letters are."""
+
+    record: Derivation
+
+    def __repr__(self) -> str:
+        return f"<answer of {self.record.name}: {len(self.equations)} equations>"
+
+    @property
+    def equations(self) -> tuple[ShownEquation, ...]:
+        """The equations of motion, solved for the rates, in entries where these are told."""
+        from ..views.answer import equations_of_motion
+
+        return tuple(ShownEquation(e, self.record) for e in equations_of_motion(self.record))
+
+    def sympy(self) -> tuple[Any, ...]:
+        """The equations in SymPy, in order."""
+        return tuple(e.sympy() for e in self.equations)
+
+    def __str__(self) -> str:
+        from ..views.answer import answer
+
+        return answer(self.record)
+
+    def markdown(self, lang: str = "en") -> str:
+        """The equations in Markdown, as formulas between dollars."""
+        from ..views.answer import answer_markdown
+        from ..views.language import language
+
+        return answer_markdown(self.record, language=language(lang))
+
+    def _repr_markdown_(self) -> str:
+        return self.markdown()
+
+
+@dataclass(frozen=True)
 class Shown:
     """A step of a derivation, which prints itself and shows its formulas in a notebook."""
 

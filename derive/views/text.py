@@ -55,7 +55,7 @@ def text(d: Derivation, width: int = WIDTH, *, language: Language = ENGLISH) -> 
     heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
     blocks = [
         [*_underlined(heading, "=", width)],
-        [*_paragraph(f"{plain_conventions(d, language)} {language.word(PAPER)}", 0, width)],
+        [*paragraph(f"{plain_conventions(d, language)} {language.word(PAPER)}", 0, width)],
     ]
     for section, steps in sections(d, language):
         blocks.append([*_underlined(section, "-", width)])
@@ -64,10 +64,12 @@ def text(d: Derivation, width: int = WIDTH, *, language: Language = ENGLISH) -> 
         blocks.append([*_underlined(language.word("Names"), "-", width)])
         told = ((s.name, unquoted(language.of(s.meaning), quoted)) for s in d.symbols)
         named = [(show_name(name), meaning) for name, meaning in told]
-        blocks.append([line for name, about in named for line in _named(name, about, width)])
-    if declared := [*_parameters(d, quoted, language)]:
+        blocks.append([line for name, about in named for line in name_lines(name, about, width)])
+    if declared := [*parameters(d, quoted, language)]:
         blocks.append([*_underlined(language.word("Parameters"), "-", width)])
-        blocks.append([line for name, about in declared for line in _named(name, about, width)])
+        blocks.append(
+            [line for _, name, about in declared for line in name_lines(name, about, width)]
+        )
     lines = "\n\n".join("\n".join(line.rstrip() for line in block) for block in blocks)
     return "".join(c for c in lines if c in f"\n{NO_BREAK}" or c.isprintable()) + "\n"
 
@@ -86,20 +88,20 @@ def step_text(
 
 def equation_text(e: Equation, width: int = WIDTH) -> str:
     """One equation as text, its lines at most ``width`` columns wide."""
-    return textwrap.dedent("\n".join(_equations((e,), width, ENGLISH)))
+    return textwrap.dedent("\n".join(equation_lines((e,), width, ENGLISH)))
 
 
-def _named(name: str, meaning: str, width: int) -> Iterator[str]:
+def name_lines(name: str, meaning: str, width: int) -> Iterator[str]:
     """The lines of a name with its meaning."""
-    first, *others = _paragraph(meaning, NAME, width)
+    first, *others = paragraph(meaning, NAME, width)
     yield f"{'':{MARGIN}}{padded(name, NAME - MARGIN - 1)} {first[NAME:]}"
     yield from others
 
 
-def _parameters(
+def parameters(
     d: Derivation, quoted: frozenset[str], language: Language
-) -> Iterator[tuple[str, str]]:
-    """The parameters of the problem with meaning, unit and default."""
+) -> Iterator[tuple[str, str, str]]:
+    """The parameters of the problem: name, as shown, and meaning, unit and default."""
     parameters = d.problem.get("parameters", {})
     for name, about in parameters.items() if isinstance(parameters, Mapping) else ():
         about = about if isinstance(about, Mapping) else {}
@@ -108,7 +110,7 @@ def _parameters(
         words += [f"[{unit}]"] if unit else []
         if isinstance(default, (int, float)):
             words.append(language.word("default {value}", value=language.decimal(default)))
-        yield show(in_quotes(("par", str(name)), quoted)), ", ".join(words)
+        yield str(name), show(in_quotes(("par", str(name)), quoted)), ", ".join(words)
 
 
 def clashing(d: Derivation) -> frozenset[str]:
@@ -128,24 +130,24 @@ def unquoted(words: str, quoted: frozenset[str]) -> str:
 def _step(step: Step, width: int, quoted: frozenset[str], language: Language) -> Iterator[str]:
     """The lines of a step: heading, sentences, what it uses, equations."""
     head = [step.label, language.word(step.rule), *notes(step, language)]
-    yield from _paragraph(unquoted("  ·  ".join(head), quoted), 0, width)
-    yield from _paragraph(unquoted(language.of(step.prose), quoted), MARGIN, width)
+    yield from paragraph(unquoted("  ·  ".join(head), quoted), 0, width)
+    yield from paragraph(unquoted(language.of(step.prose), quoted), MARGIN, width)
     if step.uses:
         used = language.word("From {labels}.", labels=", ".join(step.uses))
-        yield from _paragraph(used, MARGIN, width)
+        yield from paragraph(used, MARGIN, width)
     equations = (
         replace(e, lhs=in_quotes(e.lhs, quoted), rhs=in_quotes(e.rhs, quoted))
         for e in step.equations
     )
-    yield from _equations(tuple(equations), width - EQUATION, language)
+    yield from equation_lines(tuple(equations), width - EQUATION, language)
 
 
-def _equations(equations: tuple[Equation, ...], room: int, language: Language) -> Iterator[str]:
+def equation_lines(equations: tuple[Equation, ...], room: int, language: Language) -> Iterator[str]:
     """The equations of a step, aligned at their signs; many short ones stand side by side."""
     runs = [[*run] for _, run in groupby(equations, key=lambda e: bool(cell(e)))]
     if len(runs) > 1 and any(len(run) > TABLE and cell(run[0]) for run in runs):
         for run in runs:
-            yield from _equations(tuple(run), room, language)
+            yield from equation_lines(tuple(run), room, language)
         return
     if len(equations) > TABLE and cell(equations[0]) and len(runs) == 1:
         yield from _table([cell(e) for e in equations], room)
@@ -194,7 +196,7 @@ def _equation(
         clause = ""
     yield from lines
     if clause:
-        yield from _paragraph(clause, indent, room)
+        yield from paragraph(clause, indent, room)
 
 
 def _clause(e: Equation, along: Collection[Equation], language: Language) -> str:
@@ -253,7 +255,7 @@ def _cut(line: str, width: int) -> list[str]:
     return [line]
 
 
-def _paragraph(words: str, margin: int, width: int) -> Iterator[str]:
+def paragraph(words: str, margin: int, width: int) -> Iterator[str]:
     """Words filled into lines; runs of spaces inside a line stay."""
     line = ""
     for word in words.strip().split(" "):
@@ -269,7 +271,7 @@ def _paragraph(words: str, margin: int, width: int) -> Iterator[str]:
 
 def _underlined(heading: str, mark: str, width: int) -> list[str]:
     """A heading with a line of ``mark`` below it."""
-    lines = [*_paragraph(heading, 0, width)]
+    lines = [*paragraph(heading, 0, width)]
     return [*lines, mark * max(map(display_width, lines))]
 
 

@@ -90,13 +90,16 @@ class Play:
             self.problem, self.record = derive(self.path.name, followed=True)
 
     def walk(self, text: str, lang: str) -> None:
-        """The walk as the HTML of ``derive walk FILE --format html --fragment``, piece by piece."""
+        """The equations of motion, and the walk as the HTML of ``derive walk FILE --format html
+        --fragment``, piece by piece."""
+        from derive.views.answer import answer_mathml
         from derive.views.html import fragment
         from derive.views.language import language
 
         with self.refusals():
             self.read(text)
-            self.tell("derived", {"steps": len(self.record.steps), "name": self.record.name})
+            told = {"steps": len(self.record.steps), "name": self.record.name}
+            self.tell("derived", told | {"answer": answer_mathml(self.record)})
             found = corrections(self.record)
             for piece in fragment([self.record], language=language(lang), findings=found):
                 self.tell("piece", piece)

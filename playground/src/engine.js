@@ -17,10 +17,9 @@ export class Engine {
   #turn = 0;
   #ready;
 
-  constructor({ seconds = 60, onstate }) {
-    this.seconds = seconds;
-    this.onstate = onstate;
-    this.#begin();
+  /* stored(question): the news that were made with the page, or null; onbegin: the worker begins, when it is first needed */
+  constructor({ seconds = 60, onstate, onbegin, stored }) {
+    Object.assign(this, { seconds, onstate, onbegin, stored });
   }
 
   #begin() {
@@ -44,6 +43,13 @@ export class Engine {
    * question. One that waits for another long is not kept waiting. */
   async ask(question, heard) {
     const turn = ++this.#turn;
+    const made = await this.stored?.(question);
+    if (turn !== this.#turn) return "superseded";
+    if (made) {
+      if (question.ask === "walk") this.stop("superseded"); // what is asked of the last problem
+      for (const [kind, news] of made) heard(kind, news);
+      return "end";
+    }
     while (this.#asked) {
       const before = this.#asked, left = PATIENCE - (performance.now() - before.since);
       await Promise.race([before.over, new Promise((resolve) => { setTimeout(resolve, left); })]);
@@ -68,6 +74,10 @@ export class Engine {
       asked.wind();
       heard(kind, news);
     };
+    if (!this.#worker) {
+      this.onbegin?.();
+      this.#begin();
+    }
     this.onstate?.();
     try {
       await this.#ready;

@@ -1,5 +1,5 @@
 /* A problem as an address: #so3 for a ready-made one, #p=… for a text, compressed; #so3/linear.kernel for a step of it,
- * ?lang=fr for the language. */
+ * ?lang=fr for the language; nothing for the top, which moves. */
 const LARGEST = 400_000;
 
 async function through(stream, bytes) {
@@ -33,7 +33,7 @@ export async function unpacked(word) {
  * { missing } the name of no ready-made problem */
 export async function asked(hash, names) {
   const [word, ...rest] = hash.replace(/^#/, "").split("/"), step = plain(rest.join("/"));
-  if (!word) return { name: "so3", step };
+  if (!word) return { name: "top", step, first: true };
   const name = names.find((x) => x === word) ?? names.find((x) => x.toLowerCase() === word.toLowerCase());
   if (name) return { name, step };
   if (!word.startsWith("p=")) return { name: "so3", step: "", missing: plain(word) };

@@ -24,7 +24,8 @@ const ready = (name) => data.problems.find((x) => x.name === name);
 const equations = new Equations(the("walk"), css, document.querySelector(".read .bar"), (id) => go(id));
 const places = new Places(equations);
 const steps = new Steps(the("steps"), (id, again) => go(id, again));
-const engine = typeof WebAssembly === "object" ? new Engine({ seconds: SECONDS, onstate }) : null;
+const engine = typeof WebAssembly === "object"
+  ? new Engine({ seconds: SECONDS, onstate, onbegin: () => say(words.loading), stored }) : null;
 const motion = new Motion(the("see"), { text: () => text, engine, say, ended });
 const text = editor(the("editor"), data.schema, words, edited);
 const form = new Form(the("form"), data.schema, (made) => { text.text = made; });
@@ -36,6 +37,21 @@ const tabs = new Tabs(["walk", "see", "take"], (name) => {
   if (name === "see") see();
   if (name === "take") take.weigh();
 });
+
+async function unzipped(file) {
+  const found = await fetch(file);
+  return found.ok ? new Response(found.body.pipeThrough(new DecompressionStream("gzip"))).json() : null;
+}
+
+/* the news of a ready-made problem that were made with the page, by its name and language */
+const made = new Map();
+async function stored({ ask, text: asking, lang: spoken }) {
+  const name = names.find((x) => ready(x).text === asking);
+  if (!name || !["walk", "motion", "kept"].includes(ask)) return null;
+  const file = `ready/${name}.${spoken}.json.gz`;
+  if (!made.has(file)) made.set(file, unzipped(file).catch(() => null));
+  return (await made.get(file))?.[ask] ?? null;
+}
 
 /* what is derived: the text and language of the walk that stands, the walk that runs; is a check to follow? */
 let walked = null, running = null, wanted = false;
@@ -78,7 +94,14 @@ function ended(how) {
   return how === "end";
 }
 
+/* the equations of motion, at the head of what is derived */
+function answer(equations) {
+  the("answer").hidden = !equations.length;
+  the("answer").lastElementChild.innerHTML = equations.map((x) => `<p>${x}</p>`).join("");
+}
+
 function athome(why) {
+  answer([]);
   equations.clear(make("p", {}, why), make("pre", {}, `pip install derive-mechanics\nderive walk ${chosen() ?? `${problem_name()}.toml`}`));
   say("");
 }
@@ -109,7 +132,10 @@ async function walk() {
   motion.stale();
   say(wanted ? words.queued : words.deriving);
   const how = await engine.ask({ ask: "walk", text: asking, lang }, (kind, news) => {
-    if (kind === "derived") count = news.steps;
+    if (kind === "derived") {
+      count = news.steps;
+      answer(news.answer);
+    }
     else if (kind === "warning") found.push({ line: 1, ...(news.message ? news : { message: news }), severity: "warning" });
     else if (kind === "error") {
       fault = true;
@@ -122,6 +148,7 @@ async function walk() {
   });
   if (how === "superseded") return how;
   the("walk").removeAttribute("aria-busy");
+  if (!begun || fault) answer([]);
   if (!begun || fault) equations.clear(make("p", { class: "fault" }, fault ? found.at(-1).message : told));
   faults(notice ? [{ message: notice, line: 1, severity: "warning" }, ...found] : found);
   notice = "";
@@ -258,6 +285,7 @@ async function visit() {
   }
   places.stands = false;
   if (now !== text.text) text.text = now;
+  if (found.first) tabs.show("see");
   later(null);
   motion.forget();
   about();
@@ -357,7 +385,6 @@ addEventListener("scroll", () => {
 widen(kept("wide") === "yes");
 speak();
 onstate();
-if (engine) say(words.loading);
 globalThis.play = { engine, text, equations };
 navigator.serviceWorker?.register("keep.js").catch(() => {});
 await visit();

@@ -1,7 +1,14 @@
 /* The words of the page, in English and French; those of the equations come from the package. */
 export const WORDS = {
   en: {
-    home: "derive", language: "Language", ready: "Problem", own: "of your own", write: "The problem",
+    home: "derive", what: "Describe a body: its equations of motion, derived, checked, moving, and as code.",
+    answer: "Equations of motion", help: "Help",
+    help1: "Choose a problem above, or write your own at the left: as text, or as a form.",
+    help2: "Motion: the body moves by these equations; drag it, and set its numbers below it.",
+    help3: "Equations: the whole road to them, step by step; Check tries each step by another road.",
+    help4: "Take: code in C, Python and other languages, notes, the file, the command that does the same at home.",
+    help5: "Copy link: the problem as an address. Nothing leaves this machine.",
+    language: "Language", ready: "Problem", own: "of your own", write: "The problem",
     how: "How to write it", text: "Text", form: "Form", link: "Copy link", linked: "Link copied",
     read: "What is derived", equations: "Equations", motion: "Motion", take: "Take", check: "Check",
     stop: "Stop", progress: "Progress", editor: "The problem file, TOML",
@@ -50,7 +57,14 @@ export const WORDS = {
     addpoint: "Add a point", addforce: "Add a force", madeof: "made of", startsat: "Velocity at the start", given: "moments, given",
   },
   fr: {
-    home: "derive", language: "Langue", ready: "Problème", own: "le vôtre", write: "Le problème",
+    home: "derive", what: "Décrivez un corps : ses équations du mouvement, déduites, vérifiées, en mouvement, en code.",
+    answer: "Équations du mouvement", help: "Aide",
+    help1: "Choisissez un problème ci-dessus, ou écrivez le vôtre à gauche : en texte, ou par un formulaire.",
+    help2: "Mouvement : le corps se meut selon ces équations ; faites-le tourner, réglez ses nombres en dessous.",
+    help3: "Équations : tout le chemin qui y mène, étape par étape ; Vérifier les examine par une autre voie.",
+    help4: "Emporter : le code en C, en Python et dans d’autres langages, des notes, le fichier, la même commande chez vous.",
+    help5: "Copier le lien : le problème en une adresse. Rien ne quitte cette machine.",
+    language: "Langue", ready: "Problème", own: "le vôtre", write: "Le problème",
     how: "Comment l’écrire", text: "Texte", form: "Formulaire", link: "Copier le lien", linked: "Lien copié",
     read: "Ce qui est déduit", equations: "Équations", motion: "Mouvement", take: "Emporter", check: "Vérifier",
     stop: "Arrêter", progress: "Progression", editor: "Le fichier du problème, TOML",

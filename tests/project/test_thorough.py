@@ -73,7 +73,7 @@ def test_a_share_of_the_cases_is_of_every_test():
 def test_the_build_server_has_some_cases_of_every_test():
     makefile = (TESTS.parent / "Makefile").read_text(encoding="utf-8")
     rest = makefile[makefile.index("rest:") :]
-    assert "--share=4" in rest[: rest.index("coverage:")]
+    assert "--share=8" in rest[: rest.index("coverage:")]
     assert "make rest" in (TESTS.parent / ".ci/run").read_text(encoding="utf-8")
 
 

@@ -1,5 +1,5 @@
 """The pictures of README and of the page that moves, in docs/pictures: python -m
-tests.support.pictures [notes] [walk] [motion] [playground].
+tests.support.pictures [notes] [walk] [motion] [moving] [playground].
 
 A page of lecture notes as PDF, a step of the walk as a page in a browser, the page with the body in
 it, and the playground; all of ``top``.  It needs TeX, pdftoppm, Chromium, playwright and Node.
@@ -9,8 +9,10 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from io import BytesIO
 from pathlib import Path
 
+from PIL import Image
 from playwright.sync_api import sync_playwright
 
 from derive.command.cli import main
@@ -18,6 +20,8 @@ from tests.support.needs import BROWSERS
 from tests.support.playground_site import built, chromium, served, walked
 
 PICTURES = Path(__file__).parents[2] / "docs" / "pictures"
+FRAMES, SPAN = 60, 0.48
+"""Of the picture that plays: how many, and of what time."""
 PDF_STEP = "top.euler"
 STEPS = ("top.torque", "top.energy")
 """The page of the notes that has this step; the first and the last step of the picture beside."""
@@ -55,6 +59,25 @@ def motion(folder):
         browser.close()
 
 
+def moving(folder):
+    """The top as it moves: once round by its precession, a sixth as fast, over and over."""
+    start = ["--set", "zeta_3=100", "--exp", "0.5,0,0"]
+    main(["simulate", "top", "--t", f"{SPAN}", *start, "--html", f"{folder}/moving.html"])
+    frames = []
+    with sync_playwright() as p:
+        browser, page = shown(p, viewport={"width": 560, "height": 460})
+        page.goto(f"file://{folder}/moving.html")
+        for k in range(FRAMES):
+            at = SPAN * k / FRAMES
+            page.evaluate(f'document.getElementById("motion").motion.seek({at})')
+            page.wait_for_function(f'document.getElementById("motion").motion.time === {at}')
+            page.wait_for_timeout(60)  # the trail is drawn
+            frames.append(Image.open(BytesIO(page.locator(".stage").screenshot())))
+        browser.close()
+    rest = {"save_all": True, "append_images": frames[1:], "duration": 50, "loop": 0}
+    frames[0].save(PICTURES / "moving.webp", quality=60, method=6, **rest)
+
+
 def walk(folder):
     """The steps in a browser, from the top of the first to the bottom of the last."""
     main(["walk", "top", "--format", "html", "--out", f"{folder}/top.html"])
@@ -80,7 +103,8 @@ def playground(_):
 
 if __name__ == "__main__":
     PICTURES.mkdir(exist_ok=True)
-    made = {"notes": notes, "walk": walk, "motion": motion, "playground": playground}
+    made = {"notes": notes, "walk": walk, "motion": motion, "moving": moving}
+    made["playground"] = playground
     with tempfile.TemporaryDirectory() as folder:
         for name in sys.argv[1:] or made:
             made[name](folder)

@@ -1,0 +1,102 @@
+"""What a person at a terminal sees: weight, a pager, that work goes on."""
+
+import os
+import re
+import subprocess
+import sys
+import time
+
+import pytest
+
+from derive.command import terminal
+
+pty = pytest.importorskip("pty", reason="this system has no pty")
+ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
+
+
+def seen(*command, cwd, **environment):
+    """What a terminal of 24 lines and 80 columns gets on stdout."""
+    ours, theirs = pty.openpty()
+    pty_size(theirs, 24, 80)
+    own = {x: y for x, y in os.environ.items() if x not in ("COLUMNS", "LINES", "NO_COLOR")}
+    own |= {"TERM": "xterm", "PAGER": "cat", **environment}
+    command = [sys.executable, "-m", "derive", *command]
+    run = subprocess.Popen(command, cwd=cwd, stdin=theirs, stdout=theirs, env=own)
+    os.close(theirs)
+    shown = b""
+    try:
+        while part := os.read(ours, 4096):
+            shown += part
+    except OSError:  # the other end is closed
+        pass
+    os.close(ours)
+    assert run.wait() == 0
+    return shown.decode().replace("\r\n", "\n")
+
+
+def pty_size(terminal, lines, columns):
+    import fcntl
+    import struct
+    import termios
+
+    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", lines, columns, 0, 0))
+
+
+def test_weight_where_there_is_a_terminal(tmp_path):
+    """Labels and equations; without their escapes the text is that of a file."""
+    shown = seen("walk", "top", "kernel", cwd=tmp_path)
+    assert f"{terminal.BLUE}top.kernel{terminal.PLAIN}" in shown
+    assert terminal.BOLD in shown
+    plain = seen("walk", "top", "kernel", cwd=tmp_path, NO_COLOR="1")
+    assert ESCAPES.sub("", shown) == plain
+    assert "\x1b" not in plain
+    assert "top.kernel  ·" in plain
+    assert "\x1b" not in seen("walk", "top", "kernel", cwd=tmp_path, TERM="dumb")
+
+
+def test_a_pager_for_what_is_longer_than_the_screen(tmp_path):
+    mark = "sed -e '1s/^/paged /'"
+    assert seen("walk", "so3", cwd=tmp_path, PAGER=mark, NO_COLOR="1").startswith("paged ")
+    short = seen("walk", "so3", "kernel", cwd=tmp_path, PAGER=mark, NO_COLOR="1")
+    assert short.startswith("so3.kernel")
+
+
+def test_derive_alone_prints_help(capfd):
+    done = subprocess.run([sys.executable, "-m", "derive"], capture_output=True, text=True)
+    assert done.returncode == 0
+    assert "walk" in done.stdout
+    assert "simulate" in done.stdout
+
+
+class Screen:
+    """A stderr that is a terminal."""
+
+    def __init__(self):
+        self.text = ""
+
+    def isatty(self):
+        return True
+
+    def write(self, text):
+        self.text += text
+
+    def flush(self):
+        pass
+
+
+def test_work_that_takes_long_is_told_and_wiped(monkeypatch):
+    screen = Screen()
+    monkeypatch.setattr(sys, "stderr", screen)
+    monkeypatch.setattr(terminal, "PATIENCE", 0.001)
+    with terminal.working("top"):
+        while "top: 0 s" not in screen.text:
+            time.sleep(0.001)
+    assert screen.text.endswith(" " * len("top: 0 s") + "\r")
+
+
+def test_short_work_says_nothing(monkeypatch):
+    screen = Screen()
+    monkeypatch.setattr(sys, "stderr", screen)
+    with terminal.working("top"):
+        pass
+    assert screen.text == ""
