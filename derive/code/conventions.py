@@ -63,6 +63,7 @@ def conventions(
     return (
         *lines,
         *driving,
+        *_acting(problem, places),
         *read,
         *_lengths(problem),
         *framed,
@@ -112,7 +113,7 @@ def _reduced(problem: Mapping[str, Any], inputs: Iterable[str]) -> tuple[str, ..
     driven = (
         f"Input {x}: a covector of the Lie algebra; its power is <{x}, zeta>." for x in inputs
     )
-    return (*textwrap.wrap(text, 92), *driven)
+    return (*textwrap.wrap(text, 92), *driven, *_acting(problem, {}))
 
 
 def _lengths(problem: Mapping[str, Any]) -> list[str]:
@@ -281,6 +282,33 @@ def _input(group: Group, entry: Mapping[str, Any], places: Mapping[int, str]) ->
         return [f"Input {name}: a torque about the fixed point, in the body frame."]
     pair = "(zeta, w)" if group.in_user_basis.free_translations else "zeta"
     return [f"Input {name}: a covector of the Lie algebra; its power is <{name}, {pair}>."]
+
+
+def _acting(problem: Mapping[str, Any], places: Mapping[int, str]) -> Iterator[str]:
+    """The sentences about forces of the state, mass that flows and damping."""
+
+    def place(on: int) -> str:
+        return f"the body{places[on]}" if places.get(on) else f"point {on}"
+
+    def sized(name: str, data: Any) -> str:
+        text = _ascii(show(decode(data, name)))
+        return f", {name} = {text}" if text.isascii() else ""
+
+    found = []
+    for x in problem.get("forces", ()):
+        what = "a covector of the Lie algebra"
+        if "covector" not in x:
+            kinds = " and ".join(f"a {key}" for key in ("force", "moment") if x.get(key))
+            what = f"{kinds} on {place(x['on'])}, in the {x['frame']} frame"
+        found.append(f"Force of the state: {what}.")
+    for x in problem.get("flows", ()):
+        at = places.get(x["on"]) or f" at point {x['on']}"
+        found += [f"Mass flows{at}{sized('dm/dt', x['rate'])}."]
+    for x in problem.get("damping", ()):
+        on = ", ".join(map(place, x["on"]))
+        found += [f"Damping: the force -kappa v on {on}{sized('kappa', x['coefficient'])}."]
+    for text in found:
+        yield from textwrap.wrap(text, 88)
 
 
 OF_OUTPUTS = {

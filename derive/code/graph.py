@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd
+from math import gcd, isqrt
 from typing import Any
 
 from ..language.limits import OPERANDS
@@ -20,7 +20,8 @@ class Node:
     """One value: an operation on other nodes, a number, a leaf, or a node with a name.
 
     ``op`` is one of num, leaf, add, mul, recip, abs, none, fun, value; ``data``: the number, the
-    leaf's (kind, name), the coefficients of a sum, or the elementary function's name.
+    leaf's (kind, name), the coefficients of a sum, or the elementary function's name, for which
+    "abs" is one: the operation abs is the size of a rounding error.
     """
 
     graph: Graph
@@ -134,8 +135,34 @@ class Graph:
         return ("recip", None, x.id) in self._nodes
 
     def function(self, name: str, *x: Node) -> Node:
-        """An elementary function (``name``) of x, or an integral of several."""
+        """An elementary function (``name``) of x, or an integral of several; √(y²) as |y|.
+
+        In the constants, whose sizes are those of tests for 0, it is a root.
+        """
+        if name == "sqrt" and x[0].stage == STATE and (y := self._root(x[0])):
+            return self.function("abs", y)
+        if name == "abs":
+            coefficient, y = x[0].split
+            return self.linear([(abs(coefficient), self._intern("fun", name, (y,), y.stage))])
         return self._intern("fun", name, x, max(y.stage for y in x))
+
+    def _root(self, x: Node) -> Node | None:
+        """A node y with y² = x, if x is a number times such powers; else ``None``."""
+        if x.op == "value":
+            return self._root(x.args[0])
+        if x.op == "num":
+            parts = [isqrt(max(n, 0)) for n in x.data.as_integer_ratio()]
+            found = Fraction(*parts)
+            return self.num(found) if found * found == x.data else None
+        if x.op == "add" and len(x.args) == 1:
+            halves = [self._root(self.num(x.data[0])), self._root(x.args[0])]
+        elif x.op == "mul":
+            counts = Counter(x.args)
+            halves = [y for y, k in counts.items() for _ in range(k // 2)]
+            halves += [self._root(y) for y, k in counts.items() if k % 2]
+        else:
+            return None
+        return None if None in halves else self.product(y for y in halves if y)
 
     def none(self, x: Node) -> Node:
         """The indicator of x = 0: 1 where x is 0, else 0."""

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 from ..language.reserved import SPELT, WORDS
-from ..language.tree import Tree
+from ..language.tree import Tree, sized
 
 MEANINGS = {
     "Ω": "omega", "θ": "multiplier", "γ": "gravity", "μ": "moment", "β": "load", "σ": "tension",
@@ -97,6 +97,8 @@ def name_of(t: Tree) -> str:
         return "_".join(ascii_name(str(x)) for x in t[1:])
     if t[0] == "add":
         return "sum"
+    if (measured := sized(t)) is not None:
+        return f"size_{name_of(measured)}".rstrip("_")
     if t[0] == "fun":
         return f"{t[1]}_{name_of(t[2])}".rstrip("_")
     if t[0] in ("par", "entry"):

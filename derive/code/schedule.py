@@ -165,6 +165,8 @@ class _Builder:
             return self.expression(x.args[0])
         if x.op == "recip":
             return ("div", ONE, self.expression(x.args[0]))
+        if x.op == "fun" and x.data == "abs":
+            return ("abs", self.expression(x.args[0]))
         if x.op == "fun":
             return ("fun", x.data, *map(self.expression, x.args))
         if x.op in ("abs", "none"):
@@ -258,13 +260,20 @@ class Directional:
             return self.zero
         if x.op == "recip":
             return g.linear([(Fraction(-1), g.product((x, x, inner)))])
-        if _is_norm(x) and not g.has_reciprocal(x):
-            # 0 where the vector is: right for ‖v‖v, and as good as any for ‖v‖, which has none
-            return g.product((g.num(Fraction(1, 2)), inner, g.recip(x + g.none(x))))
+        if x.op == "fun" and x.data == "abs":
+            return g.product((x.args[0], inner, self._reciprocal(x)))
+        if _is_norm(x):
+            return g.product((g.num(Fraction(1, 2)), inner, self._reciprocal(x)))
         if x.op == "fun":
             slope = value(DERIVATIVES[x.data]("x"), {"x": x.args[0]}, None, g.function, g.num)
             return g.product((slope, inner))
         raise ValueError(f"no derivative of {x.op!r}")
+
+    def _reciprocal(self, x: Node) -> Node:
+        """1/x of a length, or at 0 any number, of which its derivative makes 0: right for ‖v‖v, and
+        as good as any for ‖v‖, which has none."""
+        g = self.graph
+        return g.recip(x if g.has_reciprocal(x) else x + g.none(x))
 
     def _factors(self, factors: Sequence[Node]) -> Iterable[Node]:
         """The terms of the derivative of a product."""

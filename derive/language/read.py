@@ -58,7 +58,7 @@ TOKEN = (
     r"|(?P<number>\d+(?:/[1-9]\d*)?|[½⅓¼⅔])"
     r"|(?P<mark>dm(?![A-Za-z])|\S)"
 )
-BEGIN = frozenset({"quoted", "word", "name", "number", "parameter", "opening", *"(⟨‖[/·"})
+BEGIN = frozenset({"quoted", "word", "name", "number", "parameter", "opening", *"(⟨‖|[/·"})
 MACRON = "\u0304"
 DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789ije0123456789-")
 SMALL = {text: q for q, text in FRACTIONS.items()}
@@ -92,7 +92,7 @@ class _Reader:
 
     def __init__(self, text: str, parameters: dict[str, str]) -> None:
         self.text, self.tokens, self.k = text, _tokens(text, parameters), 0
-        self.parameters, self.inside_norm = parameters, False
+        self.parameters, self.strokes = parameters, ""
 
     def next(self) -> str:
         """Go past the token that stands here, and give its text."""
@@ -115,13 +115,13 @@ class _Reader:
         rest = "".join(text for _, text in self.tokens[self.k :]) or "the end"
         return FormulaError(f"{self.text!r}: {wanted} is expected at {rest}")
 
-    def sum(self, norm: bool = False) -> Tree:
-        """A sum, of terms with their signs."""
-        outer, self.inside_norm = self.inside_norm, norm
+    def sum(self, strokes: str = "") -> Tree:
+        """A sum, of terms with their signs; ``strokes``: those between which it stands, if any."""
+        outer, self.strokes = self.strokes, strokes
         terms = [_minus(self.term()) if self.met("−") else self.term()]
         while self.tokens[self.k][0] in ("+", "−"):
             terms.append(_minus(self.term()) if self.next() == "−" else self.term())
-        self.inside_norm = outer
+        self.strokes = outer
         return terms[0] if len(terms) == 1 else ("add", *terms)
 
     def term(self) -> Tree:
@@ -132,7 +132,7 @@ class _Reader:
     def product(self) -> Tree:
         """A product of factors; what stands before / is divided by the factor after it."""
         factors = [self.factor()]
-        while (kind := self.tokens[self.k][0]) in BEGIN and not (kind == "‖" and self.inside_norm):
+        while (kind := self.tokens[self.k][0]) in BEGIN and kind != self.strokes:
             if self.met("/"):
                 factors = [("div", _of_factors(factors), self.factor())]
             else:
@@ -193,9 +193,13 @@ class _Reader:
             return self.measured("metric", "inner", *self.listed("⟨", "⟩", 2))
         if kind == "[":
             return self.rows()
+        if self.met("|"):
+            inside = self.sum("|")
+            self.take("|")
+            return ("fun", "sqrt", ("pow", inside, 2))
         if not self.met("‖"):
             raise self.error("a factor")
-        inside = self.sum(norm=True)
+        inside = self.sum("‖")
         self.take("‖")
         squared = self.measured("norm2", "norm2", inside) if self.met("²") else None
         return squared or ("fun", "sqrt", ("norm2", inside))

@@ -7,7 +7,7 @@ from collections.abc import Collection, Container
 from fractions import Fraction
 
 from .derivatives import DERIVATIVES
-from .tree import Tree, coefficient, mul, neg
+from .tree import Tree, coefficient, mul, neg, nodes, sized
 
 SUBSCRIPTS = str.maketrans("0123456789ije", "₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ")
 FRACTIONS = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(1, 4): "¼", Fraction(2, 3): "⅔"}
@@ -136,6 +136,16 @@ def _below(t: Tree) -> str:
 def _norm(t: Tree) -> str:
     """The text ‖a‖, with brackets between the strokes where a has such strokes in itself."""
     return f"‖({show(t)})‖" if has_norm(t) else f"‖{show(t)}‖"
+
+
+def _size(t: Tree) -> str:
+    """The text |a|, with brackets between the strokes where a has such strokes in itself."""
+    return f"|({show(t)})|" if has_size(t) else f"|{show(t)}|"
+
+
+def has_size(t: Tree) -> bool:
+    """Is there a size |x| in a tree?"""
+    return any(sized(x) is not None for x in nodes(t))
 
 
 def has_norm(t: Tree) -> bool:
@@ -285,6 +295,8 @@ def _atomic(op: object, a: tuple[Tree, ...]) -> str:
     if op == "norm2":
         return f"{_norm(a[-1])}²" + (f"_{_below(a[0])}" if len(a) == 2 else "")
     if op == "fun":
+        if (measured := sized(("fun", *a))) is not None:
+            return _size(measured)
         name, inside = a
         norm = name == "sqrt" and isinstance(inside, tuple) and inside[0] == "norm2"
         if norm and len(inside) == 2:  # type: ignore[arg-type]

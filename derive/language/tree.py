@@ -69,6 +69,15 @@ def plain(q: Fraction) -> int | Fraction:
     return int(q) if q.denominator == 1 else q
 
 
+def sized(t: Tree) -> Tree | None:
+    """The tree x where a tree is |x|, which is recorded as √(x²); else ``None``."""
+    match t:
+        case ("fun", "sqrt", ("pow", x, 2)):
+            found: Tree = x
+            return found
+    return None
+
+
 def neg(t: Tree) -> Tree:
     """The opposite of a tree, a product with −1."""
     return mul(-1, t)

@@ -156,6 +156,6 @@ OUTPUTS: dict[str, type[Output]] = {
     )
 }
 
-OF_MASSES = ("specific_force", "distance", "momentum", "tension")
+OF_MASSES = ("specific_force", "momentum", "tension")
 """Kinds that need masses, their weights or springs: where no points give the Lagrangian there are
-none."""
+none; what of it is uniform gravity it does not say."""

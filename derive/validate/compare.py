@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from random import Random
@@ -16,9 +16,10 @@ from typing import Any
 
 from ..check.lagrangian.lagrangian_model import LagrangianModel
 from ..check.trials.model import Model
+from ..check.values.arithmetic import EPS, part
 from ..language import rational as q
 from ..record.as_json import to_json
-from .chart import ReducedChart, StateChart
+from .chart import EPSILON, ReducedChart, StateChart
 from .discrete_functions import DiscreteFunctions
 from .exact_points import Claims, Point, WithIntegrals
 from .functions_of_state import (
@@ -37,6 +38,7 @@ from .straight_line import (
     require_straight_line,
     summands,
     tested_parameters,
+    with_roots,
 )
 from .terms import Array, CodeError, DiffersError, Literals, Machine, Module, run
 
@@ -118,11 +120,13 @@ def compare(
     file cannot aim it at them.
     """
     compare_names(module, claims)
+    functions = {name: with_roots(f) for name, f in module.functions.items()}
+    module = replace(module, functions=functions)
     literal = Literals(exact)
     drawn_from = to_json(claims.record) + text
     digest = hashlib.sha256(drawn_from.encode("utf-8", "surrogatepass")).hexdigest()
     first = Comparison(module, claims, literal, claims.point(f"{digest} 0"), measured=True)
-    functions = first.compare_all()
+    found = first.compare_all()
     one, points = min(1.0, first.degree / claims.size), 1
     while points < FEWEST or one**points >= bound:
         if points == MOST:
@@ -133,7 +137,7 @@ def compare(
         _compare_at_zero(module, claims, literal, digest, zero)
     size = module.sizes.get("CONSTANTS", 0)
     unread = tuple(f"k[{i}]" for i in range(size) if i not in first.read)
-    return Agreement(functions, points, one**points, tuple(sorted(literal.rounded)), unread)
+    return Agreement(found, points, one**points, tuple(sorted(literal.rounded)), unread)
 
 
 def _tested_sets(module: Module) -> list[tuple[str, ...]]:
@@ -212,6 +216,8 @@ class Comparison:
         if "project" in self.module.functions:
             drift = partial(self._drift_numbers, arguments)
             found.append(compare_drift(drift, self._draw, self.claims.state, point))
+        if "jacobian_project" in self.module.functions:
+            found.append(self._slopes_of_project(arguments))
         if "to_matrix" in self.module.functions:
             own = self._attitude, self._require_equal, self.claims.state
             found += compare_attitude(*own, point)
@@ -310,6 +316,21 @@ class Comparison:
             found = run(summands(function), arguments, elementary, literal)
             self._measure(found)
         return [getattr(y, "value", y) for y in found]
+
+    def _slopes_of_project(self, arguments: Mapping[str, Any]) -> str:
+        """Compare ``jacobian_project`` with the derivative of ``project`` at a state off the
+        group, from where a step is taken there."""
+        x = [self._draw() for _ in self.point.rates]
+        columns = []
+        for j in range(len(x)):
+            beside = [y + EPSILON * Fraction(i == j) for i, y in enumerate(x)]
+            moved = self._drift_numbers(arguments, "project", beside)
+            columns.append([part(y, EPS) for y in moved])
+        there = {**arguments, "x": self._array(x, "x", self.claims.entry_degree)}
+        D = [y for row in zip(*columns, strict=True) for y in row]
+        found = self._call("jacobian_project", there, D=len(D))["D"]
+        self._require_equal("jacobian_project", [f"entry {i}" for i in range(len(D))], found, D)
+        return "jacobian_project"
 
     def _attitude(self, name: str, x: Sequence[Any], size: int) -> Sequence[Any]:
         """The numbers of ``to_matrix`` at the state x, or of ``from_matrix`` at z."""

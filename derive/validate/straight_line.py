@@ -85,6 +85,21 @@ def _kept_off_zero(e: Any) -> bool:
     return isinstance(e, tuple) and e[0] == "add" and e[1][0] == "var" and e[2] == ("none", e[1])
 
 
+def with_roots(f: CodeFunction) -> CodeFunction:
+    """The function with √(a²) for |a|, as records have it: a function at an argument as any other.
+    Not where sizes are those of tests and of ``defect``, or signs are asked for."""
+    if f.name in ("constants", "defect", SIGNED):
+        return f
+
+    def rooted(e: Any) -> Any:
+        if not isinstance(e, tuple):
+            return e
+        e = tuple(map(rooted, e))
+        return ("fun", "sqrt", ("mul", e[1], e[1])) if e[:1] == ("abs",) else e
+
+    return replace(f, body=rooted(f.body))
+
+
 def summands(f: CodeFunction) -> CodeFunction:
     """The function that returns a, b, … in the place of |a| + |b| + …, so that none can hide
     another; ``CodeError`` where it returns no such sum."""

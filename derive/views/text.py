@@ -223,21 +223,21 @@ def _broken(formula: str, room: int, indent: int) -> list[str]:
 def pieces(formula: str) -> list[Piece]:
     """The pieces of a formula, cut before its operators and after its commas, with their depth."""
     found, start, depth, strength = [], 0, 0, 0.0
-    norm = 0
+    stroke = ""
     for k, c in enumerate(formula):
         if c in OPENING:
             depth += 1
         elif c in CLOSING:
             depth -= 1
-        elif c == "‖":
-            norm = 1 - norm
+        elif c in "‖|" and stroke in ("", c):
+            stroke = "" if stroke else c
         elif c in " ·" and k > start:
             after = formula[k - 1] in ",;"
             here = COMMA if after else BREAKS.get(formula[k : k + 3], FACTOR)
             if formula[max(k - 2, 0) : k + 1] in BREAKS:
                 continue
             found.append(Piece(formula[start:k], strength))
-            start, strength = k, depth + norm + here
+            start, strength = k, depth + bool(stroke) + here
     return [*found, Piece(formula[start:], strength)]
 
 

@@ -2,6 +2,7 @@
 carried along by the map between their states, by a complex step; and derivatives of all kinds."""
 
 import json
+import re
 import tomllib
 from functools import cache
 
@@ -10,10 +11,12 @@ import pytest
 
 from derive import compile as compiled
 from derive import derive
+from derive.code.languages import LANGUAGES
 from derive.command.cli import main
 from derive.problem.toml import problem_of
 from tests.problems import MIXED, SKEWED
-from tests.support.library import module_of
+from tests.support.library import emission, module_of
+from tests.support.needs import needs
 from tests.support.states import element, element_names, hat, state
 
 GROUPS = ("so3", "se3", "sl3", "saff3", "two_tops", "screw", "jelly", "heisenberg", "so4")
@@ -348,8 +351,32 @@ def test_at_rest_a_quadratic_drag_has_the_derivative_zero():
     assert np.array_equal(D[6:], np.zeros((6, 12)))
     x[12:] = 1e-9 * np.arange(1, 7)
     _, D = m.jacobian(0.0, x, k)
-    slopes = [along(lambda x: m.rhs(0.0, x, k), x, e)[-6:] for e in np.eye(18)[12:]]
-    assert near(D[6:, 6:], np.transpose(slopes))
+    ends = [[m.rhs(0.0, x + h * e, k)[-6:] for h in (1e-14, -1e-14)] for e in np.eye(18)[12:]]
+    slopes = [(a - b) / 2e-14 for a, b in ends]  # not a complex step: |v| is not analytic
+    assert near(D[6:, 6:], np.transpose(slopes), 1e-8)
+
+
+SIZED = DRAG.replace("hypot(v_1, v_2, v_3)", "abs(2*v_2)").replace("damping", "# damping")
+
+
+def test_a_size_is_one_operation_and_no_root():
+    _, texts = emission(problem_of(tomllib.loads(SIZED)), LANGUAGES, jacobian=("state",))
+    for ending in (".c", ".py", ".rs", ".jl", ".mjs"):
+        text = texts[f"test{ending}"]
+        assert "sqrt(" not in text
+        assert len(re.findall(r"size_\w*v_\w*(?:: f64)? = \S*abs\(\w*v_\w*\)", text)) >= 2
+
+
+@needs("the module jax")
+def test_jax_differentiates_a_drag_at_rest():
+    import jax
+
+    jax.config.update("jax_enable_x64", True)
+    m = module_of(problem_of(tomllib.loads(SIZED)))
+    x, k = np.zeros(len(m.STATE)), m.constants(m.DEFAULTS)
+    x[[0, 4, 8]] = 1
+    D = jax.jacfwd(lambda x: m.rhs(0.0, x, k))(jax.numpy.array(x))
+    assert np.array_equal(D[12:, 12:], np.zeros((6, 6)))
 
 
 def test_the_jacobian_in_the_principal_frame():
@@ -383,6 +410,45 @@ def test_the_header_and_the_names_say_what_is_there(tmp_path, capsys):
     text = " ".join((tmp_path / "screw.h").read_text().replace("\n *", " ").split())
     assert "never vary: A_13, A_23, A_31, A_32, T_1, T_2 = 0; A_33 = 1." in text
     assert "x = (A_11, A_12, A_21, A_22, T_3, zeta_1)" in text
+
+
+ACTING = """
+name = "test"
+group = "SE(3)"
+point = [
+  { mass = "4 - t", at = [1, 0, 0] }, { mass = 2, at = [0, 1, 0] },
+  { mass = 1, at = [0, 0, 1] }, { mass = 3, at = [1, -1, 2] },
+]
+flow = [{ at = [1, 0, 2], rate = -1, velocity = [0, 0, -9] }]
+force = [{ at = [1, 2, 3], frame = "body", force = ["v_1", 0, 0], moment = [0, "v_2", 0] }]
+[parameters]
+b = 2
+[[damping]]
+coefficient = "3*b"
+on = [1, 4]
+"""
+BESIDE = """
+name = "test"
+group = "SE(2)"
+inertia = { operator = [[2, 0, 0], [0, 1, 0], [0, 0, 1]] }
+force = [{ covector = ["-zeta_1", 0, 0] }, { at = [1, 2], force = ["-v_1", 0] }]
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (ACTING, "Force of the state: a force and a moment on the body at (1, 2, 3), in the body"),
+        (ACTING, "Mass flows at (1, 0, 2), dm/dt = -1."),
+        (ACTING, "Damping: the force -kappa v on point 1, point 4, kappa = 3b."),
+        (BESIDE, "Force of the state: a covector of the Lie algebra."),
+        (BESIDE, "Force of the state: a force on the body at (1, 2), in the space frame."),
+    ],
+)
+def test_the_head_says_what_acts(text, told):
+    _, texts = emission(problem_of(tomllib.loads(text)), ("c", "python"))
+    for name in ("test.h", "test.py"):
+        assert told in " ".join(texts[name].replace("\n *", " ").split())
 
 
 def test_states_are_in_a_frame_of_their_own():

@@ -9,6 +9,7 @@ import pytest
 from derive import SE, Points, Potential, Problem
 from derive.code.languages import LANGUAGES
 from derive.problem.toml import problem_of
+from tests.code.test_forms import DRAG
 from tests.code.test_indefinite import REGULAR, typed
 from tests.problems import PROBLEMS as FILES
 from tests.support.languages import PIECES, Case, T, command
@@ -46,6 +47,7 @@ PROBLEMS = {
         {"jacobian": ("outputs", "raw"), "dynamics": True},
     ),
     "functions": (BARE, {"jacobian": JACOBIANS[:1]}),
+    "dragged": (problem_of(tomllib.loads(DRAG)), {"jacobian": JACOBIANS[:1]}),
     "momenta": (problem_of(TURNING), {"momenta": True}),
     "newton": (problem_of(HYPERBOLIC), {"momenta": True}),
     "indefinite": (typed(REGULAR[0]), {"momenta": True}),

@@ -152,6 +152,11 @@ def test_where_two_trees_print_alike(text, tree, other):
         ("Σᵢ a ∧ b", ("sum", "i", ("wedge", "a", "b"))),
         ("(Σᵢ a) ∧ b", ("wedge", ("sum", "i", "a"), "b")),
         ("(a ∧ b)/c", ("div", ("wedge", "a", "b"), "c")),
+        ("m |t| m", ("mul", "m", ("fun", "sqrt", ("pow", "t", 2)), "m")),
+        (
+            "|(m |t|)|",
+            ("fun", "sqrt", ("pow", ("mul", "m", ("fun", "sqrt", ("pow", "t", 2))), 2)),
+        ),
     ],
 )
 def test_what_is_printed_apart_is_read_apart(text, tree):
@@ -184,6 +189,7 @@ def test_parameters_are_told(text, told, tree):
         ("(a", ") is expected at the end"),
         ("a) b", "the end is expected at )b"),
         ("‖a", "‖ is expected at the end"),
+        ("|a", "| is expected at the end"),
         ("[a; b", "] is expected at the end"),
         ("⟨a⟩", ", is expected at ⟩"),
         ("⟨a, b, c⟩", "⟩ is expected at ,c⟩"),

@@ -6,7 +6,7 @@ factor, ∧ joins products.  The readers of the formats make the tokens:
 
     ("name", letter) ("number", q) ("par", text) ("prime", n) ("bar", tokens)
     ("sub", tokens) ("sup", tokens) ("root", tokens) ("open" or "close", mark) ("norm", "")
-    ("op", mark) ("word", Tr det Σ ∫ dm d ∂ or a function) ("tree", already read)
+    ("size", "") ("op", mark) ("word", Tr det Σ ∫ dm d ∂ or a function) ("tree", already read)
 """
 
 import re
@@ -195,7 +195,7 @@ class _Reader:
 
     def __init__(self, tokens, known):
         self.tokens, self.known, self.at = tokens, known, 0
-        self.norm = False  # are we between ‖ and ‖, in no brackets there?
+        self.strokes = ""  # are we between ‖ and ‖, or | and |, in no brackets there?
 
     def peek(self):
         return self.tokens[self.at] if self.at < len(self.tokens) else ("end", "")
@@ -237,7 +237,7 @@ class _Reader:
         factors = []
         while self.peek()[0] not in ("end", "close"):
             kind, value = self.peek()
-            if kind == "norm" and factors and self.norm:
+            if factors and kind == self.strokes:
                 break
             if self.passed(("op", "/")):
                 factors = [("div", self.whole(factors), self.factor())]
@@ -296,10 +296,10 @@ class _Reader:
         if base in FUNCTION:
             return True
         inside = [x[1] for x in self.tokens[self.at + 1 : self.at + 3]]
-        if base in ("T", "ζ") and {*inside} & {"𝐦", "𝐧"}:
+        if base in ("T", "ζ") and ("𝐦" in inside or "𝐧" in inside):
             return True
         uses = VOCABULARY[base].uses if isinstance(base, str) and base in VOCABULARY else ()
-        lone = [x[0] for x in self.tokens[self.at + 1 : self.at + 3]] == ["name", "close"]
+        lone = inside in (["t", ")"], ["X", ")"])  # another name there may be a transposed factor
         return lone and any("function" in (u.type[0], *u.type[2][:1]) for u in uses if u.type[2:])
 
     def listed(self, end):
@@ -310,11 +310,11 @@ class _Reader:
         self.take(("close", end))
         return found
 
-    def inner(self, norm=False):
-        """A sum in brackets, or between the strokes of a norm."""
-        outer, self.norm = self.norm, norm
+    def inner(self, strokes=""):
+        """A sum in brackets, or between the strokes of a norm or a size."""
+        outer, self.strokes = self.strokes, strokes
         tree = self.sum()
-        self.norm = outer
+        self.strokes = outer
         return tree
 
     def primary(self):
@@ -402,8 +402,13 @@ class _Reader:
             return ("bracket", *rows[0])
         return ("matrix", *(("row", *row) for row in rows))
 
+    def of_size(self, _):
+        inside = self.inner("size")
+        self.take(("size", ""))
+        return ("size", inside)
+
     def of_norm(self, _):
-        inside, metric, square = self.inner(norm=True), (), False
+        inside, metric, square = self.inner("norm"), (), False
         self.take(("norm", ""))
         while self.peek()[0] in ("sub", "sup"):
             kind, tokens = self.peek()
@@ -454,6 +459,10 @@ def _others(op, parts, known):
         return ("norm2", *(parts if op == "norm2" else parts[0][1:]))
     if op == "fun" and parts[0] == "sqrt" and _is(parts[1], "norm2") and len(parts[1]) == 2:
         return ("norm", parts[1][1])
+    if op == "fun" and parts[0] == "sqrt" and _is(parts[1], "pow") and parts[1][2] == 2:
+        return ("size", parts[1][1])
+    if op == "size" and _is(parts[0], "norm"):
+        return parts[0]
     if op == "T" and _is(parts[0], "sub"):
         return ("sub", _others("T", [parts[0][1]], known), parts[0][2])
     if op == "call" and parts[0] in ("δ", "δ′") and f"{parts[0]}{parts[1]}" in known.letters:

@@ -96,6 +96,8 @@ class _Lexer:
             return [("close" if token in r")]\rangle" else "open", BRACKETS[token])]
         if token in (r"\lVert", r"\rVert", r"\Vert"):
             return [("norm", "")]
+        if token in (r"\lvert", r"\rvert"):
+            return [("size", "")]
         if token in SPACES:
             return []
         if token.isdigit():

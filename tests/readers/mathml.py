@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 from tests.readers.formula import UnreadableError, accented, equation, parsed
 
-OPERATORS = {"−": "-", "∧": "∧", "·": "·", "⊤": "⊤"} | {c: c for c in "+=/,;<>:.|≠≤≥≅≈±∈→↦×∘√"}
+OPERATORS = {"−": "-", "∧": "∧", "·": "·", "⊤": "⊤"} | {c: c for c in "+=/,;<>:.≠≤≥≅≈±∈→↦×∘√"}
 ACCENTS = "˙~^"
 BRACKETS = "([⟨)]⟩"
 WORDS = {"∑": "Σ", "∫": "∫"}
@@ -56,6 +56,8 @@ def _operator(text):
         return [("word", WORDS[text])]
     if text == "‖":
         return [("norm", "")]
+    if text == "|":
+        return [("size", "")]
     if text in BRACKETS:
         return [("open" if BRACKETS.index(text) < 3 else "close", text)]
     if text in OPERATORS:

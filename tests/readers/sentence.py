@@ -120,6 +120,8 @@ def _flat(kind, value):
         return "′" * value
     if kind == "norm":
         return "‖"
+    if kind == "size":
+        return "|"
     if kind == "root":
         return f"√({flat(value)})"
     if kind == "par":

@@ -89,7 +89,7 @@ def _token(text, at, names, known, found):
         return run.end()
     if c == "_":
         return _lowered(text, at + 1, names, known, found)
-    simple = {"‖": ("norm", ""), "‾": ("sup", [("op", "⊤")])}
+    simple = {"‖": ("norm", ""), "|": ("size", ""), "‾": ("sup", [("op", "⊤")])}
     if c in simple:
         found.append(simple[c])
     elif c in OPERATORS:

@@ -49,6 +49,8 @@ MUTATIONS = {
         r'f"{match[1]}\u0304{match[2]}{match[3]}" if match'),
     "text: what is divided by in no brackets": (
         SHOW, "raised or isinstance(t, Fraction) else _atom(t)", "raised else show(t)"),
+    "text: |x| as x": (SHOW, 'else f"|{show(t)}|"', "else show(t)"),
+    "trees: |x| as ‖x‖": (TREES, r'literal(r"\lvert ")', r'literal(r"\lVert ")'),
     "text: a quotient upside down": (
         SHOW, 'text = f"{above}/{_base(arguments[1])}"',
         'text = f"{_base(arguments[1])}/{above}"'),

@@ -43,6 +43,7 @@ def scalar(draw, depth):
         lambda: ("norm2", vector(draw, d)),
         lambda: ("norm2", matrix(draw, 0), vector(draw, d)),
         lambda: ("fun", "sqrt", ("norm2", vector(draw, d))),
+        lambda: ("fun", "sqrt", ("pow", scalar(draw, d), 2)),
         lambda: ("sum", "i", mul(("at", "m", "i"), scalar(draw, d))),
         lambda: ("sum", "j", add(("at", "m", "j"), scalar(draw, d))),
         lambda: ("call", "dŨ", matrix(draw, d)),

@@ -4,7 +4,9 @@ import random
 
 import pytest
 
+import derive
 from derive.language.show import unclear
+from derive.problem.toml import problem_of
 from derive.views.printing.letters import names_of, parameter
 from derive.views.rendering import FORMATS
 from tests.readers.read import PAGES, READERS, faults, misread
@@ -24,6 +26,27 @@ def test_every_format_has_a_reader():
 @pytest.mark.parametrize("name", repeated(dict.fromkeys((*NAMES, *FLUIDS, *OTHERS, *ESTIMATES))))
 def test_every_page_says_what_its_record_says(name):
     assert [x for kind in PAGES for x in faults(record(name), kind)] == []
+
+
+SIZES = {
+    "name": "sledge",
+    "group": "SE(2)",
+    "parameters": {"k": 2, "b": 0.5},
+    "point": [{"mass": 1, "at": [1, 0]}, {"mass": 2, "at": [0, "b"]}],
+    "force": [
+        {"at": [1, 1], "force": ["-k*abs(v_1)*v_1", "abs(v_1 - 2*abs(r_2))^3"]},
+        {"at": [0, 1], "moment": ["-k*max(w_1, abs(zeta_1*abs(b)))"], "force": ["sign(v_1)", 0]},
+    ],
+}
+"""Sizes alone, within sizes, raised, and as divisors."""
+
+
+def test_a_size_is_shown_between_strokes_and_read_back():
+    d = derive.derive(problem_of(SIZES)).record
+    assert [x for kind in PAGES for x in faults(d, kind)] == []
+    page = PAGES["text"](d)
+    assert "|(v₃)₁|" in page
+    assert "√(" not in page.partition("sledge.")[2]
 
 
 @pytest.mark.parametrize("seed", repeated(range(SEEDS)))

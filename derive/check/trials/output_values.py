@@ -112,14 +112,20 @@ class Observed(Mapping[str, Any]):
 
     def distance(self, data: Data) -> Vector:
         """The root of the square of a difference."""
-        applied, places = self.model.applied, self.model.images(self.model.g)
-        if "other_end" in data:
-            end = applied.place(places, data["other_end"])
-        else:
-            end = applied.vector(data["anchor"])
-        pairs = zip(applied.place(places, data["on"]), end, strict=True)
-        between = tuple(x - y for x, y in pairs)
-        return (applied.root(q.dot(between, between)),)
+        model, places = self.model, self.model.images(self.model.g)
+
+        def inside(vector: Vector, end: int) -> Vector:
+            group = model.group
+            return vector[group.of_block(model.blocks[end - 1])] if group.factors else vector
+
+        on, other = data["on"], data.get("other_end")
+        end = (
+            inside(places[other - 1], other)
+            if other
+            else inside(self._given(data, data["anchor"]), on)
+        )
+        between = tuple(x - y for x, y in zip(inside(places[on - 1], on), end, strict=True))
+        return (model.elementary("sqrt", q.dot(between, between)),)
 
     def momentum(self, data: Data) -> Vector:
         """Σ m_i v_i; in a product the points of other blocks have no part in this one."""

@@ -21,6 +21,7 @@ from ...language import rational as q
 from ...language.limits import Refused
 from ...language.rational import Matrix
 from ...language.reserved import did_you_mean, near_name
+from ...language.tree import nodes
 from ...language.univariate import Number, grows, routh
 from ...problem.fields import state_names
 from ...problem.problem import Problem
@@ -123,6 +124,8 @@ class _Question:
         below = [x.denominator for x in program.numbers()]
         exact = all(x < EXACT or x & (x - 1) for x in below)
         functions = program.functions["rhs"].calls() | program.functions["constants"].calls()
+        inside = (x for e in program.functions["rhs"].expressions for x in nodes(e))
+        functions |= {"abs" for x in inside if isinstance(x, tuple) and x[0] == "abs"}
         if functions or not exact:
             what = ", ".join(sorted(functions)) or "π, or a root,"
             raise NoTrimError(f"a trim is exact, and {what} is in the equations")
@@ -162,7 +165,8 @@ class _Question:
                     if x
                 )
                 free = ", ".join(self.free)
-                whatever = f"whatever {free} are" if free else "no input is free"
+                verb = "are" if len(self.free) > 1 else "is"
+                whatever = f"whatever {free} {verb}" if free else "no input is free"
                 raise NoTrimError(f"no trim: {terms} is {left / scale}, {whatever}")
         if not columns:
             return {}

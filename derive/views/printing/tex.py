@@ -12,8 +12,17 @@ from fractions import Fraction
 from functools import reduce
 from operator import add
 
-from ...language.show import ATOM, FIELD_OPERATORS, PRODUCT, SUM, has_norm, signed, swallows
-from ...language.tree import Tree
+from ...language.show import (
+    ATOM,
+    FIELD_OPERATORS,
+    PRODUCT,
+    SUM,
+    has_norm,
+    has_size,
+    signed,
+    swallows,
+)
+from ...language.tree import Tree, sized
 from .letters import NAMES, named, number, outside, parameter, separator, transposed
 from .line_breaking import Piece, fill, measure
 from .sentences import formula_ok, spelt
@@ -47,8 +56,8 @@ from .typeset import (
 )
 
 SCRIPTED = re.compile(r"\^|'.*_")
-OPENING = re.compile(r"\(|\[|\\(?:langle|lVert)(?![A-Za-z])")
-CLOSING = re.compile(r"\)|\]|\\(?:rangle|rVert)(?![A-Za-z])")
+OPENING = re.compile(r"\(|\[|\\(?:langle|lVert|lvert)(?![A-Za-z])")
+CLOSING = re.compile(r"\)|\]|\\(?:rangle|rVert|rvert)(?![A-Za-z])")
 VARIATIONS = ("δ", "δ′")
 ENTRY_WIDTH = 24.0
 """The width, in em, above which an entry of a matrix is set on several lines."""
@@ -262,7 +271,10 @@ class FormulaPrinter:
         return literal(r"\lVert ") + inside + literal(r"\rVert")
 
     def op_fun(self, name: str, a: Tree) -> Shown | Formula:
-        """An elementary function; the root of ‖a‖² is ‖a‖."""
+        """An elementary function; the root of ‖a‖² is ‖a‖, that of x² is |x|."""
+        if (x := sized(("fun", name, a))) is not None:
+            inside = paren(self.bare(x)) if has_size(x) else self.bare(x)
+            return literal(r"\lvert ") + inside + literal(r"\rvert")
         if name == "sqrt" and isinstance(a, tuple) and a[0] == "norm2" and len(a) == 2:
             return self.norm(a[1])
         if name == "sqrt":

@@ -26,6 +26,7 @@ UNMARKED = dict.fromkeys(map(ord, MARKS))
 OPERATORS = {SYMBOLS[c]: c for c in "∧×→↦∈≤≥≅≠≈±∘⊤−√"} | {c: c for c in "+=<>,/.:;|"}
 OPERATORS |= {r"\cdot": "·", r"\int": "∫"}
 FENCES = {SYMBOLS[c]: c for c in "⟨⟩‖"} | {r"\lVert": "‖", r"\rVert": "‖"}
+FENCES |= {r"\lvert": "|", r"\rvert": "|"}
 FENCES |= {c: c for c in "()[]"}
 SPACES = {r"\quad": "1em", r"\qquad": "2em", r"\,": "0.17em", "\\ ": "0.3em"}
 ACCENTS = {"dot": "˙", "tilde": "~", "hat": "^"}

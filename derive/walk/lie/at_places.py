@@ -6,8 +6,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from ...algebra.groups import Group
+from ...language.expression import hypot
 from ...language.rational import Matrix
-from ...language.tree import Tree, add, mul, nodes, plain
+from ...language.tree import Tree, add, mul, neg, nodes, plain
 from ...problem.fields import coordinates, velocity_at_place
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Step
@@ -15,6 +16,7 @@ from ...schema.kind import TorqueInput
 from ...schema.output_kinds import (
     AccelerationOutput,
     DirectionOutput,
+    DistanceOutput,
     ExpressionOutput,
     Output,
     PlaceOutput,
@@ -147,6 +149,10 @@ class Places:
                 d = self.group.in_block(x.block, x.direction)
                 turned = _times(self.A if x.frame == "space" else _transposed(self.A), d)
                 return turned[self.group.of_block(x.block)]
+            case DistanceOutput(anchor=anchor) if anchor is not None:
+                at = self.group.of_block(self.problem.block(x.on))
+                place = _times(self.A, self.body[x.on - 1])[at]
+                return [hypot(*(add(y, neg(z)) for y, z in zip(place, anchor, strict=True)))]
             case PlaceOutput():  # velocities and accelerations are such, too
                 return self._of_place(x)
         raise ProblemError(f"output {x.name!r}: beside a Lagrangian no points have it")
