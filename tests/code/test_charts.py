@@ -1,5 +1,7 @@
 """Charts of factors: quaternions, angles and coordinates in the place of their matrices."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from derive.algebra.factor_charts import factor_charts
 from derive.algebra.families import FAMILIES, group
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
+from tests.code.test_step_jacobian import close, derivative
 from tests.support.languages import Case, built
 from tests.support.library import derived
 
@@ -24,8 +27,11 @@ g = 9.81
 trivialisation = "left"
 L = "M*zeta_1^2/2 + m*(zeta_1^2 + 2*l*A2_11*zeta_1*zeta_2 + l^2*zeta_2^2)/2 \
   - k*T1_1^2/2 + m*g*l*A2_11"
+[[input]]
+name = "F"
+kind = "covector"
 """
-"""A block on a spring, and a pendulum that hangs from it."""
+"""A block on a spring, and a pendulum that hangs from it, pushed and turned."""
 OWN = """
 [group]
 name = "Cart"
@@ -52,6 +58,7 @@ FOUR += "".join(
     f'[[potential]]\nkind = "spring"\nbetween = [{i}, {j}]\nstiffness = "k"\n'
     for i, j in ((1, 6), (4, 5), (3, 8))
 )
+FOUR += '[[input]]\nname = "F"\nkind = "force"\non = 6\nframe = "body"\n'
 FORMS = {
     "two tops": ("two_tops", "quaternion", ["q1_0", "q2_3"], 14),
     "bar in the plane": ("hung_bar", "angle", ["theta_1", "T_1"], 6),
@@ -85,9 +92,25 @@ def start(f, seed=3):
 def test_the_numbers_of_the_state(name):
     chart, plain = compiled(name)
     _, _, some, count = FORMS[name]
-    assert len(chart.STATE) == count
+    assert len(chart.STATE) == len({*chart.STATE}) == count
     assert {*some} <= {*chart.STATE}
     assert len(chart.to_matrix(start(chart))) == len(plain.STATE) > count
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_the_header_has_their_places_and_what_they_are(name):
+    given, attitude, *_ = FORMS[name]
+    d = derived(given)
+    header = d.emit(languages=("c",), attitude=attitude)[f"{d.problem.name}.h"]
+    names = re.findall(rf"^    {d.problem.name}_X_(\w+) = (\d+)", header, flags=re.M)
+    kept = re.search(r"\* +x = \(([^)]*)\)", header)[1]
+    assert names == [(x, str(k)) for k, x in enumerate(re.findall(r"\w+", kept))]
+    told = header.replace("\n * ", " ")
+    for x, _ in names:
+        if x[0] == "q":
+            assert f"{x[:-2]} is a unit quaternion" in told
+        elif x.startswith("theta"):
+            assert f"whole turns are counted in {x}" in told
 
 
 @pytest.mark.parametrize("name", FORMS)
@@ -134,7 +157,8 @@ def test_it_equals_the_record(name):
 def test_every_language_says_the_same(name, build):
     given, attitude, *_ = FORMS[name]
     steps = ("rk4", "gauss")
-    options = {"attitude": attitude, "jacobian": ("state",), "step": steps, "conserved": True}
+    options = {"attitude": attitude, "jacobian": ("state", "step"), "step": steps}
+    options["conserved"] = True
     Case(given, options, tolerance=1e-13).agrees(build)
 
 
@@ -147,6 +171,52 @@ def test_jacobians_are_differences_of_the_code():
     rates, D = f.jacobian(0.0, x)
     assert np.array_equal(rates, f(0.0, x))
     assert np.abs(D - f.jacobian_raw(0.0, x)).max() < 1e-13
+
+
+SIZES = {"gauss": 0.1, "rk4": 0.02, "vern9": 0.05}
+"""Steps, and how long each is."""
+
+
+def variations(f, x):
+    """What the numbers of a state change by along (eta, delta zeta): the rates of an element of
+    the group are those along its velocity, (d) in the last numbers."""
+    d = sum(name.startswith(("zeta", "w")) for name in f.STATE)
+    V = np.zeros((len(x), 2 * d))
+    V[-d:, d:] = np.eye(d)
+    for a, speed in enumerate(np.eye(d)):
+        V[:-d, a] = f(0.0, [*x[:-d], *speed])[:-d]
+    return V
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_derivatives_of_steps_are_differences_of_steps(name):
+    """To 1e-9, and those of gauss, which differ by rounding, are those of matrices."""
+    given, attitude, *_ = FORMS[name]
+    options = {"step": (*SIZES,), "jacobian": "step"}
+    chart, plain = (
+        derive.compile(derived(given), attitude=x, **options) for x in (attitude, "matrix")
+    )
+    x, u = start(chart), np.random.default_rng(4).normal(size=len(chart.INPUTS))
+    V = variations(chart, x)
+    for step, h in SIZES.items():
+
+        def end(x, u, step=step, h=h):
+            if chart.STATE[0] == "q1_0":
+                x = chart.project(chart.project(x))
+            return chart.step_jacobian(0.3, x, h, u, n=2, step=step)[0]
+
+        there, phi, gamma = chart.step_jacobian(0.3, x, h, u, n=2, step=step)
+        ahead = np.linalg.pinv(variations(chart, there))
+        assert close(phi, ahead @ derivative(lambda e: end(x + V @ e, u), V.shape[1]))
+        assert close(gamma, ahead @ derivative(lambda e: end(x, u + e), len(u)))
+        assert phi.any()
+        assert gamma.any() == bool(chart.INPUTS)
+    z = chart.to_matrix(x)
+    found, known = (
+        f.step_jacobian(0.3, y, 0.05, u, step="gauss") for f, y in ((chart, x), (plain, z))
+    )
+    for a, b in zip(found[1:], known[1:], strict=True):
+        assert close(a, b, 1e-10)
 
 
 def test_an_angle_counts_turns():
