@@ -30,7 +30,7 @@ WORDS = (
         "Lagrangian",
         "Laplacian",
     ),
-    *("Moments", "Output", "Points", "Potential", "Problem", "SAff", "SE", "SL", "SO", "SU"),
+    *("Moments", "Output", "Points", "Potential", "Problem", "R", "SAff", "SE", "SL", "SO", "SU"),
     *("Signal", "Sim", "Solid"),
     *("Sp", "Spring", "Torque", "Torus", "U", "UT"),
 )

@@ -1,4 +1,4 @@
-"""The named groups: SO, SE, SL, SAff, GL, Aff, Sp, Sim, UT, U and SU, and their products.
+"""The named groups: SO, SE, R, SL, SAff, GL, Aff, Sp, Sim, UT, U and SU, and their products.
 
 A family is a basis and a sampler for each n; brackets, relations and the rest are computed.  The
 parameter of Sp is the size of its matrices; U(n) and SU(n) act on R²ⁿ by [[X, −Y], [Y, X]].
@@ -171,7 +171,8 @@ class Family:
         size = 2 * n if self.doubled else n
         if self.affine:
             sampler = draw.affine(self.sampler(n), n)
-            return Group(name, n, "affine", affine_basis(self.basis(n), n), sampler)
+            basis = affine_basis(self.basis(n), n)
+            return Group(name, n, "affine", basis, sampler, vectors=len(basis) == n)
         return Group(name, size, "linear", self.basis(n), self.sampler(n))
 
 
@@ -186,6 +187,13 @@ def _sim(n: int) -> Sampler:
 FAMILIES: dict[str, Family] = {
     "SO": Family(so_basis, _so, 2, "rotations, ĀA = 1"),
     "SE": Family(so_basis, _so, 2, "displacements, r ↦ A r + T with ĀA = 1", affine=True),
+    "R": Family(
+        lambda n: (),
+        lambda n: lambda random, size: q.identity(n),
+        1,
+        "translations, r ↦ r + T",
+        affine=True,
+    ),
     "SL": Family(sl_basis, draw.special_linear, 2, "volume-preserving linear maps, det A = 1"),
     "SAff": Family(
         sl_basis, draw.special_linear, 2, "volume-preserving affine maps, SL(n) ⋉ Rⁿ", affine=True
@@ -212,8 +220,14 @@ def group(name: str) -> Group:
     other name, with the nearest."""
     parts = re.split(r"(?<=\))\s*[x×]\s*(?=\S)", name.strip()) if len(name) < 200 else [name]
     if len(parts) > 1:
-        return product(tuple(group(x) for x in parts))
-    match = re.fullmatch(r"([A-Za-z]+)\(\s*([0-9]{1,3})\s*\)", parts[0])
+        return product(tuple(_named(x) for x in parts))
+    found = _named(parts[0])
+    return on_homogeneous(found) if found.vectors else found
+
+
+def _named(name: str) -> Group:
+    """The group of a family that is called so; ``ValueError`` for any other name."""
+    match = re.fullmatch(r"([A-Za-z]+)\(\s*([0-9]{1,3})\s*\)", name)
     if match is None or match[1] not in FAMILIES:
         known = ", ".join(f"{family}(n)" for family in FAMILIES)
         hint = did_you_mean(_group_meant(name[:40]), after=" ")

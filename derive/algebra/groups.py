@@ -24,6 +24,7 @@ class Group:
     ``sampler``: random exact elements; ``larger``: are they those of a larger group that has the
     same relations? ``factors``: of a product, in order; its n is the size of its block diagonal
     matrices. ``user_basis``: that of the user, where ``basis`` is another one of the same 𝔤.
+    ``vectors``: is it R(n), whose elements are told by T alone?
     """
 
     name: str
@@ -34,6 +35,7 @@ class Group:
     factors: tuple[Group, ...] = ()
     larger: bool = False
     user_basis: tuple[Matrix, ...] = ()
+    vectors: bool = False
 
     def __repr__(self) -> str:
         return f"<group {self.name}: dimension {self.dimension}>"

@@ -29,7 +29,7 @@ from .reader import RecordReader
 from .requests import require_written
 from .schedule import Scheduler, by_leaves, by_numbers, by_state, frontier, variations
 from .state import StateSpace
-from .state_forms import FROM_MATRIX, LABELS, TO_MATRIX, matrix_state
+from .state_forms import FROM_MATRIX, LABELS, matrix_state, state_of
 from .step.discrete_step import STEPPING, Lowered, lowered
 from .watched_functions import EmittedEvent, EmittedQuantities, table, values
 
@@ -113,13 +113,16 @@ def assemble(
 
 
 def _further(d: Derivation, space: StateSpace, chosen: Options) -> dict[str, Any]:
-    """What the program says of outputs, of matrices in a state or beside its quaternion, and of the
+    """What the program says of outputs, of matrices in a state or beside its charts, and of the
     group."""
     door = matrix_state(space)
+    plain = state_of(d.problem, space.graph, space.standard, replace(chosen, attitude="matrix"))
     return {
         "outputs": output_names(d),
         "blocks": matrices(space),
         "matrix_state": door.names if door else (),
+        "matrix_blocks": matrices(plain) if door else (),
+        "charts": tuple(space.charts.values()),
         "group_functions": GroupFunctions.of(space) if chosen.exponential else None,
     }
 
@@ -229,9 +232,11 @@ def _functions(
     framing = _framing(frame, scheduler, from_p, numbers) if frame else None
     for name, nodes in drift(space, slopes="step" in options.jacobian).items():
         functions[name] = scheduler.function(nodes, moving)
-    if door := matrix_state(space):
-        functions[TO_MATRIX] = scheduler.function(door.outputs[TO_MATRIX], moving)
-        functions[FROM_MATRIX] = scheduler.function(door.outputs[FROM_MATRIX], door.places(names))
+    door = matrix_state(space)
+    for name, nodes in door.outputs.items() if door else ():
+        functions[name] = scheduler.function(
+            nodes, door.places(names) if door and name == FROM_MATRIX else moving
+        )
     return functions, constants, framing
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from ..algebra.factor_charts import QUATERNION, FactorChart, factor_charts
 from ..algebra.groups import Group
 from ..algebra.relations import Relations, relations
 from ..language import rational as q
@@ -19,7 +20,7 @@ from .languages import TargetLanguage, comment
 from .options import Options
 from .program import Program
 from .reader import RecordReader
-from .slots import still_slots
+from .slots import order, still_slots
 from .state import StateSpace
 
 
@@ -31,12 +32,10 @@ def conventions(
     if "advected" in problem:
         return _reduced(problem, [x["name"] for x in inputs])
     places = _places(problem)
-    order = "column by column" if options.layout == "col" else "row by row"
-    if options.attitude == "quaternion":
-        lines = _attitude(group)
-    else:
-        lines = _factors(group, order) if group.factors else [_place("A", "T", group, order)]
-        lines += _still(group) if options.state == "moving" else []
+    written = "column by column" if options.layout == "col" else "row by row"
+    charts = factor_charts(group.in_user_basis, options.attitude)
+    lines = _factors(group, written, charts)
+    lines += _still(group, charts) if options.state == "moving" else []
     if options.velocity == "tangent":
         lines.append(
             "The names that end in _dot are the entries of the velocity dg/dt; the basis below is"
@@ -72,9 +71,10 @@ def conventions(
     )
 
 
-def _still(group: Group) -> list[str]:
+def _still(group: Group, charts: Mapping[int, FactorChart]) -> list[str]:
     """The sentence about entries that are no numbers of the state: those of 1 that never vary."""
-    found = still_slots(group)
+    listed = order(group, False, charts)
+    found = {x: y for x, y in still_slots(group).items() if x in listed}
     told = [f"{', '.join(x.name for x in found if found[x] == y)} = {y}" for y in {*found.values()}]
     text = f"Not in the state, as they never vary: {'; '.join(sorted(told))}."
     return textwrap.wrap(text, 92) if told else []
@@ -129,16 +129,20 @@ def _lengths(problem: Mapping[str, Any]) -> list[str]:
 
 def _drift(group: Group, options: Options) -> str:
     """The sentences about ``project`` and ``defect``: what they are for, and how far they go."""
-    quaternion = options.attitude == "quaternion"
-    several = len(group.places) > 1
-    laws, left = ["|q| = 1"] if quaternion else [], 0
-    for k, (_, factor) in enumerate(() if quaternion else group.places, 1):
-        kept = relations(factor)
+    charts = factor_charts(group.in_user_basis, options.attitude)
+    several, laws, left = len(group.places) > 1, list[str](), 0
+    for k, (_, factor) in enumerate(group.places, 1):
+        kept, chart = relations(factor), charts.get(k - 1)
+        if chart or factor.vectors:
+            laws += [f"|q{chart.mark}| = 1"] if chart and chart.kind == QUATERNION else []
+            left += factor.dimension
+            continue
         if options.state == "moving" and all(sum(map(bool, row)) < 2 for row in kept.hull):
             kept = replace(kept, hull=())
         laws += _relations(kept, str(k) if several else "")
         left += kept.dimension
-    if not laws and options.state == "moving":
+    free = charts or any(factor.vectors for _, factor in group.places)
+    if not laws and (free or options.state == "moving"):
         return "No relation ties the entries in the state: there is nothing to project it to."
     if not laws:
         return "Every invertible matrix is in the group: there is nothing to project a state to."
@@ -146,7 +150,7 @@ def _drift(group: Group, options: Options) -> str:
         f"Integrators err, and the state drifts off the group: project takes it back by one Newton "
         f"step for {', '.join(laws)}; defect is the sum of the sizes of what these leave."
     )
-    if left > group.dimension and not quaternion:
+    if left > group.dimension:
         text += f" They leave a group of dimension {left}, of which this one is a part."
     if options.velocity == "tangent":
         text += (
@@ -195,19 +199,48 @@ def _frame(group: Group, frame: Mapping[str, Any], driven: bool) -> list[str]:
     ]
 
 
-def _attitude(group: Group) -> list[str]:
-    shift = " + T" if group.affine or group.factors else ""
-    return [
-        f"q is a unit quaternion, scalar first: a point r of the body stands at q r q*{shift}",
-        "in space; dq/dt = q zeta / 2 keeps its norm. to_matrix takes a state x to that with the",
-        "matrix A of q, row by row, in place of q, and from_matrix takes it back, q_0 >= 0.",
-    ]
-
-
-def _place(A: str, T: str, g: Group, order: str) -> str:
-    return f"{A} is {g.n} x {g.n}, {order}: a point r of the body stands at {A} r" + (
-        f" + {T} in space." if g.affine else " in space."
+def _place(mark: str, g: Group, written: str, chart: FactorChart | None) -> str:
+    """What tells where a factor takes the points of its block."""
+    A, T, shift = f"A{mark}", f"T{mark}", f" + T{mark}" * g.affine
+    if g.vectors:
+        return f"{T} is a vector: a point r of the body stands at r{shift} in space."
+    if chart is None:
+        told = f"{A} is {g.n} x {g.n}, {written}"
+        return f"{told}: a point r of the body stands at {A} r{shift} in space."
+    if chart.kind == QUATERNION:
+        q, zeta = f"q{mark}", "z" if mark else "zeta"
+        return (
+            f"{q} is a unit quaternion, scalar first: a point r of the body stands at {q} r "
+            f"{q}*{shift} in space; d{q}/dt = {q} {zeta} / 2 keeps its norm"
+            f"{', z the vector of its block of Z' * bool(mark)}."
+        )
+    X = " + ".join(
+        f"{x} E_{a}" for y in chart.blocks for x, a in zip(y.names, y.members, strict=True)
     )
+    turns = " and ".join(x for y in chart.blocks if y.turn for x in y.names)
+    by = f"{A} the linear part of" if chart.shifted else f"{A} =" if not g.affine else "the map is"
+    counted = f"; whole turns are counted in {turns}" * bool(turns)
+    return (
+        f"{A} is not in the state: a point r of the body stands at {A} r{shift} in space, "
+        f"{by} exp({X}){counted}."
+    )
+
+
+def _factors(group: Group, written: str, charts: Mapping[int, FactorChart]) -> list[str]:
+    """The sentences about the factors of a group, or the one about it."""
+    several = len(group.places) > 1
+    lines = ["The blocks of the product, one after the other:"] * several
+    for k, (_, factor) in enumerate(group.places):
+        text = _place(str(k + 1) if several else "", factor, written, charts.get(k))
+        lines += textwrap.wrap(text, 92) if k in charts else [text]
+    if charts:
+        matrices = "the matrices of its blocks" if several else "the matrix A"
+        text = f"to_matrix takes a state x to one with {matrices}, row by row"
+        if all(x.kind == QUATERNION for x in charts.values()):
+            first = " and ".join(x.names[0] for x in charts.values())
+            text += f", and from_matrix takes it back, {first} >= 0"
+        lines += textwrap.wrap(f"{text}.", 92)
+    return lines
 
 
 def _places(problem: Mapping[str, Any]) -> dict[int, str]:
@@ -224,13 +257,6 @@ def _ascii(text: str) -> str:
     """An expression as it may stand in an ASCII comment: 1/4 for the one letter, pi, ^2."""
     spelt = str.maketrans(SPELT | {"\u2212": "-", "²": "^2", "³": "^3"})
     return unicodedata.normalize("NFKD", text.translate(spelt)).replace("\u2044", "/")
-
-
-def _factors(group: Group, order: str) -> list[str]:
-    if len(group.factors) == 1:
-        return [_place("A", "T", group.factors[0], order)]
-    lines = ["The blocks of the product, one after the other:"]
-    return lines + [_place(f"A{k}", f"T{k}", g, order) for k, g in enumerate(group.factors, 1)]
 
 
 def _input(group: Group, entry: Mapping[str, Any], places: Mapping[int, str]) -> list[str]:
@@ -396,14 +422,13 @@ def titles(reader: RecordReader) -> dict[int, str]:
 
 def _beginnings(space: StateSpace) -> dict[int, tuple[str, ...]]:
     """Index in dx/dt → the names by which the record may have what begins there."""
-    slots = space.entry_slots
-    if not space.slots:
+    if not space.has_element:
         carried = {space.group.dimension: ("Γ̇",)} if space.values["Γ"] else {}
         return {0: ("ζ̇", "Ż"), **carried}
-    letters, before = [x.letter for x in slots], 4 if space.quaternion else 0
-    first = {x: before + letters.index(x) for x in dict.fromkeys(letters)}
+    letters = [getattr(x, "letter", "") for x, own in space.numbers.items() for _ in own]
+    first = {x: letters.index(x) for x in dict.fromkeys(letters) if x}
     if space.tangent:
-        return {len(slots) + i: ({"A": "α̇", "T": "τ̇"}[x],) for x, i in first.items()}
+        return {len(letters) + i: ({"A": "α̇", "T": "τ̇"}[x],) for x, i in first.items()}
     found: dict[int, tuple[str, ...]] = {i: ({"A": "Ȧ", "T": "Ṫ"}[x],) for x, i in first.items()}
-    found[before + len(slots)] = ("ζ̇", "Ż")
+    found[len(letters)] = ("ζ̇", "Ż")
     return found | ({len(space.names) - space.n: ("ẇ",)} if space.group.free_translations else {})

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
 
+from ..algebra.factor_charts import QUATERNION, FactorChart
 from ..algebra.groups import Group
 from ..algebra.relations import Relations, relations
 from ..language import rational as q
@@ -25,7 +26,7 @@ from .factor import factored
 from .graph import Graph, Node
 from .program import Block
 from .schedule import Directional, by_numbers
-from .slots import conjugate, multiplied
+from .slots import StateSlot, conjugate, multiplied
 from .state import StateSpace
 
 TEXTS = {
@@ -44,7 +45,7 @@ def drift(x: StateSpace, *, slopes: bool = False) -> dict[str, list[Node]]:
     """The outputs of ``project`` and ``defect``, and the derivative of the former where ``slopes``
     are asked for, by name; empty where G has no relations."""
     g, leaves = x.graph, [x.graph.leaf(name, "state") for name in x.names]
-    steps = [_unit_quaternion(x)] if x.quaternion else _blocks(x) if x.slots else []
+    steps = _by_factors(x) if x.has_element else []
     images = {leaf: image for step in steps for leaf, image in step.images.items()}
     residuals = [y for step in steps for y in step.residuals]
     if not residuals:
@@ -70,33 +71,37 @@ class _Step:
     residuals: list[Node] = field(default_factory=list)
 
 
-def _unit_quaternion(x: StateSpace) -> _Step:
+def _unit_quaternion(g: Graph, chart: FactorChart, q: list[Node]) -> _Step:
     """The step of a unit quaternion: q ← q − ½ q (q̄q − 1)."""
-    square = multiplied(conjugate(x.q), x.q)[0]
-    left = x.graph.value(square - 1, "left", "unit")
-    change = x.graph.value(left * Fraction(-1, 2), "step", "unit")
-    return _Step({y: y + y * change for y in x.q}, [left])
+    square = multiplied(conjugate(tuple(q)), tuple(q))[0]
+    left = g.value(square - 1, f"left{chart.mark}", "unit")
+    change = g.value(left * Fraction(-1, 2), f"step{chart.mark}", "unit")
+    return _Step({y: y + y * change for y in q}, [left])
 
 
-def _blocks(x: StateSpace) -> list[_Step]:
-    """One step for each factor of the group that has relations."""
+def _by_factors(x: StateSpace) -> list[_Step]:
+    """One step for each factor of the group that has relations, or a quaternion."""
     found = []
-    for place, (offset, factor) in enumerate(x.group.places, 1):
-        kept, mark = relations(factor), str(place) if len(x.group.places) > 1 else ""
-        if not kept.none:
+    for place, (offset, factor) in enumerate(x.group.places):
+        kept, mark = relations(factor), str(place + 1) if len(x.group.places) > 1 else ""
+        if (chart := x.charts.get(place)) or factor.vectors:
+            if chart and chart.kind == QUATERNION:
+                found.append(_unit_quaternion(x.graph, chart, x.numbers[chart]))
+        elif not kept.none:
             found.append(_Block(x.graph, factor, kept, mark).step(_entries(x, offset, factor)))
     return found
 
 
 def matrices(x: StateSpace) -> tuple[Block, ...]:
     """The places of the entries of A, row by row, of the factors that have relations."""
-    if x.quaternion or not x.slots:
+    if not x.has_element:
         return ()
-    at = {(s.letter, s.row, s.column): k for k, s in enumerate(x.slots)}
+    held = [y for y, own in x.numbers.items() for _ in own]
+    at = {(y.letter, y.row, y.column): k for k, y in enumerate(held) if isinstance(y, StateSlot)}
     return tuple(
         Block(factor.name, _places(at, offset, factor), factor.conformal)
-        for offset, factor in x.group.places
-        if not relations(factor).none and not x.still
+        for place, (offset, factor) in enumerate(x.group.places)
+        if not (relations(factor).none or x.still or place in x.charts or factor.vectors)
     )
 
 

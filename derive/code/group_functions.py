@@ -138,7 +138,7 @@ def refuse(d: Derivation, group: Group, chosen: Options) -> None:
     """``LoweringError`` for a group or a state for which these functions are not written."""
     reduced = "advected" in d.problem or bool(d.problem.get("lagrangian", {}).get("held"))
     for on, what in (
-        (chosen.attitude == "quaternion", "not written with --attitude quaternion"),
+        (chosen.attitude != "matrix", f"not written with --attitude {chosen.attitude}"),
         (chosen.velocity == "tangent", "not written with --velocity tangent"),
         (reduced, "not written for a state without all of g and Z"),
         (

@@ -12,7 +12,11 @@ CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
     "real": (("double", "float"), "the numbers of the code"),
     "form": (("source", "header"), "C as .h and .c, or as one header of inline functions"),
     "layout": (("row", "col"), "the entries of A row by row, or column by column"),
-    "attitude": (("matrix", "quaternion"), "A as a matrix, or a unit quaternion (SO(3), SE(3))"),
+    "attitude": (
+        ("matrix", "quaternion", "angle", "shortest"),
+        "A as a matrix; a unit quaternion for each factor SO(3), SE(3); an angle or coordinate for "
+        "each that turns a plane or has one parameter; or (shortest) both",
+    ),
     "frame": (("given", "principal"), "the body as given, or in its principal frame"),
     "velocity": (("body", "tangent"), "the state ends in Z = g^-1 dg/dt, or in dg/dt"),
     "state": (

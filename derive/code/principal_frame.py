@@ -340,10 +340,11 @@ class _Map:
             return [*x.entries(element), *x.entries(rate)]
         Z = q.times(q.times(self.h, x.hat(x.coordinates)), self.back)
         velocity = x.read(Z)
-        if not x.quaternion:
+        if not x.charts:
             return [*x.entries(element), *velocity]
         left, right = self.quaternions
-        turned = multiplied(multiplied(left, x.q), right)
+        (chart,) = x.charts.values()
+        turned = multiplied(multiplied(left, tuple(x.numbers[chart])), right)
         return [*turned, *x.entries(element), *velocity]
 
 

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
+from ..algebra.factor_charts import FactorChart
 from ..language.limits import Refused
 from ..language.tree import Tree, nodes
 from ..language.values import arithmetic
@@ -207,8 +208,8 @@ class Program:
     ``functions``: constants, rhs, energy; inertia for a body turned in space; outputs where there
     are some; and what is asked for of conserved, multiplier, mass_matrix, bias, events; of
     jacobian, jacobian_inputs, jacobian_parameters; momentum, velocity, momentum_rhs and poisson;
-    into_frame, out_of_frame, inputs_into_frame; to_matrix and from_matrix of a state with a
-    quaternion.
+    into_frame, out_of_frame, inputs_into_frame; to_matrix and from_matrix of a state with
+    quaternions, to_matrix of one with angles.
     """
 
     name: str
@@ -247,7 +248,12 @@ class Program:
     blocks: tuple[Block, ...] = ()
     """The matrices in the state of the factors whose ``project`` there is."""
     matrix_state: tuple[str, ...] = ()
-    """The names of the state with a matrix in place of its quaternion, where there is one."""
+    """The names of the state with matrices in place of quaternions and angles, where there are
+    some."""
+    matrix_blocks: tuple[Block, ...] = ()
+    """As ``blocks``, of that state."""
+    charts: tuple[FactorChart, ...] = ()
+    """Those of the factors that the state has in other numbers than their entries."""
     weightless: tuple[str, ...] = ()
     """The names of what is conserved where gravity is 0, and not elsewhere."""
     outputs: tuple[str, ...] = ()

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
+from ..algebra.factor_charts import QUATERNION, factor_charts
 from ..algebra.groups import Group
 from ..language.limits import SLOPES, SLOPES_BY_PARAMETERS
 from ..language.reserved import STANDARD_MACROS
@@ -136,7 +137,7 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
     if d.problem.get("lagrangian", {}).get("held"):
         _refused_where_held(d, chosen)
     if d.problem.get("lagrangian", {}).get("trivialisation") == "right":
-        _refused_on_the_right(d, chosen)
+        _refused_on_the_right(d, group, chosen)
     if chosen.multiplier and d.definition("θ") is None:
         raise LoweringError(
             f"{d.name}: --multiplier is for a group with one relation, as SL(n) or SAff(n) that "
@@ -154,14 +155,8 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
         group_functions.refuse(d, group, chosen)
     if "discrete" in chosen.step:
         discrete_step.refuse(d, group, chosen)
-    if chosen.attitude == "quaternion" and not group.rotates:
-        raise LoweringError(f"{d.name}: a quaternion needs SO(3) or SE(3), not {group.name}")
-    if chosen.attitude == "quaternion" and chosen.velocity == "tangent":
-        raise LoweringError(
-            f"{d.name}: a quaternion goes with the velocity of the body, not tangent"
-        )
-    if chosen.attitude == "quaternion" and chosen.layout == "col":
-        raise LoweringError(f"{d.name}: with a quaternion there is no matrix to lay out by columns")
+    if chosen.attitude != "matrix":
+        _refused_with_charts(d, group, chosen)
     if chosen.frame == "principal" and chosen.conserved:
         raise LoweringError(
             f"{d.name}: --conserved is written in the frame of the parameters: leave out --frame"
@@ -173,11 +168,35 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
         )
 
 
+NEEDED = {
+    "quaternion": "a quaternion needs a factor SO(3) or SE(3)",
+    "angle": "an angle needs a factor that turns a plane, or one of one parameter",
+    "shortest": "--attitude shortest needs a factor SO(3), SE(3), SO(2), SE(2), or one of one "
+    "parameter",
+}
+"""What there must be for a value of --attitude."""
+
+
+def _refused_with_charts(d: Derivation, group: Group, chosen: Options) -> None:
+    """What is written for a state with the entries of every factor."""
+    charts = factor_charts(group.in_user_basis, chosen.attitude)
+    if not charts:
+        raise LoweringError(f"{d.name}: {NEEDED[chosen.attitude]}, not {group.name}")
+    quaternions = all(x.kind == QUATERNION for x in charts.values())
+    what = "a quaternion" if quaternions else "an angle"
+    if chosen.velocity == "tangent":
+        raise LoweringError(f"{d.name}: {what} goes with the velocity of the body, not tangent")
+    if chosen.layout == "col" and len(charts) == len(group.places):
+        raise LoweringError(f"{d.name}: with {what} there is no matrix to lay out by columns")
+    if chosen.frame == "principal" and not quaternions:
+        raise LoweringError(f"{d.name}: {what} is of the body as given: leave out --frame")
+
+
 def _refused_without_element(d: Derivation, chosen: Options) -> None:
     """What is written for a state with an element of the group."""
     for on, option in (
         (chosen.velocity == "tangent", "--velocity tangent"),
-        (chosen.attitude == "quaternion", "--attitude quaternion"),
+        (chosen.attitude != "matrix", f"--attitude {chosen.attitude}"),
         (chosen.layout == "col", "--layout col"),
         (chosen.state == "moving", "--state moving"),
         (chosen.varied, f"--jacobian {' '.join(chosen.varied)}"),
@@ -202,11 +221,12 @@ def _refused_where_held(d: Derivation, chosen: Options) -> None:
             )
 
 
-def _refused_on_the_right(d: Derivation, chosen: Options) -> None:
+def _refused_on_the_right(d: Derivation, group: Group, chosen: Options) -> None:
     """What is written for Z = g⁻¹ġ alone."""
+    charts = factor_charts(group, chosen.attitude).values()
     for on, option in (
         (chosen.velocity == "tangent", "--velocity tangent"),
-        (chosen.attitude == "quaternion", "--attitude quaternion"),
+        (any(x.kind == QUATERNION for x in charts), f"--attitude {chosen.attitude}"),
     ):
         if on:
             raise LoweringError(

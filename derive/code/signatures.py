@@ -1,11 +1,11 @@
 """The functions of an emitted program as data: what each takes and writes, and what it gives.
 
 Every language loops over them.  Arrays are x, the state; k, the constants; p, the parameters; u,
-the inputs; y, the state with momenta in place of the velocity; z, that with a matrix in place of
-the quaternion; dx and dy, the rates; D, a matrix by rows: 2N × 2N, or with a column for each input
-or parameter, N the dimension of the group; out, of the size of what is taken, or as its function
-says; of a discrete step q, h times its momentum, then h, v, its unknowns, b, what is computed
-before these, and s, coordinates of what it turns by.
+the inputs; y, the state with momenta in place of the velocity; z, that with matrices in place of
+quaternions and angles; dx and dy, the rates; D, a matrix by rows: 2N × 2N, or with a column for
+each input or parameter, N the dimension of the group; out, of the size of what is taken, or as its
+function says; of a discrete step q, h times its momentum, then h, v, its unknowns, b, what is
+computed before these, and s, coordinates of what it turns by.
 """
 
 from __future__ import annotations
@@ -117,13 +117,16 @@ SIGNATURES = (
         "0 on the group",
     ),
     Signature(
-        "to_matrix", (X,), (Z_OUT,), "the state x with A, row by row, in place of the quaternion"
+        "to_matrix",
+        (X,),
+        (Z_OUT,),
+        "the state x with matrices, row by row, in place of quaternions and angles",
     ),
     Signature(
         "from_matrix",
         (Z,),
         (OUT,),
-        "the state z, which begins with a rotation A, with its quaternion instead, q_0 >= 0",
+        "the state z, with quaternions in place of its rotations, their scalars not negative",
     ),
     Signature("into_frame", (X, K), (OUT,), f"the state x {THERE}"),
     Signature("out_of_frame", (X, K), (OUT,), f"the state x {BACK}"),

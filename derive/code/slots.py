@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from ..algebra.factor_charts import FactorChart
 from ..algebra.groups import Group, constant_entries
 from ..language.rational import Matrix
 from ..language.reserved import suffixed
@@ -22,16 +24,28 @@ class StateSlot:
     column: int = 0
 
 
+OfElement = StateSlot | FactorChart
+"""What a state holds of a group element: entries, and charts that stand for several."""
+
+
+def order(group: Group, columns: bool, charts: Mapping[int, FactorChart]) -> list[OfElement]:
+    """The order in which a state holds a group element, factor after factor: its entries, column by
+    column with ``columns``, or the numbers of its chart, and then T."""
+    several, found = len(group.places) > 1, list[OfElement]()
+    for k, (offset, factor) in enumerate(group.places):
+        apart = factor.affine and not group.factors
+        slots = _factor(factor, str(k + 1) if several else "", offset, apart, columns)
+        if chart := charts.get(k):
+            shift = slots[factor.n**2 :] if chart.shifted else []
+            found += [chart, *shift]
+        else:
+            found += slots[factor.n**2 :] if factor.vectors else slots
+    return found
+
+
 def layout(group: Group, columns: bool = False) -> list[StateSlot]:
     """The slots of a group element kept as matrices; ``columns``: column by column."""
-    if not group.factors:
-        return _factor(group, "", 0, group.affine, columns)
-    several = len(group.factors) > 1
-    return [
-        slot
-        for k, (offset, factor) in enumerate(group.places, 1)
-        for slot in _factor(factor, str(k) if several else "", offset, False, columns)
-    ]
+    return [x for x in order(group, columns, {}) if isinstance(x, StateSlot)]
 
 
 def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> list[StateSlot]:
@@ -52,9 +66,13 @@ def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> lis
 
 
 def fixed_entries(group: Group) -> dict[tuple[int, int], int]:
-    """Place → 1: the corners of affine factors, entries of A that are always 1."""
+    """Place → 1: the corners of affine factors, entries of A that are always 1, with R(n) all of
+    the diagonal."""
     return {
-        (offset + f.n, offset + f.n): 1 for offset, f in group.places if group.factors and f.affine
+        (offset + i, offset + i): 1
+        for offset, f in group.places
+        if group.factors and f.affine
+        for i in range(0 if f.vectors else f.n, f.size)
     }
 
 
@@ -90,9 +108,9 @@ def conjugate(a: Quaternion) -> Quaternion:
     return (p, -x, -y, -z)
 
 
-def matrix_of(g: Graph, q: tuple[Node, ...]) -> Matrix:
-    """The rotation A of a unit quaternion q, A e = q e q̄, 3 × 3, entries named; q q̄ = 1 takes the
-    square of the scalar out of the diagonal."""
+def matrix_of(g: Graph, q: tuple[Node, ...], mark: str = "") -> Matrix:
+    """The rotation A of a unit quaternion q, A e = q e q̄, 3 × 3, entries named with the ``mark`` of
+    a factor; q q̄ = 1 takes the square of the scalar out of the diagonal."""
     p, x, y, z = q
     unit = multiplied((p, x, y, z), conjugate((p, x, y, z)))[0]
     zero = g.num(0)
@@ -104,7 +122,9 @@ def matrix_of(g: Graph, q: tuple[Node, ...]) -> Matrix:
         column[k] = column[k] - unit + 1
         columns.append(column)
     span = range(3)
-    return tuple(tuple(g.value(columns[j][i], f"A_{i + 1}{j + 1}") for j in span) for i in span)
+    return tuple(
+        tuple(g.value(columns[j][i], f"A{mark}_{i + 1}{j + 1}") for j in span) for i in span
+    )
 
 
 def horn(R: Matrix) -> Matrix:
@@ -119,32 +139,36 @@ def horn(R: Matrix) -> Matrix:
     )
 
 
-def of_rotation(g: Graph, R: Matrix) -> list[Node]:
-    """The unit quaternion of a rotation R, its scalar not negative, without a branch.
+def of_rotation(g: Graph, R: Matrix, mark: str = "") -> list[Node]:
+    """The unit quaternion of a rotation R, its scalar not negative, without a branch; ``mark``:
+    that of the factor, for names.
 
     Column i of 4 q q̄ is 4 q_i q. Added with the sign of q_i, up to one sign of them all, the
     columns make 4 Σ |q_i| q, which is never small: half turns are turns like others.
     """
     columns = [
-        tuple(g.value(x + int(i == j), suffixed("N", i, j), "rotation") for j, x in enumerate(row))
+        tuple(
+            g.value(x + int(i == j), suffixed(f"N{mark}", i, j), "rotation")
+            for j, x in enumerate(row)
+        )
         for i, row in enumerate(horn(R))
     ]
 
     def joined(a: Quaternion, b: Quaternion, product: Node, name: str) -> Quaternion:
         """a ± b by the sign of the product of their factors."""
-        sign = _sign(g, g.value(product, f"{name}_product", "rotation"))
-        sign = g.value(sign, f"{name}_sign", "rotation")
+        sign = _sign(g, g.value(product, f"{name}{mark}_product", "rotation"))
+        sign = g.value(sign, f"{name}{mark}_sign", "rotation")
         return tuple(
-            g.value(x + sign * y, suffixed(name, i), "rotation")
+            g.value(x + sign * y, suffixed(f"{name}{mark}", i), "rotation")
             for i, (x, y) in enumerate(zip(a, b, strict=True))
         )
 
     first = joined(columns[0], columns[1], columns[0][1], "first")
     second = joined(columns[2], columns[3], columns[2][3], "second")
     whole = joined(first, second, Node.dot(first, second), "whole")
-    square = g.value(Node.dot(whole, whole), "square", "rotation")
+    square = g.value(Node.dot(whole, whole), f"square{mark}", "rotation")
     scale = _sign(g, whole[0]) * g.recip(g.function("sqrt", square))
-    scale = g.value(scale, "scale", "rotation")
+    scale = g.value(scale, f"scale{mark}", "rotation")
     return [x * scale for x in whole]
 
 

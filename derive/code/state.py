@@ -2,35 +2,26 @@
 
 First the group element: A row by row (or column by column), for an affine group then T; for a
 product factor after factor, the blocks of one matrix whose other entries are 0, or 1 where an
-affine factor has its last row; or a unit quaternion for A.  Then the velocity: the coordinates ζ of
-Z = g⁻¹ġ (and w), or the entries of ġ.
+affine factor has its last row; or the numbers of the chart of a factor, and its T.  Then the
+velocity: the coordinates ζ of Z = g⁻¹ġ (and w), or the entries of ġ.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 
+from ..algebra.factor_charts import FactorChart, factor_charts
 from ..algebra.groups import Group
 from ..algebra.relations import skew
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.reserved import suffixed
-from . import dense
+from . import charts, dense
 from .graph import Graph, Node
 from .options import Options
-from .slots import (
-    ROTATED,
-    StateSlot,
-    axis,
-    fixed_entries,
-    halves,
-    layout,
-    matrix_of,
-    multiplied,
-    still_slots,
-)
+from .slots import OfElement, StateSlot, fixed_entries, order, still_slots
 
 Seeds = dict[Node, Node]
 """A variation of the state: leaf → its derivative."""
@@ -59,11 +50,13 @@ class StateSpace:
         self.graph, self.group, self.n = graph, group.in_user_basis, group.n
         self.standard = group
         self.still = still_slots(group) if options.state == "moving" else {}
-        self.slots = [x for x in layout(group, options.layout == "col") if x not in self.still]
-        self.quaternion = options.attitude == "quaternion"
+        self.charts = factor_charts(self.group, options.attitude)
+        ordered = order(group, options.layout == "col", self.charts)
+        self.held_of_g = [x for x in ordered if x not in self.still]
         self.tangent = options.velocity == "tangent"
         self.names: list[str] = []
         self.values: dict[str, Matrix] = {}
+        self.numbers: dict[OfElement, list[Node]] = {}
         self._element()
         self._velocity()
 
@@ -74,31 +67,36 @@ class StateSpace:
         self.names.append(name)
         return self.graph.leaf(name, "state")
 
+    @property
+    def has_element(self) -> bool:
+        """Does the state hold an element of the group?"""
+        return True
+
+    @property
+    def slots(self) -> list[StateSlot]:
+        """Those of the entries of A and T that the state holds, beside charts those of T."""
+        return [x for x in self.held_of_g if isinstance(x, StateSlot)]
+
     def _element(self) -> None:
         """Add the numbers of the group element; set A and T."""
-        if self.quaternion:
-            self.q = tuple(self._leaf(suffixed("q", i)) for i in range(4))
-        placed = self._placed("", self.entry_slots)
-        self.values["A"] = A = placed["A"]
-        if self.quaternion:
-            turn, n = matrix_of(self.graph, self.q), ROTATED
-            self.values["A"] = (*(x + y[n:] for x, y in zip(turn, A, strict=False)), *A[n:])
+        for x in self.held_of_g:
+            own = x.names if isinstance(x, FactorChart) else (x.name,)
+            self.numbers[x] = [self._leaf(name) for name in own]
+        placed = self._placed({x: self.numbers[x][0] for x in self.slots})
+        self.values["A"] = placed["A"]
         if self.group.affine:
             self.values["T"] = placed["T"]
 
-    @property
-    def entry_slots(self) -> list[StateSlot]:
-        """Those of the entries of A and T that the state holds, beside a quaternion those of T."""
-        turned = self.slots[: ROTATED**2] if self.quaternion else ()
-        return [x for x in self.slots if x not in turned]
-
-    def _placed(self, mark: str, slots: list[StateSlot]) -> dict[str, Matrix]:
-        """New leaves in their places of A and T; ``mark`` for the entries of ġ."""
+    def _placed(self, leaves: Mapping[StateSlot, Node], *, rate: bool = False) -> dict[str, Matrix]:
+        """The leaves in their places of A and T, with what else is known of g; or of ġ."""
         span, num = range(self.n), self.graph.num
-        leaves = {(x.letter, x.row, x.column): self._leaf(x.name + mark) for x in slots}
-        fixed = {("A", *place): num(x) for place, x in fixed_entries(self.group).items()}
-        fixed |= {(x.letter, x.row, x.column): num(y) for x, y in self.still.items()}
-        known = leaves if mark else leaves | fixed
+        known = {(x.letter, x.row, x.column): y for x, y in leaves.items()}
+        if not rate:
+            known |= {("A", *place): num(x) for place, x in fixed_entries(self.group).items()}
+            known |= {(x.letter, x.row, x.column): num(y) for x, y in self.still.items()}
+            for chart in self.charts.values():
+                own = charts.entries(self.graph, chart, self.numbers[chart])
+                known |= {("A", *place): y for place, y in own.items()}
         return {
             "A": tuple(tuple(known.get(("A", i, j), num(0)) for j in span) for i in span),
             "T": tuple((known.get(("T", i, 0), num(0)),) for i in span),
@@ -127,13 +125,13 @@ class StateSpace:
         if self.right:
             changes = q.times(e, self.values["A"])
             pairs = zip(q.flatten(self.values["A"]), q.flatten(changes), strict=True)
-            return {leaf: x for leaf, x in pairs if leaf.op == "leaf"}
-        if not self.quaternion:
-            return self._changed(e, "A", "T")
-        rates = multiplied(self.q, (self.graph.num(0), *halves(axis(e))))
-        return dict(zip(self.q, rates, strict=True)) | self._changed(
-            e, "A" * bool(self.group.factors), "T"
-        )
+            found = {leaf: x for leaf, x in pairs if leaf.op == "leaf"}
+        else:
+            found = self._changed(e, "A", "T")
+        for chart in self.charts.values():
+            x = self.numbers[chart]
+            found |= dict(zip(x, charts.rates(self.graph, chart, x, e), strict=True))
+        return found
 
     def _changed(self, e: Matrix, linear: str, shift: str) -> Seeds:
         """The leaves of these letters, where they have a value, for a change g e of g or of ġ."""
@@ -167,7 +165,7 @@ class StateSpace:
             if self.group.affine:
                 self.values["w"] = tuple((x,) for x in values[turns:])
             return
-        placed = self._placed("_dot", self.slots)
+        placed = self._placed({x: self._leaf(f"{x.name}_dot") for x in self.slots}, rate=True)
         inverse = self.inverse
         Z = q.times(inverse, placed["A"])
         self.values |= {"α": placed["A"], "τ": placed["T"]}
@@ -256,21 +254,30 @@ class StateSpace:
             if not in_space:
                 return speeds + self._second(velocity)
             return speeds + self._entries(name("α̇"), name("τ̇") if affine else ())
-        speeds = self._entries(name("Ȧ"), name("Ṫ") if affine else ())
-        if not self.quaternion:
-            return speeds + velocity
-        turning = self.values["ζ"]
-        if self.group.factors:
-            turning = axis(self.hat([x for (x,) in turning]))
-        return [*multiplied(self.q, (self.graph.num(0), *halves(turning))), *speeds, *velocity]
+        Ȧ, Ṫ = name("Ȧ"), name("Ṫ") if affine else ()
+        moved = [x for name in ("ζ", "w") for (x,) in self.values.get(name, ())]
+        Z = self._matrix(self.standard, moved) if self.charts else ()
+        speeds = []
+        for x in self.held_of_g:
+            if isinstance(x, FactorChart):
+                speeds += charts.rates(self.graph, x, self.numbers[x], Z)
+            else:
+                speeds += self._entries(Ȧ, Ṫ, [x])
+        return speeds + velocity
 
-    def _entries(self, A: Matrix, T: Matrix) -> list[Node]:
-        """The entries of A and T that are numbers of the state, in its order."""
-        return [{"A": A, "T": T}[x.letter][x.row][x.column] for x in self.entry_slots]
+    def _entries(
+        self, A: Matrix, T: Matrix, slots: Sequence[StateSlot] | None = None
+    ) -> list[Node]:
+        """The entries of A and T that are numbers of the state, in its order, or those of some
+        slots."""
+        listed = self.slots if slots is None else slots
+        return [{"A": A, "T": T}[x.letter][x.row][x.column] for x in listed]
 
-    def entries(self, g: Matrix) -> list[Node]:
-        """The state's numbers in A or [[A, T], [0, 1]]; those of T alone beside a quaternion."""
-        return [g[x.row][self.n if x.letter == "T" else x.column] for x in self.entry_slots]
+    def entries(self, g: Matrix, slots: Sequence[StateSlot] | None = None) -> list[Node]:
+        """The state's entries of A or [[A, T], [0, 1]], or those of some slots; beside a chart
+        those of T alone."""
+        listed = self.slots if slots is None else slots
+        return [g[x.row][self.n if x.letter == "T" else x.column] for x in listed]
 
     @property
     def element(self) -> Matrix:

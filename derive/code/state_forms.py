@@ -6,26 +6,26 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ..algebra.factor_charts import QUATERNION, FactorChart
 from ..algebra.groups import Group
-from ..language import rational as q
 from ..language.reserved import suffixed
 from ..language.tree import Tree, add, mul, nodes, replaced, terms
 from .graph import Graph, Node
 from .naming import ClaimedNames
 from .options import Options
-from .slots import ROTATED, of_rotation
+from .slots import layout, of_rotation
 from .state import Component, Named, StateSpace
 
 # The state of a program without an element of the group: ζ, then what is carried along.
 
 
 class ReducedSpace(StateSpace):
-    """``values``: ζ, Γ; it has no slots, for there is no g."""
+    """``values``: ζ, Γ; there is no g."""
 
     def __init__(self, graph: Graph, group: Group, problem: Mapping[str, Any]):
         self.graph, self.group, self.standard, self.n = graph, group, group, group.n
         self.right, self.held = problem["lagrangian"]["trivialisation"] == "right", ()
-        self.slots, self.still, self.quaternion, self.tangent = [], {}, False, False
+        self.held_of_g, self.charts, self.still, self.tangent = [], {}, {}, False
         self.names, self.values = [], {}
         self.coordinates = [self._leaf(suffixed("zeta", a)) for a in self._span(group.dimension)]
         carried = [
@@ -35,6 +35,11 @@ class ReducedSpace(StateSpace):
         ]
         self.values["ζ"] = tuple((x,) for x in self.coordinates)
         self.values["Γ"] = tuple((x,) for x in carried)
+
+    @property
+    def has_element(self) -> bool:
+        """It has none."""
+        return False
 
     def velocity(self, component: Component) -> list[Node]:
         """The accelerations ζ̇."""
@@ -107,7 +112,7 @@ def _paired(eta: Tree) -> Tree:
     return ("inner", "Π", eta)
 
 
-# The door of a state that holds a quaternion: the same state with the matrix A in its place.
+# The door of a state that holds charts: the same state with the matrices in their place.
 
 LABELS = {"rotation": "4 q q̄, from A"}
 """The label of what from_matrix computes, and what stands in a comment before it."""
@@ -117,9 +122,11 @@ TO_MATRIX, FROM_MATRIX = "to_matrix", "from_matrix"
 
 @dataclass(frozen=True)
 class MatrixState:
-    """The state z = (A row by row, then what follows q in x); ``names``: of its numbers.
+    """The state z, with the entries of a block where x has the numbers of its chart; ``names``: of
+    its numbers.
 
-    ``outputs``: function → what it computes; ``leaves``: the numbers of z.
+    ``outputs``: function → what it computes, from_matrix where charts are quaternions; ``leaves``:
+    the numbers of z.
     """
 
     names: tuple[str, ...]
@@ -135,17 +142,28 @@ class MatrixState:
 
 
 def matrix_state(x: StateSpace) -> MatrixState | None:
-    """The state with A in place of the quaternion; ``None`` where there is no quaternion."""
-    if not x.quaternion:
+    """The state with matrices in place of charts; ``None`` where there are no charts."""
+    if not x.charts:
         return None
-    g, span = x.graph, range(1, 4)
-    others = [g.leaf(name, "state") for name in x.names[len(x.q) :]]
-    R = tuple(tuple(g.leaf(suffixed("R", i, j), "matrix") for j in span) for i in span)
-    return MatrixState(
-        (*(suffixed("A", i, j) for i in span for j in span), *x.names[len(x.q) :]),
-        {
-            TO_MATRIX: [*(y for row in x.values["A"][:ROTATED] for y in row[:ROTATED]), *others],
-            FROM_MATRIX: [*of_rotation(g, R), *others],
-        },
-        (*q.flatten(R), *others),
-    )
+    g, z = x.graph, [slot for slot in layout(x.group) if slot not in x.still]
+    velocity = x.names[sum(map(len, x.numbers.values())) :]
+    names = (*(slot.name for slot in z), *velocity)
+    others = [g.leaf(name, "state") for name in velocity]
+    found = MatrixState(names, {TO_MATRIX: [*x.entries(x.element, z), *others]}, ())
+    if any(chart.kind != QUATERNION for chart in x.charts.values()):
+        return found
+    leaves = {
+        slot: x.numbers[slot][0] if slot in x.numbers else g.leaf(f"R{slot.name[1:]}", "matrix")
+        for slot in z
+    }
+    at = {(slot.row, slot.column): leaf for slot, leaf in leaves.items() if slot.letter == "A"}
+    back: list[Node] = []
+    for held in x.held_of_g:
+        if isinstance(held, FactorChart):
+            span = range(held.offset, held.offset + held.size)
+            R = tuple(tuple(at[i, j] for j in span) for i in span)
+            back += of_rotation(g, R, held.mark)
+        else:
+            back.append(leaves[held])
+    outputs = found.outputs | {FROM_MATRIX: [*back, *others]}
+    return MatrixState(names, outputs, (*leaves.values(), *others))

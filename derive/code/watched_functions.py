@@ -240,7 +240,7 @@ def _numbers(lowering: Lowering) -> dict[str, Node]:
     space, graph = reader.space, lowering.graph
     plain = state_of(reader.record.problem, graph, reader.group, Options())
     velocity = [x for a, x in enumerate(space.coordinates, 1) if a not in space.held]
-    if plain.slots:
+    if plain.has_element:
         found = [*plain.entries(space.element), *velocity]
     else:
         found = [*velocity, *(x for (x,) in space.values["Γ"])]

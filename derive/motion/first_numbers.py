@@ -7,10 +7,13 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from operator import add, mul
 from typing import Any, NamedTuple, SupportsFloat
 
+from ..algebra.factor_charts import QUATERNION
 from ..code.program import Program
+from ..code.slots import horn
 from ..code.torus.lattice_state import turned
 from ..language.expression import names
 from ..language.limits import Refused
+from ..language.rational import Matrix
 from ..language.reserved import did_you_mean, near_name
 from ..language.tree import Tree
 from ..language.values import approximate
@@ -48,7 +51,7 @@ def first_numbers(
     emitted = {name: default for name, default, _, _ in program.parameters}
     apart = {name for name in named(problem) if name in problem.parameters}
     defaults = emitted | {x: problem.parameters[x].default for x in sorted(apart - {*emitted})}
-    zero = dict.fromkeys((*program.inputs, *program.state), 0.0)
+    zero = dict.fromkeys((*program.inputs, *program.matrix_state, *program.state), 0.0)
     values: dict[str, float | None] = {**defaults, **zero}
     _known(values, given, program.name)
     values |= {name: x for name, x in given.items() if name in defaults}
@@ -69,6 +72,9 @@ def first_numbers(
             f"{program.name}: no value for {', '.join(missing)}: give --set {missing[0]}=NUMBER"
         )
     found = {name: float(value) for name, value in values.items() if value is not None}
+    if program.charts:
+        by_charts = _by_charts(program, problem, found)
+        found |= {x: y for x, y in by_charts.items() if x not in numbers and x not in given}
     x, p, u = (
         [found[name] for name in listed] for listed in (program.state, emitted, program.inputs)
     )
@@ -147,9 +153,44 @@ def _at(problem: Problem, program: Program, exponent: Sequence[float]) -> dict[s
     span = range(len(basis[0]))
     terms = [*zip(exponent, basis, strict=False)]
     g = exponential([[sum(a * float(E[i][j]) for a, E in terms) for j in span] for i in span])
-    places = state_names(group)
-    own = {x: t for x in program.state if isinstance(t := places.get(x), tuple) and t[1] == "A"}
+    places, listed = state_names(group), program.matrix_state or program.state
+    own = {x: t for x in listed if isinstance(t := places.get(x), tuple) and t[1] == "A"}
     return {name: g[t[2] - 1][t[3] - 1] for name, t in own.items()}
+
+
+def _by_charts(program: Program, problem: Problem, found: Mapping[str, float]) -> dict[str, float]:
+    """Name → number of what tells the factors that have charts, by the entries of g; an angle
+    between −π and π, but where a shift tells how often it went round."""
+    assert problem.group is not None
+    span = range(problem.group.size)
+    rows = [[float(i == j) for j in span] for i in span]
+    for name, t in state_names(problem.group).items():
+        if name in found and isinstance(t, tuple) and t[1] == "A":
+            rows[t[2] - 1][t[3] - 1] = found[name]
+    g = tuple(map(tuple, rows))
+    numbers: dict[str, float] = {}
+    for chart in program.charts:
+        if chart.kind == QUATERNION:
+            own = range(chart.offset, chart.offset + chart.size)
+            told = _quaternion(tuple(tuple(g[i][j] for j in own) for i in own))
+            numbers |= dict(zip(chart.names, told, strict=True))
+        for block in chart.blocks:
+            if not block.turn:
+                told = [*block.logarithm(g)]
+            else:
+                shift, cosine, sine = block.turned(g)
+                angle = math.atan2(sine, cosine) / float(block.turn)
+                told = [angle if shift is None else shift]
+            numbers |= dict(zip(block.names, told, strict=True))
+    return numbers
+
+
+def _quaternion(R: Matrix) -> list[float]:
+    """That of a rotation, its scalar not negative: the longest column of 4 q q̄."""
+    columns = [[x + (i == j) for j, x in enumerate(row)] for i, row in enumerate(horn(R))]
+    longest = max(columns, key=lambda x: math.hypot(*x))
+    scale = math.copysign(math.hypot(*longest), longest[0])
+    return [x / scale for x in longest]
 
 
 def exponential(X: Sequence[Sequence[float]]) -> list[list[float]]:

@@ -110,7 +110,7 @@ def state_names(group: Group) -> dict[str, Tree]:
     for k, (offset, factor) in enumerate(group.places, 1):
         mark, span = str(k) if several else "", range(1, factor.n + 1)
         for i in span:
-            for j in span:
+            for j in () if factor.vectors else span:
                 found[suffixed(f"A{mark}", i, j)] = ("entry", "A", offset + i, offset + j)
             if factor.affine:
                 place = ("entry", "A", offset + i, offset + factor.n + 1)

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ..algebra.factor_charts import chart_names
 from ..algebra.groups import Group
 from ..language.expression import names
 from ..language.reserved import suffixed
@@ -235,6 +236,6 @@ def of_points(group: Group) -> list[str]:
 
 
 def of_other_forms(group: Group) -> set[str]:
-    """Those of the state in a form that can be emitted beside: dg/dt, a quaternion."""
+    """Those of the state in a form that can be emitted beside: dg/dt, charts of factors."""
     found = {f"{x}_dot" for x in state_names(group) if x[:2] in ("A_", "T_")}
-    return found | ({f"q_{k}" for k in range(4)} if group.rotates else set())
+    return found | {*chart_names(group.in_user_basis)}

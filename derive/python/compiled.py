@@ -62,13 +62,6 @@ void derive_rhs(double *b)
 five arguments takes ctypes longer than rhs takes."""
 
 
-ROTATION = Block("SO(3)", tuple(range(9)), turns=True)
-"""Where A is in a state that begins with a rotation."""
-
-MORE = 9 - 4
-"""How many more numbers a rotation has as a matrix than as a quaternion."""
-
-
 class Names(NamedTuple):
     """The names of a program's numbers, and the counts of constants and of coordinates of 𝔤."""
 
@@ -84,6 +77,8 @@ class Names(NamedTuple):
     reduced: int
     unread: tuple[str, ...]
     blocks: tuple[Block, ...]
+    matrix_state: tuple[str, ...]
+    matrix_blocks: tuple[Block, ...]
     group: GroupFunctions | None
 
     @classmethod
@@ -97,8 +92,9 @@ class Names(NamedTuple):
         events = tuple(x.name for x in program.events)
         named = program.state, program.inputs, program.conserved, program.outputs, events
         unread = tuple(x for x in declared if x not in defaults)
-        own = unread, program.blocks, program.group_functions
-        return cls(*named, defaults, steps, *sizes, *own)
+        matrices = program.matrix_state, program.matrix_blocks
+        group = program.group_functions
+        return cls(*named, defaults, steps, *sizes, unread, program.blocks, *matrices, group)
 
 
 class CompiledValues(NamedTuple):
@@ -421,13 +417,15 @@ class Compiled(InMomenta, OnTheGroup):
         return float(function(pointer(_array(x, len(self.STATE)))))
 
     def to_matrix(self, x: Any) -> Array:
-        """The state x with A, row by row, for its quaternion; needs ``attitude="quaternion"``."""
-        return self._exchanged("to_matrix", x, len(self.STATE), len(self.STATE) + MORE)
+        """The state x with matrices, row by row, for its quaternions and angles; needs an
+        ``attitude``, as ``attitude="quaternion"``."""
+        return self._exchanged("to_matrix", x, len(self.STATE), len(self._names.matrix_state))
 
     def from_matrix(self, z: Any) -> Array:
-        """The state z, which begins with a rotation A, with the quaternion of A, q_0 ≥ 0."""
-        size = len(self.STATE) + MORE
-        if self._has("from_matrix") and (fault := reflection([ROTATION], _array(z, size))):
+        """The state z with the quaternions of its rotations, their scalars not negative; where x
+        has an angle, how often it went round is not in z, and there is no such function."""
+        size, blocks = len(self._names.matrix_state), self._names.matrix_blocks
+        if self._has("from_matrix") and (fault := reflection(blocks, _array(z, size))):
             raise ValueError(fault)
         return self._exchanged("from_matrix", z, size, len(self.STATE))
 
@@ -497,6 +495,8 @@ class Compiled(InMomenta, OnTheGroup):
             )
         if function is None and what.startswith("jacobian_outputs"):
             raise ValueError("not compiled: ask for it by compile(..., jacobian=['outputs'])")
+        if function is None and what == "from_matrix" and self._names.matrix_state:
+            raise ValueError("an angle counts turns, which a matrix does not tell: give x yourself")
         if function is None and what.endswith("_matrix"):
             raise ValueError("not compiled: ask for it by compile(..., attitude='quaternion')")
         if function is None and what in ("momentum", "velocity", "momentum_rhs", "poisson"):

@@ -30,6 +30,7 @@ from .functions_of_state import (
     compare_drift,
     exact_root,
     is_named,
+    plain,
 )
 from .straight_line import (
     Measured,
@@ -59,8 +60,8 @@ def compare_names(m: Module, claims: Claims) -> None:
     }
     if claims.outputs:
         sizes["OUTPUTS"] = len(claims.outputs)
-    if "q_0" in claims.state.names:
-        sizes["MATRIX"] = len(claims.state.names) + 5  # nine entries for four
+    if claims.state.on_the_group:
+        sizes["MATRIX"] = len(plain(claims.state).names)
     for what, size in sizes.items():
         if m.sizes.get(what, size) != size:
             raise DiffersError(f"the size {what} is {m.sizes[what]}, not {size}")
@@ -174,7 +175,8 @@ class Comparison:
         self.module, self.claims, self.literal = module, claims, literal
         self.measured, self.point = measured, point
         self.random = Random(str(point.energy))
-        self.elementary = MeasuredElementary(self.point.elementary)
+        circles = dict.fromkeys(self.point.circles, claims.entry_degree)
+        self.elementary = MeasuredElementary(self.point.elementary, circles)
         values = self.elementary if measured else self.point.elementary
         drawn = point.elementary.value if hasattr(point.elementary, "value") else values
         whole = WithIntegrals(values, drawn, measured)
@@ -334,7 +336,15 @@ class Comparison:
         """The numbers of ``to_matrix`` at the state x, or of ``from_matrix`` at z."""
         letter = "z" if name == "from_matrix" else "x"
         given = {letter: self._array(x, letter, self.claims.entry_degree)}
-        found = Machine(self.module, exact_root, self.literal).call(name, given, out=size)["out"]
+        exact = self.point.circles
+
+        def elementary(function: str, y: Any) -> Any:
+            at = (function, getattr(y, "value", y))
+            if at not in exact:
+                return exact_root(function, y)
+            return Measured(exact[at], *self.claims.entry_degree)
+
+        found = Machine(self.module, elementary, self.literal).call(name, given, out=size)["out"]
         self._measure(found)
         return found
 
@@ -351,7 +361,7 @@ class Comparison:
     def _inside(self) -> Sequence[Any]:
         """The state of the point; where its g is any matrix, one with an element of the group."""
         state, point = self.claims.state, self.point
-        if isinstance(state, ReducedChart) or is_named(state.group) or state.turned:
+        if isinstance(state, ReducedChart) or is_named(state.group) or state.on_the_group:
             return tuple(point.arguments["x"])
         return state.values(state.group.sample_inside(self.random, INSIDE), point.Z)
 

@@ -18,8 +18,9 @@ from functools import cached_property
 from random import Random
 from typing import Any
 
+from ..algebra.factor_charts import QUATERNION, FactorChart
 from ..algebra.groups import Group
-from ..algebra.samplers import Sampler, Source, affine, by_cayley
+from ..algebra.samplers import Sampler, Source, affine, blocks, by_cayley
 from ..check.kinds.self_gravity_checked import at_invariants, nodes
 from ..check.trials.trial_points import AnyModel, TrialPoints, model_at, names_at
 from ..check.values.arithmetic import EvaluationError
@@ -30,7 +31,7 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.reserved import numbers_of_input, numbers_of_output
 from ..record.record import Derivation, Equation, RecordError
-from .chart import Chart, Numbers, ReducedChart, chart_of
+from .chart import Chart, Numbers, ReducedChart, chart_of, circles
 from .straight_line import Measured
 from .terms import CodeError
 
@@ -43,7 +44,8 @@ class Point:
     the record says: the rates of x, the energy and, for a body turned in space, the tensor of
     inertia by its upper rows.
 
-    ``elementary`` gives the values of elementary functions at this point, ``named`` those of names.
+    ``elementary`` gives the values of elementary functions at this point, ``named`` those of names,
+    ``circles`` those of cos and sin at the angles of the state.
     """
 
     parameters: Mapping[str, Fraction]
@@ -55,6 +57,7 @@ class Point:
     inertia: Numbers
     elementary: Any
     named: Environment
+    circles: Mapping[tuple[str, Fraction], Any]
 
 
 class Claims:
@@ -66,16 +69,16 @@ class Claims:
         self._points: dict[tuple[str, tuple[str, ...]], Point] = {}
         self.scope = str(d.problem.get("group"))
         (group,) = TrialPoints(d.problem, 0).groups(self.scope)
-        if chart.attitude == "quaternion":
-            group = replace(group, sampler=rational_quaternions(group))
-        self.group, self.state = group, chart_of(group.in_user_basis, chart, d.problem)
+        self.state = chart_of(group.in_user_basis, chart, d.problem)
+        self.group = with_rational_charts(group, self.state.charts)
 
     @cached_property
     def at(self) -> Locus:
         """The motion, driven where its equations have inputs or damping; in the group itself where
         the state has not all entries of g."""
+        inside = self.chart.state == "moving" or self.state.on_the_group
         motions = (s for s in self.record.steps if s.label.endswith(".motion"))
-        return Locus(driven=any(s.driven for s in motions), inside=self.chart.state == "moving")
+        return Locus(driven=any(s.driven for s in motions), inside=inside)
 
     @cached_property
     def inputs(self) -> tuple[str, ...]:
@@ -119,6 +122,9 @@ class Claims:
         )
         env = names_at(model)
         x, rates = self._state_and_rates(model, env)
+        angles = circles(self.state.charts.values(), model.g)
+        if angles:
+            model.elementary.values.update(angles)
         tensor = self._value("I", env)
         return Point(
             model.parameters,
@@ -130,6 +136,7 @@ class Claims:
             tuple(tensor[i][j] for i in range(3) for j in range(i, 3)) if tensor else (),
             model.elementary,
             env,
+            angles,
         )
 
     def _state_and_rates(self, model: AnyModel, env: Environment) -> tuple[Numbers, Numbers]:
@@ -222,6 +229,18 @@ def _largest(found: Iterable[Degree]) -> tuple[int, int]:
     """The largest degree of the numerators, and of the denominators."""
     pairs = [(x.numerator.degree, x.denominator.degree) for x in found]
     return max((x for x, _ in pairs), default=1), max((x for _, x in pairs), default=0)
+
+
+def with_rational_charts(group: Group, charts: Mapping[int, FactorChart]) -> Group:
+    """The group with a sampler of elements whose charts by quaternions are rational."""
+    turned = {k for k, chart in charts.items() if chart.kind == QUATERNION}
+    if not turned:
+        return group
+    samplers = [
+        rational_quaternions(factor) if k in turned else factor.sampler
+        for k, (_, factor) in enumerate(group.places)
+    ]
+    return replace(group, sampler=blocks(samplers) if group.factors else samplers[0])
 
 
 def rational_quaternions(group: Group) -> Sampler:

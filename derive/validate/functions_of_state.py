@@ -31,6 +31,7 @@ from itertools import product
 from math import isqrt
 from typing import Any
 
+from ..algebra.factor_charts import QUATERNION, FactorChart
 from ..algebra.families import group
 from ..algebra.groups import Group
 from ..check.trials.phase_point import PhasePoint
@@ -97,29 +98,40 @@ RunSized = Callable[[str, Sequence[Any], int], Sequence[Any]]
 """(name, state, how many numbers it gives) → these numbers."""
 
 
+def plain(state: StateChart) -> StateChart:
+    """The chart of the same states with matrices alone."""
+    return replace(state, chart=replace(state.chart, attitude="matrix"))
+
+
 def compare_attitude(
     run: RunSized, require_equal: Require, state: StateChart, point: Point
-) -> tuple[str, str]:
-    """The names of the two functions, each found right at the turns of a point."""
-    plain = replace(state, chart=replace(state.chart, attitude="matrix"))
-    for g in turned(point.g):
-        there, here = plain.values(g, point.Z), state.values(g, point.Z)
+) -> tuple[str, ...]:
+    """The names of the two functions, or of the first where angles count turns, each found right at
+    the turns of a point."""
+    matrices = plain(state)
+    quaternions = [x for x in state.charts.values() if x.kind == QUATERNION]
+    names = ("to_matrix", "from_matrix")[: 1 + (len(quaternions) == len(state.charts))]
+    for g in (point.g, *(g for chart in quaternions for g in turned(point.g, chart))):
+        there, here = matrices.values(g, point.Z), state.values(g, point.Z)
         found = run("to_matrix", here, len(there))
-        require_equal("to_matrix", plain.names, found, there)
-        require_equal("from_matrix", state.names, run("from_matrix", there, len(here)), here)
-    return "to_matrix", "from_matrix"
+        require_equal("to_matrix", matrices.names, found, there)
+        if "from_matrix" in names:
+            require_equal("from_matrix", state.names, run("from_matrix", there, len(here)), here)
+    return names
 
 
-def turned(g: Matrix) -> Iterator[Matrix]:
-    """The displacements whose quaternion has that of g but for the signs of its vector: D A D for
-    the diagonal matrices D of signs, and their transposes."""
-    n = 3
+def turned(g: Matrix, chart: FactorChart) -> Iterator[Matrix]:
+    """The elements whose quaternion of a chart has that of g but for the signs of its vector: D A D
+    for the diagonal matrices D of signs, and their transposes."""
+    rows = range(chart.offset, chart.offset + chart.size)
     for signs in product((1, -1), repeat=2):
-        D = (1, *signs)
-        A = tuple(tuple(D[i] * g[i][j] * D[j] for j in range(n)) for i in range(n))
-        for linear in (A, q.transposed(A)):
-            rows = (tuple(linear[i]) + tuple(g[i][n:]) for i in range(n))
-            yield (*rows, *g[n:])
+        D = dict(zip(rows, (1, *signs), strict=True))
+        for A in (g, q.transposed(g)):
+            found = [[*row] for row in g]
+            for i in rows:
+                for j in rows:
+                    found[i][j] = D[i] * A[i][j] * D[j]
+            yield q.matrix(found)
 
 
 def exact_root(name: str, x: Any) -> Any:

@@ -10,6 +10,7 @@ safe.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -225,15 +226,18 @@ class Measured:
 class MeasuredElementary:
     """The elementary functions of measured numbers: at each argument a number drawn for itself.
 
-    ``calls``: how often they were called; ``largest``: the largest degree of an argument.
+    ``calls``: how often they were called; ``largest``: the largest degree of an argument;
+    ``degrees``: (name, argument) → the degrees of a value that is not drawn, as that of an angle of
+    the state.
     """
 
-    def __init__(self, values: Any):
-        self.values = values
+    def __init__(self, values: Any, degrees: Mapping[tuple[str, Any], tuple[int, int]]):
+        self.values, self.degrees = values, degrees
         self.calls, self.largest = 0, 0
 
     def __call__(self, name: str, x: Any) -> Measured:
-        """The value of a function, of degree 1 whatever the argument."""
+        """The value of a function; where it is drawn, of degree 1 whatever the argument."""
         x = Measured.of(x)
         self.calls, self.largest = self.calls + 1, max(self.largest, x.degree)
-        return Measured(self.values(name, Fraction(x.value)), 1)
+        at = Fraction(x.value)
+        return Measured(self.values(name, at), *self.degrees.get((name, at), (1, 0)))

@@ -31,6 +31,7 @@ export const WORDS = {
     further: "Further", about: {},
     values: {
       form: { source: ".h and .c", header: "one header" },
+      attitude: { matrix: "matrices", quaternion: "quaternions in space", angle: "angles, coordinates", shortest: "quaternions and angles" },
       frame: { given: "as in the file", principal: "of its moments" },
       velocity: { body: "Z = g⁻¹ dg/dt", tangent: "dg/dt" },
       state: { whole: "all entries of g", moving: "those that vary" },
@@ -87,6 +88,7 @@ export const WORDS = {
     further: "En plus",
     values: {
       form: { source: ".h et .c", header: "un seul en-tête" },
+      attitude: { matrix: "matrices", quaternion: "quaternions dans l’espace", angle: "angles, coordonnées", shortest: "quaternions et angles" },
       frame: { given: "comme dans le fichier", principal: "de ses moments" },
       velocity: { body: "Z = g⁻¹ dg/dt", tangent: "dg/dt" },
       state: { whole: "tous les coefficients de g", moving: "ceux qui varient" },
@@ -101,7 +103,7 @@ export const WORDS = {
     about: {
       real: "les nombres du code", form: "le C en .h et .c, ou en un seul en-tête de fonctions inline",
       layout: "les coefficients de A ligne par ligne, ou colonne par colonne",
-      attitude: "A comme matrice, ou comme quaternion unitaire (SO(3), SE(3))",
+      attitude: "A comme matrice ; un quaternion unitaire pour chaque facteur SO(3), SE(3) ; un angle ou une coordonnée pour chacun qui tourne un plan ou a un paramètre ; ou (shortest) les deux",
       frame: "le corps comme il est donné, ou dans son repère principal",
       velocity: "l’état finit par Z = g⁻¹ dg/dt, ou par dg/dt",
       state: "tous les coefficients de g, ou sans ceux qui ne varient jamais", order: "celui de --step discrete (2 par défaut)",

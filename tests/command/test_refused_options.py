@@ -43,7 +43,7 @@ def test_the_reasons_are_those_of_the_command(name, capsys, tmp_path):
 
 ORDERS = [f"order {k}" for k in (2, 4, 6, 8)]
 REFUSED_OF_SO3 = ("form header", *ORDERS, "multiplier", "ensemble")
-REFUSED_OF_SO3 += ("jacobian outputs", "jacobian step")
+REFUSED_OF_SO3 += ("attitude angle", "jacobian outputs", "jacobian step")
 CHOICES_OF_SO3 = dict(further(("python",), Options()))
 
 
@@ -67,4 +67,4 @@ def test_every_option_is_offered_once():
 def test_what_is_refused_itself_is_told_alone():
     d = derive("sl3")
     (told,) = refused(d.problem, d.record, ("c",), Options(attitude="quaternion")).items()
-    assert told == ("", "sl3: a quaternion needs SO(3) or SE(3), not SL(3)")
+    assert told == ("", "sl3: a quaternion needs a factor SO(3) or SE(3), not SL(3)")

@@ -348,7 +348,7 @@ def test_an_option_that_would_be_refused_cannot_be_chosen(fresh, site):
     chosen(fresh, "sl3")  # on which a quaternion that is chosen is refused
     fault = fresh.locator("#take .choices .fault")
     fault.wait_for()
-    assert "a quaternion needs SO(3) or SE(3)" in fault.inner_text()
+    assert "a quaternion needs a factor SO(3) or SE(3)" in fault.inner_text()
     assert fresh.evaluate(REFUSED) == 0
     fresh.select_option("select[aria-describedby~=why-attitude]", "")
     assert "SL(3)" in told(fresh, "attitude").inner_text()

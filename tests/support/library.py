@@ -132,8 +132,6 @@ ARGUMENT = re.compile(
 )
 LENGTHS = {"x": "STATE", "k": "CONSTANTS", "p": "PARAMETERS", "u": "INPUTS", "dx": "STATE"}
 LENGTHS |= {"y": "STATE", "dy": "STATE"}
-MORE = 5
-"""A rotation has five numbers more as a matrix than as a quaternion."""
 COLUMNS = {"jacobian_inputs": "INPUTS", "jacobian_parameters": "PARAMETERS"}
 COLUMNS |= {"jacobian_outputs_inputs": "INPUTS", "jacobian_outputs_raw": "STATE"}
 COLUMNS |= {"mass_matrix": "ALGEBRA", "jacobian_raw_inputs": "INPUTS"}
@@ -207,7 +205,7 @@ def length(array, function, known):
     if function == "poisson":
         return known["REDUCED"] ** 2
     if function == "to_matrix":
-        return known["STATE"] + MORE
+        return known["MATRIX"]
     if array == "out":
         return known["INPUTS" if function.startswith("inputs_") else "STATE"]
     return known[LENGTHS[array]]
@@ -254,7 +252,12 @@ class Library:
         """The arrays p, k, u, x by their letters, with y, which is x, and z, which is x and then
         its first numbers again, as for a matrix."""
         x = np.asarray(values["x"], float)
-        return values | {"y": x, "z": np.resize(x, len(x) + MORE)}
+        return values | {"y": x, "z": np.resize(x, len(x) + self.more)}
+
+    @property
+    def more(self):
+        """How many numbers a state has more with matrices than with quaternions and angles."""
+        return self.sizes.get("MATRIX", self.sizes["STATE"]) - self.sizes["STATE"]
 
     def shown(self, call, values, u):
         """All that a function says, one array or, where it is asked in more than one way, more."""
@@ -316,7 +319,7 @@ class Native(Library):
         real = LANGUAGES[self.language].reals[self.real]
         watched = self.sizes.get("EVENTS", 0) > 0
         kinds = {"watched": watched, "driven": self.sizes["INPUTS"] > 0}
-        made = write(self.name, real, self.calls, found, **kinds, more=MORE)
+        made = write(self.name, real, self.calls, found, **kinds, more=self.more)
         return made, OPTIMISED[self.language] if found else ()
 
     def of_c(self):

@@ -140,8 +140,8 @@ def refuse(d: Derivation, group: Group, options: Options) -> None:
         reason = "is not written for a product of groups"
     elif options.velocity == "tangent":
         reason = "has Z in the state, and --velocity tangent has dg/dt"
-    elif options.attitude == "quaternion":
-        reason = "has A in the state, and --attitude quaternion has not"
+    elif options.attitude != "matrix":
+        reason = f"has A in the state, and --attitude {options.attitude} has not"
     elif options.frame != "given":
         reason = "is for the body as given, and --frame turns it"
     if reason:

@@ -19,8 +19,10 @@ from typing import Any
 from zlib import crc32
 
 from ...algebra.exact_kernel import PRIMES, ResidueVector, ResidueVectorSource, Rows, kernel, pivots
+from ...algebra.factor_charts import FactorChart
 from ...language import rational as q
 from ...language.tree import nodes
+from ..charts import drawn
 from ..ellipsoid import BUNDLES
 from ..program import EmittedFunction, KeptByGauss
 from ..state import StateSpace
@@ -110,24 +112,26 @@ class _Points:
         """A function of no property but that it is one; of the name alone."""
         if name == "none":
             return ResidueVector([int(v == 0) for v in (x + self.source.constant(0)).values], P)
+        if name in ("cos", "sin"):  # on the circle, by the tangent of the half
+            y = self._any_function("half", x)
+            found: ResidueVector = (1 - y * y if name == "cos" else 2 * y) / (1 + y * y)
+            return found
         shifted: ResidueVector = x + self.source.constant(crc32(name.encode()))
         return shifted ** (P // 3 + len(name))
 
 
 def _on_the_group(space: StateSpace, at: _Points) -> list[ResidueVector]:
     """Random states on the group, in the form of a state."""
-    if not space.slots:
+    if not space.has_element:
         return [at.draw() for _ in space.names]
     zero = at.source.constant(0)
-    turned: list[ResidueVector] = []
-    if space.quaternion:
-        v = [at.draw() for _ in range(3)]
-        square = reduce(add, (x * x for x in v))
-        turned = [(1 - square) / (1 + square), *(2 * x / (1 + square) for x in v)]
-        place = [*turned, *(at.draw() for _ in space.entry_slots)]
-    else:
-        g = space.group.sample_inside(at.source)
-        place = [x + zero for x in space.entries(g)]
+    g = space.group.sample_inside(at.source)
+    place: list[ResidueVector] = []
+    for x in space.held_of_g:
+        if isinstance(x, FactorChart):
+            place += drawn(x, at.draw)
+        else:
+            place += [y + zero for y in space.entries(g, [x])]
     if not space.tangent:
         return [*place, *(at.draw() for _ in range(len(space.names) - len(place)))]
     Z = q.combine([at.draw() for _ in space.group.basis], space.group.basis)
@@ -136,7 +140,7 @@ def _on_the_group(space: StateSpace, at: _Points) -> list[ResidueVector]:
 
 def _dimension(space: StateSpace) -> int:
     """That of the states on the group."""
-    if not space.slots:
+    if not space.has_element:
         return len(space.names)
     return 2 * space.group.dimension - len([*space.held])
 

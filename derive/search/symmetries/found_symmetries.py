@@ -305,7 +305,7 @@ def emitted_state(problem: Problem) -> dict[str, Tree]:
     found: list[Tree] = []
     for offset, factor in group.places:
         rows = range(offset + 1, offset + factor.n + 1)
-        found += [("entry", "A", i, j) for i in rows for j in rows]
+        found += [("entry", "A", i, j) for i in rows for j in rows if not factor.vectors]
         found += [("entry", "A", i, offset + factor.size) for i in rows if factor.affine]
     held = problem.lagrangian.held if problem.lagrangian else ()
     names = StateSpace(Graph(), problem.group, Options(), held=held).names
