@@ -146,7 +146,7 @@ def test_what_acts_must_be_steady_smooth_and_linear():
     for problem, why in (
         (acting("t"), "depends on the time"),
         (acting("u^2"), "inputs do not act linearly"),
-        (acting("abs(zeta_1)"), "sqrt is in the equations"),
+        (acting("abs(zeta_1)"), "abs is in the equations"),
         (acting("sin(zeta_1)"), "sin is in the equations"),
         (acting("k*zeta_1", **parameter), "k has no default"),
     ):
