@@ -17,7 +17,7 @@ from .emitted import Emitted
 from .first_numbers import MotionError
 from .native import AT_EVENT, CompileError, Integers, constants, ensemble
 from .run import Array
-from .simulate import require_values
+from .simulate import require_mass, require_values
 from .start import OFF_THE_GROUP, Start, start
 from .trajectory import TOLERANCE, Method, instants, reflection, taken_to_group, why_unreached
 
@@ -188,6 +188,7 @@ class EnsembleMotions:
         self.first = self._start(first)
         stated = {name for t in problem.initial.trees() for name in names(t)}
         require_values(code, self.first)
+        require_mass(code, problem, self.first, plan.duration)
         self.one_by_one = bool(stated & {*plan.names})  # the start is an expression of them
         if plan.device and code.events:
             raise MotionError(
