@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[1]
 CONTENTS = {
     "Use": "tutorial playground commands problem-file potentials/* lagrangian dirichlet fluid "
     "zeitlin kinematics symmetries integrals reduction equilibria control motion ensembles plot "
-    "notes code options steps discrete build fmu compare python sympy record",
+    "notes lecture code options steps discrete build fmu compare python sympy record",
     "Trust": "trust performance not-here strangers ../SECURITY paper",
     "Inside": "architecture extending reference ../CONTRIBUTING ../CHANGELOG",
 }

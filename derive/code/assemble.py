@@ -27,7 +27,7 @@ from .principal_frame import PrincipalFrame, frame_changes, inertia, turning
 from .program import EmittedFunction, Framing, KeptByGauss, LoweringError, Program
 from .reader import RecordReader
 from .requests import require_written
-from .schedule import Scheduler, by_leaves, by_numbers, by_state, frontier
+from .schedule import Scheduler, by_leaves, by_numbers, by_state, frontier, variations
 from .state import StateSpace
 from .state_forms import FROM_MATRIX, LABELS, TO_MATRIX, matrix_state
 from .step.discrete_step import STEPPING, Lowered, lowered
@@ -227,7 +227,7 @@ def _functions(
         slopes = factored(lowering.graph, slopes)
         functions["jacobian_parameters"] = scheduler.function(slopes, moving | from_p)
     framing = _framing(frame, scheduler, from_p, numbers) if frame else None
-    for name, nodes in drift(space).items():
+    for name, nodes in drift(space, slopes="step" in options.jacobian).items():
         functions[name] = scheduler.function(nodes, moving)
     if door := matrix_state(space):
         functions[TO_MATRIX] = scheduler.function(door.outputs[TO_MATRIX], moving)
@@ -289,8 +289,15 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
         if "inputs" in options.jacobian:
             leaves = [reader.leaf(x, "input") for x in reader.inputs]
             found["jacobian_inputs"] = factored(graph, by_leaves(space, second, leaves))
-        if "raw" in options.jacobian:
+        if {"raw", "step"} & {*options.jacobian}:
             found["jacobian_raw"] = _raw(lowering, rates)
+        if "step" in options.jacobian:
+            leaves = [reader.leaf(x, "input") for x in reader.inputs]
+            if leaves:
+                slopes = by_numbers(graph, rates, leaves)
+                found["jacobian_raw_inputs"] = factored(graph, slopes)
+            numbers = [reader.leaf(x, "state") for x in space.names]
+            found["variations"] = [v.of(x) for x in numbers for v in variations(space)]
     except ZeroDivisionError:
         raise LoweringError(
             f"{lowering.record.name}: a division by zero, or a mass matrix that is singular "

@@ -21,9 +21,10 @@ from ..algebra.relations import Relations, relations
 from ..language import rational as q
 from ..language.rational import Matrix
 from . import dense
+from .factor import factored
 from .graph import Graph, Node
 from .program import Block
-from .schedule import Directional
+from .schedule import Directional, by_numbers
 from .slots import conjugate, multiplied
 from .state import StateSpace
 
@@ -39,8 +40,9 @@ TEXTS = {
 """The label of the values of a relation, and what stands in a comment before them."""
 
 
-def drift(x: StateSpace) -> dict[str, list[Node]]:
-    """The outputs of ``project`` and ``defect``, by name; empty where G has no relations."""
+def drift(x: StateSpace, *, slopes: bool = False) -> dict[str, list[Node]]:
+    """The outputs of ``project`` and ``defect``, and the derivative of the former where ``slopes``
+    are asked for, by name; empty where G has no relations."""
     g, leaves = x.graph, [x.graph.leaf(name, "state") for name in x.names]
     steps = [_unit_quaternion(x)] if x.quaternion else _blocks(x) if x.slots else []
     images = {leaf: image for step in steps for leaf, image in step.images.items()}
@@ -54,7 +56,10 @@ def drift(x: StateSpace) -> dict[str, list[Node]]:
         images |= {rate: moving.of(images.get(y, y)) for y, rate in pairs}
         residuals += [moving.of(y) for y in residuals]
     sizes = g.sum(g.absolute(y) for y in residuals)
-    return {"project": [images.get(y, y) for y in leaves], "defect": [sizes]}
+    found = {"project": [images.get(y, y) for y in leaves], "defect": [sizes]}
+    if slopes:
+        found["jacobian_project"] = factored(g, by_numbers(g, found["project"], leaves))
+    return found
 
 
 @dataclass

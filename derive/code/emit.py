@@ -26,7 +26,7 @@ from .program import TOLERANCE, Program
 from .requests import EmissionRequest, hollowed, identifiers, without_collisions
 from .signatures import ARRAYS, functions
 from .step.algorithms import ALGORITHMS, PRINTERS
-from .step.step_numbers import IN_FLOAT, steps
+from .step.step_numbers import IN_FLOAT, VARIED, steps
 from .step.tableaux import METHODS
 from .torus.printed_sums import printed_sums
 from .torus.torus_program import Loops
@@ -97,6 +97,8 @@ def planned(languages: Sequence[str], prefix: str, chosen: Options) -> dict[str,
         raise EmitError(f"{of_double[0]} is of doubles: leave out --real float")
     if chosen.ensemble and not {"c"} & {x for y in languages for x in (y, LANGUAGES[y].needs)}:
         raise EmitError("--ensemble is written in C: add --lang c")
+    if "step" in chosen.jacobian and not {*VARIED} & {*chosen.step}:
+        raise EmitError(f"--jacobian step is that of --step {', '.join(VARIED)}: add one of these")
     if chosen.order and "discrete" not in chosen.step:
         raise EmitError(
             "--order is that of --step discrete; other steps have one of their own: leave it out"

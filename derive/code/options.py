@@ -34,10 +34,10 @@ ADDED: dict[str, str] = {
 
 REPEATED: dict[str, tuple[tuple[str, ...], str]] = {
     "jacobian": (
-        ("state", "inputs", "parameters", "raw", "outputs"),
+        ("state", "inputs", "parameters", "raw", "outputs", "step"),
         "also the linearised equations, in the state, the inputs or the parameters, or (raw) the "
         "derivative of dx/dt by x as it is stored, for implicit integrators; or that of the "
-        "outputs, in the state and the inputs; repeated",
+        "outputs, or (step) of the emitted steps, in the state and the inputs; repeated",
     ),
     "step": (
         ("gauss", "rk4", "vern9", "discrete", "gauss_jax"),

@@ -139,6 +139,24 @@ SIGNATURES = (
         "that of dx/dt by x as it is stored, by rows",
     ),
     Signature(
+        "jacobian_raw_inputs",
+        (T, X, K, U),
+        (Argument("D", ("STATE", "INPUTS")),),
+        "the derivative of dx/dt by u, by rows",
+    ),
+    Signature(
+        "jacobian_project",
+        (X,),
+        (Argument("D", ("STATE", "STATE")),),
+        "the derivative of what project gives by x as it is stored, by rows",
+    ),
+    Signature(
+        "variations",
+        (X,),
+        (Argument("D", ("STATE", "2", "ALGEBRA")),),
+        "what x, as it is stored, changes by along (eta, delta zeta), by rows",
+    ),
+    Signature(
         "jacobian_outputs",
         (T, X, K, U),
         (Argument("D", ("OUTPUTS", "2", "ALGEBRA")),),

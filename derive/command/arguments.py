@@ -139,8 +139,6 @@ class Parser(argparse.ArgumentParser):
 
 def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
     """The parser of all commands: name → function, whose docstring is its help."""
-    from ..views.language import LANGUAGES
-
     top = Parser(prog="derive", description=about)
     top.add_argument("--version", action="version", version=f"derive {__version__}")
     subcommands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
@@ -189,10 +187,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
             one.add_argument(f"--allow-negative-{name}", action="store_true", help=about)
     add_picture_options(command("plot"))
     add_comparison_options(command("compare"))
-    paper = command("paper")
-    paper.add_argument("--format", choices=("text", "json"), default="text")
-    paper.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
-    paper.add_argument("--out", type=text_file, metavar="FILE", help=FILE)
+    add_lecture_options(command("lecture"), command("paper"))
     build = command("build")
     build.add_argument("--out", type=named_file, metavar="DIR", default="generated")
     build.add_argument("--print", action="store_true", help="print the walks as well")
@@ -347,6 +342,23 @@ def add_search_options(searched: argparse.ArgumentParser, steady: argparse.Argum
     searched.add_argument("--at-defaults", action="store_true", help=about)
     about = "also find the conditions on the parameters under which there are more integrals"
     searched.add_argument("--conditions", action="store_true", help=about)
+
+
+def add_lecture_options(lecture: argparse.ArgumentParser, paper: argparse.ArgumentParser) -> None:
+    """Add the options of ``lecture``, file, language, solutions, trial of its claims, and of
+    ``paper``."""
+    from ..views.language import LANGUAGES
+
+    about = "FILE.tex, .pdf or .html"
+    lecture.add_argument("--out", type=named_file, metavar="FILE", required=True, help=about)
+    about = "of the exercises: at the end of each chapter, or left out (default: end)"
+    lecture.add_argument("--solutions", choices=("end", "none"), default="end", help=about)
+    about = "try every equation of the text anew, as derive check does those of a record"
+    lecture.add_argument("--check", action="store_true", help=about)
+    paper.add_argument("--format", choices=("text", "json"), default="text")
+    paper.add_argument("--out", type=text_file, metavar="FILE", help=FILE)
+    for one in (lecture, paper):
+        one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
 
 
 def add_reading_options(

@@ -1,5 +1,5 @@
 """The command line: ``derive list | walk | symmetries | reduction | integrals | equilibria | trim |
-notes | emit | simulate | plot | check | compare | paper | build``."""
+notes | lecture | emit | simulate | plot | check | compare | paper | build``."""
 
 from __future__ import annotations
 
@@ -130,8 +130,16 @@ def command_reduction(args: argparse.Namespace) -> int:
     return 0
 
 
+def command_lecture(args: argparse.Namespace) -> int:
+    """The lecture, a text for people that names the steps that prove it: .tex, .pdf or .html."""
+    from .lecturing import command_lecture
+
+    return command_lecture(args)
+
+
 def command_notes(args: argparse.Namespace) -> int:
-    """Lecture notes of problems: .tex, .pdf or .html; or .sty, the macros of their fragments."""
+    """The whole record of problems as notes: .tex, .pdf, .html; or .sty, the macros of their
+    fragments."""
     from .simulating import command_notes
 
     return command_notes(args)
@@ -317,6 +325,7 @@ COMMANDS = {
     "symmetries": command_symmetries,
     "reduction": command_reduction,
     "notes": command_notes,
+    "lecture": command_lecture,
     "emit": command_emit,
     "simulate": command_simulate,
     "plot": command_plot,

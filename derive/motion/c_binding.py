@@ -65,6 +65,15 @@ void derive_{step}({name}_motion *m, const double *k, const double *u, double h,
     *told = {name}_{step}(m, k, u, h, n);
 }}
 """
+VARY = """\
+void derive_{step}_jacobian({name}_motion *m, const double *k, const double *u, double h, size_t n,
+    double *phi, double *gamma, int *told);
+void derive_{step}_jacobian({name}_motion *m, const double *k, const double *u, double h, size_t n,
+    double *phi, double *gamma, int *told)
+{{
+    *told = {name}_{step}_jacobian(m, k, u, h, n, phi, gamma);
+}}
+"""
 MOVE_TO_EVENT = """\
 void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
     int *told);
@@ -154,12 +163,14 @@ def binding(
     ensemble: bool = False,
     events: bool = False,
     driven: bool = False,
+    varied: Sequence[str] = (),
 ) -> str:
     """C that makes functions of a library of the inline functions of a header of steps; those that
-    are ``fixed`` have no size of their own; are there ``events``, and inputs, which may be
-    ``driven``?"""
+    are ``fixed`` have no size of their own, those that are ``varied`` have derivatives; are there
+    ``events``, and inputs, which may be ``driven``?"""
     every, to = ((MOVE, WATCH), MOVE_TO_EVENT) if events else ((MOVE,), MOVE_TO)
     moves = [text.format(name=name, step=x) for x in steps for text in every]
+    moves += [VARY.format(name=name, step=x) for x in varied]
     moves += [to.format(name=name, step=x) for x in steps if x not in fixed]
     parts = [
         INCLUDE,

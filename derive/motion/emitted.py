@@ -110,8 +110,8 @@ class Emitted(EmittedCode):
         ``CompileError`` where there is no compiler."""
         name = self.prefix
         files = emit(self.program, self.record, ("c",), name, self.options)
-        has = {"events": bool(self.events), "driven": bool(self.program.inputs)}
-        files["steps.c"] = binding(name, (self.step,), FIXED, **has)
+        events, driven = bool(self.events), bool(self.program.inputs)
+        files["steps.c"] = binding(name, (self.step,), FIXED, events=events, driven=driven)
         to_rounding = f"-D{name}_ENOUGH=0"
         return loaded(CSource(name, tuple(files.items()), None, (*FLAGS, to_rounding)))
 

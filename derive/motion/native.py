@@ -241,6 +241,12 @@ class Motion:
             self._taken_to_group(self._named(step), ctypes.c_double(h), count)
         return self
 
+    def move_varied(self, h: float, n: int, step: str, phi: Array, gamma: Array) -> Motion:
+        """The same by a step with derivatives, which are written to phi and gamma, by rows."""
+        name, count = f"{self._named(step)}_jacobian", ctypes.c_size_t(n)
+        how = ctypes.c_double(h), count, pointer(phi), pointer(gamma)
+        return self._taken_to_group(name, *how)
+
     def move_to(self, t: float, tol: float = 1e-9, step: str = "") -> Motion:
         """Move up to a time, or to an event before it, in steps of their own size for a tolerance;
         the same call again goes on from an event."""

@@ -23,7 +23,7 @@ from ..code.languages import LANGUAGES
 from ..code.naming import own_prefix
 from ..code.options import ADDED, options_of
 from ..code.program import Block, Program
-from ..code.step.step_numbers import FIXED
+from ..code.step.step_numbers import FIXED, VARIED, varied
 from ..language.reserved import did_you_mean, near_name
 from ..motion.c_binding import binding
 from ..motion.native import (
@@ -270,6 +270,10 @@ class Compiled(InMomenta, OnTheGroup):
 
     def begin(self, x: Any, t: float = 0.0) -> Motion:
         """The motion in state x, on the group, at time t; needs ``step="gauss"`` or others."""
+        return self._begun(x, t, lambda: self._in_use()[1:3])
+
+    def _begun(self, x: Any, t: float, numbers: Callable[[], tuple[Array, Array]]) -> Motion:
+        """The same, with what gives the constants and the inputs of its moves."""
         if not self.STEPS:
             raise ValueError('not compiled: ask for it by compile(..., step="gauss")')
         state = np.array(x, dtype=float)
@@ -284,7 +288,7 @@ class Compiled(InMomenta, OnTheGroup):
                 "that is near it there"
             )
         events = self._names.events
-        return Motion(self._library, self.STEPS, events, lambda: self._in_use()[1:3], state, t)
+        return Motion(self._library, self.STEPS, events, numbers, state, t)
 
     def ensemble(
         self,
@@ -349,6 +353,29 @@ class Compiled(InMomenta, OnTheGroup):
         D = np.zeros((size, size))
         self._call_at("jacobian_raw", None, t, x, k, self._inputs(u), D)
         return D
+
+    def step_jacobian(
+        self, t: float, x: Any, h: float, u: Any = None, *, n: int = 1, step: str = ""
+    ) -> tuple[Array, Array, Array]:
+        """The state after n steps of size h from x, on the group, with the inputs held; Φ (2d, 2d)
+        and Γ (2d, inputs), what (η, δζ) is there by (η, δζ) at x and by the inputs: derivatives of
+        the step itself.
+
+        ``step``: the first of those that are compiled when left out; ``jacobian="step"`` is needed.
+        ``StepError`` where there is no such step.
+        """
+        name = step or next(iter(self.STEPS), "")
+        if not hasattr(self._library, f"derive_{name}_jacobian"):
+            raise ValueError(
+                "not compiled: ask for it by compile(..., step='rk4', jacobian='step'); there are "
+                f"derivatives of {', '.join(VARIED)}"
+            )
+        if n < 1 or not np.isfinite(h):
+            raise ValueError(f"expected a number of steps and their size, not n = {n}, h = {h}")
+        phi, gamma = self._zeros(), self._zeros(len(self.INPUTS))
+        k, held = self._in_use().k, self._inputs(u)
+        motion = self._begun(x, t, lambda: (k, held))
+        return motion.move_varied(h, n, name, phi, gamma).x, phi, gamma
 
     def mass_matrix(self, t: float, x: Any) -> Array:
         """The mass matrix, (d, d) in the basis of the velocity; needs ``dynamics=True``."""
@@ -545,7 +572,12 @@ def compile(
         files["group.c"] = on_the_group.binding(name, made_of.group_functions)
     if options.moves:
         files["steps.c"] = binding(
-            name, options.step, FIXED, ensemble=options.ensemble, events=bool(made_of.events)
+            name,
+            options.step,
+            FIXED,
+            ensemble=options.ensemble,
+            events=bool(made_of.events),
+            varied=varied(options),
         )
     names = Names.of(made_of, options.step, [*derived.problem.parameters])
     source = CSource(name, tuple(files.items()), compiler, tuple(flags))

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import Any, ClassVar
 
 from .printer import ATOM, COMPARE, COMPARED, SUM, WIDTH, Lines, Printer, flat
-from .source import LANES, Type, arguments
+from .source import LANES, Type, arguments, is_matrix
 
 KEYWORDS = ("begin", "end")
 """Names of the algorithms that are words of Julia."""
@@ -250,8 +250,11 @@ class Julia(Printer):
             names = [*arguments(self.source.routines[name])]
             of = dict(zip(names, texts, strict=True))
             first, time, inputs = of.pop(names[-1]), of.pop("t", ""), of.pop("u", "")
-            if name == "jacobian_raw":  # which is written by rows
-                first = f"PermutedDimsArray(reshape({first}, N_STATE, N_STATE), (2, 1))"
+            if is_matrix(self.source.routines[name]):  # which is written by rows
+                (size,) = arguments(self.source.routines[name])[names[-1]].sizes
+                rows, columns = size.split(" * ")
+                columns = self.bare(ast.parse(columns, mode="eval").body)
+                first = f"PermutedDimsArray(reshape({first}, {columns}, {rows}), (2, 1))"
             listed = ", ".join([first, *of.values(), *[time] * bool(time)])
             return (
                 f"{self.given['functions'][name]}!({listed}{f'; u = {inputs}' if inputs else ''})"

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any, ClassVar
 
 from .printer import ATOM, BREAKS, WIDTH, Lines, Printer
-from .source import Type
+from .source import Type, is_matrix
 
 
 class Python(Printer):
@@ -291,7 +291,8 @@ class Python(Printer):
         back = self.given["returned"].get(name)
         if back:
             call = f"{back}{', '.join(map(self.outside, given[:-1]))})"
-            return f"{last}[:] = {f'{call}.ravel()' if name == 'jacobian_raw' else call}"
+            flat = is_matrix(self.source.routines[name])
+            return f"{last}[:] = {f'{call}.ravel()' if flat else call}"
         if name.endswith("_added"):  # one product of matrices takes less time than many sums
             b, f, to = map(self.outside, given)
             return f"{to} += {b} @ {f}"

@@ -129,6 +129,11 @@ def is_stub(f: ast.FunctionDef) -> bool:
     return ast.unparse(f.body[-1]) == "..."
 
 
+def is_matrix(f: ast.FunctionDef) -> bool:
+    """Is what a routine of the file writes, the last of its arguments, a matrix by rows?"""
+    return " * " in ast.unparse(f.args.args[-1])
+
+
 def arguments(f: ast.FunctionDef) -> dict[str, Type]:
     """The types of the arguments of a routine."""
     return {a.arg: Type.of(a.annotation) for a in f.args.args}

@@ -16,9 +16,10 @@ from typing import Any
 
 from ..check.lagrangian.lagrangian_model import LagrangianModel
 from ..check.trials.model import Model
+from ..check.values.arithmetic import EPS, part
 from ..language import rational as q
 from ..record.as_json import to_json
-from .chart import ReducedChart, StateChart
+from .chart import EPSILON, ReducedChart, StateChart
 from .discrete_functions import DiscreteFunctions
 from .exact_points import Claims, Point, WithIntegrals
 from .functions_of_state import (
@@ -213,6 +214,8 @@ class Comparison:
         if "project" in self.module.functions:
             drift = partial(self._drift_numbers, arguments)
             found.append(compare_drift(drift, self._draw, self.claims.state, point))
+        if "jacobian_project" in self.module.functions:
+            found.append(self._slopes_of_project(arguments))
         if "to_matrix" in self.module.functions:
             own = self._attitude, self._require_equal, self.claims.state
             found += compare_attitude(*own, point)
@@ -311,6 +314,21 @@ class Comparison:
             found = run(summands(function), arguments, elementary, literal)
             self._measure(found)
         return [getattr(y, "value", y) for y in found]
+
+    def _slopes_of_project(self, arguments: Mapping[str, Any]) -> str:
+        """Compare ``jacobian_project`` with the derivative of ``project`` at a state off the
+        group, from where a step is taken there."""
+        x = [self._draw() for _ in self.point.rates]
+        columns = []
+        for j in range(len(x)):
+            beside = [y + EPSILON * Fraction(i == j) for i, y in enumerate(x)]
+            moved = self._drift_numbers(arguments, "project", beside)
+            columns.append([part(y, EPS) for y in moved])
+        there = {**arguments, "x": self._array(x, "x", self.claims.entry_degree)}
+        D = [y for row in zip(*columns, strict=True) for y in row]
+        found = self._call("jacobian_project", there, D=len(D))["D"]
+        self._require_equal("jacobian_project", [f"entry {i}" for i in range(len(D))], found, D)
+        return "jacobian_project"
 
     def _attitude(self, name: str, x: Sequence[Any], size: int) -> Sequence[Any]:
         """The numbers of ``to_matrix`` at the state x, or of ``from_matrix`` at z."""

@@ -191,24 +191,38 @@ class ExactJacobians:
             "jacobian": self._state(),
             "jacobian_inputs": self._inputs(),
             "jacobian_parameters": self._parameters(),
-            "jacobian_raw": self._raw(),
+            "jacobian_raw": self._rates_by("x"),
+            "jacobian_raw_inputs": self._rates_by("u"),
+            "variations": self._variations(),
             "jacobian_outputs": self._outputs_along(),
             "jacobian_outputs_inputs": self._outputs_by("u"),
             "jacobian_outputs_raw": self._outputs_by("x"),
         }
 
-    def _outputs_along(self) -> Iterator[list[Fraction]]:
-        """The columns of the derivative of ``outputs`` along η = E_a, then along δζ = E_a."""
+    def _varied(self) -> Iterator[Sequence[Any]]:
+        """The state, in nilpotent numbers, along η = E_a, then along δζ = E_a."""
         none, basis = q.scaled(ZERO, self.point.Z), self.state.group.basis
         for pairs in (((e, none) for e in basis), ((none, e) for e in basis)):
             for eta, change in pairs:
-                yield self._read({"x": self.state.varied(self.point.g, self.point.Z, eta, change)})
+                yield self.state.varied(self.point.g, self.point.Z, eta, change)
+
+    def _variations(self) -> Iterator[list[Fraction]]:
+        """The columns of the derivative of the numbers of the state along these."""
+        return ([part(y, EPS) for y in x] for x in self._varied())
+
+    def _outputs_along(self) -> Iterator[list[Fraction]]:
+        """The columns of the derivative of ``outputs`` along these."""
+        return (self._read({"x": x}) for x in self._varied())
 
     def _outputs_by(self, array: str) -> Iterator[list[Fraction]]:
         """The columns of the derivative of ``outputs`` by the numbers of an array."""
+        return map(self._read, self._beside(array))
+
+    def _beside(self, array: str) -> Iterator[dict[str, list[Any]]]:
+        """An array with each of its numbers in turn moved, by a nilpotent one."""
         given = self.point.arguments[array]
         for j in range(len(given)):
-            yield self._read({array: [y + EPSILON if i == j else y for i, y in enumerate(given)]})
+            yield {array: [y + EPSILON if i == j else y for i, y in enumerate(given)]}
 
     def _read(self, changed: Mapping[str, Sequence[Any]]) -> list[Fraction]:
         return [part(y, EPS) for y in self._called("outputs", "out", self.outputs, changed)]
@@ -231,18 +245,13 @@ class ExactJacobians:
         back = q.times(q.minus(q.identity(len(eta)), q.scaled(EPSILON, eta)), self._inverse())
         return [part(y, EPS) for y in self.state.acceleration(Z, back, rates)]
 
-    def _raw(self) -> Iterator[list[Fraction]]:
-        """The columns of the derivative of ``rhs`` by the numbers of the state."""
-        x = self.point.arguments["x"]
-        for j in range(len(x)):
-            rates = self._rates({"x": [y + EPSILON if i == j else y for i, y in enumerate(x)]})
-            yield [part(y, EPS) for y in rates]
+    def _rates_by(self, array: str) -> Iterator[list[Fraction]]:
+        """The columns of the derivative of ``rhs`` by the numbers of an array."""
+        return ([part(y, EPS) for y in self._rates(x)] for x in self._beside(array))
 
     def _inputs(self) -> Iterator[list[Fraction]]:
         """The columns of the Jacobian in the inputs u."""
-        u = self.point.arguments["u"]
-        for j in range(len(u)):
-            yield self._rates_column({"u": [y + EPSILON if i == j else y for i, y in enumerate(u)]})
+        return map(self._rates_column, self._beside("u"))
 
     def _parameters(self) -> Iterator[list[Fraction]]:
         """The columns of the Jacobian in the parameters p."""

@@ -42,6 +42,9 @@ CONTRACT = {
     "jacobian_inputs": ("t x k u", "D"),
     "jacobian_raw": ("t x k u", "D"),
     "jacobian_parameters": ("t x p u", "D"),
+    "jacobian_raw_inputs": ("t x k u", "D"),
+    "jacobian_project": ("x", "D"),
+    "variations": ("x", "D"),
     "jacobian_outputs": ("t x k u", "D"),
     "jacobian_outputs_inputs": ("t x k u", "D"),
     "jacobian_outputs_raw": ("t x k u", "D"),
@@ -105,7 +108,7 @@ def _c_heads(f: str, prefix: str, takes: list[str], writes: list[str]) -> list[s
 def _python_heads(f: str, prefix: str, takes: list[str], writes: list[str]) -> list[str]:
     """Functions of the state have the arguments of ``rhs``, with y beside x or in its place."""
     del prefix, writes
-    if "t" in takes or f in ("project", "defect", "to_matrix"):
+    if "t" in takes or takes == ["x"]:
         state = [x for x in takes if x in "xy"]
         takes = ["t", *state, "p" if "p" in takes else "k", "u"]
     if f == "step_force":

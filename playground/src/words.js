@@ -27,7 +27,7 @@ export const WORDS = {
       frame: { given: "as in the file", principal: "of its moments" },
       velocity: { body: "Z = g⁻¹ dg/dt", tangent: "dg/dt" },
       state: { whole: "all entries of g", moving: "those that vary" },
-      jacobian: { state: "how a deviation grows", inputs: "what an input changes", parameters: "what a parameter changes", raw: "∂(dx/dt)/∂x, x as stored", outputs: "how what is read changes" },
+      jacobian: { state: "how a deviation grows", inputs: "what an input changes", parameters: "what a parameter changes", raw: "∂(dx/dt)/∂x, x as stored", outputs: "how what is read changes", step: "how a step’s end changes" },
       step: {
         gauss: "collocation at Gauss’s points", rk4: "Runge and Kutta’s, of order 4", vern9: "Verner’s, of order 9",
         discrete: "the discrete motion", gauss_jax: "gauss in JAX",
@@ -76,7 +76,7 @@ export const WORDS = {
       frame: { given: "comme dans le fichier", principal: "de ses moments" },
       velocity: { body: "Z = g⁻¹ dg/dt", tangent: "dg/dt" },
       state: { whole: "tous les coefficients de g", moving: "ceux qui varient" },
-      jacobian: { state: "comment un écart croît", inputs: "ce que change une entrée", parameters: "ce que change un paramètre", raw: "∂(dx/dt)/∂x, x tel que stocké", outputs: "comment varie ce qui se lit" },
+      jacobian: { state: "comment un écart croît", inputs: "ce que change une entrée", parameters: "ce que change un paramètre", raw: "∂(dx/dt)/∂x, x tel que stocké", outputs: "comment varie ce qui se lit", step: "comment varie la fin d’un pas" },
       step: {
         gauss: "collocation aux points de Gauss", rk4: "Runge et Kutta, d’ordre 4", vern9: "Verner, d’ordre 9",
         discrete: "le mouvement discret", gauss_jax: "gauss en JAX",
@@ -91,7 +91,7 @@ export const WORDS = {
       frame: "le corps comme il est donné, ou dans son repère principal",
       velocity: "l’état finit par Z = g⁻¹ dg/dt, ou par dg/dt",
       state: "tous les coefficients de g, ou sans ceux qui ne varient jamais", order: "celui de --step discrete (2 par défaut)",
-      jacobian: "aussi les équations linéarisées, en l’état, les entrées ou les paramètres, ou (raw) la dérivée de dx/dt par x comme il est stocké, pour les intégrateurs implicites ; ou celles des sorties, en l’état et les entrées ; plusieurs à la fois",
+      jacobian: "aussi les équations linéarisées, en l’état, les entrées ou les paramètres, ou (raw) la dérivée de dx/dt par x comme il est stocké, pour les intégrateurs implicites ; ou celles des sorties, ou (step) des pas de temps émis, en l’état et les entrées ; plusieurs à la fois",
       step: "aussi un pas de temps, et un mouvement qui avance par lui ; gauss_jax est gauss en JAX ; plusieurs à la fois",
       momenta: "aussi le mouvement en moments : vers eux et retour, leurs dérivées, le tenseur de Poisson",
       dynamics: "ajoute la matrice de masse M et le biais b : les entrées doivent fournir M a + b pour les accélérations a",

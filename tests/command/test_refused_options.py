@@ -41,7 +41,9 @@ def test_the_reasons_are_those_of_the_command(name, capsys, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-REFUSED_OF_SO3 = ("form header", *(f"order {k}" for k in (2, 4, 6, 8)), "multiplier", "ensemble")
+ORDERS = [f"order {k}" for k in (2, 4, 6, 8)]
+REFUSED_OF_SO3 = ("form header", *ORDERS, "multiplier", "ensemble")
+REFUSED_OF_SO3 += ("jacobian outputs", "jacobian step")
 CHOICES_OF_SO3 = dict(further(("python",), Options()))
 
 

@@ -3,7 +3,9 @@
 import os
 import shutil
 import tempfile
+import zipfile
 from contextlib import contextmanager, suppress
+from itertools import chain
 from pathlib import Path
 
 from derive.check.checker import Checker
@@ -29,7 +31,8 @@ solid = "mesh"
 density = 2
 file = "{}"
 """
-OTHERS = [x for name in LANGUAGES if name not in ("c", "python") for x in ("--lang", name)]
+ALONE = ("c", "python", "fmu")
+OTHERS = [x for name in LANGUAGES if name not in ALONE for x in ("--lang", name)]
 COMMANDS = {
     "text": ("walk", "{}", "--out", "out/walk.txt"),
     "french": ("walk", "{}", "--lang", "fr", "--out", "out/walk.txt"),
@@ -40,6 +43,7 @@ COMMANDS = {
     "emit": ("emit", "{}", "--lang", "c", "--lang", "python", "--out", "out"),
     "others": ("emit", "{}", *OTHERS, "--out", "out"),
     "every": ("emit", "{}", "--lang", "c", "--lang", "python", *OTHERS, "--out", "out"),
+    "fmu": ("emit", "{}", "--lang", "fmu", "--out", "out"),
     "framed": ("emit", "{}", "--frame", "principal", "--jacobian", "state", "--out", "out"),
     "notes": ("notes", "{}", "--out", "out/notes.tex"),
     "check": ("check", "{}", "--seconds", f"{SECONDS * 0.8}"),
@@ -77,15 +81,23 @@ def faults_of(files, main, commands, slack=1.0, *, watch=True):
             result, slack = repeated(arguments, home, out, watch, slack)
             wrong = judged(result, slack, record=main.endswith(".json"))
             made = sorted(Path(out).rglob("*")) if os.path.isdir(out) else []
-            for path in made:
-                words = wrong_with(path.name, path.read_text(encoding="utf-8"))
-                wrong += [f"{path.name}: {words}"] if words else []
+            for name, content in chain.from_iterable(map(members, made)):
+                words = wrong_with(name, content.decode("utf-8"))
+                wrong += [f"{name}: {words}"] if words else []
             if result.status == 2 and made:
                 wrong.append(f"refused, and wrote {made}")
             if extra := {*os.listdir(home)} - names:
                 wrong.append(f"files {extra}")
             found += [(command, words) for words in wrong]
     return found
+
+
+def members(path):
+    """The names and the bytes of a file that was made; an archive (an FMU) has several."""
+    if not zipfile.is_zipfile(path):
+        return [] if path.is_dir() else [(path.name, path.read_bytes())]
+    with zipfile.ZipFile(path) as archive:
+        return [(x.filename, archive.read(x)) for x in archive.infolist() if not x.is_dir()]
 
 
 def repeated(arguments, home, out, watch, slack):

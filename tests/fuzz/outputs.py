@@ -4,6 +4,7 @@ import ast
 import json
 import re
 from html.parser import HTMLParser
+from xml.etree import ElementTree
 
 MARK = "PWNED"
 C_TEXT = re.compile(r'/\*.*?\*/|//[^\n]*|"(?:[^"\\\n]|\\.)*"', re.S)
@@ -89,6 +90,14 @@ def _json(text):
     return ""
 
 
+def _xml(text):
+    """A name of the problem is data: neither an element nor an attribute's name."""
+    for element in ElementTree.fromstring(text).iter():
+        if MARK in "".join((element.tag, *element.attrib)):
+            return f"element {element.tag!r:.60}"
+    return ""
+
+
 def _text(text):
     odd = {c for c in text if not c.isprintable() and c not in "\n\u00a0\u202f"}
     return f"letters {sorted(odd)!r}" if odd else ""
@@ -96,5 +105,5 @@ def _text(text):
 
 VIEWS = {
     "html": _html, "tex": _tex, "c": _c, "h": _c, "hpp": _c, "rs": _c, "mjs": _c, "py": _python,
-    "json": _json, "txt": _text,
+    "json": _json, "xml": _xml, "txt": _text,
 }  # fmt: skip

@@ -68,6 +68,7 @@ sys.exit(main([*sys.argv[1:], "--seconds", "0.0001"]))
 def test_every_command_may_be_stopped(command, tmp_path):
     needed = {
         "notes": ["so3", "--out", str(tmp_path / "n.html")],
+        "lecture": ["--out", str(tmp_path / "l.html")],
         "build": ["--out", str(tmp_path)],
         "simulate": ["so3", "--t", "1", "--set", "zeta_1=1"],
         "compare": ["so3", "--with", "users.py"],
@@ -77,6 +78,7 @@ def test_every_command_may_be_stopped(command, tmp_path):
     run = written(Run(columns, np.zeros((2, 2))), "run.csv")
     (tmp_path / "run.csv").write_bytes(run)
     needed |= {x: ["so3"] for x in ("walk", "emit", "check", "symmetries")}
+    needed |= {"trim": ["so3", "--at", "zeta_1=1"]}
     needed |= {x: ["gyrostat"] for x in ("integrals", "equilibria", "reduction")}
     words = [sys.executable, "-c", STOPPED, command, *needed.get(command, [])]
     untraced = {x: y for x, y in os.environ.items() if x != "COVERAGE_PROCESS_CONFIG"}

@@ -31,6 +31,15 @@ ALLOWED = {
     "views/figure": {"views/figure", "views/printing", "record", "schema", "language"},
     "views/paper": {"views/paper", "check", "record", "algebra", "language"},
     "views/plot": {"views/plot", "motion", "language"},
+    "lecture": {
+        "lecture",
+        "views",
+        "views/printing",
+        "views/figure",
+        "check",
+        "record",
+        "language",
+    },
     "views/page": {
         *("views/page", "views", "views/figure", "motion", "code"),
         *("problem", "record", "algebra", "language"),

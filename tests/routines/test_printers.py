@@ -131,6 +131,8 @@ def test_what_is_no_routine_is_said(text, words):
 LEFT = {
     "begin",
     "dense",
+    "multiplied",
+    "solved",
     "discrete_within",
     "rhs_lanes",
     "inputs_at",

@@ -10,6 +10,8 @@ status; of a motion it writes where that is, and before its state what stands in
 HEAD = ("event", "rising", "t", "h", "evaluations")
 FIXED = ("gauss", "rk4", "vern9", "discrete")
 """Steps of one size; the others have names that end in _to."""
+VARIED = "_jacobian"
+"""The end of the name of a step whose derivatives, two matrices by rows, follow the state."""
 UNKNOWN = -9
 """The status of a word that is not known, and of C++ whose spans say something else."""
 
@@ -23,7 +25,7 @@ def filled(text, **fields):
 
 def steps_in(text, before):
     """The steps that a file has, as functions whose names stand after some words."""
-    names = [*FIXED, *(f"{x}_to" for x in FIXED)]
+    names = [f"{x}{end}" for end in ("", "_to", VARIED) for x in FIXED]
     return [x for x in names if f"{before}{x}(" in text]
 
 
@@ -96,6 +98,8 @@ C_CALL = """\
     }"""
 C_MOTION = """\
     static @name@_motion m;
+    static real phi[4*@name@_N_ALGEBRA*@name@_N_ALGEBRA];
+    static real gamma[2*@name@_N_ALGEBRA*@name@_N_INPUTS + 1];
     if (!strcmp(word, "begin")) {
         @name@_begin(&m, t, x);
 @turned@    @steps@
@@ -112,6 +116,11 @@ C_MOTION = """\
         given(out + 5, x, @name@_N_STATE);
     } else {
         given(out + 5, m.x, @name@_N_STATE);
+    }
+    out += 5 + @name@_N_STATE;
+    if (strstr(word, "_jacobian")) {
+        given(out, phi, 4*@name@_N_ALGEBRA*@name@_N_ALGEBRA);
+        given(out + 4*@name@_N_ALGEBRA*@name@_N_ALGEBRA, gamma, 2*@name@_N_ALGEBRA*@name@_N_INPUTS);
     }
     return status;"""
 C_STEP = """\
@@ -156,6 +165,7 @@ def in_c(name, real, calls, steps, *, watched, driven, more):
     motion = torque = ""
     if steps:
         last = {x: "(real)b" if x.endswith("_to") else "(size_t)b" for x in steps}
+        last |= {x: "(size_t)b, phi, gamma" for x in steps if x.endswith(VARIED)}
         each = [filled(C_STEP, name=name, step=x, last=last[x]) for x in steps]
         if watched:
             each += [filled(C_WATCH, name=name, step=x) for x in steps if x in FIXED]
@@ -256,6 +266,8 @@ CPP_SPANS = """\
 #endif"""
 CPP_MOTION = """\
     static std::optional<m::Motion> motion;
+    std::array<m::Real, 4 * m::n_algebra * m::n_algebra> phi{};
+    std::array<m::Real, 2 * m::n_algebra * m::n_inputs> gamma{};
     auto status = m::Status::ok;
     if (word == "begin") {
         motion.emplace(t, x);
@@ -268,7 +280,10 @@ CPP_MOTION = """\
     *out++ = double(motion->t());
     *out++ = double(motion->h());
     *out++ = double(motion->in_c().evaluations);
-    given(out, word == "dense" ? motion->dense(t) : motion->x());
+    out = given(out, word == "dense" ? motion->dense(t) : motion->x());
+    if (word.find("_jacobian") != word.npos) {
+        given(given(out, phi), gamma);
+    }
     return int(status);"""
 CPP_STEP = """\
 } else if (word == "@step@") {
@@ -309,6 +324,7 @@ def in_cpp(name, real, calls, steps, *, watched, driven, more):
     motion = torque = ""
     if steps:
         last = {x: "m::Real(b)" if x.endswith("_to") else "std::size_t(b)" for x in steps}
+        last |= {x: "std::size_t(b), phi, gamma" for x in steps if x.endswith(VARIED)}
         last |= {f"{x}_watch": "m::Real(b)" for x in steps if watched and x in FIXED}
         each = [filled(CPP_STEP, step=x, last=y) for x, y in last.items()]
         event, rising = ("motion->event()", "motion->rising()") if watched else ("-1", "0")
@@ -381,6 +397,15 @@ RUST_MOTION = """\
                 Err(code::Stopped::NotConverged) => 3, @stopped@
             };"""
 RUST_STEP = '                "@step@" => code::@step@(m, k, u, t, b as @last@),'
+RUST_VARIED = """\
+                "@step@" => {
+                    let mut phi = [0.0; 4 * code::N_ALGEBRA * code::N_ALGEBRA];
+                    let mut gamma = [0.0; 2 * code::N_ALGEBRA * code::N_INPUTS];
+                    let made = code::@step@(m, k, u, t, b as usize, &mut phi, &mut gamma);
+                    given(unsafe { out.add(5 + code::N_STATE) }, &phi);
+                    given(unsafe { out.add(5 + code::N_STATE + phi.len()) }, &gamma);
+                    made
+                }"""
 RUST_WATCH = '                "@step@_watch" => code::watch(code::@step@, m, k, u, t, b as R),'
 
 
@@ -406,7 +431,10 @@ def in_rust(name, real, calls, steps, *, watched, driven, more):
     motion = "return -9;"
     if steps:
         last = {x: "R" if x.endswith("_to") else "usize" for x in steps}
-        each = [filled(RUST_STEP, step=x, last=y) for x, y in last.items()]
+        each = [
+            filled(RUST_VARIED if x.endswith(VARIED) else RUST_STEP, step=x, last=y)
+            for x, y in last.items()
+        ]
         stopped = "Err(code::Stopped::NoSolution) => 5," * ("discrete" in steps)
         event, rising = "-1", "0.0"
         if watched:
@@ -438,8 +466,13 @@ const moved = (code, path, word, [a, b, k, u, x]) => {
     }
     const step = word.replace("_watch", "");
     let status = 0, state = m.x;
+    const phi = new Float64Array(4*code.BASIS.length**2);
+    const gamma = new Float64Array(2*code.BASIS.length*code.INPUTS.length);
     if (word === "dense") {
         state = code.dense(m, a);
+    } else if (word.endsWith("_jacobian")) {
+        status = code[word](m, k, u, a, b, phi, gamma);
+        state = [...m.x, ...phi, ...gamma];
     } else if (word !== "begin") {
         status = step === word ? code[word](m, k, u, a, b) : code.watch(code[step], m, k, u, a, b);
         state = m.x;

@@ -13,7 +13,7 @@ import shutil
 import subprocess
 import tempfile
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 from hashlib import sha256
 from pathlib import Path
@@ -136,7 +136,9 @@ MORE = 5
 """A rotation has five numbers more as a matrix than as a quaternion."""
 COLUMNS = {"jacobian_inputs": "INPUTS", "jacobian_parameters": "PARAMETERS"}
 COLUMNS |= {"jacobian_outputs_inputs": "INPUTS", "jacobian_outputs_raw": "STATE"}
-COLUMNS |= {"mass_matrix": "ALGEBRA"}
+COLUMNS |= {"mass_matrix": "ALGEBRA", "jacobian_raw_inputs": "INPUTS"}
+OF_STATE = ("jacobian_raw", "jacobian_raw_inputs", "jacobian_project", "variations")
+"""The matrices with a row for each number of the state."""
 STATES = {"x", "y", "z"}
 APART = ("constants", "rhs_batch", "velocity_step", "momentum_rates")
 
@@ -189,13 +191,13 @@ def rows_of(function, known):
         return known["OUTPUTS"]
     if function == "mass_matrix":
         return known["ALGEBRA"]
-    return known["STATE"] if function == "jacobian_raw" else 2 * known["ALGEBRA"]
+    return known["STATE"] if function in OF_STATE else 2 * known["ALGEBRA"]
 
 
 def length(array, function, known):
     """How many numbers an array has that a function writes."""
     if array == "D":
-        square = known["STATE"] if function == "jacobian_raw" else 2 * known["ALGEBRA"]
+        square = known["STATE"] if function in OF_STATE[:3] else 2 * known["ALGEBRA"]
         columns = known[COLUMNS[function]] if function in COLUMNS else square
         return rows_of(function, known) * columns
     if function in ("conserved", "events", "outputs"):
@@ -217,8 +219,8 @@ def length(array, function, known):
 @dataclass(frozen=True)
 class Place:
     """Where a motion is after a command: what the step returned, the event (-1 for none), is it
-    reached from below, t, the last step, evaluations of the rates, the
-    state."""
+    reached from below, t, the last step, evaluations of the rates, the state; and the derivatives
+    of a step, phi and gamma by rows, where those were asked for."""
 
     status: int
     event: int
@@ -227,6 +229,7 @@ class Place:
     h: float
     evaluations: int
     x: np.ndarray
+    slopes: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
 
 class Library:
@@ -240,6 +243,12 @@ class Library:
         self.calls = [*calls(texts[f"{name}.h"], name)]
         steps = texts.get(f"{name}_steps.h", "")
         self.steps = [x for x in faces.FIXED if f"{name}_{x}(" in steps]
+
+    @property
+    def slopes(self):
+        """How many numbers the derivatives of a step are."""
+        varied = 2 * self.sizes["ALGEBRA"]
+        return varied * (varied + self.sizes["INPUTS"])
 
     def values(self, **values):
         """The arrays p, k, u, x by their letters, with y, which is x, and z, which is x and then
@@ -297,6 +306,7 @@ class Native(Library):
             64
             + 16 * sum(self.sizes.values())
             + sum(sum(call.writes.values()) for call in self.calls)
+            + self.slopes
         )
 
     def source(self, ending, write, before):
@@ -379,7 +389,7 @@ class Native(Library):
             assert status != faces.UNKNOWN, word
             event, rising, t, h, evaluations = out[:head]
             own = int(event), bool(rising), t, h, int(evaluations)
-            yield Place(status, *own, out[head : head + n])
+            yield Place(status, *own, out[head : head + n], out[head + n :][: self.slopes])
 
 
 class Asked(Library):
@@ -422,7 +432,8 @@ class Asked(Library):
             status, found = self.ask(f"motion {word}", float(a), float(b), k, u, x)
             event, rising, t, h, count, *state = map(float, found)
             own = int(event), bool(rising), t, h, int(count)
-            yield Place(status, *own, np.array(state))
+            n = self.sizes["STATE"]
+            yield Place(status, *own, np.array(state[:n]), np.array(state[n:]))
 
 
 PLACE = tempfile.TemporaryDirectory(prefix="derive-libraries-")
@@ -504,7 +515,7 @@ class Imported(Library):
     def places(self, commands, k, u, x):
         code, m = self.module, None
         for word, a, b in commands:
-            status = 0
+            status, slopes = 0, ()
             if word == "begin":
                 m = code.begin(a, x)
             elif word == "torque":
@@ -512,12 +523,14 @@ class Imported(Library):
                 u = lambda t, x, a=a, b=b, rest=rest: [a * np.cos(b * t), *rest]  # noqa: E731
             elif word.endswith("_watch"):
                 status = code.watch(getattr(code, word.removesuffix("_watch")), m, k, u, a, b)
+            elif word.endswith(faces.VARIED):
+                status, *slopes = getattr(code, word)(m, k, u, a, b)
             elif word != "dense":
                 status = getattr(code, word)(m, k, u, a, b)
             at = code.dense(m, a) if word == "dense" else m.x.copy()
             event, rising = getattr(m, "event", None), getattr(m, "rising", False)
             own = -1 if event is None else event, rising, m.t, m.h, m.evaluations
-            yield Place(status, *own, at)
+            yield Place(status, *own, at, flat(tuple(slopes)) if slopes else np.zeros(0))
 
 
 class Read(Library):
@@ -578,7 +591,7 @@ class Read(Library):
         given = {"u": self.vector(u)} if len(u) else {}
         k, x = self.vector(k), self.vector(x)
         for word, a, b in commands:
-            status, a = 0, np.float64(a)
+            status, slopes, a = 0, (), np.float64(a)
             if word == "begin":
                 m = call("Motion", a, x)
             elif word == "torque":
@@ -586,13 +599,16 @@ class Read(Library):
             elif word.endswith("_watch"):
                 step = self.module.names[f"{word.removesuffix('_watch')}!"]
                 status = call("watch!", step, m, k, a, np.float64(b), **given)
+            elif word.endswith(faces.VARIED):
+                status, *slopes = call(f"{word}!", m, k, a, int(b), **given)
             elif word != "dense":
                 count = np.float64(b) if word.endswith("_to") else int(b)
                 status = call(f"{word}!", m, k, a, count, **given)
             at = call("dense", m, a) if word == "dense" else m["x"]
             event, rising = m.values.get("event", 0) - 1, m.values.get("rising", False)
             own = event, rising, m["t"], m["h"], m["evaluations"]
-            yield Place(status, *own, np.array(at.whole(), float))
+            shown = np.array([x for part in slopes for x in part.whole()], float)
+            yield Place(status, *own, np.array(at.whole(), float), shown)
 
 
 KINDS = {"python": Imported, "julia": Read, "javascript": Asked}

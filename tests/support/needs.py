@@ -46,6 +46,7 @@ PACKAGES = {
     "rustc": "rustc-web",
     "Rust 2024": "rustc-web",
     "pdflatex": TEX,
+    "the TeX of the lecture": f"{TEX} texlive-fonts-recommended texlive-lang-french",
     "pdftoppm": "poppler-utils",
     "chromium": "chromium",
     "git": "git",
@@ -94,11 +95,11 @@ def has_edition(year: str) -> bool:
     return shutil.which("rustc") is not None and not subprocess.run(command, **quiet).returncode
 
 
-def has_tex() -> bool:
-    """Whether LaTeX is here with what draws the figures."""
-    command = ["kpsewhich", "tikz.sty"]
+def has_tex(*files: str) -> bool:
+    """Whether LaTeX is here with these files of its own."""
     both = all(map(shutil.which, ("pdflatex", "kpsewhich")))
-    return both and not subprocess.run(command, stdout=-3).returncode
+    commands = (["kpsewhich", x] for x in files)
+    return both and not any(subprocess.run(x, stdout=-3).returncode for x in commands)
 
 
 def has_nvcc() -> bool:
@@ -114,7 +115,8 @@ FOUND: dict[str, Callable[[], bool]] = {
     "sanitizers of clang": lambda: has_sanitizers("clang"),
     "SUNDIALS": lambda: Path("/usr/include/cvode/cvode.h").is_file(),
     "chromium": lambda: any(map(shutil.which, BROWSERS)),
-    "pdflatex": has_tex,
+    "pdflatex": lambda: has_tex("tikz.sty"),
+    "the TeX of the lecture": lambda: has_tex("tikz.sty", "french.ldf", "fplrc8a.pfb"),
     "nvcc": has_nvcc,
     "Rust 2024": lambda: has_edition("2024"),
     "the locale fr_FR": lambda: Path("/usr/share/i18n/locales/fr_FR").is_file(),

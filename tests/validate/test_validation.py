@@ -252,15 +252,17 @@ def test_every_elementary_function_has_its_slope():
 
 
 @pytest.mark.no_cover
-@pytest.mark.parametrize("chosen", [("state",), ("inputs",), ("parameters",)], ids=str)
+@pytest.mark.parametrize("chosen", ["state", "inputs", "parameters", "step"])
 def test_a_change_of_a_jacobian_is_refused(chosen):
-    text = emitted("so3", jacobian=chosen)[0]["so3.c"]
+    """Those for the derivative of a step, too: of ``project`` off the group, of x by variations."""
+    options = {"jacobian": (chosen,), "step": ("rk4",) * (chosen == "step")}
+    text = emitted("so3", **options)[0]["so3.c"]
     start = text.index("void so3_jacobian")
     outputs = re.findall(r"^    D\[\d+\] = ([^;]*);", text[start:], re.MULTILINE)
     for old in {x for x in outputs if x != "0.0"}:
         wrong = text[:start] + text[start:].replace(f"] = {old};", f"] = 2.0*({old});", 1)
-        with pytest.raises(DiffersError, match="jacobian"):
-            compared("so3", "c", wrong, jacobian=chosen)
+        with pytest.raises(DiffersError, match=r"jacobian|variations"):
+            compared("so3", "c", wrong, **options)
 
 
 DRIFT = {

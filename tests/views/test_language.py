@@ -279,6 +279,7 @@ def test_every_entry_is_used():
     sources = strings("walk/*.py", "walk/*/*.py", "record/rules.py", "record/record.py")
     sources |= strings(
         *("views/*.py", "views/*/*.py", "schema/kinds/*.py", "motion/emitted_code.py"),
+        "lecture/*.py",
     )
     sources |= {p.remark for p in PAPER if p.remark}
     used = sources | strings("pipeline.py") | titles_and_meanings()

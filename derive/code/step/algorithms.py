@@ -68,7 +68,13 @@ def known(p: Program, steps: Mapping[str, Any]) -> dict[str, Any]:
         **_of_events(steps["watch"]),
         **_of_gauss(gauss),
         **(_of_discrete(p.discrete, len(p.state)) if p.discrete else {}),
+        **_of_derivatives(p, implicit=bool(gauss)),
     }
+
+
+CALLED = {x: x for x in ("jacobian_raw", "jacobian_raw_inputs", "jacobian_project", "variations")}
+CALLED["events"] = "events"
+"""Function of the file → what it is called in the algorithms."""
 
 
 def _of_events(watch: Mapping[str, Any] | None) -> dict[str, Any]:
@@ -128,6 +134,20 @@ def _of_discrete(d: DiscreteStep, state: int) -> dict[str, Any]:
     }
 
 
+def _of_derivatives(p: Program, *, implicit: bool) -> dict[str, Any]:
+    """The sizes of what the derivatives of steps work with."""
+    state, varied = len(p.state), 2 * p.dimension
+    columns, equations = varied + len(p.inputs), 8 * state
+    return {
+        "N_VARIATIONS": varied,
+        "N_COLUMNS": columns,
+        "N_ENTRIES": state * columns,
+        "N_EQUATIONS": equations,
+        "SYSTEM_ROWS": equations if implicit else state,
+        "SYSTEM_COLUMNS": max(equations * implicit, varied) + columns,
+    }
+
+
 EXTRAPOLATED = [[float((-1) ** i * comb(n, i + 1)) for i in range(5)] for n in range(6)]
 """The next value of a polynomial after n of them, by these, the last first."""
 
@@ -168,11 +188,13 @@ def source_of(given: dict[str, Any], steps: Mapping[str, Any]) -> Source:
         if given["MODES"]:
             source.read(text_of("newton"), given)
         source.read(text_of("gauss"), given)
+        _read_derivative(source, "gauss", given, steps)
     for number, x in enumerate(steps["explicit"]["methods"] if steps["explicit"] else (), 1):
         name = x["name"]
         method = _of_method(METHODS[name][0](), number, device=given["DEVICE"])
         source.read(text_of("runge_kutta").replace("METHOD", name), {**given, **method})
         given[f"{name}_DENSE"] = method["DENSE"]
+        _read_derivative(source, name, {**given, **method}, steps)
     if given["DISCRETE"]:
         source.read(text_of("variational_step"), given)
     if given["EVENTS"]:
@@ -180,11 +202,21 @@ def source_of(given: dict[str, Any], steps: Mapping[str, Any]) -> Source:
     return source
 
 
+def _read_derivative(
+    source: Source, name: str, given: dict[str, Any], steps: Mapping[str, Any]
+) -> None:
+    """Add the derivative of a step, where that is asked for."""
+    if name in steps.get("varied", ()):
+        own = given | {"OF_STAGES": name in METHODS}
+        source.read(text_of("step_jacobian").replace("METHOD", name), own)
+
+
 def roots(steps: Mapping[str, Any]) -> list[str]:
     """The functions of a file that others call."""
     found = ["begin", "dense"] if steps["names"] else []
     for name in steps["names"]:
         found += [name, f"{name}_to"]
+    found += [f"{name}_jacobian" for name in steps["varied"]]
     if steps["adaptive"]:
         found.append("towards")
     if steps["ensemble"]:
@@ -197,7 +229,7 @@ def roots(steps: Mapping[str, Any]) -> list[str]:
 def in_c(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The records, tables and routines of the steps in C, for these fields of the templates."""
     steps, prefix, functions = fields["steps"], fields["prefix"], fields["functions"]
-    had = {"project": "projected", "jacobian_raw": "jacobian_raw", "events": "events"}
+    had = {"project": "projected", **CALLED}
     given = known(p, steps) | {
         **{of: f"{prefix}_{functions[x]['name']}" for x, of in had.items() if x in functions},
         "prefix": prefix,
@@ -247,9 +279,8 @@ def in_rust(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in Rust."""
     steps, functions = fields["steps"], fields["functions"]
     moving = ("t", "t_low", "x", "low", "h", "start", "evaluations", "event", "rising")
-    had = {"jacobian_raw": "jacobian_raw", "events": "events"}
     given = known(p, steps) | {
-        **{of: functions[x]["name"] for x, of in had.items() if x in functions},
+        **{of: functions[x]["name"] for x, of in CALLED.items() if x in functions},
         "project": functions["project"]["name"] if "project" in functions else "",
         "real": fields["real"],
         **{f"N_{x}": f"N_{x}" for x in (p.discrete.sizes if p.discrete else ())},
@@ -271,13 +302,12 @@ def in_rust(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
 def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in JavaScript."""
     steps, functions, prefix = fields["steps"], fields["functions"], fields["prefix"]
-    had = {"jacobian_raw": "jacobian_raw", "events": "events"}
     sizes = {"STATE": len(p.state), "CONSTANTS": len(p.constants), "INPUTS": len(p.inputs)}
     lengths = {"k": len(p.constants)} | ({"u": len(p.inputs)} if p.inputs else {})
     wrong = " || ".join(f"{x}.length !== {n}" for x, n in lengths.items())
     right = ", ".join(f"{x} has {n} numbers" for x, n in lengths.items())
     given = known(p, steps) | {
-        **{of: functions[x]["name"] for x, of in had.items() if x in functions},
+        **{of: functions[x]["name"] for x, of in CALLED.items() if x in functions},
         **{f"N_{name}": n for name, n in sizes.items()},
         "N_EVENTS": len(p.events),
         "SIZE_U": len(p.inputs),
@@ -303,6 +333,7 @@ def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
             "u": "{?ArrayLike<number>} u "
             + ("the inputs, held; zero when null" if p.inputs else "not read: there are no inputs"),
             "steps": "{Function} steps",
+            **{x: f"{{{fields['real']}}} {x} where to write" for x in ("phi", "gamma")},
         },
     }
     printer = JavaScript(source_of(given, steps), given)
@@ -318,7 +349,7 @@ def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
 def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in Julia."""
     steps, functions, prefix = fields["steps"], fields["functions"], fields["prefix"]
-    had = {"rhs": "rhs", "project": "projected", "jacobian_raw": "jacobian_raw", "events": "events"}
+    had = {"rhs": "rhs", "project": "projected", **CALLED}
     counts = {"k": len(p.constants), "u": len(p.inputs)}
     right = [f"length({x}) == {n}" for x, n in counts.items() if n]
     if p.inputs:
@@ -335,6 +366,7 @@ def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] else 0,
         "NO_EVENT": -1,
         "public": {*roots(steps)} - {"towards", "begin", "dense"},
+        **{f"{x}_jacobian": f"{x}_varied!" for x in steps["varied"]},
         "begin": "begin_at!",
         "dense": "dense_at!",
         "status": "`OK`, or why not: then `m` is as it was after the last good step.",
@@ -350,7 +382,7 @@ def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
 def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in Python."""
     steps, functions = fields["steps"], fields["functions"]
-    had = {"rhs": "rhs", "project": "projected", "jacobian_raw": "jacobian_raw", "events": "events"}
+    had = {"rhs": "rhs", "project": "projected", **CALLED}
     sizes = {"STATE": len(p.state), "CONSTANTS": len(p.constants), "INPUTS": len(p.inputs)}
     given = known(p, steps) | {
         **{f"N_{name}": n for name, n in sizes.items()},
@@ -363,6 +395,7 @@ def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "NO_EVENT": "None",
         "public": {*roots(steps)} - {"begin", "dense", "towards"},
         "named": {"towards", "gauss_step", "vern9_step", "first_step"},
+        **{f"{x}_jacobian": f"_{x}_jacobian" for x in steps["varied"]},
         "begin": "_begin_at",
         "dense": "_dense_at",
         "fault_here": "fault_of",
@@ -370,7 +403,8 @@ def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "status": "OK, or why not, with m as it was after the last good step.",
     }
     source = source_of(given, steps)
-    source.leave("factored", "lu_solve")  # which NumPy has in much less time
+    # which NumPy has in much less time
+    source.leave("factored", "lu_solve", "solved", "multiplied")
     printer = Python(source, given)
     return _texts(printer, [*map(printer.record, source.records)], steps)
 

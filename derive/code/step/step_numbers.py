@@ -36,6 +36,7 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         "held": "discrete" in options.step or "vern9" in options.step,
         "memory": memory(p, options, told["rows"] if told else 0),
         "names": options.step,
+        "varied": varied(options),
         "least": LEAST,
         "watch": WATCH[options.real] if p.events else None,
         "ensemble": ensemble(p, written) if compiled and options.ensemble else None,
@@ -214,6 +215,15 @@ WATCH = {
 """An event is looked for at the ends of so many parts of a step, on its polynomial; the part is
 halved so often; then so many steps that end there, at most, correct the instant to an exact one,
 relative.  ``sliver``: the part of a step below which nothing is left of a time."""
+
+VARIED = ("gauss", *METHODS)
+"""The steps whose derivatives are written."""
+
+
+def varied(options: Options) -> list[str]:
+    """The steps whose derivatives are asked for."""
+    return [x for x in options.step if x in VARIED and "step" in options.jacobian]
+
 
 FIXED, IN_FLOAT = ("rk4", "discrete"), ("rk4",)
 """The steps that have no size of their own, and those that are written for float, too."""

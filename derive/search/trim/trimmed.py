@@ -165,7 +165,8 @@ class _Question:
                     if x
                 )
                 free = ", ".join(self.free)
-                whatever = f"whatever {free} are" if free else "no input is free"
+                verb = "are" if len(self.free) > 1 else "is"
+                whatever = f"whatever {free} {verb}" if free else "no input is free"
                 raise NoTrimError(f"no trim: {terms} is {left / scale}, {whatever}")
         if not columns:
             return {}

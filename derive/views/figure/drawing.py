@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
 from itertools import groupby
@@ -300,8 +300,9 @@ def _text(words: str) -> str:
     return escape("".join(c for c in words if c.isprintable()))
 
 
-def tikz(scene: Scene) -> str:
-    r"""The scene as a ``tikzpicture``, which needs ``\usepackage{tikz}`` alone."""
+def tikz(scene: Scene, colours: Collection[str] = ()) -> str:
+    r"""The scene as a ``tikzpicture``, which needs ``\usepackage{tikz}`` alone; ``colours``: roles
+    that are colours of the document."""
     w, h = _n(scene.width), _n(scene.height)
     lines = [
         r"\begin{tikzpicture}[x=1mm, y=1mm, line cap=round, line join=round]",
@@ -311,7 +312,7 @@ def tikz(scene: Scene) -> str:
         points = [f"({_n(x)}, {_n(y)})" for x, y in _thinned(s.points)]
         if s.pen in AREAS or _closed(s):
             points.append("cycle")
-        lines += _wrapped(_command(s.pen, s.role), points)
+        lines += _wrapped(_command(s.pen, s.role, s.role if s.role in colours else ""), points)
     for d in scene.dots:
         ink = rf"\draw[line width={RING}mm]" if d.ring else r"\fill"
         lines.append(f"{ink} {_at(d.at)} circle[radius={_n(d.radius)}];")
@@ -320,11 +321,13 @@ def tikz(scene: Scene) -> str:
     return "\n".join([*lines, r"\end{tikzpicture}", ""])
 
 
-def _command(pen: str, role: str) -> str:
+def _command(pen: str, role: str, colour: str) -> str:
     opacity = PENS[pen][1]
+    ink = [colour] if colour else []
     if pen in AREAS:
-        return rf"\fill[fill opacity={opacity}]" if opacity < 1 else r"\fill"
-    options = [f"line width={_width(pen, role)}mm"]
+        options = [*ink, *([f"fill opacity={opacity}"] if opacity < 1 else ())]
+        return rf"\fill[{', '.join(options)}]" if options else r"\fill"
+    options = [*ink, f"line width={_width(pen, role)}mm"]
     if pen in DASHES:
         on, off = DASHES[pen]
         options.append(f"dash pattern=on {on}mm off {off}mm")

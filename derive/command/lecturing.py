@@ -1,0 +1,68 @@
+"""``derive lecture``: the text for people, from its chapters and the records that prove it."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..lecture import document, lecture_text, trials
+from ..pipeline import walk
+from ..problem.toml import load
+from ..record.record import Derivation
+from ..views.language import language
+from .showing import UsageError, load_problem
+from .simulating import pdf_of
+from .writing import with_progress, write
+
+ENDINGS = (".tex", ".pdf", ".html")
+
+
+def command_lecture(args: argparse.Namespace) -> int:
+    """The lecture, a text for people whose claims are steps of walks: .tex, .pdf or .html."""
+    out = Path(args.out)
+    if out.suffix not in ENDINGS:
+        raise UsageError(f"--out {args.out}: the name must end in {', '.join(ENDINGS)}")
+    chapters = lecture_text.chapters()
+    records = records_of(chapters)
+    for chapter in chapters:
+        trials.tied(chapter, named_by(chapter, records))
+    if args.check:
+        tried = (len([*trials.tried(x, named_by(x, records))]) for x in chapters)
+        print(f"{sum(with_progress(tried, len(chapters), 'chapters'))} equations hold")
+    shown = document.page if out.suffix == ".html" else document.latex
+    text = shown(chapters, language(args.lang), solutions=args.solutions == "end")
+    content = pdf_of(text, out, {}) if out.suffix == ".pdf" else text
+    for path in write({out.name: content}, out.parent, links=True):
+        print(path)
+    return 0
+
+
+def named_by(
+    chapter: lecture_text.Chapter, records: dict[str, Derivation]
+) -> dict[str, Derivation]:
+    """The records that the ties of a chapter speak of."""
+    return {name: records[name] for name in chapter.problems}
+
+
+def records_of(chapters: Sequence[lecture_text.Chapter]) -> dict[str, Derivation]:
+    """The records of all chapters by the names that these give them."""
+    names = [*dict.fromkeys(x for c in chapters for x in c.problems)]
+    made = with_progress(map(record_of, names), len(names), "walks")
+    return dict(zip(names, made, strict=True))
+
+
+def record_of(name: str) -> Derivation:
+    """The record of a ready-made problem or of one beside the chapters; NAME:equilibria,
+    NAME:integrals or NAME:reduction, of what is found of it."""
+    from ..searches import equilibria, integrals, reduction
+
+    problem_name, _, search = name.partition(":")
+    file = lecture_text.FOLDER / f"{problem_name}.toml"
+    problem = load(file) if file.is_file() else load_problem(problem_name)
+    if search == "equilibria":
+        return equilibria(problem, {})[1]
+    if search == "integrals":
+        return integrals(problem)[1]
+    record = walk(problem)
+    return reduction(problem, record).record if search == "reduction" else record

@@ -1,0 +1,1 @@
+"""The lecture: a text for people whose claims are tied to steps of the walk, and tried again."""

@@ -1,0 +1,254 @@
+"""The lecture as LaTeX and as a page: its entries with their formulas set, for the templates."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from ..language.read import FormulaError
+from ..language.templating import environment
+from ..views.figure.drawing import Scene, svg, tikz
+from ..views.html import escaped
+from ..views.language import LANGUAGES, Language
+from ..views.language import typeset as typeset_french
+from ..views.latex import DELIMITERS
+from ..views.layout import broken, indented
+from ..views.printing import typeset
+from ..views.printing.letters import definitions
+from ..views.printing.sentences import spelt
+from ..views.printing.signs import SYMBOLS, Notation, tex_text
+from ..views.printing.tex import formula as of_tree
+from ..views.printing.typeset import literal
+from .figures import AXES, FIGURES
+from .lecture_text import PROVED, RELATION, Block, Chapter, Entry, Formula, Words
+from .lecture_text import tree as tree_of
+
+TITLE = "Where do the equations of motion of solids come from?"
+WORDS = (
+    *("Lemma", "Proposition", "Theorem", "Proof"),
+    *("Exercise", "Solution", "Solutions", "Fig."),
+)
+"""The words of the templates."""
+MARKED = re.compile(r"_([^_]+)_|@([a-z_]+)")
+"""What is marked among words: emphasis, and the number of a block."""
+CLOSED = re.compile(r"(<math>(?:(?!<math).)*</math>)([.,;:)]+)", re.S)
+"""A formula of a page and the signs after it, between which no line breaks."""
+
+
+@dataclass(frozen=True)
+class Medium:
+    """How words and formulas are written in a kind of document."""
+
+    text: Callable[[str], str]
+    emphasis: str
+    reference: str
+    inline: Callable[[typeset.Formula], str]
+    display: Callable[[typeset.Formula], str]
+    picture: Callable[[Scene], str]
+
+
+WIDTH = 34.0
+"""The width of a display in em."""
+
+
+def _lines(x: typeset.Formula) -> str:
+    """A display as LaTeX; one that is too wide in several lines."""
+    first, *others = broken(x.tex, WIDTH)
+    if not others:
+        return first.text
+    rows = [f"&{first.text}", *("&" + indented(line, 1) for line in others)]
+    return "\n".join((r"\begin{aligned}", " \\\\\n".join(rows), r"\end{aligned}"))
+
+
+LATEX = Medium(
+    tex_text,
+    r"\emph{{{}}}",
+    r"\ref{{{label}}}",
+    lambda x: f"${typeset.plain(x.tex)}$",
+    _lines,
+    lambda x: tikz(x, colours=frozenset(AXES)),
+)
+PAGE = Medium(
+    escaped,
+    "<em>{}</em>",
+    '<a href="#{label}">{number}</a>',
+    lambda x: x.mathml(),
+    lambda x: x.mathml().replace("<math>", '<math display="block">'),
+    svg,
+)
+
+
+@dataclass(frozen=True)
+class SetEntry:
+    """An entry as a template takes it: its text or display, and what stands in the margins."""
+
+    text: str
+    display: bool
+    labels: tuple[str, ...]
+    open: tuple[str, ...]
+    numbers: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class SetBlock:
+    """A block as a template takes it; ``number``: of a statement, an exercise or a figure."""
+
+    kind: str
+    label: str
+    title: str
+    number: int
+    entries: tuple[SetEntry, ...]
+    picture: str = ""
+
+
+@dataclass(frozen=True)
+class SetChapter:
+    """A chapter as a template takes it."""
+
+    name: str
+    title: str
+    blocks: tuple[SetBlock, ...]
+
+    @property
+    def solutions(self) -> tuple[SetBlock, ...]:
+        """The solutions of its exercises."""
+        return tuple(x for x in self.blocks if x.kind == "solution")
+
+
+def latex(chapters: Sequence[Chapter], language: Language, *, solutions: bool = True) -> str:
+    """The lecture as a document for pdflatex."""
+    template = environment("latex", **DELIMITERS).get_template("lecture.tex.jinja")
+    word = partial(_word, language, tex_text)
+    return template.render(
+        language=language.name,
+        macros="\n".join(definitions(Notation())),
+        title=word(TITLE),
+        word=word,
+        solutions=solutions,
+        chapters=_set(chapters, language, LATEX),
+    )
+
+
+def page(chapters: Sequence[Chapter], language: Language, *, solutions: bool = True) -> str:
+    """The lecture as a page of HTML by itself, its formulas in MathML."""
+    template = environment("html").get_template("lecture.html.jinja")
+    word = partial(_word, language, escaped)
+    text = template.render(
+        language=language.name,
+        title=word(TITLE),
+        word=word,
+        solutions=solutions,
+        chapters=_set(chapters, language, PAGE),
+    )
+    return CLOSED.sub(r'<span class="close">\1\2</span>', text)
+
+
+def _word(language: Language, escape: Callable[[str], str], message: str) -> str:
+    return escape(language.word(message))
+
+
+COUNTED = {**dict.fromkeys(PROVED, "statement"), "solution": "exercise"}
+"""Kind of a block → what its number is counted with, if not its own kind."""
+
+
+def numbers_of(chapters: Sequence[Chapter]) -> dict[int, int]:
+    """The number of each block that has one, by its id: statements are counted together, and a
+    solution has that of the exercise before it."""
+    found, counts = {}, {"statement": 0, "exercise": 0, "figure": 0}
+    for block in (x for c in chapters for x in c.blocks):
+        counter = COUNTED.get(block.kind, block.kind)
+        if counter in counts:
+            counts[counter] += block.kind != "solution"
+            found[id(block)] = counts[counter]
+    return found
+
+
+def _set(chapters: Sequence[Chapter], language: Language, medium: Medium) -> list[SetChapter]:
+    numbers = numbers_of(chapters)
+    labels = {b.label: numbers[id(b)] for c in chapters for b in c.blocks if id(b) in numbers}
+    setter = _Setter(language, medium, labels)
+    return [
+        SetChapter(
+            c.name,
+            setter.words((c.title[setter.at],)),
+            tuple(setter.block(b, numbers.get(id(b), 0)) for b in c.blocks),
+        )
+        for c in chapters
+    ]
+
+
+class _Setter:
+    """Entries in one language and one medium; ``numbers``: of the labels of blocks."""
+
+    def __init__(self, language: Language, medium: Medium, numbers: dict[str, int]):
+        self.language, self.medium, self.numbers = language, medium, numbers
+        self.at = LANGUAGES.index(language.name)
+
+    def block(self, b: Block, number: int) -> SetBlock:
+        """A block with its entries."""
+        entries = tuple(map(self.entry, b.entries))
+        picture = self.medium.picture(FIGURES[b.label]()) if b.kind == "figure" else ""
+        return SetBlock(b.kind, b.label, self.medium.text(b.title), number, entries, picture)
+
+    def entry(self, x: Entry) -> SetEntry:
+        """A sentence or a display with its margins."""
+        text = self.display(x) if x.display else self.words(x.texts[self.at])
+        reasons = tuple(self.medium.text(tie.open[self.at]) for tie in x.ties if tie.open)
+        numbers = tuple(n for tie in x.ties for n in tie.numbers)
+        return SetEntry(text, x.display, x.labels, reasons, numbers)
+
+    def display(self, x: Entry) -> str:
+        """A display: formulas side by side."""
+        ((whole,), *_) = x.texts
+        parts = [formula(y) for y in re.split(r",\s\s+", whole.text)]  # type: ignore[union-attr]
+        found = parts[0]
+        for part in parts[1:]:
+            found += literal(r",\qquad ") + part
+        return self.medium.display(found)
+
+    def words(self, text: Words) -> str:
+        """A sentence, its formulas set."""
+        return "".join(
+            self.medium.inline(formula(x.text)) if isinstance(x, Formula) else self.plain(x)
+            for x in text
+        )
+
+    def plain(self, words: str) -> str:
+        """Words with their emphasis and their numbers of blocks; spaces at their ends stay."""
+        found, at = [], 0
+        for mark in MARKED.finditer(words):
+            found.append(self.spaced(words[at : mark.start()]))
+            if mark[1]:
+                found.append(self.medium.emphasis.format(self.medium.text(mark[1])))
+            else:
+                where = {"label": mark[2], "number": self.numbers[mark[2]]}
+                found.append(self.medium.reference.format(**where))
+            at = mark.end()
+        return "".join((*found, self.spaced(words[at:])))
+
+    def spaced(self, words: str) -> str:
+        """Words in the medium, with the spaces before and after."""
+        words = typeset_french(words) if self.language.name == "fr" else words
+        inside = words.strip(" ")
+        before, _, after = words.partition(inside) if inside else (words[:1], "", "")
+        return f"{before}{self.medium.text(inside)}{after}"
+
+
+def formula(text: str) -> typeset.Formula:
+    """A formula as it is typed: sides that are expressions by their trees, others as spelt."""
+    signs = RELATION.findall(text)
+    sides = RELATION.split(text)
+    found = _side(sides[0])
+    for sign, side in zip((x.strip() for x in signs), sides[1:], strict=True):
+        among = sign in "∈↦"
+        found += literal(f" {SYMBOLS.get(sign, sign)} ") + (spelt(side) if among else _side(side))
+    return found
+
+
+def _side(text: str) -> typeset.Formula:
+    try:
+        return of_tree(tree_of(text))
+    except FormulaError:
+        return spelt(text)

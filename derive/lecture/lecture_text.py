@@ -1,0 +1,258 @@
+"""The text of the lecture as data, from the files of chapters beside this one.
+
+A chapter begins with ``chapter NAME``, its title in an English and a French line, and the records
+that its ties speak of.  A block is its head, ``KIND [LABEL] ["name"]``, and entries, each two
+spaces further in: a sentence in English and, below it, in French, or a display, ``= FORMULA``, the
+same in both; then what it rests on::
+
+    < so3.kernel  (34)           the steps that prove it, and the numbers of the note
+    < said                       it says what letters mean, or what is supposed
+    < open  English  |  French   proved here, and no step yet
+
+Formulas stand in `backquotes`, as ``derive walk`` shows them; `?Ũ = 0` is
+not tried: it is supposed, sought, or true under what the text alone supposes; emphasis in
+_underscores_; ``@label`` is the number of a block.  ``#`` begins a comment.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import pairwise
+from pathlib import Path
+
+from ..language.limits import Refused
+from ..language.read import FormulaError, read
+from ..language.tree import Tree
+from ..record.record import Equation
+from ..views.language import LANGUAGES
+
+FOLDER = Path(__file__).with_name("chapters")
+PROVED = ("lemma", "proposition", "theorem")
+NUMBERED = (*PROVED, "exercise")
+KINDS = ("text", "section", *NUMBERED, "proof", "solution", "figure")
+"""What a block may be; those of ``NUMBERED`` have a number of their own."""
+HEAD = re.compile(r'([a-z]+)(?: ([a-z_]+))?(?: "([^"]+)")?')
+NUMBERS = re.compile(r"\s*\((\d+(?:, \d+)*)\)$")
+RELATION = re.compile(r" [=≠<>≤≥∈↦→] ")
+SAID, OPEN = "said", "open"
+
+
+class LectureError(Refused, ValueError):
+    """A text that is none of a lecture, or claims what no step proves: where, and why."""
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A formula among the words, as it is typed; ``condition``: it is not tried."""
+
+    text: str
+    condition: bool = False
+
+    @cached_property
+    def equations(self) -> tuple[Equation, ...]:
+        """What it claims: of ``a = b = c`` that a = b and b = c; no other relation is tried."""
+        found: list[Equation] = []
+        for part in () if self.condition else re.split(r",\s\s+", self.text):
+            if " = " in part and {*RELATION.findall(part)} == {" = "}:
+                sides = [*map(tree, part.split(" = "))]
+                found += (Equation(a, b) for a, b in pairwise(sides))
+        return tuple(found)
+
+
+def tree(text: str) -> Tree:
+    """The tree of an expression, in which parameters stand in ‘quotes’."""
+    return _unquoted(read(text))
+
+
+def _unquoted(t: Tree) -> Tree:
+    if not isinstance(t, tuple):
+        return t
+    if t[0] == "par":
+        return ("par", str(t[1]).strip("‘’"))
+    return (t[0], *map(_unquoted, t[1:]))
+
+
+Words = tuple[str | Formula, ...]
+"""A sentence: its words, with their emphasis, and its formulas."""
+
+
+@dataclass(frozen=True)
+class Tie:
+    """What an entry rests on: labels of steps, or ``said``, or what is open, in each language; and
+    the numbers of the note."""
+
+    labels: tuple[str, ...] = ()
+    said: bool = False
+    open: tuple[str, ...] = ()
+    numbers: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A sentence in each language, or a display that is the same in all, with its ties."""
+
+    texts: tuple[Words, ...]
+    ties: tuple[Tie, ...]
+    display: bool
+    line: int
+
+    @property
+    def formulas(self) -> tuple[Formula, ...]:
+        """The formulas of the entry, in the first language."""
+        return tuple(x for x in self.texts[0] if isinstance(x, Formula))
+
+    @property
+    def equations(self) -> tuple[Equation, ...]:
+        """All that its formulas claim."""
+        return tuple(e for x in self.formulas for e in x.equations)
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The steps that it rests on."""
+        return tuple(label for tie in self.ties for label in tie.labels)
+
+
+@dataclass(frozen=True)
+class Block:
+    """A paragraph, a statement, a proof, an exercise, …; ``title``: of a section, in each
+    language, or a name as Euler's."""
+
+    kind: str
+    label: str
+    title: str
+    entries: tuple[Entry, ...]
+    line: int
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """A chapter: its name, its title in each language, the problems of its ties, its blocks."""
+
+    name: str
+    title: tuple[str, ...]
+    problems: tuple[str, ...]
+    blocks: tuple[Block, ...]
+    file: str = field(default="", compare=False)
+
+    @property
+    def entries(self) -> Iterator[Entry]:
+        """The entries of all blocks."""
+        for block in self.blocks:
+            yield from block.entries
+
+
+def words_of(text: str) -> Words:
+    """A sentence from its line: words and, between backquotes, formulas."""
+    parts = text.split("`")
+    return tuple(
+        Formula(x.removeprefix("?"), x.startswith("?")) if k % 2 else x
+        for k, x in enumerate(parts)
+        if x
+    )
+
+
+class _Lines:
+    """The lines of a chapter's file that say something, with where they stand."""
+
+    def __init__(self, text: str, file: str):
+        self.file = file
+        lines = enumerate(text.split("\n"), 1)
+        self.left = [(k, x) for k, x in lines if x.strip() and not x.startswith("#")]
+
+    def wrong(self, line: int, why: str) -> LectureError:
+        """The error at a line."""
+        return LectureError(f"{self.file}, line {line}: {why}")
+
+    def next(self) -> tuple[int, str]:
+        """The next line, and its number."""
+        if not self.left:
+            raise LectureError(f"{self.file}: it ends where a line is needed")
+        return self.left.pop(0)
+
+    def inside(self) -> bool:
+        """Does the next line belong to the block?"""
+        return bool(self.left) and self.left[0][1].startswith("  ")
+
+
+def parsed(text: str, file: str = "a chapter") -> Chapter:
+    """The chapter of a file's text; ``LectureError`` names the line that is wrong."""
+    lines = _Lines(text, file)
+    line, head = lines.next()
+    kind, _, name = head.partition(" ")
+    if kind != "chapter":
+        raise lines.wrong(line, f"a chapter begins with 'chapter NAME', not {head[:40]!r}")
+    title = tuple(lines.next()[1].strip() for _ in LANGUAGES)
+    line, records = lines.next()
+    kind, *problems = records.split()
+    if kind != "records":
+        raise lines.wrong(line, "after its title a chapter has 'records PROBLEM …'")
+    blocks = []
+    while lines.left:
+        blocks.append(_block(lines))
+    return Chapter(name, title, tuple(problems), tuple(blocks), file)
+
+
+def _block(lines: _Lines) -> Block:
+    line, head = lines.next()
+    found = HEAD.fullmatch(head)
+    if not found or found[1] not in KINDS:
+        raise lines.wrong(line, f"no block: {head[:60]!r}; blocks are {', '.join(KINDS)}")
+    entries = []
+    while lines.inside():
+        entries.append(_entry(lines))
+    return Block(found[1], found[2] or "", found[3] or "", tuple(entries), line)
+
+
+def _entry(lines: _Lines) -> Entry:
+    line, first = lines.next()
+    display = first.startswith("  = ")
+    if display:
+        texts: Sequence[Words] = [words_of(f"`{first[4:].strip()}`")] * len(LANGUAGES)
+    else:
+        texts = [words_of(first.strip()), words_of(lines.next()[1].strip())]
+    ties = []
+    while lines.left and lines.left[0][1].startswith("  < "):
+        number, text = lines.next()
+        ties.append(_tie(text[4:].strip(), number, lines))
+    found = Entry(tuple(texts), tuple(ties), display, line)
+    _agreeing(found, lines)
+    return found
+
+
+def _agreeing(entry: Entry, lines: _Lines) -> None:
+    """The same formulas in all languages, each of them one."""
+    said = [sorted(x.text for x in text if isinstance(x, Formula)) for text in entry.texts]
+    if said[0] != said[1]:
+        differing = sorted({*said[0]} ^ {*said[1]})
+        raise lines.wrong(entry.line, f"formulas of one language alone: {', '.join(differing)}")
+    try:
+        claimed = entry.equations
+    except FormulaError as error:
+        raise lines.wrong(entry.line, str(error)) from error
+    if claimed and not entry.ties:
+        raise lines.wrong(entry.line, "an equation that rests on nothing: give '< STEP'")
+
+
+def _tie(text: str, line: int, lines: _Lines) -> Tie:
+    """What a line after ``<`` says."""
+    numbers = NUMBERS.search(text)
+    text = NUMBERS.sub("", text).strip()
+    of_note = tuple(int(x) for x in numbers[1].split(", ")) if numbers else ()
+    word, _, rest = text.partition(" ")
+    if word == SAID:
+        return Tie(said=True, numbers=of_note)
+    if word == OPEN:
+        reasons = tuple(x.strip() for x in rest.split("|"))
+        if len(reasons) != len(LANGUAGES):
+            raise lines.wrong(line, "what is open is said in English | and in French")
+        return Tie(open=reasons, numbers=of_note)
+    return Tie(tuple(text.split()), numbers=of_note)
+
+
+def chapters() -> list[Chapter]:
+    """The chapters of the lecture, in the order of their files."""
+    files = sorted(FOLDER.glob("*.txt"))
+    return [parsed(x.read_text(encoding="utf-8"), x.name) for x in files]

@@ -1,0 +1,93 @@
+"""The claims of the lecture, tried: each equation by the checker, in the company of its step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from ..check.checker import Checker, checker_of
+from ..check.fluid.fluid_checker import FluidChecker
+from ..language.show import show
+from ..record.record import ANY_GROUP, Derivation, Equation, Step
+from .lecture_text import Chapter, Entry, LectureError
+
+
+@dataclass(frozen=True)
+class Claim:
+    """An equation of an entry, and the step in whose company it holds."""
+
+    entry: Entry
+    equation: Equation
+    step: Step
+
+
+def tied(chapter: Chapter, records: Mapping[str, Derivation]) -> None:
+    """``LectureError`` for a tie that is no step of the records, or a number of the note that
+    none of the steps of its entry has."""
+    steps = {s.label: s for d in records.values() for s in d.steps}
+    for entry in chapter.entries:
+        for tie in entry.ties:
+            where = f"{chapter.file}, line {entry.line}"
+            for label in tie.labels:
+                if label not in steps:
+                    raise LectureError(f"{where}: no step {label}")
+            numbers = {n for label in entry.labels for n in steps[label].paper}
+            if tie.labels and (strange := {*tie.numbers} - numbers):
+                raise LectureError(f"{where}: ({min(strange)}) is no number of {tie.labels[0]}")
+
+
+def tried(
+    chapter: Chapter, records: Mapping[str, Derivation], seed: int | None = None
+) -> Iterator[Claim]:
+    """The equations of the entries that rest on steps, each with the first step in whose company
+    it holds; ``LectureError`` for one that holds in none.
+
+    A step's company is what it supposes: its rule, what is given, its hypotheses, its group; where
+    that is any group, then the group of the problem.  A step that supposes equations is company
+    for its own left sides alone: under what it supposes much else is true, as 0 = 0.
+    """
+    companies: dict[str, list[tuple[Checker | FluidChecker, Step]]] = {}
+    for d in records.values():
+        checker, group = checker_of(d.problem, seed), group_of(d)
+        for s in d.steps:
+            several = dict.fromkeys((s, replace(s, scope=group)))
+            companies.setdefault(s.label, [(checker, one) for one in several])
+    for entry in chapter.entries:
+        for equation in entry.equations if entry.labels else ():
+            company = [x for label in entry.labels for x in companies[label]]
+            fit = [x for x in company if not x[1].given or _of_step(equation, x[1])]
+            yield _claim(chapter, entry, equation, fit)
+
+
+def _of_step(equation: Equation, step: Step) -> Equation | None:
+    """The equation of a step that is the same, or else one with the same left side."""
+    same = [e for e in step.equations if e.lhs == equation.lhs]
+    return next((e for e in same if e.rhs == equation.rhs), same[0] if same else None)
+
+
+def group_of(d: Derivation) -> str:
+    """The group of a record's problem."""
+    return next((s.scope for s in d.steps if s.scope != ANY_GROUP), ANY_GROUP)
+
+
+def _claim(
+    chapter: Chapter,
+    entry: Entry,
+    equation: Equation,
+    company: list[tuple[Checker | FluidChecker, Step]],
+) -> Claim:
+    reasons: dict[str, str] = {}
+    for checker, step in company:
+        verdict = checker.check(replace(step, equations=(_quantified(equation, step),)))
+        if verdict.holds:
+            return Claim(entry, equation, step)
+        reasons.setdefault(step.label, f"{step.label}: {verdict.reason}")
+    shown = f"{show(equation.lhs)} = {show(equation.rhs)}"
+    where = f"{chapter.file}, line {entry.line}"
+    raise LectureError("\n".join((f"{where}: {shown} does not hold", *reasons.values())))
+
+
+def _quantified(equation: Equation, step: Step) -> Equation:
+    """The equation for all values for which the step's own with the same left side is."""
+    same = _of_step(equation, step) or equation
+    return replace(equation, for_all=same.for_all, exists=same.exists)

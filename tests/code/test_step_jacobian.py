@@ -1,0 +1,353 @@
+"""The derivatives of emitted steps: against difference quotients of the steps themselves, the
+linearised equations along a motion, one form of the state against another, and each language
+against C."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.linalg import expm
+
+import derive
+from derive.command.cli import main
+from tests.problems.line import FALLING
+from tests.support.library import ONE_BUILD, STEPPED, library, module_of
+from tests.support.states import element_names, hat, state
+
+STEPS = ("gauss", "rk4", "vern9")
+VARIED = {"step": STEPS, "jacobian": ("state", "inputs", "step")}
+NAMES = ("so3", "se3", "sl3", "saff3", "two_tops", "jelly", "heisenberg", "so4", "kirchhoff")
+H = {"gauss": 0.1, "rk4": 0.02, "vern9": 0.05}
+
+PUSHED = """
+name = "pushed"
+group = "SE(3)"
+[parameters]
+c = 0.4
+[body]
+given = { m = 2, c = [0.1, 0, -0.2], J = [["7/4", 0.1, 0], [0.1, 1, 0], [0, 0, "5/4"]] }
+[[potential]]
+kind = "gravity"
+g = [0, 1, -9.81]
+[[damping]]
+kind = "quadratic"
+at = [1, 0, 1]
+coefficient = "c"
+[[input]]
+name = "B"
+kind = "force"
+at = [1, 0.5, 0]
+frame = "body"
+[[input]]
+name = "S"
+kind = "force"
+at = [0, 0, 1]
+"""
+"""A body in space with forces of both frames, and a drag that is no polynomial."""
+
+
+def module(name, **options):
+    """The Python of a problem with its steps and their derivatives."""
+    inputs = module_of(name).INPUTS
+    jacobian = tuple(x for x in VARIED["jacobian"] if x != "inputs" or inputs)
+    return module_of(name, step=STEPS, jacobian=jacobian, **options)
+
+
+def matrix(m, x):
+    """The element of the group of a state."""
+    g = np.eye(len(m.BASIS[0]))
+    for name, place in element_names(m).items():
+        g[place] = x[m.STATE.index(name)]
+    return g
+
+
+def retracted(m, x, change):
+    """The state at g exp(eta) and zeta + delta zeta."""
+    d, y = len(m.BASIS), np.array(x)
+    g = matrix(m, x) @ expm(hat(m, change[:d]))
+    for name, place in element_names(m).items():
+        y[m.STATE.index(name)] = g[place]
+    y[-d:] += change[d:]
+    return y
+
+
+def relative(m, x, y):
+    """(eta, delta zeta) from x to a y that is near it, to first order."""
+    d = len(m.BASIS)
+    moved = np.linalg.solve(matrix(m, x), matrix(m, y))
+    eta = np.linalg.lstsq(m.BASIS.reshape(d, -1).T, moved.ravel(), rcond=None)[0]
+    return np.concatenate([eta, y[-d:] - x[-d:]])
+
+
+def derivative(f, count):
+    """The derivative of f at 0 by differences, twice extrapolated: as exact as rounding lets it."""
+
+    def quotient(e, h):
+        return (f(h * e) - f(-h * e)) / (2 * h)
+
+    steps = (4e-3, 2e-3, 1e-3)
+    columns = []
+    for e in np.eye(count):
+        a, b, c = (quotient(e, h) for h in steps)
+        columns.append((64 * c - 20 * b + a) / 45)
+    return np.transpose(columns) if columns else np.zeros((len(f(np.zeros(count))), 0))
+
+
+def moved(m, step, x, k, u, h, n):
+    """The state after some steps."""
+    motion = m.begin(0.3, x)
+    assert getattr(m, step)(motion, k, u, h, n) == m.OK
+    return motion.x
+
+
+def close(found, expected, tolerance=1e-9):
+    scale = max(1, np.abs(expected).max(initial=0))
+    return np.abs(found - expected).max(initial=0) < tolerance * scale
+
+
+@pytest.mark.parametrize("step", STEPS)
+@pytest.mark.parametrize("name", [*NAMES, PUSHED], ids=[*NAMES, "pushed"])
+def test_the_derivative_is_that_of_the_step(name, step):
+    """To 1e-9, against differences of two steps, which go where steps without derivatives go."""
+    m = module(name)
+    p, x, u, *_ = state(m)
+    k, h, d = m.constants(p), H[step], len(m.BASIS)
+    motion = m.begin(0.3, x)
+    status, phi, gamma = getattr(m, f"{step}_jacobian")(motion, k, u, h, 2)
+    end = moved(m, step, x, k, u, h, 2)
+    assert status == m.OK
+    assert np.array_equal(motion.x, end)
+    by_state = derivative(
+        lambda e: relative(m, end, moved(m, step, retracted(m, x, e), k, u, h, 2)), 2 * d
+    )
+    by_inputs = derivative(
+        lambda e: relative(m, end, moved(m, step, x, k, u + e, h, 2)), len(m.INPUTS)
+    )
+    assert close(phi, by_state)
+    assert close(gamma, by_inputs)
+    assert gamma.shape == (2 * d, len(m.INPUTS))
+
+
+def linearised(m, x, k, u, t):
+    """Φ and Γ by the linearised equations along the motion, as others integrate them."""
+    d, n, inputs = 2 * len(m.BASIS), len(x), len(m.INPUTS)
+
+    def rates(t, y):
+        dx, A = m.jacobian(0.3 + t, y[:n], k, u)
+        B = m.jacobian_inputs(0.3 + t, y[:n], k, u)
+        S = y[n:].reshape(d, d + inputs)
+        return np.concatenate([dx, (A @ S + np.hstack([np.zeros((d, d)), B])).ravel()])
+
+    start = np.concatenate([x, np.eye(d, d + inputs).ravel()])
+    end = solve_ivp(rates, (0, t), start, "DOP853", rtol=1e-12, atol=1e-12).y[n:, -1]
+    return np.hsplit(end.reshape(d, d + inputs), [d])
+
+
+def test_a_step_that_is_exact_has_the_derivative_of_the_motion():
+    """Of the linearised equations, in the same coordinates; of rk4 it is off as its error is."""
+    m = module(PUSHED)
+    p, x, u, *_ = state(m)
+    k = m.constants(p)
+    known = linearised(m, x, k, u, 0.2)
+    for step, n, error in (("gauss", 2, 1e-9), ("vern9", 8, 1e-9), ("rk4", 4, 1e-2)):
+        _, *found = getattr(m, f"{step}_jacobian")(m.begin(0.3, x), k, u, 0.2 / n, n)
+        for a, b in zip(found, known, strict=True):
+            assert close(a, b, error), step
+    assert not close(found[0], known[0], 1e-9)
+
+
+def in_form(plain, other, options, x):
+    """A state of matrices and velocities in a body as another form has it."""
+    if "attitude" in options:
+        return other.from_matrix(x)
+    g, d = matrix(plain, x), len(plain.BASIS)
+    speed, places = g @ hat(plain, x[-d:]), element_names(plain)
+    values = dict(zip(plain.STATE, x, strict=True))
+    values |= {f"{name}_dot": speed[place] for name, place in places.items()}
+    return np.array([values[name] for name in other.STATE])
+
+
+FORMS = {
+    "columns": {"layout": "col"},
+    "tangent": {"velocity": "tangent"},
+    "quaternion": {"attitude": "quaternion"},
+    "moving": {"state": "moving"},
+}
+CASES = [(form, "se3") for form in FORMS] + [("tangent", "sl3"), ("moving", "heisenberg")]
+
+
+@pytest.mark.parametrize(("form", "name"), CASES)
+def test_forms_of_the_state_have_one_derivative(form, name):
+    """By steps of gauss, which differ by rounding."""
+    plain, other = module(name), module(name, **FORMS[form])
+    p, x, u, *_ = state(plain)
+    if form == "quaternion":  # a rotation to the last bit, as that is what is turned into one
+        x = plain.project(x)
+    known = plain.gauss_jacobian(plain.begin(0.3, x), plain.constants(p), u, 0.05, 2)
+    motion = other.begin(0.3, in_form(plain, other, FORMS[form], x))
+    found = other.gauss_jacobian(motion, other.constants(p), u, 0.05, 2)
+    assert found[0] == known[0] == 0
+    for a, b in zip(found[1:], known[1:], strict=True):
+        assert close(a, b, 1e-10)
+
+
+RIGHT = """
+name = "righthanded"
+group = "SO(3)"
+[lagrangian]
+L = "(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 - A_33"
+trivialisation = "right"
+"""
+
+
+def test_on_the_right_variations_are_those_of_space():
+    """δg = η g; of the linearised equations."""
+    m = module_of(RIGHT, step=("gauss",), jacobian=("state", "step"))
+    p, x, *_ = state(m)
+    k, n = m.constants(p), len(x)
+
+    def rates(t, y):
+        dx, A = m.jacobian(t, y[:n], k)
+        return np.concatenate([dx, (A @ y[n:].reshape(6, 6)).ravel()])
+
+    start = np.concatenate([x, np.eye(6).ravel()])
+    known = solve_ivp(rates, (0, 0.2), start, "DOP853", rtol=1e-12, atol=1e-12).y[n:, -1]
+    status, phi, gamma = m.gauss_jacobian(m.begin(0.0, x), k, None, 0.1, 2)
+    assert (status, gamma.shape) == (0, (6, 0))
+    assert close(phi, known.reshape(6, 6))
+
+
+def test_inputs_that_are_a_function_of_time():
+    """Γ is by what is added to them."""
+    m = module(PUSHED)
+    p, x, u, *_ = state(m)
+    k = m.constants(p)
+
+    def pushing(e):
+        return lambda t, x: u * np.cos(3 * t) + e
+
+    for step in STEPS:
+        motion = m.begin(0.3, x)
+        _, _, gamma = getattr(m, f"{step}_jacobian")(motion, k, pushing(0), 0.05, 2)
+        known = derivative(
+            lambda e, step=step, end=motion.x: relative(
+                m, end, moved(m, step, x, k, pushing(e), 0.05, 2)
+            ),
+            len(m.INPUTS),
+        )
+        assert close(gamma, known), step
+
+
+# ---------------------------------------------------------------- in each language
+
+OTHERS = [ONE_BUILD[x] for x in STEPPED if x != "c"] + ["julia"]
+COMMANDS = [("gauss_jacobian", 0.1, 2), ("rk4_jacobian", 0.05, 2), ("vern9_jacobian", 0.05, 1)]
+
+
+SWING = """
+name = "swing"
+group = "SO(2)"
+[parameters]
+m = 1.5
+[[point]]
+mass = "m"
+at = [1, 0.5]
+[[potential]]
+kind = "gravity"
+g = [0, -9.81]
+[[input]]
+name = "F"
+kind = "force"
+at = [0, 1]
+"""
+TURNED = ([0.8, -0.6, 0.6, 0.8, 1.5], [1.5], [0.3, -0.2])
+"""A state, parameters and inputs of a body in the plane."""
+
+
+@pytest.mark.parametrize("build", OTHERS)
+def test_each_language_has_the_derivatives_of_c(build):
+    options = {"step": STEPS, "jacobian": ("step",)}
+    found, known = (library(b, SWING, **options).follow(COMMANDS, *TURNED) for b in (build, "c"))
+    for a, b in zip(found, known, strict=True):
+        assert (a.status, b.status, len(b.slopes)) == (0, 0, 2 * (2 + 2))
+        assert close(a.x, b.x, 1e-14)
+        assert close(a.slopes, b.slopes, 1e-13)
+
+
+@pytest.mark.parametrize("build", ["c", "javascript", "rust2021"])
+def test_rk4_in_floats(build):
+    x, *more = TURNED
+    options = {"step": "rk4", "jacobian": "step"}
+    (a,) = library(build, SWING, real="float", **options).follow(COMMANDS[1:2], x, *more)
+    (b,) = library("c", SWING, **options).follow(COMMANDS[1:2], x, *more)
+    assert close(a.slopes[: len(b.slopes)], b.slopes, 2e-6)
+
+
+def test_a_coarse_step_by_newtons_method():
+    """Of a spring of 1000 rad/s, 50 rad in a step, whose far end goes to and fro: the derivative is
+    that of the step."""
+    text = FALLING.replace('"-1/sqrt(r1_x^2)"', '"500000*(r1_x - sin(t)/2)^2 + r1_x^4"')
+    m = module_of(text, step=("gauss",), jacobian=("raw", "step"))
+    k, x = m.constants([]), np.array([1, 0, 0, 1, 0.1, 0, 0.5])
+    status, phi, _ = m.gauss_jacobian(motion := m.begin(0.3, x), k, None, 0.05, 1)
+    assert (status, motion.h) == (0, 0.05)
+    scale = np.array([1e3, 1])  # of the place, which the spring holds
+    known = derivative(
+        lambda e: relative(
+            m, motion.x, moved(m, "gauss", retracted(m, x, e / scale), k, None, 0.05, 1)
+        ),
+        2,
+    )
+    assert close(phi, known * scale)
+
+
+def test_what_has_no_step_is_told():
+    """Where the next state is not finite, too coarse for the iteration, or 0 steps are wanted."""
+    m = module_of("so3", step=STEPS, jacobian="step")
+    k = m.constants([0, 0, 0.2, 1.3, 0.1, 0, 0.9, 0, 0.4, 0, 0, -9.81])
+    x = np.array([1, 0, 0, 0, 0.8, -0.6, 0, 0.6, 0.8, 1, -0.5, 30])
+    for step in STEPS:
+        status, phi, gamma = getattr(m, f"{step}_jacobian")(m.begin(0.0, x), k, None, 0.1, 0)
+        assert status == m.OK
+        assert close(phi, np.eye(6), 1e-15)
+        assert not gamma.any()
+    coarse = m.gauss_jacobian(motion := m.begin(0.0, x), k, None, 5.0)
+    assert coarse[0] == m.NOT_CONVERGED
+    assert np.array_equal(motion.x, x)
+    assert m.rk4_jacobian(m.begin(0.0, x), k, None, np.inf)[0] == m.NOT_FINITE
+
+
+def test_in_python_by_the_compiled_c():
+    f = derive.compile("so3", step=["rk4", "gauss"], jacobian="step")
+    m = module_of("so3", step=STEPS, jacobian="step")
+    x, u = np.array([1, 0, 0, 0, 0.8, -0.6, 0, 0.6, 0.8, 1, -0.5, 3]), np.array([0.3, -0.2, 0.5])
+    f.use(p := [0, 0, 0.2, 1.3, 0.1, 0, 0.9, 0, 0.4, 0, 0, -9.81])
+    for step in f.STEPS:
+        y, *found = f.step_jacobian(0, x, 0.05, u, n=2, step=step)
+        motion = m.begin(0.0, x)
+        _, *known = getattr(m, f"{step}_jacobian")(motion, m.constants(p), u, 0.05, 2)
+        for a, b in zip([y, *found], [motion.x, *known], strict=True):
+            assert close(a, b, 1e-12)
+    for wrong in ({"step": "vern9"}, {"n": 0}):
+        with pytest.raises(ValueError, match=r"not compiled|number of steps"):
+            f.step_jacobian(0, x, 0.05, **wrong)
+
+
+REFUSED = {
+    ("so3", "c"): "--jacobian step is that of --step gauss, rk4, vern9: add one of these",
+    ("so3", "c", "discrete"): "is that of --step gauss, rk4, vern9: add one of these",
+    ("zeitlin", "c", "rk4"): "--jacobian step is not written on the torus",
+    ("imu", "c", "rk4"): "--jacobian step is not written for kinematics of first order",
+    ("euler_poisson", "c", "rk4"): "--jacobian step is for a state with an element of the group",
+    ("spherical_pendulum", "c", "rk4"): "--jacobian step is for motions on the whole group",
+}
+
+
+@pytest.mark.parametrize("case", REFUSED, ids=" ".join)
+def test_where_there_are_none_it_is_refused(case, tmp_path, capsys):
+    name, language, *steps = case
+    words = [f"--step={x}" for x in steps] + ["--jacobian", "step", "--out", str(tmp_path / "out")]
+    assert main(["emit", name, "--lang", language, *words]) == 2
+    told = capsys.readouterr().err
+    assert REFUSED[case] in told
+    assert told.count("\n") == 1
+    assert not (tmp_path / "out").exists()

@@ -1,0 +1,159 @@
+"""The lecture: every tie is a step, every equation holds, and none that is changed."""
+
+import re
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from derive.command.cli import main
+from derive.command.lecturing import named_by, records_of
+from derive.language.show import show
+from derive.lecture import document, figures
+from derive.lecture.lecture_text import PROVED, Formula, LectureError, chapters, parsed
+from derive.lecture.trials import tied, tried
+from derive.views.language import LANGUAGES, language
+from tests.support.needs import needs
+from tests.support.walks import SEED
+
+CHAPTERS = chapters()
+NAMES = [c.name for c in CHAPTERS]
+
+
+@pytest.fixture(scope="module")
+def records():
+    return records_of(CHAPTERS)
+
+
+def with_entry(chapter, entry):
+    """The chapter with this entry alone."""
+    return replace(chapter, blocks=(replace(chapter.blocks[0], entries=(entry,)),))
+
+
+def zero(entry):
+    """What an entry says to be zero, and 0 itself."""
+    return {"0", *(show(e.lhs) for e in entry.equations if e.rhs == 0)}
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS, ids=NAMES)
+def test_every_claim_holds_and_none_with_another_sign(chapter, records):
+    """Of each equation the right side is turned about, where it is not said to be zero."""
+    mine = named_by(chapter, records)
+    tied(chapter, mine)
+    claims = [*tried(chapter, mine, SEED)]
+    assert len(claims) > 8
+    for claim in claims:
+        lhs, rhs = show(claim.equation.lhs), show(claim.equation.rhs)
+        if not {lhs, rhs} & zero(claim.entry):
+            words = (Formula(f"{lhs} = −({rhs})"),)
+            changed = replace(claim.entry, texts=(words,) * len(LANGUAGES))
+            with pytest.raises(LectureError, match="does not hold"):
+                list(tried(with_entry(chapter, changed), mine, SEED))
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS, ids=NAMES)
+def test_a_step_that_is_withdrawn_is_missed(chapter, records):
+    mine = named_by(chapter, records)
+    for label in dict.fromkeys(x for e in chapter.entries for x in e.labels):
+        fewer = {
+            name: replace(d, steps=tuple(s for s in d.steps if s.label != label))
+            for name, d in mine.items()
+        }
+        with pytest.raises(LectureError, match=f"no step {re.escape(label)}$"):
+            tied(chapter, fewer)
+
+
+def test_most_claims_are_tied():
+    """Of what is proved here and no step yet there is one in twelve at most."""
+    ties = [tie for c in CHAPTERS for e in c.entries for tie in e.ties if not tie.said]
+    assert 12 * sum(bool(x.open) for x in ties) <= len(ties)
+
+
+def test_every_statement_says_what_it_rests_on():
+    for chapter in CHAPTERS:
+        for block in chapter.blocks:
+            if block.kind in PROVED:
+                assert any(e.ties for e in block.entries), (chapter.name, block.line)
+
+
+HEAD = "chapter c\n  A chapter\n  Un chapitre\nrecords so3\n\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("", "it ends where a line is needed"),
+        ("text\n", "line 1: a chapter begins with 'chapter NAME'"),
+        ("chapter c\n  A\n  B\ntext\n", "line 4: after its title a chapter has 'records PROBLEM"),
+        (HEAD + "paragraph\n  One.\n  Un.\n", "line 6: no block: 'paragraph'"),
+        (HEAD + "text\n  One `ζ`.\n  Un.\n", "line 7: formulas of one language alone: ζ"),
+        (HEAD + "text\n  `ζ = Ω`.\n  `ζ = Ω`.\n", "line 7: an equation that rests on nothing"),
+        (HEAD + "text\n  = ζ = +\n  < so3.hat\n", "line 7: "),
+        (HEAD + "text\n  One.\n  Un.\n  < open here\n", "line 9: what is open is said in English"),
+    ],
+)
+def test_a_text_that_is_none_is_refused_with_its_line(text, wrong):
+    with pytest.raises(LectureError, match=re.escape(wrong)):
+        parsed(text, "c.txt")
+
+
+def test_a_number_of_the_note_is_that_of_a_step(records):
+    text = HEAD + "text\n  = ℓ_b = Iζ\n  < so3.momenta (12)\n"
+    with pytest.raises(LectureError, match=re.escape("(12) is no number of so3.momenta")):
+        tied(parsed(text), records)
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_the_page_has_every_formula_of_the_text(lang):
+    page = document.page(CHAPTERS, language(lang))
+    root = ElementTree.fromstring(re.sub("<!DOCTYPE[^>]*>|<meta[^>]*>", "", page))
+    at = LANGUAGES.index(lang)
+    typed = sum(not isinstance(x, str) for c in CHAPTERS for e in c.entries for x in e.texts[at])
+    assert len([*root.iter("math")]) == typed
+    targets = {x.get("href")[1:] for x in root.iter("a")}
+    assert targets <= {x.get("id") for x in root.iter()}
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_without_solutions(lang):
+    words = language(lang)
+    for shown, mark in (
+        (document.page, '<details class="solution">'),
+        (document.latex, "Solutions"),
+    ):
+        assert mark in shown(CHAPTERS, words)
+        assert mark not in shown(CHAPTERS, words, solutions=False)
+
+
+@needs("the TeX of the lecture")
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_the_pdf(lang, tmp_path, capsys):
+    assert main(["lecture", "--lang", lang, "--out", str(tmp_path / "lecture.pdf")]) == 0
+    assert (tmp_path / "lecture.pdf").read_bytes().startswith(b"%PDF")
+    capsys.readouterr()
+
+
+def test_the_command(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("derive.lecture.trials.tried", lambda chapter, _: chapter.name)
+    out = tmp_path / "lecture.tex"
+    assert main(["lecture", "--check", "--out", str(out)]) == 0
+    assert f"{len(''.join(NAMES))} equations hold\n" in capsys.readouterr().out
+    assert r"\begin{theorem}" in out.read_text(encoding="utf-8")
+    assert main(["lecture", "--out", str(tmp_path / "lecture.docx")]) == 2
+    assert "must end in .tex, .pdf, .html" in capsys.readouterr().err
+
+
+def test_the_polhodes_are_levels_of_the_energy_on_the_sphere():
+    curves = [*figures._curves()]
+    assert len(curves) == 18
+    for role, curve in curves:
+        points = np.array(curve)
+        assert np.allclose((points**2).sum(axis=1), 1, rtol=0, atol=1e-14)
+        energy = (points**2 / figures.MOMENTS).sum(axis=1)
+        assert np.ptp(energy) < 1e-14
+        least, middle, most = sorted(1 / np.array(figures.MOMENTS))
+        level = energy.mean()
+        assert {"first": middle < level < most, "third": least < level < middle}.get(
+            role, abs(level - middle) < 1e-14
+        )
