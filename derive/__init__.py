@@ -31,7 +31,7 @@ WORDS = (
         "Laplacian",
     ),
     *("Moments", "Output", "Points", "Potential", "Problem", "R", "SAff", "SE", "SL", "SO", "SU"),
-    *("Signal", "Sim", "Solid"),
+    *("Scalar", "Signal", "Sim", "Solid"),
     *("Sp", "Spring", "Torque", "Torus", "U", "UT"),
 )
 """And a word for each other kind of potential: ``Attraction`` and so on."""

@@ -30,7 +30,7 @@ def conventions(
     """What a reader of the emitted files must know, one sentence each, in plain ASCII."""
     inputs: Sequence[Mapping[str, Any]] = problem.get("inputs", [])
     if "advected" in problem:
-        return _reduced(problem, [x["name"] for x in inputs])
+        return _reduced(problem, inputs)
     places = _places(problem)
     written = "column by column" if options.layout == "col" else "row by row"
     charts = factor_charts(group.in_user_basis, options.attitude)
@@ -93,7 +93,7 @@ def _held(coordinates: Sequence[int]) -> list[str]:
     return textwrap.wrap(text, 92)
 
 
-def _reduced(problem: Mapping[str, Any], inputs: Iterable[str]) -> tuple[str, ...]:
+def _reduced(problem: Mapping[str, Any], inputs: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
     """The sentences about a state without an element of the group."""
     left = problem["lagrangian"]["trivialisation"] == "left"
     moved = "g^-1 dg/dt" if left else "(dg/dt) g^-1"
@@ -111,7 +111,10 @@ def _reduced(problem: Mapping[str, Any], inputs: Iterable[str]) -> tuple[str, ..
             "representation."
         )
     driven = (
-        f"Input {x}: a covector of the Lie algebra; its power is <{x}, zeta>." for x in inputs
+        _of_scalar(x["name"])
+        if x["kind"] == "scalar"
+        else f"Input {x['name']}: a covector of the Lie algebra; its power is <{x['name']}, zeta>."
+        for x in inputs
     )
     return (*textwrap.wrap(text, 92), *driven, *_acting(problem, {}))
 
@@ -259,8 +262,14 @@ def _ascii(text: str) -> str:
     return unicodedata.normalize("NFKD", text.translate(spelt)).replace("\u2044", "/")
 
 
+def _of_scalar(name: str) -> str:
+    return f"Input {name}: a number that forces of the state depend on."
+
+
 def _input(group: Group, entry: Mapping[str, Any], places: Mapping[int, str]) -> list[str]:
     name, where = entry["name"], places.get(entry.get("on", 0), "")
+    if entry["kind"] == "scalar":
+        return [_of_scalar(name)]
     if entry["kind"] != "covector":
         what = "a torque on the body"
         if entry["kind"] == "force":
@@ -300,7 +309,8 @@ def _acting(problem: Mapping[str, Any], places: Mapping[int, str]) -> Iterator[s
         if "covector" not in x:
             kinds = " and ".join(f"a {key}" for key in ("force", "moment") if x.get(key))
             what = f"{kinds} on {place(x['on'])}, in the {x['frame']} frame"
-        found.append(f"Force of the state: {what}.")
+        name = f" {x['name']}" if "name" in x else ""
+        found.append(f"Force of the state{name}: {what}.")
     for x in problem.get("flows", ()):
         at = places.get(x["on"]) or f" at point {x['on']}"
         found += [f"Mass flows{at}{sized('dm/dt', x['rate'])}."]

@@ -73,8 +73,9 @@ class Lowering:
         if op == "fun":
             found = self.graph.function(t[1], self._number(t[2]))
             return self.graph.value(found, name_of(t), self.reader.label)
-        if op == "par":
-            return self.graph.leaf(t[1], "parameter")
+        if op == "par":  # a number of a force that has a name, or a parameter
+            told = self.reader.record.definition(t)
+            return self.reader.member(t) if told else self.graph.leaf(t[1], "parameter")
         if op == "call" and t[1] in PLACES:
             invariants = [self._number(x) for x in t[2:]]
             return integral(self.graph, t[1], invariants, self.reader.label)

@@ -68,6 +68,9 @@ class RecordReader:
         self.forces: list[Matrix] = []
         for entry in self.record.problem.get("inputs", []):
             name = entry["name"]
+            if entry["kind"] == "scalar":
+                self._given([name])
+                continue
             if entry["kind"] != "covector":
                 named = numbers_of_input(entry, self._acted_on(entry).n)
                 self.forces.append(self._given(named))

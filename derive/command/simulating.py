@@ -284,7 +284,7 @@ def command_ensemble(
     if not all(x.terminal for x in problem.events):
         text = "events that are not terminal are not looked for in an ensemble"
         print(f"derive: warning: {problem.name}: {text}", file=sys.stderr)
-    tally = Tally(len(many.first.x))
+    tally = Tally(len(many.names))
     with heard() as interrupted, kept(many, args.out) as add:
         about = f"{problem.name}, parts of {many.size}"
         parts = with_progress(many.parts(interrupted), many.count, about)
@@ -338,7 +338,7 @@ class Tally:
             self.squares += ((ends - self.origin) ** 2).sum(axis=0)
 
     def ends(self) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-        """Mean and standard deviation of the states at the end."""
+        """Mean and standard deviation of the states, and of what is read off them, at the end."""
         assert self.origin is not None
         mean = self.sum / self.count[0]
         return self.origin + mean, np.sqrt(np.maximum(self.squares / self.count[0] - mean**2, 0))
@@ -353,7 +353,7 @@ def ensemble_summary(many: EnsembleMotions, tally: Tally) -> list[str]:
     lines += [f"  {x}" for _, x in facts["varied"]]
     lines += [f"  {tally.count[k]} {text}" for k, text in many.said.items() if tally.count[k]]
     if tally.count[0]:
-        pairs = zip(many.code.program.state, *(x.tolist() for x in tally.ends()), strict=True)
+        pairs = zip(many.names, *(x.tolist() for x in tally.ends()), strict=True)
         told = ", ".join(f"{name} = {mean:.6g} ± {off:.2g}" for name, mean, off in pairs)
         lines.append(f"  at the end, mean and deviation: {told}")
     return lines

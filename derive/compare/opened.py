@@ -189,6 +189,8 @@ def called(problem: Problem, table: Table) -> str:
     if table in problem.inputs:
         return f"the input {table.plain()['name']}"
     for word, tables in (("force", problem.forces), ("damping", problem.damping)):
+        if table in tables and (name := getattr(table, "name", None)):
+            return f"the {word} {name}"
         if table in tables:
             return f"{word} {tables.index(table) + 1}" if len(tables) > 1 else f"the {word}"
     kind = table.kind.replace("_", " ")

@@ -124,10 +124,11 @@ def suffixed(name: str, *index: int) -> str:
 
 def numbers_of_input(told: Mapping[str, Any], dimension: int) -> list[str]:
     """The names of the numbers of an input, which is ``told`` as in a record: as many as the
-    ``dimension``, of 𝔤 or of the space of a force; one where there is a direction, and of a torque
-    in the plane."""
+    ``dimension``, of 𝔤 or of the space of a force; one where there is a direction, of a torque in
+    the plane and of a scalar."""
     name = told["name"]
-    if "direction" in told or (told["kind"], dimension) == ("torque", 2):
+    scalar = told["kind"] == "scalar" or (told["kind"], dimension) == ("torque", 2)
+    if "direction" in told or scalar:
         return [name]
     return [suffixed(name, k) for k in range(1, dimension + 1)]
 
@@ -140,6 +141,11 @@ def numbers_of_output(told: Mapping[str, Any], dimension: int) -> list[str]:
     if kind == "rate":
         size = 3 if dimension == 3 else 1
     size = len(told["y"]) if kind == "expression" else size
+    return one_or_more(name, size)
+
+
+def one_or_more(name: str, size: int) -> list[str]:
+    """The names of so many numbers of an output, or of a force of the state: of one the name."""
     return [name] if size == 1 else [suffixed(name, k) for k in range(1, size + 1)]
 
 

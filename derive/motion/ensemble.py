@@ -17,9 +17,12 @@ from .emitted import Emitted
 from .first_numbers import MotionError
 from .native import AT_EVENT, CompileError, Integers, constants, ensemble
 from .run import Array
-from .simulate import require_values
+from .simulate import require_mass, require_values
 from .start import OFF_THE_GROUP, Start, start
 from .trajectory import TOLERANCE, Method, instants, reflection, taken_to_group, why_unreached
+
+UNITED = ("time", "state", "output")
+"""The kinds of columns that an ensemble has."""
 
 STEP = "vern9"
 """The step of ensembles."""
@@ -71,9 +74,9 @@ MOST = 10**12
 @dataclass(frozen=True)
 class Part:
     """Some motions: what is ``varied`` (motions, names), ``status`` (motions,), of STATUS,
-    ``states`` (motions, instants, state), of which those after an end are no numbers, and ``end``
-    (motions, 1 + state), time and state where one ends at an event, else no numbers; (motions, 0)
-    for a file without terminal events."""
+    ``states`` (motions, instants, columns), the state and then what is read off it, of which those
+    after an end are no numbers, and ``end`` (motions, 1 + columns), the time and these where one
+    ends at an event, else no numbers; (motions, 0) for a file without terminal events."""
 
     varied: Array
     status: Integers
@@ -88,7 +91,8 @@ class Part:
 @dataclass(frozen=True)
 class Ensemble:
     """Motions as arrays, like those of :class:`Part`, at the instants ``t``; ``names``: of the
-    state; ``facts``: what it was made of, as JSON has it, with the laws by which it varies."""
+    columns of the states; ``facts``: what it was made of, as JSON has it, with the laws by which it
+    varies."""
 
     facts: Mapping[str, Any]
     names: tuple[str, ...]
@@ -109,8 +113,8 @@ class Ensemble:
         return self.status >= AT_EVENT
 
     def __getitem__(self, name: str) -> Array:
-        """What is varied by its name, (motions,), or a number of the state, (motions, instants);
-        ``KeyError`` says which there are. A name that is both is that of the state."""
+        """What is varied by its name, (motions,), or a column of the states, (motions, instants);
+        ``KeyError`` says which there are. A name that is both is that of the states."""
         if name in self.names:
             return self.states[..., self.names.index(name)]
         if name in self.varied_names:
@@ -184,6 +188,7 @@ class EnsembleMotions:
         self.first = self._start(first)
         stated = {name for t in problem.initial.trees() for name in names(t)}
         require_values(code, self.first)
+        require_mass(code, problem, self.first, plan.duration)
         self.one_by_one = bool(stated & {*plan.names})  # the start is an expression of them
         if plan.device and code.events:
             raise MotionError(
@@ -209,12 +214,19 @@ class EnsembleMotions:
             "method": str(Method(STEP, None, self.plan.tol)),
             "ends": [x.name for x in self.code.events],
             "units": self._units,
+            **({"outputs": [*self.code.program.outputs]} if self.code.program.outputs else {}),
         }
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """Those of the state, then those of what is read off it."""
+        return (*self.code.program.state, *self.code.program.outputs)
+
+    @property
     def _units(self) -> dict[str, str]:
-        """The units of the time, of the state and of what is varied, of those that have one."""
-        stated = {x.name: x.unit for x in self.code.columns() if x.kind in ("time", "state")}
+        """The units of the time, the state, what is read off it and what is varied, of those that
+        have one."""
+        stated = {x.name: x.unit for x in self.code.columns() if x.kind in UNITED}
         given = self.problem.parameters
         stated |= {x: given[x].unit for x in self.plan.names if x in given}
         return {name: unit for name, unit in stated.items() if unit}
@@ -228,7 +240,7 @@ class EnsembleMotions:
     @property
     def none(self) -> Part:
         """No motions."""
-        state, names = len(self.first.x), len(self.plan.names)
+        state, names = len(self.names), len(self.plan.names)
         width = (1 + state) * bool(self.code.events)
         shapes = (0, names), (0,), (0, len(self.t), state), (0, width)
         varied, status, states, end = map(np.empty, shapes)
@@ -237,7 +249,7 @@ class EnsembleMotions:
     @property
     def size(self) -> int:
         """The motions of a part, but for the last one; on a graphics card as many as BYTES."""
-        most = BYTES // (8 * len(self.t) * len(self.first.x))
+        most = BYTES // (8 * len(self.t) * len(self.names))
         return max(1, most if self.plan.device else min(MOTIONS, most))
 
     @property
@@ -254,7 +266,7 @@ class EnsembleMotions:
 
     def _part(self, first: int, draws: Array, stopped: Callable[[], bool]) -> Part:
         """The motions of some draws, by calls that take about SECONDS; on a card by one."""
-        n, state, width = len(draws), len(self.first.x), self.none.end.shape[1]
+        n, state, width = len(draws), len(self.names), self.none.end.shape[1]
         states, end = np.full((n, len(self.t), state), math.nan), np.full((n, width), math.nan)
         part = Part(draws, np.zeros(n, dtype=np.intc), states, end)
         unit, done = 1 if self.code.events else TOGETHER, 0
@@ -270,7 +282,7 @@ class EnsembleMotions:
     def joined(self, parts: Sequence[Part]) -> Ensemble:
         """All that is in some parts."""
         joined = [np.concatenate([getattr(x, y) for x in parts]) for y in vars(parts[0])]
-        return Ensemble(self.facts, self.code.program.state, self.t, *joined)
+        return Ensemble(self.facts, self.names, self.t, *joined)
 
     def _start(self, numbers: Mapping[str, float]) -> Start:
         given = {**self.plan.given, **numbers}
@@ -316,7 +328,8 @@ class EnsembleMotions:
         x, p, u = self._starts(part.varied)
         x = self._on_the_group(x, first)
         k, wrong = constants(self.library, p, len(self.code.program.constants))
-        status, states = part.status, part.states
+        size = x.shape[1]
+        status, states = part.status, part.states[..., :size]
         status[:] = wrong != 0
         h, before = np.zeros(len(x)), 0.0
         for j, t in enumerate(self.t.tolist()):
@@ -332,8 +345,21 @@ class EnsembleMotions:
             status[on[mine]], h[on[mine]], x[on[mine]] = told[mine], step[mine], own[mine]
             for times in ended:
                 stops = told >= AT_EVENT
-                part.end[on[stops]] = np.column_stack([times, own])[stops]
+                part.end[on[stops], : 1 + size] = np.column_stack([times, own])[stops]
             states[status == 0, j] = x[status == 0]
+        if self.code.program.outputs:
+            self._read_off(part, k, u)
+
+    def _read_off(self, part: Part, k: Array, u: Array) -> None:
+        """Put what is read off the motions beside their states; ``k``, ``u``: their constants and
+        inputs, a row a motion."""
+        size, read = len(self.first.x), self.code.python.outputs
+        for j, t in enumerate(self.t.tolist()):
+            on = np.isfinite(part.states[:, j, :size]).all(axis=1)
+            part.states[on, j, size:] = read(t, part.states[on, j, :size], k[on], u[on])
+        for i in np.flatnonzero(part.status >= AT_EVENT):  # each at its own time
+            t, x = float(part.end[i, 0]), part.end[i, 1 : 1 + size]
+            part.end[i, 1 + size :] = read(t, x, k[i], u[i])
 
     def _going_on(self, status: Integers) -> tuple[Integers, Integers]:
         """The motions that go on, each in its place among the others of its TOGETHER, and the

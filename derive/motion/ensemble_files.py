@@ -1,6 +1,6 @@
 """Ensembles as files, written part by part: no more than a part is in memory.
 
-``.npz`` of NumPy holds ``states`` (motions, instants, state), ``varied`` (motions, names),
+``.npz`` of NumPy holds ``states`` (motions, instants, columns), ``varied`` (motions, names),
 ``status`` (motions,), ``end`` where motions end at events, the instants ``t`` and, as JSON, the
 ``head``; its arrays lie there as they are in memory, so that they can be mapped.  ``.csv`` and
 ``.parquet`` have a row for each motion and instant; that of the first instant after the end at an

@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from ..code.step.step_numbers import parts
 from ..language.show import show
-from ..language.tree import replaced
+from ..language.tree import Tree, nodes, replaced
 from ..language.values import approximate
 from ..problem.inertia import fault_of_quadrics
 from ..problem.problem import Problem, points_of
+from ..schema.body_kinds import GivenBody, PointBody
 from ..schema.kinds.attraction import Attraction
 from ..schema.kinds.spring import Spring
 from .emitted import Emitted
@@ -42,6 +44,10 @@ of the state changes by more than about TURN of its size."""
 
 TURNS = 10
 """How many turns are followed, about, where no time is given."""
+
+NEGLIGIBLE, INSTANTS, BEFORE = 1e-9, 257, 0.999
+"""A mass of a point below 0 by so much of its first size is 0 but for rounding; the instants of a
+motion at which masses are looked at; how near to the end of a mass an event is waited for."""
 
 CHUNKS = 200
 """The parts of a run between which it can be stopped and its progress is shown."""
@@ -77,7 +83,13 @@ def run(
     driven = inputs_in_time(problem, named, begin.u, numbers, given, inputs, linear=linear)
     begin = replace(begin, u=driven.at(0.0, begin.x)) if driven else begin
     follow = following(code, begin, method, duration, compiled, driven)
-    return simulate(code, begin, method, times, follow, progress)
+    used_up = require_mass(code, problem, begin, duration)
+    if used_up <= duration:  # an event is to end the motion before
+        times = np.append(times[times < BEFORE * used_up], BEFORE * used_up)
+    found = simulate(code, begin, method, times, follow, progress)
+    if used_up <= duration and not found.ended:
+        require_mass(code, problem, begin, duration, ends=False)
+    return found
 
 
 def following(
@@ -145,6 +157,45 @@ def beginning(
         why = why_not_finite(problem, begin, energy)
         raise MotionError(f"{code.name}: the equations have no finite value at the start: {why}")
     return begin
+
+
+def require_mass(
+    code: Emitted, problem: Problem, begin: Start, duration: float, *, ends: bool = True
+) -> float:
+    """The time at which a mass that flows is used up, within a motion or never; ``MotionError``
+    says it, unless an event may end the motion before (``ends``)."""
+    if not problem.flows:
+        return math.inf
+    assert isinstance(problem.body, PointBody | GivenBody)
+    total = problem.body.moments().m
+    found = [(_used_up(x.mass, begin, duration), show(x.mass)) for x in points_of(problem.body)]
+    when, mass = min([*found, (_used_up(total, begin, duration, whole=True), "")])
+    if when <= duration and not (ends and any(x.terminal for x in code.events)):
+        told = f"the mass {mass} of a point" if mass else "the mass of the body"
+        raise MotionError(
+            f"{code.name}: {told} is used up at t = {when:.6g}, and the motion is to go on to "
+            f"t = {duration:g}: let it end before, by --t or a terminal [[event]]"
+        )
+    return when
+
+
+def _used_up(mass: Tree, begin: Start, duration: float, *, whole: bool = False) -> float:
+    """The first time at which a mass is negative, or, of the ``whole``, 0; infinite for none."""
+
+    def left(t: float) -> float:
+        return approximate(replaced(mass, "t", Fraction(t)), begin.parameters, float) or 0.0
+
+    if "t" not in nodes(mass):
+        return math.inf
+    least = 0.0 if whole else -NEGLIGIBLE * abs(left(0.0))
+    times: list[float] = np.linspace(0.0, duration, INSTANTS).tolist()
+    late = next((b for b in times[1:] if left(b) <= least), None)
+    if late is None:
+        return math.inf
+    early = late - times[1]
+    while early < (middle := (early + late) / 2) < late:
+        early, late = (middle, late) if left(middle) > least else (early, middle)
+    return late
 
 
 def _constants(code: Emitted, problem: Problem, begin: Start) -> Array:

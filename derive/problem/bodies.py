@@ -9,7 +9,7 @@ from typing import Any
 from ..algebra.families import group, on_homogeneous
 from ..algebra.groups import Group
 from ..algebra.user_groups import group_of_basis
-from ..language.expression import hypot
+from ..language.expression import hypot, names
 from ..language.tree import mul, neg
 from ..schema.body_kinds import (
     SOLIDS,
@@ -36,6 +36,7 @@ from ..schema.kind import (
     Potential,
     QuadraticDamping,
     RotationalDamping,
+    ScalarInput,
     StatedCovector,
     StatedForce,
     StatedGroup,
@@ -177,6 +178,13 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
         reader.typed(StatedCovector, x, w) if "covector" in x else reader.typed(StatedForce, x, w)
         for w, x in stated.items()
     )
+    known = {name for x in of_state for t in x.trees() for name in names(t)}
+    for where, x in zip(inputs, given, strict=True):
+        if isinstance(x, ScalarInput) and x.name not in known:
+            raise ProblemError(
+                f"{where}: no [[force]] has {x.name!r} in its expressions, by which alone a scalar "
+                "acts"
+            )
     return found, given, damped, of_state
 
 
@@ -184,6 +192,7 @@ def outputs(
     data: Mapping[str, object],
     reader: FileReader,
     inputs: Sequence[Input],
+    acting: Sequence[Acting],
     potentials: tuple[Potential, ...] = (),
 ) -> tuple[Output, ...]:
     """What is read off a motion; a table of expressions has no kind."""
@@ -199,7 +208,7 @@ def outputs(
         reader.one_of(OUTPUTS, {"kind": kind, **x} if "y" in x else x, where)
         for where, x in tabled.items()
     )
-    reader.distinct_outputs(found, inputs, reader.parameters)
+    reader.distinct_outputs(found, inputs, reader.parameters, acting)
     return found
 
 

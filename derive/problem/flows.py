@@ -79,7 +79,8 @@ def flow_forces(
         if given:
             raise ProblemError(
                 f"flow 1, rate: {given[0]!r} is an input, and the masses must be known before the "
-                "motion is: give the rates, and the masses, as expressions of t"
+                "motion is: give the rates, and the masses, as expressions of t; or keep these and "
+                "let the input scale the thrust, a [[force]]"
             )
     moments = body.moments()
     rates = add(*(x.rate for x in flows))

@@ -211,9 +211,17 @@ def named_twice(problem: Problem) -> str:
         if z.input not in inputs:
             near = nearest(z.input, inputs) or f"; there is {', '.join(inputs)}"
             return f"signal {k}: no number of an input {z.input!r}{near}"
-    for k, y in enumerate(problem.outputs, 1):
-        if clash := next(filter(state.__contains__, (y.name, *problem.numbers_of_output(y))), ""):
-            return f"output {k}, {y.name!r}: {clash!r} is of the state; choose another name"
+    acting = [
+        (f"force {k}, {x.name!r}", (x.name or "", *x.numbers()))
+        for k, x in enumerate(problem.forces, 1)
+    ]
+    read = [
+        (f"output {k}, {y.name!r}", (y.name, *problem.numbers_of_output(y)))
+        for k, y in enumerate(problem.outputs, 1)
+    ]
+    for where, called in (*acting, *read):
+        if clash := next(filter(state.__contains__, called), ""):
+            return f"{where}: {clash!r} is of the state; choose another name"
     return ""
 
 

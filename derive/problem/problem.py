@@ -165,7 +165,7 @@ class Problem:
     @property
     def force_inputs(self) -> tuple[ForceInput | TorqueInput, ...]:
         """The inputs that are forces and torques."""
-        return tuple(i for i in self.inputs if not isinstance(i, CovectorInput))
+        return tuple(i for i in self.inputs if isinstance(i, ForceInput | TorqueInput))
 
     @property
     def stated_forces(self) -> tuple[Acting, ...]:
@@ -174,15 +174,20 @@ class Problem:
 
     @property
     def placed_forces(self) -> tuple[StatedForce, ...]:
-        """The forces of the state that act at a place."""
-        return tuple(x for x in self.forces if isinstance(x, StatedForce))
+        """The forces of the state that act at a place, by their numbers where these have names."""
+        return tuple(x.by_name() for x in self.forces if isinstance(x, StatedForce))
 
     @property
     def stated_covector(self) -> tuple[Tree, ...]:
         """The sum of the covectors of the state, by its values on the basis that the problem
         states; empty where there are none."""
-        found = [x.covector for x in self.forces if isinstance(x, StatedCovector)]
+        found = [x.by_name().covector for x in self.forces if isinstance(x, StatedCovector)]
         return tuple(add(*entries) for entries in zip(*found, strict=True))
+
+    @property
+    def named_numbers(self) -> dict[str, Tree]:
+        """The numbers of the forces of the state that have names, with their expressions."""
+        return {name: t for x in self.forces for name, t in x.numbers().items()}
 
     @property
     def driven(self) -> bool:
@@ -203,7 +208,9 @@ class Problem:
     def numbers_of(self, x: Input) -> list[str]:
         """The names of the numbers of an input."""
         assert self.group is not None
-        size = self.group.dimension if isinstance(x, CovectorInput) else self.acted_on(x)[1].n
+        size = self.group.dimension
+        if isinstance(x, ForceInput | TorqueInput):
+            size = self.acted_on(x)[1].n
         return numbers_of_input(x.plain(), size)
 
     def block_of(self, told: Mapping[str, Any]) -> int:

@@ -148,7 +148,7 @@ def problem_of(
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     linear, damped = as_forces(damping, reader)
     flows, pushed = flows_of(data, its_body, reader, inputs)
-    observed = outputs(data, reader, inputs, potentials)
+    observed = outputs(data, reader, inputs, stated, potentials)
     problem = Problem(
         name,
         moved,
@@ -224,7 +224,7 @@ def _without_points(
     acting = {f"force {k}": x for k, x in enumerate(tables(data, "force"), 1)}
     acting |= {f"input {k}": x for k, x in enumerate(tables(data, "input"), 1)}
     for key, x in acting.items() if advected is not None else ():
-        if "covector" not in x and x.get("kind") != "covector":
+        if "covector" not in x and x.get("kind") not in ("covector", "scalar"):
             raise ProblemError(f"{key}: an algebra moves no places: give a covector")
     group = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
     reader = FileReader()
@@ -242,7 +242,7 @@ def _without_points(
                 f"output {k}: beside [{where}] are no points: give expressions 'y' of the state"
                 + ("" if advected is not None else f", or one of {', '.join(others)}")
             )
-    observed = outputs(data, reader, inputs)
+    observed = outputs(data, reader, inputs, stated)
     problem = Problem(
         name,
         group,
@@ -334,6 +334,12 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
                 known, timed = KNOWN[name == "t"], () if name != "t" else ("potential",)
                 where = used_at({k: x for k, x in data.items() if k not in timed}, name, "U")
                 raise ProblemError(f"{where}: {name!r} is known in {known} alone")
+            if numbers := _numbers_of(problem, name):
+                where = used_at({k: x for k, x in data.items() if k != "input"}, name)
+                raise ProblemError(
+                    f"{where}: {name!r} is an input of {', '.join(numbers)}; one number "
+                    'that forces alone know is an [[input]] of kind = "scalar"'
+                )
             where, shown = used_at(data, name), name[:40]
             if problem.group and problem.lagrangian:
                 own = known_in_lagrangian(problem.group, problem.advected)
@@ -346,6 +352,12 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     for name in data.get("parameters", {}):
         if name not in used and name not in elsewhere:
             raise ProblemError(f"parameter {name!r} is declared but not used; leave it out")
+
+
+def _numbers_of(problem: Problem, name: str) -> list[str]:
+    """The numbers of the input of a name that none of them has."""
+    numbers = (problem.numbers_of(x) for x in problem.inputs if x.name == name)
+    return [x for listed in numbers if name not in listed for x in listed]
 
 
 def _trees(listed: Iterable[Table]) -> list[Tree]:

@@ -110,13 +110,13 @@ class _RecordReader(TableReader):
         inputs = self.each("inputs", lambda x, where: self.one_of(INPUTS, x, where))
         self.distinct(inputs, data["parameters"])
         self.each("damping", lambda x, where: self.typed(Damping, x, where))
-        if "forces" in data:
-            self.each("forces", self.acting)
+        forces = self.each("forces", self.acting) if "forces" in data else []
         if "flows" in data:
             self.each("flows", lambda x, where: self.typed(Flow, x, where))
+        outputs = []
         if "outputs" in data:
             outputs = self.each("outputs", lambda x, where: self.one_of(OUTPUTS, x, where))
-            self.distinct_outputs(outputs, inputs, data["parameters"])
+        self.distinct_outputs(outputs, inputs, data["parameters"], forces)
         self.matrices(self.value(self.top("basis"), list))
         if data.get("discrete", True) is not True:
             raise ShapeError("discrete: expected true, or nothing")
@@ -192,7 +192,7 @@ class _RecordReader(TableReader):
         """Without an element of a group nothing acts at a place."""
         data = self.data
         placed = data["places"] or any("covector" not in x for x in data.get("forces", ()))
-        if placed or any(x["kind"] != "covector" for x in data["inputs"]):
+        if placed or any(x["kind"] in ("force", "torque") for x in data["inputs"]):
             raise ShapeError("lagrangian: what acts on an algebra is a covector")
         if any(x["kind"] != "expression" for x in data.get("outputs", ())):
             raise ShapeError("lagrangian: the outputs of an algebra are expressions")

@@ -1,9 +1,11 @@
 """What a problem may say: parameters, a group, an algebra, a fluid, forces, potentials."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple, Self
 
+from ..language.reserved import one_or_more
 from ..language.tree import Tree
 from .table import (
     Action,
@@ -181,24 +183,70 @@ class TorqueInput(Table):
         return {"name": name, "frame": frame, "block": block, "direction": direction}
 
 
+class ScalarInput(Table):
+    """A number that forces of the state know, and that does not push by itself: a throttle."""
+
+    kind, section, called = "scalar", "input", "Scalar"
+    name: Name
+
+    @classmethod
+    def word(cls, name: str) -> Any:
+        """An input: a number that expressions of applied forces have, as a throttle."""
+        return {"name": name}
+
+
 def _said(keys: tuple[str, ...] | str, table: Mapping[str, Any]) -> tuple[str, ...]:
     """The keys of an input, without the direction and the moment that a table does not say."""
     return tuple(x for x in keys if x not in ("direction", "moment") or x in table)
 
 
+Named = Annotated[str | None, Key("name")]
 Stated = Annotated[Row, Key("stated", 1, trees=True)]
 Torque = Annotated[Row, Key("stated_couple", 1, trees=True)]
 Wind = Annotated[Row, Key("wind", 1, trees=True, told=False)]
 Dual = Annotated[Row, Key("stated_covector", 1, trees=True)]
-"""Expressions of the state, t, inputs and parameters; a moment of these; a velocity in space, of t
-and the place; a covector of the Lie algebra."""
+"""A name or none; expressions of the state, t, inputs and parameters; a moment of these; a velocity
+in space, of t and the place; a covector of the Lie algebra."""
 
 
-class StatedForce(Table):
+class Acting(Table):
+    """What acts as a function of the state; with a ``name``, if it has one."""
+
+    section = "force"
+    name: Named = None
+    expressed: ClassVar[tuple[str, ...]]
+    """The keys that have expressions of the state."""
+
+    @classmethod
+    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
+        """A name where a table has one."""
+        own = super().chosen(table, last)
+        return tuple(x for x in own if x != "name" or x in table)
+
+    def numbers(self) -> dict[str, Tree]:
+        """Its numbers that are not 0 by their names, ``drag_1``, … of ``drag`` (of one number, the
+        name), in the order of its keys; none where it has no name."""
+        listed = [t for key in self.expressed for t in getattr(self, key)]
+        names = one_or_more(self.name, len(listed)) if self.name else ()
+        return {name: t for name, t in zip(names, listed, strict=False) if t != 0}
+
+    def by_name(self) -> Self:
+        """The same with these names for its expressions."""
+        if not self.name:
+            return self
+        names = iter(self.numbers())
+        own: dict[str, Any] = {
+            key: tuple(t if t == 0 else ("par", next(names)) for t in getattr(self, key))
+            for key in self.expressed
+        }
+        return replace(self, **own)
+
+
+class StatedForce(Acting):
     """A force, or a moment, that is a function of the state: of the velocity of its place too,
     less that of what is there (``relative_to``, which a record has in the expressions)."""
 
-    section, called = "force", "AppliedForce"
+    called, expressed = "AppliedForce", ("force", "moment")
     on: End
     frame: Frame = "space"
     relative_to: Wind = ()
@@ -221,26 +269,27 @@ class StatedForce(Table):
         frame: str = "space",
         block: int | None = None,
         relative_to: Sequence[Number] | None = None,
+        name: str | None = None,
     ) -> Any:
         """A force and a moment on a point, or at a place of the body, in a product of that of a
         block: expressions of the velocity v_1, … of the place, less that of a wind, of the state,
-        t, inputs and parameters, in the frame "space" or "body"."""
+        t, inputs and parameters, in the frame "space" or "body"; with a name in the equations."""
         told = {"force": force, "moment": moment, "frame": frame, "relative_to": relative_to}
-        return told | place(on, block)
+        return {"name": name} | told | place(on, block)
 
 
-class StatedCovector(Table):
+class StatedCovector(Acting):
     """A covector of the Lie algebra that is a function of the state, by its values on the basis
     that the problem states: power ⟨Q, ζ⟩."""
 
-    section, called = "force", "AppliedCovector"
+    called, expressed = "AppliedCovector", ("covector",)
     covector: Dual
 
     @classmethod
-    def word(cls, covector: Sequence[Number]) -> Any:
+    def word(cls, covector: Sequence[Number], name: str | None = None) -> Any:
         """What acts along each element of the basis: expressions of the state, t, inputs and
-        parameters, as many as the group has dimensions."""
-        return {"covector": covector}
+        parameters, as many as the group has dimensions; with a name in the equations."""
+        return {"name": name, "covector": covector}
 
 
 class Flow(Table):
@@ -259,9 +308,6 @@ class Flow(Table):
         """Mass that flows at a point or a place of the body: dm/dt, below 0 where it leaves, and
         its velocity relative to the body; expressions of t."""
         return {"rate": rate, "velocity": velocity, **place(on, None)}
-
-
-Acting = StatedForce | StatedCovector
 
 
 class Damping(Table):
@@ -307,11 +353,12 @@ DAMPING: dict[str, type[QuadraticDamping] | type[RotationalDamping]] = {
 }
 
 
-Input = CovectorInput | ForceInput | TorqueInput
-INPUTS: dict[str, type[CovectorInput] | type[ForceInput] | type[TorqueInput]] = {
+Input = CovectorInput | ForceInput | TorqueInput | ScalarInput
+INPUTS: dict[str, type[Input]] = {
     "covector": CovectorInput,
     "force": ForceInput,
     "torque": TorqueInput,
+    "scalar": ScalarInput,
 }
 
 

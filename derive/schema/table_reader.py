@@ -13,7 +13,7 @@ from typing import Any, ClassVar, TypeVar
 from ..language.limits import MAGNITUDE, SAMPLES, TEXT, TORUS
 from ..language.reserved import COLUMNS, WORDS, numbers_of_input, taken
 from ..language.tree import Tree
-from .kind import Input, Parameter
+from .kind import Acting, Input, Parameter
 from .output_kinds import Output
 from .table import Rows, Slot, Table, hint
 
@@ -97,24 +97,30 @@ class TableReader(ABC):
                 raise self.fail(f"input {k}, {name!r}: {told}; choose another name")
 
     def distinct_outputs(
-        self, outputs: Sequence[Output], inputs: Sequence[Input], parameters: Collection[str]
+        self,
+        outputs: Sequence[Output],
+        inputs: Sequence[Input],
+        parameters: Collection[str],
+        forces: Sequence[Acting],
     ) -> None:
-        """No output has the name of another, of a parameter or an input, nor of a number of
-        these."""
+        """No output, and no force of the state, has the name of another, of a parameter or an
+        input, nor of a number of these."""
         known = dict.fromkeys(COLUMNS, "a column of runs")
         known |= dict.fromkeys(parameters, "a parameter")
         known |= {x.name: "an input" for x in inputs}
-        for k, name in enumerate([x.name for x in outputs], 1):
+        listed = [(f"force {k}", x.name, "a force") for k, x in enumerate(forces, 1) if x.name]
+        listed += [(f"output {k}", x.name, "another output") for k, x in enumerate(outputs, 1)]
+        for where, name, role in listed:
             if what := taken(name):
                 raise self.fail(
-                    f"output {k}, {name!r}: this is {what} in an expression; choose another name"
+                    f"{where}, {name!r}: this is {what} in an expression; choose another name"
                 )
             for other, what in known.items():
                 if name == other or _numbers_of(name, other) or _numbers_of(other, name):
                     raise self.fail(
-                        f"output {k}, {name!r}: {other!r} is {what} as well; choose another name"
+                        f"{where}, {name!r}: {other!r} is {what} as well; choose another name"
                     )
-            known[name] = "another output"
+            known[name] = role
 
     def table(self, slot: Slot) -> Any:
         """Another table."""
@@ -152,6 +158,9 @@ class TableReader(ABC):
 
     def choice(self, slot: Slot, allowed: tuple[str, ...]) -> str:
         """One of a few strings."""
+        if slot.key not in slot.table:
+            told = f"key {slot.key!r} is missing; it is one of {', '.join(allowed)}"
+            raise self.fail(f"{slot.where}: {told}")
         value = self.value(slot)
         if value not in allowed:
             near = hint(self.text(slot), allowed) if isinstance(value, str) else ""

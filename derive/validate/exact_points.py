@@ -86,7 +86,7 @@ class Claims:
         found: list[str] = []
         for data in self.record.problem.get("inputs", []):
             size = self.group.dimension
-            if data["kind"] != "covector":
+            if data["kind"] in ("force", "torque"):
                 size = self._factor(data).n
             found += numbers_of_input(data, size)
         return tuple(found)
@@ -154,7 +154,9 @@ class Claims:
         found: list[Any] = []
         forces = iter(model.input_forces)
         for data in self.record.problem.get("inputs", []):
-            if data["kind"] != "covector":
+            if data["kind"] == "scalar":
+                found.append(model.parameters[data["name"]])
+            elif data["kind"] != "covector":
                 found += next(forces)
             else:
                 found += self._on_user_basis(model.covector)

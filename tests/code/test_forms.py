@@ -431,7 +431,7 @@ BESIDE = """
 name = "test"
 group = "SE(2)"
 inertia = { operator = [[2, 0, 0], [0, 1, 0], [0, 0, 1]] }
-force = [{ covector = ["-zeta_1", 0, 0] }, { at = [1, 2], force = ["-v_1", 0] }]
+force = [{ name = "loads", covector = ["-zeta_1", 0, 0] }, { at = [1, 2], force = ["-v_1", 0] }]
 """
 
 
@@ -441,7 +441,7 @@ force = [{ covector = ["-zeta_1", 0, 0] }, { at = [1, 2], force = ["-v_1", 0] }]
         (ACTING, "Force of the state: a force and a moment on the body at (1, 2, 3), in the body"),
         (ACTING, "Mass flows at (1, 0, 2), dm/dt = -1."),
         (ACTING, "Damping: the force -kappa v on point 1, point 4, kappa = 3b."),
-        (BESIDE, "Force of the state: a covector of the Lie algebra."),
+        (BESIDE, "Force of the state loads: a covector of the Lie algebra."),
         (BESIDE, "Force of the state: a force on the body at (1, 2), in the space frame."),
     ],
 )

@@ -292,3 +292,27 @@ def test_captions_say_what_the_drawing_does_not() -> None:
     assert "centre of attraction" in said("comet")
     assert "sample values" in said("plane")
     assert "sample values" not in said("so3")
+
+
+def test_a_force_of_the_state_is_drawn_under_its_name() -> None:
+    """At its place, as an input is; what has no name, or no place, is said not to be drawn."""
+    drag = {"name": "drag", "on": 1, "frame": "body", "force": [1, 0, 0], "moment": []}
+    bare = {"on": 2, "frame": "body", "force": [1, 0, 0], "moment": []}
+    turning = {"name": "brake", "on": 2, "frame": "body", "force": [], "moment": [1, 0, 0]}
+    loads = {"name": "loads", "covector": [0] * 3}
+
+    def told(*forces: dict[str, Any]) -> tuple[str, bool]:
+        drawn = changed("ellipsoid", forces=[*forces])
+        return " ".join(map(str, drawn.caption)), any(x.base == "drag" for x in drawn.labels)
+
+    caption, there = told(drag)
+    assert there
+    assert "The directions of the forces of the state are arbitrary." in caption
+    assert "not drawn" not in caption.replace("Damping is not drawn.", "")
+    for other in (bare, turning, loads):
+        caption, there = told(drag, other)
+        assert there
+        assert "Forces of the state without a name are not drawn." in caption
+        caption, there = told(other)
+        assert not there
+        assert "Forces of the state are not drawn." in caption

@@ -15,6 +15,7 @@ from derive.command.simulating import Tally, kept
 from derive.motion import ensemble as of_parts
 from derive.motion import native
 from derive.motion.ensemble import ParameterDraws, VariedNumber
+from derive.problem.toml import problem_of
 from derive.programs import motion_of
 from derive.python.simulated import SimulatedEnsemble
 from tests.problems.line import FALLING
@@ -54,6 +55,43 @@ def test_each_motion_is_that_of_a_run(so3, some):
         start = dict(zip(some.varied_names, some.varied[k].tolist(), strict=True))
         run = so3.simulate(2.0, start=start, points=2, tol=1e-13)
         assert np.abs(run.states - some.states[k]).max() < 1e-10
+
+
+READ = {
+    "name": "test",
+    "group": "SE(2)",
+    "parameters": {"k": 1.5},
+    "point": [{"mass": 1, "at": [1, 0]}, {"mass": 2, "at": [0, 1]}],
+    "input": [{"name": "f", "kind": "force", "at": [1, 1]}],
+    "output": [
+        {"name": "range", "kind": "distance", "at": [1, 1], "to": ["k", 2], "unit": "ft"},
+        {"name": "felt", "kind": "acceleration", "at": [1, 1], "frame": "body"},
+        {"name": "own", "y": ["t + k*f_1"]},
+    ],
+    "event": [{"name": "far", "when": "T_1 - 2", "terminal": True}],
+}
+
+
+@needs("cc")
+@pytest.mark.parametrize("ending", ["npz", "csv"])
+def test_outputs_are_columns_as_of_runs(tmp_path, ending):
+    d = derive.derive(problem_of(READ))
+    start, vary = {"w_1": 1.0, "f_2": 0.5}, {"zeta_1": (0, 2), "f_1": (-1, 2), "k": (1, 2)}
+    made = d.simulate(3.0, ensemble=12, start=start, vary=vary, points=6, tol=1e-12)
+    outputs = ["range", "felt_1", "felt_2", "own"]
+    assert made.names[-4:] == tuple(outputs) == tuple(made.facts["outputs"])
+    assert made.facts["units"]["range"] == "ft"
+    made.save(tmp_path / f"e.{ending}")
+    e = SimulatedEnsemble.read(tmp_path / f"e.{ending}")
+    assert 0 < e.at_event.sum() < 12
+    for k in range(12):
+        own = start | dict(zip(e.varied_names, e.varied[k].tolist(), strict=True))
+        run = d.simulate(3.0, start=own, points=6, tol=1e-12)
+        whole = np.stack([run[x] for x in e.names], axis=1)
+        seen = np.vstack([e.states[k], e.end[k, 1:]])
+        seen = seen[~np.isnan(seen).any(axis=1)]
+        assert seen.shape == whole.shape
+        assert np.abs(seen - whole).max() < 1e-8
 
 
 def test_what_is_drawn_is_by_its_law_whatever_the_parts():

@@ -373,9 +373,10 @@ def environment(data, basis, p, t, G, zeta, u):
     left = [] if u is None else [*u]
     for table in data.get("input", ()):
         size = len(basis)
-        if table["kind"] != "covector":
+        if table["kind"] not in ("covector", "scalar"):
             size = blocks(data)[0][table.get("block", 1) - 1][1]
         single = "direction" in table or (table["kind"], size) == ("torque", 2)
+        single = single or table["kind"] == "scalar"
         names = [table["name"]] if single else [f"{table['name']}_{i + 1}" for i in range(size)]
         env |= {name: left.pop(0) for name in names if left}
     return env
@@ -429,6 +430,9 @@ def inputs(data, basis, p, found, G, u):
     for k, table in enumerate(data.get("input", ())):
         if table["kind"] == "covector":
             covector += taken(d)
+            continue
+        if table["kind"] == "scalar":
+            taken(1)  # functions of the state know it
             continue
         first, n, _ = blocks(data)[0][table.get("block", 1) - 1]
         x, rows = None, np.arange(first, first + n)

@@ -373,6 +373,7 @@ kind = "force"
 on = 1
 direction = [1, 0, 0]
 [[force]]
+name = "drag"
 on = 3
 frame = "body"
 relative_to = ["w*sin(r_3)", "w*t", 0]
@@ -387,6 +388,7 @@ on = 2
 frame = "body"
 moment = ["-c*zeta_1", 0, "max(v_1, 0)"]
 [[force]]
+name = "turn"
 on = 2
 moment = ["-c*zeta_1", "pull", 0]
 """
@@ -407,11 +409,19 @@ group = "SE(2)"
 parameters = { c = 0.7 }
 point = [{ mass = 1, at = [1, 0] }, { mass = 2, at = [0, 1] }]
 [[force]]
+name = "wind"
 on = 2
 frame = "body"
 relative_to = ["c*r_2", 1]
 force = ["-c*v_1", "sin(t)*T_1 + w_2*A_12"]
 moment = ["-c*zeta_1"]
+[[input]]
+name = "gas"
+kind = "scalar"
+[[force]]
+name = "brake"
+on = 1
+moment = ["-gas*zeta_1"]
 """
 PROBLEMS["a product of the state"] = """
 name = "test"
@@ -432,6 +442,7 @@ on = 4
 frame = "body"
 force = ["-c*v_1 + zeta_4", "A2_12 - v_2"]
 [[force]]
+name = "Q"
 covector = ["-c*zeta_1", "t*zeta_3", "A1_12", "-zeta_4^3", "A2_11*zeta_1", "c*T1_2"]
 """
 WITH_COVECTOR = """
@@ -441,6 +452,7 @@ kind = "covector"
 [[force]]
 covector = [{0}]
 [[force]]
+name = "loads"
 covector = [{0}]
 """
 VALUES = ["-zeta_1", "zeta_1*A_12", "t*zeta_3", "push_1*w_1", "A_33*T_2", "-w_2*abs(w_2)"]

@@ -144,6 +144,12 @@ OWN = [
         "point": [{"mass": "2 - t", "at": [1, 0]}],
         "flow": [{"at": [2, 0], "rate": -1, "velocity": [0, 1]}],
     },
+    {
+        "group": "SO(2)",
+        "point": [{"mass": 2, "at": [1, 0]}],
+        "input": [{"name": "gas", "kind": "scalar"}],
+        "force": [{"covector": ["-gas*zeta_1"]}],
+    },
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT, "input": [{"name": "u", "kind": "torque"}]},
     {"algebra": {"of": "SO(3)"}, "advected": [{"name": "x"}], "lagrangian": ON_THE_RIGHT},
     {"group": "SO(3) x SE(2)", "lagrangian": {"L": TWO}},

@@ -159,6 +159,23 @@ def test_the_record_holds(what):
     assert labels.isdisjoint({"conserved", "by_momenta", "poisson_tensor"})
 
 
+def test_a_motion_ends_before_its_mass_is_used_up():
+    told = "the mass 9 − t of a point is used up at t = 9, and the motion is to go on to t = 12"
+    masses = [{"mass": "9 - t", "at": [1, 0]}, {"mass": 2, "at": [0, 1]}]
+    flow = [{"on": 1, "rate": -1, "velocity": [1, 0]}]
+    data = {"name": "test", "group": "SE(2)", "point": masses, "flow": flow}
+    assert derive.derive(problem_of(data)).simulate(8.9)["t"][-1] == 8.9
+    with pytest.raises(ValueError, match=told):
+        derive.derive(problem_of(data)).simulate(12.0)
+    late, early = (
+        derive.derive(problem_of(data | {"event": [{"name": "out", "when": x, "terminal": True}]}))
+        for x in ("t - 10", "t - 5")
+    )
+    with pytest.raises(ValueError, match=told):
+        late.simulate(12.0)
+    assert abs(early.simulate(12.0)["t"][-1] - 5) < 1e-9
+
+
 def test_a_record_with_another_flow_is_seen():
     record = derive.derive(made("SE(3)")[0]).record
     for key, other in (("rate", ["mul", -2, ["par", "b"]]), ("velocity", [0, 0, ["par", "u"]])):

@@ -1,10 +1,12 @@
 """What a Lagrangian is said to depend on, and where the names that the user typed have gone."""
 
 import tomllib
+from dataclasses import replace
 
 import pytest
 
-from derive.language.tree import nodes
+from derive.check.checker import Checker
+from derive.language.tree import mul, nodes
 from derive.pipeline import discrete, walk
 from derive.problem.toml import problem_of
 from derive.programs import program
@@ -13,6 +15,7 @@ from derive.views.language import language
 from derive.views.outline import latex_names
 from derive.views.rendering import render
 from derive.views.text import text
+from tests.support.library import emission
 
 CARRIED = """
 name = "carried"
@@ -204,3 +207,63 @@ def test_text_and_code_call_an_input_alike():
         *(f"thrust_{k}" for k in (1, 2, 3)),
         *(f"F_{k}" for k in range(1, 7)),
     }
+
+
+STATED = """
+name = "stated"
+group = "SE(3)"
+point = [
+  { mass = 1, at = [1, 0, 0] }, { mass = 2, at = [0, 1, 0] }, { mass = 1, at = [0, 0, 1] },
+]
+[[force]]
+name = "drag"
+on = 2
+frame = "body"
+force = ["-v_1", 0, "-v_3"]
+moment = [0, "-zeta_2", 0]
+[[force]]
+name = "loads"
+covector = ["-zeta_1", 0, 0, 0, 0, "-w_3"]
+"""
+
+
+def test_forces_of_the_state_have_the_names_of_the_file():
+    """Their numbers are said once, entries that are 0 have none, and code calls them so too."""
+    p = problem_of(tomllib.loads(STATED))
+    d = walk(p)
+    step = d["stated.input"]
+    told = {
+        e.lhs[1]: e.rhs for e in step.equations if isinstance(e.lhs, tuple) and e.lhs[0] == "par"
+    }
+    assert [*told] == ["drag_1", "drag_3", "drag_5", "loads_1", "loads_6"]
+    pulls = next(e for e in step.equations if e.lhs == "F_u")
+    assert {x[1] for x in nodes(pulls.rhs) if isinstance(x, tuple) and x[0] == "par"} == {
+        *("drag_1", "drag_3", "loads_6")
+    }
+    assert "‘drag’, what acts at r_2, in the body frame" in english(step.prose)
+    assert "a covector of the state, ‘loads’, by" in english(step.prose)
+    assert "‘drag’, ce qui agit en r_2" in language("fr").of(step.prose)
+    _, texts = emission(p, ("c",))
+    assert "drag_1 = " in texts["stated.c"]
+
+
+def test_without_a_name_nothing_is_said_of_it():
+    """The equations are those of the named, put in: the record of before."""
+    bare = problem_of(
+        tomllib.loads(STATED.replace('name = "drag"', "").replace('name = "loads"', ""))
+    )
+    d = walk(bare)
+    assert all("name" not in x for x in d.problem["forces"])
+    parts = {x for e in d["stated.input"].equations for x in nodes(e.rhs)}
+    assert not [x for x in parts if isinstance(x, tuple) and x[0] == "par"]
+
+
+def test_a_record_with_another_force_under_the_name_is_seen():
+    """The checker has the numbers from the problem, not from the equation that says them."""
+    d = walk(problem_of(tomllib.loads(STATED)))
+    step = d["stated.input"]
+    changed = [
+        replace(e, rhs=mul(-1, e.rhs)) if e.lhs == ("par", "drag_5") else e for e in step.equations
+    ]
+    assert Checker(d.problem, 1).check(step).holds
+    assert not Checker(d.problem, 1).check(replace(step, equations=tuple(changed))).holds

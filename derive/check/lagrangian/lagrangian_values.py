@@ -32,7 +32,7 @@ def environment(model: LagrangianModel) -> Environment:
         ),
         _families(model),
         _functions(model),
-        Observed(model) if model.problem.get("outputs") else model.parameters,
+        Observed(model) if {"outputs", "forces"} & {*model.problem} else model.parameters,
         elementary=model.elementary,
         unit=model.unit,
     )

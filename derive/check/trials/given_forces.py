@@ -47,11 +47,13 @@ class GivenForces(PhasePoint):
         )
 
     def draw_inputs(self) -> None:
-        """Draw the numbers of forces and torques, which have names."""
+        """Draw the numbers of forces and torques, which have names, and scalars."""
         acting = self.inputs_of("force", "torque")
         named = [numbers_of_input(data, self._acted_on(data)[1].n) for data in acting]
         driven = self.at.driven
-        given = {x: self.draw() if driven else Fraction(0) for names in named for x in names}
+        scalars = [x["name"] for x in self.inputs_of("scalar")]
+        drawn = [*(x for names in named for x in names), *scalars]
+        given = {x: self.draw() if driven else Fraction(0) for x in drawn}
         self.input_forces = [tuple(given[x] for x in names) for names in named]
         self.parameters |= given
 
@@ -62,7 +64,8 @@ class GivenForces(PhasePoint):
         known = dict.fromkeys(self.parameters, Fraction(0)) | {**values}
         named = [numbers_of_input(data, self._acted_on(data)[1].n) for data in acting]
         self.input_forces = [tuple(known[x] for x in names) for names in named]
-        self.parameters |= values
+        scalars = {x["name"]: known[x["name"]] for x in self.inputs_of("scalar")}
+        self.parameters |= {**scalars, **values}
         for data in self.inputs_of("covector"):
             basis = self.group.in_user_basis.basis
             rows = q.matrix([self.group.nearest(e) for e in basis])

@@ -86,7 +86,7 @@ def environment(model: Model) -> Environment:
         NameValues(model, GROUPS),
         _families(model),
         _functions(model),
-        Observed(model) if model.problem.get("outputs") else model.parameters,
+        Observed(model) if {"outputs", "forces"} & {*model.problem} else model.parameters,
         elementary=model.elementary,
         listed=listed_count(model),
         copies=model.copies,

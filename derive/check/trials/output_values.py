@@ -7,7 +7,7 @@ from typing import Any
 
 from ...algebra.groups import Group
 from ...language import rational as q
-from ...language.reserved import numbers_of_output
+from ...language.reserved import numbers_of_output, one_or_more
 from ...record.as_json import decode
 from ...record.record import RecordError
 from ..values.evaluate import evaluate
@@ -18,8 +18,8 @@ Data = Mapping[str, Any]
 
 
 class Observed(Mapping[str, Any]):
-    """The parameters of a model, and the outputs of its problem by their names, each found when it
-    is first asked for."""
+    """The parameters of a model, and by their names the outputs of its problem and the numbers of
+    its forces of the state, each found when it is first asked for."""
 
     def __init__(self, model: Any):
         self.model, self.known = model, dict(model.parameters)
@@ -39,6 +39,10 @@ class Observed(Mapping[str, Any]):
         for data in () if model.generic else model.problem.get("outputs", ()):
             names = numbers_of_output(data, self._acted_on(data)[1].n)
             self.told |= dict.fromkeys(names, data | {"names": names})
+        for data in () if model.generic else model.problem.get("forces", ()):
+            for name, tree in _numbers_of(data):
+                told = {"name": name, "kind": "expression", "names": [name], "y": [tree]}
+                self.told[name] = told
 
     def __getitem__(self, name: str) -> Any:
         if name not in self.known:
@@ -145,6 +149,14 @@ class Observed(Mapping[str, Any]):
     def expression(self, data: Data) -> Vector:
         """What the problem states, of the state."""
         return tuple(evaluate(decode(x, "y"), self.model.of_state) for x in data["y"])
+
+
+def _numbers_of(force: Data) -> Iterator[tuple[str, Any]]:
+    """The numbers of a force of the state by their names, those of the force before the moment's;
+    none where it has no name."""
+    trees = [x for key in ("force", "moment", "covector") for x in force.get(key, ())]
+    names = one_or_more(force["name"], len(trees)) if "name" in force else ()
+    yield from zip(names, trees, strict=False)
 
 
 def accelerations(model: Any) -> list[Vector]:

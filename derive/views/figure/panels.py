@@ -53,6 +53,11 @@ def _solid(s: DrawnSolid, sight: Vector) -> Shape | Mesh:
     return Mesh(s, sight)
 
 
+def named_forces(problem: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """The forces of the state that a problem of a record has under names, without moments alone."""
+    return [x for x in problem.get("forces", ()) if "name" in x and x.get("force")]
+
+
 class Panel:
     """A panel: the part of a body that one factor of the group moves, with its forces.
 
@@ -70,7 +75,8 @@ class Panel:
         potentials = problem["potentials"]
         self.springs = [p for p in potentials if p["kind"] == "spring"]
         self.attractions = [p for p in potentials if p["kind"] == "attraction"]
-        self.forces = [i for i in problem["inputs"] if i["kind"] == "force" and i["on"] in self.at]
+        given = [i for i in problem["inputs"] if i["kind"] == "force"]
+        self.forces = [i for i in (*given, *named_forces(problem)) if i["on"] in self.at]
         self.inside = [p for p in self.springs if {*p.get("between", [0])} <= {*self.at}]
         self.anchored = [p for p in self.springs if p.get("on") in self.at]
         self.anchors, moved = [], []

@@ -26,7 +26,7 @@ from .drawn_body import (
     plus,
     ranked,
 )
-from .panels import Panel, Sheet, draw, shows_centre
+from .panels import Panel, Sheet, draw, named_forces, shows_centre
 
 GRAVITY = "γ"
 WIDTH, MARGIN, GAP = 80.0, 1.5, 13.0
@@ -225,8 +225,13 @@ def _caption(
     sentences += [say(x.legend) for x in legends if not x.drawn]
     if problem["damping"]:
         sentences.append(say("Damping is not drawn."))
-    if problem.get("forces"):
+    stated, drawn = problem.get("forces", ()), named_forces(problem)
+    if drawn:
+        sentences.append(say("The directions of the forces of the state are arbitrary."))
+    if stated and not drawn:
         sentences.append(say("Forces of the state are not drawn."))
+    elif len(stated) > len(drawn):
+        sentences.append(say("Forces of the state without a name are not drawn."))
     if problem.get("flows"):
         sentences.append(say("Mass that flows is not drawn."))
     if value.invented:

@@ -15,7 +15,7 @@ from ...language.tree import Tree, add, mul, neg, nodes, plain, replaced
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
-from ...schema.kind import ForceInput, StatedForce, TorqueInput
+from ...schema.kind import ForceInput, ScalarInput, StatedForce, TorqueInput
 from ..chapter import Chapter, Draft, phrase, say
 from ..spine.alphabet import Alphabet
 from ..spine.cartan import body_rule
@@ -61,11 +61,21 @@ def where_given(problem: Problem) -> Prose:
         for x in problem.force_inputs
     ]
     given = say("input.given", forces=listed("{first}; {second}", forces)) if forces else ()
+    scalars = [f"‘{x.name}’" for x in problem.inputs if isinstance(x, ScalarInput)]
+    given += say("input.scalars", names=", ".join(scalars)) if scalars else ()
     own = [x for x in problem.stated_forces if isinstance(x, StatedForce)]
-    stated = [phrase(f"input.{x.frame}_stated", point=f"r_{x.on}") for x in own]
+    stated = [
+        phrase(f"input.{x.frame}_named", name=f"‘{x.name}’", point=f"r_{x.on}")
+        if x.name
+        else phrase(f"input.{x.frame}_stated", point=f"r_{x.on}")
+        for x in own
+    ]
     if stated:
         given += say("input.stated", forces=listed("{first}; {second}", stated))
-    given += say("input.covector") if problem.stated_covector else ()
+    if problem.stated_covector:
+        called = [f"‘{x.name}’" for x in problem.forces if x.name and x not in own]
+        names = {"name": ", ".join(called)} if called else {}
+        given += say("input.named_covector" if called else "input.covector", **names)
     return given + (say("input.flow") if problem.flows else ())
 
 
@@ -120,6 +130,11 @@ def pushes(problem: Problem) -> list[tuple[int, Push]]:
     """The forces and torques that act beside a covector, those that are given with their number."""
     given: list[Push] = [*problem.force_inputs]
     return [*enumerate(given, 1), *((0, x) for x in problem.placed_forces)]
+
+
+def named_forces(problem: Problem) -> list[Equation]:
+    """What the numbers are of the forces of the state that have a name."""
+    return [Equation(("par", name), t) for name, t in problem.named_numbers.items()]
 
 
 def _velocities(
@@ -203,7 +218,7 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
     drag = reduce(drag, body_rule(b, C))
     xi, eta = Letter("ξ′", b.n, b.n), Letter("η′", b.n)
     moments, pulls = [draft.tree(gradient(drag, xi))], [draft.tree(gradient(drag, eta))]
-    definitions += _velocities(draft, problem, b, {})
+    definitions += [*_velocities(draft, problem, b, {}), *named_forces(problem)]
     for e, given in pushes(problem):
         if not isinstance(given, TorqueInput) and entries_of(problem, e, given):
             force = _in_body(draft, problem, e, given, C, b)
@@ -320,6 +335,7 @@ def external_vectors(
     if problem.damping:
         definitions.append(Equation("I_D", tree_of(inertia_of(Letter("D", 3, 3, 1)))))
     definitions += _velocities(draft, problem, b, {b.Z.velocity: hat_map.hatted(ZETA)})
+    definitions += named_forces(problem)
     for e, given in pushes(problem):
         if not isinstance(given, TorqueInput) and entries_of(problem, e, given):
             force = _in_body(draft, problem, e, given, C, b)

@@ -11,7 +11,7 @@ from ...language.rational import Matrix
 from ...language.tree import Tree, add, mul, neg, nodes, plain
 from ...problem.fields import coordinates, velocity_at_place
 from ...problem.problem import Problem, ProblemError
-from ...record.record import Step
+from ...record.record import Equation, Step
 from ...schema.kind import TorqueInput
 from ...schema.output_kinds import (
     AccelerationOutput,
@@ -42,6 +42,13 @@ def from_outside(problem: Problem, group: Group) -> list[tuple[Tree, ...]]:
     return [
         (*terms, *(work[a] for work in works if work[a] != 0)) for a, terms in enumerate(covectors)
     ]
+
+
+def named_forces(problem: Problem, group: Group) -> list[Equation]:
+    """What the numbers are of the forces of the state that have a name, by the state."""
+    named = problem.named_numbers
+    known = Places(problem, group).known if problem.places else {}
+    return [Equation(("par", name), _with(t, known)) for name, t in named.items()]
 
 
 def outputs(

@@ -28,7 +28,7 @@ from ..chapter import Chapter, enumerated, phrase, say
 from ..given.inputs import pushes
 from ..matrices.coordinates import basis_equations
 from .any_lagrangian import AnyLagrangian
-from .at_places import from_outside
+from .at_places import from_outside, named_forces
 
 # The basis of 𝔤 in which a Lagrangian is expressed: coordinates, brackets, and how what it
 # depends on moves with the group.
@@ -264,7 +264,10 @@ def balance(
         for a, (x, y) in enumerate(zip(forces, coadjoint, strict=True))
     ]
     prose = say("coadjoint.basis") + (say("coadjoint.at_places") if pushes(problem) else ())
-    coadjoint_step = turning.step([Equation(member("Π̇", a), t) for a, t in enumerate(rates)], prose)
+    named = named_forces(problem, group)
+    coadjoint_step = turning.step(
+        [*named, *(Equation(member("Π̇", a), t) for a, t in enumerate(rates))], prose
+    )
     assert problem.lagrangian is not None
     held = {a - 1 for a in problem.lagrangian.held}
     left = [

@@ -17,14 +17,15 @@ PUSHED = {
         {"name": "tow", "kind": "force", "at": [1, 0, "b"]},
         {"name": "wheel", "kind": "torque", "direction": [0, 0, 1]},
         {"name": "fin", "kind": "torque", "frame": "body"},
+        {"name": "gas", "kind": "scalar"},
     ],
     "force": [
         {"at": [1, 0, "b"], "relative_to": ["k*r_3", 0, "t"],
          "force": ["-k*hypot(v_1, v_2)*v_1", "-k*v_2*A_33", "-port*v_3"]},
-        {"at": [0, 2, 0], "frame": "body", "force": ["-k*v_1", "zeta_2", 0],
+        {"name": "keel", "at": [0, 2, 0], "frame": "body", "force": ["-k*v_1", "zeta_2", 0],
          "moment": [0, 0, "-k*zeta_3"]},
         {"at": [0, 2, 0], "frame": "body", "relative_to": [1, "k", 0],
-         "force": ["-v_1*v_2", 0, "v_3"]},
+         "force": ["-v_1*v_2", 0, "gas*v_3"]},
     ],
     "output": [
         {"name": "spot", "kind": "place", "at": [1, 0, "b"]},
