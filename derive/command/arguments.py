@@ -352,6 +352,8 @@ def add_lecture_options(lecture: argparse.ArgumentParser, paper: argparse.Argume
     ``paper``."""
     from ..views.language import LANGUAGES
 
+    about = "problems that get a chapter each, behind the others"
+    lecture.add_argument("problem", nargs="*", help=about)
     about = "FILE.tex, .pdf or .html"
     lecture.add_argument("--out", type=named_file, metavar="FILE", required=True, help=about)
     about = "of the exercises: at the end of each chapter, or left out (default: end)"

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from ..language.limits import Refused
 from ..lecture import document, lecture_text, trials
+from ..lecture.problem_chapter import Found, chapter_of
 from ..pipeline import walk
 from ..problem.toml import load
 from ..record.record import Derivation
+from ..searches import equilibria, integrals, reduction, symmetries
 from ..views.language import language
-from .showing import UsageError, load_problem
+from .showing import UsageError, derive, load_problem
 from .simulating import pdf_of
 from .writing import with_progress, write
 
@@ -25,6 +28,12 @@ def command_lecture(args: argparse.Namespace) -> int:
         raise UsageError(f"--out {args.out}: the name must end in {', '.join(ENDINGS)}")
     chapters = lecture_text.chapters()
     records = records_of(chapters)
+    for name in args.problem:
+        own, found = chapter_on(name)
+        if records.get(own.name, found[own.name]) != found[own.name]:
+            raise UsageError(f"{name}: the lecture has another {own.name!r}: give it another name")
+        chapters.append(own)
+        records |= found
     for chapter in chapters:
         trials.tied(chapter, named_by(chapter, records))
     if args.check:
@@ -36,6 +45,30 @@ def command_lecture(args: argparse.Namespace) -> int:
     for path in write({out.name: content}, out.parent, links=True):
         print(path)
     return 0
+
+
+def chapter_on(name: str) -> tuple[lecture_text.Chapter, dict[str, Derivation]]:
+    """The chapter on a problem of the user's, and the records that its ties speak of."""
+    problem, record = derive(name)
+    searches = {
+        "symmetries": lambda: symmetries(problem, record).record,
+        "integrals": lambda: integrals(problem)[1],
+        "reduction": lambda: reduction(problem, record).record,
+        "equilibria": lambda: equilibria(problem, {})[1],
+    }
+    made = with_progress(searches.items(), len(searches), record.name)
+    found = {search: result_of(does) for search, does in made}
+    records = {record.name: record}
+    records |= {f"{record.name}:{x}": y.record for x, y in found.items() if y.record}
+    return chapter_of(record, found, tuple(records)), records
+
+
+def result_of(search: Callable[[], Derivation]) -> Found:
+    """What a search finds, or why it was refused."""
+    try:
+        return Found(search())
+    except Refused as error:
+        return Found(None, str(error))
 
 
 def named_by(
@@ -55,8 +88,6 @@ def records_of(chapters: Sequence[lecture_text.Chapter]) -> dict[str, Derivation
 def record_of(name: str) -> Derivation:
     """The record of a ready-made problem or of one beside the chapters; NAME:equilibria,
     NAME:integrals or NAME:reduction, of what is found of it."""
-    from ..searches import equilibria, integrals, reduction
-
     problem_name, _, search = name.partition(":")
     file = lecture_text.FOLDER / f"{problem_name}.toml"
     problem = load(file) if file.is_file() else load_problem(problem_name)

@@ -9,6 +9,7 @@ from functools import partial
 
 from ..language.read import FormulaError
 from ..language.templating import environment
+from ..record.record import Equation
 from ..views.figure.drawing import Scene, svg, tikz
 from ..views.html import escaped
 from ..views.language import LANGUAGES, Language
@@ -21,6 +22,7 @@ from ..views.printing.sentences import spelt
 from ..views.printing.signs import SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal
+from ..views.text import formula as aligned
 from .figures import AXES, FIGURES
 from .lecture_text import PROVED, RELATION, Block, Chapter, Entry, Formula, Words
 from .lecture_text import tree as tree_of
@@ -47,6 +49,7 @@ class Medium:
     inline: Callable[[typeset.Formula], str]
     display: Callable[[typeset.Formula], str]
     picture: Callable[[Scene], str]
+    aligned: Callable[[Sequence[Equation]], str]
 
 
 WIDTH = 34.0
@@ -69,7 +72,16 @@ LATEX = Medium(
     lambda x: f"${typeset.plain(x.tex)}$",
     _lines,
     lambda x: tikz(x, colours=frozenset(AXES)),
+    lambda equations: aligned(equations, ()),
 )
+
+
+def _one_by_one(equations: Sequence[Equation]) -> str:
+    """Equations of a record as displays of a page, one below the other."""
+    sides = (of_tree(e.lhs) + literal(" = ") + of_tree(e.rhs) for e in equations)
+    return "\n".join(map(PAGE.display, sides))
+
+
 PAGE = Medium(
     escaped,
     "<em>{}</em>",
@@ -77,6 +89,7 @@ PAGE = Medium(
     lambda x: x.mathml(),
     lambda x: x.mathml().replace("<math>", '<math display="block">'),
     svg,
+    _one_by_one,
 )
 
 
@@ -202,7 +215,10 @@ class _Setter:
     def display(self, x: Entry) -> str:
         """A display: formulas side by side."""
         ((whole,), *_) = x.texts
-        parts = [formula(y) for y in re.split(r",\s\s+", whole.text)]  # type: ignore[union-attr]
+        assert isinstance(whole, Formula)
+        if whole.recorded:
+            return self.medium.aligned(whole.recorded)
+        parts = [formula(y) for y in re.split(r",\s\s+", whole.text)]
         found = parts[0]
         for part in parts[1:]:
             found += literal(r",\qquad ") + part

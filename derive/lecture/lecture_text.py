@@ -46,14 +46,18 @@ class LectureError(Refused, ValueError):
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula among the words, as it is typed; ``condition``: it is not tried."""
+    """A formula among the words, as it is typed, or equations of a record; ``condition``: it is not
+    tried."""
 
     text: str
     condition: bool = False
+    recorded: tuple[Equation, ...] = ()
 
     @cached_property
     def equations(self) -> tuple[Equation, ...]:
         """What it claims: of ``a = b = c`` that a = b and b = c; no other relation is tried."""
+        if self.recorded:
+            return self.recorded
         found: list[Equation] = []
         for part in () if self.condition else re.split(r",\s\s+", self.text):
             if " = " in part and {*RELATION.findall(part)} == {" = "}:

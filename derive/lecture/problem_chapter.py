@@ -1,0 +1,116 @@
+"""A chapter on a problem of the reader's own, written from its records: what moves, its equations
+of motion, what the motion keeps, its reduction, its steady motions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from ..language.show import show
+from ..record.record import Derivation, Equation, Step
+from ..search import FIRST
+from ..views.answer import definitions, equations_of_motion, steps_of_answer
+from ..views.language import LANGUAGES, Language, language
+from ..views.outline import system, title
+from ..views.printing.sentences import prose
+from .lecture_text import Block, Chapter, Entry, Formula, Tie, Words, words_of
+
+SEARCHES = {
+    "symmetries": "What the motion keeps.",
+    "integrals": "First integrals.",
+    "reduction": "Reduction.",
+    "equilibria": "Steady motions.",
+}
+"""What is told of a problem after its equations, under which heading."""
+TOLD = {
+    "symmetries": {"conserved_": True},
+    "integrals": {"casimirs": True, "first_integrals": True},
+    "reduction": {"momentum_": False, "locked": True, "effective": True, "quadrature": True},
+    "equilibria": {"equilibrium_": False, "energy_casimir_": False},
+}
+"""Search → how the labels of the steps begin that a text for people tells, and whether with their
+equations; the record has all."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a search made of a problem: a record, or, where it was refused, why."""
+
+    record: Derivation | None
+    refused: str = ""
+
+
+def chapter_of(d: Derivation, found: Mapping[str, Found], records: tuple[str, ...]) -> Chapter:
+    """The chapter of a problem, by its record and what searches found of it; ``records``: the names
+    of those that its ties speak of."""
+    blocks = [*_motion(d)]
+    for search, heading in SEARCHES.items():
+        blocks += [_section(heading), _told(search, found[search])]
+    titles = tuple(title(d, x) for x in _languages())
+    return Chapter(d.name, titles, records, tuple(blocks), f"the chapter of {d.name}")
+
+
+def _languages() -> tuple[Language, ...]:
+    return tuple(map(language, LANGUAGES))
+
+
+def _sentence(said: Callable[[Language], str], labels: Sequence[str] = ()) -> Entry:
+    """A sentence in each language, whose formulas are as true as the sentence of its step."""
+    texts = tuple(_words(said(x)) for x in _languages())
+    return Entry(texts, (Tie(tuple(labels)),) if labels else (), display=False, line=0)
+
+
+def _words(text: str) -> Words:
+    return tuple(
+        Formula(x.text, condition=True) if isinstance(x, Formula) else x
+        for x in words_of(prose(text, escape=str, formula="`{}`".format))
+    )
+
+
+def _display(equations: Sequence[Equation], labels: Sequence[str]) -> Entry:
+    """Equations of steps, one below the other."""
+    text = ",  ".join(f"{show(e.lhs)} = {show(e.rhs)}" for e in equations)
+    formula: Words = (Formula(text, recorded=tuple(equations)),)
+    return Entry((formula,) * len(LANGUAGES), (Tie(tuple(labels)),), display=True, line=0)
+
+
+def _section(heading: str) -> Block:
+    return Block("section", "", "", (_sentence(lambda x: x.word(heading)),), 0)
+
+
+def _motion(d: Derivation) -> Iterator[Block]:
+    """What moves, and by which equations; each letter in them that the problem defines."""
+    home = {e: step.label for step in d.steps for e in step.equations}
+    entries = [_sentence(lambda x: system(d, x))] if system(d, language("en")) else []
+    motion = equations_of_motion(d)
+    entries.append(_sentence(lambda x: x.word("Its equations of motion are")))
+    entries.append(_display(motion, [s.label for s in steps_of_answer(d)]))
+    if defined := definitions(d, motion):
+        entries.append(_sentence(lambda x: x.word("where")))
+        entries.append(_display(defined, [*dict.fromkeys(home[e] for e in defined)]))
+    yield Block("text", "", "", tuple(entries), 0)
+
+
+def _told(search: str, found: Found) -> Block:
+    """The steps that a search tells, or one sentence: why it was refused, or that it found none."""
+    if found.record is None:
+        reason = found.refused
+        refused = _sentence(lambda x: x.word("This was not found: {reason}.", reason=reason))
+        return Block("text", "", "", (refused,), 0)
+    entries: list[Entry] = []
+    for step in found.record.since(FIRST[search]):
+        name = step.label.removeprefix(f"{found.record.name}.")
+        for begin, with_equations in TOLD[search].items():
+            if name.startswith(begin):
+                labels = () if with_equations else (step.label,)
+                entries.append(_sentence(partial(_prose, step), labels))
+                if with_equations:
+                    entries.append(_display(step.equations, (step.label,)))
+    if not entries:
+        entries = [_sentence(lambda x: x.word("There is none."))]
+    return Block("text", "", "", tuple(entries), 0)
+
+
+def _prose(step: Step, words: Language) -> str:
+    return words.of(step.prose)

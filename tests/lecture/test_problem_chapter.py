@@ -1,0 +1,88 @@
+"""A chapter on a problem of the reader's: what it claims is what records prove; a search that finds
+nothing, or is refused, is a sentence."""
+
+import re
+from dataclasses import replace
+
+import pytest
+
+from derive.command.cli import main
+from derive.command.lecturing import chapter_on
+from derive.lecture import document
+from derive.lecture.lecture_text import LectureError
+from derive.lecture.trials import tied, tried
+from derive.record.record import Equation
+from derive.views.answer import equations_of_motion
+from derive.views.language import LANGUAGES, language
+from tests.support.walks import SEED
+
+NAMES = ("lagrange_top", "hung_bar", "sl3")
+
+
+@pytest.fixture(scope="module", params=NAMES)
+def made(request):
+    return request.param, *chapter_on(request.param)
+
+
+def test_every_equation_holds_and_is_of_a_record(made):
+    name, chapter, records = made
+    tied(chapter, records)
+    claims = [*tried(chapter, records, SEED)]
+    motion = equations_of_motion(records[name])
+    assert [x.equation for x in claims][: len(motion)] == [*motion]
+
+
+def test_a_changed_equation_is_refused(made):
+    name, chapter, records = made
+    first = equations_of_motion(records[name])[0]
+    wrong = Equation(first.lhs, ("mul", 2, first.rhs))
+    (text, *others) = chapter.blocks
+    entries = [
+        replace(e, texts=((replace(e.formulas[0], recorded=(wrong,)),),) * len(LANGUAGES))
+        if e.display and e.formulas[0].recorded[0] == first
+        else e
+        for e in text.entries
+    ]
+    changed = replace(chapter, blocks=(replace(text, entries=tuple(entries)), *others))
+    with pytest.raises(LectureError, match="does not hold"):
+        list(tried(changed, records, SEED))
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_each_search_has_a_heading_and_something_to_say(made, lang):
+    _, chapter, _ = made
+    words = language(lang)
+    sections = [b for b in chapter.blocks if b.kind == "section"]
+    assert len(sections) == 4
+    assert all(b.entries for b in chapter.blocks)
+    page = document.page([chapter], words)
+    for heading in ("What the motion keeps.", "Steady motions."):
+        assert words.word(heading) in page
+    assert "‘" not in re.sub("<[^>]*>", "", page)  # parameters are set, not quoted
+    assert words.word("Its equations of motion are") in document.latex([chapter], words)
+
+
+def test_a_search_that_is_refused_says_why():
+    chapter, records = chapter_on("comet")
+    page = document.page([chapter], language("en"))
+    refused = [
+        x
+        for x in ("symmetries", "reduction", "integrals", "equilibria")
+        if f"comet:{x}" not in records
+    ]
+    assert refused
+    assert page.count("This was not found:") == len(refused)
+
+
+def test_by_the_command(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["lecture", "pendulum", "--out", "l.html"]) == 0
+    assert "A pendulum in the plane" in (tmp_path / "l.html").read_text(encoding="utf-8")
+    (tmp_path / "so3.toml").write_text(
+        'name = "so3"\ngroup = "SO(3)"\n[body]\nsolid = "ball"\ndensity = 1\nradius = 1\n',
+        encoding="utf-8",
+    )
+    capsys.readouterr()
+    assert main(["lecture", "so3.toml", "--out", "m.html"]) == 2
+    assert "the lecture has another 'so3'" in capsys.readouterr().err
+    assert not (tmp_path / "m.html").exists()
