@@ -16,7 +16,6 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
-from ..trials.phase_point import inverse
 from ..trials.trial_points import AnyModel, model_at
 from ..values.draws import Locus
 from ..values.residue import Residue, random_prime
@@ -85,7 +84,7 @@ class ClaimedTrim:
     def goes_on(self) -> bool:
         """Is the load the same at all elements, random ones, along the motion that begins there?"""
         model, other = self.model, self.group.sample(self.random)
-        undone = inverse(self.g)
+        undone = q.inverted(self.g)
         first = (self.g, self.Z, undone) if model.side == "left" else (undone, self.Z, self.g)
         Y = q.times(q.times(*first[:2]), first[2])
         step = q.plus(q.identity(self.group.size), q.scaled(self.prime, Y))
