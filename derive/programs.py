@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .language.limits import Refused
+from .language.reserved import did_you_mean, near_name
 from .pipeline import discrete, lagrangian_road, walk
 from .problem.principal import principal
 from .problem.problem import Problem, ProblemError
@@ -106,11 +107,15 @@ def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
 
 
 def trim(
-    problem: Problem, at: Mapping[str, Number], free: Sequence[str] | None = None
+    problem: Problem,
+    at: Mapping[str, Number],
+    free: Sequence[str] | None = None,
+    given: Mapping[str, float] | None = None,
 ) -> tuple[Trim, Derivation]:
-    """The inputs ``free``, else all that are not given, with which the velocity of a state stays as
-    it is, and the record of the problem with the step that tells them; ``at``: numbers of the state
-    and of inputs, else those of g = 1, and 0; parameters have their defaults."""
+    """The inputs and velocities ``free``, else all inputs that are not given, with which the
+    velocity of a state stays as it is, and the record of the problem with the step that tells them;
+    ``at``: numbers of the state and of inputs, else those of g = 1, and 0; parameters have their
+    defaults, or what is ``given``."""
     from .code.options import Options
     from .code.program import LoweringError
     from .search.trim.trim_steps import told
@@ -118,6 +123,9 @@ def trim(
     from .walk.chapter import Chapter
     from .walk.spine.lagrangian import completed
 
+    if why := untrimmed(problem):
+        raise ProblemError(f"{problem.name}: {why}")
+    problem = with_parameters(problem, given or {})
     record = walk(problem)
     try:
         made = program(problem, record, Options(jacobian=("state",)))
@@ -134,6 +142,31 @@ def trim(
     c = Chapter(problem.name, problem.group_name)
     step = told(found, problem.group, record.steps, c)
     return found, replace(record, steps=completed((*record.steps, step)))
+
+
+def untrimmed(problem: Problem) -> str:
+    """Why nothing is trimmed in a problem of this kind; "" where something may be."""
+    if problem.kinematics:
+        return "a trim is of forces, and [kinematics] has none: its velocity is given"
+    if problem.fluid or problem.torus:
+        return "a trim is of a body with inputs, and a fluid has none"
+    if problem.advected is not None:
+        return (
+            "a trim is at an element of a group, and equations on an algebra alone have none; "
+            "derive equilibria may tell what is steady"
+        )
+    return "" if problem.group else f"{problem.without_matrices}; {problem.with_matrices}"
+
+
+def with_parameters(problem: Problem, given: Mapping[str, float]) -> Problem:
+    """The problem with these numbers as the defaults of its parameters; ``ProblemError`` for a name
+    of none."""
+    known = problem.parameters
+    if unknown := [x for x in given if x not in known]:
+        near = did_you_mean(near_name(unknown[0], known), "; ")
+        raise ProblemError(f"{problem.name}: {unknown[0]} is no parameter{near}")
+    parameters = {x: replace(p, default=given.get(x, p.default)) for x, p in known.items()}
+    return replace(problem, parameters=parameters)
 
 
 def program(

@@ -40,7 +40,7 @@ def kinematics_program(d: Derivation, group: Group, options: Options | None = No
     wanted = {
         "rhs": [*filtering.rates(), *filtering.covariance_rates()],
         "error_generator": list(q.flatten(filtering.generator)),
-        "error_noise": list(q.flatten(q.transposed(filtering.noise))),
+        "error_noise": list(q.flatten(filtering.noise)),
     }
     wanted = {name: factored(graph, found) for name, found in wanted.items()}
     claimed = ClaimedNames()

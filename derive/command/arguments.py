@@ -173,8 +173,11 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     )
     about = "of the state or an input, as zeta_3=1/2; repeated, others are those of g = 1, and 0"
     held.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)
-    about = "an input to be found; repeated (default: all that --at does not give)"
+    about = "an input or a velocity to be found, this near what --at gives; repeated (default: all "
+    about += "inputs that --at does not give)"
     held.add_argument("--free", action="append", metavar="NAME", help=about)
+    about = "a parameter, in place of its default; repeated"
+    held.add_argument("--given", action="append", type=number, metavar="NAME=NUMBER", help=about)
     emit.add_argument("problem", help="a ready-made name or a .toml file")
     add_writing_options(emit)
     add_emission_options(emit)

@@ -33,8 +33,9 @@ from .terminal import working
 from .writing import StoppedError, one_line, replacing_unencodable, time_limit, with_progress
 
 if TYPE_CHECKING:
+    from typing import Any
+
     from ..check.form.hypotheses_checked import Verdict
-    from ..language.univariate import Number
 
 
 def command_list(_: argparse.Namespace) -> int:
@@ -108,15 +109,15 @@ def command_equilibria(args: argparse.Namespace) -> int:
 
 
 def command_trim(args: argparse.Namespace) -> int:
-    """Find the inputs that keep the velocity of a state as it is, and its stability."""
+    """Find inputs and velocities of a state that stays as it is, and its stability."""
     from ..programs import trim
 
-    at = _each_once("--at", args.at)
-    save_found(trim(doubted(args.problem), at, args.free)[1], args)
+    at, given = _each_once("--at", args.at), _each_once("--given", args.given)
+    save_found(trim(doubted(args.problem, given=given), at, args.free, given)[1], args)
     return 0
 
 
-def _each_once(option: str, pairs: Sequence[tuple[str, Number]] | None) -> dict[str, Number]:
+def _each_once(option: str, pairs: Sequence[tuple[str, Any]] | None) -> dict[str, Any]:
     """The numbers that an option gives by names; ``UsageError`` for a name that stands twice."""
     several = Counter(name for name, _ in pairs or ())
     if twice := [name for name, count in several.items() if count > 1]:

@@ -207,6 +207,13 @@ def inverse(a: Matrix) -> Matrix | None:
     return solve(a, identity(len(a)))
 
 
+def inverted(a: Matrix) -> Matrix:
+    """The inverse of a matrix that has one, as the elements of a group."""
+    found = inverse(a)
+    assert found is not None
+    return found
+
+
 def determinant(a: Matrix) -> Any:
     """The determinant of a square matrix, by elimination."""
     rows, value = [list(row) for row in a], Fraction(1)

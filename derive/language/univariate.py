@@ -108,8 +108,11 @@ def number(a: Fraction, b: Fraction, d: int) -> Number:
     return Quadratic(a, b, d) if b else a
 
 
-def root(x: int | Fraction) -> Number:
-    """√x of a rational number x ≥ 0; ``RootError`` for a negative one."""
+def root(x: int | Number) -> Number:
+    """√x of a number x ≥ 0; ``RootError`` for a negative one, and where √x is in no quadratic
+    field."""
+    if isinstance(x, Quadratic):
+        return _root_in_its_field(x)
     x = Fraction(x)
     if x < 0:
         raise RootError("the root of a negative number")
@@ -125,6 +128,20 @@ def root(x: int | Fraction) -> Number:
     return Quadratic(Fraction(0), Fraction(outside, x.denominator), left)
 
 
+def _root_in_its_field(x: Quadratic) -> Number:
+    """√(a + b√d) = u + v√d: u² is half of a ± √(a² − b²d), and v = b/2u."""
+    if x.sign < 0:
+        raise RootError("the root of a negative number")
+    n = root(x.norm) if x.norm >= 0 else x
+    for sign in (1, -1) if isinstance(n, Fraction) else ():
+        square = (x.a + sign * n) / 2
+        u = root(square) if square > 0 else x
+        if isinstance(u, Fraction):
+            found = Quadratic(u, x.b / (2 * u), x.d)
+            return found if found.sign > 0 else -found
+    raise RootError("a root of a root is in no quadratic field")
+
+
 def value_of(t: Tree) -> Number:
     """The value of an expression of numbers and square roots; ``RootError`` where it is in no
     quadratic field."""
@@ -132,8 +149,6 @@ def value_of(t: Tree) -> Number:
     def elementary(name: str, x: Any) -> Number:
         if name != "sqrt":
             raise RootError(f"{name} of a number; square roots alone are exact")
-        if not isinstance(x, (int, Fraction)):
-            raise RootError("a root of a root is in no quadratic field")
         return root(x)
 
     found = value(t, {}, {}, elementary)

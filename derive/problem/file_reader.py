@@ -234,13 +234,6 @@ class FileReader(ForceReader):
                 f"{slot.path}: it divides by an entry of g that is 0 on {g.name}"
             ) from None
 
-    def densities(self, slot: Slot) -> Vector:
-        """None of them below 0."""
-        found = super().densities(slot)
-        if any((approximate(t, {}) or 0) < 0 for t in found):
-            raise ProblemError(f"{slot.path}: a density is not negative")
-        return found
-
     def operator(self, slot: Slot) -> Rows:
         """A matrix of its size."""
         g = self.moving()

@@ -13,6 +13,7 @@ from ..language.limits import LEAVES
 from ..schema.kind import Kinematics, Parameter
 from .fields import is_entry, undeclared
 from .file_reader import FileReader
+from .inertia import is_negative
 from .problem import Problem, ProblemError
 
 KEYS = ("name", "title", "group", "action", "parameters", "kinematics")
@@ -66,6 +67,12 @@ def _declared(found: Kinematics, group: Group, reader: FileReader) -> None:
             raise ProblemError(undeclared(name, "kinematics", reader.parameters, group, known))
     if within := sorted(inputs & {x for t in found.noise for x in names(t)}):
         raise ProblemError(f"kinematics, noise: {within[0]!r} is an input; give parameters alone")
+    for name, density in zip(found.inputs, found.noise, strict=False):
+        if is_negative(density, reader.parameters):
+            raise ProblemError(
+                f"kinematics, noise of {name!r}: a density is not negative, and this one is, for "
+                "the defaults of the parameters"
+            )
     if left := next((x for x in found.inputs if x not in rates), ""):
         raise ProblemError(f"kinematics, inputs: {left!r} is not used in 'rate'; leave it out")
     if left := next((x for x in reader.parameters if x not in used), ""):

@@ -146,16 +146,19 @@ class Derived:
         self,
         at: Mapping[str, Fraction | int | str] | None = None,
         free: Sequence[str] | None = None,
+        given: Mapping[str, float] | None = None,
     ) -> Trimmed:
-        """The inputs ``free``, else all that are not given, which keep the velocity of a state as
-        it is; ``at``: numbers of the state and of inputs, as ``{"zeta_3": "1/2"}``, else those of
-        g = 1, and 0.  ``ValueError`` where there is none, or there are many."""
+        """The inputs and velocities ``free``, else all inputs that are not given, with which the
+        velocity of a state stays as it is; ``at``: numbers of the state and of inputs, as
+        ``{"zeta_3": "1/2"}``, else those of g = 1, and 0, for a free velocity where it is sought;
+        ``given``: parameters in place of their defaults.  ``ValueError`` where there is none, or
+        there are many."""
         from ..programs import trim
         from ..search.equilibria.equilibrium_points import number_from
         from .found import Trimmed
 
         values = {x: number_from(str(v)) for x, v in (at or {}).items()}
-        return Trimmed(*trim(self.problem, values, free))
+        return Trimmed(*trim(self.problem, values, free, given))
 
     def symmetries(self) -> SymmetriesOf:
         """All symmetries of L̃ of a kind, and what the motion keeps by each; ``ProblemError`` where

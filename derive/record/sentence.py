@@ -135,7 +135,7 @@ KINDS = {
         "point unstable unstable_beyond open undecided eigenvalues squares near"
     ),
     "enclosure": "within signs stable unstable open eigenvalues",
-    "trim": "rest steady unique stable unstable open",
+    "trim": "rest steady corner unique isolated stable unstable open",
 }
 CLAIMS = frozenset(
     f"{subject}.{name}" for subject, names in KINDS.items() for name in names.split()

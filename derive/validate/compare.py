@@ -7,7 +7,7 @@ degree / size (Schwartz–Zippel); points are added until all of them at once ar
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
@@ -111,30 +111,32 @@ def compare(
     exact: Iterable[Fraction] = (),
     text: str = "",
     bound: float = BOUND,
+    kind: Callable[..., Comparison] | None = None,
 ) -> Agreement:
     """The verdict on a module whose functions equal the record; ``CodeError`` where it cannot be
     read, or differs.
 
     ``exact``: the numbers that decimals may stand for. The points are drawn from a hash of the
     record and of ``text``, that of the files: they are the same at every run, and whoever writes a
-    file cannot aim it at them.
+    file cannot aim it at them. ``kind``: the comparison at one point.
     """
+    kind = kind or Comparison
     compare_names(module, claims)
     functions = {name: with_roots(f) for name, f in module.functions.items()}
     module = replace(module, functions=functions)
     literal = Literals(exact)
     drawn_from = to_json(claims.record) + text
     digest = hashlib.sha256(drawn_from.encode("utf-8", "surrogatepass")).hexdigest()
-    first = Comparison(module, claims, literal, claims.point(f"{digest} 0"), measured=True)
+    first = kind(module, claims, literal, claims.point(f"{digest} 0"), measured=True)
     found = first.compare_all()
     one, points = min(1.0, first.degree / claims.size), 1
     while points < FEWEST or one**points >= bound:
         if points == MOST:
             raise CodeError("its degree is too large for a proof")
-        Comparison(module, claims, literal, claims.point(f"{digest} {points}")).compare_all()
+        kind(module, claims, literal, claims.point(f"{digest} {points}")).compare_all()
         points += 1
     for zero in _tested_sets(module):
-        _compare_at_zero(module, claims, literal, digest, zero)
+        _compare_at_zero(kind, module, claims, literal, digest, zero)
     size = module.sizes.get("CONSTANTS", 0)
     unread = tuple(f"k[{i}]" for i in range(size) if i not in first.read)
     return Agreement(found, points, one**points, tuple(sorted(literal.rounded)), unread)
@@ -149,14 +151,19 @@ def _tested_sets(module: Module) -> list[tuple[str, ...]]:
 
 
 def _compare_at_zero(
-    module: Module, claims: Claims, literal: Literals, seed: str, zero: tuple[str, ...]
+    kind: Callable[..., Comparison],
+    module: Module,
+    claims: Claims,
+    literal: Literals,
+    seed: str,
+    zero: tuple[str, ...],
 ) -> None:
     """Compare at a point where these parameters are 0, if the record has values there."""
     try:
         point = claims.point(f"{seed} zero", zero)
     except CodeError:
         return
-    Comparison(module, claims, literal, point).compare_all()
+    kind(module, claims, literal, point).compare_all()
 
 
 class Comparison:
@@ -174,7 +181,7 @@ class Comparison:
     ):
         self.module, self.claims, self.literal = module, claims, literal
         self.measured, self.point = measured, point
-        self.random = Random(str(point.energy))
+        self.random = Random(str(point.rates))
         circles = dict.fromkeys(self.point.circles, claims.entry_degree)
         self.elementary = MeasuredElementary(self.point.elementary, circles)
         values = self.elementary if measured else self.point.elementary
@@ -197,16 +204,14 @@ class Comparison:
     def compare_all(self) -> tuple[str, ...]:
         """The names of the module's functions, once each has been found equal to the record's;
         ``CodeError`` else."""
-        for f in self.module.functions.values():
-            require_straight_line(f)
+        self.require_straight()
         arguments, point, found = self._arguments(), self.point, ["constants", "rhs", "energy"]
         rates = self._call("rhs", arguments, dx=len(point.rates))["dx"]
         self._require_equal("rhs", self._rates, rates, point.rates)
         energy = self._call("energy", arguments, value=1)["value"]
         self._require_equal("energy", ("the energy",), energy, (point.energy,))
         if "rhs_batch" in self.module.functions:
-            for count in (1, self.random.randint(2, 3), self.random.randint(4, 9)):
-                self._batch(arguments, count)
+            self._batches(arguments)
             found.append("rhs_batch")
         if "inertia" in self.module.functions:
             names = tuple(f"I_{i}{j}" for i in range(1, 4) for j in range(i, 4))
@@ -237,6 +242,11 @@ class Comparison:
             found += self._dynamics(arguments)
         found += self._discrete(arguments)
         return (*found, *self._in_momenta(arguments), *self._jacobians(arguments))
+
+    def require_straight(self) -> None:
+        """``CodeError`` for a function with loops or branches."""
+        for f in self.module.functions.values():
+            require_straight_line(f)
 
     @property
     def _rates(self) -> tuple[str, ...]:
@@ -277,6 +287,11 @@ class Comparison:
         """Take the degrees of these values into account."""
         degrees = (x.degree for x in values if isinstance(x, Measured))
         self.largest = max([self.largest, *degrees])
+
+    def _batches(self, arguments: Mapping[str, Any]) -> None:
+        """``rhs_batch`` on three numbers of states."""
+        for count in (1, self.random.randint(2, 3), self.random.randint(4, 9)):
+            self._batch(arguments, count)
 
     def _batch(self, arguments: Mapping[str, Any], count: int) -> None:
         """Compare ``rhs_batch`` with ``rhs`` on ``count`` states: that of the point, and random

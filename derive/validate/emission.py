@@ -9,12 +9,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, partial
 from itertools import zip_longest
+from typing import Any
 
 from ..record.record import Derivation
 from .chart import Chart
 from .compare import SIZE, Agreement, compare
 from .exact_points import NAME as INTEGRALS
 from .exact_points import Claims
+from .filter_functions import FilterClaims, FilterComparison
 from .read_file import LANGUAGES, Beside, calls_of_cpp, read
 from .straight_line import error_checks
 from .syntax import SYNTAX, tokens
@@ -39,7 +41,6 @@ UNPROVED = "; not validated, for it is a loop: Carlson's duplication, which give
 UNCHECKED = "not validated: what constants refuses"
 SHOWN = 3
 """The most decimals that a report lists."""
-FILTER = "not validated: an estimate with the covariance of its error is not read back"
 PRINCIPAL = "not validated: the principal frame has eigenvectors, which are not rational"
 
 
@@ -76,10 +77,10 @@ class EmittedFiles:
     def reports(self, d: Derivation) -> list[Report]:
         """The results, one for each file, or for a header with its source."""
         whole = "".join(self.files.values())  # all of one emission are tried at the same points
-        if "kinematics" in d.problem:
-            return [Report(names, FILTER, read=False) for names in self._groups()]
         torus = "torus" in d.problem
-        if torus:
+        if "kinematics" in d.problem:
+            judge: Judge = partial(self._of_filter, FilterClaims(d, SIZE), whole)
+        elif torus:
             on_torus = cache(lambda: TorusClaims(d, whole, self.numbers))
             judge = partial(self._on_torus, on_torus)
         else:
@@ -134,6 +135,9 @@ class EmittedFiles:
 
     def _compared(self, claims: Claims, whole: str, names: tuple[str, ...]) -> Agreement:
         return compare(self._module(names), claims, self.numbers, whole)
+
+    def _of_filter(self, claims: Any, whole: str, names: tuple[str, ...]) -> Agreement:
+        return compare(self._module(names), claims, self.numbers, whole, kind=FilterComparison)
 
     def _on_torus(self, claims: Callable[[], TorusClaims], names: tuple[str, ...]) -> Agreement:
         """The verdict on a file with loops; Python is run, and so must be what is emitted."""

@@ -40,6 +40,8 @@ CONTRACT = {
     "from_matrix": ("z", "out"),
     "jacobian": ("t x k u", "dx D"),
     "jacobian_inputs": ("t x k u", "D"),
+    "error_generator": ("t x k u", "D"),
+    "error_noise": ("t x k u", "D"),
     "jacobian_raw": ("t x k u", "D"),
     "jacobian_parameters": ("t x p u", "D"),
     "jacobian_raw_inputs": ("t x k u", "D"),

@@ -76,6 +76,8 @@ RECORDS = {
     "a trim": lambda: trims.leaning().record,
     "a trim, unstable": lambda: trims.upside_down().record,
     "a trim, steady": lambda: trims.drifting().record,
+    "a trim, at a corner": lambda: trims.resting_in_air().record,
+    "a trim, found": lambda: trims.balanced().record,
     "large": lambda: large("euler_top"),
     "large at defaults": lambda: large("euler_top", at_defaults=True),
 }
@@ -92,6 +94,7 @@ TOLD = {"first_integrals.further", "first_integrals.no_further"}
 FALSE = {
     ("first_integrals.complete_by_one", "number"): (1, 0),
     ("trim.unique", "inputs"): (("row", ("par", "u"), ("par", "u")),),
+    ("trim.isolated", "numbers"): (("row", ("entry", "w", 1), ("entry", "w", 1)),),
 }
 """Values that make a claim false where another one does not: the energy of a ball is a Casimir, and
 fewer inputs are independent, too."""

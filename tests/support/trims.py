@@ -47,3 +47,24 @@ def drone(**more):
 def drifting():
     """It moves aside."""
     return drone().trim({"w_1": 1})
+
+
+DRAG = {"kind": "quadratic", "coefficient": "c", "at": [0, 0]}
+ASIDE = {"A_11": "4/5", "A_12": "3/5", "A_21": "-3/5", "A_22": "4/5"}
+"""It leans ahead, by sin θ = −3/5."""
+
+
+def flying(*damping, c=0.6, **more):
+    """The drone with a drag −c‖v‖v; m = 2, g = 10."""
+    used = {"parameters": {"c": c}} if "'c'" in str(damping or DRAG) else {}
+    return derive(problem_of(DRONE | used | {"damping": [*(damping or [DRAG])]} | more))
+
+
+def balanced():
+    """The speed at which a tilt and a thrust are balanced."""
+    return flying().trim(ASIDE | {"u": "25/2", "v": "25/2"}, ["w_1", "w_2"])
+
+
+def resting_in_air():
+    """It rests, where ‖v‖ has no derivative."""
+    return flying().trim()

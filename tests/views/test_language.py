@@ -43,7 +43,7 @@ from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
 from tests.support.kinds import examples
 from tests.support.lagrangians import every_record
-from tests.support.trims import drifting, leaning, upside_down
+from tests.support.trims import balanced, drifting, leaning, resting_in_air, upside_down
 
 ROOT = Path(__file__).parents[2] / "derive"
 ENTRIES = catalogue_entries()
@@ -167,7 +167,8 @@ def all_records():
     problems += [problem_of({"name": "own"} | x) for x in OWN]
     told = [*map(walks.record, ready_made()), *map(corpus.record, OF_THE_CORPUS)]
     told.append(symmetries(walks.problem("gl3"), walks.record("gl3")).record)
-    told += [found().record for found in (leaning, upside_down, drifting)]
+    trims = (leaning, upside_down, drifting, resting_in_air, balanced)
+    told += [found().record for found in trims]
     return [*told, *every_record(), *map(walk, problems)]
 
 

@@ -9,6 +9,7 @@ from functools import cache
 import pytest
 
 from derive.check.checker import Checker, check
+from derive.command.cli import main
 from derive.language.expression import parse
 from derive.language.tree import add, mul, neg, nodes
 from derive.pipeline import walk
@@ -239,6 +240,15 @@ def test_bad_input_is_told_in_one_line(case):
         walk(problem_of({"name": "bad", "group": "SE(2)", "kinematics": table}))
     assert told in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_a_density_that_is_negative_by_a_default_is_told_in_one_line(tmp_path, capsys):
+    text = (ROOT / "derive/problems/imu.toml").read_text(encoding="utf-8")
+    (tmp_path / "imu.toml").write_text(text.replace("default = 1e-4", "default = -1e-4"), "utf-8")
+    assert main(["walk", str(tmp_path / "imu.toml")]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert "noise of 'w_1': a density is not negative" in err
 
 
 @pytest.mark.parametrize("key", ["point", "lagrangian", "initial", "input"])

@@ -17,7 +17,6 @@ from ...record.record import RecordError, Step, stated
 from ...record.sentence import Claim
 from ..form.hypotheses_checked import denominators
 from ..lagrangian.lagrangian_model import LagrangianModel
-from ..trials.phase_point import inverse
 from ..trials.trial_points import SIZE
 from ..values.draws import Locus
 from ..values.residue import Residue, random_prime
@@ -294,7 +293,7 @@ def _free(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     model = LagrangianModel(c.record.problem, c.group, c.random, SIZE, Locus())
     if model.held:
         return "coordinates are held"
-    elements = [(g, inverse(g)) for g in (model.g, q.times(model.g, model.g))]
+    elements = [(g, q.inverted(g)) for g in (model.g, q.times(model.g, model.g))]
     moved = [[x.at(model, model.t, g)[1] for x in model.symmetries] for g, _ in elements]
     pairs = [*zip(moved, elements, strict=True)]
     right = [[q.times(x, back) for x in fields] for fields, (_, back) in pairs]

@@ -1,7 +1,9 @@
 """The claims about equilibria under inputs, by the load M ζ̇ of a model at the very point.
 
 Derivatives are exact modulo a random prime p: with g(1 + pX) for g a rational function F becomes
-F + pF′ modulo p².
+F + pF′ modulo p².  Of a root s = √q, with q = s² + pq′, it is s + pq′/2s; a root that is 0 becomes
+py, y random: F has a derivative where F(x, py) − F(x, 0) is 0 modulo p².  Irrational numbers of the
+state are taken modulo p², by √d there.
 """
 
 from __future__ import annotations
@@ -14,9 +16,9 @@ from typing import Any
 
 from ...language import rational as q
 from ...language.rational import Matrix
+from ...language.univariate import Number, Quadratic, root, value_of
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
-from ..trials.phase_point import inverse
 from ..trials.trial_points import AnyModel, model_at
 from ..values.draws import Locus
 from ..values.residue import Residue, random_prime
@@ -25,36 +27,87 @@ from .equilibrium_claims import Coordinates, coordinates, silent
 from .exact_spectra import all_negative, characteristic, grows
 from .reduced_system import ClaimedRecord
 
-SIZE = 2**64
+SIZE, BITS = 2**64, 128
 POINTS = ("trim.rest", "trim.steady")
 VERDICTS = ("trim.stable", "trim.unstable", "trim.open")
 
 
+class TrueRoots:
+    """√x at the point, exact, which are remembered by x; and near it, modulo p²."""
+
+    def __init__(self, random: Any):
+        self.random, self.known = random, dict[Any, Number]()
+        self.prime, self.field, self.image = random_prime(random), 0, 0
+        self.bend = 0
+
+    def take(self, d: int) -> None:
+        """Let irrational numbers be those of √d: p ≡ 3 modulo 4 of which d is a square."""
+        while self.prime % 4 < 3 or pow(d, (self.prime - 1) // 2, self.prime) != 1:
+            self.prime = random_prime(self.random)
+        p, self.field = self.prime, d
+        first = pow(d, (p + 1) // 4, p)
+        self.image = (first - (first * first - d) * pow(2 * first, -1, p)) % (p * p)
+
+    def rational(self, x: Any) -> Any:
+        """A number modulo p², as a fraction."""
+        if not isinstance(x, Quadratic):
+            return x
+        if x.d != self.field:
+            raise RecordError("numbers of different square roots")
+        return x.a + x.b * self.image
+
+    def exact(self, x: Any) -> Number:
+        """√x at the point."""
+        self.known[x] = root(x)
+        return self.known[x]
+
+    def near(self, x: Any) -> Any:
+        """√x of a number that is, modulo p, one at the point."""
+        for square, s in self.known.items():
+            left = x - self.rational(square)
+            if left.numerator % self.prime == 0:
+                y = self.rational(s)
+                return y + left / (2 * y) if y else Fraction(self.prime * self.bend)
+        raise RecordError("a root is met that is none in the state")
+
+
 class ClaimedTrim:
     """A state with its inputs, by the numbers that a step tells; the others are those of g = 1,
-    and 0."""
+    and 0.  ``here``: the model there, exactly; others are modulo p²."""
 
     def __init__(self, c: ClaimedRecord, point: Coordinates):
         self.group, self.random = c.group, c.random
-        self.prime = random_prime(c.random)
+        self.roots = TrueRoots(c.random)
         given = c.record.problem.get("parameters", {})
         numbers = {name: Fraction(str(data["default"])) for name, data in given.items()}
         problem, at = c.record.problem, Locus(driven=True)
         self.model: AnyModel = model_at(problem, c.group, c.random, SIZE, at, given=numbers)
-        self.held: dict[str, Any] = {}
+        held: dict[str, Any] = {}
         g: list[list[Any]] = [[*row] for row in q.identity(self.group.size)]
         basis = self.group.in_user_basis
         zeta: list[Any] = [Fraction(0)] * basis.dimension
         for x, value in point:
             assert isinstance(x, tuple)
             if x[0] == "par":
-                self.held[x[1]] = value
+                held[x[1]] = value
             elif x[1] in ("A", "T"):
                 g[x[2] - 1][x[3] - 1 if x[1] == "A" else self.group.n] = value
             else:
                 after = basis.dimension - basis.n if x[1] == "w" else 0
                 zeta[after + x[2] - 1] = value
-        self.g, self.Z = q.matrix(g), basis.hat(zeta)
+        self.exact = q.matrix(g)
+        elementary, Z = self.model.elementary, basis.hat(zeta)
+        elementary.true_root = self.roots.exact
+        self.here = self.at(self.exact, Z, held)
+        self.load, self.moving = [*self.here.load], any(map(any, Z))
+        for x in (*zeta, *held.values(), *q.flatten(self.exact), *self.roots.known.values()):
+            if isinstance(x, Quadratic) and not self.roots.field:
+                self.roots.take(x.d)
+        self.prime, of = self.roots.prime, self.roots.rational
+        self.held = {x: of(y) for x, y in held.items()}
+        self.g, self.Z = (tuple(tuple(map(of, row)) for row in x) for x in (self.exact, Z))
+        elementary.true_root = self.roots.near
+        self.here = self.at(self.g, self.Z)
 
     def at(self, g: Matrix, Z: Matrix, inputs: Mapping[str, Any] | None = None) -> AnyModel:
         """The model in a state, at any time."""
@@ -69,14 +122,23 @@ class ClaimedTrim:
     def on_the_group(self) -> bool:
         """Is it proved that g is an element?"""
         span = range(self.group.size)
-        return decided(self.group, {(i, j): self.g[i][j] for i in span for j in span}) == "yes"
+        at = {(i, j): self.exact[i][j] for i in span for j in span}
+        return decided(self.group, at) == "yes"
 
     @cached_property
-    def here(self) -> AnyModel:
-        """The model in the state."""
-        return self.at(self.g, self.Z)
+    def has_derivative(self) -> bool:
+        """Have the rates one although a root may be 0?  Else that is a random number times p."""
+        self.roots.bend = self.random.getrandbits(BITS)
+        bent = self.at(self.g, self.Z)
+        bent.t = self.here.t
+        bent_load = [*bent.load]
+        self.roots.bend = 0
+        return not any(
+            (y - x).numerator % self.prime**2
+            for x, y in zip(self.here.load, bent_load, strict=True)
+        )
 
-    def _change(self, model: AnyModel, moved: AnyModel) -> list[Residue]:
+    def change(self, model: AnyModel, moved: AnyModel) -> list[Residue]:
         """The derivative of the load, of which ``moved`` is p times a displacement away."""
         pairs = zip(model.load, moved.load, strict=True)
         return [Residue(0, self.prime) + (y - x) / self.prime for x, y in pairs]
@@ -85,14 +147,14 @@ class ClaimedTrim:
     def goes_on(self) -> bool:
         """Is the load the same at all elements, random ones, along the motion that begins there?"""
         model, other = self.model, self.group.sample(self.random)
-        undone = inverse(self.g)
+        undone = q.inverted(self.g)
         first = (self.g, self.Z, undone) if model.side == "left" else (undone, self.Z, self.g)
         Y = q.times(q.times(*first[:2]), first[2])
         step = q.plus(q.identity(self.group.size), q.scaled(self.prime, Y))
         moved = q.times(step, other) if model.side == "left" else q.times(other, step)
         here, there = self.at(other, self.Z), self.at(moved, self.Z)
         there.t = here.t
-        return not any(x.n for x in self._change(here, there))
+        return not any(x.n for x in self.change(here, there))
 
     def shifted(self, by: Matrix, faster: Matrix) -> list[Residue]:
         """The derivative of the load by g, along an element of 𝔤, and by the velocity."""
@@ -102,7 +164,7 @@ class ClaimedTrim:
             q.plus(self.Z, q.scaled(p, faster)),
         )
         there.t = self.here.t
-        return self._change(self.here, there)
+        return self.change(self.here, there)
 
     @cached_property
     def characteristic(self) -> list[Any]:
@@ -132,12 +194,14 @@ def _at(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """An element has the entries of g, the load vanishes, and goes on to; what follows of the
     stability is said."""
     here = _trim(c, coordinates(claim))
-    if claim.kind == "trim.rest" and any(map(any, here.Z)):
+    if claim.kind == "trim.rest" and here.moving:
         return "the velocity is not 0"
     if not here.on_the_group:
         return "it is not proved that an element of the group has these entries"
-    if any(here.here.load):
+    if any(here.load):
         return "a rate does not vanish there"
+    if not here.has_derivative:
+        return "a root is 0 there, and the rates have no derivative"
     if claim.kind == "trim.steady" and not here.goes_on:
         return "what acts may be other where the motion takes g"
     return silent(step, VERDICTS, "one of " + ", ".join(VERDICTS))
@@ -170,13 +234,35 @@ def _unique(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     return "" if q.rank(rows) == len(names) else "others do so as well"
 
 
+def _isolated(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+    """The derivatives of the load by these numbers are independent."""
+    here, told = _trim_of(c, step), claim["numbers"]
+    assert isinstance(told, tuple)
+    basis, none, rows = c.group.in_user_basis, q.scaled(Fraction(0), here.Z), []
+    for x in told[1:]:
+        assert isinstance(x, tuple)
+        if x[0] == "par":
+            more = here.held | {x[1]: here.held.get(x[1], Fraction(0)) + here.prime}
+            rows.append(here.change(here.here, here.at(here.g, here.Z, more)))
+        else:
+            place = x[2] - 1 + (basis.dimension - basis.n if x[1] == "w" else 0)
+            rows.append(here.shifted(none, basis.basis[place]))
+    return "" if q.rank(q.matrix(rows)) == len(rows) else "others may do so near there"
+
+
+def _corner(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+    """A root is 0 there; that the rates have a derivative is asked of every trim."""
+    del claim
+    return "" if 0 in _trim_of(c, step).roots.known.values() else "no root is 0 there"
+
+
 def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """The coefficients are those of the linearised equations, and it is what follows from them."""
     told = claim["coefficients"]
     assert isinstance(told, tuple)
-    f = [Fraction(x) for x in told[1:]]
+    f = [Fraction(x) if isinstance(x, int) else x for x in map(value_of, told[1:])]
     here = _trim_of(c, step)
-    if [Residue(0, here.prime) + x for x in f] != here.characteristic:
+    if [Residue(0, here.prime) + here.roots.rational(x) for x in f] != here.characteristic:
         return "the characteristic polynomial has other coefficients"
     found = "unstable" if grows(f) else "stable" if all_negative(f) else "open"
     return "" if claim.kind == f"trim.{found}" else f"what follows is: {found}"
@@ -185,6 +271,8 @@ def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 JUDGES: dict[str, Callable[[ClaimedRecord, Step, Claim], str]] = {
     **dict.fromkeys(POINTS, _at),
     "trim.unique": _unique,
+    "trim.isolated": _isolated,
+    "trim.corner": _corner,
     **dict.fromkeys(VERDICTS, _verdict),
 }
 """How claims about equilibria under inputs are judged."""

@@ -18,7 +18,6 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from ...record.as_json import decode
-from ..trials.phase_point import inverse
 from ..values.arithmetic import (
     EPS,
     EPS_PRIME,
@@ -92,7 +91,7 @@ class KinematicsModel(Draws):
 
     def names(self, A: Matrix, estimate: Matrix) -> dict[str, Any]:
         """What depends on the two elements."""
-        back = inverse(estimate)
+        back = q.inverted(estimate)
         return {
             **{"A": A, "Â": estimate},
             **{"η_L": q.times(back, A), "η_R": q.times(A, back)},
@@ -136,7 +135,7 @@ class KinematicsModel(Draws):
 
     def rate_of_error(self, error: Matrix, *, left: bool) -> Matrix:
         """The derivative of Â⁻¹A where A = Â error, or of AÂ⁻¹ where A = error Â."""
-        B, back = self.estimate, inverse(self.estimate)
+        B, back = self.estimate, q.inverted(self.estimate)
         moved = self.velocity(B)
         if left:
             ahead = q.times(back, self.velocity(q.times(B, error)))
@@ -161,8 +160,8 @@ class KinematicsModel(Draws):
 def environment(model: KinematicsModel) -> Environment:
     """The names at a model."""
     A, B = model.A, model.estimate
-    back = inverse(B)
-    Z = q.times(inverse(A), model.velocity(A))
+    back = q.inverted(B)
+    Z = q.times(q.inverted(A), model.velocity(A))
 
     def rate(_: Tree, a: tuple[Tree, ...], env: Environment) -> Any:
         (t,) = a
@@ -189,7 +188,7 @@ def environment(model: KinematicsModel) -> Environment:
         "W_R": q.times(model.by_noise, back),
         "o": o,
         "z_L": q.minus(q.times(q.times(back, A), o), o),
-        "z_R": q.minus(q.times(q.times(B, inverse(A)), o), o),
+        "z_R": q.minus(q.times(q.times(B, q.inverted(A)), o), o),
     }
     return Environment(
         model.n,

@@ -13,7 +13,7 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, nodes
 from ...record.record import RecordError
-from ..trials.phase_point import PhasePoint, TangentVector, inverse
+from ..trials.phase_point import PhasePoint, TangentVector
 from ..values.arithmetic import EPS, EvaluationError, is_matrix, nilpotent, part
 from ..values.evaluate import evaluate
 
@@ -56,7 +56,7 @@ class GivenField:
     def direction(self, model: PhasePoint) -> TangentVector:
         """The variation at the point of the model; ``EvaluationError`` where it is not tangent to
         the group, or δt not constant."""
-        back = inverse(model.g)
+        back = q.inverted(model.g)
         time, xi = self.trivialised(model, model.t, model.g, back)
         ahead, _ = model.displaced((nilpotent(EPS), model.Z))
         later, ahead = model.t + nilpotent(EPS), model.ordered(model.g, ahead)

@@ -14,7 +14,6 @@ from ...language.rational import Matrix
 from ...language.tree import Tree
 from ...record.as_json import decode
 from ..trials.given_forces import GivenForces
-from ..trials.phase_point import inverse
 from ..trials.point_masses import Vector, listed_places
 from ..values.arithmetic import (
     EPS,
@@ -139,7 +138,7 @@ class LagrangianModel(GivenForces):
         total = super().acting_covector
         if not self.points and not self.inputs_of("torque"):
             return total
-        back = inverse(self.g)
+        back = q.inverted(self.g)
         for a, e in enumerate(self.group.basis):
             moved = self.ordered(self.g, e)
             pairs = zip(self.given_forces, self.images(moved), strict=True)

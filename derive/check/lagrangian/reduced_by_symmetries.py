@@ -11,7 +11,7 @@ from typing import Any
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...record.record import Equation, Step
-from ..trials.phase_point import Family, PhasePoint, TangentVector, inverse
+from ..trials.phase_point import Family, PhasePoint, TangentVector
 from ..values.arithmetic import EPS, EPS_PRIME, EvaluationError, derivative_in, part
 from ..values.draws import part_of_velocity
 from ..values.evaluate import Environment
@@ -88,7 +88,7 @@ class ReducedPoint:
 
 def here(model: LagrangianModel) -> ReducedPoint:
     """The point of a model."""
-    return ReducedPoint(model, model.t, model.g, inverse(model.g), model.Z)
+    return ReducedPoint(model, model.t, model.g, q.inverted(model.g), model.Z)
 
 
 def on_family(model: LagrangianModel, family: Family) -> ReducedPoint:

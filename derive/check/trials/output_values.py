@@ -11,7 +11,6 @@ from ...language.reserved import numbers_of_output, one_or_more
 from ...record.as_json import decode
 from ...record.record import RecordError
 from ..values.evaluate import evaluate
-from .phase_point import inverse
 from .point_masses import Vector, scaled_each
 
 Data = Mapping[str, Any]
@@ -98,7 +97,7 @@ class Observed(Mapping[str, Any]):
         block, factor = self._acted_on(data)
         at = self.model.group.of_block(block)
         model = self.model
-        velocity = model.Z if model.side == "left" else q.times(inverse(model.g), model.nu)
+        velocity = model.Z if model.side == "left" else q.times(q.inverted(model.g), model.nu)
         Z = tuple(row[at] for row in velocity[at])
         if factor.n == 2:
             return (Z[1][0],)

@@ -210,7 +210,7 @@ class PhasePoint(Draws):
 
     def undone(self, family: Family) -> Matrix:
         """g⁻¹ on a family."""
-        return self.ordered(family.back, inverse(self.g))
+        return self.ordered(family.back, q.inverted(self.g))
 
     def field(self, family: Family, mask: int) -> Matrix:
         """g⁻¹ ∂g, or ∂g g⁻¹, in a parameter of a family, a function of the other."""
@@ -284,10 +284,3 @@ class PhasePoint(Draws):
     def motion(self) -> TangentVector:
         """X, with δt = 1: the direction of the motion, or the random vector that stands for it."""
         return self.vector or TangentVector(Fraction(1), self.Z, self.acceleration)
-
-
-def inverse(g: Matrix) -> Matrix:
-    """g⁻¹."""
-    found = q.inverse(g)
-    assert found is not None
-    return found

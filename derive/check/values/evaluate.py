@@ -328,12 +328,16 @@ class ElementaryValues:
 
     def __init__(self, draw: Callable[[], Any], *, exact: bool = False):
         self.draw, self.exact, self.radicand = draw, exact, 0
+        self.true_root: Callable[[Any], Any] | None = None
+        """√x, where it is not any number."""
         self.values: dict[tuple[str, Any], Any] = {}
         self.graded_arguments: list[Graded] = []
 
     def value(self, name: str, x: Any) -> Any:
         """The value of a function at x, the same each time; two graded numbers are different
         arguments unless they are one object."""
+        if name == "sqrt" and self.true_root:
+            return self.true_root(x)
         at = id(x) if isinstance(x, Graded) else x
         key = (name, at)
         if key not in self.values:
@@ -375,7 +379,8 @@ class ElementaryValues:
     def __call__(self, name: str, x: Any) -> Any:
         """The function of a number, or by Taylor's formula of one with nilpotent parts."""
         if not isinstance(x, Nilpotent):
-            self.derivatives(name, x)
+            if not (name == "sqrt" and self.true_root):  # which may be 0
+                self.derivatives(name, x)
             return self.value(name, x)
         base = x.part(0)
         small = Nilpotent({k: v for k, v in x.parts.items() if k})

@@ -6,7 +6,8 @@ from collections.abc import Iterable
 from fractions import Fraction
 
 from ...algebra.groups import Group
-from ...language.tree import Tree, plain
+from ...language.tree import Tree
+from ...language.univariate import Number, tree
 from ...record.record import Step
 from ...walk.chapter import Chapter
 from .trimmed import Trim, entries_of
@@ -18,22 +19,29 @@ def told(trim: Trim, group: Group, steps: Iterable[Step], c: Chapter) -> Step:
     motion = next(s for x in ("explicit", "motion") if (s := by_label.get(c.label(x))))
     draft = (c.with_input() if motion.driven else c).draft("trim", "trim")
     draft.depends_on(motion)
-    point = ("matrix", *(("row", x, plain(y)) for x, y in _rows(trim, group)))
+    point = ("matrix", *(("row", x, tree(y)) for x, y in _rows(trim, group)))
     prose = draft.claim("trim.rest" if trim.resting else "trim.steady", point=point)
-    if trim.free:
+    if trim.corner:
+        prose += draft.claim("trim.corner")
+    if trim.sought:
+        places, velocity = entries_of(group), [*trim.state][-group.dimension :]
+        names = (*(_named(x, places, velocity, group) for x in trim.sought),)
+        names += (*(("par", x) for x in trim.free),)
+        prose += draft.claim("trim.isolated", numbers=("row", *names))
+    elif trim.free:
         inputs: Tree = ("row", *(("par", x) for x in trim.free))
         prose += draft.claim("trim.unique", inputs=inputs)
-    coefficients: Tree = ("row", *map(plain, trim.characteristic))
+    coefficients: Tree = ("row", *map(tree, trim.characteristic))
     prose += draft.claim(f"trim.{trim.verdict}", coefficients=coefficients)
     return draft.step(motion.equations, prose)
 
 
-def _rows(trim: Trim, group: Group) -> list[tuple[Tree, Fraction]]:
+def _rows(trim: Trim, group: Group) -> list[tuple[Tree, Number]]:
     """The numbers that are not those of g = 1, and 0, and all inputs that were found; where there
     are none, the first of the velocity."""
     places, d = entries_of(group), group.dimension
     velocity = [*trim.state][-d:]
-    found: list[tuple[Tree, Fraction]] = []
+    found: list[tuple[Tree, Number]] = []
     for name, x in trim.state.items():
         i, j = places.get(name, (0, 1))
         if x != int(i == j):

@@ -4,11 +4,15 @@ Where inputs act linearly, which is tried at other ones, ζ̇ = a + Bu.  At rest
 then.  Else g moves on by exp(tY), Y = gZg⁻¹ (on the right g⁻¹Zg), and keeps ζ̇ = 0 where ζ̇ at this
 velocity and with these inputs is the same at g and at exp(tY)g for every g; which is tried at a
 random exact one.
+
+Numbers are of one quadratic field, so that a speed ‖v‖ = √(v·v) is exact.  Where s = √q is 0 it has
+no derivative: F(x, s) has then that of F(x, 0) where ∂F/∂s = 0 in the point, as ‖v‖v, and what is
+left is small with its differences, which is all that Lyapunov's theorems need.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -18,40 +22,40 @@ from typing import Any
 from ...algebra.groups import Group
 from ...code.program import Program
 from ...language import rational as q
-from ...language.limits import Refused
 from ...language.rational import Matrix
 from ...language.reserved import did_you_mean, near_name
-from ...language.tree import nodes
-from ...language.univariate import Number, grows, routh
+from ...language.univariate import Number, Quadratic, RootError, grows, root, routh
 from ...problem.fields import state_names
 from ...problem.problem import Problem
 from ..equilibria.stability import eigenvalues, polynomial
+from .steady_velocity import NoTrimError, Rates, exact, solutions
 
-Numbers = Mapping[str, Fraction]
+Numbers = Mapping[str, Number]
 EXACT = 2**40
 """A number of a program with a larger power of two below is one that has no fraction, as π."""
-
-
-class NoTrimError(Refused, ValueError):
-    """There is none, or there are many, or the question is none: the message says which."""
+PRIME = 2**61 - 1
+"""p, in the place of a root that is 0: F(x, p) − F(x, 0) is 0 modulo p² where ∂F/∂s is 0."""
 
 
 @dataclass(frozen=True)
 class Trim:
     """An equilibrium under inputs.  ``state``, ``inputs``: name → number; ``free``: the names of
-    those inputs that were found; ``matrix``: D of the equations linearised in (η, δζ), (2d, 2d),
-    the inputs held; ``resting``: is the velocity 0?"""
+    those inputs that were found, ``sought``: of the velocities; ``matrix``: D of the equations
+    linearised in (η, δζ), (2d, 2d), the inputs held; ``resting``: is the velocity 0?  ``corner``:
+    is a root 0 there, which has no derivative?"""
 
     state: Numbers
     inputs: Numbers
     free: tuple[str, ...]
+    sought: tuple[str, ...]
     matrix: Matrix
     resting: bool
+    corner: bool
 
     @cached_property
-    def characteristic(self) -> tuple[Fraction, ...]:
+    def characteristic(self) -> tuple[Number, ...]:
         """The characteristic polynomial of the matrix, from the highest power."""
-        return tuple(map(Fraction, polynomial(self.matrix)))  # type: ignore[arg-type]
+        return polynomial(self.matrix)
 
     @property
     def verdict(self) -> str:
@@ -70,12 +74,15 @@ class Trim:
 def trimmed(
     problem: Problem, program: Program, at: Mapping[str, Number], free: Sequence[str] | None = None
 ) -> Trim:
-    """The inputs ``free``, or all that are not given, for a state and other inputs: those ``at``
-    has, else g = 1 and 0.  ``program``: with its jacobian.  ``NoTrimError``."""
-    numbers = {x: y for x, y in at.items() if isinstance(y, (int, Fraction))}
-    if others := [f"{x} is {y}" for x, y in at.items() if x not in numbers]:
-        raise NoTrimError(f"{others[0]}: give a rational number")
-    return _Question(problem, program, numbers, free).answered()
+    """The inputs and velocities ``free``, or all inputs that are not given, for a state and other
+    inputs: those ``at`` has, else g = 1 and 0; ``program``: with its jacobian.  ``NoTrimError``
+    where there is none, or several."""
+    try:
+        return _Question(problem, program, at, free).answered()
+    except RootError as error:
+        raise NoTrimError(f"a trim is in numbers of one square root, and {error} is met") from None
+    except ZeroDivisionError:
+        raise NoTrimError("what acts has no value in this state: it divides by 0") from None
 
 
 class _Question:
@@ -85,7 +92,7 @@ class _Question:
         self,
         problem: Problem,
         program: Program,
-        at: Mapping[str, Fraction],
+        at: Mapping[str, Number],
         free: Sequence[str] | None,
     ):
         assert problem.group
@@ -99,22 +106,29 @@ class _Question:
             if name not in names:
                 near = did_you_mean(near_name(name, names), "; ")
                 raise NoTrimError(f"{name} is no number of the state and no input{near}")
-        self.free = (*(free or (x for x in program.inputs if x not in at)),)
-        for name in self.free:
-            if name not in program.inputs:
-                raise NoTrimError(f"--free {name}: of the state; inputs alone are found")
-            if name in at:
-                raise NoTrimError(f"{name} is given by --at, and free: leave out one")
+        wanted = free or [x for x in program.inputs if x not in at]
+        self.free = tuple(x for x in wanted if x in program.inputs)
+        self.sought = tuple(x for x in wanted if x not in program.inputs)
+        if given := [x for x in self.free if x in at]:
+            raise NoTrimError(f"{given[0]} is given by --at, and free: leave out one")
+        velocity = program.state[-self.d :]
+        if fixed := [x for x in self.sought if x not in velocity]:
+            raise NoTrimError(
+                f"--free {fixed[0]}: of g, which --at gives, as A_11=4/5 with all that change so; "
+                "inputs and velocities are found"
+            )
+        self.near = [float(at[x]) for x in self.sought if x in at]
+        if 0 < len(self.near) < len(self.sought):
+            raise NoTrimError("--at gives some of the velocities that are free: give all or none")
         one = q.identity(self.group.size)
         start = {x: one[i][j] for x, (i, j) in self.places.items()}
-        self.x = [Fraction(at.get(n, start.get(n, 0))) for n in program.state]
-        self.u = [Fraction(at.get(n, 0)) for n in program.inputs]
+        self.x: list[Number] = [at.get(n, start.get(n, Fraction(0))) for n in program.state]
+        self.u: list[Number] = [at.get(n, Fraction(0)) for n in program.inputs]
         p = [Fraction(str(x[1])) for x in program.parameters]
         try:
-            self.k = program.functions["constants"].values({"p": p}, _no_function)
+            self.k = program.functions["constants"].values({"p": p}, _function(0))
         except ZeroDivisionError:
             raise NoTrimError("no body has these parameters: its mass matrix is singular") from None
-        self.Z = self.group.hat(self.x[-self.d :])
 
     def require(self) -> None:
         """``NoTrimError`` where this has no exact numbers, or has the time in it."""
@@ -122,11 +136,9 @@ class _Question:
         if missing := [x[0] for x in program.parameters if x[1] is None]:
             raise NoTrimError(f"a trim is of numbers, and {missing[0]} has no default")
         below = [x.denominator for x in program.numbers()]
-        exact = all(x < EXACT or x & (x - 1) for x in below)
+        fractions = all(x < EXACT or x & (x - 1) for x in below)
         functions = program.functions["rhs"].calls() | program.functions["constants"].calls()
-        inside = (x for e in program.functions["rhs"].expressions for x in nodes(e))
-        functions |= {"abs" for x in inside if isinstance(x, tuple) and x[0] == "abs"}
-        if functions or not exact:
+        if (functions := functions - {"sqrt", "abs"}) or not fractions:
             what = ", ".join(sorted(functions)) or "π, or a root,"
             raise NoTrimError(f"a trim is exact, and {what} is in the equations")
         if any(x.array == "t" for x in program.functions["rhs"].loads):
@@ -135,25 +147,90 @@ class _Question:
     def answered(self) -> Trim:
         """The trim; ``NoTrimError`` where there is none, or there are many."""
         self.require_element()
+        if self.sought:
+            self.find_velocity()
         held = self.rates({})
         columns = tuple(self.changed(held, {name: Fraction(1)}) for name in self.free)
         by = {name: Fraction(k * k + 3, 7) for k, name in enumerate(self.free)}
         together = q.times((tuple(by.values()),), columns)[0] if columns else self.changed(held, by)
         if self.changed(held, by) != together:
             raise NoTrimError("inputs do not act linearly: give these by --at, or leave them out")
-        found = self.solved(columns, held)
-        u = self.with_more(found)
+        u = self.with_more(self.solved(columns, held))
         if moving := any(self.x[-self.d :]):
             self.require_steady(u)
         return Trim(
             dict(zip(self.program.state, self.x, strict=True)),
             dict(zip(self.program.inputs, u, strict=True)),
             self.free,
+            self.sought,
             self.linear(self.x, u),
             not moving,
+            self.has_corner(u),
         )
 
-    def solved(self, columns: Matrix, held: Sequence[Fraction]) -> dict[str, Fraction]:
+    def find_velocity(self) -> None:
+        """Put those velocities in the state with which, and with free inputs, its rates vanish."""
+        program = self.program
+        places = [program.state.index(x) for x in self.sought]
+        inputs = [program.inputs.index(x) for x in self.free]
+
+        def at(y: Sequence[Any]) -> tuple[list[Any], list[Any]]:
+            x, u = [*self.x], [*self.u]
+            for i, value in zip(places, y, strict=False):
+                x[i] = value
+            for i, value in zip(inputs, y[len(places) :], strict=True):
+                u[i] = value
+            return x, u
+
+        def rates(y: Sequence[Any], call: Any) -> list[Any]:
+            return self._values("rhs", *at(y), call)[-self.d :]
+
+        def slopes(y: Sequence[Any], call: Any) -> list[list[Any]]:
+            x, u = at(y)
+            D = self._rows(self._values("jacobian", x, u, call))[self.d :]
+            first, n = self.d - len(x), len(places)
+            more = [
+                rates([*y[: n + k], y[n + k] + 1, *y[n + k + 1 :]], call)
+                for k, _ in enumerate(inputs)
+            ]
+            held = rates(y, call)
+            return [
+                [*(row[self.d + first + i] for i in places), *(m[a] - held[a] for m in more)]
+                for a, row in enumerate(D)
+            ]
+
+        names = (*self.sought, *self.free)
+        y = exact(names, solutions(Rates(names, len(places), rates, slopes), self.near))
+        self.x, self.u = at(y)
+        if any(self.rates({})):
+            told = ", ".join(f"{x} = {float(v):.8g}" for x, v in zip(names, y, strict=True))
+            raise NoTrimError(f"near {told} a rate is small, and not 0 in numbers of a square root")
+        if q.rank(q.matrix(slopes(y, _function(0)))) < len(y):
+            raise NoTrimError("many trims: others are near this one; free fewer")
+        for i in inputs:  # they are found once more, linearly
+            self.u[i] = Fraction(0)
+
+    def has_corner(self, u: Sequence[Number]) -> bool:
+        """Is a root 0 in the state?  ``NoTrimError`` where the rates have no derivative then."""
+        met: list[str] = []
+
+        def call(name: str, x: Any) -> Any:
+            if x == 0 and name in ("sqrt", "abs"):
+                met.append(name)
+            return _function(PRIME)(name, x)
+
+        held, bent = (self._values("rhs", self.x, u, f) for f in (_function(0), call))
+        triples = zip(self.program.state, held, bent, strict=True)
+        for name, x, y in [*triples][-self.d :]:
+            by = (y - x) / PRIME
+            parts = (by.a, by.b) if isinstance(by, Quadratic) else (by,)
+            if any(part.numerator % PRIME for part in parts):
+                raise NoTrimError(
+                    f"d{name}/dt has no derivative there: a root is 0, and not a factor of what is"
+                )
+        return bool(met)
+
+    def solved(self, columns: Matrix, held: Sequence[Number]) -> dict[str, Number]:
         """The free inputs by name, of which each moves ζ̇ by a row of ``columns``."""
         velocity = self.program.state[-self.d :]
         for row in q.nullspace(columns) if columns else q.identity(self.d):
@@ -182,11 +259,11 @@ class _Question:
 
     # -- the emitted equations ---------------------------------------------------------------------
 
-    def _values(self, name: str, x: Sequence[Fraction], u: Sequence[Fraction]) -> list[Any]:
+    def _values(self, name: str, x: Sequence[Any], u: Sequence[Any], call: Any = None) -> list[Any]:
         arrays = {"x": x, "k": self.k, "u": u}
-        return self.program.functions[name].values(arrays, _no_function)
+        return self.program.functions[name].values(arrays, call or _function(0))
 
-    def with_more(self, more: Numbers) -> list[Fraction]:
+    def with_more(self, more: Numbers) -> list[Number]:
         """All inputs, with some more."""
         pairs = zip(self.program.inputs, self.u, strict=True)
         return [x + more.get(name, 0) for name, x in pairs]
@@ -195,14 +272,19 @@ class _Question:
         """ζ̇ in the state, with some inputs more."""
         return self._values("rhs", self.x, self.with_more(more))[-self.d :]
 
-    def changed(self, held: Sequence[Fraction], more: Numbers) -> tuple[Fraction, ...]:
+    def changed(self, held: Sequence[Number], more: Numbers) -> tuple[Number, ...]:
         """What ζ̇ is more with some inputs more."""
         return tuple(y - x for x, y in zip(held, self.rates(more), strict=True))
 
-    def linear(self, x: Sequence[Fraction], u: Sequence[Fraction]) -> Matrix:
+    def linear(self, x: Sequence[Number], u: Sequence[Number]) -> Matrix:
         """D in a state, with inputs."""
-        found, n = self._values("jacobian", x, u)[len(x) :], 2 * self.d
-        return tuple(tuple(found[n * i : n * i + n]) for i in range(n))
+        return self._rows(self._values("jacobian", x, u))
+
+    def _rows(self, found: Sequence[Any]) -> Matrix:
+        """D of what ``jacobian`` gives: the rates, then its rows."""
+        n = 2 * self.d
+        entries = found[len(self.program.state) :]
+        return tuple(tuple(entries[n * i : n * i + n]) for i in range(n))
 
     # -- the group ---------------------------------------------------------------------------------
 
@@ -220,7 +302,7 @@ class _Question:
         g, whole = self.element(), self.program.functions.get("defect")
         if g == q.identity(self.group.size):
             return
-        off = whole.values({"x": self.x}, _no_function)[0] if whole else 0
+        off = whole.values({"x": self.x}, _function(0))[0] if whole else 0
         blocks = (
             tuple(row[k : k + factor.n] for row in g[k : k + factor.n])
             for k, factor in self.group.places
@@ -230,11 +312,12 @@ class _Question:
         if self.group.larger:
             raise NoTrimError(f"of {self.group.name}, g = 1 alone is proved to be an element")
 
-    def require_steady(self, u: Sequence[Fraction]) -> None:
+    def require_steady(self, u: Sequence[Number]) -> None:
         """``NoTrimError`` where ζ̇ may change as g moves on."""
         g, other = self.element(), self.group.sample(Random(1))
-        h = q.times(other, inverse(g)) if self.right else q.times(inverse(other), g)
-        eta = self.group.nearest(q.times(q.times(h, self.Z), inverse(h)))
+        h = q.times(other, q.inverted(g)) if self.right else q.times(q.inverted(other), g)
+        Z = self.group.hat(self.x[-self.d :])
+        eta = self.group.nearest(q.times(q.times(h, Z), q.inverted(h)))
         entries = {x: other[i][j] for x, (i, j) in self.places.items()}
         x = [entries.get(n, y) for n, y in zip(self.program.state, self.x, strict=True)]
         below = self.linear(x, u)[self.d :]
@@ -252,13 +335,15 @@ def entries_of(group: Group) -> dict[str, tuple[int, int]]:
     return {x: (t[2] - 1, t[3] - 1) for x, t in named if isinstance(t, tuple) and t[1] == "A"}
 
 
-def inverse(g: Matrix) -> Matrix:
-    """g⁻¹."""
-    found = q.inverse(g)
-    assert found
-    return found
+def _function(corner: int) -> Callable[[str, Any], Any]:
+    """The functions of exact numbers, roots and absolute values, ``corner`` where these are 0; and
+    the tests for 0 of constants."""
 
+    def call(name: str, x: Any) -> Any:
+        if name == "none":
+            return Fraction(int(x == 0))
+        if x == 0:
+            return Fraction(corner)
+        return root(x) if name == "sqrt" else x if x > 0 else -x
 
-def _no_function(name: str, x: Any) -> Any:
-    """The absolute values and the tests for 0 of constants; no other function is left."""
-    return Fraction(int(x == 0)) if name == "none" else abs(x)
+    return call

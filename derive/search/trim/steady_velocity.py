@@ -1,0 +1,170 @@
+"""Velocities that stay as they are, by Newton's method, and as exact numbers.
+
+In floats from a few starts, then in fractions to many digits; a number is read off these digits, as
+a fraction or a root of a quadratic equation.  Nothing of this is proved: whoever asks puts the
+exact numbers in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from math import isqrt, sqrt
+from typing import Any
+
+from ...language import rational as q
+from ...language.limits import Refused
+from ...language.univariate import Number, root
+
+BITS = 400
+"""Digits after the point, in fractions."""
+STEPS, LAST = 60, 5
+"""The most steps in floats; steps in fractions, each of which doubles the digits."""
+STARTS = (1.0, 10.0)
+"""The sizes of velocities from which it begins, with all signs where these are few."""
+SIGNED = 4
+SAME, SMALL = 1e-6, 1e-10
+"""Two solutions so near are one; a step of this part of a number is none."""
+LARGEST = 10**15
+"""Of fractions and coefficients."""
+
+Call = Callable[[str, Any], Any]
+
+
+class NoTrimError(Refused, ValueError):
+    """There is none, or there are many, or the question is none: the message says which."""
+
+
+@dataclass(frozen=True)
+class Rates:
+    """Functions of what is unknown, ``names``, first the ``velocities``: ``values(y, call)``, all
+    0 where it is found, and ``slopes(y, call)``, a row of derivatives for each of them."""
+
+    names: tuple[str, ...]
+    velocities: int
+    values: Callable[[Sequence[Any], Call], list[Any]]
+    slopes: Callable[[Sequence[Any], Call], list[list[Any]]]
+
+
+def solutions(f: Rates, near: Sequence[float]) -> list[Fraction]:
+    """The one solution, to many digits: the one ``near`` these velocities, or that to which some
+    starts lead; ``NoTrimError`` for none or several."""
+    m = f.velocities
+    signs = product((1.0, -1.0), repeat=m) if m <= SIGNED else [(1.0,) * m, (-1.0,) * m]
+    starts = [list(near)] if near else [[a * x for x in s] for s in signs for a in STARTS]
+    found: list[list[float]] = []
+    for start in starts:
+        y = _in_floats(f, [*start, *[0.0] * (len(f.names) - m)])
+        if y and all(max(abs(a - b) for a, b in zip(x, y, strict=True)) > SAME for x in found):
+            found.append(y)
+    isolated = [y for y in found if _rank(f, y) == len(y)]
+    if found and not isolated:
+        raise NoTrimError(
+            f"many trims: near {_told(f, found[0])} there are others; free fewer of these"
+        )
+    if not found:
+        told = ", ".join(f.names[:m])
+        raise NoTrimError(
+            f"no trim is found: from no start does Newton's method lead to one; give numbers near "
+            f"it by --at for {told}"
+        )
+    if len(isolated) > 1:
+        several = "; ".join(_told(f, y) for y in isolated)
+        raise NoTrimError(f"several trims: {several}; say near which by --at, too")
+    return _in_fractions(f, isolated[0])
+
+
+def _told(f: Rates, y: Sequence[float]) -> str:
+    return ", ".join(f"{x} = {v:.6g}" for x, v in zip(f.names, y, strict=True))
+
+
+def _float(name: str, x: float) -> float:
+    if name == "none":
+        return float(x == 0)
+    return sqrt(x) if name == "sqrt" else abs(x)
+
+
+def _in_floats(f: Rates, y: list[float]) -> list[float] | None:
+    """A solution from a start, or none."""
+    import numpy as np
+
+    for _ in range(STEPS):
+        try:
+            rates, slopes = (np.array(g(y, _float), dtype=float) for g in (f.values, f.slopes))
+            step = np.linalg.lstsq(slopes, -rates, rcond=1e-12)[0]
+        except (ValueError, ZeroDivisionError, np.linalg.LinAlgError):
+            return None
+        y = [*map(float, np.array(y) + step)]
+        if not all(abs(x) < LARGEST for x in y):
+            return None
+        if max(abs(step)) <= SMALL * (1 + max(map(abs, y))):
+            left = max(abs(x) for x in f.values(y, _float))
+            return y if left <= SAME * (1 + max(map(abs, y))) else None
+    return None
+
+
+def _rank(f: Rates, y: Sequence[float]) -> int:
+    import numpy as np
+
+    return int(np.linalg.matrix_rank(np.array(f.slopes(y, _float), dtype=float), tol=SMALL))
+
+
+# -- exact numbers -------------------------------------------------------------------------------
+
+
+def _rounded(x: Any) -> Fraction:
+    return Fraction(round(Fraction(x) * 2**BITS), 2**BITS)
+
+
+def _fraction(name: str, x: Any) -> Any:
+    if name == "none":
+        return Fraction(int(x == 0))
+    return Fraction(isqrt(int(x * 4**BITS)), 2**BITS) if name == "sqrt" else abs(x)
+
+
+def _in_fractions(f: Rates, start: Sequence[float]) -> list[Fraction]:
+    """The solution near floats, to about :data:`BITS` bits, by least squares."""
+    y = [Fraction(x) for x in start]
+    for _ in range(LAST):
+        slopes = q.matrix([[_rounded(x) for x in row] for row in f.slopes(y, _fraction)])
+        rates, turned = f.values(y, _fraction), q.transposed(slopes)
+        down = q.times(turned, q.column(-_rounded(x) for x in rates))
+        step = q.solve(q.times(turned, slopes), down)
+        if step is None:
+            break
+        y = [_rounded(x + s) for x, (s,) in zip(y, step, strict=True)]
+    return y
+
+
+def exact(names: Sequence[str], y: Sequence[Fraction]) -> list[Number]:
+    """The numbers of which these are the digits; ``NoTrimError`` where one is not of a square
+    root."""
+    found = [_read_off(x) for x in y]
+    if None in found:
+        k = found.index(None)
+        raise NoTrimError(
+            f"{names[k]} is about {float(y[k]):.12g}, and no number with one square root: a trim "
+            "is exact; give it by --at, and free an input"
+        )
+    return [x for x in found if x is not None]
+
+
+def _read_off(x: Fraction) -> Number | None:
+    """The fraction, or the root of a quadratic equation, to whose digits a number is equal."""
+    small = Fraction(1, 2 ** (BITS // 2))
+    near = x.limit_denominator(LARGEST)
+    if abs(near - x) < small:
+        return near
+    from mpmath import mp, mpf, pslq
+
+    with mp.workprec(BITS - 50):
+        y = mpf(x.numerator) / x.denominator
+        relation = pslq([1, y, y * y], maxcoeff=LARGEST, maxsteps=10**4)
+    if relation is None or not relation[2]:
+        return None
+    c, b, a = map(Fraction, relation)
+    long = root(b * b - 4 * a * c) if b * b >= 4 * a * c else Fraction(0)
+    both = [(-b + sign * long) / (2 * a) for sign in (1, -1)]
+    return min(both, key=lambda z: abs(float(z) - float(x)))

@@ -1,0 +1,218 @@
+"""Trims with roots of the state, as of a quadratic drag, and velocities that are found: beside
+closed forms, and eigenvalues by finite differences of equations written by hand."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from derive import ProblemError, derive
+from derive.check.claims.claim_checker import ClaimChecker
+from derive.problem.toml import problem_of
+from derive.record.sentence import Claim, english
+from tests.check.test_record_claims import said
+from tests.support.trims import ASIDE, DRAG, PENDULUM, TURNED, balanced, flying
+from tests.support.walks import SEED
+
+
+def falling(*damping, **more):
+    return flying(*damping, input=[], **more)
+
+
+def holds(found):
+    return all(v.holds for v in found.check(SEED))
+
+
+def told(found):
+    return english(found.record.steps[-1].prose)
+
+
+def rates(y, u, c):
+    """θ̈ and v̇ in space of the drone, by Newton: y is θ, v_1, v_2, θ̇."""
+    theta, v, turning = y[0], y[1:3], y[3]
+    push = sum(u) * np.array([-np.sin(theta), np.cos(theta)])
+    force = push - c * np.hypot(*v) * v - [0, 20]
+    return np.array([turning, *(force / 2), (u[0] - u[1]) / 3])
+
+
+def eigenvalues_of(y, u, c):
+    """By central differences."""
+    h = 1e-5
+    columns = [(rates(y + e, u, c) - rates(y - e, u, c)) / (2 * h) for e in h * np.eye(4)]
+    return np.linalg.eigvals(np.array(columns).T)
+
+
+def same(a, b, tolerance):
+    """Are the same numbers in both?"""
+    key = lambda z: (round(z.real, 3), round(z.imag, 3))  # noqa: E731
+    return np.allclose(sorted(a, key=key), sorted(b, key=key), atol=tolerance)
+
+
+def ahead(**more):
+    """At the speed 5 it leans so that drag is balanced: tan θ = −c v²/mg = −3/4."""
+    return flying(**more).trim(ASIDE | {"w_1": 4, "w_2": 3})
+
+
+def test_a_drone_flies_ahead_against_its_drag():
+    found = ahead()
+    assert found.found.inputs == {"u": Fraction(25, 2), "v": Fraction(25, 2)}
+    assert (found.found.resting, found.found.corner, holds(found)) == (False, False, True)
+    y = np.array([np.arctan2(-3, 4), 5, 0, 0])
+    assert np.allclose(rates(y, (12.5, 12.5), 0.6), 0, atol=1e-12)
+    # the place adds two eigenvalues 0; four of one value 0 are found to the fourth root of rounding
+    assert same(found.eigenvalues, [*eigenvalues_of(y, (12.5, 12.5), 0.6), 0, 0], 1e-3)
+
+
+def test_the_speed_is_found_at_which_a_tilt_is_balanced():
+    found = balanced()
+    assert {x: found.found.state[x] for x in ("w_1", "w_2")} == {"w_1": 4, "w_2": 3}
+    assert found.found.characteristic == ahead().found.characteristic
+    assert "Near these numbers no others of w₁, w₂ do so" in told(found)
+    assert holds(found)
+
+
+def test_of_the_thrust_alone_the_drag_determines_both_velocity_and_rotors():
+    """A body that climbs straight, 1/3 √30: c v² = u + v − mg with u = v = 11."""
+    found = flying().trim({"u": 11}, ["w_2", "v"])
+    assert found.found.inputs == {"u": 11, "v": 11}
+    assert float(found.found.state["w_2"]) == pytest.approx(np.sqrt(2 / 0.6), rel=1e-14)
+    assert holds(found)
+
+
+@pytest.mark.parametrize(
+    ("damping", "c", "speed"),
+    [
+        ([DRAG], 0.8, 5.0),
+        ([DRAG], 0.6, np.sqrt(20 / 0.6)),
+        ([DRAG, {"coefficient": 1, "at": [0, 0]}], 0.5, np.sqrt(41) - 1),
+    ],
+)
+def test_a_body_falls_at_its_terminal_speed(damping, c, speed):
+    """√(mg/c); c v² + v = mg with a friction beside."""
+    found = falling(*damping, c=c).trim({}, ["w_2"])
+    assert float(found.found.state["w_2"]) == pytest.approx(-speed, rel=1e-14)
+    assert holds(found)
+    linear = 1 if len(damping) > 1 else 0
+    slopes = -np.array([2 * c * speed + linear, c * speed + linear]) / 2  # along v, and across
+    assert same([x for x in found.eigenvalues if abs(x) > 1e-3], slopes, 1e-9)
+
+
+def test_at_rest_a_drag_changes_nothing_of_the_first_order():
+    with_drag, without = flying().trim(), flying({"coefficient": 0, "at": [0, 0]}).trim()
+    assert with_drag.found.inputs == without.found.inputs == {"u": 10, "v": 10}
+    assert with_drag.found.characteristic == without.found.characteristic
+    assert (with_drag.found.corner, without.found.corner) == (True, False)
+    assert "A root that is 0 there has no derivative" in told(with_drag)
+    assert holds(with_drag)
+
+
+def test_an_absolute_value_is_that_of_an_expression_of_the_state():
+    """2 θ̈ = −20 sin θ − ζ|ζ| + u: at rest as without, of the same eigenvalues."""
+    bent = PENDULUM | {"force": [{"covector": ["-zeta_1*abs(zeta_1)"]}]}
+    found = derive(problem_of(bent)).trim(TURNED)
+    assert (found.found.inputs, found.found.characteristic) == ({"u": 12}, (1, 3, 8))
+    assert (found.verdict, found.found.corner, holds(found)) == ("stable", True, True)
+
+
+def test_a_spring_with_a_length_and_a_tilt_by_60_degrees():
+    """Of the length 5/2 from (√3/2, 1/2)·1 m: roots of one field."""
+    spring = {"kind": "spring", "at": [0, -1], "anchor": [0, 0], "stiffness": 7, "length": "1/3"}
+    tilted = {"A_11": "1/2", "A_12": "-sqrt(3)/2", "A_21": "sqrt(3)/2", "A_22": "1/2"}
+    problem = PENDULUM | {"potential": [*PENDULUM["potential"], spring]}
+    found = derive(problem_of(problem)).trim(tilted)
+    assert float(found.found.inputs["u"]) == pytest.approx(20 * np.sqrt(3) / 2)
+    assert found.found.characteristic == (1, 3, 5)
+    assert (found.verdict, holds(found)) == ("stable", True)
+
+
+@pytest.mark.parametrize(
+    ("torque", "why"),
+    [
+        ("-abs(zeta_1)", "dzeta_1/dt has no derivative there: a root is 0"),
+        ("-zeta_1/abs(zeta_1)", "no value in this state: it divides by 0"),
+        ("sqrt(2 + zeta_1) + sqrt(3 + zeta_1)", "a trim is in numbers of one square root"),
+        ("sqrt(1 + sqrt(2 + zeta_1))", "a root of a root is in no quadratic field"),
+    ],
+)
+def test_roots_without_a_derivative_or_of_two_fields_are_refused(torque, why):
+    problem = PENDULUM | {"force": [{"covector": [torque]}]}
+    with pytest.raises(ProblemError, match=why):
+        derive(problem_of(problem)).trim(TURNED)
+
+
+def test_velocities_that_are_not_found_are_refused_in_one_line():
+    kept = falling({"coefficient": 0, "at": [0, 0]}, potential=[])
+    for made, at, free, why in (
+        (flying(), {}, ["A_11"], "--free A_11: of g, which --at gives"),
+        (flying(), {"w_1": 1}, ["w_1", "w_2"], "--at gives some of the velocities that are free"),
+        (falling({"coefficient": 0, "at": [0, 0]}), {}, ["w_2"], "no trim is found"),
+        (kept, {}, ["w_1"], "many trims: near w_1 = "),
+        (flying(), {"w_1": 1, "w_2": 1} | ASIDE, ["w_1", "w_2", "u", "v"], "many trims: near w_1"),
+    ):
+        with pytest.raises(ProblemError, match=why):
+            made.trim(at, free)
+
+
+def test_several_velocities_are_told_and_one_is_chosen():
+    """A rotor of which the torque is 2 − ζ²/2: ζ = ±2."""
+    problem = {"name": "spun", "group": "SO(2)", "point": [{"mass": 1, "at": [1, 0]}]}
+    problem["force"] = [{"covector": ["2 - zeta_1^2/2"]}]
+    made = derive(problem_of(problem))
+    with pytest.raises(ProblemError, match=r"several trims: zeta_1 = 2; zeta_1 = -2; say near"):
+        made.trim({}, ["zeta_1"])
+    found = made.trim({"zeta_1": "-3"}, ["zeta_1"])
+    assert (found.found.state["zeta_1"], found.verdict, holds(found)) == (-2, "unstable", True)
+
+
+def test_a_speed_in_no_quadratic_field_is_refused():
+    problem = PENDULUM | {"force": [{"covector": ["3 - zeta_1^3"]}], "potential": [], "damping": []}
+    with pytest.raises(ProblemError, match=r"zeta_1 is about 1\.44224957031, and no number with"):
+        derive(problem_of(problem)).trim({}, ["zeta_1"])
+
+
+# -- the checker ----------------------------------------------------------------------------------
+
+
+def faults(found, kind, claim):
+    """What is wrong with another claim in the place of one of a kind."""
+    judge, step = ClaimChecker(found.record, SEED).fault, found.record.steps[-1]
+    (old,) = (x for x in step.claims if x.kind == kind)
+    assert not judge(step)
+    return judge(said(step, old, claim))
+
+
+def test_another_speed_is_refused():
+    found = falling().trim({}, ["w_2"])
+    for w in (-5, ("mul", Fraction(-9, 3), ("fun", "sqrt", 3))):
+        point = ("matrix", ("row", ("entry", "w", 2), w))
+        assert "a rate does not vanish there" in faults(
+            found, "trim.steady", Claim("trim.steady", (("point", point),))
+        )
+
+
+def test_numbers_that_others_may_replace_are_not_isolated():
+    """With the thrust free it climbs, at another speed."""
+    w, push = [("entry", "w", k) for k in (1, 2)], [("par", x) for x in ("u", "v")]
+    more = Claim("trim.isolated", (("numbers", ("row", *w, *push)),))
+    assert "others may do so near there" in faults(balanced(), "trim.isolated", more)
+
+
+def test_no_corner_is_told_where_no_root_is_0():
+    found = ahead()
+    step = found.record.steps[-1]
+    judge = ClaimChecker(found.record, SEED)._fault
+    assert "no root is 0 there" in judge(step, Claim("trim.corner"))
+
+
+def test_rates_without_a_derivative_are_refused():
+    """The step of a drag ζ|ζ| in the record of one of |ζ|: at rest both rates vanish alike."""
+
+    def record(torque):
+        problem = PENDULUM | {"force": [{"covector": [torque]}]}
+        return derive(problem_of(problem))
+
+    good, bad = record("-zeta_1*abs(zeta_1)").trim(TURNED).record, record("-abs(zeta_1)").record
+    step = good.steps[-1]
+    false = replace(bad, steps=(*bad.steps, step))
+    assert "the rates have no derivative" in ClaimChecker(false, SEED).fault(step)
