@@ -12,6 +12,7 @@ from ..lecture.problem_chapter import Found, chapter_of
 from ..pipeline import walk
 from ..problem.toml import load
 from ..record.record import Derivation
+from ..search import FIRST
 from ..searches import equilibria, integrals, reduction, symmetries
 from ..views.language import language
 from .showing import UsageError, derive, load_problem
@@ -50,25 +51,20 @@ def command_lecture(args: argparse.Namespace) -> int:
 def chapter_on(name: str) -> tuple[lecture_text.Chapter, dict[str, Derivation]]:
     """The chapter on a problem of the user's, and the records that its ties speak of."""
     problem, record = derive(name)
-    searches = {
+    searches: dict[str, Callable[[], Derivation]] = {
         "symmetries": lambda: symmetries(problem, record).record,
         "integrals": lambda: integrals(problem)[1],
         "reduction": lambda: reduction(problem, record).record,
         "equilibria": lambda: equilibria(problem, {})[1],
     }
-    made = with_progress(searches.items(), len(searches), record.name)
-    found = {search: result_of(does) for search, does in made}
-    records = {record.name: record}
-    records |= {f"{record.name}:{x}": y.record for x, y in found.items() if y.record}
+    found, records = {}, {record.name: record}
+    for search, does in with_progress(searches.items(), len(searches), record.name):
+        try:
+            made = records[f"{record.name}:{search}"] = does()
+            found[search] = Found(made.since(FIRST[search]))
+        except Refused as error:
+            found[search] = Found(refused=str(error))
     return chapter_of(record, found, tuple(records)), records
-
-
-def result_of(search: Callable[[], Derivation]) -> Found:
-    """What a search finds, or why it was refused."""
-    try:
-        return Found(search())
-    except Refused as error:
-        return Found(None, str(error))
 
 
 def named_by(

@@ -9,7 +9,6 @@ from functools import partial
 
 from ..language.show import show
 from ..record.record import Derivation, Equation, Step
-from ..search import FIRST
 from ..views.answer import definitions, equations_of_motion, steps_of_answer
 from ..views.language import LANGUAGES, Language, language
 from ..views.outline import system, title
@@ -35,9 +34,9 @@ equations; the record has all."""
 
 @dataclass(frozen=True)
 class Found:
-    """What a search made of a problem: a record, or, where it was refused, why."""
+    """What a search made of a problem: the steps that tell it, or, where it was refused, why."""
 
-    record: Derivation | None
+    steps: tuple[Step, ...] = ()
     refused: str = ""
 
 
@@ -46,7 +45,7 @@ def chapter_of(d: Derivation, found: Mapping[str, Found], records: tuple[str, ..
     of those that its ties speak of."""
     blocks = [*_motion(d)]
     for search, heading in SEARCHES.items():
-        blocks += [_section(heading), _told(search, found[search])]
+        blocks += [_section(heading), _told(d.name, search, found[search])]
     titles = tuple(title(d, x) for x in _languages())
     return Chapter(d.name, titles, records, tuple(blocks), f"the chapter of {d.name}")
 
@@ -92,15 +91,15 @@ def _motion(d: Derivation) -> Iterator[Block]:
     yield Block("text", "", "", tuple(entries), 0)
 
 
-def _told(search: str, found: Found) -> Block:
+def _told(problem: str, search: str, found: Found) -> Block:
     """The steps that a search tells, or one sentence: why it was refused, or that it found none."""
-    if found.record is None:
+    if found.refused:
         reason = found.refused
         refused = _sentence(lambda x: x.word("This was not found: {reason}.", reason=reason))
         return Block("text", "", "", (refused,), 0)
     entries: list[Entry] = []
-    for step in found.record.since(FIRST[search]):
-        name = step.label.removeprefix(f"{found.record.name}.")
+    for step in found.steps:
+        name = step.label.removeprefix(f"{problem}.")
         for begin, with_equations in TOLD[search].items():
             if name.startswith(begin):
                 labels = () if with_equations else (step.label,)

@@ -14,6 +14,7 @@ from derive.lecture.trials import tied, tried
 from derive.record.record import Equation
 from derive.views.answer import equations_of_motion
 from derive.views.language import LANGUAGES, language
+from derive.views.printing.signs import tex_text
 from tests.support.walks import SEED
 
 NAMES = ("lagrange_top", "hung_bar", "sl3")
@@ -59,7 +60,7 @@ def test_each_search_has_a_heading_and_something_to_say(made, lang):
     for heading in ("What the motion keeps.", "Steady motions."):
         assert words.word(heading) in page
     assert "‘" not in re.sub("<[^>]*>", "", page)  # parameters are set, not quoted
-    assert words.word("Its equations of motion are") in document.latex([chapter], words)
+    assert tex_text(words.word("Its equations of motion are")) in document.latex([chapter], words)
 
 
 def test_a_search_that_is_refused_says_why():
