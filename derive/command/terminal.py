@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import pydoc
 import re
 import shutil
 import sys
@@ -45,6 +44,8 @@ def show(text: str) -> None:
     if coloured():
         text = emphasised(text)
     if sys.stdout.isatty() and text.count("\n") >= shutil.get_terminal_size().lines:
+        import pydoc  # which a browser's Python has not
+
         os.environ.setdefault("LESS", "FRX")  # colours as they are, the text stays on the screen
         pydoc.pager(text)
     else:
