@@ -24,8 +24,7 @@ const ready = (name) => data.problems.find((x) => x.name === name);
 const equations = new Equations(the("walk"), css, document.querySelector(".read .bar"), (id) => go(id));
 const places = new Places(equations);
 const steps = new Steps(the("steps"), (id, again) => go(id, again));
-const engine = typeof WebAssembly === "object"
-  ? new Engine({ seconds: SECONDS, onstate, onbegin: () => say(words.loading), stored }) : null;
+const engine = new Engine({ seconds: SECONDS, onstate, onbegin: () => say(words.loading), stored });
 const motion = new Motion(the("see"), { text: () => text, engine, say, ended });
 const text = editor(the("editor"), data.schema, words, edited);
 const form = new Form(the("form"), data.schema, (made) => { text.text = made; });
@@ -72,9 +71,8 @@ function say(state, instead = told) {
 }
 
 function onstate() {
-  const busy = engine?.busy ?? false;
+  const { busy } = engine;
   the("stop").hidden = the("progress").hidden = !busy;
-  the("check").disabled = !engine;
   if (!busy) take.weigh();
 }
 
@@ -90,7 +88,7 @@ function faults(list) {
 function ended(how) {
   if (how === "late") say(words.late(engine.seconds));
   else if (how === "stopped") say(words.stopped);
-  else if (how === "broken") athome(words.broken);
+  else if (how === "broken") athome(typeof WebAssembly === "object" ? words.broken : words.plain);
   return how === "end";
 }
 
@@ -102,6 +100,7 @@ function answer(equations) {
 
 function athome(why) {
   answer([]);
+  if (tabs.now !== "walk") tabs.show("walk");
   equations.clear(make("p", {}, why), make("pre", {}, `pip install derive-mechanics\nderive walk ${chosen() ?? `${problem_name()}.toml`}`));
   say("");
 }
@@ -110,7 +109,6 @@ function athome(why) {
 
 /* derive what is written; a check that was asked for meanwhile follows */
 async function derive() {
-  if (!engine) return athome(words.plain);
   const run = running = walk();
   const how = await run;
   if (running !== run) return;
@@ -180,7 +178,6 @@ function stands() {
 
 async function check() {
   if (tabs.now !== "walk") tabs.show("walk");
-  if (!engine) return;
   if (running || timer) {
     wanted = true;
     say(words.queued);
@@ -206,12 +203,11 @@ async function check() {
 }
 
 async function see() {
-  if (engine && walked && !running && !timer) await motion.of(walked, words);
+  if (walked && !running && !timer) await motion.of(walked, words);
 }
 
 /* the files of a command as { zip }, or what it { refused }; a walk that runs is waited for */
 async function files(command) {
-  if (!engine) return { refused: words.plain };
   let found = null, refused = "";
   await running;
   say(words.emitting);
@@ -226,7 +222,7 @@ async function files(command) {
 
 /* why options of the code cannot be added to others; null while something else is asked, or is to be derived */
 async function reasons(command) {
-  if (tabs.now !== "take" || !engine || engine.busy || walked?.text !== text.text) return null;
+  if (tabs.now !== "take" || engine.busy || walked?.text !== text.text) return null;
   let found = null;
   await engine.ask({ ask: "refused", text: walked.text, words: command }, (kind, news) => { if (kind === "refused") found = news; });
   return found;
@@ -316,7 +312,7 @@ function speak() {
 
 async function filled() {
   let plain = null;
-  await engine?.ask({ ask: "plain", text: text.text }, (kind, news) => { if (kind === "plain") plain = news; });
+  await engine.ask({ ask: "plain", text: text.text }, (kind, news) => { if (kind === "plain") plain = news; });
   form.show(plain, words);
 }
 

@@ -6,12 +6,15 @@ import tomllib
 import pytest
 
 from tests.support.library import module_of
+from tests.support.played import text_of
 from tests.support.playground_site import (
+    asked,
     chosen,
     moving,
     opened,
     put,
     text_in,
+    typed,
     violations,
     visit,
     walked,
@@ -176,6 +179,7 @@ STOPPED = "What is kept was not found in 0.2 s: the motion goes on."
 
 def test_a_search_that_the_clock_ends_leaves_the_motion_running(fresh, site):
     visit(fresh, f"{site}#top", "top")
+    typed(fresh, f"{text_of('top')}\n")  # what is kept is sought here
     fresh.evaluate(SHORT)
     fresh.click("#tab-see")
     says = "(x) => document.getElementById('state').textContent.startsWith(x)"
@@ -227,6 +231,7 @@ def test_by_keys_and_nothing_is_asked_of_others(fresh, site):
     elsewhere = "fetch('http://127.0.0.2:9/x').then(() => 'came', () => 'refused')"
     assert fresh.evaluate(elsewhere) == "refused"
     assert any("Content Security Policy" in x for x in fresh.told)
+    asked(fresh, "plain", text="")  # there is Python
     (worker,) = fresh.workers
     assert worker.evaluate(elsewhere) == "refused"
     assert frame.evaluate("fetch('motion.css').then(() => 'came', () => 'refused')") == "refused"

@@ -67,7 +67,7 @@ COPIES = """() => [...play.equations.root.querySelectorAll("article")].map(
 
 def test_what_is_derived_is_read(fresh, site):
     visit(fresh, f"{site}#so3")
-    assert first_walk(fresh.asked, site) == READY | {"ready/so3.en.json.gz"}
+    assert first_walk(fresh.own, site) == READY | {"ready/so3.en.json.gz"}
     # steps are chosen, and lead to others; back and forward go to where the reader was
     begun = entries(fresh)
     fresh.select_option("#steps", "so3.kernel")
@@ -119,17 +119,17 @@ def test_it_opens_on_a_body_that_moves_and_its_equations(fresh, site):
     assert fresh.inner_text("#answer h2") == "Equations of motion"
     assert fresh.locator("#answer math").count() == 4
     fresh.wait_for_selector("iframe[data-kept]", state="attached")
-    own = {x.removeprefix(site).partition("#")[0] for x in fresh.asked if x.startswith(site)}
+    own = {x.removeprefix(site).partition("#")[0] for x in fresh.own if x.startswith(site)}
     assert not own & PYTHON
     assert size({x or "index.html" for x in own}) < LIGHT
     made = [*(built() / "ready").iterdir()]
     assert {x.name for x in made} == {f"{x}.{y}.json.gz" for x in ready_made() for y in LANGUAGES}
     assert max(x.stat().st_size for x in made) / 1e6 < EACH
     stored = fresh.evaluate("play.equations.root.innerHTML")
-    fresh.asked.clear()
+    fresh.own.clear()
     typed(fresh, f"{text_of('top')}\n")
     assert fresh.evaluate("play.equations.root.innerHTML") == stored
-    assert first_walk(fresh.asked, site) == PYTHON
+    assert first_walk(fresh.own, site) == PYTHON
     assert size(READY | PYTHON) < MOST
 
 
@@ -281,9 +281,22 @@ def test_the_address_is_the_problem(fresh, site):
 
 REFUSED = "[...document.querySelectorAll('#take :is(option, input):disabled')].length"
 ABOUT = {
-    "en": {"form": ".h", "frame": "as in", "velocity": "Z", "state": "all entries"},
-    "fr": {"form": ".h", "frame": "comme dans", "velocity": "Z", "state": "tous les coefficients"},
+    "en": {
+        "attitude": "matrices",
+        "form": ".h",
+        "frame": "as in",
+        "velocity": "Z",
+        "state": "all entries",
+    },
+    "fr": {
+        "attitude": "matrices",
+        "form": ".h",
+        "frame": "comme dans",
+        "velocity": "Z",
+        "state": "tous les coefficients",
+    },
 }
+ABOUT = {lang: begin | {"attitude": "matrices"} for lang, begin in ABOUT.items()}
 """How the words begin for the first choice of some options."""
 
 
@@ -463,5 +476,7 @@ def test_it_works_without_a_network_after_the_first_visit(browser):
 def test_a_browser_without_web_assembly_says_what_to_do(fresh, site):
     fresh.add_init_script("delete globalThis.WebAssembly")
     fresh.goto(site)
+    walked(fresh, "top")  # by what was made with the page
+    put(fresh, PENDULUM)
     fresh.wait_for_selector("#walk pre")
-    assert "derive walk top" in fresh.inner_text("#walk pre")
+    assert "derive walk mine.toml" in fresh.inner_text("#walk pre")

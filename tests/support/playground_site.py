@@ -98,13 +98,14 @@ def asked(page, ask, **more):
 
 @contextmanager
 def opened(browser, **how):
-    """A page, in English on a desk, with what it asked for and what it complained of, which is
-    nothing at the end."""
+    """A page, in English on a desk, with what was asked for, by itself and in all, and what it
+    complained of, which is nothing at the end."""
     desk = {"viewport": {"width": 1280, "height": 800}, "locale": "en-GB"}
     context = browser.new_context(**desk | how)
     page = context.new_page()
-    page.asked, page.told = [], []
+    page.asked, page.own, page.told = [], [], []
     context.on("request", lambda x: page.asked.append(x.url))
+    page.on("request", lambda x: page.own.append(x.url))  # not those of the worker of the service
     page.on("console", lambda x: page.told.append(x.text) if x.type == "error" else None)
     page.on("pageerror", lambda x: page.told.append(str(x)))
     yield page
