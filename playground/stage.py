@@ -15,6 +15,7 @@ import sys
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import derive
 from derive.algebra.families import FAMILIES, Family, group
@@ -180,18 +181,28 @@ def stored(out: Path) -> None:
     folder.mkdir()
     play.FOLDER, play.STORED = folder / "problem", folder / "amendments.pickle"
     play.STORED.write_bytes(pickle.dumps(amendments(AMENDED)))
-    heard: list[tuple[str, object]] = []
+    heard: list[tuple[str, Any]] = []
     played = play.Play(lambda kind, news: heard.append((kind, json.loads(news))))
     for name in ready_made():
         text = (READY / f"{name}.toml").read_text(encoding="utf-8")
         for lang in ("en", "fr"):
-            told = {}
+            told: dict[str, list[tuple[str, Any]]] = {}
             for ask in STORED:
                 heard.clear()
                 getattr(played, ask)(text, lang)
                 told[ask] = [*heard]
+            once(told)
             made = json.dumps(told, ensure_ascii=False, separators=(",", ":")).encode()
             (out / f"{name}.{lang}.json.gz").write_bytes(gzip.compress(made, 9, mtime=0))
+
+
+def once(told: dict[str, list[tuple[str, Any]]]) -> None:
+    """The code of a motion with all that it keeps, which has that of the motion in it, stands
+    once: with the motion."""
+    for kept in (news for kind, news in told["kept"] if kind == "kept"):
+        for motion in (news for kind, news in told["motion"] if kind == "motion"):
+            motion["source"] = kept["source"]
+        del kept["source"]
 
 
 STORED = ("walk", "motion", "kept")

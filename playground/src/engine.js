@@ -23,6 +23,11 @@ export class Engine {
   }
 
   #begin() {
+    if (typeof WebAssembly !== "object") {
+      this.#ready = Promise.reject(new Error("no WebAssembly"));
+      this.#ready.catch(() => {});
+      return;
+    }
     const worker = this.#worker = begun();
     this.#ready = new Promise((resolve, reject) => {
       worker.addEventListener("message", ({ data }) => {

@@ -39,7 +39,11 @@ const tabs = new Tabs(["walk", "see", "take"], (name) => {
 
 async function unzipped(file) {
   const found = await fetch(file);
-  return found.ok ? new Response(found.body.pipeThrough(new DecompressionStream("gzip"))).json() : null;
+  if (!found.ok) return null;
+  const told = await new Response(found.body.pipeThrough(new DecompressionStream("gzip"))).json();
+  const source = told.motion.find(([kind]) => kind === "motion")?.[1].source;
+  for (const [kind, news] of told.kept) if (kind === "kept") news.source = source; // it stands once
+  return told;
 }
 
 /* the news of a ready-made problem that were made with the page, by its name and language */
