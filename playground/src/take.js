@@ -95,6 +95,7 @@ export class Take {
 
   /* options that would be refused cannot be chosen; asked again until they are those of what is chosen now */
   async weigh() {
+    this.again = this.weighing;
     if (this.weighing) return;
     this.weighing = true;
     for (;;) {
@@ -103,7 +104,9 @@ export class Take {
       if (old && old.text !== text) this.options.refuse({});
       this.weighed = null;
       const found = await this.reasons(command);
-      if (!found) break;
+      if (!found && !this.again) break;
+      this.again = false;
+      if (!found) continue;
       this.options.refuse(found);
       this.weighed = { text, command };
     }
