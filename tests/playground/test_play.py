@@ -45,15 +45,22 @@ COMMANDS = [
     ("se3", f"emit FILE {C_AND_JAVASCRIPT} --lang python --step gauss --conserved --out out"),
     ("gas_cloud", f"emit FILE {C_AND_JAVASCRIPT} --step gauss --conserved --out out"),
 ]
+
+
+def changed(name):
+    """A ready-made problem as a text of one's own, which Python derives: others are stored."""
+    return f"{text_of(name)}\n"
+
+
 TOLD = [
-    ("walk", {"text": text_of("sl3"), "lang": "fr"}),
+    ("walk", {"text": changed("sl3"), "lang": "fr"}),
     ("check", {"text": text_of("so3")}),
-    ("motion", {"text": text_of("top"), "lang": "en"}),
-    ("kept", {"text": text_of("kovalevskaya_top"), "lang": "fr"}),
+    ("motion", {"text": changed("top"), "lang": "en"}),
+    ("kept", {"text": changed("kovalevskaya_top"), "lang": "fr"}),
     ("refused", {"text": PENDULUM, "words": "--lang c --step gauss"}),
     ("files", {"text": PENDULUM, "words": COMMANDS[0][1]}),
     ("walk", {"text": UNKNOWN_KEY, "lang": "en"}),
-    *(("walk", {"text": text_of(x), "lang": "en"}) for x in ready_made()),
+    *(("walk", {"text": changed(x), "lang": "en"}) for x in ready_made()),
 ]
 
 
@@ -147,6 +154,21 @@ def test_files_of_strangers_end_in_a_line(played, part):
         for news in errors(heard):
             assert news["message"].startswith("derive: "), name
             assert "Traceback" not in news["message"], name
+
+
+@pytest.mark.parametrize("name", ["top", "sl3", "ideal_fluid"])
+def test_what_is_stored_is_what_is_told(page, played, name):
+    """The code of a motion once, that with all it keeps."""
+    for ask in ("walk", "motion", "kept"):
+        more = {"text": text_of(name), "lang": "en"}
+        how, heard = asked(page, ask, **more)
+        assert how == "end"
+        mine = played.asked(ask, **more)
+        for told in (heard, mine):
+            for kind, news in told:
+                if kind == "motion":
+                    news.pop("source")
+        assert heard == mine
 
 
 @pytest.mark.parametrize(("ask", "more"), TOLD)
