@@ -1,6 +1,6 @@
 """What a quick run leaves out: the long ones that try the tests themselves (mutations, forgeries),
 random problems, and most cases of what has many.  ``make rest`` has an eighth of these, every
-fourth case, ``make coverage`` half, ``make thorough`` all.  Which cases are run with the others, a
+eighth case, ``make coverage`` half, ``make thorough`` all.  Which cases are run with the others, a
 hash of their names and of a seed says: at least one of each language and of each other kind.
 
 A test that is named on the command line, by its file or folder, is run whole, or by ``--quick`` as
