@@ -8,7 +8,7 @@ the error near 1, a column of G the derivative of f by one input, seen from the 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from random import Random
@@ -33,7 +33,7 @@ from .compare import Comparison
 @dataclass(frozen=True)
 class FilterPoint:
     """An exact point: the ``arguments`` t, x and u of a call, and what is true there: the rates of
-    x, 𝒜 and G by rows."""
+    x, 𝒜 and G by rows; the state has no angles, and so no ``circles``."""
 
     parameters: Mapping[str, Any]
     arguments: Mapping[str, Any]
@@ -41,6 +41,7 @@ class FilterPoint:
     generator: Numbers
     noise: Numbers
     elementary: Any
+    circles: Mapping[tuple[str, Fraction], Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
