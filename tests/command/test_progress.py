@@ -7,6 +7,8 @@ import sys
 
 import pytest
 
+from tests.support.terminals import read_to_end
+
 pty = pytest.importorskip("pty", reason="this system has no pty")
 
 
@@ -16,15 +18,9 @@ def on_a_terminal(*command, cwd):
     command = [sys.executable, "-m", "derive", *map(str, command)]
     run = subprocess.Popen(command, cwd=cwd, stdout=subprocess.PIPE, stderr=theirs, text=True)
     os.close(theirs)
-    shown = b""
-    try:
-        while part := os.read(ours, 4096):
-            shown += part
-    except OSError:  # the other end is closed
-        pass
-    os.close(ours)
+    shown = read_to_end(ours)
     out = run.communicate()[0]
-    return run.returncode, out, shown.decode()
+    return run.returncode, out, shown
 
 
 def screen(shown):

@@ -9,6 +9,7 @@ import time
 import pytest
 
 from derive.command import terminal
+from tests.support.terminals import read_to_end
 
 pty = pytest.importorskip("pty", reason="this system has no pty")
 ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
@@ -23,15 +24,9 @@ def seen(*command, cwd, **environment):
     command = [sys.executable, "-m", "derive", *command]
     run = subprocess.Popen(command, cwd=cwd, stdin=theirs, stdout=theirs, env=own)
     os.close(theirs)
-    shown = b""
-    try:
-        while part := os.read(ours, 4096):
-            shown += part
-    except OSError:  # the other end is closed
-        pass
-    os.close(ours)
+    shown = read_to_end(ours)
     assert run.wait() == 0
-    return shown.decode().replace("\r\n", "\n")
+    return shown.replace("\r\n", "\n")
 
 
 def pty_size(terminal, lines, columns):
