@@ -42,6 +42,7 @@ from derive.schema.kind import (
 from derive.schema.kinds import kinds
 from derive.schema.motion_kinds import Event, Signal
 from derive.schema.table import Table
+from derive.views.language import LANGUAGES as SPOKEN
 from derive.views.language import language
 from derive.views.outline import system, title
 from derive.views.page.motion_page import SCRIPTS
@@ -91,7 +92,7 @@ def problems() -> list[dict[str, str]]:
     for name in ready_made():
         record = derive.derive(name).record
         told = {"name": name, "text": (READY / f"{name}.toml").read_text(encoding="utf-8")}
-        for lang in ("en", "fr"):
+        for lang in SPOKEN:
             words = language(lang)
             told[f"title_{lang}"] = title(record, words)
             told[f"about_{lang}"] = plain(system(record, words))
@@ -185,7 +186,7 @@ def stored(out: Path) -> None:
     played = play.Play(lambda kind, news: heard.append((kind, json.loads(news))))
     for name in ready_made():
         text = (READY / f"{name}.toml").read_text(encoding="utf-8")
-        for lang in ("en", "fr"):
+        for lang in SPOKEN:
             told: dict[str, list[tuple[str, Any]]] = {}
             for ask in STORED:
                 heard.clear()

@@ -10,6 +10,7 @@ from ..language.limits import Refused
 from ..lecture import document, lecture_text, trials
 from ..lecture.problem_chapter import Found, chapter_of
 from ..pipeline import walk
+from ..problem.problem import Problem
 from ..problem.toml import load
 from ..record.record import Derivation
 from ..search import FIRST
@@ -48,19 +49,22 @@ def command_lecture(args: argparse.Namespace) -> int:
     return 0
 
 
+SEARCHES: dict[str, Callable[[Problem, Derivation], Derivation]] = {
+    "symmetries": lambda problem, record: symmetries(problem, record).record,
+    "integrals": lambda problem, _: integrals(problem)[1],
+    "reduction": lambda problem, record: reduction(problem, record).record,
+    "equilibria": lambda problem, _: equilibria(problem, {})[1],
+}
+"""Search → the record of what it finds of a problem, by the record of its walk."""
+
+
 def chapter_on(name: str) -> tuple[lecture_text.Chapter, dict[str, Derivation]]:
     """The chapter on a problem of the user's, and the records that its ties speak of."""
     problem, record = derive(name)
-    searches: dict[str, Callable[[], Derivation]] = {
-        "symmetries": lambda: symmetries(problem, record).record,
-        "integrals": lambda: integrals(problem)[1],
-        "reduction": lambda: reduction(problem, record).record,
-        "equilibria": lambda: equilibria(problem, {})[1],
-    }
     found, records = {}, {record.name: record}
-    for search, does in with_progress(searches.items(), len(searches), record.name):
+    for search, does in with_progress(SEARCHES.items(), len(SEARCHES), record.name):
         try:
-            made = records[f"{record.name}:{search}"] = does()
+            made = records[f"{record.name}:{search}"] = does(problem, record)
             found[search] = Found(made.since(FIRST[search]))
         except Refused as error:
             found[search] = Found(refused=str(error))
@@ -82,14 +86,10 @@ def records_of(chapters: Sequence[lecture_text.Chapter]) -> dict[str, Derivation
 
 
 def record_of(name: str) -> Derivation:
-    """The record of a ready-made problem or of one beside the chapters; NAME:equilibria,
-    NAME:integrals or NAME:reduction, of what is found of it."""
+    """The record of a ready-made problem or of one beside the chapters; NAME:SEARCH, of what is
+    found of it."""
     problem_name, _, search = name.partition(":")
     file = lecture_text.FOLDER / f"{problem_name}.toml"
     problem = load(file) if file.is_file() else load_problem(problem_name)
-    if search == "equilibria":
-        return equilibria(problem, {})[1]
-    if search == "integrals":
-        return integrals(problem)[1]
     record = walk(problem)
-    return reduction(problem, record).record if search == "reduction" else record
+    return SEARCHES[search](problem, record) if search else record

@@ -10,12 +10,11 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 
 PLAIN, BOLD, FAINT, BLUE = "\x1b[0m", "\x1b[1m", "\x1b[2m", "\x1b[1;34m"
 LABEL = re.compile(r"(\S+)(  ·  .*)")
 """The first line of a step: its label, and its rule with notes."""
-RESULT = " " * 6
-"""What lines of equations begin with."""
 
 
 def coloured() -> bool:
@@ -26,14 +25,16 @@ def coloured() -> bool:
 
 def emphasised(text: str) -> str:
     """A text of steps with headings, labels and equations in weight, rules faint."""
-    lines = text.split("\n")
-    return "\n".join(map(_emphasised, lines, [*lines[1:], ""]))
+    from ..views.text import EQUATION
+
+    lines, margin = text.split("\n"), " " * EQUATION
+    return "\n".join(map(partial(_emphasised, margin), lines, [*lines[1:], ""]))
 
 
-def _emphasised(line: str, below: str) -> str:
+def _emphasised(margin: str, line: str, below: str) -> str:
     if label := LABEL.fullmatch(line):
         return f"{BLUE}{label[1]}{PLAIN}{FAINT}{label[2]}{PLAIN}"
-    if line.startswith(RESULT) or (line and {*below} in ({"="}, {"-"})):
+    if line.startswith(margin) or (line and {*below} in ({"="}, {"-"})):
         return f"{BOLD}{line}{PLAIN}"
     return line
 

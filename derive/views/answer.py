@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from ..language.show import in_quotes, show_name
+from ..language.show import show_name
 from ..language.tree import Tree, names, nodes
 from ..record.record import Derivation, Equation, Step
 from .language import ENGLISH, Language
@@ -23,6 +23,7 @@ from .text import (
     paragraph,
     parameters,
     unquoted,
+    with_quotes,
 )
 
 SOLVED = ("kinematics", "coadjoint", "kernel", "equations", "motion")
@@ -74,10 +75,11 @@ def answer(d: Derivation, width: int = WIDTH, *, language: Language = ENGLISH) -
     heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
     blocks = [
         [*paragraph(heading, 0, width)],
-        [*_shown(motion, quoted, width, language)],
+        [*equation_lines(with_quotes(motion, quoted), width - EQUATION, language)],
     ]
     if defined:
-        blocks.append([language.word("where"), *_shown(defined, quoted, width, language)])
+        lines = equation_lines(with_quotes(defined, quoted), width - EQUATION, language)
+        blocks.append([language.word("where"), *lines])
     blocks.append([*_letters(d, (*motion, *defined), quoted, width, language)])
     labels = ", ".join(s.label for s in steps_of_answer(d))
     blocks.append([*paragraph(language.word("From {labels}.", labels=labels), 0, width)])
@@ -103,16 +105,6 @@ def answer_mathml(d: Derivation) -> tuple[str, ...]:
         (typeset(e.lhs) + literal(" = ") + typeset(e.rhs)).plain().mathml()
         for e in equations_of_motion(d)
     )
-
-
-def _shown(
-    equations: Sequence[Equation], quoted: frozenset[str], width: int, language: Language
-) -> Iterator[str]:
-    marked = (
-        Equation(in_quotes(e.lhs, quoted), in_quotes(e.rhs, quoted), e.for_all, e.exists)
-        for e in equations
-    )
-    yield from equation_lines(tuple(marked), width - EQUATION, language)
 
 
 def _letters(

@@ -135,11 +135,14 @@ def _step(step: Step, width: int, quoted: frozenset[str], language: Language) ->
     if step.uses:
         used = language.word("From {labels}.", labels=", ".join(step.uses))
         yield from paragraph(used, MARGIN, width)
-    equations = (
-        replace(e, lhs=in_quotes(e.lhs, quoted), rhs=in_quotes(e.rhs, quoted))
-        for e in step.equations
+    yield from equation_lines(with_quotes(step.equations, quoted), width - EQUATION, language)
+
+
+def with_quotes(equations: Iterable[Equation], quoted: frozenset[str]) -> tuple[Equation, ...]:
+    """The equations with these parameters in quotes."""
+    return tuple(
+        replace(e, lhs=in_quotes(e.lhs, quoted), rhs=in_quotes(e.rhs, quoted)) for e in equations
     )
-    yield from equation_lines(tuple(equations), width - EQUATION, language)
 
 
 def equation_lines(equations: tuple[Equation, ...], room: int, language: Language) -> Iterator[str]:
