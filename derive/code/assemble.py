@@ -71,7 +71,7 @@ def assemble(
     frame = None
     if framed:
         old = Lowering(d, group, chosen, lowering.graph).reader
-        frame = PrincipalFrame(framed.problem["frame"], old, chosen.attitude == "quaternion")
+        frame = PrincipalFrame(framed.problem["frame"], old, bool(old.space.charts))
     wanted, momenta, stepped = _of_state(lowering, chosen, kept or {}, events, discrete)
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]

@@ -158,7 +158,7 @@ class TableReader(ABC):
 
     def choice(self, slot: Slot, allowed: tuple[str, ...]) -> str:
         """One of a few strings."""
-        if slot.key not in slot.table:
+        if isinstance(slot.table, dict) and slot.key not in slot.table:
             told = f"key {slot.key!r} is missing; it is one of {', '.join(allowed)}"
             raise self.fail(f"{slot.where}: {told}")
         value = self.value(slot)
