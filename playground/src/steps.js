@@ -4,7 +4,7 @@ import { make } from "./dom.js";
 const TURN = 1500;
 
 export class Steps {
-  #last = 0;
+  #last = -Infinity;
 
   /* go: (id of a step, is it another turn of the same list?) */
   constructor(select, go) {
