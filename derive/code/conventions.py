@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -15,6 +16,7 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.reserved import SPELT
 from ..language.show import show
+from ..language.tree import Tree
 from ..record.as_json import decode
 from .languages import TargetLanguage, comment
 from .options import Options
@@ -257,7 +259,8 @@ def _places(problem: Mapping[str, Any]) -> dict[int, str]:
 
 
 def _ascii(text: str) -> str:
-    """An expression as it may stand in an ASCII comment: 1/4 for the one letter, pi, ^2."""
+    """An expression as it may stand in an ASCII comment: 1/4 for the one letter, pi, ^2, v_1."""
+    text = re.sub("[₀-₉]+", r"_\g<0>", text)
     spelt = str.maketrans(SPELT | {"\u2212": "-", "²": "^2", "³": "^3"})
     return unicodedata.normalize("NFKD", text.translate(spelt)).replace("\u2044", "/")
 
@@ -293,6 +296,26 @@ def _input(group: Group, entry: Mapping[str, Any], places: Mapping[int, str]) ->
     return [f"Input {name}: a covector of the Lie algebra; its power is <{name}, {pair}>."]
 
 
+LONGEST_LAW = 200
+"""Letters of the law of a force in a head; where it has more, the head says that there is one."""
+
+
+def _law(components: Sequence[Any]) -> str:
+    """The components of a force of the state, by the names of the problem file."""
+    text = ", ".join(_ascii(show(_named(decode(y, "law")))) for y in components)
+    return f" ({text})" if text.isascii() and len(text) <= LONGEST_LAW else ""
+
+
+def _named(t: Tree) -> Tree:
+    """Entries as names: those of the velocity of the place as v_1, of A as A_12."""
+    if not isinstance(t, tuple):
+        return t
+    if t[0] == "entry":
+        letter = t[1][1] if isinstance(t[1], tuple) else t[1]
+        return ("par", f"{_ascii(str(letter))}_{''.join(map(str, t[2:]))}")
+    return (t[0], *map(_named, t[1:]))
+
+
 def _acting(problem: Mapping[str, Any], places: Mapping[int, str]) -> Iterator[str]:
     """The sentences about forces of the state, mass that flows and damping."""
 
@@ -307,8 +330,11 @@ def _acting(problem: Mapping[str, Any], places: Mapping[int, str]) -> Iterator[s
     for x in problem.get("forces", ()):
         what = "a covector of the Lie algebra"
         if "covector" not in x:
-            kinds = " and ".join(f"a {key}" for key in ("force", "moment") if x.get(key))
+            kinds = " and ".join(
+                f"a {key}{_law(x[key])}" for key in ("force", "moment") if x.get(key)
+            )
             what = f"{kinds} on {place(x['on'])}, in the {x['frame']} frame"
+            what += "; v is the velocity of the place in space" * bool(re.search(r"\bv_\d", kinds))
         name = f" {x['name']}" if "name" in x else ""
         found.append(f"Force of the state{name}: {what}.")
     for x in problem.get("flows", ()):

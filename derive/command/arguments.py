@@ -137,9 +137,12 @@ class Parser(argparse.ArgumentParser):
         return did_you_mean(known.get(near, ""), "; ")
 
 
+BEGIN = "To begin: derive walk top --answer, then derive walk top; derive COMMAND --help."
+
+
 def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
     """The parser of all commands: name → function, whose docstring is its help."""
-    top = Parser(prog="derive", description=about)
+    top = Parser(prog="derive", description=about, epilog=BEGIN)
     top.add_argument("--version", action="version", version=f"derive {__version__}")
     subcommands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
 

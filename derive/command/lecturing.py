@@ -12,6 +12,7 @@ from ..lecture.problem_chapter import Found, chapter_of
 from ..pipeline import walk
 from ..problem.problem import Problem
 from ..problem.toml import load
+from ..programs import trim
 from ..record.record import Derivation
 from ..search import FIRST
 from ..searches import equilibria, integrals, reduction, symmetries
@@ -54,6 +55,7 @@ SEARCHES: dict[str, Callable[[Problem, Derivation], Derivation]] = {
     "integrals": lambda problem, _: integrals(problem)[1],
     "reduction": lambda problem, record: reduction(problem, record).record,
     "equilibria": lambda problem, _: equilibria(problem, {})[1],
+    "trim": lambda problem, _: trim(problem, {}, None, {})[1],
 }
 """Search → the record of what it finds of a problem, by the record of its walk."""
 
@@ -62,10 +64,13 @@ def chapter_on(name: str) -> tuple[lecture_text.Chapter, dict[str, Derivation]]:
     """The chapter on a problem of the user's, and the records that its ties speak of."""
     problem, record = derive(name)
     found, records = {}, {record.name: record}
-    for search, does in with_progress(SEARCHES.items(), len(SEARCHES), record.name):
+    asked = {k: x for k, x in SEARCHES.items() if k != "trim" or problem.inputs}
+    for search, does in with_progress(asked.items(), len(asked), record.name):
         try:
             made = records[f"{record.name}:{search}"] = does(problem, record)
-            found[search] = Found(made.since(FIRST[search]))
+            begins = f"{record.name}.{FIRST[search]}"
+            there = any(x.label == begins for x in made.steps)
+            found[search] = Found(made.since(begins) if there else ())
         except Refused as error:
             found[search] = Found(refused=str(error))
     return chapter_of(record, found, tuple(records)), records

@@ -37,7 +37,8 @@ from ..views.language import language
 from ..views.page.motion_page import motion_page
 from ..views.plot.pictures import plot
 from ..views.rendering import NOTES, RenderError, notes, pdf
-from .showing import UsageError, allowed, derive, discrete_walk, notation, warn_of_letters
+from ..views.text import paragraph
+from .showing import UsageError, allowed, columns, derive, discrete_walk, notation, warn_of_letters
 from .terminal import working
 from .writing import growing, heard, one_line, require_place, with_progress, write
 
@@ -159,8 +160,19 @@ def command_simulate(args: argparse.Namespace) -> int:
     if args.out:
         out = Path(args.out)
         files = write({out.name: written(found, out.name)}, out.parent, links=True)
-    print(*pages, *map(one_line, summary(found)), *files, sep="\n")
+    told = (x for line in summary(found) for x in filled(one_line(line)))
+    print(*pages, *told, *files, sep="\n")
     return _told(found)
+
+
+def filled(line: str) -> list[str]:
+    """A line at the width of a terminal, what is more below it, further in; elsewhere as it is."""
+    if not sys.stdout.isatty():
+        return [line]
+    width, together = columns(None), line.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
+    first, *rest = paragraph(together, 2 * line.startswith("  "), width)
+    below = paragraph(" ".join(x.strip() for x in rest), 4, width) if rest else ()
+    return [x.replace("\N{NO-BREAK SPACE}", " ") for x in (first, *below)]
 
 
 def summary(run: Run) -> list[str]:
@@ -182,7 +194,8 @@ def summary(run: Run) -> list[str]:
             said = f"{first:.9g} at first, changed by at most {change:.1e}{why}"
             lines.append(f"  {label}: {said}{place}")
     for label, column in run.of_kind("defect").items():
-        lines.append(f"  {label}: at most {float(column.max()):.1e}")
+        most = float(column.max())
+        lines.append(f"  {label}, how far the state is off its group: at most {most:.1e}")
     lines += events(run)
     last = dict(zip(run.names, run.table[-1].tolist(), strict=True))
     state = [*run.of_kind("state")]

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import groupby
 
 from ..language.show import show
 from ..record.record import Derivation, Equation, Step
@@ -20,6 +21,7 @@ SEARCHES = {
     "integrals": "First integrals.",
     "reduction": "Reduction.",
     "equilibria": "Steady motions.",
+    "trim": "At rest, by its inputs.",
 }
 """What is told of a problem after its equations, under which heading."""
 TOLD = {
@@ -27,9 +29,13 @@ TOLD = {
     "integrals": {"casimirs": True, "first_integrals": True},
     "reduction": {"momentum_": False, "locked": True, "effective": True, "quadrature": True},
     "equilibria": {"equilibrium_": False, "energy_casimir_": False},
+    "trim": {"trim": False},
 }
 """Search → how the labels of the steps begin that a text for people tells, and whether with their
 equations; the record has all."""
+
+NONE = {"equilibria": "None was found among the points with one momentum that were tried."}
+"""Search → what is said where it found nothing and there may be more."""
 
 
 @dataclass(frozen=True)
@@ -41,11 +47,17 @@ class Found:
 
 
 def chapter_of(d: Derivation, found: Mapping[str, Found], records: tuple[str, ...]) -> Chapter:
-    """The chapter of a problem, by its record and what searches found of it; ``records``: the names
-    of those that its ties speak of."""
+    """The chapter of a problem, by its record and what searches found of it, those that were made;
+    ``records``: the names of those that its ties speak of.  Searches that were refused for one
+    reason stand together."""
     blocks = [*_motion(d)]
-    for search, heading in SEARCHES.items():
-        blocks += [_section(heading), _told(d.name, search, found[search])]
+    asked = (x for x in SEARCHES if x in found)
+    for _, alike in groupby(asked, lambda x: found[x].refused or x):
+        searches = (*alike,)
+        blocks += [
+            _section(*(SEARCHES[x] for x in searches)),
+            _told(d.name, searches[0], found[searches[0]]),
+        ]
     titles = tuple(title(d, x) for x in _languages())
     return Chapter(d.name, titles, records, tuple(blocks), f"the chapter of {d.name}")
 
@@ -74,8 +86,9 @@ def _display(equations: Sequence[Equation], labels: Sequence[str]) -> Entry:
     return Entry((formula,) * len(LANGUAGES), (Tie(tuple(labels)),), display=True, line=0)
 
 
-def _section(heading: str) -> Block:
-    return Block("section", "", "", (_sentence(lambda x: x.word(heading)),), 0)
+def _section(*headings: str) -> Block:
+    heading = _sentence(lambda x: " ".join(map(x.word, headings)))
+    return Block("section", "", "", (heading,), 0)
 
 
 def _motion(d: Derivation) -> Iterator[Block]:
@@ -94,7 +107,7 @@ def _motion(d: Derivation) -> Iterator[Block]:
 def _told(problem: str, search: str, found: Found) -> Block:
     """The steps that a search tells, or one sentence: why it was refused, or that it found none."""
     if found.refused:
-        reason = found.refused
+        reason = found.refused.removeprefix(f"{problem}: ")
         refused = _sentence(lambda x: x.word("This was not found: {reason}.", reason=reason))
         return Block("text", "", "", (refused,), 0)
     entries: list[Entry] = []
@@ -107,7 +120,7 @@ def _told(problem: str, search: str, found: Found) -> Block:
                 if with_equations:
                     entries.append(_display(step.equations, (step.label,)))
     if not entries:
-        entries = [_sentence(lambda x: x.word("There is none."))]
+        entries = [_sentence(lambda x: x.word(NONE.get(search, "There is none.")))]
     return Block("text", "", "", tuple(entries), 0)
 
 

@@ -15,6 +15,7 @@ from ..algebra.groups import Group
 from ..language.derivatives import derivative, weight
 from ..language.expression import names, numbers
 from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, PROBLEM_BYTES, PULLS
+from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
 from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
@@ -34,6 +35,7 @@ from .fields import (
     LIKE_A_PLACE,
     coordinates,
     known_in_lagrangian,
+    names_of_points,
     tables,
     undeclared,
     used_at,
@@ -316,6 +318,12 @@ def _parameters(data: Any, reader: FileReader) -> dict[str, Parameter]:
     return found
 
 
+def _names_in_forces(group: Group) -> list[str]:
+    """The names of the state, and of the velocity of the place, that a force may depend on."""
+    n = max(factor.n for _, factor in group.places)
+    return [*names_of_points(group), *(suffixed("v", k) for k in range(1, n + 1))]
+
+
 def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     """Every name that is used is a parameter and nothing else, and every parameter is used, in
     expressions that are not too many."""
@@ -344,7 +352,9 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
             if problem.group and problem.lagrangian:
                 own = known_in_lagrangian(problem.group, problem.advected)
                 raise ProblemError(undeclared(name, where, problem.parameters, problem.group, own))
-            hint = nearest(shown, problem.parameters).removeprefix("; ")
+            acts = where.startswith("force") and problem.group
+            of_state = _names_in_forces(acts) if acts else []
+            hint = nearest(shown, [*problem.parameters, *of_state]).removeprefix("; ")
             other = f"{hint} Else " if hint else ""
             raise ProblemError(f"{where}: {shown!r} is not declared; {other}add it to [parameters]")
     moments = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}

@@ -119,7 +119,7 @@ RULES: dict[str, Rule] = {
         "kernel",
     ),
     "input": Rule(
-        "entrée",
+        "commande",
         "A given force, outside dϖ, is added to the equations.",
         "Une force donnée, hors de dϖ, est ajoutée aux équations.",
         "definition",
@@ -205,7 +205,7 @@ RULES: dict[str, Rule] = {
     "trim": Rule(
         "équilibrage",
         "A state and inputs are found at which the rates of the velocity vanish.",
-        "On trouve un état et des entrées où les dérivées de la vitesse s’annulent.",
+        "On trouve un état et des commandes où les dérivées de la vitesse s’annulent.",
         "solution",
     ),
     "solution": Rule(

@@ -266,9 +266,9 @@ VOCABULARY: dict[str, Name] = {
     "γ": name("acceleration of gravity",
         "accélération de la pesanteur", r"\gamma", defined(VECTOR)),
     "u": name("input: a covector of the Lie algebra",
-        "entrée : un covecteur de l’algèbre de Lie", "u", letter(("vector", "dim"))),
+        "commande : un covecteur de l’algèbre de Lie", "u", letter(("vector", "dim"))),
     "f_u": name("input: the force part of a body wrench",
-        "entrée : la résultante d’un torseur, dans le repère du corps",
+        "commande : la résultante d’un torseur, dans le repère du corps",
         "f_u", letter(VECTOR)),
     "δ": name("first variation",
         "première variation",
@@ -364,7 +364,7 @@ ROTATIONS: dict[str, Name] = {
     "ζ": name("angular velocity in the body",
         "vitesse angulaire dans le corps", r"\zeta", defined(VECTOR)),
     "u": name("input: a torque about the fixed point, in the body frame",
-        "entrée : un moment par rapport au point fixe, dans le repère du corps",
+        "commande : un moment par rapport au point fixe, dans le repère du corps",
         "u", letter(VECTOR)),
     "ℓ": name("angular momentum in space",
         "moment cinétique dans l’espace", r"\ell", defined(VECTOR)),
@@ -382,11 +382,11 @@ DISPLACEMENTS: dict[str, Name] = ROTATIONS | {
     ),
     "u": ROTATIONS["u"]._replace(
         meaning="input: a moment about the body's origin, in the body frame",
-        french="entrée : un moment par rapport à l’origine du corps, dans le repère du corps",
+        french="commande : un moment par rapport à l’origine du corps, dans le repère du corps",
     ),
     "f_u": VOCABULARY["f_u"]._replace(
         meaning="input: a force on the body's origin, in the body frame",
-        french="entrée : une force à l’origine du corps, dans le repère du corps",
+        french="commande : une force à l’origine du corps, dans le repère du corps",
     ),
 }
 """Meanings and types of names that are more precise for rotations and displacements of R³."""

@@ -438,11 +438,12 @@ force = [{ name = "loads", covector = ["-zeta_1", 0, 0] }, { at = [1, 2], force 
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        (ACTING, "Force of the state: a force and a moment on the body at (1, 2, 3), in the body"),
+        (ACTING, "A_31 v_3, 0, 0) and a moment (0, A_12 v_1 + A_22 v_2 + A_32 v_3, 0) on the body"),
         (ACTING, "Mass flows at (1, 0, 2), dm/dt = -1."),
         (ACTING, "Damping: the force -kappa v on point 1, point 4, kappa = 3b."),
         (BESIDE, "Force of the state loads: a covector of the Lie algebra."),
-        (BESIDE, "Force of the state: a force on the body at (1, 2), in the space frame."),
+        (BESIDE, "Force of the state: a force (-v_1, 0) on the body at (1, 2), in the space"),
+        (BESIDE, "frame; v is the velocity of the place in space."),
     ],
 )
 def test_the_head_says_what_acts(text, told):

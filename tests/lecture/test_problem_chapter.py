@@ -3,6 +3,7 @@ nothing, or is refused, is a sentence."""
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -10,6 +11,7 @@ from derive.command.cli import main
 from derive.command.lecturing import chapter_on
 from derive.lecture import document
 from derive.lecture.lecture_text import LectureError
+from derive.lecture.problem_chapter import Found, chapter_of
 from derive.lecture.trials import tied, tried
 from derive.record.record import Equation
 from derive.views.answer import equations_of_motion
@@ -73,6 +75,37 @@ def test_a_search_that_is_refused_says_why():
     ]
     assert refused
     assert page.count("This was not found:") == len(refused)
+
+
+def test_searches_refused_for_one_reason_stand_together(made):
+    records = made[2]
+    d = records[made[0]]
+    reason = f"{d.name}: its forces are no part of L̃"
+    found = dict.fromkeys(("symmetries", "integrals", "reduction"), Found(refused=reason))
+    found["equilibria"] = Found()
+    page = document.page([chapter_of(d, found, tuple(records))], language("en"))
+    assert "What the motion keeps. First integrals. Reduction." in page
+    assert page.count("This was not found: its forces are no part of") == 1
+    assert "None was found among the points" in page
+
+
+def test_inputs_that_hold_a_body_are_told(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("hung.toml").write_text(HUNG, encoding="utf-8")
+    chapter, records = chapter_on("hung.toml")
+    assert "hung:trim" in records
+    page = document.page([chapter], language("fr"))
+    assert "Au repos, par ses commandes." in page
+    assert len([*tried(chapter, records, SEED)]) >= 2
+
+
+HUNG = """
+name = "hung"
+group = "R(1)"
+point = [{ mass = 2, at = [0] }]
+potential = [{ kind = "gravity", g = [-10] }]
+input = [{ name = "lift", kind = "force", on = 1, frame = "space", direction = [1] }]
+"""
 
 
 def test_by_the_command(tmp_path, capsys, monkeypatch):

@@ -52,7 +52,7 @@ TERMS = {
     r"left-invariant": r"invariante? à gauche",
     r"eliminated": r"éliminée?",
     r"(?<!\{)entr(?:y|ies)|coefficients?": r"coefficients?",
-    r"inputs?(?! forces)": r"entrées?",
+    r"inputs?(?! forces)": r"commandes?|entrées?",
     r"if and only if": r"si et seulement si",
     r"at least": r"au moins",
     r"at most": r"au plus",
