@@ -9,7 +9,7 @@ from pathlib import Path
 from ..language.limits import Refused
 from ..lecture import document, lecture_text, trials
 from ..lecture.problem_chapter import Found, chapter_of
-from ..pipeline import walk
+from ..pipeline import discrete, walk
 from ..problem.problem import Problem
 from ..problem.toml import load
 from ..programs import trim
@@ -60,6 +60,10 @@ SEARCHES: dict[str, Callable[[Problem, Derivation], Derivation]] = {
 """Search → the record of what it finds of a problem, by the record of its walk."""
 
 
+RECORDS = SEARCHES | {"discrete": lambda problem, _: discrete(problem)}
+"""And the record of the motion in steps."""
+
+
 def chapter_on(name: str) -> tuple[lecture_text.Chapter, dict[str, Derivation]]:
     """The chapter on a problem of the user's, and the records that its ties speak of."""
     problem, record = derive(name)
@@ -97,4 +101,4 @@ def record_of(name: str) -> Derivation:
     file = lecture_text.FOLDER / f"{problem_name}.toml"
     problem = load(file) if file.is_file() else load_problem(problem_name)
     record = walk(problem)
-    return SEARCHES[search](problem, record) if search else record
+    return RECORDS[search](problem, record) if search else record
