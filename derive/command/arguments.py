@@ -162,7 +162,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     add_reading_options((walk, symmetries, reduction), (searched, steady, held), made)
     about = "first what holds for any Lagrangian, on the left beside the right"
     walk.add_argument("--trivialisation", type=both, metavar="both", help=about)
-    about = "the equations of motion alone, with what their letters are"
+    about = "the equations of motion alone, with what their letters are; so does the step 'answer'"
     walk.add_argument("--answer", action="store_true", help=about)
     about = "the discrete motion, a time step h apart"
     for one in (walk, made):
@@ -387,7 +387,7 @@ def add_reading_options(
         one.add_argument("--format", choices=FORMATS, default="text")
         one.add_argument("--out", type=text_file, metavar="FILE", help=FILE)
     for one in walks:
-        about = "steps to print alone, as kernel or linear.kernel; answer: the equations of motion"
+        about = "steps to print alone, as kernel or linear.kernel"
         one.add_argument("labels", nargs="*", metavar="step", help=about)
     notes.add_argument("problem", nargs="*", help="ready-made names or .toml files")
     about = "FILE.tex, .pdf, .html or .sty"

@@ -24,7 +24,6 @@ from .showing import (
     load_problem,
     ready_made,
     save,
-    save_answer,
     save_found,
     save_steps,
     steps_of,
@@ -52,13 +51,15 @@ def command_walk(args: argparse.Namespace) -> int:
 
     if args.discrete and args.trivialisation:
         raise UsageError("--discrete and --trivialisation are of two roads: leave out one")
-    if args.answer and (args.labels or args.trivialisation):
+    if args.labels == ["answer"]:
+        args.labels, args.answer = [], True
+    if (args.answer or "answer" in args.labels) and (args.labels or args.trivialisation):
         raise UsageError("--answer shows its own steps: leave out steps and --trivialisation")
     walked = discrete_walk if args.discrete else derive
     with working(args.problem):
         problem, record = walked(args.problem, **allowed(args))
     if args.answer:
-        save_answer(record, args)
+        save_steps(record, (), args, answer=True)
         return 0
     if args.trivialisation:
         if problem.fluid or problem.kinematics:

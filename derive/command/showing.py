@@ -120,9 +120,6 @@ def allowed(args: argparse.Namespace) -> dict[str, bool]:
     return {f"negative_{x}": getattr(args, f"allow_negative_{x}") for x in ALLOWED}
 
 
-ANSWER = "answer"
-"""What the steps are called, of any problem, in which its equations of motion stand."""
-
 # What a command shows of a record: which of its steps, in which notation, to where.
 
 LEAST = 40
@@ -151,27 +148,15 @@ def columns(out: str | None) -> int:
     return max(shutil.get_terminal_size((WIDTH, 24)).columns, LEAST)
 
 
-def save_steps(record: Derivation, steps: Sequence[Step], args: argparse.Namespace) -> None:
-    """Write some steps of a record, or all of it, as the options of a command ask."""
-    chosen = {"fragment": args.fragment, "steps": steps, **notation(args)}
+def save_steps(
+    record: Derivation, steps: Sequence[Step], args: argparse.Namespace, *, answer: bool = False
+) -> None:
+    """Write some steps of a record, its answer, or all of it, as the options of a command ask."""
+    chosen = {"fragment": args.fragment, "steps": steps, "answer": answer, **notation(args)}
     shown = render(record, args.format, args.lang, width=columns(args.out), **chosen)
     if args.format == "latex":
         warn_of_letters([record])
     save(shown, args.out, args.format)
-
-
-def save_answer(record: Derivation, args: argparse.Namespace) -> None:
-    """Write the equations of motion of a record: as text with what their letters are, in other
-    formats the steps in which they stand."""
-    from ..views.answer import answer, steps_of_answer
-    from ..views.language import language
-
-    if args.format != "text":
-        save_steps(record, steps_of_answer(record), args)
-        return
-    if args.fragment:
-        raise UsageError("--fragment is for --format latex and html")
-    save(answer(record, columns(args.out), language=language(args.lang)), args.out, args.format)
 
 
 def save_found(record: Derivation, args: argparse.Namespace) -> None:
@@ -184,17 +169,11 @@ def save_found(record: Derivation, args: argparse.Namespace) -> None:
 
 
 def steps_of(record: Derivation, labels: Sequence[str]) -> list[Step]:
-    """The steps with these labels, which may lack the problem's name, or those of the ``answer``;
-    ``UsageError`` for others."""
-    from ..views.answer import steps_of_answer
-
+    """The steps with these labels, which may lack the problem's name; ``UsageError`` for others."""
     by_label = {s.label: s for s in record.steps}
     short = {x.removeprefix(f"{record.name}."): x for x in by_label}
     found: list[Step] = []
     for label in labels:
-        if label == ANSWER:
-            found += steps_of_answer(record)
-            continue
         if label not in by_label and label not in short:
             own = [x for x, y in short.items() if y.startswith(f"{record.name}.")]
             listed = f"; of this problem are {', '.join(own)}" if own else ""

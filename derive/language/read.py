@@ -55,7 +55,7 @@ TOKEN = (
     rf"|(?P<name>d/dt|∂_s|d?Θ[⁺⁻]|{'|'.join(sorted(NUMBERED))}|(?!dm(?![A-Za-z])){_VARIED}{_LETTER}[\u0300-\u036f]*′?(?:_(?:[abij][abij]|[A-Za-z]))?)"
     r"|(?P<index>[₀-₉ᵢⱼₑ]+(?:,[₀-₉ᵢⱼₑ]+)*)"
     r"|(?P<power>⁻?[⁰¹²³⁴-⁹]+)"
-    r"|(?P<number>\d+(?:/[1-9]\d*)?|[½⅓¼⅔])"
+    r"|(?P<number>\d+(?:/[1-9]\d*)?|½)"
     r"|(?P<mark>dm(?![A-Za-z])|\S)"
 )
 BEGIN = frozenset({"quoted", "word", "name", "number", "parameter", "opening", *"(⟨‖|[/·"})

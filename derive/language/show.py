@@ -10,7 +10,8 @@ from .derivatives import DERIVATIVES
 from .tree import Tree, coefficient, mul, neg, nodes, sized
 
 SUBSCRIPTS = str.maketrans("0123456789ije", "₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ")
-FRACTIONS = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(1, 4): "¼", Fraction(2, 3): "⅔"}
+FRACTIONS = {Fraction(1, 2): "½"}
+"""The one fraction that has a sign of its own; others are 1/3, 4/15."""
 TAKEN = ("Tr", "det", "dm", "dt", "j", "G")
 """Words of the notation, which are no names of C, and the group, which is one of no equation."""
 WORD = re.compile(rf"(?:{'|'.join((*DERIVATIVES, 'Tr', 'det', 'dm', 'dŨ'))})$")

@@ -73,16 +73,15 @@ class Answer:
         return tuple(e.sympy() for e in self.equations)
 
     def __str__(self) -> str:
-        from ..views.answer import answer
+        from ..views.rendering import render
 
-        return answer(self.record)
+        return render(self.record, "text", answer=True)
 
     def markdown(self, lang: str = "en") -> str:
-        """The equations in Markdown, as formulas between dollars."""
-        from ..views.answer import answer_markdown
-        from ..views.language import language
+        """The same in Markdown, its formulas between dollars."""
+        from ..views.rendering import render
 
-        return answer_markdown(self.record, language=language(lang))
+        return render(self.record, "markdown", lang, answer=True)
 
     def _repr_markdown_(self) -> str:
         return self.markdown()

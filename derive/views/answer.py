@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
+from unicodedata import normalize
 
-from ..language.show import show_name
+from ..language.show import in_quotes, show
 from ..language.tree import Tree, names, nodes
 from ..record.record import Derivation, Equation, Step
+from ..record.sentence import Prose, Sentence
+from .book import RATE
 from .language import ENGLISH, Language
-from .outline import latex_names, subtitle, title
+from .outline import declared, headline, latex_names
+from .printing.letters import standard
 from .printing.line_breaking import WIDTH
-from .printing.signs import Notation
+from .printing.sentences import dollars, prose
+from .printing.signs import Notation, markdown_text
 from .printing.tex import formula as of_tree
+from .printing.tex import latex_tree
 from .printing.typeset import literal
 from .text import (
     EQUATION,
@@ -20,8 +27,8 @@ from .text import (
     equation_lines,
     formula,
     name_lines,
+    page,
     paragraph,
-    parameters,
     unquoted,
     with_quotes,
 )
@@ -49,52 +56,193 @@ def equations_of_motion(d: Derivation) -> tuple[Equation, ...]:
     return (*(e for e in solved.equations if e.lhs not in in_entries), *told)
 
 
+# What is said of the letters: by an equation of the record, else in words.
+
+
 def definitions(d: Derivation, equations: Sequence[Equation]) -> tuple[Equation, ...]:
-    """What the record says of the letters of equations, and of those in it, by its own steps."""
-    known: dict[Tree, Equation] = {}
-    told = {x for e in equations for x in (e.lhs, *nodes(e.lhs))}
-    left = [e.rhs for e in equations]
+    """What the record says of the letters of equations, and of those in it, by its own steps, or as
+    it defines moments for any body; of a family, what it says of all members or of each."""
+    own = [s for s in d.steps if s.label.startswith(f"{d.name}.") and not s.given]
+    members: dict[Tree, list[Equation]] = {}
+    for e in (e for s in own if s.rule not in ("evaluation", "inversion") for e in s.equations):
+        if isinstance(e.lhs, tuple) and e.lhs[0] in ("at", "entry") and not e.for_all:
+            members.setdefault(e.lhs[1], []).append(e)
+    known: dict[Equation, None] = {}
+    told = _told(equations)
+    seen: set[Tree] = {*told}
+    left = [x for e in equations for x in _sides(e)]
     while left:
         x = left.pop(0)
-        if x in told or x in known:
+        if x in seen:
             continue
-        step, equation = d.definition(x) or (None, None)
-        if step and equation and step.label.startswith(f"{d.name}.") and not equation.for_all:
-            known[x] = equation
-            left.append(equation.rhs)
-        elif isinstance(x, tuple):
-            left += x[1:]
-    return tuple(known.values())
+        seen.add(x)
+        step, equation = d.definition(x) or d.definition(_any_member(x)) or (None, None)
+        mine = step and (step in own or step.rule == "definition")
+        if mine and equation and not equation.for_all:
+            found = [] if equation.rhs == ("par", x) and x not in clashing(d) else [equation]
+        elif isinstance(x, tuple) and x[0] == "par":
+            continue
+        else:
+            inside = x if isinstance(x, tuple) else ()
+            family, *others = inside[1:] if inside[:1] == ("at",) else (x, *inside[1:])
+            found = members.get(family, []) if family not in told else []
+            left += others
+        known |= dict.fromkeys(found)
+        left += (e.rhs for e in found)
+    return tuple(known)
 
 
-def answer(d: Derivation, width: int = WIDTH, *, language: Language = ENGLISH) -> str:
-    """The equations of motion as text, what their letters are, and the steps that prove them."""
-    width, quoted = max(width, 40), clashing(d)
-    motion = equations_of_motion(d)
-    defined = definitions(d, motion)
-    heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
-    blocks = [
-        [*paragraph(heading, 0, width)],
-        [*equation_lines(with_quotes(motion, quoted), width - EQUATION, language)],
-    ]
-    if defined:
-        lines = equation_lines(with_quotes(defined, quoted), width - EQUATION, language)
-        blocks.append([language.word("where"), *lines])
-    blocks.append([*_letters(d, (*motion, *defined), quoted, width, language)])
-    labels = ", ".join(s.label for s in steps_of_answer(d))
-    blocks.append([*paragraph(language.word("From {labels}.", labels=labels), 0, width)])
-    return "\n\n".join("\n".join(x.rstrip() for x in block) for block in blocks if block) + "\n"
+def _any_member(x: Tree) -> Tree:
+    """A function of one member of a family as that of any: r₁(t) as r_i(t); else the tree."""
+    if isinstance(x, tuple) and x[0] == "call" and isinstance(x[1], tuple) and x[1][0] == "at":
+        return ("call", ("at", x[1][1], "i"), *x[2:])
+    return x
 
 
-def answer_markdown(d: Derivation, *, language: Language = ENGLISH) -> str:
-    """The equations of motion in Markdown, and what their letters are, as display formulas."""
-    motion = equations_of_motion(d)
-    defined, symbols = definitions(d, motion), d.symbols
-    parts = [f"$$\n{formula(motion, symbols, language=language)}\n$$"]
-    if defined:
-        shown = formula(defined, symbols, language=language)
-        parts += [language.word("where"), f"$$\n{shown}\n$$"]
-    return "\n\n".join(parts) + "\n"
+def _told(equations: Sequence[Equation]) -> set[Tree]:
+    """What the equations tell: left sides, and the rates in them with their entries."""
+    inside = [x for e in equations for x in nodes(e.lhs)]
+    rates = {x for x in inside if isinstance(x, str) and RATE in normalize("NFD", x)}
+    entries = {x for x in inside if isinstance(x, tuple) and x[1] in rates}
+    return rates | entries | {e.lhs for e in equations if _sides(e) == (e.rhs,)}
+
+
+def _sides(e: Equation) -> tuple[Tree, ...]:
+    """The sides of an equation that have letters to explain: the left one where it is a formula."""
+    lhs = e.lhs
+    alone = not isinstance(lhs, tuple) or lhs[0] in ("at", "entry", "call")
+    return (e.rhs,) if alone else (lhs, e.rhs)
+
+
+@dataclass(frozen=True)
+class Letter:
+    """A letter and what it means: a sentence, or a parameter's ``own`` words, unit and default."""
+
+    name: Tree
+    meaning: str
+    own: bool = False
+    unit: str = ""
+    default: str = ""
+
+
+def letters(d: Derivation, equations: Sequence[Equation], language: Language) -> Iterator[Letter]:
+    """The names, the inputs and the parameters that occur in equations, with their meaning."""
+    there = {x for e in equations for side in _sides(e) for x in nodes(side)}
+    families = {x[1] for x in there if isinstance(x, tuple) and x[0] == "at"}
+    equated = {x[1] for x in (e.lhs for e in equations) if isinstance(x, tuple) and x[0] == "at"}
+    plain = {x for e in equations for side in _sides(e) for x in _plain(side)}
+    numbers = {x[1] for x in there if isinstance(x, tuple) and x[0] == "par"}
+    told = {y for x in _told(equations_of_motion(d)) for y in names(x)}
+    for s in d.symbols:
+        family = s.name in families and not (s.name in equated and d.definition(s.name))
+        if (s.name in plain or family) and s.name not in numbers - clashing(d):
+            meaning = language.of(s.meaning)
+            if s.name in told:
+                meaning = language.word("{meaning}, by its equation above", meaning=meaning)
+            yield Letter(s.name, meaning)
+    for name, about in _inputs(d):
+        if name in numbers | {x.rpartition("_")[0] for x in numbers}:
+            said = language.sentence(about).partition(", ")[2] if about else ""
+            said = language.word("input: {meaning}", meaning=said) if said else ""
+            yield Letter(("par", name), said or language.word("input"))
+    for name, words, unit, default in declared(d, language):
+        if name in numbers:
+            yield Letter(("par", name), words, True, unit, default)
+
+
+def _plain(t: Tree) -> Iterator[str]:
+    """The names in a tree, but those of families whose members stand there."""
+    if isinstance(t, str):
+        yield t
+    elif isinstance(t, tuple) and t[0] != "par":
+        for x in t[2:] if t[0] == "at" else t[1:]:
+            yield from _plain(x)
+
+
+def _inputs(d: Derivation) -> Iterator[tuple[str, Sentence | None]]:
+    """The inputs of a problem, with what the steps say of each."""
+    said = dict(x for s in d.steps if s.driven for x in _named(s.prose))
+    kinematics = d.problem.get("kinematics") or {}
+    listed = [str(x["name"]) for x in d.problem.get("inputs") or ()]
+    for name in (*listed, *map(str, kinematics.get("inputs", ()))):
+        yield name, said.get(name)
+
+
+def _named(prose: Prose) -> Iterator[tuple[str, Sentence]]:
+    """The parts of sentences that say of a name what it is."""
+    for s in prose:
+        places = dict(s.places)
+        if s.message.startswith("{name}, "):
+            yield str(places["name"]).strip("‘’"), s
+        yield from _named(tuple(x for x in places.values() if isinstance(x, Sentence)))
+
+
+# The answer as every format shows it.
+
+
+@dataclass(frozen=True)
+class Summary:
+    """The answer of a record; ``blocks``: its equations, and what defines their letters, as steps,
+    with the word before each; ``source``: in which steps the motion stands."""
+
+    record: Derivation
+    language: Language
+    blocks: tuple[tuple[str, Step], ...]
+    letters: tuple[Letter, ...]
+    source: str
+
+
+def summary(d: Derivation, language: Language = ENGLISH) -> Summary:
+    """The answer of a record in a language."""
+    told, motion = steps_of_answer(d), equations_of_motion(d)
+    where = definitions(d, motion)
+    whole = replace(told[-1], label=f"{d.name}.answer", equations=motion)
+    defined = replace(whole, label=f"{d.name}.where", equations=where)
+    blocks = (("", whole), (language.word("where"), defined))
+    source = language.word("From {labels}.", labels=", ".join(s.label for s in told))
+    listed = tuple(letters(d, (*motion, *where), language))
+    return Summary(d, language, blocks if where else blocks[:1], listed, source)
+
+
+def answer_text(x: Summary, width: int = WIDTH) -> str:
+    """The answer as text, no line longer than ``width`` columns (at least 40)."""
+    width, quoted = max(width, 40), clashing(x.record)
+    blocks = [[*paragraph(headline(x.record, x.language), 0, width)]]
+    for said, step in x.blocks:
+        equations = with_quotes(step.equations, quoted)
+        lines = equation_lines(equations, width - EQUATION, x.language)
+        blocks.append([*filter(None, (said,)), *lines])
+    names = [show(in_quotes(y.name, quoted)) for y in x.letters]
+    about = [y.meaning + after(y, x.language, "[{}]".format) for y in x.letters]
+    told = zip(names, (unquoted(y, quoted) for y in about), strict=True)
+    blocks += [[line for y in told for line in name_lines(*y, width)]] if names else []
+    if any("‘" in y for y in names):
+        why = "A parameter stands in ‘quotes’ where its name would be read as something else."
+        blocks.append([*paragraph(x.language.word(why), 0, width)])
+    blocks.append([*paragraph(x.source, 0, width)])
+    return page(blocks)
+
+
+def after(x: Letter, language: Language, unit: Callable[[str], str]) -> str:
+    """What follows the meaning of a letter: the unit as ``unit`` shows it, and the default."""
+    default = language.word("default {value}", value=x.default) if x.default else ""
+    return "".join(f", {y}" for y in (unit(x.unit) if x.unit else "", default) if y)
+
+
+def answer_markdown(x: Summary) -> str:
+    """The answer in Markdown, its formulas between dollars."""
+    names = latex_names(x.record)
+    parts = [f"# {markdown_text(headline(x.record, x.language))}"]
+    for said, step in x.blocks:
+        shown = formula(step.equations, x.record.symbols, language=x.language)
+        parts += [said, f"$$\n{shown}\n$$"]
+    lines = []
+    for y in x.letters:
+        own = partial(dollars, names=names)
+        told = markdown_text(y.meaning) if y.own else prose(y.meaning, markdown_text, own)
+        about = after(y, x.language, lambda unit: markdown_text(f"[{unit}]"))
+        lines.append(f"* ${standard(latex_tree(y.name, names))}$: {told}{about}")
+    return "\n\n".join(filter(None, (*parts, "\n".join(lines), markdown_text(x.source)))) + "\n"
 
 
 def answer_mathml(d: Derivation) -> tuple[str, ...]:
@@ -105,21 +253,3 @@ def answer_mathml(d: Derivation) -> tuple[str, ...]:
         (typeset(e.lhs) + literal(" = ") + typeset(e.rhs)).plain().mathml()
         for e in equations_of_motion(d)
     )
-
-
-def _letters(
-    d: Derivation,
-    equations: Sequence[Equation],
-    quoted: frozenset[str],
-    width: int,
-    language: Language,
-) -> Iterator[str]:
-    """The names and the parameters that occur, with their meaning."""
-    there = {x for e in equations for x in nodes(e.rhs)}
-    for s in d.symbols:
-        if s.name in there:
-            meaning = unquoted(language.of(s.meaning), quoted)
-            yield from name_lines(show_name(s.name), meaning, width)
-    for name, shown, about in parameters(d, quoted, language):
-        if ("par", name) in there:
-            yield from name_lines(shown, about, width)

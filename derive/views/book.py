@@ -6,7 +6,7 @@ import json
 import re
 import textwrap
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import groupby
@@ -17,7 +17,7 @@ from ..record.record import ACTIONS, ANY_GROUP, Derivation, Step, Symbol
 from ..record.sentence import english, say
 from ..record.vocabulary import VOCABULARY
 from .language import ENGLISH, Language
-from .outline import system, title
+from .outline import declared, system, title
 from .paper.findings import OMISSION, SIGN, VERDICTS, PaperFinding
 from .printing.line_breaking import WIDTH
 
@@ -111,16 +111,12 @@ def new_letters(
 
 def parameters(d: Derivation | None, language: Language) -> list[tuple[list[str], str, str]]:
     """The parameters of a problem in runs of one meaning and unit: names, meaning, unit."""
-    declared = d.problem.get("parameters") if d else None
     found: list[tuple[list[str], str, str]] = []
-    for name, about in declared.items() if isinstance(declared, Mapping) else ():
-        about = about if isinstance(about, Mapping) else {}
-        meaning = language.word(str(about.get("meaning") or "parameter"))
-        unit = str(about.get("unit") or "")
+    for name, meaning, unit, _ in declared(d, language):
         if found and found[-1][1:] == (meaning, unit):
-            found[-1][0].append(str(name))
+            found[-1][0].append(name)
         else:
-            found.append(([str(name)], meaning, unit))
+            found.append(([name], meaning, unit))
     return found
 
 

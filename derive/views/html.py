@@ -13,6 +13,7 @@ from ..language.templating import environment
 from ..language.tree import Tree
 from ..record.record import Derivation, Equation, Step
 from ..record.rules import RULES
+from .answer import Letter, Summary, after
 from .book import MOTION, REGULAR, BookPart, Passage, book, corrections, parameters
 from .figure.drawing import svg
 from .figure.scene import scene
@@ -76,7 +77,7 @@ def html(
     """
     beside = moving or {}, pictures or {}
     shown = _shown(records, notation or Notation(), language, findings, beside)
-    return str(_template("page").render(shown, within="main"))
+    return str(_template("page").render(shown, body="fragment.html.jinja", within="main"))
 
 
 def fragment(
@@ -96,6 +97,27 @@ def fragment(
             yield "".join(piece)
             piece = []
     yield "".join(piece)
+
+
+def answer(x: Summary, notation: Notation | None = None, *, alone: bool = True) -> str:
+    """The equations of motion with what their letters are: a page, or, not ``alone``, what it has,
+    to stand in another with the style sheet ``page.css``."""
+    d, word, steps = x.record, x.language.word, tuple(step for _, step in x.blocks)
+    numbers = {key: str(k) for k, key in enumerate((y for s in steps for y in keys(s)), 1)}
+    part = BookPart(d.name, "", "", steps, d, (), d)
+    written = _PartFields(part, notation or Notation(), x.language, numbers, {}, {}, {})
+    shown = {
+        "language": x.language.name,
+        "title": visible(title(d, x.language)),
+        "about": visible(capitalised(subtitle(d, x.language))),
+        "words": {"names": word("Names"), "copy": word("copy the LaTeX")},
+        "blocks": [(said, [*written.equations(step)]) for said, step in x.blocks],
+        "names": [*map(written.letter, x.letters)],
+        "source": x.source,
+    }
+    within = "main" if alone else "div"
+    made = _template("page" if alone else "answer")
+    return str(made.render(shown, body="answer.html.jinja", within=within))
 
 
 def _template(name: str) -> Any:
@@ -320,13 +342,16 @@ class _PartFields:
         over = clause(e, self.names, every)
         return f"{shown} \\quad {plain(over)}" if over else shown
 
+    def letter(self, x: Letter) -> dict[str, str]:
+        """A letter and its meaning."""
+        told = escaped(x.meaning) if x.own else words(x.meaning, self.notation, self.names)
+        about = told + after(x, self.language, lambda unit: escaped(f"[{unit}]"))
+        return {"name": self.formula(x.name).mathml(), "meaning": about}
+
     def symbols(self) -> Iterable[dict[str, str]]:
         """The letters of the part and their meanings."""
         for s in self.part.symbols:
-            yield {
-                "name": self.formula(s.name).mathml(),
-                "meaning": words(self.language.of(s.meaning), self.notation, self.names),
-            }
+            yield self.letter(Letter(s.name, self.language.of(s.meaning)))
 
     def parameters(self) -> Iterable[dict[str, str]]:
         """The parameters of the problem and their meanings."""

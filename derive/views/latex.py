@@ -11,6 +11,7 @@ from itertools import accumulate, pairwise
 from ..language.templating import environment
 from ..language.tree import Tree
 from ..record.record import Derivation, Step
+from .answer import Summary, after
 from .book import MOTION, REGULAR, BookPart, Passage, book, corrections, parameters, steps
 from .figure.drawing import Scene, tikz
 from .figure.scene import scene
@@ -66,34 +67,72 @@ def latex(
     chosen = notation or Notation()
     stated = (TRANSPOSES[chosen.transpose], conventions(records))
     meant = " ".join(between_dollars(language.word(x)) for x in stated)
-    template = environment("latex", **DELIMITERS).get_template("walk.tex.jinja")
-    return template.render(
-        language=language.name,
+    return _rendered(
+        "walk.tex.jinja",
+        language,
+        chosen,
         title=tex_text(title(records[0], language) if one else language.word(MOTION)),
         subtitle=tex_text(capitalised(subtitle(records[0], language))) if one else "",
         contents="" if one else tex_text(language.word("Contents")),
-        macros="\n".join(definitions(chosen)),
         road=styled(between_dollars(language.word(road(records)))).removesuffix("."),
         conventions=styled(f"{meant} {tex_text(language.word(PAPER))}"),
         walk=styled("\n".join(writer.body())),
         drawn=any(writer.drawings.values()),
         pictures=bool(pictures),
         regular=styled(prose(language.word(REGULAR))),
-        from_these=tex_text(language.word("from")),
         references=tex_text(language.word("References")),
         bibliography=[[*map(tex_text, x)] for x in references(records)],
     )
 
 
+def _rendered(name: str, language: Language, notation: Notation, **shown: object) -> str:
+    """A template with the macros; ``shown``: what else it shows."""
+    return (
+        environment("latex", **DELIMITERS)
+        .get_template(name)
+        .render(
+            shown,
+            language=language.name,
+            macros="\n".join(definitions(notation)),
+            from_these=tex_text(language.word("from")),
+        )
+    )
+
+
+def answer(x: Summary, notation: Notation | None = None, *, alone: bool = True) -> str:
+    """The equations of motion with what their letters are: a document for pdflatex, or, not
+    ``alone``, for one with the macros of :func:`package`."""
+    body = styled("\n".join(_answer(x)))
+    if not alone:
+        return f"{WITHOUT_KEYS}\n{body}\n"
+    left_out = ("contents", "road", "references", "bibliography", "drawn", "pictures")
+    shown = dict.fromkeys(left_out, "") | {
+        "title": tex_text(title(x.record, x.language)),
+        "subtitle": tex_text(capitalised(subtitle(x.record, x.language))),
+        "walk": body,
+    }
+    return _rendered("walk.tex.jinja", x.language, notation or Notation(), **shown)
+
+
+def _answer(x: Summary) -> Iterator[str]:
+    """The lines of an answer: equations, definitions, letters, and where it is from."""
+    names = latex_names(x.record)
+    own = partial(dollars, names=names)
+    for said, step in x.blocks:
+        yield tex_text(said)
+        yield from _equations(step, labels(step), names, x.language)
+    yield r"\begin{walknames}{}"
+    for y in x.letters:
+        told = tex_text(y.meaning) if y.own else prose(y.meaning, formula=own)
+        about = after(y, x.language, lambda unit: f"[{_unit(unit)}]")
+        yield rf"\walkname{{{latex_tree(y.name, names)}}}{{{told}{about}}}"
+    yield rf"\end{{walknames}}\par\medskip {breakable(x.source)}"
+
+
 def package(notation: Notation | None = None, *, language: Language = ENGLISH) -> str:
     """``derive.sty``: the macros of a document, for one of a lecturer's own with fragments."""
-    template = environment("latex", **DELIMITERS).get_template("derive.sty.jinja")
-    return template.render(
-        language=language.name,
-        macros="\n".join(definitions(notation or Notation())),
-        paper=tex_text(language.word("paper {numbers}", numbers="").strip()),
-        from_these=tex_text(language.word("from")),
-    )
+    paper = tex_text(language.word("paper {numbers}", numbers="").strip())
+    return _rendered("derive.sty.jinja", language, notation or Notation(), paper=paper)
 
 
 def fragment(

@@ -160,6 +160,17 @@ def named_numbers(d: Derivation) -> list[str]:
     return [*dict.fromkeys(map(str, (*(d.problem.get("parameters") or ()), *given)))]
 
 
+def declared(d: Derivation | None, language: Language) -> Iterator[tuple[str, str, str, str]]:
+    """The parameters of a problem: name, meaning, unit and default; the last two may be empty."""
+    parameters = d.problem.get("parameters") if d else None
+    for name, about in parameters.items() if isinstance(parameters, Mapping) else ():
+        about = about if isinstance(about, Mapping) else {}
+        default = about.get("default")
+        number = language.decimal(default) if isinstance(default, (int, float)) else ""
+        meaning = language.word(str(about.get("meaning") or "parameter"))
+        yield str(name), meaning, str(about.get("unit") or ""), number
+
+
 BOLD = {"m": r"\mathbf m"}
 """Masses beside a parameter m that is another mass: in one product with the total mass it would
 differ by its serifs alone."""
@@ -234,6 +245,11 @@ def subtitle(d: Derivation, language: Language = ENGLISH) -> str:
     if group(d).casefold() in title(d).casefold():
         return ""
     return language.word(ANY_GROUP) if group(d) == ANY_GROUP else group(d)
+
+
+def headline(d: Derivation, language: Language = ENGLISH) -> str:
+    """The title, and behind it the group where the title does not say it."""
+    return " — ".join(filter(None, (title(d, language), subtitle(d, language))))
 
 
 def heading(scope: str, language: Language = ENGLISH) -> str:

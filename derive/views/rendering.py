@@ -102,11 +102,12 @@ def render(
     *,
     fragment: bool = False,
     steps: Sequence[Step] = (),
+    answer: bool = False,
     width: int = WIDTH,
     **notation: str,
 ) -> str:
-    """A record in one of the formats, in one of the languages; or some ``steps`` of it alone; the
-    lines of a text at most ``width`` columns wide.
+    """A record in one of the formats, in one of the languages; or some ``steps`` of it alone, or
+    its ``answer``; the lines of a text at most ``width`` columns wide.
 
     :class:`RenderError` for a format that is none, and for choices that do not go together.
     """
@@ -120,6 +121,8 @@ def render(
     chosen = Notation(**notation)
     if form not in LINKED and chosen != Notation():
         raise RenderError("--notation and --hat are for --format latex and html")
+    if answer:
+        return _answer(d, form, language(lang), chosen, not fragment, width)
     if steps:
         d = _of_steps(d, steps, linked=form in LINKED)
     if fragment and form == "html":
@@ -134,6 +137,20 @@ def render(
     if form == "text":
         return _text(d, language(lang), bool(steps), width)
     return MARKUP[form](d, language(lang), chosen, bool(steps))
+
+
+def _answer(
+    d: Derivation, form: str, words: Language, notation: Notation, alone: bool, width: int
+) -> str:
+    """The equations of motion of a record with what their letters are."""
+    from . import answer, html, latex
+
+    if form == "json":
+        raise RenderError("--answer is to be read, the JSON is of a whole walk: leave out one")
+    told, made = answer.summary(d, words), {"latex": latex.answer, "html": html.answer}
+    if form in made:
+        return made[form](told, notation, alone=alone)
+    return answer.answer_text(told, width) if form == "text" else answer.answer_markdown(told)
 
 
 def _of_steps(d: Derivation, steps: Sequence[Step], *, linked: bool) -> Derivation:

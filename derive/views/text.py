@@ -17,7 +17,9 @@ from .outline import (
     TRANSPOSES,
     capitalised,
     conventions,
+    declared,
     domain,
+    headline,
     latex_names,
     moving,
     named_numbers,
@@ -25,14 +27,13 @@ from .outline import (
     plain_conventions,
     quantified,
     sections,
-    subtitle,
-    title,
 )
 from .printing.letters import names_of, standard
 from .printing.line_breaking import (
     COMMA,
     FACTOR,
     MARK,
+    ROW,
     SUM,
     WEDGE,
     WIDTH,
@@ -52,9 +53,8 @@ BREAKS = {" + ": SUM, " − ": SUM, " ∧ ": WEDGE}
 def text(d: Derivation, width: int = WIDTH, *, language: Language = ENGLISH) -> str:
     """The record as text, no line longer than ``width`` columns (at least 40)."""
     width, quoted = max(width, 40), clashing(d)
-    heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
     blocks = [
-        [*_underlined(heading, "=", width)],
+        [*_underlined(headline(d, language), "=", width)],
         [*paragraph(f"{plain_conventions(d, language)} {language.word(PAPER)}", 0, width)],
     ]
     for section, steps in sections(d, language):
@@ -65,11 +65,14 @@ def text(d: Derivation, width: int = WIDTH, *, language: Language = ENGLISH) -> 
         told = ((s.name, unquoted(language.of(s.meaning), quoted)) for s in d.symbols)
         named = [(show_name(name), meaning) for name, meaning in told]
         blocks.append([line for name, about in named for line in name_lines(name, about, width)])
-    if declared := [*parameters(d, quoted, language)]:
+    if own := [*parameters(d, quoted, language)]:
         blocks.append([*_underlined(language.word("Parameters"), "-", width)])
-        blocks.append(
-            [line for _, name, about in declared for line in name_lines(name, about, width)]
-        )
+        blocks.append([line for _, name, about in own for line in name_lines(name, about, width)])
+    return page(blocks)
+
+
+def page(blocks: Iterable[Iterable[str]]) -> str:
+    """Blocks of lines as one text, without characters that do not print."""
     lines = "\n\n".join("\n".join(line.rstrip() for line in block) for block in blocks)
     return "".join(c for c in lines if c in f"\n{NO_BREAK}" or c.isprintable()) + "\n"
 
@@ -102,15 +105,10 @@ def parameters(
     d: Derivation, quoted: frozenset[str], language: Language
 ) -> Iterator[tuple[str, str, str]]:
     """The parameters of the problem: name, as shown, and meaning, unit and default."""
-    parameters = d.problem.get("parameters", {})
-    for name, about in parameters.items() if isinstance(parameters, Mapping) else ():
-        about = about if isinstance(about, Mapping) else {}
-        unit, default = about.get("unit"), about.get("default")
-        words = [language.word(str(about.get("meaning") or "parameter"))]
-        words += [f"[{unit}]"] if unit else []
-        if isinstance(default, (int, float)):
-            words.append(language.word("default {value}", value=language.decimal(default)))
-        yield str(name), show(in_quotes(("par", str(name)), quoted)), ", ".join(words)
+    for name, meaning, unit, default in declared(d, language):
+        words = [meaning, f"[{unit}]" if unit else ""]
+        words.append(language.word("default {value}", value=default) if default else "")
+        yield name, show(in_quotes(("par", name), quoted)), ", ".join(filter(None, words))
 
 
 def clashing(d: Derivation) -> frozenset[str]:
@@ -237,8 +235,8 @@ def pieces(formula: str) -> list[Piece]:
         elif c in "‖|" and stroke in ("", c):
             stroke = "" if stroke else c
         elif c in " ·" and k > start:
-            after = formula[k - 1] in ",;"
-            here = COMMA if after else BREAKS.get(formula[k : k + 3], FACTOR)
+            after = {",": COMMA, ";": ROW}.get(formula[k - 1])
+            here = BREAKS.get(formula[k : k + 3], FACTOR) if after is None else after
             if formula[max(k - 2, 0) : k + 1] in BREAKS:
                 continue
             found.append(Piece(formula[start:k], strength))
@@ -284,12 +282,14 @@ def _underlined(heading: str, mark: str, width: int) -> list[str]:
 def markdown(d: Derivation, *, language: Language = ENGLISH) -> str:
     """The walk: headings, prose and display formulas; no raw HTML."""
     names = latex_names(d)
-    heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
     meant = " ".join(
         between_dollars(language.word(x), markdown_text)
         for x in (TRANSPOSES["bar"], conventions([d]))
     )
-    parts = [f"# {markdown_text(heading)}", f"{meant} {markdown_text(language.word(PAPER))}"]
+    parts = [
+        f"# {markdown_text(headline(d, language))}",
+        f"{meant} {markdown_text(language.word(PAPER))}",
+    ]
     for section, steps in sections(d, language):
         parts.append(f"## {markdown_text(section)}")
         for step in steps:

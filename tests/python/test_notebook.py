@@ -27,7 +27,8 @@ def test_walk_step_and_equation_are_formulas(shown):
     walk, figure, step, equation, *_ = shown
     assert figure["image/svg+xml"].startswith("<svg")
     answer, _, folded = walk["text/markdown"].partition("<details>")
-    assert answer.startswith("$$\n\\begin{aligned}\n\\dot A &= ")
+    assert answer.startswith("# A cone on its apex")
+    assert "\n\n$$\n\\begin{aligned}\n\\dot A &= " in answer
     assert "\n\n# A cone on its apex" in folded
     assert "\\varpi" not in answer
     assert "\\varpi" in folded

@@ -54,7 +54,7 @@ def measure(tex: str) -> float:
     return wide + 0.72 * small + rest
 
 
-COMMA, SUM, WEDGE, FACTOR = 0.0, 0.25, 0.5, 0.75
+ROW, COMMA, SUM, WEDGE, FACTOR = -0.125, 0.0, 0.25, 0.5, 0.75
 """Depth added to a break by the operator it stands before: the less, the sooner."""
 
 WIDTH = 100
