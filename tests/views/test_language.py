@@ -34,6 +34,7 @@ from derive.views.language import (
     WIDE,
     Language,
     catalogue_entries,
+    labelled,
     language,
 )
 from derive.views.paper.printed import PAPER
@@ -285,7 +286,7 @@ def test_every_word_said_is_in_the_catalogue():
 
 def test_every_entry_is_used():
     sources = strings("walk/*.py", "walk/*/*.py", "record/record.py")
-    sources |= {x for pair in rules.names() for x in pair}
+    sources |= {x for pair in (*rules.names(), *labelled().values()) for x in pair}
     sources |= strings(
         *("views/*.py", "views/*/*.py", "schema/kinds/*.py", "motion/emitted_code.py"),
         "lecture/*.py",
