@@ -18,6 +18,7 @@ from ..record.prose import entries as steps
 from ..record.prose import read
 from ..record.record import Equation
 from ..record.sentence import Prose, Sentence, filled, phrase
+from .paper.printed import remarks
 from .printing.line_breaking import display_width, measure
 from .printing.tex import latex_tree
 
@@ -95,9 +96,10 @@ def told(label: str) -> str:
 
 
 def catalogue_entries() -> list[dict[str, str]]:
-    """The prose of the steps, the names and rules of the record, what views say of all, and the
-    catalogue."""
-    words = dict.fromkeys((*vocabulary.meanings(), *rules.names(), *labelled().values()))
+    """The prose of the steps, the names and rules of the record, what views say of all, remarks on
+    the note, and the catalogue."""
+    tables = vocabulary.meanings(), rules.names(), labelled().values(), remarks().values()
+    words = dict.fromkeys(x for table in tables for x in table)
     catalogue = ((en, *texts) for en, texts in read([CATALOGUE], LANGUAGES[1:]).items())
     return [*steps(), *(dict(zip(LANGUAGES, x, strict=True)) for x in (*words, *catalogue))]
 
