@@ -1,8 +1,8 @@
 """What a name is: its meaning, its types, its roles; and the reader of the names.
 
-They stand in the text files of ``words``, as sentences do in those of ``prose``: a label, English,
-French.  The label is the name, its LaTeX and its uses, with a bar between them; or a name alone,
-which differs from another in its meaning.
+They stand in the text files of ``prose/names``, as sentences do in those of ``prose``: a label,
+English, French.  The label is the name, its LaTeX and its uses, with a bar between them; or a name
+alone, which differs from another in its meaning.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ SIZED = {"algebra": 0, "vector": 1, "matrix": 2}
 ROLES = ("letter", "definition", "value on X", "unknown", "function")
 """What a name is: chosen freely; defined by an equation; a rate along the motion, or the value of a
 variation on X; what exists by a theorem, as a multiplier does; a function."""
-WORDS = Path(__file__).with_name("words")
+WORDS = Path(__file__).parent / "prose" / "names"
 
 
 class Use(NamedTuple):

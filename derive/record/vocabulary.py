@@ -7,9 +7,8 @@ a value by its meaning alone.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 
-from ..schema import kinds
+from ..schema.kinds import kinds
 from .names import DISCRETE, WORDS, Name, defined, tables, with_derivatives
 
 VOCABULARY: dict[str, Name] = with_derivatives(
@@ -17,12 +16,8 @@ VOCABULARY: dict[str, Name] = with_derivatives(
     varied="A T α τ Z w ζ Π p_b ℓ_b",
     moving="A T Z w ζ Π Π_o p_b ℓ_b p ℓ Γ Υ",
 )
-
-
-def letters(kind: str) -> dict[str, Name]:
-    """The letters that the words of a kind of potential have for their own."""
-    file = Path(kinds.__file__).with_name(f"{kind}.txt")
-    return tables(file, {})[""] if file.exists() else {}
+OF_POTENTIALS = tables(WORDS / "potentials.txt", {})
+"""Kind of a potential → the letters that its words have for their own."""
 
 
 def add_letters(known: dict[str, Name], own: Mapping[str, Name]) -> None:
@@ -33,8 +28,8 @@ def add_letters(known: dict[str, Name], own: Mapping[str, Name]) -> None:
     known |= own
 
 
-for _kind in kinds.kinds():
-    add_letters(VOCABULARY, letters(_kind))
+for _kind in kinds():
+    add_letters(VOCABULARY, OF_POTENTIALS.get(_kind, {}))
 FLUID = with_derivatives(tables(WORDS / "fluid.txt", {})[""], varied="ν u", moving="Γ κ")
 KINEMATICS: dict[str, Name] = tables(WORDS / "kinematics.txt", {})[""]
 for _table in (FLUID, KINEMATICS, *DISCRETE.values()):

@@ -40,8 +40,7 @@ class Potential(Table):
     ``--frame principal`` cannot carry into its frame; empty where its vectors may be turned with
     space, its points put to new places, and one factor of each term of U is a key with ``mass``,
     which is scaled. ``alone``: there is one of the kind. ``linear``: is the force per mass linear
-    in the place, at each point of a body?  The letters that its words have for their own stand in
-    the text file beside it.
+    in the place, at each point of a body?
     """
 
     section, timed = "potential", True

@@ -21,11 +21,11 @@ from derive.record.as_json import from_json, to_data
 from derive.record.record import RecordError
 from derive.record.vocabulary import (
     DISPLACEMENTS,
+    OF_POTENTIALS,
     PRODUCTS,
     ROTATIONS,
     VOCABULARY,
     add_letters,
-    letters,
 )
 from derive.schema.kind import INPUTS, Damping
 from derive.schema.kinds import kinds
@@ -146,7 +146,7 @@ def test_files_and_records_read_every_type_of_a_key(own):
         assert all(callable(getattr(x, key.type)) for x in (FileReader, shape._RecordReader))
 
 
-LETTERS = [x for kind in kinds() for x in letters(kind)]
+LETTERS = [x for kind in kinds() for x in OF_POTENTIALS.get(kind, ())]
 
 
 def test_no_kind_takes_a_letter_that_has_a_meaning():
@@ -159,6 +159,7 @@ def test_no_kind_takes_a_letter_that_has_a_meaning():
     add_letters(known, {"Q_A": own})
     with pytest.raises(ValueError, match=f"the letter Q_A has a meaning: {own.meaning}"):
         add_letters(known, {"Q_A": own})
+    assert {*OF_POTENTIALS} <= {*kinds()}
     assert not {*LETTERS} & {*ROTATIONS, *DISPLACEMENTS, *PRODUCTS}
 
 
