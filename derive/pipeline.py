@@ -10,7 +10,6 @@ and the views read it, too.
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 # fmt: off
 # isort: off
@@ -37,10 +36,6 @@ from .walk.spine.head import recorded
 from .walk.torus import vorticity
 from .walk.vectors import by_momenta, euler, isomorphism, rotation
 # isort: on
-
-if TYPE_CHECKING:
-
-    pass
 
 ANY_GROUP = (
     Stage("lagrangian", "a c", "PointLagrangian", lagrangian.lagrangian),

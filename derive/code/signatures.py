@@ -10,6 +10,7 @@ computed before these, and s, coordinates of what it turns by.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import prod
@@ -49,221 +50,103 @@ class Signature:
     only: str = ""
 
 
-T, COUNT, DX = Argument("t"), Argument("n"), Argument("dx", ("STATE",))
-X, K, P, U, Y = (
-    Argument(name, (size,))
-    for name, size in zip(
-        "xkpuy", ("STATE", "CONSTANTS", "PARAMETERS", "INPUTS", "STATE"), strict=True
-    )
-)
-DY, TENSOR = Argument("dy", ("STATE",)), Argument("out", ("REDUCED", "REDUCED"))
-Z, Z_OUT = Argument("z", ("MATRIX",)), Argument("out", ("MATRIX",))
-OUT, INPUTS_OUT = Argument("out", ("STATE",)), Argument("out", ("INPUTS",))
-
-
-def _matrix(*columns: str) -> Argument:
-    return Argument("D", ("2", "ALGEBRA", *columns))
-
-
 ARRAYS = {"q": "LOADED", "b": "BEGUN", "v": "UNKNOWNS", "s": "TURNS"}
 """The arrays of a discrete step and their sizes."""
-
-Q, B, V, S = (Argument(name, (size,)) for name, size in ARRAYS.items())
-
-
-def _out(*sizes: str) -> Argument:
-    return Argument("out", sizes)
-
-
+SIZES = {"t": (), "n": (), "x": ("STATE",), "dx": ("STATE",), "y": ("STATE",), "dy": ("STATE",)}
+SIZES |= {"k": ("CONSTANTS",), "p": ("PARAMETERS",), "u": ("INPUTS",), "z": ("MATRIX",)}
+SIZES |= {name: (size,) for name, size in ARRAYS.items()}
+"""The sizes of the arguments that have the same in all functions."""
 GIVEN, PRINCIPAL = "the frame of the parameters", "the principal frame that k holds"
-THERE, BACK = f"taken from {GIVEN} to {PRINCIPAL}", f"taken from {PRINCIPAL} to {GIVEN}"
-SIGNATURES = (
-    Signature("constants", (P,), (K,), "all that depends on the parameters alone"),
-    Signature("rhs", (T, X, K, U), (DX,), "dx/dt at time t"),
-    Signature(
-        "rhs_batch", (COUNT, T, X, K, U), (DX,), "the same for n states at once", False, "rhs", "c"
-    ),
-    Signature("energy", (T, X, K), doc="kinetic plus potential energy"),
-    Signature(
-        "multiplier",
-        (T, X, K, U),
-        doc="the multiplier theta of the volume, in a fluid the integral of the pressure",
-    ),
-    Signature(
-        "conserved",
-        (T, X, K),
-        (Argument("out", ("CONSERVED",)),),
-        "what the motion keeps where no input acts, one number for each of its names",
-    ),
-    Signature(
-        "outputs",
-        (T, X, K, U),
-        (Argument("out", ("OUTPUTS",)),),
-        "what is read off the motion, one number for each of its names",
-    ),
-    Signature(
-        "events",
-        (T, X, K, U),
-        (Argument("out", ("EVENTS",)),),
-        "what changes its sign at each event; what only touches 0 is one by rounding alone",
-    ),
-    Signature(
-        "project", (X,), (OUT,), "the state x taken back to the group by one Newton step", True
-    ),
-    Signature(
-        "defect",
-        (X,),
-        doc="how far x is off the group: the sum of the sizes of what its relations leave, "
-        "0 on the group",
-    ),
-    Signature(
-        "to_matrix",
-        (X,),
-        (Z_OUT,),
-        "the state x with matrices, row by row, in place of quaternions and angles",
-    ),
-    Signature(
-        "from_matrix",
-        (Z,),
-        (OUT,),
-        "the state z, with quaternions in place of its rotations, their scalars not negative",
-    ),
-    Signature("into_frame", (X, K), (OUT,), f"the state x {THERE}"),
-    Signature("out_of_frame", (X, K), (OUT,), f"the state x {BACK}"),
-    Signature("inputs_into_frame", (U, K), (INPUTS_OUT,), f"the inputs u {THERE}"),
-    Signature("inputs_out_of_frame", (U, K), (INPUTS_OUT,), f"the inputs u {BACK}"),
-    Signature("jacobian", (T, X, K, U), (DX, _matrix("2", "ALGEBRA")), "dx/dt, and D"),
-    Signature("jacobian_inputs", (T, X, K, U), (_matrix("INPUTS"),), "its derivative by u"),
-    Signature("jacobian_parameters", (T, X, P, U), (_matrix("PARAMETERS"),), "that by p"),
-    Signature(
-        "jacobian_raw",
-        (T, X, K, U),
-        (Argument("D", ("STATE", "STATE")),),
-        "that of dx/dt by x as it is stored, by rows",
-    ),
-    Signature(
-        "jacobian_raw_inputs",
-        (T, X, K, U),
-        (Argument("D", ("STATE", "INPUTS")),),
-        "the derivative of dx/dt by u, by rows",
-    ),
-    Signature(
-        "jacobian_project",
-        (X,),
-        (Argument("D", ("STATE", "STATE")),),
-        "the derivative of what project gives by x as it is stored, by rows",
-    ),
-    Signature(
-        "variations",
-        (X,),
-        (Argument("D", ("STATE", "2", "ALGEBRA")),),
-        "what x, as it is stored, changes by along (eta, delta zeta), by rows",
-    ),
-    Signature(
-        "jacobian_outputs",
-        (T, X, K, U),
-        (Argument("D", ("OUTPUTS", "2", "ALGEBRA")),),
-        "the derivative of the outputs by (eta, delta zeta), by rows",
-    ),
-    Signature(
-        "jacobian_outputs_inputs",
-        (T, X, K, U),
-        (Argument("D", ("OUTPUTS", "INPUTS")),),
-        "the derivative of the outputs by u, by rows",
-    ),
-    Signature(
-        "jacobian_outputs_raw",
-        (T, X, K, U),
-        (Argument("D", ("OUTPUTS", "STATE")),),
-        "the derivative of the outputs by x as it is stored, by rows",
-    ),
-    Signature(
-        "mass_matrix",
-        (T, X, K),
-        (Argument("D", ("ALGEBRA", "ALGEBRA")),),
-        "the mass matrix M, by rows",
-    ),
-    Signature(
-        "bias",
-        (T, X, K, U),
-        (Argument("out", ("ALGEBRA",)),),
-        "b: M a + b is the covector to be added to what acts, so that the velocity has the rates a",
-    ),
-    Signature(
-        "error_generator",
-        (T, X, K, U),
-        (Argument("D", ("ALGEBRA", "ALGEBRA")),),
-        "the matrix A of d xi/dt = A xi, of the logarithm xi of the error, by rows",
-    ),
-    Signature(
-        "error_noise",
-        (T, X, K, U),
-        (Argument("D", ("ALGEBRA", "INPUTS")),),
-        "the matrix G by which noise on the inputs adds to d xi/dt, by rows",
-    ),
-    Signature(
-        "momentum", (T, X, K), (OUT,), "the state x with its momenta in place of the velocity"
-    ),
-    Signature(
-        "velocity", (T, Y, K), (OUT,), "the state y with its velocity in place of the momenta"
-    ),
-    Signature(
-        "velocity_step",
-        (T, X, Y, K),
-        (OUT,),
-        "the state y with the velocity that Newton's step from that of x gives for its momenta",
-    ),
-    Signature("momentum_rhs", (T, Y, K, U), (DY,), "dy/dt at time t, y the state with momenta"),
-    Signature(
-        "momentum_rates",
-        (T, X, Y, K, U),
-        (DY,),
-        "dy/dt at time t, y the state with momenta, x with the velocity that they have",
-    ),
-    Signature("poisson", (T, Y, K), (TENSOR,), "the Poisson tensor at y, by rows"),
-    Signature(
-        "step_momentum", (X, K), (_out("MOMENTA"),), "the momentum at x, that a discrete step takes"
-    ),
-    Signature(
-        "step_force",
-        (T, X, K, U),
-        (_out("MOMENTA"),),
-        "what the forces add to it in a unit of time",
-    ),
-    Signature("step_velocity", (X, K, Q), (_out("ALGEBRA"),), "the velocity of a momentum q"),
-    Signature(
-        "step_guess",
-        (X, K, Q),
-        (_out("TURNS"),),
-        "about what a discrete step of h times the momentum, q, turns by",
-    ),
-    Signature(
-        "step_begin", (X, K, Q), (_out("BEGUN"),), "what a discrete step needs of x and q alone"
-    ),
-    Signature(
-        "step_newton",
-        (X, K, B, Q, V),
-        (_out("CORRECTED"),),
-        "Newton's step for a discrete step v: what is to be taken away, and the determinant",
-    ),
-    Signature(
-        "step_turn", (V, S), (_out("UNKNOWNS"),), "a discrete step v and a turn by s after it"
-    ),
-    Signature("step_turn_little", (V, S), (_out("UNKNOWNS"),), "the same for an s of at most 1e-8"),
-    Signature(
-        "step_end",
-        (X, K, Q, V),
-        (_out("MOVED"),),
-        "what a discrete step v adds to the element of x, and h times the momentum after it",
-    ),
-    Signature(
-        "inertia",
-        (P,),
-        (Argument("I", ("6",)),),
-        "the tensor of inertia about the body's origin",
-        only="python",
-    ),
-)
+TABLE = """
+constants(p) -> k: all that depends on the parameters alone
+rhs(t, x, k, u) -> dx: dx/dt at time t
+rhs_batch(n, t, x, k, u) -> dx: the same for n states at once
+energy(t, x, k): kinetic plus potential energy
+multiplier(t, x, k, u): the multiplier theta of the volume, in a fluid the integral of the pressure
+conserved(t, x, k) -> out[CONSERVED]: what the motion keeps where no input acts, one number for each
+    of its names
+outputs(t, x, k, u) -> out[OUTPUTS]: what is read off the motion, one number for each of its names
+events(t, x, k, u) -> out[EVENTS]: what changes its sign at each event; what only touches 0 is one
+    by rounding alone
+project(x) -> out[STATE]: the state x taken back to the group by one Newton step
+defect(x): how far x is off the group: the sum of the sizes of what its relations leave, 0 on the
+    group
+to_matrix(x) -> out[MATRIX]: the state x with matrices, row by row, in place of quaternions and
+    angles
+from_matrix(z) -> out[STATE]: the state z, with quaternions in place of its rotations, their scalars
+    not negative
+into_frame(x, k) -> out[STATE]: the state x taken from {given} to {principal}
+out_of_frame(x, k) -> out[STATE]: the state x taken from {principal} to {given}
+inputs_into_frame(u, k) -> out[INPUTS]: the inputs u taken from {given} to {principal}
+inputs_out_of_frame(u, k) -> out[INPUTS]: the inputs u taken from {principal} to {given}
+jacobian(t, x, k, u) -> dx, D[2 ALGEBRA 2 ALGEBRA]: dx/dt, and D
+jacobian_inputs(t, x, k, u) -> D[2 ALGEBRA INPUTS]: its derivative by u
+jacobian_parameters(t, x, p, u) -> D[2 ALGEBRA PARAMETERS]: that by p
+jacobian_raw(t, x, k, u) -> D[STATE STATE]: that of dx/dt by x as it is stored, by rows
+jacobian_raw_inputs(t, x, k, u) -> D[STATE INPUTS]: the derivative of dx/dt by u, by rows
+jacobian_project(x) -> D[STATE STATE]: the derivative of what project gives by x as it is stored, by
+    rows
+variations(x) -> D[STATE 2 ALGEBRA]: what x, as it is stored, changes by along (eta, delta zeta), by
+    rows
+jacobian_outputs(t, x, k, u) -> D[OUTPUTS 2 ALGEBRA]: the derivative of the outputs by (eta, delta
+    zeta), by rows
+jacobian_outputs_inputs(t, x, k, u) -> D[OUTPUTS INPUTS]: the derivative of the outputs by u, by
+    rows
+jacobian_outputs_raw(t, x, k, u) -> D[OUTPUTS STATE]: the derivative of the outputs by x as it is
+    stored, by rows
+mass_matrix(t, x, k) -> D[ALGEBRA ALGEBRA]: the mass matrix M, by rows
+bias(t, x, k, u) -> out[ALGEBRA]: b: M a + b is the covector to be added to what acts, so that the
+    velocity has the rates a
+error_generator(t, x, k, u) -> D[ALGEBRA ALGEBRA]: the matrix A of d xi/dt = A xi, of the logarithm
+    xi of the error, by rows
+error_noise(t, x, k, u) -> D[ALGEBRA INPUTS]: the matrix G by which noise on the inputs adds to d
+    xi/dt, by rows
+momentum(t, x, k) -> out[STATE]: the state x with its momenta in place of the velocity
+velocity(t, y, k) -> out[STATE]: the state y with its velocity in place of the momenta
+velocity_step(t, x, y, k) -> out[STATE]: the state y with the velocity that Newton's step from that
+    of x gives for its momenta
+momentum_rhs(t, y, k, u) -> dy: dy/dt at time t, y the state with momenta
+momentum_rates(t, x, y, k, u) -> dy: dy/dt at time t, y the state with momenta, x with the velocity
+    that they have
+poisson(t, y, k) -> out[REDUCED REDUCED]: the Poisson tensor at y, by rows
+step_momentum(x, k) -> out[MOMENTA]: the momentum at x, that a discrete step takes
+step_force(t, x, k, u) -> out[MOMENTA]: what the forces add to it in a unit of time
+step_velocity(x, k, q) -> out[ALGEBRA]: the velocity of a momentum q
+step_guess(x, k, q) -> out[TURNS]: about what a discrete step of h times the momentum, q, turns by
+step_begin(x, k, q) -> out[BEGUN]: what a discrete step needs of x and q alone
+step_newton(x, k, b, q, v) -> out[CORRECTED]: Newton's step for a discrete step v: what is to be
+    taken away, and the determinant
+step_turn(v, s) -> out[UNKNOWNS]: a discrete step v and a turn by s after it
+step_turn_little(v, s) -> out[UNKNOWNS]: the same for an s of at most 1e-8
+step_end(x, k, q, v) -> out[MOVED]: what a discrete step v adds to the element of x, and h times the
+    momentum after it
+inertia(p) -> I[6]: the tensor of inertia about the body's origin
+"""
+"""Each function, what it takes, what it writes with the sizes that are its own, and its doc, which
+goes on in indented lines."""
+MORE: dict[str, dict[str, Any]] = {
+    "rhs_batch": {"of": "rhs", "only": "c"},
+    "project": {"in_place": True},
+    "inertia": {"only": "python"},
+}
+"""What else is said of some of them."""
+
+
+def _signature(text: str) -> Signature:
+    """The signature that an entry of the table tells."""
+    head, doc = " ".join(text.split()).split(": ", 1)
+    name, takes, _, writes = re.split(r"[()]|(?: -> )", f"{head} -> ")[:4]
+    doc = doc.format(given=GIVEN, principal=PRINCIPAL)
+    return Signature(name, _arguments(takes), _arguments(writes), doc, **MORE.get(name, {}))
+
+
+def _arguments(text: str) -> tuple[Argument, ...]:
+    """Arguments with commas between them, as ``t, x, D[STATE INPUTS]``."""
+    found = re.findall(r"(\w+)(?:\[([^]]*)\])?", text)
+    return tuple(Argument(x, tuple(sizes.split()) or SIZES[x]) for x, sizes in found)
+
+
+SIGNATURES = tuple(map(_signature, re.split(r"\n(?! )", TABLE.strip())))
 """The functions in the order of the files; derivatives and frames are there when asked for."""
 
 

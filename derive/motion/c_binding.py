@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
+DEFINED = re.compile(r"^((?:void|int|size_t|const char \*)[^{;]*\))\n{", re.MULTILINE)
+"""The head of a function that others may call: compilers want it declared first."""
 INCLUDE = '#include "{name}_steps.h"\n'
 HEAD = """\
-size_t derive_motion_size(void);
 size_t derive_motion_size(void)
 {{
     return sizeof({name}_motion);
 }}
-void derive_begin({name}_motion *m, double t, const double *x);
 void derive_begin({name}_motion *m, double t, const double *x)
 {{
     {name}_begin(m, t, x);
 }}
-void derive_dense(const {name}_motion *m, double t, double *x);
 void derive_dense(const {name}_motion *m, double t, double *x)
 {{
     {name}_dense(m, t, x);
 }}
-void derive_now(const {name}_motion *m, double *now, double *x);
 void derive_now(const {name}_motion *m, double *now, double *x)
 {{
     now[0] = m->t;
@@ -41,7 +40,6 @@ static void derive_line(double t, const double *x, double *u, void *data)
         u[i] = line[1 + i] + (t - line[0])*line[1 + {name}_N_INPUTS + i];
     }}
 }}
-void derive_drive({name}_motion *m, derive_inputs *function, double *line);
 void derive_drive({name}_motion *m, derive_inputs *function, double *line)
 {{
     m->inputs = line ? derive_line : function;
@@ -49,7 +47,6 @@ void derive_drive({name}_motion *m, derive_inputs *function, double *line)
 }}
 """
 EVENT = """\
-int derive_event(const {name}_motion *m, int *rising);
 int derive_event(const {name}_motion *m, int *rising)
 {{
     *rising = m->rising;
@@ -58,16 +55,12 @@ int derive_event(const {name}_motion *m, int *rising)
 """
 MOVE = """\
 void derive_{step}({name}_motion *m, const double *k, const double *u, double h, size_t n,
-    int *told);
-void derive_{step}({name}_motion *m, const double *k, const double *u, double h, size_t n,
     int *told)
 {{
     *told = {name}_{step}(m, k, u, h, n);
 }}
 """
 VARY = """\
-void derive_{step}_jacobian({name}_motion *m, const double *k, const double *u, double h, size_t n,
-    double *phi, double *gamma, int *told);
 void derive_{step}_jacobian({name}_motion *m, const double *k, const double *u, double h, size_t n,
     double *phi, double *gamma, int *told)
 {{
@@ -76,16 +69,12 @@ void derive_{step}_jacobian({name}_motion *m, const double *k, const double *u, 
 """
 MOVE_TO_EVENT = """\
 void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
-    int *told);
-void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
     int *told)
 {{
     *told = {name}_{step}_to(m, k, u, t1, tol);
 }}
 """
 MOVE_TO = """\
-void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
-    size_t n, int *told);
 void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
     size_t n, int *told)
 {{
@@ -98,8 +87,6 @@ void derive_{step}_to({name}_motion *m, const double *k, const double *u, double
 """
 WATCH = """\
 void derive_{step}_watch({name}_motion *m, const double *k, const double *u, double t1, double h,
-    int *told);
-void derive_{step}_watch({name}_motion *m, const double *k, const double *u, double t1, double h,
     int *told)
 {{
     *told = {name}_watch({name}_{step}, m, k, u, t1, h);
@@ -107,16 +94,12 @@ void derive_{step}_watch({name}_motion *m, const double *k, const double *u, dou
 """
 ENSEMBLE = """\
 size_t derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
-    size_t u_each, double t0, double t1, double tol, double *h, int *status);
-size_t derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
     size_t u_each, double t0, double t1, double tol, double *h, int *status)
 {{
     return {name}_ensemble(n, x, k, k_each, u, u_each, t0, t1, tol, h, status);
 }}
 """
 ENDED = """\
-void derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
-    size_t u_each, double t0, double t1, double tol, double *h, int *status, double *ended);
 void derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
     size_t u_each, double t0, double t1, double tol, double *h, int *status, double *ended)
 {{
@@ -145,7 +128,6 @@ const char *derive_ensemble_on_card(size_t n, double *x, const double *k, size_t
 }}
 """
 CONSTANTS = """\
-void derive_constants(size_t n, const double *p, double *k, int *wrong);
 void derive_constants(size_t n, const double *p, double *k, int *wrong)
 {{
     for (size_t i = 0; i < n; ++i) {{
@@ -179,15 +161,21 @@ def binding(
         EVENT * events,
         (ENSEMBLE + CONSTANTS) * ensemble,
     ]
-    return "\n".join([*(x.format(name=name) for x in parts if x), *moves])
+    return _declared("\n".join([*(x.format(name=name) for x in parts if x), *moves]))
 
 
 def binding_to_events(name: str, step: str) -> str:
     """The same of an ensemble whose motions end at their events, by one of those steps."""
-    return "\n".join(x.format(name=name, step=step) for x in (INCLUDE, ENDED, CONSTANTS))
+    parts = (x.format(name=name, step=step) for x in (INCLUDE, ENDED, CONSTANTS))
+    return _declared("\n".join(parts))
 
 
 def binding_on_card(name: str) -> str:
     """The same of an ensemble on a graphics card, in CUDA."""
     parts = INCLUDE, 'extern "C" {{\n', ON_CARD, CONSTANTS, "}}\n"
-    return "".join(x.format(name=name) for x in parts)
+    return _declared("".join(x.format(name=name) for x in parts))
+
+
+def _declared(text: str) -> str:
+    """C with each function declared before it is defined."""
+    return DEFINED.sub(r"\1;\n\1\n{", text)

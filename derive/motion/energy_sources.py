@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ..language.values import approximate
@@ -48,30 +48,27 @@ def is_weightless(problem: Mapping[str, Any], given: Mapping[str, float]) -> boo
 def is_free(problem: Mapping[str, Any]) -> bool:
     """Does a motion keep the kinetic energy, as nothing can act on the body?"""
     acting = any(problem.get(x) for x in ("potentials", "inputs", "damping", "forces", "flows"))
-    return not acting and not _placed(problem.get("lagrangian"))
+    return not acting and not _anywhere(problem.get("lagrangian"), _placed)
 
 
 def may_bend(problem: Mapping[str, Any]) -> bool:
     """Has a force of the problem of a record a root, as in |v| and so in sign, min and max, where
     its derivatives may jump?"""
-    return _rooted(problem.get("forces"))
+    return _anywhere(problem.get("forces"), lambda x: [*x[:2]] == ["fun", "sqrt"])
 
 
-def _rooted(data: Any) -> bool:
+def _anywhere(data: Any, found: Callable[[Sequence[Any]], bool]) -> bool:
+    """Is there a list in data of a record that is ``found``?"""
     if isinstance(data, dict):
-        return any(map(_rooted, data.values()))
+        return any(_anywhere(x, found) for x in data.values())
     if not isinstance(data, list | tuple):
         return False
-    return [*data[:2]] == ["fun", "sqrt"] or any(map(_rooted, data))
+    return found(data) or any(_anywhere(x, found) for x in data)
 
 
-def _placed(data: Any) -> bool:
-    """Does what tells where a body is stand in ℓ, an entry of g or of a vector that it carries?"""
-    if isinstance(data, dict):
-        return any(map(_placed, data.values()))
-    if not isinstance(data, list | tuple):
-        return False
-    return ([*data[:1]] == ["entry"] and data[1] != "ζ") or any(map(_placed, data))
+def _placed(x: Sequence[Any]) -> bool:
+    """Does it tell where a body is: an entry of g, or of a vector that it carries?"""
+    return [*x[:1]] == ["entry"] and x[1] != "ζ"
 
 
 def _timed(data: Any, zero: Sequence[Any]) -> bool:

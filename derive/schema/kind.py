@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Annotated, Any, ClassVar, NamedTuple, Self
+from typing import Annotated, Any, ClassVar, Self
 
 from ..language.reserved import one_or_more
 from ..language.tree import Tree
@@ -32,17 +32,6 @@ from .table import (
 # The kinds are in ``schema.kinds``.
 
 
-class Own(NamedTuple):
-    """A letter that the words of a kind have for their own: a scalar, a vector, a matrix, or a
-    function "of invariants", three scalars; its meaning in English and in French."""
-
-    name: str
-    type: str
-    meaning: str
-    french: str
-    latex: str
-
-
 class Potential(Table):
     """One potential of a problem.
 
@@ -51,7 +40,7 @@ class Potential(Table):
     ``--frame principal`` cannot carry into its frame; empty where its vectors may be turned with
     space, its points put to new places, and one factor of each term of U is a key with ``mass``,
     which is scaled. ``alone``: there is one of the kind. ``linear``: is the force per mass linear
-    in the place, at each point of a body? ``letters``: those that its words have for their own.
+    in the place, at each point of a body?
     """
 
     section, timed = "potential", True
@@ -63,7 +52,6 @@ class Potential(Table):
     unturned: ClassVar[str] = "a potential of this kind"
     alone: ClassVar[bool] = False
     linear: ClassVar[bool] = False
-    letters: ClassVar[tuple[Own, ...]] = ()
 
     @property
     def summed(self) -> bool:

@@ -18,10 +18,12 @@ from ..record.prose import entries as steps
 from ..record.prose import read
 from ..record.record import Equation
 from ..record.sentence import Prose, Sentence, filled, phrase
+from .paper.printed import remarks
 from .printing.line_breaking import display_width, measure
 from .printing.tex import latex_tree
 
 CATALOGUE = Path(__file__).with_name("catalogue.txt")
+LABELLED = Path(__file__).with_name("outline.txt")
 POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
 """The point of a decimal number."""
 THIN, WIDE = "\u202f", "\u00a0"
@@ -82,9 +84,22 @@ def language(name: str) -> Language:
     return Language(name, {x["en"]: typeset(x[name]) for x in catalogue_entries()})
 
 
+@cache
+def labelled() -> dict[str, tuple[str, ...]]:
+    """Label → what views say of a whole record, in each of ``LANGUAGES``."""
+    return read([LABELLED])
+
+
+def told(label: str) -> str:
+    """The English of a label."""
+    return labelled()[label][0]
+
+
 def catalogue_entries() -> list[dict[str, str]]:
-    """The prose of the steps, the names and rules of the record, and the catalogue."""
-    words = dict.fromkeys((*vocabulary.meanings(), *rules.names()))
+    """The prose of the steps, the names and rules of the record, what views say of all, remarks on
+    the note, and the catalogue."""
+    tables = vocabulary.meanings(), rules.names(), labelled().values(), remarks().values()
+    words = dict.fromkeys(x for table in tables for x in table)
     catalogue = ((en, *texts) for en, texts in read([CATALOGUE], LANGUAGES[1:]).items())
     return [*steps(), *(dict(zip(LANGUAGES, x, strict=True)) for x in (*words, *catalogue))]
 

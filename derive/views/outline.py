@@ -13,81 +13,18 @@ from ..record.as_json import decode
 from ..record.record import AMENDED, ANY_GROUP, FIELDS, Derivation, Equation, Step
 from ..record.sentence import Sentence, listed, phrase
 from ..schema.kinds import kinds
-from .language import ENGLISH, Language, entries
+from .language import ENGLISH, Language, entries, told
 from .printing.letters import names_of
 
-CONVENTIONS = (
-    "Bars are transposes and 1 is the identity. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for "
-    "vectors, without index for M = 1; ‖a‖² = ⟨a, a⟩. "
-    "[a, b] = ab − ba and j(X)Y = X ∧ Y. Variations commute; dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)]; the "
-    "tangent bundle of the group is trivialised on the left, ξ = g⁻¹δg, unless a step says "
-    "otherwise. The point y = (t, g, ν) is a time, an element of the group and a velocity; "
-    "𝔤 is the Lie algebra."
-)
-FORMULAS_CONVENTIONS = (
-    "For matrices $⟨a, b⟩_M = Tr a M b̄$, for vectors $⟨a, b⟩_M = ā M b$, without index for $M "
-    "= 𝟏$; $‖a‖² = ⟨a, a⟩$; $[a, b] = ab − ba$ and $j(X)Y = X ∧ Y$. Variations commute, $dϖ(δ, "
-    "δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)]$, and the tangent bundle of the group is trivialised on the "
-    "left, $ξ = g⁻¹δg$, unless a step says otherwise. The point $y = (t, g, ν)$ is a time, an "
-    "element of the group and a velocity; $𝔤$ is the Lie algebra. In equations, parameters of the "
-    "problem are set in $‘sans serif’$."
-)
-"""CONVENTIONS with formulas between dollars, but for the first sentence."""
-TRANSPOSES = {
-    "bar": "Bars are transposes and $𝟏$ is the identity.",
-    "top": "The mark $⊤$ is the transpose and $𝟏$ the identity.",
-}
+CONVENTIONS, FORMULAS_CONVENTIONS = told("conventions"), told("conventions.formulas")
+DISCRETE_CONVENTIONS = told("conventions.discrete")
+DISCRETE_FORMULAS_CONVENTIONS = told("conventions.discrete_formulas")
+FLUID_CONVENTIONS = told("conventions.fluid")
+TRANSPOSES = {x: told(f"transposes.{x}") for x in ("bar", "top")}
 """The first sentence of the conventions, in each notation of transposes."""
-DISCRETE_CONVENTIONS = (
-    "Bars are transposes and 1 is the identity. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for "
-    "vectors, without index for M = 1; ‖a‖² = ⟨a, a⟩; j(X)Y = X ∧ Y. Variations commute; dΘ(δ, δ′) "
-    "= δ[Θ(δ′)] − δ′[Θ(δ)]. The point y = (g_0, g_1) is two elements of the group, a time h apart; "
-    "g_2 comes after them by the motion, and 𝔤 is the Lie algebra."
-)
-DISCRETE_FORMULAS_CONVENTIONS = (
-    "For matrices $⟨a, b⟩_M = Tr a M b̄$, for vectors $⟨a, b⟩_M = ā M b$, without index for $M "
-    "= 𝟏$; $‖a‖² = ⟨a, a⟩$ and $j(X)Y = X ∧ Y$. Variations commute, $dΘ(δ, δ′) = δ[Θ(δ′)] − "
-    "δ′[Θ(δ)]$. The point $y = (g_0, g_1)$ is two elements of the group, a time $h$ apart; $g_2$ "
-    "comes after them by the motion, and $𝔤$ is the Lie algebra. In equations, parameters of the "
-    "problem are set in $‘sans serif’$."
-)
-"""The same for the discrete motion."""
-FLUID_CONVENTIONS = (
-    "The transpose of an operator is its adjoint for the scalar product $⟨a, b⟩$ of fields; "
-    "$⟨a, b⟩_ρ = ⟨a, ρb⟩$ and $‖a‖² = ⟨a, a⟩$. Variations commute, $dϖ(δ, δ′) = δ[ϖ(δ′)] − "
-    "δ′[ϖ(δ)]$, and the tangent bundle of the group is trivialised on the right. The point $y = "
-    "(t, g, ν)$ is a time, an element of the group and a velocity; $𝔤$ is the Lie algebra, of the "
-    "fields that are divergence-free and tangent to the boundary."
-)
-"""The same for fluids, whose group has no matrices; without its dollars it is that of the text."""
-ROAD = (
-    "The Lagrangian $L$ of the points is pulled back to the group, $L̃$; it gives the Cartan "
-    "form $ϖ$, whose exterior derivative $dϖ$ has a kernel: the equations of motion."
-)
-ROAD_GIVEN = (
-    "The Lagrangian $L̃$ is given; it gives the Cartan form $ϖ$, whose exterior derivative $dϖ$ has "
-    "a kernel: the equations of motion."
-)
-ROAD_BOTH = (
-    "The Lagrangian $L̃$ on the group is given, or that of points, $L$, pulled back; it gives the "
-    "Cartan form $ϖ$, whose exterior derivative $dϖ$ has a kernel: the equations of motion."
-)
-ROAD_DISCRETE = (
-    "The Lagrangian $L_d$ of two elements of the group gives the one-forms $Θ⁺$ and $Θ⁻$; where "
-    "$Θ⁺$ of a step and $Θ⁻$ of the next agree, there is the motion."
-)
-ROAD_OF_ERRORS = (
-    "The velocity on the group is tried on products of its elements; where it is group-affine, the "
-    "logarithm of the error of an estimate moves linearly."
-)
-"""What the walk does, in one sentence: from points, from a given Lagrangian, from some of each; in
-steps of time; of kinematics of first order."""
-PAPER = (
-    "Numbers in the margin or beside the name of a step are those of the paper, "
-    "P. Iglesias-Zemmour, “D’où viennent les équations du mouvement des solides ?”; what is "
-    "printed there at one marked * differs, by a misprint, an omission or the convention of "
-    "signs; “derive paper” says how."
-)
+ROAD, ROAD_GIVEN, ROAD_BOTH = told("road"), told("road.given"), told("road.both")
+ROAD_DISCRETE, ROAD_OF_ERRORS = told("road.discrete"), told("road.errors")
+PAPER = told("paper")
 
 ON_FLUIDS = (
     (

@@ -21,12 +21,13 @@ from derive.record.as_json import from_json, to_data
 from derive.record.record import RecordError
 from derive.record.vocabulary import (
     DISPLACEMENTS,
+    OF_POTENTIALS,
     PRODUCTS,
     ROTATIONS,
     VOCABULARY,
     add_letters,
 )
-from derive.schema.kind import INPUTS, Damping, Own
+from derive.schema.kind import INPUTS, Damping
 from derive.schema.kinds import kinds
 from derive.schema.python_words import words
 from derive.schema.table import NEEDS
@@ -145,31 +146,32 @@ def test_files_and_records_read_every_type_of_a_key(own):
         assert all(callable(getattr(x, key.type)) for x in (FileReader, shape._RecordReader))
 
 
-LETTERS = [x for kind in kinds().values() for x in kind.letters]
+LETTERS = [x for kind in kinds() for x in OF_POTENTIALS.get(kind, ())]
 
 
 def test_no_kind_takes_a_letter_that_has_a_meaning():
     """Neither one of the paper, nor one of another kind, nor one of a kind of group."""
-    for taken in ("Z", LETTERS[0].name):
+    own = VOCABULARY["m"]
+    for taken in ("Z", LETTERS[0]):
         with pytest.raises(ValueError, match=f"the letter {taken} has a meaning: "):
-            add_letters(dict(VOCABULARY), [Own(taken, "scalar", "another", "une autre", taken)])
-    twice = [Own("Q_A", "scalar", x, x, "Q_A") for x in ("one", "other")]
-    with pytest.raises(ValueError, match="the letter Q_A has a meaning: one"):
-        add_letters(dict(VOCABULARY), twice)
-    assert not {x.name for x in LETTERS} & {*ROTATIONS, *DISPLACEMENTS, *PRODUCTS}
+            add_letters(dict(VOCABULARY), {taken: own})
+    known = dict(VOCABULARY)
+    add_letters(known, {"Q_A": own})
+    with pytest.raises(ValueError, match=f"the letter Q_A has a meaning: {own.meaning}"):
+        add_letters(known, {"Q_A": own})
+    assert {*OF_POTENTIALS} <= {*kinds()}
+    assert not {*LETTERS} & {*ROTATIONS, *DISPLACEMENTS, *PRODUCTS}
 
 
-@pytest.mark.parametrize("letter", LETTERS, ids=lambda x: x.name)
+@pytest.mark.parametrize("letter", LETTERS)
 def test_a_letter_of_a_kind_has_a_name_in_code(letter):
     """A sign that has none would be dropped there, and two letters might share a name."""
-    signs = unicodedata.normalize("NFD", letter.name)
+    signs = unicodedata.normalize("NFD", letter)
     assert [x for x in signs if not ascii_name(x) and x != "_"] == []
 
 
 def test_the_names_of_letters_in_code_are_different():
-    assert len({ascii_name(x) for x in VOCABULARY if x in {y.name for y in LETTERS}}) == len(
-        LETTERS
-    )
+    assert len({ascii_name(x) for x in VOCABULARY if x in LETTERS}) == len(LETTERS)
 
 
 def test_what_a_kind_needs_is_known():

@@ -29,7 +29,7 @@ ALLOWED = {
     },
     "views/printing": {"views/printing", "record", "language"},
     "views/figure": {"views/figure", "views/printing", "record", "schema", "language"},
-    "views/paper": {"views/paper", "check", "record", "algebra", "language"},
+    "views/paper": {"views/paper", "check", "record", "record/prose", "algebra", "language"},
     "views/plot": {"views/plot", "motion", "language"},
     "lecture": {
         "lecture",

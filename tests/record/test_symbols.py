@@ -7,7 +7,17 @@ import pytest
 
 from derive.check.checker import Checker
 from derive.record.as_json import from_json
-from derive.record.names import SQUARE, VECTOR, Name, defined, letter, rate, with_derivatives
+from derive.record.names import (
+    SQUARE,
+    VECTOR,
+    Name,
+    Use,
+    defined,
+    letter,
+    tables,
+    type_of,
+    with_derivatives,
+)
 from derive.record.record import RecordError
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
 from tests.support.refusals import data, read
@@ -46,10 +56,41 @@ def test_names_of_derivatives_by_hand():
     dotted = "dp_b/dt along the motion", "dp_b/dt le long du mouvement", r"\dot p_b"
     assert with_derivatives(table, varied="p_b τ", moving="p_b") == table | {
         "δ′p_b": Name(*prime, (letter(VECTOR),)),
-        "ṗ_b": Name(*dotted, (rate(VECTOR), rate(SQUARE))),
+        "ṗ_b": Name(*dotted, (Use(VECTOR, "value on X"), Use(SQUARE, "value on X"))),
         "δτ": Name("variation of τ", "variation de τ", r"\delta\tau", (letter(VECTOR),)),
         "δ′τ": Name("variation δ′ of τ", "variation δ′ de τ", r"\delta'\tau", (letter(VECTOR),)),
     }
+
+
+def test_what_a_label_says_of_a_name(tmp_path):
+    file = tmp_path / "words.txt"
+    label = r"p | \dot p | definition: matrix n n; function: points of algebra, vector n → scalar"
+    file.write_text(f"{label}\n  a\n  b\nof.m\n  c\n  d\n", encoding="utf-8")
+    known = {"m": Name("mass", "masse", "M", (letter("scalar"),))}
+    found = tables(file, known)
+    member = ("function", ("algebra",), VECTOR, "scalar")
+    uses = defined(SQUARE), Use(("family", "points", member), "function")
+    assert found == {
+        "": {"p": Name("a", "b", r"\dot p", uses)},
+        "of": {"m": Name("c", "d", "M", known["m"].uses)},
+    }
+
+
+@pytest.mark.parametrize("text", ["matrix n", "vector", "number", "algebra n", ""])
+def test_what_is_no_type_is_refused(text):
+    with pytest.raises(ValueError, match="is no type of a name"):
+        type_of(text)
+
+
+@pytest.mark.parametrize(
+    ("label", "told"),
+    [("p | p | given: scalar", "'given' is no role"), ("m | m", "the name m stands twice")],
+)
+def test_a_label_that_says_nothing_of_a_name_is_refused(tmp_path, label, told):
+    file = tmp_path / "words.txt"
+    file.write_text(f"m | m | letter: scalar\n  c\n  d\n{label}\n  a\n  b\n", encoding="utf-8")
+    with pytest.raises(ValueError, match=told):
+        tables(file, {})
 
 
 @pytest.mark.parametrize(("key", "value"), [("n", 4), ("n", "any"), ("n", "n"), ("n", None)])

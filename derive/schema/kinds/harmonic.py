@@ -1,6 +1,6 @@
 """U = ½ Σ m_i ⟨r_i, W r_i⟩, a force per mass that is linear in the place."""
 
-from ..kind import Own, Potential
+from ..kind import Potential
 from ..table import Symmetric
 
 
@@ -13,13 +13,4 @@ class Harmonic(Potential):
     unturned = "a harmonic force, which has axes in space,"
     linear = True
     needs = ("no turning",)
-    letters = (
-        Own(
-            "W_r",
-            "matrix",
-            "harmonic force per mass, −W_r r at the place r",
-            "force harmonique par unité de masse, −W_r r à la position r",
-            "W_r",
-        ),
-    )
     W: Symmetric

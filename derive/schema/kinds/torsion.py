@@ -1,6 +1,6 @@
 """U = ½ k Tr(1 − R̄A), a spring that turns the body back to the rotation R."""
 
-from ..kind import Own, Potential
+from ..kind import Potential
 from ..table import Rotation, Stiffness
 
 
@@ -12,28 +12,5 @@ class Torsion(Potential):
     legend = "Torsion springs are not drawn."
     needs = ("rotations",)
     unturned = "a torsion spring, which rests at axes of the file,"
-    letters = (
-        Own(
-            "k_A",
-            "scalar",
-            "stiffness of the torsion springs, the sum of all",
-            "raideur des ressorts de torsion, la somme de toutes",
-            "k_A",
-        ),
-        Own(
-            "N_A",
-            "matrix",
-            "moments of the torsion springs, in the body frame",
-            "moments des ressorts de torsion, dans le repère du corps",
-            "N_A",
-        ),
-        Own(
-            "μ_A",
-            "vector",
-            "moment of the torsion springs, as a vector",
-            "moment des ressorts de torsion, en vecteur",
-            r"\mu_A",
-        ),
-    )
     stiffness: Stiffness
     rest: Rotation = ()

@@ -1,6 +1,6 @@
 """U(det A), the internal energy of what is deformed homogeneously."""
 
-from ..kind import Own, Potential
+from ..kind import Potential
 from ..table import OfVolume
 
 
@@ -11,27 +11,4 @@ class Volume(Potential):
     legend = "An energy of the volume is not drawn."
     needs = ("volumes",)
     unturned = "an energy of the volume"
-    letters = (
-        Own(
-            "V_A",
-            "scalar",
-            "volume over the one of the body itself",
-            "volume, rapporté à celui du corps lui-même",
-            "V_A",
-        ),
-        Own(
-            "U_V",
-            "scalar",
-            "part of the potential that the volume gives",
-            "partie du potentiel que donne le volume",
-            "U_V",
-        ),
-        Own(
-            "p_V",
-            "scalar",
-            "integral of the pressure over the volume, −V_A dU_V/dV_A",
-            "intégrale de la pression sur le volume, −V_A dU_V/dV_A",
-            "p_V",
-        ),
-    )
     U: OfVolume

@@ -9,21 +9,11 @@ from typing import Any
 from ...algebra.groups import Group
 from ...language.show import in_sentence
 from ...problem.problem import Problem, data
-from ...record import sentence
+from ...record import sentence, vocabulary
 from ...record.as_json import encode
-from ...record.kinematics_names import KINEMATICS
-from ...record.names import DISCRETE, FLUID, Name
+from ...record.names import DISCRETE, Name
 from ...record.record import CONVENTIONS, Derivation, Step, Symbol
 from ...record.uses import of_steps
-from ...record.vocabulary import (
-    CARRYING,
-    DISPLACEMENTS,
-    LAGRANGIANS,
-    ON_THE_TORUS,
-    PRODUCTS,
-    ROTATIONS,
-    VOCABULARY,
-)
 from ..chapter import say
 from ..given.inputs import numbers
 from .lagrangian import completed
@@ -62,7 +52,7 @@ def _symbols(
     meant, group = _meant(problem), problem.group
     discrete = "discrete" in data
     if discrete:
-        meant = VOCABULARY | DISCRETE[problem.action]
+        meant = vocabulary.VOCABULARY | DISCRETE[problem.action]
     sizes = _sizes(group) if group else {}
     if problem.torus:
         sizes = {"n": problem.torus.N, "lattice": 2}
@@ -89,20 +79,21 @@ def _sizes(group: Group) -> dict[str, int]:
 def _meant(problem: Problem) -> dict[str, Name]:
     """The vocabulary of a problem, name → its meanings there: of all problems, of turning, of
     products."""
-    group = problem.group
+    group, own = problem.group, dict[str, Name]()
     if problem.fluid:
-        return VOCABULARY | FLUID
-    if problem.kinematics:
-        return VOCABULARY | KINEMATICS
-    if problem.torus:
-        return VOCABULARY | LAGRANGIANS["right"] | ON_THE_TORUS
-    if problem.lagrangian:
-        own = dict(CARRYING) if problem.advected else {}
-        return VOCABULARY | LAGRANGIANS[problem.lagrangian.trivialisation] | own
-    blocks = PRODUCTS if group and len(group.factors) > 1 else {}
-    turning = group is not None and group.turns_space
-    turned = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
-    return VOCABULARY | turned | blocks
+        own = vocabulary.FLUID
+    elif problem.kinematics:
+        own = vocabulary.KINEMATICS
+    elif problem.torus:
+        own = vocabulary.LAGRANGIANS["right"] | vocabulary.ON_THE_TORUS
+    elif problem.lagrangian:
+        carried = vocabulary.CARRYING if problem.advected else {}
+        own = vocabulary.LAGRANGIANS[problem.lagrangian.trivialisation] | carried
+    elif group:
+        turned = vocabulary.DISPLACEMENTS if group.affine else vocabulary.ROTATIONS
+        blocks = vocabulary.PRODUCTS if len(group.factors) > 1 else {}
+        own = (turned if group.turns_space else {}) | blocks
+    return vocabulary.VOCABULARY | own
 
 
 def _given(problem: Problem, letter: str, discrete: bool) -> str:
