@@ -36,6 +36,7 @@ WORDS = {
     "time": "time",
     "speed": "seconds of the motion in a second",
     "pace": "speed",
+    "within": "seen from the body",
     "controls": "the time",
     "stage": "the body, turned by dragging or by the arrow keys",
     "polhode": "The angular velocity in the body",
@@ -256,6 +257,8 @@ def data(
     unsaid |= {x for x in ("defect", "multiplier") if x not in made.functions}
     unsaid |= set() if lost or "multiplier" in made.functions else {"others"}
     unsaid |= set() if body["stretches"] else {"flat"}
+    turns = body["parts"] and not body["parts"][0]["deforms"]
+    unsaid |= set() if turns else {"within"}
     unsaid |= set() if made.inputs else {"inputs"}
     unsaid |= {"velocities", "polhode"} if made.outputs else {"readings"}
     unsaid |= set() if entries else {"element", "turned"}
