@@ -1,5 +1,6 @@
 """What the playground is built of, from the checkout and its environment: the wheel unpacked, the
-libraries in pure Python that it needs, and ``data.json``: ready-made problems, keys, options.
+libraries in pure Python that it needs, ``data.json``: ready-made problems, keys, options, and
+``gallery.json``: their pictures.
 
 ``python -m playground.stage DIR``
 """
@@ -47,6 +48,7 @@ from derive.views.language import language
 from derive.views.outline import system, title
 from derive.views.page.motion_page import SCRIPTS
 from derive.views.paper.findings import amendments
+from playground.shelves import picture, shelves
 
 HERE = Path(__file__).parent
 LIBRARIES, LATER = ("jinja2", "markupsafe"), ("mpmath", "sympy")
@@ -172,9 +174,10 @@ def moved(g: Group, meaning: str) -> dict[str, object]:
     return {"n": g.n, "d": g.dimension, "w": w, "meaning": meaning}
 
 
-def stored(out: Path) -> None:
+def stored(out: Path) -> set[str]:
     """What the worker tells of the ready-made problems, so that these are read, and move, before
-    there is Python: a file for each, in each language, in the order of its news."""
+    there is Python: a file for each, in each language, in the order of its news; the names of those
+    that move."""
     sys.path.insert(0, str(HERE / "python"))
     import play
 
@@ -183,6 +186,7 @@ def stored(out: Path) -> None:
     play.FOLDER, play.STORED = folder / "problem", folder / "amendments.pickle"
     play.STORED.write_bytes(pickle.dumps(amendments(AMENDED)))
     heard: list[tuple[str, Any]] = []
+    moving = set()
     played = play.Play(lambda kind, news: heard.append((kind, json.loads(news))))
     for name in ready_made():
         text = (READY / f"{name}.toml").read_text(encoding="utf-8")
@@ -193,8 +197,19 @@ def stored(out: Path) -> None:
                 getattr(played, ask)(text, lang)
                 told[ask] = [*heard]
             once(told)
+            moving |= {name for kind, _ in told["motion"] if kind == "motion"}
             made = json.dumps(told, ensure_ascii=False, separators=(",", ":")).encode()
             (out / f"{name}.{lang}.json.gz").write_bytes(gzip.compress(made, 9, mtime=0))
+    return moving
+
+
+def gallery(moving: set[str]) -> list[dict[str, Any]]:
+    """The shelves of things, each with its picture; does it move?"""
+    found = shelves()
+    for thing in (thing for shelf in found for thing in shelf["things"]):
+        record = derive.derive(thing["name"]).record
+        thing |= {"picture": picture(record), "moves": thing["name"] in moving}
+    return found
 
 
 def once(told: dict[str, list[tuple[str, Any]]]) -> None:
@@ -234,7 +249,8 @@ def main(out: Path) -> None:
     told = {"version": derive.__version__, "problems": problems(), **options(), "schema": schema()}
     (out / "motion.js").write_text(drawing(), encoding="utf-8")
     (out / "ready").mkdir()
-    stored(out / "ready")
+    shown = gallery(stored(out / "ready"))
+    (out / "gallery.json").write_text(json.dumps(shown, ensure_ascii=False))
     (out / "data.json").write_text(json.dumps(told, ensure_ascii=False, sort_keys=True))
 
 

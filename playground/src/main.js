@@ -4,6 +4,7 @@ import { editor } from "./editor.js";
 import { Engine } from "./engine.js";
 import { Equations, power } from "./equations.js";
 import { Form, SCAFFOLD } from "./form.js";
+import { Gallery } from "./gallery.js";
 import { Places } from "./history.js";
 import { asked, spoken } from "./link.js";
 import { menu } from "./menu.js";
@@ -30,6 +31,9 @@ const text = editor(the("editor"), data.schema, words, edited);
 const form = new Form(the("form"), data.schema, (made) => { text.text = made; });
 const take = new Take(the("take"), data, {
   ask: files, reasons, file: () => ({ name: problem_name(), text: text.text, title: equations.title || problem_name(), ready: chosen() }),
+});
+const gallery = new Gallery(the("gallery"), {
+  ready, chosen: () => chosen(), choose: (name, moves) => choose(ready(name).text, moves ? "see" : "walk"),
 });
 const tabs = new Tabs(["walk", "see", "take"], (name) => {
   the("steps").parentElement.hidden = name !== "walk";
@@ -267,8 +271,8 @@ function go(id, again = false) {
   equations.go(id);
 }
 
-/* show what the address asks for, at the place that it was left at, if it was */
-async function visit() {
+/* show what the address asks for, in a tab, at the place that it was left at, if it was */
+async function visit(tab) {
   const found = await asked(location.hash, names), asks = spoken(location.search);
   notice = found.damaged ? words.damaged : found.missing !== undefined ? words.missing(found.missing) : "";
   if (asks in WORDS && asks !== lang) {
@@ -281,11 +285,13 @@ async function visit() {
   if (now === walked?.text && now === text.text && lang === walked.lang && !notice) {
     later(null);
     stands();
+    if (tab) tabs.show(tab);
     return;
   }
   places.stands = false;
   if (now !== text.text) text.text = now;
-  if (found.first) tabs.show("see");
+  walked = null;
+  if (found.first || tab) tabs.show(tab ?? "see");
   later(null);
   motion.forget();
   about();
@@ -294,13 +300,13 @@ async function visit() {
   await derive();
 }
 
-/* another problem, in an entry of its own */
-async function choose(now) {
+/* another problem, in an entry of its own, and in a tab */
+async function choose(now, tab) {
   places.keep();
   text.text = now;
   later(null);
   await places.problem(lang, chosen(), now, true);
-  await visit();
+  await visit(tab);
 }
 
 function speak() {
@@ -350,6 +356,7 @@ for (const button of document.querySelectorAll("[data-lang]")) {
     derive();
   });
 }
+the("things").addEventListener("click", () => gallery.open(words, lang));
 the("check").addEventListener("click", check);
 the("stop").addEventListener("click", () => {
   wanted = false;
@@ -367,7 +374,7 @@ addEventListener("keydown", (e) => {
   e.preventDefault();
   the("wide").click();
 });
-addEventListener("popstate", visit);
+addEventListener("popstate", () => visit());
 
 /* what is read now, a while after the reader stopped moving */
 function passed() {

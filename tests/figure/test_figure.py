@@ -19,8 +19,9 @@ from derive.problem.toml import problem_of
 from derive.record.as_json import from_json, to_json
 from derive.record.record import Derivation
 from derive.views.figure.drawing import Scene, Stroke, svg, tikz
-from derive.views.figure.drawn_body import overlap
+from derive.views.figure.drawn_body import ExpressionValues, overlap
 from derive.views.figure.scene import WIDTH, scene
+from derive.views.figure.stated_inertia import parts_of_inertia
 from tests.support.tex import compiled
 from tests.support.walks import record as ready_made_record
 
@@ -28,7 +29,12 @@ PROBLEMS = sorted((Path(__file__).parents[2] / "derive" / "problems").glob("*.to
 GENERAL = ("affine", "linear")
 BODILESS = {"lagrangian", "inertia", "fluid", "kinematics"}
 STATED = [p.stem for p in PROBLEMS if BODILESS & {*tomllib.loads(p.read_text(encoding="utf-8"))}]
-NAMES = [p.stem for p in PROBLEMS if p.stem not in (*GENERAL, *STATED)]
+OF_INERTIA = (
+    *("charged_body", "coupled", "euler_top", "gyrostat", "kirchhoff"),
+    *("kovalevskaya_top", "lagrange_top", "rod", "spherical_pendulum"),
+)
+"""Those whose Lagrangian states the inertia of rotations, which is drawn as an ellipsoid."""
+NAMES = [p.stem for p in PROBLEMS if p.stem not in {*GENERAL, *STATED} - {*OF_INERTIA}]
 OWN = {
     "mixture": """
         group = "SE(3)"
@@ -109,7 +115,7 @@ def alone(source: str) -> str:
     return f"{head}{source}\n\\end{{document}}\n"
 
 
-@pytest.mark.parametrize("name", [*GENERAL, *STATED])
+@pytest.mark.parametrize("name", sorted({*GENERAL, *STATED} - {*OF_INERTIA}))
 def test_a_text_without_a_body_has_no_figure(name: str) -> None:
     assert scene(record(name)) is None
 
@@ -292,6 +298,31 @@ def test_captions_say_what_the_drawing_does_not() -> None:
     assert "centre of attraction" in said("comet")
     assert "sample values" in said("plane")
     assert "sample values" not in said("so3")
+    assert "the inertia that the Lagrangian states" in said("rod")
+    assert "Lagrangian" not in said("so3")
+
+
+def test_the_ellipsoid_of_a_stated_inertia() -> None:
+    """That of mass 1 has the moments I: ½ tr I − I = a²/5, a its half axes; that of a rod, of mass
+    m, is thin, and along the third axis."""
+    problem = record("charged_body").problem
+    (part,) = parts_of_inertia(problem, ExpressionValues(problem))
+    (solid,) = part.solids
+    for k, column in enumerate(solid.sizes["map"]):
+        assert column[k] ** 2 / 5 == pytest.approx((1.0 + 1.4 + 1.9) / 2 - (1.0, 1.4, 1.9)[k])
+        assert not any(x for i, x in enumerate(column) if i != k)
+    problem = record("rod").problem
+    (part,) = parts_of_inertia(problem, ExpressionValues(problem))
+    assert not part.fixed
+    long = [math.hypot(*column) for column in part.solids[0].sizes["map"]]
+    assert long[2] ** 2 / 5 == pytest.approx(1.5**2 / 12)
+    assert long[:2] == pytest.approx([0.02 * long[2]] * 2)
+
+
+def test_inertia_that_has_no_value_has_no_figure() -> None:
+    d = record("euler_top")
+    named = {name: {**x, "default": 0.0} for name, x in d.problem["parameters"].items()}
+    assert scene(replace(d, problem={**d.problem, "parameters": named})) is None
 
 
 def test_a_force_of_the_state_is_drawn_under_its_name() -> None:

@@ -87,6 +87,27 @@ def test_a_plane_is_seen_as_it_is(group, gravity, opened):
     assert np.abs(fall - 30 * np.array(gravity) / np.linalg.norm(gravity)).max() < 1e-6
 
 
+def test_seen_from_the_body_its_points_stay(opened):
+    """And in space they do not; what deforms has no such view."""
+    masses = [{"mass": 1, "at": [0.3, -0.7, 0.2]}, {"mass": 2, "at": [0.4, 0.2, -0.5]}]
+    masses.append({"mass": 1, "at": [-0.5, 0.1, 0.6]})
+    free = {"name": "free", "group": "SE(3)", "point": masses}
+    d = derive.derive(problem_of(free))
+    shown = opened(d.motion_page(3.0, start={"zeta_1": 1.3, "zeta_3": 0.4, "w_2": 0.5}))
+    shown.wait_for_timeout(100)
+    shown.evaluate(DRAWN, 0)
+
+    def points(t):
+        seek(shown, t)
+        return np.array(shown.evaluate("drawn.dots"))
+
+    assert points(0.5).shape == (3, 2)
+    assert np.abs(points(0.5) - points(2.5)).max() > 5
+    shown.check(".within input")
+    assert np.abs(points(0.5) - points(2.5)).max() < 1e-6
+    assert opened(derived("sl3").motion_page(1.0)).locator(".within").count() == 0
+
+
 def test_a_curve_ends_where_its_time_does(opened):
     """What leads to its name is of another colour, that of no curve."""
     shown = opened(derived("hung_bar").motion_page(2.0))

@@ -150,7 +150,7 @@ def test_other_bodies(fresh, site):
     chosen(fresh, "comet")  # it has a velocity in [initial]
     moving(fresh)
     assert "pushed" not in note.inner_text()
-    chosen(fresh, "sim3")
+    typed(fresh, text_of("sim3").partition("[initial]")[0])
     frame = moving(fresh)
     assert "pushed" in note.inner_text()
     _, after = into_the_text(fresh, frame, theta_2="-0.25")  # with the velocity of the push

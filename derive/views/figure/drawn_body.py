@@ -181,14 +181,22 @@ def _image_of_ball(Q: list[list[float]]) -> list[Vector]:
     Q = [[*row, *[0.0] * (3 - len(row))] for row in Q]
     Q += [[float(i == j) for j in range(3)] for i in range(len(Q), 3)]
     rows: list[list[float]] = []  # of L⁻¹, each orthogonal to those before it in the metric Q⁻¹
+    L = cholesky(Q, 1e-12)
+    for i in range(3):
+        before = (sum(L[i][k] * rows[k][c] for k in range(i)) for c in range(3))
+        rows.append([(float(i == c) - x) / L[i][i] for c, x in enumerate(before)])
+    return [(x, y, z) for x, y, z in rows]
+
+
+def cholesky(Q: Sequence[Sequence[float]], least: float) -> list[Vector]:
+    """The rows of L, lower triangular, with L L̄ = Q, a 3 × 3 matrix; ``least`` > 0: the least
+    square on the diagonal of L, where Q is not positive."""
     L = [[0.0] * 3 for _ in range(3)]
     for i in range(3):
         for j in range(i + 1):
             rest = Q[i][j] - sum(L[i][k] * L[j][k] for k in range(j))
-            L[i][j] = max(rest, 1e-12) ** 0.5 if i == j else rest / L[j][j]
-        before = (sum(L[i][k] * rows[k][c] for k in range(i)) for c in range(3))
-        rows.append([(float(i == c) - x) / L[i][i] for c, x in enumerate(before)])
-    return [(x, y, z) for x, y, z in rows]
+            L[i][j] = max(rest, least) ** 0.5 if i == j else rest / L[j][j]
+    return [(x, y, z) for x, y, z in L]
 
 
 def dot(a: Sequence[float], b: Sequence[float]) -> float:

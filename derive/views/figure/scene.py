@@ -27,6 +27,7 @@ from .drawn_body import (
     ranked,
 )
 from .panels import Panel, Sheet, draw, named_forces, shows_centre
+from .stated_inertia import parts_of_inertia
 
 GRAVITY = "γ"
 WIDTH, MARGIN, GAP = 80.0, 1.5, 13.0
@@ -47,10 +48,12 @@ Spring = tuple[End, End, Any]
 
 
 def scene(d: Derivation) -> Scene | None:
-    """The figure of a record's body; ``None`` for a text without a body."""
+    """The figure of a record's body, or of the ellipsoid of the inertia that it states; ``None``
+    for a text with neither."""
     problem = d.problem
     value = ExpressionValues(problem)
-    panels = [Panel(part, problem, value) for part in parts(problem, value)]
+    drawn = parts(problem, value) or parts_of_inertia(problem, value)
+    panels = [Panel(part, problem, value) for part in drawn]
     if not panels:
         return None
     gravity = _gravity(problem, value)
@@ -200,7 +203,7 @@ def _caption(
     sentences: list[Prose] = [
         say("The body at the identity of the group, with the axes of its frame.")
     ]
-    sentences += _about_the_body(panels)
+    sentences += _about_the_body(panels, problem["body"]["kind"] == "none")
     potentials = problem["potentials"]
     there = {p["kind"] for p in potentials}
     legends = [x for kind, x in kinds().items() if kind in there and x.legend]
@@ -239,7 +242,7 @@ def _caption(
     return tuple(sentence for prose in sentences for sentence in prose)
 
 
-def _about_the_body(panels: Sequence[Panel]) -> Iterator[Prose]:
+def _about_the_body(panels: Sequence[Panel], stated: bool) -> Iterator[Prose]:
     if len(panels) > 1:
         yield say("Each factor of the group has a panel of its own.")
     size = max(panel.part.size for panel in panels)
@@ -247,6 +250,8 @@ def _about_the_body(panels: Sequence[Panel]) -> Iterator[Prose]:
         yield say("Of the {n} coordinates the first three are drawn.", n=str(size))
     if any(panel.part.moments for panel in panels):
         yield say("As only its moments are given, its outline is free.")
+    if stated:
+        yield say("The ellipsoid has the inertia that the Lagrangian states.")
     masses = {m for panel in panels for m, _ in panel.part.points.values()}
     if len(masses) > 1:
         yield say("The larger a dot, the larger its mass.")

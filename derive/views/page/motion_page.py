@@ -36,6 +36,7 @@ WORDS = {
     "time": "time",
     "speed": "seconds of the motion in a second",
     "pace": "speed",
+    "within": "seen from the body",
     "controls": "the time",
     "stage": "the body, turned by dragging or by the arrow keys",
     "polhode": "The angular velocity in the body",
@@ -255,10 +256,10 @@ def data(
     unsaid = {"ellipsoid", "now", "velocities" if body["polhode"] else "polhode"}
     unsaid |= {x for x in ("defect", "multiplier") if x not in made.functions}
     unsaid |= set() if lost or "multiplier" in made.functions else {"others"}
-    unsaid |= set() if body["stretches"] else {"flat"}
-    unsaid |= set() if made.inputs else {"inputs"}
+    there = {"flat": body["stretches"], "inputs": made.inputs, "element": entries}
+    there |= {"turned": entries, "within": body["parts"] and not body["parts"][0]["deforms"]}
+    unsaid |= {x for x, has in there.items() if not has}
     unsaid |= {"velocities", "polhode"} if made.outputs else {"readings"}
-    unsaid |= set() if entries else {"element", "turned"}
     units = {x.name: _unit(x.unit) for x in code.columns()}
     words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
     if body["turns"] and not made.outputs:

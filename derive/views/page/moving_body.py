@@ -11,6 +11,7 @@ from typing import Any
 from ...algebra.groups import Group
 from ...problem.fields import state_names
 from ..figure.drawn_body import UNITS, ExpressionValues
+from ..figure.stated_inertia import along, shifts, turns
 
 DIGITS = 4
 """Of the places of a mesh."""
@@ -60,26 +61,14 @@ def _turning(group: Group, state: Sequence[str], at: set[int]) -> list[int]:
     velocity = [k for k in range(len(state)) if k not in at]
     if len(velocity) != len(group.basis):
         return []
-    found = _along(group, velocity, _turns(group.places[0][0]))
+    found = _along(group, velocity, turns(group.places[0][0]))
     return found if -1 not in found else []
-
-
-def _turns(o: int) -> list[dict[tuple[int, int], int]]:
-    """The turns about e_1, e_2, e_3 of the factor whose entries begin at o."""
-    pairs = ((o + (i + 1) % 3, o + (i + 2) % 3) for i in range(3))
-    return [{(after, before): 1, (before, after): -1} for before, after in pairs]
 
 
 def _along(group: Group, places: Sequence[int], wanted: Sequence[Any]) -> list[int]:
     """Of places of the coordinates in a basis those of the elements wanted; −1 where it has not
     such an element."""
-    at = [_entries(E) for E in group.basis]
-    return [places[at.index(x)] if x in at else -1 for x in wanted]
-
-
-def _entries(E: Any) -> dict[tuple[int, int], Any]:
-    """The entries of a matrix that are not 0, by their places."""
-    return {(i, j): x for i, row in enumerate(E) for j, x in enumerate(row) if x}
+    return [places[k] if k >= 0 else -1 for k in along(group.basis, wanted)]
 
 
 def _gravity(problem: Mapping[str, Any]) -> Data:
@@ -122,8 +111,10 @@ def _part(
     linear = [[E[offset + i][offset : offset + n] for i in range(n)] for E in group.basis]
     named = {name: s for s, name in enumerate(state)}
     velocity = [named.get(f"zeta_{a}", -1) for a in range(1, len(group.basis) + 1)]
-    turns, moves = _turns(offset), [{(offset + i, offset + n): 1} for i in range(3)]
-    inertia = {"turning": _along(group, velocity, turns), "sliding": _along(group, velocity, moves)}
+    inertia = {
+        "turning": _along(group, velocity, turns(offset)),
+        "sliding": _along(group, velocity, shifts(offset, n)),
+    }
     return {
         "n": n,
         **(inertia if body["kind"] == "none" else {}),

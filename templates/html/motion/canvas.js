@@ -26,6 +26,7 @@ function canvas(scene, label) {
   return sized;
 }
 
+/* the eye may go along with something that turns: along(v), where a direction of it is now */
 function camera({ ask }, { element: seen }, up, azimuth, elevation) {
   const eye = { azimuth, elevation, zoom: 1 };
   const k = up.reduce((most, v, i) => (abs(v) >= abs(up[most]) ? i : most), 0);
@@ -38,6 +39,7 @@ function camera({ ask }, { element: seen }, up, azimuth, elevation) {
     eye.right = plus(scaled(-sin(a), ahead), aside, cos(a));
     eye.up = plus(scaled(-sin(e), level), above, c);
     eye.towards = plus(scaled(c, level), above, sin(e));
+    if (eye.along) for (const e of ["right", "up", "towards"]) eye[e] = eye.along(eye[e]);
   };
   const turned = (dx, dy) => {
     eye.azimuth -= dx;

@@ -220,6 +220,11 @@ function mount(element, page, pieces) {
   }
   speed = +speeds.value;
 
+  const within = words.within ? [make("label", { class: "within" }, make("input", { type: "checkbox", change: (e) => {
+    scene.within = e.target.checked;
+    ask();
+  } }), " ", words.within)] : [];
+
   const adjusters = [];
   function adjuster(name, title, unit, initial, low_end, high_end, put) {
     const range = make("input", { type: "range", min: low_end, max: high_end, step: "any", value: initial, [aria]: `${called(name)} ${title}` });
@@ -306,7 +311,7 @@ function mount(element, page, pieces) {
     home,
     make("div", { class: "controls", role: "group", [aria]: words.controls },
       button("❘◂", words.again, () => seek(0)), button("◂", words.back, () => stepped(-1)), toggle,
-      button("▸", words.step, () => stepped(1)), slider, clock, make("label", {}, words.pace, " ", speeds), make("p", { class: "keys" }, words.keys)),
+      button("▸", words.step, () => stepped(1)), slider, clock, make("label", {}, words.pace, " ", speeds), ...within, make("p", { class: "keys" }, words.keys)),
     make("div", { class: "beside" }, ...beside, table, ...settings, reset),
   );
   on(document, "keydown", (e) => {

@@ -39,7 +39,8 @@ function solid_stage(scene, pieces) {
       const { parts } = drawn, gravity = falling(), { trail, colours } = scene;
       const spots = parts.map((part) => moved(part, x));
       const free = parts.every((part) => !part.fixed && !part.centres.length && !part.anchors.length);
-      const target = free ? spots[0](parts[0].centre) : drawn.middle;
+      const target = free || scene.within ? spots[0](parts[0].centre) : drawn.middle;
+      eye.along = scene.within && ((v) => plus(spots[0](v), spots[0]([0, 0, 0]), -1));
       const ends = parts.flatMap((part, i) => [...part.tips, ...Object.values(part.points).map((r) => r.at)].map((r) => size(plus(spots[i](r), target, -1))));
       const about = parts.flatMap((part) => [...part.centres, ...part.anchors].map((c) => min(size(plus(c.at, target, -1)), 4 * drawn.reach)));
       reached = max(reached, drawn.reach, ...ends, ...about);
