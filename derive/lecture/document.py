@@ -24,12 +24,12 @@ from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal
 from ..views.text import formula as aligned
 from .figures import AXES, FIGURES
-from .lecture_text import PROVED, RELATION, Block, Chapter, Entry, Formula, Words
+from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Words
 from .lecture_text import tree as tree_of
 
 TITLE = "Where do the equations of motion of solids come from?"
 WORDS = (
-    *("Lemma", "Proposition", "Theorem", "Proof"),
+    *("Definition", "Lemma", "Proposition", "Theorem", "Remark", "Proof"),
     *("Exercise", "Solution", "Solutions", "Fig."),
 )
 """The words of the templates."""
@@ -162,7 +162,7 @@ def _word(language: Language, escape: Callable[[str], str], message: str) -> str
     return escape(language.word(message))
 
 
-COUNTED = {**dict.fromkeys(PROVED, "statement"), "solution": "exercise"}
+COUNTED = {**dict.fromkeys(STATED, "statement"), "solution": "exercise"}
 """Kind of a block → what its number is counted with, if not its own kind."""
 
 

@@ -31,7 +31,9 @@ from ..views.language import LANGUAGES
 
 FOLDER = Path(__file__).with_name("chapters")
 PROVED = ("lemma", "proposition", "theorem")
-NUMBERED = (*PROVED, "exercise")
+STATED = ("definition", *PROVED, "remark")
+"""What is numbered in one row."""
+NUMBERED = (*STATED, "exercise")
 KINDS = ("text", "section", *NUMBERED, "proof", "solution", "figure")
 """What a block may be; those of ``NUMBERED`` have a number of their own."""
 HEAD = re.compile(r'([a-z]+)(?: ([a-z_]+))?(?: "([^"]+)")?')
