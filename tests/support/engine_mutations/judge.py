@@ -47,7 +47,7 @@ of them proved; fewer of them, and the code is right."""
 @cache
 def of_any_group(action: str) -> Checker:
     """Claims about any group are about no problem: one checker for all of them."""
-    return Checker({"group": "any group", "action": action}, SEED)
+    return Checker({"group": ANY_GROUP, "n": "any", "action": action}, SEED)
 
 
 def refused(step: Step, own: Any) -> str:
