@@ -321,9 +321,21 @@ function speak() {
 }
 
 async function filled() {
-  let plain = null;
-  await engine.ask({ ask: "plain", text: text.text }, (kind, news) => { if (kind === "plain") plain = news; });
-  form.show(plain, words);
+  if (await plain(() => true) === "superseded") unread();
+}
+
+/* a walk overtook the question whether the text is TOML: it is asked again behind it */
+async function unread() {
+  await running;
+  if (!the("form").hidden && await plain((found) => found && !found.read) === "superseded" && running) unread();
+}
+
+/* show the form of the text where `fit` says so of what Python says of it; how the question ended */
+async function plain(fit) {
+  let found = null;
+  const how = await engine.ask({ ask: "plain", text: text.text }, (kind, news) => { if (kind === "plain") found = news; });
+  if (fit(found)) form.show(found, words);
+  return how;
 }
 
 async function write(as) {
