@@ -450,7 +450,8 @@ def test_a_check_can_be_stopped_and_the_clock_ends_it(fresh, site):
     """Meanwhile the page answers keys; then it derives as before."""
     visit(fresh, f"{site}#so3")
     slowest, how = fresh.evaluate(BUSY)
-    assert slowest < 400  # ms; were the page to check by itself, all 1500: other tests take a core for 150
+    # ms; were the page to check by itself, all 1500: other tests take a core for 150
+    assert slowest < 400
     assert how == "stopped"
     assert fresh.evaluate(LATE) == "late"
     typed(fresh, PENDULUM)
