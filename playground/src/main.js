@@ -273,7 +273,8 @@ function go(id, again = false) {
 
 /* show what the address asks for, in a tab, at the place that it was left at, if it was */
 async function visit(tab) {
-  const found = await asked(location.hash, names), asks = spoken(location.search);
+  const where = location.href, found = await asked(location.hash, names), asks = spoken(location.search);
+  if (location.href !== where) return; // the reader went on meanwhile, to what another visit shows
   notice = found.damaged ? words.damaged : found.missing !== undefined ? words.missing(found.missing) : "";
   if (asks in WORDS && asks !== lang) {
     lang = asks;
