@@ -279,11 +279,8 @@ def _input(group: Group, entry: Mapping[str, Any], places: Mapping[int, str]) ->
             what = f"a force on the body{where}" if where else f"a force on point {entry['on']}"
         elif len(group.factors) > 1:
             what = f"a torque on block {entry['block']}"
-        vectors = {x: entry[x] for x in ("direction", "moment") if x in entry}
-        told = {
-            x: f"({', '.join(_ascii(show(decode(y, x))) for y in v)})" for x, v in vectors.items()
-        }
-        said = "".join(f", {name} times the {x} {told[x]}" for x in told if told[x].isascii())
+        vectors = {x: _law(entry[x]) for x in ("direction", "moment") if x in entry}
+        said = "".join(f", {name} times the {x}{told}" for x, told in vectors.items() if told)
         return textwrap.wrap(f"Input {name}: {what}{said}, in the {entry['frame']} frame.", 88)
     if group.turns_space and group.affine and not group.user_basis:
         return [
@@ -301,7 +298,7 @@ LONGEST_LAW = 200
 
 
 def _law(components: Sequence[Any]) -> str:
-    """The components of a force of the state, by the names of the problem file."""
+    """The components of a vector, or of a force of the state, by the names of the problem file."""
     text = ", ".join(_ascii(show(_named(decode(y, "law")))) for y in components)
     return f" ({text})" if text.isascii() and len(text) <= LONGEST_LAW else ""
 

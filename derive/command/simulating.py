@@ -37,9 +37,8 @@ from ..views.language import language
 from ..views.page.motion_page import motion_page
 from ..views.plot.pictures import plot
 from ..views.rendering import NOTES, RenderError, notes, pdf
-from ..views.text import paragraph
 from .showing import UsageError, allowed, columns, derive, discrete_walk, notation, warn_of_letters
-from .terminal import working
+from .terminal import filled, working
 from .writing import growing, heard, one_line, require_place, with_progress, write
 
 # ``derive simulate``: from a problem to a run in one command.
@@ -160,19 +159,9 @@ def command_simulate(args: argparse.Namespace) -> int:
     if args.out:
         out = Path(args.out)
         files = write({out.name: written(found, out.name)}, out.parent, links=True)
-    told = (x for line in summary(found) for x in filled(one_line(line)))
+    told = (x for line in summary(found) for x in filled(one_line(line), columns(None)))
     print(*pages, *told, *files, sep="\n")
     return _told(found)
-
-
-def filled(line: str) -> list[str]:
-    """A line at the width of a terminal, what is more below it, further in; elsewhere as it is."""
-    if not sys.stdout.isatty():
-        return [line]
-    width, together = columns(None), line.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
-    first, *rest = paragraph(together, 2 * line.startswith("  "), width)
-    below = paragraph(" ".join(x.strip() for x in rest), 4, width) if rest else ()
-    return [x.replace("\N{NO-BREAK SPACE}", " ") for x in (first, *below)]
 
 
 def summary(run: Run) -> list[str]:

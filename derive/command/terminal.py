@@ -53,6 +53,18 @@ def show(text: str) -> None:
         sys.stdout.write(text)
 
 
+def filled(line: str, width: int) -> list[str]:
+    """A line at the width of a terminal, what is more below it, further in; elsewhere as it is."""
+    from ..views.text import paragraph
+
+    if not sys.stdout.isatty():
+        return [line]
+    together = line.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
+    first, *rest = paragraph(together, 2 * line.startswith("  "), width)
+    below = paragraph(" ".join(x.strip() for x in rest), 4, width) if rest else ()
+    return [x.replace("\N{NO-BREAK SPACE}", " ") for x in (first, *below)]
+
+
 PATIENCE = 1.0
 """After so many seconds it is said that work goes on."""
 

@@ -165,6 +165,12 @@ def names_at_place(n: int, first: int, i: int) -> dict[str, Tree]:
     return {suffixed("r", k): ("entry", place, first + k) for k in range(1, n + 1)}
 
 
+def names_in_forces(group: Group) -> list[str]:
+    """The names of the state, and of the velocity of the place, that a force may depend on."""
+    n = max(factor.n for _, factor in group.places)
+    return [*names_of_points(group), *(suffixed("v", k) for k in range(1, n + 1))]
+
+
 def velocity_at_place(
     n: int, first: int, i: int, wind: Sequence[Tree], *, turned: bool
 ) -> dict[str, Tree]:

@@ -15,7 +15,6 @@ from ..algebra.groups import Group
 from ..language.derivatives import derivative, weight
 from ..language.expression import names, numbers
 from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, PROBLEM_BYTES, PULLS
-from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
 from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
@@ -35,7 +34,7 @@ from .fields import (
     LIKE_A_PLACE,
     coordinates,
     known_in_lagrangian,
-    names_of_points,
+    names_in_forces,
     tables,
     undeclared,
     used_at,
@@ -318,12 +317,6 @@ def _parameters(data: Any, reader: FileReader) -> dict[str, Parameter]:
     return found
 
 
-def _names_in_forces(group: Group) -> list[str]:
-    """The names of the state, and of the velocity of the place, that a force may depend on."""
-    n = max(factor.n for _, factor in group.places)
-    return [*names_of_points(group), *(suffixed("v", k) for k in range(1, n + 1))]
-
-
 def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     """Every name that is used is a parameter and nothing else, and every parameter is used, in
     expressions that are not too many."""
@@ -353,7 +346,7 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
                 own = known_in_lagrangian(problem.group, problem.advected)
                 raise ProblemError(undeclared(name, where, problem.parameters, problem.group, own))
             acts = where.startswith("force") and problem.group
-            of_state = _names_in_forces(acts) if acts else []
+            of_state = names_in_forces(acts) if acts else []
             hint = nearest(shown, [*problem.parameters, *of_state]).removeprefix("; ")
             other = f"{hint} Else " if hint else ""
             raise ProblemError(f"{where}: {shown!r} is not declared; {other}add it to [parameters]")
