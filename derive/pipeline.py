@@ -22,7 +22,7 @@ from .walk.discrete.discrete_road import DiscreteAlphabet
 from .walk.ellipsoid import dirichlet
 from .walk.fluid import circulation, fluid_forms, fluid_kernel
 from .walk.fluid.fluid_forms import FluidAlphabet
-from .walk.given import body, inputs, outputs, potentials
+from .walk.given import body, inputs, outputs, potentials, power
 from .walk.given.inputs import acts, by_name
 from .walk.kinematics import errors
 from .walk.lie import any_lagrangian, at_places, expressed, momentum_side
@@ -84,6 +84,8 @@ MATRICES = (
     Stage("space", "cartan.momentum a", "SpaceMomenta", conserved.matrix_momenta),
     Stage("conserved", "problem potentials space solution.motion special.letters c",
           "Steps", conserved.conserved_steps),
+    Stage("power", "problem external? special.letters conserved solution.motion c_u",
+          "Steps", power.of_matrices),
     Stage("by_momenta", "general driven centred? group c c_u",
           "Steps", by_momenta.of_matrices),
     Stage("outputs", "problem group special.letters special.C solution.steps c_u",
@@ -122,6 +124,8 @@ VECTORS = (
     Stage("space", "vectors.momenta isometry.letters", "SpaceMomenta", conserved.vector_momenta),
     Stage("conserved", "problem potentials space motion isometry.letters c",
           "Steps", conserved.conserved_steps),
+    Stage("power", "problem external? isometry.letters conserved motion c_u",
+          "Steps", power.of_vectors),
     Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
           "Steps", by_momenta.of_rotations, "linear"),
     Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
@@ -149,6 +153,7 @@ EXPRESSED = (
     Stage("balance", "expressed problem group lagrangian basis c_u", "Steps", expressed.balance),
     Stage("conserved", "expressed problem group lagrangian balance c",
           "Steps", expressed.conserved),
+    Stage("power", "problem group lagrangian balance c_u", "Steps", power.of_lagrangian),
     Stage("by_momenta", "expressed problem group lagrangian basis balance c c_u",
           "Steps", momentum_side.by_momenta),
     Stage("outputs", "problem group balance c_u", "Steps", at_places.outputs),
@@ -223,7 +228,7 @@ def walk(problem: Problem) -> Derivation:
         kinds = {"affine" if group.affine else "linear", *group.relations}
         kinds |= {"element" if problem.advected is None else "reduced"}
         if problem.flows:  # what is said of Π̇ and of momenta in space is of masses that stay
-            road = tuple(x for x in road if x.name not in ("by_momenta", "conserved"))
+            road = tuple(x for x in road if x.name not in ("by_momenta", "conserved", "power"))
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
         steps += by_name(problem, follow(road, values | own, kinds)["steps"])
     if problem.torus:

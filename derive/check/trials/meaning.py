@@ -16,6 +16,7 @@ from ..values.arithmetic import (
     EPS_PRIME,
     EvaluationError,
     is_matrix,
+    nilpotent,
     part,
     times,
 )
@@ -159,7 +160,9 @@ def _energies(model: Model) -> Values:
     value = part(model.lagrangian(model.t, model.g, model.Z), 0)
     potential = part(model.potential(model.t, model.images(model.g)), 0)
     energy = part(model.energy(model.t, model.g, model.Z), 0)
-    return {"L": value, "L̃": value, "U": potential, "Ũ": potential, "h̃": energy}
+    later = model.potential(model.t + nilpotent(EPS), model.images(model.g))
+    own = {"U": potential, "Ũ": potential, "∂ₜŨ": part(later, EPS)}
+    return {"L": value, "L̃": value, "h̃": energy, **own}
 
 
 def _motion(model: Model) -> Values:
