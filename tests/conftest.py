@@ -23,7 +23,7 @@ def pytest_addoption(parser):
     ``--quick``: of what is named on the command line, too, no more than in a quick run.
     ``--seed``: of the choice of cases.  ``--passed``: a file for the names of those that passed;
     ``--without``: such a file, of tests that are left out.  ``--order``: files in an order by
-    chance, and the tests of each.
+    chance, and the tests of each.  ``--costs``: a folder for the seconds of each.
     """
     told = "of the tests that a quick run leaves out"
     parser.addoption("--share", metavar="N", type=int, help=f"every N-th {told}, too")
@@ -32,6 +32,7 @@ def pytest_addoption(parser):
     parser.addoption("--seed", default=thorough.SEED, help="of the choice of cases (%(default)s)")
     parser.addoption("--passed", metavar="FILE", help="the names of tests that passed, into a file")
     parser.addoption("--without", metavar="FILE", help="leave out what passed before")
+    parser.addoption("--costs", metavar="FOLDER", type=Path, help="seconds of the processor")
     parser.addoption("--order", metavar="SEED", help="files and their tests in an order by chance")
 
 
@@ -78,6 +79,19 @@ def known_of_any_group():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(checker, "_UNIVERSAL", DictOnDisk())
         yield
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_protocol(item):
+    """The seconds of the processor of a test, of what is made ready for it and of the processes
+    that it waits for, for ``--costs``."""
+    before = sum(os.times()[:4])
+    done = yield
+    if folder := item.config.getoption("--costs"):
+        folder.mkdir(parents=True, exist_ok=True)
+        with (folder / f"{os.getpid()}.jsonl").open("a", encoding="utf-8") as stream:
+            stream.write(json.dumps([item.nodeid, round(sum(os.times()[:4]) - before, 3)]) + "\n")
+    return done
 
 
 def pytest_sessionfinish(session):

@@ -7,19 +7,31 @@ import subprocess
 import sys
 from functools import partial
 from pathlib import Path
+from unicodedata import normalize
 
 import pytest
 
-from tests.support.thorough import KEPT, kinds, share, split
+from tests.support import thorough
+from tests.support.thorough import KEPT, counted, kinds, share, split
 from tests.support.unmeasured import environment
 
 TESTS = Path(__file__).parents[1]
 
 
-@pytest.mark.parametrize("name", KEPT)
-def test_an_entry_is_a_test(name):
-    file, test = name.split("::")
-    assert re.search(rf"^def {test}\(", (TESTS / file).read_text(encoding="utf-8"), re.M)
+def test_an_entry_is_a_test():
+    for name in KEPT:
+        file, test = name.split("::")
+        text = normalize("NFKC", (TESTS / file).read_text(encoding="utf-8"))  # as Python names are
+        assert re.search(rf"^def {test}\(", text, re.M), name
+
+
+def test_what_takes_long_is_left_out_by_its_costs(monkeypatch):
+    """One of ten cases for a second; none where one takes two, but for one by hand."""
+    monkeypatch.setattr(thorough, "KEPT", {"x.py::known": 3})
+    monkeypatch.setattr(thorough, "BY_HAND", {"x.py::by_hand"})
+    costs = {f"tests/x.py::many[{k}]": 0.5 for k in range(10)} | {"tests/x.py::cheap": 0.9}
+    costs |= {"tests/x.py::long": 2.0, "tests/x.py::by_hand": 2.0}
+    assert counted(costs) == {"x.py::known": 3, "x.py::many": 2, "x.py::long": 0}
 
 
 def items_of(name, cases):
