@@ -23,7 +23,7 @@ def of_vectors(
     problem: Problem, external: External | None, b: Alphabet, kept: Steps, motion: Step, c: Chapter
 ) -> tuple[Step, ...]:
     """ḣ = ⟨μ_u, ζ⟩ + ⟨F_u, w⟩ + ∂ₜŨ; no step where nothing acts and Ũ leaves the time alone."""
-    turning = external and inner(external.moments, word(ZETA))
+    turning = inner(external.moments, word(ZETA)) if external else None
     return _of_points(problem, external, turning, b, kept, motion, c)
 
 
@@ -31,7 +31,7 @@ def of_matrices(
     problem: Problem, external: External | None, b: Alphabet, kept: Steps, motion: Step, c: Chapter
 ) -> tuple[Step, ...]:
     """ḣ = Tr(Z N̄_u) + ⟨F_u, w⟩ + ∂ₜŨ, as ``of_vectors``: the work of N_u is Tr(ξ′N̄_u)."""
-    turning = external and trace(word(b.Z.velocity) * external.moments.bar)
+    turning = trace(word(b.Z.velocity) * external.moments.bar) if external else None
     return _of_points(problem, external, turning, b, kept, motion, c)
 
 
