@@ -105,9 +105,10 @@ def counted(costs):
     rows = dict(KEPT)
     for name, own in cases.items():
         each = sum(own) / len(own)
+        if name in BY_HAND or sum(own) <= SECONDS:
+            continue
         few = int(SECONDS // each) if each <= SECONDS else int(each <= LONGEST)
-        if name not in BY_HAND and few < min(len(own), KEPT.get(name, len(own))):
-            rows[name] = few
+        rows[name] = min(few, KEPT.get(name, few))
     return rows
 
 
