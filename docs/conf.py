@@ -17,9 +17,12 @@ include_patterns = ["*.md", "docs/*.md", "docs/*/*.md"]
 
 ROOT = Path(__file__).parents[1]
 CONTENTS = {
-    "Use": "tutorial playground commands problem-file potentials/* lagrangian dirichlet fluid "
-    "zeitlin kinematics symmetries integrals reduction equilibria control motion ensembles plot "
-    "notes lecture code options steps discrete build fmu compare python sympy record",
+    "Begin": "tutorial playground commands",
+    "A problem": "problem-file potentials/* lagrangian dirichlet fluid zeitlin kinematics",
+    "What is found of it": "symmetries integrals reduction equilibria control",
+    "Its motion": "motion ensembles plot",
+    "As text and data": "notes lecture record python sympy",
+    "As code": "code options steps discrete build fmu compare",
     "Trust": "trust performance not-here strangers ../SECURITY paper",
     "Inside": "architecture extending reference ../CONTRIBUTING ../CHANGELOG",
 }
