@@ -4,7 +4,10 @@ The pages of the site lie as the files of the repository lie, README and its lik
 link is one link here and there.  Nothing is fetched, neither to build the site nor to read it.
 """
 
+import base64
 import shutil
+import tomllib
+import zlib
 from pathlib import Path
 
 import derive
@@ -58,6 +61,33 @@ def playground(app, pagename, templatename, context, doctree):
         )
 
 
+PROBLEM = ("group", "algebra", "fluid", "kinematics")
+"""Keys of which a whole problem file has one; others are of a page's parts of files."""
+
+
+def packed(text):
+    """A problem file as the address of the playground has it: playground/src/link.js unpacks it."""
+    deflate = zlib.compressobj(9, zlib.DEFLATED, -zlib.MAX_WBITS)
+    data = deflate.compress(text.encode()) + deflate.flush()
+    return base64.urlsafe_b64encode(data).decode().rstrip("=")
+
+
+def opened_there(app, doctree, docname):
+    """Below each problem file of a page the way to the playground, where that stands beside."""
+    if not app.tags.has("play"):
+        return
+    from docutils import nodes  # not there where a test reads this file and makes no site
+
+    there = "../" * docname.count("/") + "play/index.html"
+    for block in [*doctree.findall(nodes.literal_block)]:
+        if block.get("language") != "toml":
+            continue
+        data = tomllib.loads(block.astext())
+        if "name" in data and any(key in data for key in PROBLEM):
+            link = f'<p><a href="{there}#p={packed(block.astext())}">Open in the playground</a></p>'
+            block.parent.insert(block.parent.index(block) + 1, nodes.raw("", link, format="html"))
+
+
 def index(app, exception):
     """README by the name that browsers look for."""
     if exception is None:
@@ -68,4 +98,5 @@ def setup(app):
     """Where Sphinx calls these."""
     app.connect("source-read", contents)
     app.connect("html-page-context", playground)
+    app.connect("doctree-resolved", opened_there)
     app.connect("build-finished", index)

@@ -2,6 +2,7 @@
 completed, numbers and names of a text, the notebook."""
 
 import json
+import runpy
 import tomllib
 
 import pytest
@@ -15,7 +16,7 @@ from tests.support import in_node
 from tests.support.library import module_of
 from tests.support.needs import need
 from tests.support.played import PENDULUM, text_of
-from tests.support.playground_site import built
+from tests.support.playground_site import ROOT, built
 
 # ---- the clock: of what is silent, not of what is long
 
@@ -252,3 +253,17 @@ def test_what_may_stand_there_is_offered():
     for (text, expected), labels in zip(OFFERED.items(), found, strict=True):
         assert expected <= {*labels}, text
         assert not ({"Sp(3)", "U(5)", "on = "} | NEVER.get(text, set())) & {*labels}, text
+
+
+# ---- the addresses of problems
+
+
+def test_the_pages_of_the_site_have_its_addresses():
+    """What docs/conf.py packs, the playground unpacks, and what it packs itself is no shorter."""
+    conf = runpy.run_path(str(ROOT / "docs" / "conf.py"))
+    text = text_of("top") + "# Föppl, ζ and 🙂\n"
+    imports = 'const { unpacked, packed } = await import("./src/link.js");'
+    both = "[await unpacked(given[0]), await packed(given[1])]"
+    read, own = in_node.told(imports, both, [conf["packed"](text), text])
+    assert read == text
+    assert len(conf["packed"](text)) <= len(own)
