@@ -162,6 +162,33 @@ def tree(x: Number) -> Tree:
     return plain(x)
 
 
+def polynomial_tree(f: Sequence[Number], x: Tree) -> Tree:
+    """Σ f_k x^(n−k) as a tree, for coefficients from the highest power."""
+    terms = (mul(tree(c), _power(x, k)) for k, c in zip(range(len(f) - 1, -1, -1), f, strict=True))
+    return add(*terms)
+
+
+def _power(x: Tree, k: int) -> Tree:
+    return 1 if k == 0 else x if k == 1 else ("pow", x, k)
+
+
+def coefficients_of(t: Tree, x: Tree) -> list[Tree]:
+    """Those of such a tree, from the highest power; a factor that is no power of x is one of the
+    coefficient."""
+    found: dict[int, Tree] = {}
+    for term in t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,):
+        degree, rest = 0, []
+        for y in term[1:] if isinstance(term, tuple) and term[0] == "mul" else (term,):
+            if y == x:
+                degree += 1
+            elif isinstance(y, tuple) and y[:2] == ("pow", x) and isinstance(y[2], int):
+                degree += y[2]
+            else:
+                rest.append(y)
+        found[degree] = add(found.get(degree, 0), mul(*rest))
+    return [found.get(k, 0) for k in range(max(found), -1, -1)]
+
+
 Coefficients = tuple[Any, ...]
 
 

@@ -29,6 +29,7 @@ from derive.check.claims.exact_spectra import (
 )
 from derive.check.form.hypotheses_checked import IMPOSSIBLE
 from derive.language import univariate
+from derive.language.show import show
 from derive.language.tree import add, mul, neg, nodes, replaced
 from derive.language.univariate import root
 from derive.record.sentence import CLAIMS, Claim, rendered
@@ -107,8 +108,8 @@ def test_another_verdict_is_refused():
         label = claim.kind.partition(".")[0]
         for kind in VERDICTS - {claim.kind} if claim.kind in VERDICTS else ():
             if kind.startswith(label):
-                row = dict(claim.values).get("coefficients", ("row", 1, 0, 0))
-                values = (("coefficients", row),) if kind in COUNTED else ()
+                told = dict(claim.values).get("polynomial", ("pow", "λ", 2))
+                values = (("polynomial", told),) if kind in COUNTED else ()
                 assert refused(judge(exchanged(step, claim, Claim(kind, values)))), kind
 
 
@@ -203,7 +204,7 @@ def test_the_other_sentence_about_roots():
     record = derive(disc()).equilibria({"Pi_4": 1}).record
     step = record.steps[-1]
     (claim,) = (x for x in step.claims if x.kind == "equilibrium.unstable")
-    assert claim["coefficients"] == ("row", 1, 0, Fraction(-2, 3), 0, 0)
+    assert show(claim["polynomial"]) == "λ⁴ − 2/3 λ²"
     false = exchanged(step, claim, Claim("equilibrium.open", claim.values))
     assert "what follows is: unstable" in ClaimChecker(record, SEED).fault(false)
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from ...language import rational as q
 from ...language.tree import Tree, add, neg, nodes, replaced, terms
-from ...language.univariate import Number, square_free, tree, value_of
+from ...language.univariate import Number, coefficients_of, square_free, tree, value_of
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
 from .entries_checked import Decision, decided
@@ -184,10 +184,10 @@ def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
     found, claimed = point.verdict(form), claim.kind.partition(".")[2]
     if claimed != found and (claimed != "indefinite" or found not in ("unstable", "open")):
         return f"what follows is: {found}"
-    row = dict(claim.values).get("coefficients")
+    told = dict(claim.values).get("polynomial")
     known = point.characteristic_of_all if claimed == "unstable_beyond" else point.characteristic
-    if row is not None and [*map(value_of, _listed(row))] != known:
-        return "the characteristic polynomial has other coefficients"
+    if told is not None and [*map(value_of, coefficients_of(told, "λ"))] != known:
+        return "the characteristic polynomial is another"
     return ""
 
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from ...language import rational as q
 from ...language.rational import Matrix
-from ...language.univariate import Number, Quadratic, root, value_of
+from ...language.univariate import Number, Quadratic, coefficients_of, root, value_of
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
 from ..trials.trial_points import AnyModel, model_at
@@ -257,13 +257,12 @@ def _corner(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 
 
 def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
-    """The coefficients are those of the linearised equations, and it is what follows from them."""
-    told = claim["coefficients"]
-    assert isinstance(told, tuple)
-    f = [Fraction(x) if isinstance(x, int) else x for x in map(value_of, told[1:])]
+    """The polynomial is that of the linearised equations, and it is what follows from it."""
+    told = coefficients_of(claim["polynomial"], "λ")
+    f = [Fraction(x) if isinstance(x, int) else x for x in map(value_of, told)]
     here = _trim_of(c, step)
     if [Residue(0, here.prime) + here.roots.rational(x) for x in f] != here.characteristic:
-        return "the characteristic polynomial has other coefficients"
+        return "the characteristic polynomial is another"
     found = "unstable" if grows(f) else "stable" if all_negative(f) else "open"
     return "" if claim.kind == f"trim.{found}" else f"what follows is: {found}"
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 from ...language.tree import Tree, add, mul, neg
-from ...language.univariate import Number, Quadratic, root, square_free
+from ...language.univariate import Number, Quadratic, polynomial_tree, root, square_free
 from ...language.univariate import tree as plain
 from ...record.record import Equation, Step
 from ...record.sentence import Prose
@@ -225,13 +225,12 @@ def _verdict(draft: Draft, x: Equilibrium) -> Prose:
     """What is proved of its stability."""
     kind, say_so = x.sentence, draft.claim
     if kind == "unstable_beyond":
-        coefficients = ("row", *map(plain, x.characteristic_of_all))
-        return say_so("equilibrium.unstable_beyond", coefficients=coefficients)
+        polynomial = polynomial_tree(x.characteristic_of_all, "λ")
+        return say_so("equilibrium.unstable_beyond", polynomial=polynomial)
     if kind not in ("unstable", "open"):
         return say_so(f"equilibrium.{kind}")
-    coefficients = ("row", *map(plain, x.characteristic))
     prose = say_so("equilibrium.indefinite")
-    prose += say_so(f"equilibrium.{kind}", coefficients=coefficients)
+    prose += say_so(f"equilibrium.{kind}", polynomial=polynomial_tree(x.characteristic, "λ"))
     prose += say_so("equilibrium.eigenvalues", eigenvalues=nearly(x.characteristic))
     squares = exact_squares(x.characteristic)
     return prose + (say_so("equilibrium.squares", squares=("row", *squares)) if squares else ())

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from ...algebra.groups import Group
 from ...language.tree import Tree
-from ...language.univariate import Number, tree
+from ...language.univariate import Number, polynomial_tree, tree
 from ...record.record import Step
 from ...walk.chapter import Chapter
 from .trimmed import Trim, entries_of
@@ -31,8 +31,8 @@ def told(trim: Trim, group: Group, steps: Iterable[Step], c: Chapter) -> Step:
     elif trim.free:
         inputs: Tree = ("row", *(("par", x) for x in trim.free))
         prose += draft.claim("trim.unique", inputs=inputs)
-    coefficients: Tree = ("row", *map(tree, trim.characteristic))
-    prose += draft.claim(f"trim.{trim.verdict}", coefficients=coefficients)
+    polynomial = polynomial_tree(trim.characteristic, "λ")
+    prose += draft.claim(f"trim.{trim.verdict}", polynomial=polynomial)
     return draft.step(motion.equations, prose)
 
 
