@@ -176,8 +176,10 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     )
     about = "of the state or an input, as zeta_3=1/2; repeated, others are those of g = 1, and 0"
     held.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)
-    about = "an input or a velocity to be found, this near what --at gives; repeated (default: all "
-    about += "inputs that --at does not give)"
+    about = (
+        "an input or a velocity to be found, this near what --at gives; repeated, or with commas "
+    )
+    about += "(default: all inputs that --at does not give)"
     held.add_argument("--free", action="append", metavar="NAME", help=about)
     about = "a parameter, in place of its default; repeated"
     held.add_argument("--given", action="append", type=number, metavar="NAME=NUMBER", help=about)

@@ -114,7 +114,8 @@ def command_trim(args: argparse.Namespace) -> int:
     from ..programs import trim
 
     at, given = _each_once("--at", args.at), _each_once("--given", args.given)
-    save_found(trim(doubted(args.problem, given=given), at, args.free, given)[1], args)
+    free = [name for x in args.free or () for name in x.split(",")] or None
+    save_found(trim(doubted(args.problem, given=given), at, free, given)[1], args)
     return 0
 
 

@@ -109,6 +109,7 @@ def test_a_velocity_that_stays_for_an_instant_is_refused():
         ("--at m=1", "m is no number of the state and no input"),
         ("--free A_11", "inputs and velocities are found"),
         ("--free u", "u is no number of the state and no input"),
+        ("--free zeta_1,u", ": u is no number of the state and no input"),
         ("--at zeta_1=1 --at zeta_1=2", "given more than once"),
         ("--at A_11=0 --at A_22=0 --at A_12=-1 --at A_21=1", "no trim: dzeta_1/dt is -981/80"),
     ],
