@@ -12,7 +12,7 @@ from derive.check.claims.claim_checker import ClaimChecker
 from derive.problem.toml import problem_of
 from derive.record.sentence import Claim, english
 from tests.check.test_record_claims import said
-from tests.support.trims import ASIDE, DRAG, PENDULUM, TURNED, balanced, flying
+from tests.support.trims import ASIDE, DRAG, PENDULUM, TURNED, balanced, drone, flying
 from tests.support.walks import SEED
 
 
@@ -96,6 +96,32 @@ def test_a_body_falls_at_its_terminal_speed(damping, c, speed):
     linear = 1 if len(damping) > 1 else 0
     slopes = -np.array([2 * c * speed + linear, c * speed + linear]) / 2  # along v, and across
     assert same([x for x in found.eigenvalues if abs(x) > 1e-3], slopes, 1e-9)
+
+
+def blown(along, **more):
+    """A body that falls in a wind that blows ahead, with a drag −‖v‖v on the air."""
+    law = {"relative_to": along, "at": [0, 0], "frame": "space"}
+    law["force"] = [f"-hypot(v_1, v_2)*v_{k}" for k in (1, 2)]
+    return drone(force=[law], **more)
+
+
+def test_in_a_wind_it_falls_at_the_speed_that_it_has_without():
+    """It goes with the wind, and at √20 down, where the drag on the air is its weight."""
+    found = blown([4, 0], input=[]).trim({"w_1": 4}, ["w_2"])
+    assert "w₁ = 4, w₂ = −2 √(5)" in told(found)
+    assert holds(found)
+
+
+def test_a_turn_in_a_wind_is_no_steady_motion():
+    """Thrust holds it on a circle, and now the air beside it is at rest: a moment later it is not;
+    the checker says so, too, of one who claims it."""
+    found = blown([4, 0], potential=[])
+    with pytest.raises(ProblemError, match=r"no steady motion is proved: dw_\d/dt is 0 now"):
+        found.trim({"w_1": 4, "zeta_1": 1})
+    now = ((("entry", "w", 1), 4), (("entry", "ζ", 1), 1), (("par", "u"), 4), (("par", "v"), 4))
+    claim = Claim("trim.steady", (("point", ("matrix", *(("row", *x) for x in now))),))
+    judge = ClaimChecker(found.record, SEED)._fault
+    assert "may be other where the motion takes g" in judge(found.record.steps[-1], claim)
 
 
 def test_at_rest_a_drag_changes_nothing_of_the_first_order():

@@ -3,12 +3,14 @@
 Derivatives are exact modulo a random prime p: with g(1 + pX) for g a rational function F becomes
 F + pF′ modulo p².  Of a root s = √q, with q = s² + pq′, it is s + pq′/2s; a root that is 0 becomes
 py, y random: F has a derivative where F(x, py) − F(x, 0) is 0 modulo p².  Irrational numbers of the
-state are taken modulo p², by √d there.
+state are taken modulo p², by √d there.  At an element that is not that of the state a root is one
+modulo p², of either sign, as the conjugates of an algebraic function vanish together.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from copy import copy
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -28,8 +30,14 @@ from .exact_spectra import all_negative, characteristic, grows
 from .reduced_system import ClaimedRecord
 
 SIZE, BITS = 2**64, 128
+ELEMENTS, TRIES = 6, 400
+"""At so many elements it is asked whether a motion is steady; so many are drawn for these."""
 POINTS = ("trim.rest", "trim.steady")
 VERDICTS = ("trim.stable", "trim.unstable", "trim.open")
+
+
+class NoRootError(Exception):
+    """A number is no square modulo p."""
 
 
 class TrueRoots:
@@ -39,14 +47,32 @@ class TrueRoots:
         self.random, self.known = random, dict[Any, Number]()
         self.prime, self.field, self.image = random_prime(random), 0, 0
         self.bend = 0
+        self.chosen = dict[int, int]()
+        self.take(1)
 
     def take(self, d: int) -> None:
         """Let irrational numbers be those of √d: p ≡ 3 modulo 4 of which d is a square."""
         while self.prime % 4 < 3 or pow(d, (self.prime - 1) // 2, self.prime) != 1:
             self.prime = random_prime(self.random)
-        p, self.field = self.prime, d
-        first = pow(d, (p + 1) // 4, p)
-        self.image = (first - (first * first - d) * pow(2 * first, -1, p)) % (p * p)
+        self.field, self.image = d, self._lifted(d, pow(d, (self.prime + 1) // 4, self.prime))
+
+    def _lifted(self, x: int, first: int) -> int:
+        """The root of x modulo p² that is ``first`` modulo p."""
+        p = self.prime
+        return (first - (first * first - x) * pow(2 * first, -1, p)) % (p * p)
+
+    def elsewhere(self, x: Any) -> Any:
+        """A root modulo p² of a number modulo p²: of two that are near, near ones; of either sign
+        by chance.  ``NoRootError`` where there is none."""
+        p = self.prime
+        square = x.numerator * pow(x.denominator, -1, p * p)
+        if (at := square % p) not in self.chosen:
+            sign = self.random.choice((1, -1))
+            self.chosen[at] = sign * pow(at, (p + 1) // 4, p) % p
+        first = self.chosen[at]
+        if not first or (first * first - at) % p:
+            raise NoRootError
+        return Fraction(self._lifted(square, first))
 
     def rational(self, x: Any) -> Any:
         """A number modulo p², as a fraction."""
@@ -101,7 +127,7 @@ class ClaimedTrim:
         self.here = self.at(self.exact, Z, held)
         self.load, self.moving = [*self.here.load], any(map(any, Z))
         for x in (*zeta, *held.values(), *q.flatten(self.exact), *self.roots.known.values()):
-            if isinstance(x, Quadratic) and not self.roots.field:
+            if isinstance(x, Quadratic) and self.roots.field == 1:
                 self.roots.take(x.d)
         self.prime, of = self.roots.prime, self.roots.rational
         self.held = {x: of(y) for x, y in held.items()}
@@ -146,8 +172,19 @@ class ClaimedTrim:
     @property
     def goes_on(self) -> bool:
         """Is the load the same at all elements, random ones, along the motion that begins there?"""
-        model, other = self.model, self.group.sample(self.random)
-        undone = q.inverted(self.g)
+        found = []
+        self.model.elementary.true_root = self.roots.elsewhere
+        for _ in range(TRIES):
+            with suppress(NoRootError, ZeroDivisionError):
+                found.append(self.stays_from(self.group.sample(self.random)))
+            if len(found) == ELEMENTS or not all(found):
+                break
+        self.model.elementary.true_root = self.roots.near
+        return len(found) == ELEMENTS and all(found)
+
+    def stays_from(self, other: Matrix) -> bool:
+        """Is the derivative of the load 0 at another element, along the motion?"""
+        model, undone = self.model, q.inverted(self.g)
         first = (self.g, self.Z, undone) if model.side == "left" else (undone, self.Z, self.g)
         Y = q.times(q.times(*first[:2]), first[2])
         step = q.plus(q.identity(self.group.size), q.scaled(self.prime, Y))

@@ -16,7 +16,7 @@ from typing import Any
 
 from ...language import rational as q
 from ...language.limits import Refused
-from ...language.univariate import Number, root
+from ...language.univariate import Number, RootError, root
 
 BITS = 400
 """Digits after the point, in fractions."""
@@ -56,7 +56,7 @@ def solutions(f: Rates, near: Sequence[float]) -> list[Fraction]:
     starts = [list(near)] if near else [[a * x for x in s] for s in signs for a in STARTS]
     found: list[list[float]] = []
     for start in starts:
-        y = _in_floats(f, [*start, *[0.0] * (len(f.names) - m)])
+        y = _newton(f, [*start, *[0.0] * (len(f.names) - m)])
         if y and all(max(abs(a - b) for a, b in zip(x, y, strict=True)) > SAME for x in found):
             found.append(y)
     isolated = [y for y in found if _rank(f, y) == len(y)]
@@ -80,19 +80,22 @@ def _told(f: Rates, y: Sequence[float]) -> str:
     return ", ".join(f"{x} = {v:.6g}" for x, v in zip(f.names, y, strict=True))
 
 
-def _float(name: str, x: float) -> float:
+def in_floats(name: str, x: float) -> float:
+    """The functions of emitted equations."""
     if name == "none":
         return float(x == 0)
+    if name == "sqrt" and x < 0:
+        raise RootError("the root of a negative number")
     return sqrt(x) if name == "sqrt" else abs(x)
 
 
-def _in_floats(f: Rates, y: list[float]) -> list[float] | None:
+def _newton(f: Rates, y: list[float]) -> list[float] | None:
     """A solution from a start, or none."""
     import numpy as np
 
     for _ in range(STEPS):
         try:
-            rates, slopes = (np.array(g(y, _float), dtype=float) for g in (f.values, f.slopes))
+            rates, slopes = (np.array(g(y, in_floats), dtype=float) for g in (f.values, f.slopes))
             step = np.linalg.lstsq(slopes, -rates, rcond=1e-12)[0]
         except (ValueError, ZeroDivisionError, np.linalg.LinAlgError):
             return None
@@ -100,7 +103,7 @@ def _in_floats(f: Rates, y: list[float]) -> list[float] | None:
         if not all(abs(x) < LARGEST for x in y):
             return None
         if max(abs(step)) <= SMALL * (1 + max(map(abs, y))):
-            left = max(abs(x) for x in f.values(y, _float))
+            left = max(abs(x) for x in f.values(y, in_floats))
             return y if left <= SAME * (1 + max(map(abs, y))) else None
     return None
 
@@ -108,7 +111,7 @@ def _in_floats(f: Rates, y: list[float]) -> list[float] | None:
 def _rank(f: Rates, y: Sequence[float]) -> int:
     import numpy as np
 
-    return int(np.linalg.matrix_rank(np.array(f.slopes(y, _float), dtype=float), tol=SMALL))
+    return int(np.linalg.matrix_rank(np.array(f.slopes(y, in_floats), dtype=float), tol=SMALL))
 
 
 # -- exact numbers -------------------------------------------------------------------------------

@@ -28,11 +28,13 @@ from ...language.univariate import Number, Quadratic, RootError, grows, root, ro
 from ...problem.fields import entries, state_names
 from ...problem.problem import Problem
 from ..equilibria.stability import eigenvalues, polynomial
-from .steady_velocity import NoTrimError, Rates, exact, solutions
+from .steady_velocity import NoTrimError, Rates, exact, in_floats, solutions
 
 Numbers = Mapping[str, Number]
 EXACT = 2**40
 """A number of a program with a larger power of two below is one that has no fraction, as π."""
+ROUNDING = 1e-9
+"""A sum of floats that is smaller, beside its terms, is 0."""
 PRIME = 2**61 - 1
 """p, in the place of a root that is 0: F(x, p) − F(x, 0) is 0 modulo p² where ∂F/∂s is 0."""
 
@@ -313,16 +315,21 @@ class _Question:
             raise NoTrimError(f"of {self.group.name}, g = 1 alone is proved to be an element")
 
     def require_steady(self, u: Sequence[Number]) -> None:
-        """``NoTrimError`` where ζ̇ may change as g moves on."""
+        """``NoTrimError`` where ζ̇ may change as g moves on: its derivative along the motion at a
+        random element.  In floats, as roots there are of any numbers; the checker is exact."""
         g, other = self.element(), self.group.sample(Random(1))
         h = q.times(other, q.inverted(g)) if self.right else q.times(q.inverted(other), g)
         Z = self.group.hat(self.x[-self.d :])
         eta = self.group.nearest(q.times(q.times(h, Z), q.inverted(h)))
         entries = {x: other[i][j] for x, (i, j) in self.places.items()}
-        x = [entries.get(n, y) for n, y in zip(self.program.state, self.x, strict=True)]
-        below = self.linear(x, u)[self.d :]
-        for name, row in zip(self.program.state[-self.d :], below, strict=True):
-            if q.dot(row[: self.d], eta):
+        x = [float(entries.get(n, y)) for n, y in zip(self.program.state, self.x, strict=True)]
+        arrays = {"x": x, "k": [*map(float, self.k)], "u": [*map(float, u)]}
+        found = self.program.functions["jacobian"].values(arrays, in_floats)
+        for name, row in zip(
+            self.program.state[-self.d :], self._rows(found)[self.d :], strict=True
+        ):
+            terms = [a * float(b) for a, b in zip(row[: self.d], eta, strict=True)]
+            if abs(sum(terms)) > ROUNDING * sum(map(abs, terms)):
                 raise NoTrimError(
                     f"no steady motion is proved: d{name}/dt is 0 now, but what acts may be "
                     "other where g goes"
