@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from ..language.read import FormulaError
@@ -23,9 +23,10 @@ from ..views.printing.signs import SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal
 from ..views.text import formula as aligned
-from .figures import AXES, FIGURES
+from .figures import FIGURES, Claims
 from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Words
 from .lecture_text import tree as tree_of
+from .sheets import AXES
 
 TITLE = "Where do the equations of motion of solids come from?"
 WORDS = (
@@ -106,7 +107,8 @@ class SetEntry:
 
 @dataclass(frozen=True)
 class SetBlock:
-    """A block as a template takes it; ``number``: of a statement, an exercise or a figure."""
+    """A block as a template takes it; ``number``: of a statement, an exercise or a figure;
+    ``description``: of its picture, for those who do not see it."""
 
     kind: str
     label: str
@@ -114,6 +116,7 @@ class SetBlock:
     number: int
     entries: tuple[SetEntry, ...]
     picture: str = ""
+    description: str = ""
 
 
 @dataclass(frozen=True)
@@ -178,10 +181,16 @@ def numbers_of(chapters: Sequence[Chapter]) -> dict[int, int]:
     return found
 
 
+def claims_of(chapters: Sequence[Chapter]) -> Claims:
+    """The equations that are displayed, by the steps that they rest on."""
+    displays = [e for c in chapters for e in c.entries if e.display]
+    return {label: e.equations for e in displays[::-1] for label in e.labels}
+
+
 def _set(chapters: Sequence[Chapter], language: Language, medium: Medium) -> list[SetChapter]:
     numbers = numbers_of(chapters)
     labels = {b.label: numbers[id(b)] for c in chapters for b in c.blocks if id(b) in numbers}
-    setter = _Setter(language, medium, labels)
+    setter = _Setter(language, medium, labels, claims_of(chapters))
     return [
         SetChapter(
             c.name,
@@ -193,17 +202,33 @@ def _set(chapters: Sequence[Chapter], language: Language, medium: Medium) -> lis
 
 
 class _Setter:
-    """Entries in one language and one medium; ``numbers``: of the labels of blocks."""
+    """Entries in one language and one medium; ``numbers``: of the labels of blocks; ``claims``: the
+    equations displayed, by their steps."""
 
-    def __init__(self, language: Language, medium: Medium, numbers: dict[str, int]):
+    def __init__(self, language: Language, medium: Medium, numbers: dict[str, int], claims: Claims):
         self.language, self.medium, self.numbers = language, medium, numbers
+        self.claims = claims
         self.at = LANGUAGES.index(language.name)
 
     def block(self, b: Block, number: int) -> SetBlock:
-        """A block with its entries."""
+        """A block with its entries; the first one of a figure describes it."""
         entries = tuple(map(self.entry, b.entries))
-        picture = self.medium.picture(FIGURES[b.label]()) if b.kind == "figure" else ""
-        return SetBlock(b.kind, b.label, self.medium.text(b.title), number, entries, picture)
+        found = SetBlock(b.kind, b.label, self.medium.text(b.title), number, entries)
+        if b.kind != "figure":
+            return found
+        return replace(
+            found,
+            entries=entries[1:],
+            picture=self.medium.picture(self.scene(b)),
+            description=entries[0].text,
+        )
+
+    def scene(self, b: Block) -> Scene:
+        """The picture of a figure, with its description and the decimal mark of the language."""
+        scene = FIGURES[b.label](self.claims)
+        labels = (replace(x, base=self.language.numbers(x.base)) for x in scene.labels)
+        (description,) = b.entries[0].texts[self.at]
+        return replace(scene, labels=tuple(labels), title=str(description))
 
     def entry(self, x: Entry) -> SetEntry:
         """A sentence or a display with its margins."""
