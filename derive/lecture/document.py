@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
 from ..language.read import FormulaError
 from ..language.templating import environment
-from ..record.record import Equation
+from ..record.record import Derivation, Equation
 from ..views.figure.drawing import Scene, svg, tikz
 from ..views.html import escaped
 from ..views.language import LANGUAGES, Language
@@ -18,11 +18,12 @@ from ..views.latex import DELIMITERS
 from ..views.layout import broken, indented
 from ..views.printing import typeset
 from ..views.printing.letters import definitions
-from ..views.printing.sentences import spelt
+from ..views.printing.sentences import prose, spelt
 from ..views.printing.signs import SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal
 from ..views.text import formula as aligned
+from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, letters
 from .figures import FIGURES, Claims
 from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Words
 from .lecture_text import tree as tree_of
@@ -31,7 +32,7 @@ from .sheets import AXES
 TITLE = "Where do the equations of motion of solids come from?"
 WORDS = (
     *("Definition", "Lemma", "Proposition", "Theorem", "Remark", "Proof"),
-    *("Exercise", "Solution", "Solutions", "Fig."),
+    *("Exercise", "Solution", "Solutions", "Fig.", "Symbols", "Bibliography"),
 )
 """The words of the templates."""
 MARKED = re.compile(r"_([^_]+)_|@([a-z_]+)")
@@ -103,6 +104,17 @@ class SetEntry:
     labels: tuple[str, ...]
     open: tuple[str, ...]
     numbers: tuple[int, ...]
+    anchors: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class SetLetter:
+    """A row of the table of symbols: where the letter stands first, and in which chapter."""
+
+    letter: str
+    meaning: str
+    anchor: str
+    chapter: int
 
 
 @dataclass(frozen=True)
@@ -133,32 +145,63 @@ class SetChapter:
         return tuple(x for x in self.blocks if x.kind == "solution")
 
 
-def latex(chapters: Sequence[Chapter], language: Language, *, solutions: bool = True) -> str:
-    """The lecture as a document for pdflatex."""
+Records = Mapping[str, Derivation]
+
+
+def latex(
+    chapters: Sequence[Chapter],
+    language: Language,
+    records: Records,
+    front: Front = UNTITLED,
+    *,
+    solutions: bool = True,
+) -> str:
+    """The lecture as a document for pdflatex; ``records``: those of its chapters, by the names that
+    these give them."""
     template = environment("latex", **DELIMITERS).get_template("lecture.tex.jinja")
-    word = partial(_word, language, tex_text)
     return template.render(
-        language=language.name,
         macros="\n".join(definitions(Notation())),
-        title=word(TITLE),
-        word=word,
+        **_whole(chapters, language, LATEX, records, front),
         solutions=solutions,
-        chapters=_set(chapters, language, LATEX),
     )
 
 
-def page(chapters: Sequence[Chapter], language: Language, *, solutions: bool = True) -> str:
-    """The lecture as a page of HTML by itself, its formulas in MathML."""
+def page(
+    chapters: Sequence[Chapter],
+    language: Language,
+    records: Records,
+    front: Front = UNTITLED,
+    *,
+    solutions: bool = True,
+) -> str:
+    """The lecture as a page of HTML by itself, its formulas in MathML; see :func:`latex`."""
     template = environment("html").get_template("lecture.html.jinja")
-    word = partial(_word, language, escaped)
-    text = template.render(
-        language=language.name,
-        title=word(TITLE),
-        word=word,
-        solutions=solutions,
-        chapters=_set(chapters, language, PAGE),
-    )
+    text = template.render(**_whole(chapters, language, PAGE, records, front), solutions=solutions)
     return CLOSED.sub(r'<span class="close">\1\2</span>', text)
+
+
+def _whole(
+    chapters: Sequence[Chapter],
+    language: Language,
+    medium: Medium,
+    records: Records,
+    front: Front,
+) -> dict[str, object]:
+    """What both templates take."""
+    numbers = numbers_of(chapters)
+    labels = {b.label: numbers[id(b)] for c in chapters for b in c.blocks if id(b) in numbers}
+    setter = _Setter(language, medium, labels | NUMBERS, claims_of(chapters))
+    table = [setter.letter(x, k) for k, x in enumerate(letters(chapters, records, language))]
+    return {
+        "language": language.name,
+        "word": partial(_word, language, medium.text),
+        "title": medium.text(front.title or language.word(TITLE)),
+        "author": medium.text(front.author),
+        "front": [*map(medium.text, front.lines)],
+        "chapters": [setter.chapter(c, numbers) for c in chapters],
+        "letters": table,
+        "works": [(x[0].lower(), *map(medium.text, x[1:])) for x in WORKS],
+    }
 
 
 def _word(language: Language, escape: Callable[[str], str], message: str) -> str:
@@ -187,20 +230,6 @@ def claims_of(chapters: Sequence[Chapter]) -> Claims:
     return {label: e.equations for e in displays[::-1] for label in e.labels}
 
 
-def _set(chapters: Sequence[Chapter], language: Language, medium: Medium) -> list[SetChapter]:
-    numbers = numbers_of(chapters)
-    labels = {b.label: numbers[id(b)] for c in chapters for b in c.blocks if id(b) in numbers}
-    setter = _Setter(language, medium, labels, claims_of(chapters))
-    return [
-        SetChapter(
-            c.name,
-            setter.words((c.title[setter.at],)),
-            tuple(setter.block(b, numbers.get(id(b), 0)) for b in c.blocks),
-        )
-        for c in chapters
-    ]
-
-
 class _Setter:
     """Entries in one language and one medium; ``numbers``: of the labels of blocks; ``claims``: the
     equations displayed, by their steps."""
@@ -208,7 +237,20 @@ class _Setter:
     def __init__(self, language: Language, medium: Medium, numbers: dict[str, int], claims: Claims):
         self.language, self.medium, self.numbers = language, medium, numbers
         self.claims = claims
+        self.anchors: dict[int, list[str]] = {}
         self.at = LANGUAGES.index(language.name)
+
+    def chapter(self, c: Chapter, numbers: Mapping[int, int]) -> SetChapter:
+        """A chapter; ``numbers``: of its blocks."""
+        blocks = tuple(self.block(b, numbers.get(id(b), 0)) for b in c.blocks)
+        return SetChapter(c.name, self.words((c.title[self.at],)), blocks)
+
+    def letter(self, x: LetterUse, k: int) -> SetLetter:
+        """A row of the table of symbols, and the anchor at its entry."""
+        anchor = f"letter-{k}"
+        self.anchors.setdefault(id(x.entry), []).append(anchor)
+        meaning = prose(x.meaning, self.plain, lambda y: self.medium.inline(spelt(y)))
+        return SetLetter(self.words((Formula(x.name),)), meaning, anchor, x.chapter)
 
     def block(self, b: Block, number: int) -> SetBlock:
         """A block with its entries; the first one of a figure describes it."""
@@ -235,7 +277,8 @@ class _Setter:
         text = self.display(x) if x.display else self.words(x.texts[self.at])
         reasons = tuple(self.medium.text(tie.open[self.at]) for tie in x.ties if tie.open)
         numbers = tuple(n for tie in x.ties for n in tie.numbers)
-        return SetEntry(text, x.display, x.labels, reasons, numbers)
+        anchors = tuple(self.anchors.get(id(x), ()))
+        return SetEntry(text, x.display, x.labels, reasons, numbers, anchors)
 
     def display(self, x: Entry) -> str:
         """A display: formulas side by side."""

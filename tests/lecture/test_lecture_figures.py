@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from derive.command.lecturing import records_of
 from derive.lecture import document, figures, top_figures
 from derive.lecture.lecture_text import LectureError, chapters, parsed
 from derive.views.language import LANGUAGES, language
 from tests.support.library import module_of
 
 CHAPTERS = chapters()
+RECORDS = records_of(CHAPTERS)
 CLAIMS = document.claims_of(CHAPTERS)
 FIGURES = [b for c in CHAPTERS for b in c.blocks if b.kind == "figure"]
 I1, I3, P = top_figures.PARAMETERS.values()
@@ -122,8 +124,8 @@ def test_every_figure_is_in_the_text_and_no_other():
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_pictures_in_a_language(lang):
     """Numbers with its decimal mark, the same letters in all; each is described in words."""
-    page = document.page(CHAPTERS, language(lang))
-    assert page == document.page(CHAPTERS, language(lang))
+    page = document.page(CHAPTERS, language(lang), RECORDS)
+    assert page == document.page(CHAPTERS, language(lang), RECORDS)
     shown = re.findall(r"<svg.*?</svg>", page, re.S)
     labels = [re.sub(r"<[^>]+>", "", x) for s in shown for x in re.findall("<text.*?</text>", s)]
     assert (("0,5" in labels), ("0.5" in labels)) == (lang == "fr", lang == "en")
@@ -131,7 +133,7 @@ def test_the_pictures_in_a_language(lang):
         (description,) = block.entries[0].texts[LANGUAGES.index(lang)]
         assert f"<title>{description}</title>" in picture
         assert len(description) > 80
-    latex = document.latex(CHAPTERS, language(lang))
+    latex = document.latex(CHAPTERS, language(lang), RECORDS)
     assert latex.count(r"\begin{tikzpicture}") == latex.count(r"\BeginAccSupp") == len(FIGURES)
 
 
