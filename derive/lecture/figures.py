@@ -83,7 +83,9 @@ def _flip(claims: Claims) -> Scene:
     """The three components of the racket's angular velocity over time."""
     frame = Frame((9.0, 6.0), (46.0, 36.0), (0.0, -0.55), (END, 0.55))
     times = {t: f"{t:g}" for t in (0.0, 40.0, 80.0, 120.0)}
-    strokes, labels = frame.axes(("t", "ζᵢ"), times, {0.5: "0.5", 0.0: "0", -0.5: "−0.5"})
+    strokes, labels = frame.axes(
+        (Label("t"), Label("ζ", "i")), times, {0.5: "0.5", 0.0: "0", -0.5: "−0.5"}
+    )
     strokes.append(frame.curve([(0, 0), (END, 0)], "axis", "thin"))
     motion = racket(claims)
     for k in range(3):

@@ -67,7 +67,7 @@ class Frame:
         return Stroke(tuple(self.at(*p) for p in points), role, pen)
 
     def axes(
-        self, names: tuple[str, str], across: Mapping[float, str], up: Mapping[float, str]
+        self, names: tuple[Label, Label], across: Mapping[float, str], up: Mapping[float, str]
     ) -> tuple[list[Stroke], list[Label]]:
         """Both axes, from the lower left corner, with their names at the tips and their marks."""
         origin = self.corner
@@ -75,8 +75,8 @@ class Frame:
         strokes = arrow(origin, (right, origin[1]), "axis")
         strokes += arrow(origin, (origin[0], top), "axis")
         labels = [
-            Label(names[0], at=(right + 1 + Label(names[0]).half[0], origin[1])),
-            Label(names[1], at=(origin[0], top + 2.6)),
+            replace(names[0], at=(right + 1 + names[0].half[0], origin[1])),
+            replace(names[1], at=(origin[0], top + 2.6)),
         ]
         for x, name in across.items():
             place = (self.at(x, 0)[0], origin[1])

@@ -89,7 +89,7 @@ def tilts(claims: Mapping[str, Sequence[Equation]]) -> Scene:
     grid = (k / 500 - 1 for k in range(1, 1000))
     curve = [(u, y) for u in grid if (y := top.potential(u)) < frame.high[1]]
     names = {-1.0: "−1", top.lower: "u₁", UPPER: "u₂", 1.0: "1"}
-    strokes, labels = frame.axes(("A₃₃", "𝒱"), names, {level: "h̃"})
+    strokes, labels = frame.axes((Label("A", "33"), Label("𝒱")), names, {level: "h̃"})
     strokes.append(frame.curve(curve, AXES[2]))
     strokes.append(frame.curve([(-1, level), (1, level)], "axis", "thin"))
     strokes.append(frame.curve([(u, level) for u in turns], AXES[2], "thick"))
