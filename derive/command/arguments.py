@@ -364,6 +364,9 @@ def add_lecture_options(lecture: argparse.ArgumentParser, paper: argparse.Argume
     lecture.add_argument("problem", nargs="*", help=about)
     about = "FILE.tex, .pdf or .html"
     lecture.add_argument("--out", type=named_file, metavar="FILE", required=True, help=about)
+    for name in ("title", "author", "course", "date"):
+        about = f"the {name} of the lecture, printed as it is given"
+        lecture.add_argument(f"--{name}", default="", metavar="TEXT", help=about)
     about = "of the exercises: at the end of each chapter, or left out (default: end)"
     lecture.add_argument("--solutions", choices=("end", "none"), default="end", help=about)
     about = "try every equation of the text anew, as derive check does those of a record"

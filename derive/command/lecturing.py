@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..language.limits import Refused
 from ..lecture import document, lecture_text, trials
+from ..lecture.back_matter import Front
 from ..lecture.problem_chapter import Found, chapter_of
 from ..pipeline import discrete, walk
 from ..problem.problem import Problem
@@ -43,7 +44,9 @@ def command_lecture(args: argparse.Namespace) -> int:
         tried = (len([*trials.tried(x, named_by(x, records))]) for x in chapters)
         print(f"{sum(with_progress(tried, len(chapters), 'chapters'))} equations hold")
     shown = document.page if out.suffix == ".html" else document.latex
-    text = shown(chapters, language(args.lang), solutions=args.solutions == "end")
+    front = Front(args.title, args.author, args.course, args.date)
+    solutions = args.solutions == "end"
+    text = shown(chapters, language(args.lang), records, front, solutions=solutions)
     content = pdf_of(text, out, {}) if out.suffix == ".pdf" else text
     for path in write({out.name: content}, out.parent, links=True):
         print(path)

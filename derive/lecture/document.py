@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 
 from ..language.read import FormulaError
 from ..language.templating import environment
-from ..record.record import Equation
+from ..record.record import Derivation, Equation
 from ..views.figure.drawing import Scene, svg, tikz
 from ..views.html import escaped
 from ..views.language import LANGUAGES, Language
@@ -18,19 +18,21 @@ from ..views.latex import DELIMITERS
 from ..views.layout import broken, indented
 from ..views.printing import typeset
 from ..views.printing.letters import definitions
-from ..views.printing.sentences import spelt
+from ..views.printing.sentences import prose, spelt
 from ..views.printing.signs import SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal
 from ..views.text import formula as aligned
-from .figures import AXES, FIGURES
+from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, letters
+from .figures import FIGURES, Claims
 from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Words
 from .lecture_text import tree as tree_of
+from .sheets import AXES
 
 TITLE = "Where do the equations of motion of solids come from?"
 WORDS = (
     *("Definition", "Lemma", "Proposition", "Theorem", "Remark", "Proof"),
-    *("Exercise", "Solution", "Solutions", "Fig."),
+    *("Exercise", "Solution", "Solutions", "Fig.", "Symbols", "Bibliography"),
 )
 """The words of the templates."""
 MARKED = re.compile(r"_([^_]+)_|@([a-z_]+)")
@@ -102,11 +104,23 @@ class SetEntry:
     labels: tuple[str, ...]
     open: tuple[str, ...]
     numbers: tuple[int, ...]
+    anchors: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class SetLetter:
+    """A row of the table of symbols: where the letter stands first, and in which chapter."""
+
+    letter: str
+    meaning: str
+    anchor: str
+    chapter: int
 
 
 @dataclass(frozen=True)
 class SetBlock:
-    """A block as a template takes it; ``number``: of a statement, an exercise or a figure."""
+    """A block as a template takes it; ``number``: of a statement, an exercise or a figure;
+    ``description``: of its picture, for those who do not see it."""
 
     kind: str
     label: str
@@ -114,6 +128,7 @@ class SetBlock:
     number: int
     entries: tuple[SetEntry, ...]
     picture: str = ""
+    description: str = ""
 
 
 @dataclass(frozen=True)
@@ -130,32 +145,63 @@ class SetChapter:
         return tuple(x for x in self.blocks if x.kind == "solution")
 
 
-def latex(chapters: Sequence[Chapter], language: Language, *, solutions: bool = True) -> str:
-    """The lecture as a document for pdflatex."""
+Records = Mapping[str, Derivation]
+
+
+def latex(
+    chapters: Sequence[Chapter],
+    language: Language,
+    records: Records,
+    front: Front = UNTITLED,
+    *,
+    solutions: bool = True,
+) -> str:
+    """The lecture as a document for pdflatex; ``records``: those of its chapters, by the names that
+    these give them."""
     template = environment("latex", **DELIMITERS).get_template("lecture.tex.jinja")
-    word = partial(_word, language, tex_text)
     return template.render(
-        language=language.name,
         macros="\n".join(definitions(Notation())),
-        title=word(TITLE),
-        word=word,
+        **_whole(chapters, language, LATEX, records, front),
         solutions=solutions,
-        chapters=_set(chapters, language, LATEX),
     )
 
 
-def page(chapters: Sequence[Chapter], language: Language, *, solutions: bool = True) -> str:
-    """The lecture as a page of HTML by itself, its formulas in MathML."""
+def page(
+    chapters: Sequence[Chapter],
+    language: Language,
+    records: Records,
+    front: Front = UNTITLED,
+    *,
+    solutions: bool = True,
+) -> str:
+    """The lecture as a page of HTML by itself, its formulas in MathML; see :func:`latex`."""
     template = environment("html").get_template("lecture.html.jinja")
-    word = partial(_word, language, escaped)
-    text = template.render(
-        language=language.name,
-        title=word(TITLE),
-        word=word,
-        solutions=solutions,
-        chapters=_set(chapters, language, PAGE),
-    )
+    text = template.render(**_whole(chapters, language, PAGE, records, front), solutions=solutions)
     return CLOSED.sub(r'<span class="close">\1\2</span>', text)
+
+
+def _whole(
+    chapters: Sequence[Chapter],
+    language: Language,
+    medium: Medium,
+    records: Records,
+    front: Front,
+) -> dict[str, object]:
+    """What both templates take."""
+    numbers = numbers_of(chapters)
+    labels = {b.label: numbers[id(b)] for c in chapters for b in c.blocks if id(b) in numbers}
+    setter = _Setter(language, medium, labels | NUMBERS, claims_of(chapters))
+    table = [setter.letter(x, k) for k, x in enumerate(letters(chapters, records, language))]
+    return {
+        "language": language.name,
+        "word": partial(_word, language, medium.text),
+        "title": medium.text(front.title or language.word(TITLE)),
+        "author": medium.text(front.author),
+        "front": [*map(medium.text, front.lines)],
+        "chapters": [setter.chapter(c, numbers) for c in chapters],
+        "letters": table,
+        "works": [(x[0].lower(), *map(medium.text, x[1:])) for x in WORKS],
+    }
 
 
 def _word(language: Language, escape: Callable[[str], str], message: str) -> str:
@@ -178,39 +224,61 @@ def numbers_of(chapters: Sequence[Chapter]) -> dict[int, int]:
     return found
 
 
-def _set(chapters: Sequence[Chapter], language: Language, medium: Medium) -> list[SetChapter]:
-    numbers = numbers_of(chapters)
-    labels = {b.label: numbers[id(b)] for c in chapters for b in c.blocks if id(b) in numbers}
-    setter = _Setter(language, medium, labels)
-    return [
-        SetChapter(
-            c.name,
-            setter.words((c.title[setter.at],)),
-            tuple(setter.block(b, numbers.get(id(b), 0)) for b in c.blocks),
-        )
-        for c in chapters
-    ]
+def claims_of(chapters: Sequence[Chapter]) -> Claims:
+    """The equations that are displayed, by the steps that they rest on."""
+    displays = [e for c in chapters for e in c.entries if e.display]
+    return {label: e.equations for e in displays[::-1] for label in e.labels}
 
 
 class _Setter:
-    """Entries in one language and one medium; ``numbers``: of the labels of blocks."""
+    """Entries in one language and one medium; ``numbers``: of the labels of blocks; ``claims``: the
+    equations displayed, by their steps."""
 
-    def __init__(self, language: Language, medium: Medium, numbers: dict[str, int]):
+    def __init__(self, language: Language, medium: Medium, numbers: dict[str, int], claims: Claims):
         self.language, self.medium, self.numbers = language, medium, numbers
+        self.claims = claims
+        self.anchors: dict[int, list[str]] = {}
         self.at = LANGUAGES.index(language.name)
 
+    def chapter(self, c: Chapter, numbers: Mapping[int, int]) -> SetChapter:
+        """A chapter; ``numbers``: of its blocks."""
+        blocks = tuple(self.block(b, numbers.get(id(b), 0)) for b in c.blocks)
+        return SetChapter(c.name, self.words((c.title[self.at],)), blocks)
+
+    def letter(self, x: LetterUse, k: int) -> SetLetter:
+        """A row of the table of symbols, and the anchor at its entry."""
+        anchor = f"letter-{k}"
+        self.anchors.setdefault(id(x.entry), []).append(anchor)
+        meaning = prose(x.meaning, self.plain, lambda y: self.medium.inline(spelt(y)))
+        return SetLetter(self.words((Formula(x.name),)), meaning, anchor, x.chapter)
+
     def block(self, b: Block, number: int) -> SetBlock:
-        """A block with its entries."""
+        """A block with its entries; the first one of a figure describes it."""
         entries = tuple(map(self.entry, b.entries))
-        picture = self.medium.picture(FIGURES[b.label]()) if b.kind == "figure" else ""
-        return SetBlock(b.kind, b.label, self.medium.text(b.title), number, entries, picture)
+        found = SetBlock(b.kind, b.label, self.medium.text(b.title), number, entries)
+        if b.kind != "figure":
+            return found
+        return replace(
+            found,
+            entries=entries[1:],
+            picture=self.medium.picture(self.scene(b)),
+            description=entries[0].text,
+        )
+
+    def scene(self, b: Block) -> Scene:
+        """The picture of a figure, with its description and the decimal mark of the language."""
+        scene = FIGURES[b.label](self.claims)
+        labels = (replace(x, base=self.language.numbers(x.base)) for x in scene.labels)
+        (description,) = b.entries[0].texts[self.at]
+        return replace(scene, labels=tuple(labels), title=str(description))
 
     def entry(self, x: Entry) -> SetEntry:
         """A sentence or a display with its margins."""
         text = self.display(x) if x.display else self.words(x.texts[self.at])
         reasons = tuple(self.medium.text(tie.open[self.at]) for tie in x.ties if tie.open)
         numbers = tuple(n for tie in x.ties for n in tie.numbers)
-        return SetEntry(text, x.display, x.labels, reasons, numbers)
+        anchors = tuple(self.anchors.get(id(x), ()))
+        return SetEntry(text, x.display, x.labels, reasons, numbers, anchors)
 
     def display(self, x: Entry) -> str:
         """A display: formulas side by side."""

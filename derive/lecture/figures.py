@@ -1,68 +1,63 @@
-"""The figures of the lecture, as scenes: no picture is drawn that is not computed here."""
+"""The figures of the lecture, as scenes: no picture is drawn that is not computed here, and motions
+are those of the equations that the text displays."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from itertools import pairwise
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from ..views.figure.drawing import Label, Point, Scene, Stroke, arrow
+from ..record.record import Equation
+from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
+from .lecture_text import tree
+from .sheets import AXES, TURN, Frame, Vector, View, beside, number, panel, solved
+from .top_figures import tilts, top_paths
 
-RADIUS = 24.0
-"""Of the sphere, in millimetres."""
-MARGIN, LABEL = 16.0, 1.5
-AZIMUTH, ELEVATION = math.radians(42), math.radians(24)
+Claims = Mapping[str, Sequence[Equation]]
+"""Label of a step → the equations of the display that rests on it."""
 MOMENTS = (1.0, 2.0, 2.6)
 """The principal moments of inertia of the body whose polhodes are drawn."""
 LEVELS = (0.1, 0.3, 0.55, 0.8)
 """Where on the way from an axis to the separatrices its polhodes are."""
-STEPS = 180
-Vector = tuple[float, float, float]
+START, END = (0.002, 0.5, 0.0), 130.0
+"""The angular velocity of the racket that flips, at first, and for how long it is followed."""
 
 
-def polhodes() -> Scene:
+def polhodes(claims: Claims) -> Scene:
+    """The polhodes on their sphere, and the flip of the racket beside."""
+    return beside(_sphere(), _flip(claims), gap=3)
+
+
+def _sphere() -> Scene:
     """The curves in which the sphere ‖ℓ‖ = 1 meets ellipsoids Σ ℓ_i²/λ_i = 2h, seen from outside;
     those behind are pale."""
-    centre = RADIUS + MARGIN
-    strokes = [Stroke((*_circle(centre),), "support", "thin")]
+    view = View((27.0, 25.0), 20.0, 42, 24)
+    strokes = [view.outline()]
     for role, curve in _curves():
-        for run, front in _runs(curve):
-            points = tuple(_seen(x, centre) for x in run)
-            strokes.append(Stroke(points, role, "line" if front else "hidden"))
+        strokes += view.on_sphere(curve, role)
     labels = []
     for k in range(3):
         axis = tuple(float(k == i) for i in range(3))
-        tip = tuple(LABEL * x for x in axis)
-        strokes += arrow(_seen(axis, centre), _seen(tip, centre), AXES[k])
-        far = tuple((LABEL + 0.14) * x for x in axis)
-        labels.append(Label("e", str(k + 1), at=_seen(far, centre)))
-    size = 2 * centre
-    return Scene(size, size, tuple(strokes), (), tuple(labels), "", ())
-
-
-AXES = ("first", "second", "third")
-"""The role of what belongs to each axis."""
+        tip, far = (tuple(s * x for x in axis) for s in (1.4, 1.57))
+        strokes += arrow(view.at(axis), view.at(tip), AXES[k])
+        labels.append(Label("e", str(k + 1), at=view.at(far)))
+    return panel((60, 57), strokes, labels)
 
 
 def _curves() -> Iterable[tuple[str, list[Vector]]]:
     """Polhodes about the ends of the first and third axis, and the separatrices."""
     a, b, c = (1 / x for x in MOMENTS)
+    turn = [(math.sin(x), math.cos(x)) for x in TURN]
     for sign in (1.0, -1.0):
         for level in LEVELS:
             # a − 2h = (a − b) ℓ₂² + (a − c) ℓ₃², up to (a − b) at the separatrices
             second, third = math.sqrt(level), math.sqrt(level * (a - b) / (a - c))
-            yield AXES[0], [_on_sphere(0, sign, second * s, third * k) for s, k in _turn()]
+            yield AXES[0], [_on_sphere(0, sign, second * s, third * k) for s, k in turn]
             # 2h − c = (a − c) ℓ₁² + (b − c) ℓ₂², up to (b − c)
             first, second = math.sqrt(level * (b - c) / (a - c)), math.sqrt(level)
-            yield AXES[2], [_on_sphere(2, sign, first * s, second * k) for s, k in _turn()]
+            yield AXES[2], [_on_sphere(2, sign, first * s, second * k) for s, k in turn]
         # 2h = b: two great circles, (a − b) ℓ₁² = (b − c) ℓ₃²
         tilt = math.atan2(math.sqrt(b - c), sign * math.sqrt(a - b))
-        yield AXES[1], [(k * math.sin(tilt), s, k * math.cos(tilt)) for s, k in _turn()]
-
-
-def _turn() -> Iterable[Point]:
-    angles = (2 * math.pi * k / STEPS for k in range(STEPS + 1))
-    return [(math.sin(x), math.cos(x)) for x in angles]
+        yield AXES[1], [(k * math.sin(tilt), s, k * math.cos(tilt)) for s, k in turn]
 
 
 def _on_sphere(axis: int, sign: float, x: float, y: float) -> Vector:
@@ -71,34 +66,111 @@ def _on_sphere(axis: int, sign: float, x: float, y: float) -> Vector:
     return (rest, x, y) if axis == 0 else (x, y, rest)
 
 
-def _depth(v: Sequence[float]) -> float:
-    """How near to the eye a point is."""
-    across = math.cos(AZIMUTH) * v[0] + math.sin(AZIMUTH) * v[1]
-    return math.cos(ELEVATION) * across + math.sin(ELEVATION) * v[2]
+def racket(claims: Claims) -> list[tuple[float, Vector]]:
+    """The angular velocity in the body by Euler's equations, near the middle axis, over time."""
+    moments = {tree(f"λ{k}"): x for k, x in zip("₁₂₃", MOMENTS, strict=True)}
+    rates = [e.rhs for e in claims["free.principal"]]
+    letters = [tree(f"ζ{k}") for k in "₁₂₃"]
+
+    def rate(zeta: Vector) -> Vector:
+        values = moments | dict(zip(letters, zeta, strict=True))
+        return tuple(number(x, values) for x in rates)
+
+    return solved(rate, START, END, 1040, each=4)
 
 
-def _seen(v: Sequence[float], centre: float) -> Point:
-    """Where a point is on the sheet."""
-    along = -math.sin(AZIMUTH) * v[0] + math.cos(AZIMUTH) * v[1]
-    across = math.cos(AZIMUTH) * v[0] + math.sin(AZIMUTH) * v[1]
-    up = math.cos(ELEVATION) * v[2] - math.sin(ELEVATION) * across
-    return centre + RADIUS * along, centre + RADIUS * up
+def _flip(claims: Claims) -> Scene:
+    """The three components of the racket's angular velocity over time."""
+    frame = Frame((9.0, 6.0), (46.0, 36.0), (0.0, -0.55), (END, 0.55))
+    times = {t: f"{t:g}" for t in (0.0, 40.0, 80.0, 120.0)}
+    strokes, labels = frame.axes(
+        (Label("t"), Label("ζ", "i")), times, {0.5: "0.5", 0.0: "0", -0.5: "−0.5"}
+    )
+    strokes.append(frame.curve([(0, 0), (END, 0)], "axis", "thin"))
+    motion = racket(claims)
+    for k in range(3):
+        strokes.append(frame.curve(((t, zeta[k]) for t, zeta in motion), AXES[k]))
+    return panel((63, 49), strokes, labels)
 
 
-def _circle(centre: float) -> Iterable[Point]:
-    return [(centre + RADIUS * s, centre + RADIUS * k) for s, k in _turn()]
+# The whole theory in one picture: a racket, and what the group makes of it.
+
+HEAD = [(1.15 + 0.75 * math.cos(x), 0.55 * math.sin(x), 0.0) for x in TURN]
+HANDLE = [(-0.15, 0.07, 0.0), (-1.25, 0.07, 0.0), (-1.25, -0.07, 0.0), (-0.15, -0.07, 0.0)]
+THROAT = [[(-0.15, s * 0.07, 0.0), (0.62, s * 0.39, 0.0)] for s in (1.0, -1.0)]
+POINT = HEAD[20]
+"""One of the points of the body."""
 
 
-def _runs(curve: Sequence[Vector]) -> Iterable[tuple[list[Vector], bool]]:
-    """A curve cut where it passes behind the sphere; each run goes to where the next begins."""
-    run = [curve[0]]
-    for x, y in pairwise(curve):
-        run.append(y)
-        if (_depth(x) > 0) != (_depth(y) > 0):
-            yield run, _depth(x) > 0
-            run = [y]
-    yield run, _depth(curve[-1]) > 0
+def _strings() -> Iterable[list[Vector]]:
+    """The strings of the head, along and across it."""
+    for k in range(-3, 4):
+        y, x = 0.16 * k, 0.2 * k
+        along, across = (math.sqrt(1 - r * r) for r in (y / 0.55, x / 0.75))
+        yield [(1.15 + s * 0.75 * along, y, 0.0) for s in (1.0, -1.0)]
+        yield [(1.15 + x, s * 0.55 * across, 0.0) for s in (1.0, -1.0)]
 
 
-FIGURES = {"polhodes": polhodes}
+def _turned(axis: int, angle: float) -> Callable[[Sequence[float]], Vector]:
+    """The rotation about a coordinate axis by an angle in degrees."""
+    c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+
+    def turned(v: Sequence[float]) -> Vector:
+        found = [*v]
+        found[i], found[j] = c * v[i] - s * v[j], s * v[i] + c * v[j]
+        return tuple(found)
+
+    return turned
+
+
+def displacement(v: Sequence[float]) -> Vector:
+    """The rotation A of the picture."""
+    return _turned(2, 20)(_turned(1, -42)(_turned(0, -50)(v)))
+
+
+def _racket_at(centre: Point, move: Callable[[Sequence[float]], Vector], letter: str) -> Scene:
+    """The racket, moved, with its axes, whose names follow ``letter``."""
+    view = View(centre, 15.5, -55, 24)
+
+    def stroke(points: Iterable[Vector], role: str, pen: str = "line") -> Stroke:
+        return Stroke(tuple(view.at(move(x)) for x in points), role, pen)
+
+    strokes = [stroke(HEAD, "body", "wash"), *(stroke(x, "body", "thin") for x in _strings())]
+    strokes += (stroke(x, "body") for x in (HEAD, *THROAT))
+    strokes += (stroke(HANDLE, "body", "wash"), stroke((*HANDLE, HANDLE[0]), "body"))
+    labels = []
+    for k, length in enumerate((2.3, 1.0, 1.0)):
+        axis = [float(k == i) for i in range(3)]
+        tip, far = (tuple((length + more) * x for x in axis) for more in (0, 0.22))
+        strokes += arrow(centre, view.at(move(tip)), AXES[k])
+        labels.append(Label(f"{letter}e", str(k + 1), at=view.at(move(far))))
+    outside = tuple(1.12 * x + 0.12 * y for x, y in zip(POINT, (0, 2, 0), strict=True))
+    labels.append(Label(f"{letter}r", "i", at=view.at(move(outside))))
+    labels.append(Label("O", at=(centre[0] + 0.5, centre[1] - 3.2)))
+    dots = [Dot(centre, 0.6, "body"), Dot(view.at(move(POINT)), 0.75, "body")]
+    return panel((62, 46), strokes, labels, dots)
+
+
+def theory(_: Claims) -> Scene:
+    """The reference body, and the body at a time; the rotation that carries one to the other."""
+    both = beside(
+        _racket_at((22.0, 18.0), lambda v: (*v,), ""),
+        _racket_at((26.0, 14.0), displacement, "A"),
+        gap=0,
+    )
+    bow = [(52 + k, 38 + 4 * math.sin(math.pi * k / 24)) for k in range(22)]
+    strokes = [Stroke(tuple(bow), "axis"), *arrow(bow[-1], (76.0, 37.6), "axis")]
+    labels = [Label("A", at=(64.0, 44.5))]
+    return panel(
+        (both.width, both.height + 2), (*both.strokes, *strokes), (*both.labels, *labels), both.dots
+    )
+
+
+FIGURES: dict[str, Callable[[Claims], Scene]] = {
+    "theory": theory,
+    "polhodes": polhodes,
+    "tilts": tilts,
+    "paths": top_paths,
+}
 """The figures by the labels of their blocks."""

@@ -11,7 +11,8 @@ same in both; then what it rests on::
 
 Formulas stand in `backquotes`, as ``derive walk`` shows them; `?Ũ = 0` is
 not tried: it is supposed, sought, or true under what the text alone supposes; emphasis in
-_underscores_; ``@label`` is the number of a block.  ``#`` begins a comment.
+_underscores_; ``@label`` is the number of a block.  ``#`` begins a comment.  A figure begins with
+words that describe it to those who do not see it; its caption follows.
 """
 
 from __future__ import annotations
@@ -209,6 +210,8 @@ def _block(lines: _Lines) -> Block:
     entries = []
     while lines.inside():
         entries.append(_entry(lines))
+    if found[1] == "figure" and (len(entries) < 2 or entries[0].formulas):
+        raise lines.wrong(line, "a figure begins with a description in words, then its caption")
     return Block(found[1], found[2] or "", found[3] or "", tuple(entries), line)
 
 

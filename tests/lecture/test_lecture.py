@@ -1,7 +1,10 @@
 """The lecture: every tie is a step, every equation holds, and none that is changed."""
 
 import re
+import subprocess
+import unicodedata
 from dataclasses import replace
+from html import escape
 from xml.etree import ElementTree
 
 import numpy as np
@@ -11,6 +14,7 @@ from derive.command.cli import main
 from derive.command.lecturing import named_by, records_of
 from derive.language.show import show
 from derive.lecture import document, figures
+from derive.lecture.back_matter import NUMBERS, WORKS, letters
 from derive.lecture.lecture_text import PROVED, Formula, LectureError, chapters, parsed
 from derive.lecture.trials import tied, tried
 from derive.views.language import LANGUAGES, language
@@ -19,6 +23,7 @@ from tests.support.walks import SEED
 
 CHAPTERS = chapters()
 NAMES = [c.name for c in CHAPTERS]
+CITED = re.compile("@([a-z_]+)")
 
 
 @pytest.fixture(scope="module")
@@ -105,25 +110,30 @@ def test_a_number_of_the_note_is_that_of_a_step(records):
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_the_page_has_every_formula_of_the_text(lang):
-    page = document.page(CHAPTERS, language(lang))
-    root = ElementTree.fromstring(re.sub("<!DOCTYPE[^>]*>|<meta[^>]*>", "", page))
+def test_the_page_has_every_formula_of_the_text(lang, records):
+    page = document.page(CHAPTERS, language(lang), records).split('<section id="symbols">')
+    text, whole = (
+        ElementTree.fromstring(re.sub("<!DOCTYPE[^>]*>|<meta[^>]*>", "", x))
+        for x in (page[0] + "</main></body></html>", '<section id="symbols">'.join(page))
+    )
     at = LANGUAGES.index(lang)
     typed = sum(not isinstance(x, str) for c in CHAPTERS for e in c.entries for x in e.texts[at])
-    assert len([*root.iter("math")]) == typed
-    targets = {x.get("href")[1:] for x in root.iter("a")}
-    assert targets <= {x.get("id") for x in root.iter()}
+    assert len([*text.iter("math")]) == typed
+    targets = {x.get("href")[1:] for x in whole.iter("a")}
+    named = [x.get("id") for x in whole.iter() if x.get("id")]
+    assert targets <= {*named}
+    assert len({*named}) == len(named)
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_without_solutions(lang):
+def test_without_solutions(lang, records):
     words = language(lang)
     for shown, mark in (
         (document.page, '<details class="solution">'),
         (document.latex, "Solutions"),
     ):
-        assert mark in shown(CHAPTERS, words)
-        assert mark not in shown(CHAPTERS, words, solutions=False)
+        assert mark in shown(CHAPTERS, words, records)
+        assert mark not in shown(CHAPTERS, words, records, solutions=False)
 
 
 @needs("the TeX of the lecture")
@@ -142,6 +152,60 @@ def test_the_command(tmp_path, capsys, monkeypatch):
     assert r"\begin{theorem}" in out.read_text(encoding="utf-8")
     assert main(["lecture", "--out", str(tmp_path / "lecture.docx")]) == 2
     assert "must end in .tex, .pdf, .html" in capsys.readouterr().err
+
+
+TITLES = ("Tops & co_1 {50 %} \\x #~^$", "A. Ünal", "M2, <spring>", "week 3")
+
+
+@needs("the TeX of the lecture")
+def test_what_the_user_gives_stands_at_the_head_as_it_is(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("derive.lecture.lecture_text.chapters", lambda: [])
+    given = [
+        f"--{x}={y}" for x, y in zip(("title", "author", "course", "date"), TITLES, strict=True)
+    ]
+    for name in ("lecture.html", "lecture.pdf"):
+        assert main(["lecture", *given, "--out", str(tmp_path / name)]) == 0
+    page = (tmp_path / "lecture.html").read_text(encoding="utf-8")
+    assert all(escape(x) in page for x in TITLES)
+    text = subprocess.run(["pdftotext", tmp_path / "lecture.pdf", "-"], stdout=-1, text=True).stdout
+    assert all(x.replace(" ", "") in text.replace(" ", "") for x in TITLES[1:])
+    capsys.readouterr()
+
+
+def test_without_them_there_is_no_date(records):
+    for shown in (document.page, document.latex):
+        assert not re.search(
+            r"\\today|\\date|author\" content", shown(CHAPTERS, language("en"), records)
+        )
+
+
+def test_every_work_is_referred_to():
+    cited = {x for c in CHAPTERS for e in c.entries for x in said(e, 0) if x in NUMBERS}
+    assert cited == {*NUMBERS}
+    for entry in (e for c in CHAPTERS for e in c.entries):
+        assert sorted(said(entry, 0)) == sorted(said(entry, 1))
+    surnames = [authors.split(",")[0].split()[-1] for _, authors, *_ in WORKS]
+    assert surnames == sorted(surnames)
+
+
+def said(entry, at):
+    """The labels and works that an entry refers to."""
+    return [x for text in entry.texts[at] if isinstance(text, str) for x in CITED.findall(text)]
+
+
+def test_the_table_of_symbols_is_of_letters_that_stand_where_it_says(records):
+    for lang, meaning in (("en", "angular velocity in the body"), ("fr", "vitesse angulaire")):
+        table = letters(CHAPTERS, records, language(lang))
+        assert any(x.name == "ζ" and x.meaning.startswith(meaning) for x in table)
+        assert len({(x.name, x.meaning) for x in table}) == len(table) > 60
+        plain = str.maketrans("₀₁₂₃", "0123")
+        for x in table:
+            stands = " ".join(y.text for y in x.entry.formulas).translate(plain)
+            assert unicodedata.normalize("NFC", x.name.replace("_", "")) in unicodedata.normalize(
+                "NFC", stands.replace("_", "")
+            )
+        latin = [x.name for x in table if x.name.isascii() and len(x.name) == 1]
+        assert latin == sorted(latin, key=str.casefold)
 
 
 def test_the_polhodes_are_levels_of_the_energy_on_the_sphere():

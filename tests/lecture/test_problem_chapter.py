@@ -53,21 +53,22 @@ def test_a_changed_equation_is_refused(made):
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_each_search_has_a_heading_and_something_to_say(made, lang):
-    _, chapter, _ = made
+    _, chapter, records = made
     words = language(lang)
     sections = [b for b in chapter.blocks if b.kind == "section"]
     assert len(sections) == 4
     assert all(b.entries for b in chapter.blocks)
-    page = document.page([chapter], words)
+    page = document.page([chapter], words, records)
     for heading in ("What the motion keeps.", "Steady motions."):
         assert words.word(heading) in page
     assert "‘" not in re.sub("<[^>]*>", "", page)  # parameters are set, not quoted
-    assert tex_text(words.word("Its equations of motion are")) in document.latex([chapter], words)
+    said = tex_text(words.word("Its equations of motion are"))
+    assert said in document.latex([chapter], words, records)
 
 
 def test_a_search_that_is_refused_says_why():
     chapter, records = chapter_on("comet")
-    page = document.page([chapter], language("en"))
+    page = document.page([chapter], language("en"), records)
     refused = [
         x
         for x in ("symmetries", "reduction", "integrals", "equilibria")
@@ -83,7 +84,8 @@ def test_searches_refused_for_one_reason_stand_together(made):
     reason = f"{d.name}: its forces are no part of L̃"
     found = dict.fromkeys(("symmetries", "integrals", "reduction"), Found(refused=reason))
     found["equilibria"] = Found()
-    page = document.page([chapter_of(d, found, tuple(records))], language("en"))
+    chapter = chapter_of(d, found, tuple(records))
+    page = document.page([chapter], language("en"), records)
     assert "What the motion keeps. First integrals. Reduction." in page
     assert page.count("This was not found: its forces are no part of") == 1
     assert "None was found among the points" in page
@@ -94,7 +96,7 @@ def test_inputs_that_hold_a_body_are_told(tmp_path, monkeypatch):
     Path("hung.toml").write_text(HUNG, encoding="utf-8")
     chapter, records = chapter_on("hung.toml")
     assert "hung:trim" in records
-    page = document.page([chapter], language("fr"))
+    page = document.page([chapter], language("fr"), records)
     assert "Au repos, par ses commandes." in page
     assert len([*tried(chapter, records, SEED)]) >= 2
 

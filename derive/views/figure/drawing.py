@@ -13,7 +13,8 @@ from textwrap import wrap
 from ...record.sentence import Prose
 from ..printing.letters import parameter
 from ..printing.line_breaking import display_width
-from ..printing.signs import SYMBOLS
+from ..printing.sentences import spelt
+from ..printing.typeset import plain
 
 Point = tuple[float, float]
 Box = tuple[float, float, float, float]
@@ -23,6 +24,7 @@ SIZE, SMALL = 3.7, 2.6
 """Heights of type in millimetres: letters and their indices."""
 INDEXED = re.compile(r"([A-Za-z][A-Za-z0-9]*)_([A-Za-z0-9]{1,3})|([A-Za-z]+)([0-9]{1,3})")
 """A name that ends in an index, as in :func:`parameter`."""
+NUMBER = re.compile(r"−?[0-9.,]+")
 LONGEST = 24
 """The most letters of a name; longer ones are cut."""
 HEAD, HALF_HEAD = 2.3, 0.75
@@ -50,7 +52,8 @@ class Dot:
 
 @dataclass(frozen=True)
 class Label:
-    """A letter with an index; or, where ``name``, an upright name that a user gave."""
+    """A letter or a short formula, with an index; or, where ``name``, an upright name that a user
+    gave."""
 
     base: str
     index: str = ""
@@ -62,7 +65,7 @@ class Label:
         """The label in LaTeX, without dollars."""
         if self.name:
             return parameter(shortened(self.base)).tex.replace(r"\text{", r"\mbox{")  # no amsmath
-        base = SYMBOLS.get(self.base, self.base)
+        base = plain(spelt(self.base).tex)
         return f"{base}_{{{self.index}}}" if self.index else base
 
     @property
@@ -197,7 +200,7 @@ def from_segment(p: Point, a: Point, b: Point) -> float:
 
 PENS = {
     "wash": (0.0, 0.07), "hidden": (0.22, 0.5), "thin": (0.22, 0.6), "dashed": (0.28, 1.0),
-    "line": (0.35, 1.0), "solid": (0.0, 1.0),
+    "line": (0.35, 1.0), "thick": (0.7, 1.0), "solid": (0.0, 1.0),
 }  # fmt: skip
 """Pen → the width of its lines in millimetres, and its opacity."""
 THINNER = {"axis": 0.28, "spring": 0.28, "support": 0.28}
@@ -287,7 +290,7 @@ def _disc(d: Dot, height: float) -> str:
 def _svg_label(label: Label, height: float) -> str:
     base, index = label.parts
     family = f'font-family="{NAMES}"' if label.name else f'font-family="{LETTERS}"'
-    slant = "" if label.name else ' font-style="italic"'
+    slant = "" if label.name or NUMBER.fullmatch(base) else ' font-style="italic"'
     y = height - label.at[1] + (0.27 if label.name else 0.2) * SIZE
     lower = f'<tspan dy="{BELOW}" font-size="{SMALL}"{UPRIGHT * index.isdigit()}>{_text(index)}'
     return (

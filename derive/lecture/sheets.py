@@ -1,0 +1,177 @@
+"""What the figures of the lecture are made of: panels beside one another, coordinates in a frame,
+a sphere seen from outside; and equations of the text as functions of numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import pairwise
+
+from ..language.tree import Tree
+from ..language.values import arithmetic
+from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
+
+AXES = ("first", "second", "third")
+"""The role of what belongs to each axis of the body, in all figures."""
+Vector = tuple[float, ...]
+TICK, BESIDE = 1.0, 3.4
+"""Half a mark of an axis; how far from the axis its numbers are, in millimetres."""
+TURN = tuple(2 * math.pi * k / 180 for k in range(181))
+
+
+def panel(
+    size: Point, strokes: Iterable[Stroke], labels: Iterable[Label] = (), dots: Iterable[Dot] = ()
+) -> Scene:
+    """A figure without words."""
+    return Scene(*size, tuple(strokes), tuple(dots), tuple(labels), "", ())
+
+
+def beside(*panels: Scene, gap: float) -> Scene:
+    """Panels from left to right, their middles at one height."""
+    height, left = max(x.height for x in panels), 0.0
+    strokes: list[Stroke] = []
+    dots: list[Dot] = []
+    labels: list[Label] = []
+    for x in panels:
+        by = (left, (height - x.height) / 2)
+        strokes += (replace(s, points=tuple(_moved(p, by) for p in s.points)) for s in x.strokes)
+        dots += (replace(d, at=_moved(d.at, by)) for d in x.dots)
+        labels += (replace(y, at=_moved(y.at, by)) for y in x.labels)
+        left += x.width + gap
+    return panel((left - gap, height), strokes, labels, dots)
+
+
+def _moved(p: Point, by: Point) -> Point:
+    return p[0] + by[0], p[1] + by[1]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Coordinates from ``low`` to ``high`` in a rectangle of the sheet, in millimetres."""
+
+    corner: Point
+    size: Point
+    low: Point
+    high: Point
+
+    def at(self, x: float, y: float) -> Point:
+        """Where a point of the coordinates is on the sheet."""
+        across = self.size[0] * (x - self.low[0]) / (self.high[0] - self.low[0])
+        up = self.size[1] * (y - self.low[1]) / (self.high[1] - self.low[1])
+        return self.corner[0] + across, self.corner[1] + up
+
+    def curve(self, points: Iterable[Point], role: str, pen: str = "line") -> Stroke:
+        """A curve by its points."""
+        return Stroke(tuple(self.at(*p) for p in points), role, pen)
+
+    def axes(
+        self, names: tuple[Label, Label], across: Mapping[float, str], up: Mapping[float, str]
+    ) -> tuple[list[Stroke], list[Label]]:
+        """Both axes, from the lower left corner, with their names at the tips and their marks."""
+        origin = self.corner
+        right, top = origin[0] + self.size[0] + 4, origin[1] + self.size[1] + 3
+        strokes = arrow(origin, (right, origin[1]), "axis")
+        strokes += arrow(origin, (origin[0], top), "axis")
+        labels = [
+            replace(names[0], at=(right + 1 + names[0].half[0], origin[1])),
+            replace(names[1], at=(origin[0], top + 2.6)),
+        ]
+        for x, name in across.items():
+            place = (self.at(x, 0)[0], origin[1])
+            strokes.append(_mark(place, (0, TICK)))
+            labels.append(Label(name, at=(place[0], place[1] - BESIDE)))
+        for y, name in up.items():
+            place = (origin[0], self.at(0, y)[1])
+            strokes.append(_mark(place, (TICK, 0)))
+            label = Label(name)
+            labels.append(replace(label, at=(place[0] - label.half[0] - 1.8, place[1])))
+        return strokes, labels
+
+
+def _mark(at: Point, half: Point) -> Stroke:
+    ends = ((at[0] - half[0], at[1] - half[1]), (at[0] + half[0], at[1] + half[1]))
+    return Stroke(ends, "axis", "thin")
+
+
+@dataclass(frozen=True)
+class View:
+    """Space seen from far, from a direction in degrees: around the vertical, and above the
+    horizon; ``centre``: where the origin is, ``scale``: what 1 is, in millimetres."""
+
+    centre: Point
+    scale: float
+    azimuth: float
+    elevation: float
+
+    def _toward(self, v: Sequence[float]) -> float:
+        a = math.radians(self.azimuth)
+        return math.cos(a) * v[0] + math.sin(a) * v[1]
+
+    def depth(self, v: Sequence[float]) -> float:
+        """How near to the eye a point is."""
+        e = math.radians(self.elevation)
+        return math.cos(e) * self._toward(v) + math.sin(e) * v[2]
+
+    def at(self, v: Sequence[float]) -> Point:
+        """Where a point is on the sheet."""
+        a, e = math.radians(self.azimuth), math.radians(self.elevation)
+        along = -math.sin(a) * v[0] + math.cos(a) * v[1]
+        up = math.cos(e) * v[2] - math.sin(e) * self._toward(v)
+        return self.centre[0] + self.scale * along, self.centre[1] + self.scale * up
+
+    def outline(self) -> Stroke:
+        """The sphere of radius 1."""
+        (x, y), r = self.centre, self.scale
+        points = ((x + r * math.cos(k), y + r * math.sin(k)) for k in TURN)
+        return Stroke(tuple(points), "support", "thin")
+
+    def on_sphere(self, curve: Sequence[Vector], role: str, pen: str = "line") -> list[Stroke]:
+        """A curve on the sphere; behind it, it is pale."""
+        return [
+            Stroke(tuple(map(self.at, run)), role, pen if front else "hidden")
+            for run, front in self._runs(curve)
+        ]
+
+    def _runs(self, curve: Sequence[Vector]) -> Iterable[tuple[list[Vector], bool]]:
+        """A curve cut where it passes behind; each run goes to where the next begins."""
+        run = [curve[0]]
+        for x, y in pairwise(curve):
+            run.append(y)
+            if (self.depth(x) > 0) != (self.depth(y) > 0):
+                yield run, self.depth(x) > 0
+                run = [y]
+        yield run, self.depth(curve[-1]) > 0
+
+
+def number(t: Tree, of: Mapping[Tree, float]) -> float:
+    """The value of an expression of the text, by those ``of`` its letters."""
+    if t in of:
+        return of[t]
+    if isinstance(t, int | Fraction):
+        return float(t)
+    return float(arithmetic(t, lambda x: number(x, of)))  # type: ignore[arg-type]
+
+
+def solved(
+    rate: Callable[[Vector], Vector], start: Vector, end: float, steps: int, each: int = 1
+) -> list[tuple[float, Vector]]:
+    """A motion ẋ = rate(x) at every ``each``th of equal steps of time, by the method of Runge and
+    Kutta of order 4."""
+    h, x = end / steps, start
+    found = [(0.0, x)]
+
+    def moved(k: Vector, by: float) -> Vector:
+        return tuple(a + by * b for a, b in zip(x, k, strict=True))
+
+    for step in range(1, steps + 1):
+        k1 = rate(x)
+        k2 = rate(moved(k1, h / 2))
+        k3 = rate(moved(k2, h / 2))
+        k4 = rate(moved(k3, h))
+        mean = tuple((a + 2 * b + 2 * c + d) / 6 for a, b, c, d in zip(k1, k2, k3, k4, strict=True))
+        x = moved(mean, h)
+        if step % each == 0:
+            found.append((step * h, x))
+    return found

@@ -1,0 +1,150 @@
+"""The figures of the lecture: their numbers by other roads, the same bytes, words for all."""
+
+import re
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from derive.command.lecturing import records_of
+from derive.lecture import document, figures, top_figures
+from derive.lecture.lecture_text import LectureError, chapters, parsed
+from derive.views.language import LANGUAGES, language
+from tests.support.library import module_of
+
+CHAPTERS = chapters()
+RECORDS = records_of(CHAPTERS)
+CLAIMS = document.claims_of(CHAPTERS)
+FIGURES = [b for c in CHAPTERS for b in c.blocks if b.kind == "figure"]
+I1, I3, P = top_figures.PARAMETERS.values()
+
+
+def top(kind):
+    return top_figures.Top(CLAIMS, top_figures.PRECESSIONS[kind])
+
+
+def momenta(kind):
+    """The rate of precession at the upper tilt, the momentum about the vertical, and the energy, by
+    the angular velocity: ψ̇ of precession about e_z and what is left about the axis."""
+    rate, spin, u = top_figures.PRECESSIONS[kind], top_figures.SPIN, top_figures.UPPER
+    about_vertical = I1 * rate * (1 - u * u) + spin * u
+    return rate, about_vertical, I1 * rate**2 * (1 - u * u) / 2 + spin**2 / (2 * I3) + P * u
+
+
+def by_vectors(kind, end):
+    """The axis n of the top by the law of its angular momentum, L′ = −P n × e_z."""
+    rate, u, up = momenta(kind)[0], top_figures.UPPER, np.array([0, 0, 1.0])
+    n = np.array([np.sqrt(1 - u * u), 0, u])
+    momentum = I1 * np.cross(n, np.cross(rate * up, n)) + top_figures.SPIN * n
+
+    def moved(_, x):
+        n, about = x[:3], x[3:]
+        return [*(np.cross(about, n) / I1), *(np.cross(n, -P * up))]
+
+    run = solve_ivp(moved, (0, end), [*n, *momentum], rtol=1e-11, atol=1e-12, dense_output=True)
+    return lambda t: run.sol(t)[:3]
+
+
+@pytest.mark.parametrize("kind", top_figures.PRECESSIONS)
+def test_the_axis_moves_as_its_angular_momentum_says(kind):
+    motion = top(kind).motion(20.0, 1600)
+    axis = by_vectors(kind, 20.0)
+    for t, (u, _, angle) in motion[::50]:
+        r = np.sqrt(1 - u * u)
+        assert np.allclose([r * np.cos(angle), r * np.sin(angle), u], axis(t), rtol=0, atol=1e-5)
+
+
+@pytest.mark.parametrize("kind", top_figures.PRECESSIONS)
+def test_the_turning_points_are_roots_of_the_cubic(kind):
+    """(1 − u²)(2h − J₂²/I₃ − 2Pu) I₁ − (J₁ − uJ₂)², by the roots of polynomials."""
+    _, about_vertical, energy = momenta(kind)
+    spin = top_figures.SPIN
+    cubic = I1 * np.poly1d([-1, 0, 1]) * np.poly1d([-2 * P, 2 * energy - spin**2 / I3])
+    cubic -= np.poly1d([-spin, about_vertical]) ** 2
+    low, high, outside = sorted(cubic.roots.real)
+    assert np.allclose([low, high], [top(kind).lower, top_figures.UPPER], rtol=0, atol=1e-9)
+    assert outside > 1
+    heights = [u for _, (u, *_) in top(kind).motion(20.0, 1600)]
+    assert min(heights) == pytest.approx(low, abs=1e-3)
+    assert max(heights) < high + 1e-6
+    assert top(kind).potential(low) == pytest.approx(energy, abs=1e-9)
+
+
+def test_waves_cusps_and_loops():
+    """Along a path the angle grows, stands still with the height at cusps, or also falls."""
+    backwards, slowest = {}, {}
+    for kind in top_figures.PRECESSIONS:
+        path = np.array(top(kind).path())
+        steps = np.diff(np.unwrap(np.arctan2(path[:, 1], path[:, 0])))
+        backwards[kind] = (steps < -1e-6).sum()
+        slowest[kind] = np.linalg.norm(np.diff(path, axis=0), axis=1).min()
+        assert np.allclose((path**2).sum(axis=1), 1, rtol=0, atol=1e-12)
+    assert backwards["waves"] == backwards["cusps"] == 0 < 50 < backwards["loops"]
+    assert 20 * slowest["cusps"] < min(slowest["waves"], slowest["loops"])
+
+
+def test_the_racket_flips_as_the_emitted_code_says():
+    code, motion = module_of("euler_top"), figures.racket(CLAIMS)
+    k = code.constants(list(figures.MOMENTS))
+    start = [*np.eye(3).ravel(), *figures.START]
+    times = [t for t, _ in motion]
+    run = solve_ivp(
+        code.rhs, (0, figures.END), start, t_eval=times, args=(k,), rtol=1e-11, atol=1e-13
+    )
+    zeta = np.array([x for _, x in motion])
+    assert np.allclose(zeta, run.y[-3:].T, rtol=0, atol=1e-4)
+    moments = np.array(figures.MOMENTS)
+    for kept in (zeta**2 @ moments, zeta**2 @ moments**2):
+        assert np.ptp(kept) < 1e-8
+    assert (np.diff(np.sign(zeta[:, 1])) != 0).sum() == 2
+
+
+def test_the_racket_of_the_theory_is_turned_as_a_solid():
+    moved = np.array([figures.displacement(x) for x in np.eye(3)]).T
+    assert np.allclose(moved.T @ moved, np.eye(3), rtol=0, atol=1e-14)
+    assert np.linalg.det(moved) == pytest.approx(1)
+
+
+@pytest.mark.parametrize("block", FIGURES, ids=[b.label for b in FIGURES])
+def test_a_figure_is_the_same_twice_and_fits_the_text(block):
+    scene = figures.FIGURES[block.label](CLAIMS)
+    assert scene == figures.FIGURES[block.label](CLAIMS)
+    assert scene.width <= 127
+    reach = [p for s in scene.strokes for p in s.points]
+    reach += [p for x in scene.labels for p in (x.box[:2], x.box[2:])]
+    assert np.all(np.array(reach) >= -0.5)
+    assert np.all(np.array(reach) <= np.array([scene.width, scene.height]) + 0.5)
+
+
+def test_every_figure_is_in_the_text_and_no_other():
+    assert {b.label for b in FIGURES} == {*figures.FIGURES}
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_the_pictures_in_a_language(lang):
+    """Numbers with its decimal mark, the same letters in all; each is described in words."""
+    page = document.page(CHAPTERS, language(lang), RECORDS)
+    assert page == document.page(CHAPTERS, language(lang), RECORDS)
+    shown = re.findall(r"<svg.*?</svg>", page, re.S)
+    labels = [re.sub(r"<[^>]+>", "", x) for s in shown for x in re.findall("<text.*?</text>", s)]
+    assert (("0,5" in labels), ("0.5" in labels)) == (lang == "fr", lang == "en")
+    for picture, block in zip(shown, FIGURES, strict=True):
+        (description,) = block.entries[0].texts[LANGUAGES.index(lang)]
+        assert f"<title>{description}</title>" in picture
+        assert len(description) > 80
+    latex = document.latex(CHAPTERS, language(lang), RECORDS)
+    assert latex.count(r"\begin{tikzpicture}") == latex.count(r"\BeginAccSupp") == len(FIGURES)
+
+
+def test_a_caption_says_the_numbers_of_its_figure():
+    (tilts,) = (b for b in FIGURES if b.label == "tilts")
+    said = {x.text for x in tilts.entries[1].formulas}
+    drawn = top_figures.PARAMETERS | {"𝒥₂": top_figures.SPIN}
+    assert {f"{x} = {Fraction(str(y))}" for x, y in drawn.items()} <= said
+
+
+def test_a_figure_without_a_description_is_refused():
+    text = "chapter c\n  A\n  B\nrecords so3\nfigure polhodes\n  Curves.\n  Courbes.\n"
+    with pytest.raises(LectureError, match="line 5: a figure begins with a description"):
+        parsed(text, "c.txt")
