@@ -59,7 +59,7 @@ def _of_points(
         return ()
     draft.depends_on(motion, *kept)
     sentence = "acting" if external else "none"
-    timed = say("power.timed") if problem.timed else ()
+    timed = say("power.timed", rate=b.dU_dt.name) if problem.timed else ()
     return (draft.step([Equation("ḣ", add(*terms))], say(f"power.{sentence}") + timed),)
 
 
@@ -77,5 +77,5 @@ def of_lagrangian(
     motion = next(x for x in balance if x.label == c.label("motion"))
     draft.depends_on(general["moment_map"], motion)
     prose = say("power.none" if power == 0 else "power.acting")
-    prose += say("power.timed") if timed else ()
+    prose += say("power.timed", rate="∂ₜL̃") if timed else ()
     return (draft.step([Equation("ḣ", add(power, neg("∂ₜL̃") if timed else 0))], prose),)
