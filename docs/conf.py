@@ -18,8 +18,8 @@ include_patterns = ["*.md", "docs/*.md", "docs/*/*.md"]
 ROOT = Path(__file__).parents[1]
 CONTENTS = {
     "Use": "tutorial playground systems commands problem-file potentials/* lagrangian dirichlet "
-    "fluid zeitlin kinematics symmetries integrals reduction equilibria control motion ensembles plot "
-    "notes lecture code options steps discrete build fmu compare python sympy record",
+    "fluid zeitlin kinematics symmetries integrals reduction equilibria control motion ensembles "
+    "plot notes lecture code options steps discrete build fmu compare python sympy record",
     "Trust": "trust performance not-here strangers ../SECURITY paper",
     "Inside": "architecture extending reference ../CONTRIBUTING ../CHANGELOG",
 }

@@ -2,9 +2,9 @@
 
 A page is run as a reader would, from top to bottom in one folder: problem files and programs are
 saved, commands are typed; the Python of the page is one program, run in the end, but what begins
-with ``# NAME.py``, which is saved.  A command with the comment ``# exit 1`` must fail so.  The block after
-``<!-- output -->`` is in what the block before it printed, on stderr after ``<!-- output: stderr
--->``; … stands there for anything, and 1e-67 for any such power.
+with ``# NAME.py``, which is saved.  A command with the comment ``# exit 1`` must end so.  The block
+after ``<!-- output -->`` is in what the block before it printed, on stderr after ``<!-- output:
+stderr -->``; … stands there for anything, and 1e-67 for any such power.
 """
 
 import os
