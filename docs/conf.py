@@ -20,7 +20,7 @@ include_patterns = ["*.md", "docs/*.md", "docs/*/*.md"]
 
 ROOT = Path(__file__).parents[1]
 CONTENTS = {
-    "Begin": "tutorial playground commands",
+    "Begin": "tutorial playground systems commands",
     "A problem": "problem-file potentials/* lagrangian dirichlet fluid zeitlin kinematics",
     "What is found of it": "symmetries integrals reduction equilibria control",
     "Its motion": "motion ensembles plot",

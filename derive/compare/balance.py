@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from types import ModuleType
@@ -97,6 +98,13 @@ class Balance:
         found[:3, 3:] = np.cross(np.eye(3), r).T  # less r × force
         return found
 
+    def turns(self) -> Array:
+        """The matrices A of the states, (N, n, n)."""
+        entries = [i for i, x in enumerate(self.code.STATE) if x.startswith("A_")]
+        n = math.isqrt(len(entries))
+        found: Array = self.x[:, entries].reshape(len(self.x), n, n)
+        return found
+
     def size(self) -> Array:
         """The size of the terms of each row, (d,)."""
         k = self.k(self.values())
@@ -162,6 +170,12 @@ class Balance:
         yield Term(crossed, lambda row: "ω × Mv" if row == "force" else "the product of ω and v")
         if turning == 3:
             yield from self._of_momenta()
+
+    def together(self) -> Iterator[Term]:
+        """All inputs as one term, where there are several."""
+        if self.u.shape[1] > 1:
+            u = self.u
+            yield Term(self.bias(self.x, 0 * u) - self.bias(self.x, u), _of("all inputs"))
 
     def _of_momenta(self) -> Iterator[Term]:
         """The same by Kirchhoff's equations: −ω × π − v × p about the origin, −ω × p."""

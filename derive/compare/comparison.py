@@ -241,6 +241,7 @@ def _block_of(item: Item) -> str:
     return "matrix" if item.name in ("quaternion", "euler") else item.name
 
 
+@np.errstate(all="ignore")
 def _explained(c: Comparison, make: Made, off: Array, d: int) -> Explanation:
     """What explains that the rates of the velocity differ, with our own rates of places."""
     own = np.array(c.dx)

@@ -41,6 +41,8 @@ def hypotheses(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     yield from of_vectors(b)
     yield from of_the_point(b)
     for view in views(b):
+        for term in (*terms, *b.together()):
+            yield from of_axes(b, term, view)
         for term in terms:
             yield from of_term(b, term, view)
 
@@ -208,6 +210,22 @@ def of_the_point(b: Balance) -> Iterator[Hypothesis]:
             words = f"the tensor of inertia{where} is about another point: it is ours with "
             words += f"{found[0]:+.6g} times the term of parallel axes, m(r²1 − r r̄)"
             yield Hypothesis(words.replace("-", "−"), 0 if simple else 4, found[1])
+
+
+def of_axes(b: Balance, term: Term, view: tuple[str, Array]) -> Iterator[Hypothesis]:
+    """The numbers of a force or a moment are taken along the axes of the other frame."""
+    (about, to), A = view, b.turns()
+    here, values, back = b.left(b.values()) @ to.T, term.values @ to.T, np.linalg.inv(to).T
+    for rows in b.rows.values():
+        if len(rows) != A.shape[1]:
+            continue
+        own, kind = values[:, rows], _kind(b, rows)
+        called = term.name(kind) + about * (kind == "moment")
+        for frame, R in (("space", A.transpose(0, 2, 1)), ("the body", A)):
+            left = here.copy()
+            left[:, rows] -= np.einsum("nij,nj->ni", R, own) - own
+            words = f"{called} has its numbers along the axes of {frame} instead"
+            yield Hypothesis(words, 0, left @ back)
 
 
 def of_term(b: Balance, term: Term, view: tuple[str, Array]) -> Iterator[Hypothesis]:

@@ -212,3 +212,23 @@ def f(x, u):
     dv = force / m - np.cross(w, v + np.cross(w, c)) - np.cross(dw, c)
     return np.concatenate([(A @ hat(w)).ravel(), A @ v, dw, dv])
 """
+
+CAR = """
+name = "car"
+group = "SE(2)"
+[body]
+given = { m = 3, centre = [0, 0], I = 2 }
+[[force]]
+at = [1, 0]
+frame = "body"
+force = [0, "-v_2/v_1"]
+"""
+"""Its force is no number where a term is told by states in which the body rests."""
+
+CAR_CODE = """
+def f(x):
+    a, b, c, d, _, _, r, u, v = x
+    F = -(v + r) / u
+    moving = r * v, F / 3 - r * u
+    return [b * r, -a * r, d * r, -c * r, a * u + b * v, c * u + d * v, F / 2, *moving]
+"""

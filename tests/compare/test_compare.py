@@ -11,6 +11,7 @@ CALLS = {
     "top": 'call = "top(x, dx)"',
     "wheel": 'call = "f(t, x, dx)"\nstate = ["quaternion", "omega"]',
     "drone": 'call = "f(x, u) -> dx"',
+    "car": 'call = "f(x) -> dx"',
 }
 """Problem → how its code is called."""
 STEINER = ("STEINER", "1")
@@ -71,6 +72,17 @@ FAULTS = {
         ("A @ hat(w)", "hat(w) @ A"),
         "the rate of matrix is right if omega has frame 'space'",
     ),
+    "frame of a thrust": (
+        "drone",
+        ("force + number * DIRECTION[name]", "force + A.T @ (number * DIRECTION[name])"),
+        "the force of all inputs has its numbers along the axes of space instead",
+    ),
+    "frame of gravity": (
+        "drone",
+        ("m * A.T @ [0, 0, -g]", "m * np.array([0, 0, -g])"),
+        "the force of gravity has its numbers along the axes of the body instead",
+    ),
+    "axes that turn": ("car", ("F / 3 - r * u", "F / 3"), "ω × Mv in row 3 is missing"),
     "ω × Iω": (
         "wheel",
         ("L = I @ o + [0, 0, H]", "L = np.array([0, 0, H])"),
@@ -95,6 +107,7 @@ FAULTS = {
 }
 
 
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_is_named(fault, capsys, tmp_path):
     name, change, words = FAULTS[fault]

@@ -1,9 +1,10 @@
 """README and the pages of docs/ as blocks, and what runs them.
 
 A page is run as a reader would, from top to bottom in one folder: problem files and programs are
-saved, commands are typed; the Python of the page is one program, run in the end.  The block after
-``<!-- output -->`` is in what the block before it printed, on stderr after ``<!-- output: stderr
--->``; … stands there for anything, and 1e-67 for any such power.
+saved, commands are typed; the Python of the page is one program, run in the end, but what begins
+with ``# NAME.py``, which is saved.  A command with the comment ``# exit 1`` must end so.  The block
+after ``<!-- output -->`` is in what the block before it printed, on stderr after ``<!-- output:
+stderr -->``; … stands there for anything, and 1e-67 for any such power.
 """
 
 import os
@@ -63,6 +64,10 @@ GIVEN = ("pip install ", ". .venv/bin/activate")
 """Commands that are not run: they make the environment in which the others are."""
 
 
+OWN = re.compile(r"# (\w+\.py)\n")
+"""The first line of Python that is saved under this name, not run."""
+
+
 class Block(NamedTuple):
     """A block: its language, "output" or "output: stderr", and its text."""
 
@@ -91,13 +96,14 @@ def shown(expected: str, printed: str) -> bool:
 class Reader:
     """Who reads a page in a folder, with the Python and the derive of an environment.
 
-    ``derive``: what runs its commands in place of a process, and gives stdout and stderr.
+    ``derive``: what runs its commands, which end with this code, in place of a process, and gives
+    stdout and stderr.
     ``absent``: what is not here, for which something was left out.
     """
 
     folder: Path
     python: str = sys.executable
-    derive: Callable[[list[str]], tuple[str, str]] | None = None
+    derive: Callable[[list[str], int], tuple[str, str]] | None = None
     environment: Mapping[str, str] = field(default_factory=dict)
     absent: set[str] = field(default_factory=set)
 
@@ -113,10 +119,12 @@ class Reader:
                     text,
                     printed["stderr" in kind][-500:],
                 )
+            elif own := kind == "python" and OWN.match(text):
+                (self.folder / own[1]).write_text(text, encoding="utf-8")
             elif kind == "python":
                 program.append((text, ""))
             elif kind == "sh":
-                printed = self.typed(commands(text))
+                printed = self.typed(text)
             else:
                 name = f"{tomllib.loads(text)['name']}.toml" if kind == "toml" else SAVED[kind]
                 (self.folder / name).write_text(text, encoding="utf-8")
@@ -124,10 +132,11 @@ class Reader:
         if program:
             self.ran(program)
 
-    def typed(self, lines: list[str]) -> tuple[str, str] | None:
+    def typed(self, text: str) -> tuple[str, str] | None:
         """What commands print together; nothing is known where one of them is left out."""
         printed, left = ["", ""], False
-        for line in lines:
+        for whole in filter(commands, text.splitlines()):
+            (line,), code = commands(whole), int(whole.endswith("# exit 1"))
             words = shlex.split(line)
             if line.startswith(GIVEN) or (words[0] == "make" and self.of_the_project(words[1])):
                 continue
@@ -138,8 +147,8 @@ class Reader:
             if absent or (self.absent and self.unmade(words[0])):
                 left = True
                 continue
-            for i, text in enumerate(self.command(words)):
-                printed[i] += text
+            for i, told in enumerate(self.command(words, code)):
+                printed[i] += told
         return None if left else (printed[0], printed[1])
 
     def unmade(self, program: str) -> bool:
@@ -152,22 +161,22 @@ class Reader:
         assert not own or target in TARGETS, target
         return own
 
-    def command(self, words: list[str]) -> tuple[str, str]:
-        """What a command prints; it must not fail."""
+    def command(self, words: list[str], code: int) -> tuple[str, str]:
+        """What a command prints, which must end with this code."""
         if words[0] == "derive" and self.derive is not None:
-            return self.derive(words[1:])
+            return self.derive(words[1:], code)
         words = [{"cc": CC, "c++": "g++"}.get(words[0], words[0]), *words[1:]]
-        return self.process(words)
+        return self.process(words, code)
 
-    def process(self, words: list[str]) -> tuple[str, str]:
-        """What a process prints; it must not fail."""
+    def process(self, words: list[str], code: int = 0) -> tuple[str, str]:
+        """What a process prints, which must end with this code."""
         path = f"{Path(self.python).parent}{os.pathsep}{os.environ['PATH']}"
         here = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "VIRTUAL_ENV"))}
         environment = here | {"PATH": path, "CC": CC} | dict(self.environment)
         found = subprocess.run(
             words, cwd=self.folder, env=environment, capture_output=True, encoding="utf-8"
         )
-        assert found.returncode == 0, (words, found.stdout[-2000:], found.stderr[-2000:])
+        assert found.returncode == code, (words, found.stdout[-2000:], found.stderr[-2000:])
         return found.stdout, found.stderr
 
     def ran(self, program: list[tuple[str, str]]) -> None:
