@@ -44,7 +44,7 @@ await build({
   bundle: true, format: "esm", minify: true, target: "es2022", outdir: out, legalComments: "none",
   external: ["./pyodide/pyodide.mjs"],
 });
-for (const file of ["index.html", "moving.html", "play.css", "icon.svg", "play.webmanifest"]) {
+for (const file of ["index.html", "moving.html", "play.css", "arrows.css", "icon.svg", "play.webmanifest"]) {
   copyFileSync(join(here, "src", file), join(out, file));
 }
 for (const file of ["page.css", "motion.css"]) copyFileSync(join(html, file), join(out, file));

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from unicodedata import normalize
@@ -245,11 +245,21 @@ def answer_markdown(x: Summary) -> str:
     return "\n\n".join(filter(None, (*parts, "\n".join(lines), markdown_text(x.source)))) + "\n"
 
 
-def answer_mathml(d: Derivation) -> tuple[str, ...]:
-    """The equations of motion as MathML, one element each."""
-    names = latex_names(d)
-    typeset = partial(of_tree, names=names, notation=Notation())
+def answer_mathml(d: Derivation, marks: Mapping[Tree, str] | None = None) -> tuple[str, ...]:
+    """The equations of motion as MathML, one element each.
+
+    ``marks``: tree → the ``data-arrow`` that it has where it stands; the equation of a vector whose
+    entries are told stands among them, too, where a term of it is marked.
+    """
+    names, marked = latex_names(d), marks or {}
+    typeset = partial(of_tree, names=names, notation=Notation(), marks=marked)
+    told, solved = equations_of_motion(d), steps_of_answer(d)[0].equations
+
+    def marked_term(e: Equation) -> bool:
+        return any(x in marked for x in nodes(e.rhs) if isinstance(x, tuple) and x[0] != "entry")
+
+    shown = (*(e for e in solved if e in told or marked_term(e)), *told)
     return tuple(
         (typeset(e.lhs) + literal(" = ") + typeset(e.rhs)).plain().mathml()
-        for e in equations_of_motion(d)
+        for e in dict.fromkeys(shown)
     )

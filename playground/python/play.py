@@ -18,6 +18,7 @@ import tomllib
 import zipfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -93,13 +94,17 @@ class Play:
         """The equations of motion, and the walk as the HTML of ``derive walk FILE --format html
         --fragment``, piece by piece."""
         from derive.views.answer import answer_mathml
+        from derive.views.arrows import arrows, legend, marks
         from derive.views.html import fragment
         from derive.views.language import language
 
         with self.refusals():
             self.read(text)
             told = {"steps": len(self.record.steps), "name": self.record.name}
-            self.tell("derived", told | {"answer": answer_mathml(self.record)})
+            seen = arrows(self.record)
+            told["answer"] = answer_mathml(self.record, marks(seen))
+            told["arrows"] = legend(self.record, seen, language(lang))
+            self.tell("derived", told)
             found = corrections(self.record)
             for piece in fragment([self.record], language=language(lang), findings=found):
                 self.tell("piece", piece)
@@ -174,7 +179,9 @@ class Play:
 
         with self.refusals():
             source, page = self.moved(text, lang, sought=False)
-            self.tell("motion", {"source": source, "page": page, "pieces": pieces(page["body"])})
+            chosen = pieces(page["body"], read=bool(page.get("outputs")))
+            chosen |= {"arrows": "arrows_of"} if page["arrows"] else {}
+            self.tell("motion", {"source": source, "page": page, "pieces": chosen})
 
     def kept(self, text: str, lang: str) -> None:
         """The emitted JavaScript with all that the motion keeps, and its words; nothing where that
@@ -192,16 +199,21 @@ class Play:
         from derive.motion.emitted_code import EmittedCode, base_units
         from derive.motion.first_numbers import first_numbers
         from derive.programs import moving_program
+        from derive.views.arrows import arrows, drawn, with_arrows
         from derive.views.language import language
         from derive.views.page.motion_page import data
 
         self.read(text)
-        made, _ = moving_program(self.problem, self.record, sought=sought)
-        code = EmittedCode(made, self.record, base_units(self.problem))
+        seen = arrows(self.record)
+        record = with_arrows(self.record, seen)
+        made, _ = moving_program(self.problem, record, sought=sought)
         begin = first_numbers(with_numbers(made), self.problem, {})
         chosen = Options(step=("gauss",))
-        (source,) = emit(made, self.record, ("javascript",), made.name, chosen).values()
+        (source,) = emit(made, record, ("javascript",), made.name, chosen).values()
+        own = made.outputs[: len(made.outputs) - 3 * len(seen)]
+        code = EmittedCode(replace(made, outputs=own), self.record, base_units(self.problem))
         page = data(code, self.problem, self.record, begin, language(lang))
+        page["arrows"] = drawn(seen, len(own))
         page |= {"t": SECONDS, "tol": TOLERANCE}
         stated = [*page["x"]]
         page["x"] = moving(page, made)
@@ -234,8 +246,6 @@ def corrections(record: Derivation) -> list[PaperFinding]:
 def with_numbers(made: Any) -> Any:
     """A program whose parameters all have a number: 1 where the file gives none, as a slider can
     change it."""
-    from dataclasses import replace
-
     listed = tuple((x, 1.0 if v is None else v, *rest) for x, v, *rest in made.parameters)
     return replace(made, parameters=listed)
 

@@ -45,3 +45,13 @@ export function kept(name, value) {
   } catch { /* a browser that keeps nothing */ }
   return null;
 }
+
+const darkened = new Set();
+
+/* the colours of the dark, whatever the reader's are, or again the reader's */
+export function dark(always) {
+  for (const rule of [...document.styleSheets].flatMap((x) => [...x.cssRules])) {
+    if (rule.media?.mediaText.includes("dark")) darkened.add(rule);
+  }
+  for (const { media } of darkened) media.mediaText = always ? "all" : "(prefers-color-scheme: dark)";
+}

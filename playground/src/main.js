@@ -1,4 +1,5 @@
 /* The playground: the problem on one side, what is derived of it on the other. */
+import { Arrows } from "./arrows.js";
 import { copy, kept, make, the } from "./dom.js";
 import { editor } from "./editor.js";
 import { Engine } from "./engine.js";
@@ -9,6 +10,7 @@ import { Places } from "./history.js";
 import { asked, spoken } from "./link.js";
 import { menu } from "./menu.js";
 import { Motion } from "./see.js";
+import { Projector } from "./projector.js";
 import { Steps } from "./steps.js";
 import { Tabs } from "./tabs.js";
 import { Take } from "./take.js";
@@ -26,9 +28,21 @@ const equations = new Equations(the("walk"), css, document.querySelector(".read 
 const places = new Places(equations);
 const steps = new Steps(the("steps"), (id, again) => go(id, again));
 const engine = new Engine({ seconds: SECONDS, onstate, onbegin: () => say(words.loading), stored });
-const motion = new Motion(the("see"), { text: () => text, engine, say, ended });
+const motion = new Motion(the("see"), { text: () => text, engine, say, ended, lit: (number) => arrows.lit(number), key: (key) => projector.key(key) });
+const arrows = new Arrows(the("answer").lastElementChild, (number) => motion.light(number));
 const text = editor(the("editor"), data.schema, words, edited);
 const form = new Form(the("form"), data.schema, (made) => { text.text = made; });
+const projector = new Projector(the("projector"), {
+  equations, words: () => words,
+  answer: (place) => { place.innerHTML = arrows.place.innerHTML; },
+  passed: (id) => places.step(lang, chosen() ?? places.word, id, true),
+  beside: (is) => {
+    document.body.classList.toggle("beside", is);
+    motion.project(is);
+    if (is && tabs.now !== "see") see();
+  },
+  left: (id) => (id ? go(id, true) : tabs.show("see")),
+});
 const take = new Take(the("take"), data, {
   ask: files, reasons, file: () => ({ name: problem_name(), text: text.text, title: equations.title || problem_name(), ready: chosen() }),
 });
@@ -101,9 +115,9 @@ function ended(how) {
 }
 
 /* the equations of motion, at the head of what is derived */
-function answer(equations) {
+function answer(equations, vectors = []) {
   the("answer").hidden = !equations.length;
-  the("answer").lastElementChild.innerHTML = equations.map((x) => `<p>${x}</p>`).join("");
+  arrows.show(equations, vectors);
 }
 
 function athome(why) {
@@ -140,7 +154,7 @@ async function walk() {
   const how = await engine.ask({ ask: "walk", text: asking, lang }, (kind, news) => {
     if (kind === "derived") {
       count = news.steps;
-      answer(news.answer);
+      answer(news.answer, news.arrows);
     }
     else if (kind === "warning") found.push({ line: 1, ...(news.message ? news : { message: news }), severity: "warning" });
     else if (kind === "error") {
@@ -382,10 +396,15 @@ the("link").addEventListener("click", async (e) => {
   await copy(location.href, e.target, words.linked);
 });
 the("wide").addEventListener("click", () => widen(!document.body.classList.contains("wide")));
+const project = () => places.stands && projector.enter(tabs.now === "walk" ? equations.at()?.id : places.named);
+the("project").addEventListener("click", project);
 addEventListener("keydown", (e) => {
-  if (e.key !== "F8") return;
-  e.preventDefault();
-  the("wide").click();
+  if (e.ctrlKey || e.metaKey || e.altKey) return;
+  if (projector.key(e.key)) e.preventDefault();
+  else if (e.key === "F8") {
+    e.preventDefault();
+    the("wide").click();
+  } else if (e.key === "p" && !e.target.closest("input, select, textarea, [contenteditable], dialog")) project();
 });
 addEventListener("popstate", () => visit());
 

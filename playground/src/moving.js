@@ -1,5 +1,7 @@
 /* In a frame whose policy lets nothing be fetched: the emitted module, as a blob, and what moves the body by it.
  * The page about it is told how high it is, and the numbers that the reader has set. */
+import { dark } from "./dom.js";
+
 const chosen = (pieces) => Object.fromEntries(Object.entries(pieces).map(([x, name]) => [x, globalThis.drawing[name]]));
 const tell = (news) => parent.postMessage(news, location.origin);
 
@@ -17,8 +19,33 @@ function numbers({ given }, page, { PARAMETERS, INPUTS }) {
   };
 }
 
+/* the arrow of a number is pointed at, elsewhere in the page */
+function lit(number) {
+  const { motion } = document.getElementById("motion");
+  if (!motion) return;
+  motion.scene.lit = number;
+  motion.scene.ask();
+}
+
+/* the body alone, on black, or again with all that is about it */
+function project(is) {
+  document.documentElement.classList.toggle("projected", is);
+  dark(is);
+  const { motion } = document.getElementById("motion");
+  if (!motion) return;
+  motion.scene.large = is ? 1.7 : 1;
+  motion.recolour();
+}
+
+addEventListener("keydown", ({ key }) => {
+  if (["Escape", "PageUp", "PageDown"].includes(key)) tell({ key });
+});
+
 addEventListener("message", async ({ data, source, origin }) => {
-  if (source !== parent || origin !== location.origin || !data.source) return;
+  if (source !== parent || origin !== location.origin) return;
+  if (data.light !== undefined) lit(data.light);
+  if (data.project !== undefined) project(data.project);
+  if (!data.source) return;
   document.documentElement.lang = data.lang;
   document.title = document.querySelector("h1").textContent = data.title;
   const url = URL.createObjectURL(new Blob([data.source], { type: "text/javascript" }));
@@ -31,7 +58,7 @@ addEventListener("message", async ({ data, source, origin }) => {
       return;
     }
     home.replaceChildren();
-    home.motion = globalThis.drawing.mount(home, { ...data.page, module }, chosen(data.pieces));
+    home.motion = globalThis.drawing.mount(home, { ...data.page, module, pointed: (lit) => tell({ lit }) }, chosen(data.pieces));
     const into = document.createElement("button");
     Object.assign(into, { type: "button", className: "into", textContent: data.into });
     into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module) }));

@@ -4,8 +4,8 @@ import { written } from "./numbers.js";
 
 export class Motion {
   /* text: () → { text }, which takes the numbers that the reader has set; engine: what is asked; say(state, instead) tells, and
-   * ended(how) tells an ending other than "end" */
-  constructor(place, { text, engine, say, ended }) {
+   * ended(how) tells an ending other than "end"; lit(number): an arrow of the body is pointed at; key(key): one was pressed there */
+  constructor(place, { text, engine, say, ended, lit, key }) {
     Object.assign(this, { place, engine, say, ended });
     this.unset = [];
     addEventListener("message", ({ data, source, origin }) => {
@@ -13,8 +13,11 @@ export class Motion {
       if (data.listens) source.postMessage(this.told, location.origin);
       else if (data.fault) this.fail(data.fault);
       else if (data.height) this.frame.style.setProperty("--height", `${data.height}px`);
+      else if (data.lit !== undefined) lit(data.lit);
+      else if (data.key) key(data.key);
       else if (data.numbers) this.put(data.numbers, text());
       else Object.assign(this.frame.dataset, data);
+      if (data.moved !== undefined) this.project(this.projected);
       this.send();
     });
   }
@@ -48,6 +51,17 @@ export class Motion {
     });
     if (how !== "end" && how !== "late" && this.keeping === mark) this.keeping = null;
     this.say(how === "late" ? words.notkept(this.engine.seconds) : how === "stopped" ? words.stopped : "", words.keeping);
+  }
+
+  /* light an arrow of the body */
+  light(number) {
+    this.frame?.contentWindow?.postMessage({ light: number }, location.origin);
+  }
+
+  /* the body alone, on black, or again with all that is about it */
+  project(is) {
+    this.projected = is;
+    this.frame?.contentWindow?.postMessage({ project: Boolean(is) }, location.origin);
   }
 
   /* it is made again when it is asked for */

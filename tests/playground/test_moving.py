@@ -3,6 +3,7 @@ said of it; and that nothing is asked of others. Also by keys, on a phone and fo
 
 import tomllib
 
+import numpy as np
 import pytest
 
 from tests.support.library import module_of
@@ -92,9 +93,58 @@ def into_the_text(page, frame, **numbers):
     return before, tomllib.loads(text_in(page))
 
 
+READ = f"""(t) => {{
+    const {{ module }} = {MOTION}.scene.page, x = [...{MOTION}.run.at(t)];
+    return [x, [...module.outputs(t, x, {MOTION}.run.k, [])]];
+}}"""
+
+
+def the_vectors_of_a_cone(frame):
+    """ζ, Iζ, the torque of gravity about the apex and Iζ ∧ ζ, by the moments of a cone."""
+    p = module_of("top").PARAMETERS
+    rho, R, h, g = (frame.evaluate(f"{MOTION}.given.p")[p.index(x)] for x in ("rho", "R", "h", "g"))
+    x, read = frame.evaluate(READ, 0.3)
+    m = np.pi * rho * R**2 * h / 3
+    inertia = m * np.diag([0.6 * h**2 + 0.15 * R**2] * 2 + [0.3 * R**2])
+    A, zeta = np.reshape(x[:9], (3, 3)), np.array(x[9:])
+    weight = np.cross([0, 0, 0.75 * m * h], A.T @ [0, 0, -g])
+    turned = inertia @ zeta
+    expected = [zeta, turned, weight, np.cross(turned, zeta)]
+    assert np.allclose(np.reshape(read, (4, 3)), expected, rtol=1e-9, atol=1e-15)
+
+
+def the_arrows_and_the_letters(page, frame):
+    """What is pointed at in the equations is lit on the body, and the other way."""
+    lit = f"{MOTION}.scene.lit"
+    on = page.locator("#answer p .on")
+    page.locator("#answer p [data-arrow='3']").hover()
+    until(frame, f"{lit} === 3")
+    assert on.count() == 1
+    page.locator(".legend button").first.focus()
+    until(frame, f"{lit} === 1")
+    assert on.count() == 7  # ζ in j(ζ), twice in Iζ ∧ ζ, and four of its numbers
+    shown_at(frame, 0)
+    _, _, tip = frame.evaluate(f"{MOTION}.scene.drawn.at(-1)")
+    box = frame.locator("canvas").first.bounding_box()
+
+    def pointed():
+        page.mouse.move(box["x"] + tip[0], box["y"] + tip[1], steps=2)
+        return page.locator("#answer .legend .on").count() == 1
+
+    until(frame, "true", pointed)
+    until(frame, f"{lit} > 0")
+    number = frame.evaluate(lit)
+    assert on.first.get_attribute("data-arrow") == str(number)
+    hue = page.evaluate("getComputedStyle(document.querySelector('#answer p .on')).color")
+    drawn = frame.evaluate(f"{MOTION}.scene.colours.read('arrow-{number}')")
+    assert hue == "rgb({}, {}, {})".format(*bytes.fromhex(drawn[1:]))
+
+
 def test_a_top(fresh, site):
     visit(fresh, f"{site}#top", "top")
     frame = moving(fresh)
+    the_vectors_of_a_cone(frame)
+    the_arrows_and_the_letters(fresh, frame)
     # the wheel scrolls, and zooms with Ctrl alone
     side = frame.locator(".side").bounding_box()
     fresh.mouse.move(side["x"] + side["width"] / 2, side["y"] + side["height"] / 2)
@@ -279,6 +329,12 @@ def test_screen_readers_and_contrast(browser, site, width, dark):
                 page.wait_for_selector("iframe[data-moved]", timeout=90_000)
             assert page.evaluate("document.documentElement.scrollWidth") <= width, tab
             assert not violations(page), tab
+        page.click("#project")
+        for key in ("Home", "End"):
+            page.keyboard.press(key)
+            assert page.evaluate("document.documentElement.scrollWidth") <= width, key
+            assert not violations(page), key
+        page.keyboard.press("Escape")
         page.click("#as-form")
         page.wait_for_selector("#form > *")
         assert not violations(page), "form"

@@ -49,7 +49,7 @@ def article(page, step, inside=""):
     return page.locator(f"#walk article[id='{step}'] {inside}")
 
 
-READY = {"index.html", "main.js", "play.css", "page.css", "data.json"}
+READY = {"index.html", "main.js", "play.css", "arrows.css", "page.css", "data.json"}
 """What shows a ready-made problem, with a file of its own."""
 PYTHON = {
     *("worker.js", "first.tar.gz", "pyodide/pyodide.mjs", "pyodide/pyodide.asm.mjs"),
@@ -102,6 +102,7 @@ def test_what_is_derived_is_read(fresh, site):
     assert not fresh.is_visible(".write")
     fresh.keyboard.press("F8")
     assert fresh.is_visible(".write")
+    in_a_room(fresh)
     # a star leads to what is corrected
     star = article(fresh, "linear.motions", ".printed a")
     assert star.text_content() == "*"
@@ -110,6 +111,59 @@ def test_what_is_derived_is_read(fresh, site):
     in_sight(fresh, "linear.symplectic")
     assert article(fresh, "linear.symplectic", ".correction").count() == 1
     assert article(fresh, "linear.symplectic", ".printed a").count() == 0
+
+
+HEIGHTS = """[...document.querySelector(".screen > div").shadowRoot.querySelectorAll(
+    ".now math")].map((x) => parseFloat(getComputedStyle(x).fontSize))"""
+
+
+SIDES = ":is(.left, .right)"
+
+
+def read(place):
+    """The text of what is found, without spaces."""
+    return "".join("".join(place.all_text_contents()).split())
+
+
+def in_a_room(page):
+    """The walk a step a screen, from where the reader is, by the keys of a clicker."""
+
+    def shown(selector):
+        return page.locator(f"#projector {selector}").inner_text()
+
+    page.select_option("#steps", "so3.coadjoint")
+    in_sight(page, "so3.coadjoint")
+    page.locator("#walk").focus()
+    page.keyboard.press("p")
+    assert shown("header").split("\n")[-1] == "so3.coadjoint"
+    page.keyboard.press("PageDown")
+    addressed(page, "#so3/so3.kernel")
+    step = article(page, "so3.kernel")
+    assert read(page.locator("#projector .why")) == read(step.locator("> p").first)
+    now = page.locator(f"#projector .now {SIDES}")
+    assert read(now) == read(step.locator(f"> .equations {SIDES}"))
+    used = step.locator("> details").first.locator("a").all_text_contents()
+    listed = page.evaluate("[...document.getElementById('steps').options].map((x) => x.value)")
+    last = max(used, key=listed.index)
+    before = page.locator("#projector .was").last.locator(SIDES)
+    assert read(before) == read(article(page, last, f"> .equations {SIDES}"))
+    assert min(page.evaluate(HEIGHTS)) >= 28
+    assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(0, 0, 0)"
+    page.wait_for_selector("iframe[data-moved]")  # the body beside its own steps
+    assert page.locator("iframe").bounding_box()["width"] > 400
+    page.keyboard.press("Home")
+    assert not page.is_visible("iframe")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowLeft")
+    first = shown("header").split("\n")[-1]
+    assert first == listed[1]
+    page.keyboard.press("End")
+    assert page.locator(".screen p math").count() == page.locator("#answer p math").count()
+    page.keyboard.press("PageUp")
+    page.keyboard.press("Escape")
+    assert not page.is_visible("#projector")
+    addressed(page, f"/{listed[-1]}")
+    assert page.is_visible("#walk")
 
 
 WALK = """play.equations.root.innerHTML.replace(/href="[^"]*"/g, "")"""
@@ -122,7 +176,7 @@ def test_it_opens_on_a_body_that_moves_and_its_equations(fresh, site):
     walked(fresh, "top")
     fresh.wait_for_selector("iframe[data-moved]")
     assert fresh.inner_text("#answer h2") == "Equations of motion"
-    assert fresh.locator("#answer math").count() == 4
+    assert fresh.locator("#answer p math").count() == 5
     fresh.wait_for_selector("iframe[data-kept]", state="attached")
     own = {x.removeprefix(site).partition("#")[0] for x in fresh.own if x.startswith(site)}
     assert not own & PYTHON

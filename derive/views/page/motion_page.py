@@ -100,6 +100,7 @@ SCRIPTS = (
     "shapes",
     "body",
     "canvas",
+    "arrows",
     "stage",
     "chart",
     "polhode",

@@ -50,6 +50,7 @@ from .typeset import (
     raised,
     root,
     stacked,
+    tagged,
     text,
     upright,
     word,
@@ -79,10 +80,15 @@ def marked(t: Tree, names: Mapping[str, str] | None = None) -> str:
 
 
 def formula(
-    t: Tree, names: Mapping[str, str] | None = None, notation: Notation | None = None
+    t: Tree,
+    names: Mapping[str, str] | None = None,
+    notation: Notation | None = None,
+    marks: Mapping[Tree, str] | None = None,
 ) -> Formula:
-    """A tree as a formula, LaTeX and MathML; ``names`` says how names are written."""
-    return FormulaPrinter(NAMES if names is None else names, notation or Notation()).bare(t)
+    """A tree as a formula, LaTeX and MathML; ``names`` says how names are written, ``marks`` which
+    trees have a mark in the MathML."""
+    known = NAMES if names is None else names
+    return FormulaPrinter(known, notation or Notation(), marks or {}).bare(t)
 
 
 def pieces(tex: str) -> list[Piece]:
@@ -132,20 +138,28 @@ COMMA_SPACE = literal(f",{AFTER_COMMA} ")
 class FormulaPrinter:
     """Trees to formulas; ``op_X`` is the formula of the operator X of its operands."""
 
-    def __init__(self, names: Mapping[str, str], notation: Notation):
-        self.names, self.notation = names, notation
+    def __init__(self, names: Mapping[str, str], notation: Notation, marks: Mapping[Tree, str]):
+        self.names, self.notation, self.marks = names, notation, marks
 
     def show(self, t: Tree) -> Shown:
         """The formula of a tree, and SUM, PRODUCT or ATOM: how tightly it holds together."""
-        if isinstance(t, str):
-            return self.name(t), ATOM
         if isinstance(t, (int, Fraction)):
             return number(t)
-        if t[0] in ("add", "mul"):
+        if isinstance(t, tuple) and t[0] in ("add", "mul"):
             return self.sum(t)
+        if isinstance(t, str):
+            return self.marked(t, self.name(t)), ATOM
         method = getattr(self, f"op_{t[0]}")
         shown: Formula | Shown = method(*t[1:])
-        return shown if isinstance(shown, tuple) else (shown, ATOM)
+        f, level = shown if isinstance(shown, tuple) else (shown, ATOM)
+        return self.marked(t, f), level
+
+    def marked(self, t: Tree, f: Formula) -> Formula:
+        """The formula of a tree with the mark that it has, if any."""
+        if t not in self.marks:
+            return f
+        term = isinstance(t, tuple) and t[0] != "entry"
+        return tagged(f, self.marks[t], term=term)
 
     def name(self, name: str) -> Formula:
         """The formula of a name of the record; one that it does not declare is spelt safely."""
@@ -193,7 +207,7 @@ class FormulaPrinter:
             if level == SUM or inside or wedge:
                 f = paren(f)
             out += (separator(factors[k - 1], x) if k else Formula("")) + f
-        return out, PRODUCT
+        return self.marked(t, out), PRODUCT
 
     def op_T(self, a: Tree) -> Formula:
         """The transpose: a bar over a letter, or over the whole."""
@@ -323,7 +337,7 @@ class FormulaPrinter:
 
     def op_at(self, a: Tree, *indices: Tree) -> Formula:
         """A member of a family, or an entry, by its indices."""
-        f, level = self.show(a)
+        f, level = (self.name(a), ATOM) if isinstance(a, str) else self.show(a)
         scripted = level != ATOM or re.search("[_^]", f.tex)
         return self.indexed(paren(f) if scripted else f, indices)
 

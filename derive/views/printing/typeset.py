@@ -193,6 +193,13 @@ def group(f: Formula) -> Formula:
     return Formula(f"{{{f.tex}}}", (one(f.row()),))
 
 
+def tagged(f: Formula, mark: str, *, term: bool) -> Formula:
+    """The formula with the number of its arrow; is it a ``term``, more than a letter?"""
+    f = f.plain()
+    kind = ' class="vector"' if term else ""
+    return Formula(f.tex, (f'<mrow data-arrow="{mark}"{kind}>{f.row()}</mrow>',))
+
+
 def lowered(f: Formula, index: Formula) -> Formula:
     """The formula with an index at its last element."""
     index, last = index.plain(), _last(f)

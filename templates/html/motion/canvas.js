@@ -89,7 +89,7 @@ function camera({ ask }, { element: seen }, up, azimuth, elevation) {
 }
 
 /* a picture: items with a depth, drawn the farthest first */
-function picture({ colours }, view, eye, target, scale) {
+function picture({ colours, large = 1 }, view, eye, target, scale) {
   eye.look();
   const far = 4 * min(view.width, view.height) / scale, items = [], from = plus(target, eye.towards, far);
   const to = (r) => {
@@ -149,14 +149,14 @@ function picture({ colours }, view, eye, target, scale) {
       }]);
     },
     /* that of an arrow which points along (c, s) */
-    head(x, y, c, s, colour) {
-      path([[x + 3 * c, y + 3 * s], [x - 6 * c - 3 * s, y - 6 * s + 3 * c], [x - 6 * c + 3 * s, y - 6 * s - 3 * c]]);
+    head(x, y, c, s, colour, f = 1) {
+      path([[3, 0], [-6, 3], [-6, -3]].map(([a, b]) => [x + f * (a * c - b * s), y + f * (a * s + b * c)]));
       pen.fillStyle = colour;
       pen.fill();
     },
-    text(what, x, y, colour, align = "center") {
+    text(what, x, y, colour, align = "center", high = 13) {
       pen.fillStyle = colour;
-      pen.font = "italic 13px Georgia, serif";
+      pen.font = `italic ${high * large}px Georgia, serif`;
       pen.textAlign = align;
       pen.textBaseline = "middle";
       pen.fillText(what, x, y);

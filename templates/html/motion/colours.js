@@ -7,7 +7,7 @@ function colours_of(element) {
     const light = 0.62 + 0.48 * i / 32;
     return `rgb(${rgb(read(name)).map((v) => min(255, round(light < 1 ? v * light : v + (255 - v) * (light - 1)))).join(" ")})`;
   });
-  const colours = { tones: [["body", "pale"], ["other", "pale"]].map((pair) => pair.map(shades)) };
+  const colours = { read, tones: [["body", "pale"], ["other", "pale"]].map((pair) => pair.map(shades)) };
   for (const name of ["ink", "soft", "line", "paper", "mark", "e1", "e2", "e3"]) colours[name] = read(name);
   colours.lines = ["e3", "e1", "e2", "mark", "other", "soft"].map(read);
   return colours;

@@ -1,5 +1,5 @@
 /* A motion in an element of a page: mount(element, page, pieces) builds all that is seen, and returns
- * what moves it: { time, state, seek, play, pause, run, keep }, and the numbers as they are: { given, trail }.
+ * what moves it: { time, state, seek, play, pause, run, keep, scene, recolour }, and the numbers as they are: { given, trail }.
  *
  * page: { module: the emitted module, with gauss; x, p, u: the start, in the module's order;
  * t, tol: how long, how exact; entries: [row, column, place] of the element of the group in x, whose
@@ -30,7 +30,7 @@ function mount(element, page, pieces) {
 
   const energy = module.energy ?? (module.CONSERVED?.includes("energy")
     && ((t, x, k) => module.conserved(t, x, k)[module.CONSERVED.indexOf("energy")]));
-  const scene = { page, p, u, velocity, energy, ask, run: null, trail: [], redraw: () => scene.run && show(scene.run.at(time), before) };
+  const scene = { page, p, u, velocity, energy, ask, run: null, trail: [], get time() { return time; }, redraw: () => scene.run && show(scene.run.at(time), before) };
   let run, time = 0, wanted = null, playing = false, trail = [], first = {}, told = 0;
   let keeping = module, k = null;  // what gives the numbers that are kept, and its constants
   let moved;  // what gravity moves
@@ -340,5 +340,5 @@ function mount(element, page, pieces) {
     tabulate();
     ask();
   }
-  return { given: { x: x0, p, u, theta }, get trail() { return trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause, keep };
+  return { given: { x: x0, p, u, theta }, get trail() { return trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause, keep, scene, recolour };
 }

@@ -4,6 +4,7 @@ function solid_stage(scene, pieces) {
   const stage = canvas(scene, page.words.stage);
   const falling = () => valued(page.module, scene.p).vector(body.gravity);
   const eye = camera(scene, stage, ...(body.planar ? [[0, 0, 1], -PI / 2, PI / 2] : [scaled(-1, falling()), 0.55, 0.33]));
+  const vectors = pieces.arrows?.(scene, stage);
   let drawn, reached = 0;
 
   /* a faint net below the body, or where it stands; it goes with a body that flies, line by line */
@@ -34,6 +35,7 @@ function solid_stage(scene, pieces) {
     restart(x) {
       drawn = placed(built(scene, x, pieces), x, eye.above);
       reached = 0;
+      vectors?.restart();
     },
     draw(x) {
       const { parts } = drawn, gravity = falling(), { trail, colours } = scene;
@@ -73,6 +75,7 @@ function solid_stage(scene, pieces) {
         }
       });
       for (const [i, a, j, b] of body.springs) pieces.spring(stage, pic, spots[i](parts[i].points[a].at), spots[j](parts[j].points[b].at), colours.ink);
+      vectors?.draw(pic, x, parts, spots);
       pic.done();
       const strength = size(gravity);
       if (strength) {

@@ -1,0 +1,55 @@
+/* The vectors of the answer: its letters and terms, and the legend below it, light their arrow on the body, and are lit by it. */
+import { make } from "./dom.js";
+
+export class Arrows {
+  #held = 0;
+
+  /* place: of the answer; light(number): what is done when the arrow of a number, from 1, is pointed at, or 0: none is */
+  constructor(place, light) {
+    this.place = place;
+    this.light = light;
+    const number = (e) => Number(e.target.closest("[data-arrow]")?.getAttribute("data-arrow") ?? 0);
+    for (const come of ["pointerover", "focusin"]) place.addEventListener(come, (e) => this.#point(number(e)));
+    for (const go of ["pointerleave", "focusout"]) place.addEventListener(go, () => this.#point(0));
+    place.addEventListener("click", (e) => {
+      const n = number(e);
+      if (n) this.#hold(n === this.#held ? 0 : n);
+    });
+  }
+
+  /* the answer, as MathML, and [{ shown, meaning }] of its vectors */
+  show(answer, arrows) {
+    this.arrows = arrows;
+    this.#held = 0;
+    this.place.innerHTML = answer.map((x) => `<p>${x}</p>`).join("");
+    if (!arrows.length) return;
+    this.place.append(make("ul", { class: "legend" }, ...arrows.map(({ shown, meaning }, i) => {
+      const button = make("button", { type: "button", "data-arrow": i + 1, "aria-pressed": "false" });
+      button.innerHTML = shown;
+      button.append(` ${meaning}`);
+      return make("li", {}, button);
+    })));
+    this.lit(0);
+  }
+
+  #point(n) {
+    const now = n || this.#held;
+    this.lit(now);
+    this.light(now);
+  }
+
+  /* it stays lit, without a pointer, until it is pressed again */
+  #hold(n) {
+    this.#held = n;
+    for (const x of this.place.querySelectorAll("button")) x.setAttribute("aria-pressed", String(Number(x.dataset.arrow) === n));
+    this.#point(n);
+  }
+
+  /* the letters, the terms and the entry of an arrow; 0: as they are without one */
+  lit(n = 0) {
+    const now = n || this.#held;
+    for (const x of this.place.querySelectorAll("[data-arrow]")) {
+      x.classList.toggle("on", x.getAttribute("data-arrow") === String(now));
+    }
+  }
+}

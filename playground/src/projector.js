@@ -1,0 +1,116 @@
+/* The walk in a room, a step a screen: what stood before it, why, and what is now; beside the steps of a body, that body. */
+import { dark, make } from "./dom.js";
+
+const BEFORE = 2, LEAST = 28, LARGEST = 56;
+const BY = { ArrowRight: 1, PageDown: 1, ArrowLeft: -1, PageUp: -1, Home: -Infinity, End: Infinity };
+
+const STYLE = `
+:host { font: inherit; }
+.equations { padding: 0; grid-template-columns: fit-content(36%) minmax(0, 1fr); }
+.number { display: none; }
+.was { color: var(--soft); }
+.why { margin: .8em 0; padding-left: .7em; border-left: 4px solid var(--mark); }
+.now { font-size: var(--now); }
+:focus-visible { outline: 2px solid var(--mark); }
+@media (max-width: 40rem) { .left, .right { flex: 0 1 auto; } }
+`;
+
+export class Projector {
+  #at = 0;
+  #steps = [];
+
+  /* place: what is shown; equations: the walk; answer: its last screen; words(): those of the page; passed(id): a step is on the
+   * screen, or, "", the answer; beside(is): is the body? left(id): it has been left at a step */
+  constructor(place, { equations, answer, words, passed, beside, left }) {
+    Object.assign(this, { place, equations, answer, words, passed, beside, left });
+    [this.head, this.screen, this.foot] = place.children;
+    this.told = this.screen.firstElementChild.attachShadow({ mode: "open" });
+    const own = new CSSStyleSheet();
+    own.replaceSync(STYLE);
+    this.told.adoptedStyleSheets = [...equations.root.adoptedStyleSheets, own];
+    const [before, after, leave] = this.foot.querySelectorAll("button");
+    before.addEventListener("click", () => this.go(-1));
+    after.addEventListener("click", () => this.go(1));
+    leave.addEventListener("click", () => this.leave());
+    addEventListener("resize", () => this.shown && this.#fit());
+  }
+
+  get shown() { return !this.place.hidden; }
+
+  /* a key that was pressed here, or in the frame of the body; was it for the projector? */
+  key(key) {
+    if (!this.shown) return false;
+    if (key === "Escape" || key === "p") this.leave();
+    else if (BY[key]) this.go(BY[key]);
+    else return false;
+    return true;
+  }
+
+  /* show the walk from a step, by default its first */
+  enter(id) {
+    this.#steps = [...this.equations.root.querySelectorAll("article")];
+    if (!this.#steps.length) return;
+    this.#at = Math.max(0, this.#steps.findIndex((x) => x.id === id));
+    this.place.hidden = false;
+    document.body.classList.add("projecting");
+    dark(true);
+    this.go(0);
+    this.screen.focus();
+  }
+
+  leave() {
+    this.place.hidden = true;
+    document.body.classList.remove("projecting");
+    dark(false);
+    this.beside(false);
+    this.left(this.#steps[this.#at]?.id ?? "");
+  }
+
+  /* go on by so many steps, and back by fewer than none */
+  go(by) {
+    this.#at = Math.max(0, Math.min(this.#steps.length, this.#at + by));
+    const step = this.#steps[this.#at], words = this.words();
+    const own = this.#steps.at(-1).closest("section"), now = (step ?? this.#steps.at(-1)).closest("section");
+    const rule = step ? step.querySelector("h3 .rule").textContent : words.answer;
+    const where = words.stepof(this.#at + 1, this.#steps.length + 1);
+    this.head.replaceChildren(make("h1", {}, rule), make("span", {}, where), make("span", { class: "from" }, step?.id ?? ""));
+    this.told.replaceChildren(...(step ? told(step, this.equations.root, words) : []));
+    this.screen.lastElementChild.hidden = Boolean(step);
+    if (!step) this.answer(this.screen.lastElementChild);
+    this.screen.setAttribute("aria-label", `${where}: ${rule}`);
+    this.screen.scrollTop = 0;
+    this.beside(own === now);
+    this.passed(step?.id ?? "");
+    this.#fit();
+  }
+
+  /* as large as there is room for, and never too small to be read at the back of a room */
+  #fit() {
+    const { screen } = this, boxes = [...this.told.querySelectorAll(".now .wide"), ...screen.querySelectorAll("p"), screen];
+    for (let size = Math.max(LEAST, Math.min(LARGEST, innerWidth / 20)); size >= LEAST; size -= 4) {
+      screen.style.setProperty("--now", `${size}px`);
+      if (screen.scrollHeight <= screen.clientHeight && boxes.every((x) => x.scrollWidth <= x.clientWidth)) break;
+    }
+  }
+}
+
+/* what a screen shows of a step: the equations of the last steps that it uses, its sentence, its own */
+function told(step, root, words) {
+  const order = [...root.querySelectorAll("article")].map((x) => x.id);
+  const used = [...step.querySelectorAll("details a")].map((x) => x.dataset.to).filter((x) => order.includes(x));
+  const before = [...new Set(used)].sort((a, b) => order.indexOf(a) - order.indexOf(b)).slice(-BEFORE);
+  const copied = (of) => [...of.children].filter((x) => x.matches(".equations")).map(plain);
+  return [
+    ...before.map((id) => make("div", { class: "was" }, ...copied(root.getElementById(id)))),
+    make("p", { class: "why" }, ...[...step.children].filter((x) => x.matches("p")).slice(0, 1).flatMap((x) => [...plain(x).childNodes])),
+    make("div", { class: "now", "aria-label": words.now, role: "group" }, ...copied(step)),
+  ];
+}
+
+/* a copy without what can be pressed, or is gone to */
+function plain(element) {
+  const made = element.cloneNode(true);
+  for (const x of made.querySelectorAll("[id]")) x.removeAttribute("id");
+  for (const x of made.querySelectorAll("button")) x.remove();
+  return made;
+}
