@@ -140,6 +140,19 @@ class Parser(argparse.ArgumentParser):
 BEGIN = "To begin: derive walk top --answer, then derive walk top; derive COMMAND --help."
 
 
+def add_trim_options(held: argparse.ArgumentParser) -> None:
+    """What ``derive trim`` is told: the state, what is free, parameters."""
+    about = "of the state or an input, as zeta_3=1/2; repeated, others are those of g = 1, and 0"
+    held.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)
+    about = (
+        "an input or a velocity to be found, this near what --at gives; repeated, or with commas "
+    )
+    about += "(default: all inputs that --at does not give)"
+    held.add_argument("--free", action="append", metavar="NAME", help=about)
+    about = "a parameter, in place of its default; repeated"
+    held.add_argument("--given", action="append", type=number, metavar="NAME=NUMBER", help=about)
+
+
 def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
     """The parser of all commands: name → function, whose docstring is its help."""
     top = Parser(prog="derive", description=about, epilog=BEGIN)
@@ -174,15 +187,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     steady.add_argument(
         "--near", action="append", type=coordinate, metavar="NAME=NUMBER", help=about
     )
-    about = "of the state or an input, as zeta_3=1/2; repeated, others are those of g = 1, and 0"
-    held.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)
-    about = (
-        "an input or a velocity to be found, this near what --at gives; repeated, or with commas "
-    )
-    about += "(default: all inputs that --at does not give)"
-    held.add_argument("--free", action="append", metavar="NAME", help=about)
-    about = "a parameter, in place of its default; repeated"
-    held.add_argument("--given", action="append", type=number, metavar="NAME=NUMBER", help=about)
+    add_trim_options(held)
     emit.add_argument("problem", help="a ready-made name or a .toml file")
     add_writing_options(emit)
     add_emission_options(emit)
