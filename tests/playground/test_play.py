@@ -13,6 +13,7 @@ from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.motion.simulate import beginning
 from derive.programs import motion_of
+from derive.views.arrows import arrows, with_arrows
 from derive.views.language import language
 from derive.views.page.motion_page import data
 from tests.fuzz.corpus import problems
@@ -120,9 +121,11 @@ def test_a_motion_has_what_the_page_of_the_command_has(played, name):
     assert told["kept"] == there["kept"] != {}
     assert shown["page"]["kept"] == {}
     different = {x for x in shown["page"] if shown["page"][x] != there.get(x)}
-    assert different <= {"kept", "x", "t", "tol", "names", "pushed"}
+    assert different <= {"kept", "x", "t", "tol", "names", "pushed", "arrows"}
     chosen = Options(step=("gauss",))
-    (source,) = emit(code.program, own.record, ("javascript",), name, chosen).values()
+    seen = with_arrows(own.record, arrows(own.record))  # its code has the numbers of these, too
+    made = motion_of(own.problem, seen).program
+    (source,) = emit(made, seen, ("javascript",), name, chosen).values()
     assert told["source"] == source
 
 
