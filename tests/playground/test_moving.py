@@ -258,7 +258,7 @@ def test_by_keys_and_nothing_is_asked_of_others(fresh, site):
     visit(fresh, f"{site}#so3")
     fresh.evaluate("document.activeElement.blur()")
     reached = []
-    for _ in range(14):
+    for _ in range(20):
         fresh.keyboard.press("Tab")
         focus = "document.activeElement.id || document.activeElement.className"
         reached.append(fresh.evaluate(focus))

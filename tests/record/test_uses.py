@@ -70,6 +70,8 @@ NOMINAL = {
     ("elimination", "force"): "the same",
     ("mass", "force"): "the same",
     ("poisson_tensor", "force"): "the same",
+    ("power", "motion"): "the balance is taken along the motion, where its inertial side is ḣ",
+    ("power", "conserved"): "without what acts ḣ is 0",
     ("hat", "relation"): "only a skew matrix is a j(X)",
     ("motion", "relation"): "⟨Λ, Ż⟩ = 0 is what θ is solved from",
     ("coadjoint", "momenta"): "the momenta are told by their names",

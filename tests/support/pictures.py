@@ -17,7 +17,7 @@ from playwright.sync_api import sync_playwright
 
 from derive.command.cli import main
 from tests.support.needs import BROWSERS
-from tests.support.playground_site import built, chromium, served, walked
+from tests.support.playground_site import built, chromium, served
 
 PICTURES = Path(__file__).parents[2] / "docs" / "pictures"
 FRAMES, SPAN = 60, 0.48
@@ -92,12 +92,11 @@ def walk(folder):
 
 
 def playground(_):
-    """The playground with the equations of a top, in a browser."""
+    """The playground as it opens: a top that moves, and its equations, in a browser."""
     with served(built().parent) as (address, _), chromium() as browser:
-        page = browser.new_page(viewport={"width": 1280, "height": 760}, color_scheme="light")
-        page.goto(f"{address}play/#top")
-        walked(page, "top")
-        page.evaluate(f"play.equations.go({PDF_STEP!r})")
+        page = browser.new_page(viewport={"width": 1280, "height": 800}, color_scheme="light")
+        page.goto(f"{address}play/")
+        page.wait_for_timeout(4000)  # it moves, and has a trail
         page.screenshot(path=PICTURES / "playground.png")
 
 
