@@ -82,7 +82,9 @@ def trimmed(
     try:
         return _Question(problem, program, at, free).answered()
     except RootError as error:
-        raise NoTrimError(f"a trim is in numbers of one square root, and {error} is met") from None
+        raise NoTrimError(
+            f"a trim is in numbers of one square root, and meets others: {error}"
+        ) from None
     except ZeroDivisionError:
         raise NoTrimError("what acts has no value in this state: it divides by 0") from None
 
@@ -142,7 +144,9 @@ class _Question:
         functions = program.functions["rhs"].calls() | program.functions["constants"].calls()
         if (functions := functions - {"sqrt", "abs"}) or not fractions:
             what = ", ".join(sorted(functions)) or "π, or a root,"
-            raise NoTrimError(f"a trim is exact, and {what} is in the equations")
+            verb = "are" if len(functions) > 1 else "is"
+            out = "; let parameters stand for their values" if functions else ""
+            raise NoTrimError(f"a trim is exact, and {what} {verb} in the equations{out}")
         if any(x.array == "t" for x in program.functions["rhs"].loads):
             raise NoTrimError("what acts depends on the time: nothing is steady")
 
