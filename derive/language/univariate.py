@@ -162,6 +162,10 @@ def tree(x: Number) -> Tree:
     return plain(x)
 
 
+DEGREES = 1000
+"""Powers below this one are read; a file of a stranger may have any."""
+
+
 def polynomial_tree(f: Sequence[Number], x: Tree) -> Tree:
     """Σ f_k x^(n−k) as a tree, for coefficients from the highest power."""
     terms = (mul(tree(c), _power(x, k)) for k, c in zip(range(len(f) - 1, -1, -1), f, strict=True))
@@ -173,15 +177,15 @@ def _power(x: Tree, k: int) -> Tree:
 
 
 def coefficients_of(t: Tree, x: Tree) -> list[Tree]:
-    """Those of such a tree, from the highest power; a factor that is no power of x is one of the
-    coefficient."""
+    """Those of such a tree, from the highest power; a factor that is no power of x, or too high a
+    one, is one of the coefficient."""
     found: dict[int, Tree] = {}
     for term in t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,):
         degree, rest = 0, []
         for y in term[1:] if isinstance(term, tuple) and term[0] == "mul" else (term,):
             if y == x:
                 degree += 1
-            elif isinstance(y, tuple) and y[:2] == ("pow", x) and isinstance(y[2], int):
+            elif isinstance(y, tuple) and y[:2] == ("pow", x) and y[2] in range(DEGREES):
                 degree += y[2]
             else:
                 rest.append(y)

@@ -9,6 +9,7 @@ import pytest
 
 from derive import ProblemError, derive
 from derive.check.claims.claim_checker import ClaimChecker
+from derive.language.tree import add
 from derive.problem.toml import problem_of
 from derive.record.sentence import Claim, english
 from tests.check.test_record_claims import said
@@ -215,6 +216,17 @@ def test_another_speed_is_refused():
         assert "a rate does not vanish there" in faults(
             found, "trim.steady", Claim("trim.steady", (("point", point),))
         )
+
+
+def test_another_polynomial_is_refused_and_one_of_any_degree():
+    found = falling().trim({}, ["w_2"])
+    (claim,) = (x for x in found.record.steps[-1].claims if x.kind == "trim.open")
+    more = add(claim["polynomial"], 1)
+    kind = claim.kind
+    assert "is another" in faults(found, kind, Claim(kind, (("polynomial", more),)))
+    for degree in (10**9, -1, Fraction(1, 2)):
+        high = Claim(kind, (("polynomial", ("pow", "λ", degree)),))
+        assert faults(found, kind, high)
 
 
 def test_numbers_that_others_may_replace_are_not_isolated():
