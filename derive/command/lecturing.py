@@ -46,7 +46,7 @@ def command_lecture(args: argparse.Namespace) -> int:
     shown = document.page if out.suffix == ".html" else document.latex
     front = Front(args.title, args.author, args.course, args.date)
     solutions = args.solutions == "end"
-    text = shown(chapters, language(args.lang), records, front, solutions=solutions)
+    text = shown(document.Lecture(chapters, language(args.lang), records, front, solutions))
     content = pdf_of(text, out, {}) if out.suffix == ".pdf" else text
     for path in write({out.name: content}, out.parent, links=True):
         print(path)

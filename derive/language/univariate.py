@@ -10,6 +10,7 @@ from itertools import pairwise
 from math import isqrt, sqrt
 from typing import Any
 
+from .derivatives import power
 from .rings import FieldElement
 from .tree import Tree, add, mul, plain
 from .values import value
@@ -168,12 +169,8 @@ DEGREES = 1000
 
 def polynomial_tree(f: Sequence[Number], x: Tree) -> Tree:
     """Σ f_k x^(n−k) as a tree, for coefficients from the highest power."""
-    terms = (mul(tree(c), _power(x, k)) for k, c in zip(range(len(f) - 1, -1, -1), f, strict=True))
+    terms = (mul(tree(c), power(x, k)) for k, c in zip(range(len(f) - 1, -1, -1), f, strict=True))
     return add(*terms)
-
-
-def _power(x: Tree, k: int) -> Tree:
-    return 1 if k == 0 else x if k == 1 else ("pow", x, k)
 
 
 def coefficients_of(t: Tree, x: Tree) -> list[Tree]:

@@ -24,10 +24,10 @@ from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal
 from ..views.text import formula as aligned
 from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, letters
-from .figures import FIGURES, Claims
+from .figures import FIGURES
 from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Words
 from .lecture_text import tree as tree_of
-from .sheets import AXES
+from .sheets import AXES, Claims
 
 TITLE = "Where do the equations of motion of solids come from?"
 WORDS = (
@@ -145,62 +145,48 @@ class SetChapter:
         return tuple(x for x in self.blocks if x.kind == "solution")
 
 
-Records = Mapping[str, Derivation]
+@dataclass(frozen=True)
+class Lecture:
+    """Chapters in a language; ``records``: those of the chapters, by the names that these give
+    them; ``solutions``: are those of the exercises printed?"""
+
+    chapters: Sequence[Chapter]
+    language: Language
+    records: Mapping[str, Derivation]
+    front: Front = UNTITLED
+    solutions: bool = True
 
 
-def latex(
-    chapters: Sequence[Chapter],
-    language: Language,
-    records: Records,
-    front: Front = UNTITLED,
-    *,
-    solutions: bool = True,
-) -> str:
-    """The lecture as a document for pdflatex; ``records``: those of its chapters, by the names that
-    these give them."""
+def latex(lecture: Lecture) -> str:
+    """The lecture as a document for pdflatex."""
     template = environment("latex", **DELIMITERS).get_template("lecture.tex.jinja")
-    return template.render(
-        macros="\n".join(definitions(Notation())),
-        **_whole(chapters, language, LATEX, records, front),
-        solutions=solutions,
-    )
+    return template.render(macros="\n".join(definitions(Notation())), **_whole(lecture, LATEX))
 
 
-def page(
-    chapters: Sequence[Chapter],
-    language: Language,
-    records: Records,
-    front: Front = UNTITLED,
-    *,
-    solutions: bool = True,
-) -> str:
-    """The lecture as a page of HTML by itself, its formulas in MathML; see :func:`latex`."""
-    template = environment("html").get_template("lecture.html.jinja")
-    text = template.render(**_whole(chapters, language, PAGE, records, front), solutions=solutions)
+def page(lecture: Lecture) -> str:
+    """The lecture as a page of HTML by itself, its formulas in MathML."""
+    text = environment("html").get_template("lecture.html.jinja").render(**_whole(lecture, PAGE))
     return CLOSED.sub(r'<span class="close">\1\2</span>', text)
 
 
-def _whole(
-    chapters: Sequence[Chapter],
-    language: Language,
-    medium: Medium,
-    records: Records,
-    front: Front,
-) -> dict[str, object]:
+def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
     """What both templates take."""
+    chapters, language, front = x.chapters, x.language, x.front
     numbers = numbers_of(chapters)
     labels = {b.label: numbers[id(b)] for c in chapters for b in c.blocks if id(b) in numbers}
     setter = _Setter(language, medium, labels | NUMBERS, claims_of(chapters))
-    table = [setter.letter(x, k) for k, x in enumerate(letters(chapters, records, language))]
+    listed = letters(chapters, x.records, language)
+    table = [setter.letter(letter, k) for k, letter in enumerate(listed)]
     return {
         "language": language.name,
         "word": partial(_word, language, medium.text),
         "title": medium.text(front.title or language.word(TITLE)),
         "author": medium.text(front.author),
         "front": [*map(medium.text, front.lines)],
+        "solutions": x.solutions,
         "chapters": [setter.chapter(c, numbers) for c in chapters],
         "letters": table,
-        "works": [(x[0].lower(), *map(medium.text, x[1:])) for x in WORKS],
+        "works": [(work[0].lower(), *map(medium.text, work[1:])) for work in WORKS],
     }
 
 

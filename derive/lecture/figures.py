@@ -4,16 +4,13 @@ are those of the equations that the text displays."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
-from ..record.record import Equation
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
 from .lecture_text import tree
-from .sheets import AXES, TURN, Frame, Vector, View, beside, number, panel, solved
+from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, number, panel, solved
 from .top_figures import tilts, top_paths
 
-Claims = Mapping[str, Sequence[Equation]]
-"""Label of a step → the equations of the display that rests on it."""
 MOMENTS = (1.0, 2.0, 2.6)
 """The principal moments of inertia of the body whose polhodes are drawn."""
 LEVELS = (0.1, 0.3, 0.55, 0.8)

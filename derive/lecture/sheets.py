@@ -11,11 +11,14 @@ from itertools import pairwise
 
 from ..language.tree import Tree
 from ..language.values import arithmetic
+from ..record.record import Equation
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
 
 AXES = ("first", "second", "third")
 """The role of what belongs to each axis of the body, in all figures."""
 Vector = tuple[float, ...]
+Claims = Mapping[str, Sequence[Equation]]
+"""Label of a step → the equations of the display that rests on it."""
 TICK, BESIDE = 1.0, 3.4
 """Half a mark of an axis; how far from the axis its numbers are, in millimetres."""
 TURN = tuple(2 * math.pi * k / 180 for k in range(181))

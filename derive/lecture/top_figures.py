@@ -4,16 +4,15 @@ and the paths of its axis."""
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 from ..language.derivatives import derivative
 from ..language.tree import Tree
-from ..record.record import Equation
 from ..views.figure.drawing import Label, Scene, Stroke, arrow
 from .lecture_text import tree
-from .sheets import AXES, TURN, Frame, Vector, View, beside, number, panel, solved
+from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, number, panel, solved
 
 PARAMETERS = {"‘I_1’": 1.0, "‘I_3’": 0.4, "‘P’": 1.5}
 SPIN, UPPER = 3.0, 0.6
@@ -27,7 +26,7 @@ TILT = tree("A₃₃")
 class Top:
     """A top whose axis is at its upper tilt at first, and precesses at the rate ``precession``."""
 
-    claims: Mapping[str, Sequence[Equation]]
+    claims: Claims
     precession: float
 
     @cached_property
@@ -80,7 +79,7 @@ class Top:
         return points
 
 
-def tilts(claims: Mapping[str, Sequence[Equation]]) -> Scene:
+def tilts(claims: Claims) -> Scene:
     """The effective potential of the top that draws loops, and the level of its energy."""
     top = Top(claims, PRECESSIONS["loops"])
     level, turns = top.constants[tree("h̃")], (top.lower, UPPER)
@@ -102,7 +101,7 @@ def tilts(claims: Mapping[str, Sequence[Equation]]) -> Scene:
     return panel((102, 54), strokes, labels)
 
 
-def top_paths(claims: Mapping[str, Sequence[Equation]]) -> Scene:
+def top_paths(claims: Claims) -> Scene:
     """The paths of the axis on the sphere: waves, cusps, loops."""
     return beside(*(_path(Top(claims, x)) for x in PRECESSIONS.values()), gap=3)
 

@@ -113,6 +113,16 @@ def test_in_a_wind_it_falls_at_the_speed_that_it_has_without():
     assert holds(found)
 
 
+def test_constants_may_have_a_root_where_a_velocity_is_found():
+    """Drag and weight have the factor √2 alike: ‖v‖v = 16, with m = 2 and g = 8√2."""
+    law = {"at": [0, 0], "frame": "space"}
+    law["force"] = [f"-sqrt(k)*hypot(v_1, v_2)*v_{i}" for i in (1, 2)]
+    more = {"parameters": {"k": 2}, "force": [law], "input": []}
+    found = drone(potential=[{"kind": "gravity", "g": [0, "-8*sqrt(k)"]}], **more).trim({}, ["w_2"])
+    assert "w₂ = −4" in told(found)
+    assert holds(found)
+
+
 def test_a_turn_in_a_wind_is_no_steady_motion():
     """Thrust holds it on a circle, and now the air beside it is at rest: a moment later it is not;
     the checker says so, too, of one who claims it."""

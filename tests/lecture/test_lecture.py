@@ -111,7 +111,9 @@ def test_a_number_of_the_note_is_that_of_a_step(records):
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_page_has_every_formula_of_the_text(lang, records):
-    page = document.page(CHAPTERS, language(lang), records).split('<section id="symbols">')
+    page = document.page(document.Lecture(CHAPTERS, language(lang), records)).split(
+        '<section id="symbols">'
+    )
     text, whole = (
         ElementTree.fromstring(re.sub("<!DOCTYPE[^>]*>|<meta[^>]*>", "", x))
         for x in (page[0] + "</main></body></html>", '<section id="symbols">'.join(page))
@@ -132,8 +134,8 @@ def test_without_solutions(lang, records):
         (document.page, '<details class="solution">'),
         (document.latex, "Solutions"),
     ):
-        assert mark in shown(CHAPTERS, words, records)
-        assert mark not in shown(CHAPTERS, words, records, solutions=False)
+        assert mark in shown(document.Lecture(CHAPTERS, words, records))
+        assert mark not in shown(document.Lecture(CHAPTERS, words, records, solutions=False))
 
 
 @needs("the TeX of the lecture")
@@ -175,7 +177,8 @@ def test_what_the_user_gives_stands_at_the_head_as_it_is(tmp_path, capsys, monke
 def test_without_them_there_is_no_date(records):
     for shown in (document.page, document.latex):
         assert not re.search(
-            r"\\today|\\date|author\" content", shown(CHAPTERS, language("en"), records)
+            r"\\today|\\date|author\" content",
+            shown(document.Lecture(CHAPTERS, language("en"), records)),
         )
 
 

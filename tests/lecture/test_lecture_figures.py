@@ -124,8 +124,8 @@ def test_every_figure_is_in_the_text_and_no_other():
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_pictures_in_a_language(lang):
     """Numbers with its decimal mark, the same letters in all; each is described in words."""
-    page = document.page(CHAPTERS, language(lang), RECORDS)
-    assert page == document.page(CHAPTERS, language(lang), RECORDS)
+    page = document.page(document.Lecture(CHAPTERS, language(lang), RECORDS))
+    assert page == document.page(document.Lecture(CHAPTERS, language(lang), RECORDS))
     shown = re.findall(r"<svg.*?</svg>", page, re.S)
     labels = [re.sub(r"<[^>]+>", "", x) for s in shown for x in re.findall("<text.*?</text>", s)]
     assert (("0,5" in labels), ("0.5" in labels)) == (lang == "fr", lang == "en")
@@ -133,7 +133,7 @@ def test_the_pictures_in_a_language(lang):
         (description,) = block.entries[0].texts[LANGUAGES.index(lang)]
         assert f"<title>{description}</title>" in picture
         assert len(description) > 80
-    latex = document.latex(CHAPTERS, language(lang), RECORDS)
+    latex = document.latex(document.Lecture(CHAPTERS, language(lang), RECORDS))
     assert latex.count(r"\begin{tikzpicture}") == latex.count(r"\BeginAccSupp") == len(FIGURES)
 
 

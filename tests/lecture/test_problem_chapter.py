@@ -58,17 +58,17 @@ def test_each_search_has_a_heading_and_something_to_say(made, lang):
     sections = [b for b in chapter.blocks if b.kind == "section"]
     assert len(sections) == 4
     assert all(b.entries for b in chapter.blocks)
-    page = document.page([chapter], words, records)
+    page = document.page(document.Lecture([chapter], words, records))
     for heading in ("What the motion keeps.", "Steady motions."):
         assert words.word(heading) in page
     assert "‘" not in re.sub("<[^>]*>", "", page)  # parameters are set, not quoted
     said = tex_text(words.word("Its equations of motion are"))
-    assert said in document.latex([chapter], words, records)
+    assert said in document.latex(document.Lecture([chapter], words, records))
 
 
 def test_a_search_that_is_refused_says_why():
     chapter, records = chapter_on("comet")
-    page = document.page([chapter], language("en"), records)
+    page = document.page(document.Lecture([chapter], language("en"), records))
     refused = [
         x
         for x in ("symmetries", "reduction", "integrals", "equilibria")
@@ -85,7 +85,7 @@ def test_searches_refused_for_one_reason_stand_together(made):
     found = dict.fromkeys(("symmetries", "integrals", "reduction"), Found(refused=reason))
     found["equilibria"] = Found()
     chapter = chapter_of(d, found, tuple(records))
-    page = document.page([chapter], language("en"), records)
+    page = document.page(document.Lecture([chapter], language("en"), records))
     assert "What the motion keeps. First integrals. Reduction." in page
     assert page.count("This was not found: its forces are no part of") == 1
     assert "None was found among the points" in page
@@ -96,7 +96,7 @@ def test_inputs_that_hold_a_body_are_told(tmp_path, monkeypatch):
     Path("hung.toml").write_text(HUNG, encoding="utf-8")
     chapter, records = chapter_on("hung.toml")
     assert "hung:trim" in records
-    page = document.page([chapter], language("fr"), records)
+    page = document.page(document.Lecture([chapter], language("fr"), records))
     assert "Au repos, par ses commandes." in page
     assert len([*tried(chapter, records, SEED)]) >= 2
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
+from ...language.derivatives import power
 from ...language.tree import Tree, add, mul, neg
 from ...language.univariate import Number, Quadratic, polynomial_tree, root, square_free
 from ...language.univariate import tree as plain
@@ -158,7 +159,7 @@ def expanded(e: Expansion, away: Sequence[Tree]) -> Tree:
     n = len(away)
     pairs = [(i, j) for i in range(n) for j in range(i, n) if e.second[i][j]]
     squares = [
-        mul(plain(e.second[i][j] / 2), _power(away[i], 2))
+        mul(plain(e.second[i][j] / 2), power(away[i], 2))
         if i == j
         else mul(plain(e.second[i][j]), away[i], away[j])
         for i, j in pairs
@@ -170,13 +171,9 @@ def expanded(e: Expansion, away: Sequence[Tree]) -> Tree:
 def higher(e: Expansion, away: Sequence[Tree]) -> list[Tree]:
     """The terms above the second order."""
     return [
-        mul(plain(c), *(_power(y, k) for y, k in zip(away, m, strict=True) if k))
+        mul(plain(c), *(power(y, k) for y, k in zip(away, m, strict=True) if k))
         for m, c in e.higher.items()
     ]
-
-
-def _power(x: Tree, k: int) -> Tree:
-    return x if k == 1 else ("pow", x, k)
 
 
 def _form(
@@ -197,7 +194,7 @@ def _form(
     left = add("h̃", *(mul(plain(m), f) for m, f in pairs if m))
     right = [
         plain(form.expansion.value),
-        *(mul(plain(d), _power(linear(row, away), 2)) for d, row in form.squares),
+        *(mul(plain(d), power(linear(row, away), 2)) for d, row in form.squares),
         *_products(x.leaf, form, away),
         *higher(form.expansion, away),
     ]
@@ -217,7 +214,7 @@ def _product(n: Sequence[Number], m: Sequence[Number], away: Sequence[Tree]) -> 
     first = next(i for i, x in enumerate(n) if x)
     factor = m[first] / n[first]
     if all(y == factor * x for x, y in zip(n, m, strict=True)):
-        return mul(plain(factor), _power(linear(n, away), 2))
+        return mul(plain(factor), power(linear(n, away), 2))
     return mul(linear(n, away), linear(m, away))
 
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from ...language import rational as q
 from ...language.limits import Refused
-from ...language.univariate import Number, RootError, root
+from ...language.univariate import Number, Quadratic, RootError, root
 
 BITS = 400
 """Digits after the point, in fractions."""
@@ -30,7 +30,14 @@ SAME, SMALL = 1e-6, 1e-10
 LARGEST = 10**15
 """Of fractions and coefficients."""
 
-Call = Callable[[str, Any], Any]
+
+@dataclass(frozen=True)
+class Arithmetic:
+    """Numbers in which emitted equations are evaluated: ``of`` makes one of an exact number, and
+    ``call`` are the functions of these."""
+
+    of: Callable[[Any], Any]
+    call: Callable[[str, Any], Any]
 
 
 class NoTrimError(Refused, ValueError):
@@ -39,13 +46,13 @@ class NoTrimError(Refused, ValueError):
 
 @dataclass(frozen=True)
 class Rates:
-    """Functions of what is unknown, ``names``, first the ``velocities``: ``values(y, call)``, all
-    0 where it is found, and ``slopes(y, call)``, a row of derivatives for each of them."""
+    """Functions of what is unknown, ``names``, first the ``velocities``: ``values(y, numbers)``,
+    all 0 where it is found, and ``slopes(y, numbers)``, a row of derivatives for each of them."""
 
     names: tuple[str, ...]
     velocities: int
-    values: Callable[[Sequence[Any], Call], list[Any]]
-    slopes: Callable[[Sequence[Any], Call], list[list[Any]]]
+    values: Callable[[Sequence[Any], Arithmetic], list[Any]]
+    slopes: Callable[[Sequence[Any], Arithmetic], list[list[Any]]]
 
 
 def solutions(f: Rates, near: Sequence[float]) -> list[Fraction]:
@@ -80,13 +87,15 @@ def _told(f: Rates, y: Sequence[float]) -> str:
     return ", ".join(f"{x} = {v:.6g}" for x, v in zip(f.names, y, strict=True))
 
 
-def in_floats(name: str, x: float) -> float:
-    """The functions of emitted equations."""
+def _of_float(name: str, x: float) -> float:
     if name == "none":
         return float(x == 0)
     if name == "sqrt" and x < 0:
         raise RootError("the root of a negative number")
     return sqrt(x) if name == "sqrt" else abs(x)
+
+
+FLOATS = Arithmetic(float, _of_float)
 
 
 def _newton(f: Rates, y: list[float]) -> list[float] | None:
@@ -95,7 +104,7 @@ def _newton(f: Rates, y: list[float]) -> list[float] | None:
 
     for _ in range(STEPS):
         try:
-            rates, slopes = (np.array(g(y, in_floats), dtype=float) for g in (f.values, f.slopes))
+            rates, slopes = (np.array(g(y, FLOATS), dtype=float) for g in (f.values, f.slopes))
             step = np.linalg.lstsq(slopes, -rates, rcond=1e-12)[0]
         except (ValueError, ZeroDivisionError, np.linalg.LinAlgError):
             return None
@@ -103,7 +112,7 @@ def _newton(f: Rates, y: list[float]) -> list[float] | None:
         if not all(abs(x) < LARGEST for x in y):
             return None
         if max(abs(step)) <= SMALL * (1 + max(map(abs, y))):
-            left = max(abs(x) for x in f.values(y, in_floats))
+            left = max(abs(x) for x in f.values(y, FLOATS))
             return y if left <= SAME * (1 + max(map(abs, y))) else None
     return None
 
@@ -111,7 +120,7 @@ def _newton(f: Rates, y: list[float]) -> list[float] | None:
 def _rank(f: Rates, y: Sequence[float]) -> int:
     import numpy as np
 
-    return int(np.linalg.matrix_rank(np.array(f.slopes(y, in_floats), dtype=float), tol=SMALL))
+    return int(np.linalg.matrix_rank(np.array(f.slopes(y, FLOATS), dtype=float), tol=SMALL))
 
 
 # -- exact numbers -------------------------------------------------------------------------------
@@ -121,18 +130,26 @@ def _rounded(x: Any) -> Fraction:
     return Fraction(round(Fraction(x) * 2**BITS), 2**BITS)
 
 
-def _fraction(name: str, x: Any) -> Any:
+def _of_fraction(name: str, x: Any) -> Any:
     if name == "none":
         return Fraction(int(x == 0))
     return Fraction(isqrt(int(x * 4**BITS)), 2**BITS) if name == "sqrt" else abs(x)
+
+
+def _digits(x: Any) -> Any:
+    """A number to many digits, as a fraction."""
+    return x.a + x.b * _of_fraction("sqrt", x.d) if isinstance(x, Quadratic) else x
+
+
+DIGITS = Arithmetic(_digits, _of_fraction)
 
 
 def _in_fractions(f: Rates, start: Sequence[float]) -> list[Fraction]:
     """The solution near floats, to about :data:`BITS` bits, by least squares."""
     y = [Fraction(x) for x in start]
     for _ in range(LAST):
-        slopes = q.matrix([[_rounded(x) for x in row] for row in f.slopes(y, _fraction)])
-        rates, turned = f.values(y, _fraction), q.transposed(slopes)
+        slopes = q.matrix([[_rounded(x) for x in row] for row in f.slopes(y, DIGITS)])
+        rates, turned = f.values(y, DIGITS), q.transposed(slopes)
         down = q.times(turned, q.column(-_rounded(x) for x in rates))
         step = q.solve(q.times(turned, slopes), down)
         if step is None:

@@ -13,7 +13,7 @@ left is small with its differences, which is all that Lyapunov's theorems need.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from random import Random
@@ -28,7 +28,7 @@ from ...language.univariate import Number, Quadratic, RootError, grows, root, ro
 from ...problem.fields import entries, state_names
 from ...problem.problem import Problem
 from ..equilibria.stability import eigenvalues, polynomial
-from .steady_velocity import NoTrimError, Rates, exact, in_floats, solutions
+from .steady_velocity import FLOATS, Arithmetic, NoTrimError, Rates, exact, solutions
 
 Numbers = Mapping[str, Number]
 EXACT = 2**40
@@ -130,7 +130,7 @@ class _Question:
         self.u: list[Number] = [at.get(n, Fraction(0)) for n in program.inputs]
         p = [Fraction(str(x[1])) for x in program.parameters]
         try:
-            self.k = program.functions["constants"].values({"p": p}, _function(0))
+            self.k = program.functions["constants"].values({"p": p}, EXACTLY.call)
         except ZeroDivisionError:
             raise NoTrimError("no body has these parameters: its mass matrix is singular") from None
 
@@ -188,18 +188,18 @@ class _Question:
                 u[i] = value
             return x, u
 
-        def rates(y: Sequence[Any], call: Any) -> list[Any]:
-            return self._values("rhs", *at(y), call)[-self.d :]
+        def rates(y: Sequence[Any], numbers: Arithmetic) -> list[Any]:
+            return self._values("rhs", *at(y), numbers)[-self.d :]
 
-        def slopes(y: Sequence[Any], call: Any) -> list[list[Any]]:
+        def slopes(y: Sequence[Any], numbers: Arithmetic) -> list[list[Any]]:
             x, u = at(y)
-            D = self._rows(self._values("jacobian", x, u, call))[self.d :]
+            D = self._rows(self._values("jacobian", x, u, numbers))[self.d :]
             first, n = self.d - len(x), len(places)
             more = [
-                rates([*y[: n + k], y[n + k] + 1, *y[n + k + 1 :]], call)
+                rates([*y[: n + k], y[n + k] + 1, *y[n + k + 1 :]], numbers)
                 for k, _ in enumerate(inputs)
             ]
-            held = rates(y, call)
+            held = rates(y, numbers)
             return [
                 [*(row[self.d + first + i] for i in places), *(m[a] - held[a] for m in more)]
                 for a, row in enumerate(D)
@@ -211,7 +211,7 @@ class _Question:
         if any(self.rates({})):
             told = ", ".join(f"{x} = {float(v):.8g}" for x, v in zip(names, y, strict=True))
             raise NoTrimError(f"near {told} a rate is small, and not 0 in numbers of a square root")
-        if q.rank(q.matrix(slopes(y, _function(0)))) < len(y):
+        if q.rank(q.matrix(slopes(y, EXACTLY))) < len(y):
             raise NoTrimError("many trims: others are near this one; free fewer")
         for i in inputs:  # they are found once more, linearly
             self.u[i] = Fraction(0)
@@ -225,7 +225,8 @@ class _Question:
                 met.append(name)
             return _function(PRIME)(name, x)
 
-        held, bent = (self._values("rhs", self.x, u, f) for f in (_function(0), call))
+        bending = replace(EXACTLY, call=call)
+        held, bent = (self._values("rhs", self.x, u, f) for f in (EXACTLY, bending))
         triples = zip(self.program.state, held, bent, strict=True)
         for name, x, y in [*triples][-self.d :]:
             by = (y - x) / PRIME
@@ -265,9 +266,12 @@ class _Question:
 
     # -- the emitted equations ---------------------------------------------------------------------
 
-    def _values(self, name: str, x: Sequence[Any], u: Sequence[Any], call: Any = None) -> list[Any]:
-        arrays = {"x": x, "k": self.k, "u": u}
-        return self.program.functions[name].values(arrays, call or _function(0))
+    def _values(
+        self, name: str, x: Sequence[Any], u: Sequence[Any], numbers: Arithmetic | None = None
+    ) -> list[Any]:
+        numbers = numbers or EXACTLY
+        arrays = {key: [*map(numbers.of, y)] for key, y in (("x", x), ("k", self.k), ("u", u))}
+        return self.program.functions[name].values(arrays, numbers.call)
 
     def with_more(self, more: Numbers) -> list[Number]:
         """All inputs, with some more."""
@@ -308,7 +312,7 @@ class _Question:
         g, whole = self.element(), self.program.functions.get("defect")
         if g == q.identity(self.group.size):
             return
-        off = whole.values({"x": self.x}, _function(0))[0] if whole else 0
+        off = whole.values({"x": self.x}, EXACTLY.call)[0] if whole else 0
         blocks = (
             tuple(row[k : k + factor.n] for row in g[k : k + factor.n])
             for k, factor in self.group.places
@@ -326,12 +330,9 @@ class _Question:
         Z = self.group.hat(self.x[-self.d :])
         eta = self.group.nearest(q.times(q.times(h, Z), q.inverted(h)))
         entries = {x: other[i][j] for x, (i, j) in self.places.items()}
-        x = [float(entries.get(n, y)) for n, y in zip(self.program.state, self.x, strict=True)]
-        arrays = {"x": x, "k": [*map(float, self.k)], "u": [*map(float, u)]}
-        found = self.program.functions["jacobian"].values(arrays, in_floats)
-        for name, row in zip(
-            self.program.state[-self.d :], self._rows(found)[self.d :], strict=True
-        ):
+        x = [entries.get(n, y) for n, y in zip(self.program.state, self.x, strict=True)]
+        below = self._rows(self._values("jacobian", x, u, FLOATS))[self.d :]
+        for name, row in zip(self.program.state[-self.d :], below, strict=True):
             terms = [a * float(b) for a, b in zip(row[: self.d], eta, strict=True)]
             if abs(sum(terms)) > ROUNDING * sum(map(abs, terms)):
                 raise NoTrimError(
@@ -358,3 +359,7 @@ def _function(corner: int) -> Callable[[str, Any], Any]:
         return root(x) if name == "sqrt" else x if x > 0 else -x
 
     return call
+
+
+EXACTLY = Arithmetic(lambda x: x, _function(0))
+"""In fractions, and in numbers with one square root."""
