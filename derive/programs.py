@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .language.limits import Refused
-from .language.reserved import did_you_mean, near_name
+from .language.reserved import did_you_mean, near_name, suffixed
 from .pipeline import discrete, lagrangian_road, walk
 from .problem.principal import principal
 from .problem.problem import Problem, ProblemError
@@ -102,8 +102,12 @@ def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
         return None
     told = reduced.record[f"{problem.name}.effective"].equations
     V = next(e.rhs for e in told if e.lhs == "𝒱")
-    turns = problem.group is not None and "orthogonal" in problem.group.relations
-    return OneDegree((left.entry[2], left.entry[3]), V, momenta_of(found), turns)
+    _, _, i, j = left.entry
+    group = problem.group
+    moved = group is not None and group.affine and j == group.size
+    turns = group is not None and "orthogonal" in group.relations and not moved
+    name = suffixed("T", i) if moved else suffixed("A", i, j)
+    return OneDegree((i, j), V, momenta_of(found), name, turns)
 
 
 def trim(

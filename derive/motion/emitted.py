@@ -16,7 +16,6 @@ from ..code.emit import emit, problem_hash
 from ..code.options import Options
 from ..code.program import Program
 from ..code.step.step_numbers import FIXED
-from ..language.reserved import suffixed
 from ..language.tree import Tree, replaced
 from ..language.values import value
 from ..problem.problem import Problem
@@ -208,9 +207,9 @@ SIGHT = (0.75, 0.5, 0.43)
 
 
 def outline(problem: Mapping[str, Any], parameters: Mapping[str, float]) -> dict[str, list[Any]]:
-    """What there is of a body in R³ that one group moves: its ``points``; its ``ellipsoids``, each
-    the rows of a map of the unit ball and a shift; its other ``solids``, convex, each the lines of
-    its edges and rims.  A mesh is left out."""
+    """What there is of a body in R³, or in the plane of its first two axes, that one group moves:
+    its ``points``; its ``ellipsoids``, each the rows of a map of the unit ball and a shift; its
+    other ``solids``, convex, each the lines of its edges and rims.  A mesh is left out."""
     declared = {
         name: {**dict(about), "default": parameters.get(name, about["default"])}
         for name, about in problem["parameters"].items()
@@ -218,7 +217,7 @@ def outline(problem: Mapping[str, Any], parameters: Mapping[str, float]) -> dict
     found = parts(
         {**problem, "parameters": declared}, ExpressionValues({**problem, "parameters": declared})
     )
-    if len(found) != 1 or found[0].size != 3:
+    if len(found) != 1 or found[0].size not in (2, 3):
         return {}
     (body,) = found
     shapes = [Shape(x, SIGHT) for x in body.solids if x.kind != "mesh"]
@@ -280,24 +279,20 @@ is, to rounding, which has no well."""
 class OneDegree:
     """What symmetries leave of a problem where it is one degree of freedom: ``V``, the effective
     potential, a tree in the ``entry`` of g, the momenta 𝒥_1, 𝒥_2, … and the parameters; what the
-    ``momenta`` are called among what the motion keeps; is the entry that of a rotation: it
-    ``turns``?"""
+    ``momenta`` are called among what the motion keeps, and the entry among the state, its ``name``;
+    is the entry that of a rotation: it ``turns``?"""
 
     entry: tuple[int, int]
     V: Tree
     momenta: tuple[str, ...]
+    name: str
     turns: bool = True
-
-    @property
-    def name(self) -> str:
-        """The entry as a column of a run."""
-        return suffixed("A", *self.entry)
 
     def along(self, run: Mapping[str, Array], numbers: Mapping[str, float]) -> dict[str, Any]:
         """V at some u, an entry of g, for the momenta of the first row of a run, given by
         its columns: between the turning points of its energy, and a little beyond; empty where
         there is none."""
-        if not {*self.momenta} <= {*run}:
+        if not {*self.momenta, self.name} <= {*run}:
             return {}
         first = {**numbers, **{x: float(run[x][0]) for x in self.momenta}}
         at, energy = run[self.name], float(run["energy"][0])

@@ -158,7 +158,7 @@ def without_inertia(run):
         ("heisenberg", "polhode", "polhode needs a group of rotations of R³"),
         ("charged_body", "polhode", "polhode needs a tensor of inertia, that of points"),
         ("gas_cloud", "spheroid", "spheroid needs a body that is one solid ellipsoid, which"),
-        ("zeitlin", "body", "body needs columns A_11 … A_33, which"),
+        ("zeitlin", "body", "body needs columns A_11 … A_33, or A_11 … A_22 of the plane, which"),
         ("zeitlin", "potential", "potential needs symmetries that leave"),
         ("euler_top", "potential", r"potential needs .* one degree of freedom"),
     ],

@@ -10,6 +10,7 @@ from derive.motion.run import Run
 from derive.problem.toml import problem_of
 from derive.python.derived import derive
 from derive.views.language import language
+from derive.views.plot import body_pictures, pictures
 from derive.views.plot.body_pictures import _ellipsoid, drawn, hull, levels, unstable
 from derive.views.plot.kind_descriptions import OVERVIEW
 from derive.views.plot.pictures import KINDS, plot
@@ -81,6 +82,46 @@ def test_a_state_that_is_too_fast_for_its_instants_is_named_instead(turned):
     panel, words = panel_of(plain_run(np.stack([t, columns[0]], 1), A_11="state"), "state")
     assert bool(curves(panel)) is slow
     assert ("too few instants:" in words) is not slow
+
+
+def test_a_rotation_is_drawn_by_its_calmest_axis_and_a_turn_of_the_plane_by_its_angle():
+    """The racket turns about its second axis before it flips; dθ/dt = ζ."""
+    run = run_of()
+    panel, *_ = figure_of(run, "state").get_axes()
+    assert panel.get_ylabel() == r"$A$$\,e_2$"
+    tip = {label(x): run[x] for x in ("A_12", "A_22", "A_32")}
+    assert all(np.array_equal(tip[x], y) for x, y in curves(panel).items())
+    assert [*curves(panel)] == [*tip]
+    run = simulated("pendulum", 3.0)
+    panel, *_ = figure_of(run, "state").get_axes()
+    (angle,) = curves(panel).values()
+    assert panel.get_ylabel() == "angle [rad]"
+    assert np.abs(np.gradient(angle, run.t) - run["zeta_1"])[1:-1].max() < 0.1
+    assert angle[0] == pytest.approx(np.arctan2(run["A_21"][0], run["A_11"][0]))
+    panel, *_ = figure_of(simulated("sl3", 1.0), "state").get_axes()
+    assert len(curves(panel)) == 9  # no rotation: all of it is wanted
+
+
+def test_an_overview_has_two_columns_and_begins_at_the_left():
+    figure = pictures._sheet_of(KINDS, ["state", "energy", "axes"], run_of(), str, ())
+    left, right = figure.subfigs
+    assert [len(x.subfigs) for x in (left, right)] == [2, 2]  # below one of them nothing
+    assert left.subfigs[0].get_axes()[0].get_ylabel().endswith("e_2$")
+
+
+def test_tips_that_go_round_and_round_are_left_out():
+    """A top that spins: its axis alone; a slow turn has all three."""
+
+    def named(run):
+        return figure_of(run, "axes").get_axes()[0].get_legend_handles_labels()[1]
+
+    assert named(simulated("top", 0.3)) == ["$A e_3$"]
+    t = np.linspace(0, 1, 40)
+    slow = np.stack(
+        [np.cos(t), -np.sin(t), 0 * t, np.sin(t), np.cos(t), 0 * t, 0 * t, 0 * t, 1 + 0 * t]
+    )
+    run = plain_run(np.vstack([t, slow]).T, **dict.fromkeys(body_pictures.ATTITUDE, "state"))
+    assert named(run) == [f"$A e_{k}$" for k in (1, 2, 3)]
 
 
 def test_a_component_is_held_against_its_vector():
@@ -294,6 +335,26 @@ def test_a_flat_body_has_its_pictures():
     run = derive(problem).simulate(1.0, start={"zeta_1": 1.0}, points=4)
     assert not KINDS["body"].lacks(run)
     assert plot(run, "a.svg", OVERVIEW)
+
+
+def test_a_body_of_the_plane_is_seen_from_above():
+    run = simulated("hung_bar", 2.0)
+    *_, last = figure_of(run, "body").get_axes()
+    dots = np.array([x.get_xydata()[0] for x in last.lines if x.get_marker() == "o"])
+    A = np.array([[run[f"A_{i}{j}"][-1] for j in (1, 2)] for i in (1, 2)])
+    assert dots == pytest.approx(np.array([A @ [-0.5, 0], A @ [0.5, 0]]))
+
+
+def test_what_falls_in_the_plane_has_a_potential_along_the_height():
+    """One degree of freedom is left, a translation: V = m g T_2 + constant."""
+    body = {"solid": "ellipsoid", "density": 1, "quadric": [[1, 0], [0, 4]]}
+    falling = {"name": "paddle", "group": "SE(2)", "parameters": {"g": 9.81}, "body": body}
+    gravity = [{"kind": "gravity", "g": [0, "-g"]}]
+    run = derive(problem_of({**falling, "potential": gravity})).simulate(1.0, points=9)
+    told = run.facts["potential"]
+    slope = np.gradient(told["V"], told["u"])
+    assert told["entry"] == "T_2"
+    assert slope == pytest.approx(np.full(len(slope), np.pi / 2 * 9.81), rel=1e-6)
 
 
 def test_a_hull():

@@ -15,13 +15,18 @@ from .plot_sheet import COLOURS, FONT, PlotError, beside, label
 
 VIEW = np.array([0.75, 0.5, 0.43]) / np.linalg.norm([0.75, 0.5, 0.43])
 """From where the pictures are seen, a unit vector."""
+ABOVE = np.array([0.0, 0.0, 1.0])
+"""From where a body of the plane is seen."""
 
-FAST = 0.25
-"""A tip that moves further than this from instant to instant, on the mean, makes no curve."""
+FAST, LONG = 0.25, 15.0
+"""A tip that moves further than this from instant to instant, on the mean, makes no curve; and one
+that goes further than this in all makes a thicket: that of the calmest axis alone is drawn."""
 
 
 def projected(points: Array, view: Array = VIEW) -> Array:
-    """Points (…, 3) → (…, 2), along the view, the third axis upwards."""
+    """Points (…, 3) → (…, 2), along the view, the third axis upwards; from above as they are."""
+    if view is ABOVE:
+        return points[..., :2]
     right = np.cross([0.0, 0.0, 1.0], view)
     right /= np.linalg.norm(right)
     return np.stack([points @ right, points @ np.cross(view, right)], -1)
@@ -57,23 +62,42 @@ def surface(panel: Any, root: Array, axes: Array | None = None) -> None:
 
 def axes(figure: Any, run: Run, word: Any) -> None:
     """The tips of the body's axes on the unit sphere of space: precession and nutation; without
-    those that turn too fast for the instants of the run, unless all do."""
+    those that turn too fast for the instants of the run, or too often, unless all do."""
     A = attitude(run)
     panel = figure.subplots()
     surface(panel, np.eye(3))
-    steps = np.linalg.norm(np.diff(A, axis=0), axis=1).mean(axis=0) if len(A) > 1 else np.zeros(3)
-    for k in [k for k in range(3) if steps[k] < FAST] or range(3):
+    ways = paths(A)
+    slow = ways < FAST * max(1, len(A) - 1)
+    drawn = [k for k in range(3) if slow[k] and (ways[k] < LONG or k == np.argmin(ways))]
+    for k in drawn or range(3):
         tip = A[:, :, k]
         curve(panel, tip, tip, COLOURS[k], f"$A e_{k + 1}$")
     figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", ncols=3)
 
 
+def paths(A: Array) -> Array:
+    """How far the tip of each axis goes in all; A at the instants, (instants, n, n)."""
+    found: Array = np.linalg.norm(np.diff(A, axis=0), axis=1).sum(axis=0)
+    return found
+
+
 def attitude(run: Run) -> Array:
-    """A at the instants, (instants, 3, 3)."""
-    return np.stack([run[x] for x in ATTITUDE], -1).reshape(-1, 3, 3)
+    """A at the instants, (instants, 3, 3); of a turn of the plane that about the third axis."""
+    if not is_flat(run):
+        return np.stack([run[x] for x in ATTITUDE], -1).reshape(-1, 3, 3)
+    A: Array = np.tile(np.eye(3), (len(run.t), 1, 1))
+    A[:, :2, :2] = np.stack([run[x] for x in FLAT], -1).reshape(-1, 2, 2)
+    return A
+
+
+def is_flat(run: Run) -> bool:
+    """Is it the motion of a body of the plane?"""
+    state = run.of_kind("state")
+    return {*FLAT} <= {*state} and not {*ATTITUDE} <= {*state}
 
 
 ATTITUDE = tuple(f"A_{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3))
+FLAT = tuple(f"A_{i}{j}" for i in (1, 2) for j in (1, 2))
 
 
 # A body at several instants: its points with the edges between them, its solids, its volume.
@@ -98,31 +122,34 @@ def drawn(run: Run) -> dict[str, list[Any]]:
 
 def body(figure: Any, run: Run, word: Any) -> None:
     """The body at some instants, each about where its origin is; paths of its points up to then."""
-    A, parts = attitude(run), drawn(run)
+    A, parts, view = attitude(run), drawn(run), ABOVE if is_flat(run) else VIEW
     rows = np.linspace(0, len(A) - 1, INSTANTS).round().astype(int)
     panels = figure.subplots(1, len(rows), sharex=True, sharey=True)
     points = np.array(parts["points"], float).reshape(-1, 3)
     edges = [*combinations(range(len(points)), 2)] if len(points) <= EDGED else []
     for panel, k in zip(panels, rows, strict=True):
         for j in range(len(points)):
-            x, y = projected(A[: k + 1] @ points[j]).T
+            x, y = projected(A[: k + 1] @ points[j], view).T
             panel.plot(x, y, c=COLOURS[j % len(COLOURS)], lw=0.5, alpha=0.5)
-        _faces(panel, A[k] @ points.T)
+        if view is VIEW:
+            _faces(panel, A[k] @ points.T)
         for i, j in edges:
-            _line(panel, (A[k] @ points[[i, j]].T).T, "#333333")
+            _line(panel, (A[k] @ points[[i, j]].T).T, view)
         for lines in parts["solids"]:
-            _solid(panel, [np.array(line, float) @ A[k].T for line in lines])
+            _solid(panel, [np.array(line, float) @ A[k].T for line in lines], view)
         for map_, shift in parts["ellipsoids"]:
-            _ellipsoid(panel, A[k] @ np.array(map_, float), A[k] @ np.array(shift, float))
+            _ellipsoid(panel, A[k] @ np.array(map_, float), A[k] @ np.array(shift, float), view)
+        if len(points) == 1:
+            _line(panel, np.stack([np.zeros(3), A[k] @ points[0]]), view)
         for j, point in enumerate(points):
-            x, y = projected(A[k] @ point)
+            x, y = projected(A[k] @ point, view)
             panel.plot([x], [y], "o", c=COLOURS[j % len(COLOURS)], ms=4)
         if not parts["ellipsoids"]:
-            for j in range(3):
-                tip = projected(np.stack([np.zeros(3), A[k][:, j]]) * _size(points, parts) / 2)
-                panel.plot(*tip.T, c="#bbbbbb", lw=0.6, zorder=0)
+            for j in range(3 if view is VIEW else 2):
+                tip = np.stack([np.zeros(3), A[k][:, j]]) * _size(points, parts) / 2
+                panel.plot(*projected(tip, view).T, c="#bbbbbb", lw=0.6, zorder=0)
         title = f"$t = {run.t[k]:.3g}$"
-        if len(points) == 4:
+        if len(points) == 4 and view is VIEW:
             volume = abs(float(np.linalg.det(A[k] @ (points[1:] - points[0]).T))) / 6
             title += f"\n{word('volume')} {volume:.6g}"
         panel.set_title(title, fontsize=8)
@@ -136,16 +163,16 @@ def _size(points: Array, parts: dict[str, list[Any]]) -> float:
     return max((float(np.linalg.norm(x)) for x in every), default=1.0)
 
 
-def _line(panel: Any, points: Array, colour: str) -> None:
-    panel.plot(*projected(points).T, c=colour, lw=0.8)
+def _line(panel: Any, points: Array, view: Array) -> None:
+    panel.plot(*projected(points, view).T, c="#333333", lw=0.8)
 
 
-def _solid(panel: Any, lines: list[Array]) -> None:
+def _solid(panel: Any, lines: list[Array], view: Array) -> None:
     """A convex solid by its edges and rims, with its outline."""
-    outline = hull(projected(np.concatenate(lines)))
+    outline = hull(projected(np.concatenate(lines), view))
     panel.fill(*outline.T, facecolor="#f4f4f4", edgecolor="#333333", lw=0.8)
     for line in lines:
-        panel.plot(*projected(line).T, c="#777777", lw=0.5)
+        panel.plot(*projected(line, view).T, c="#777777", lw=0.5)
 
 
 def hull(points: Array) -> Array:
@@ -173,20 +200,20 @@ def _faces(panel: Any, corners: Array) -> None:
             panel.fill(x, y, facecolor=COLOURS[5], alpha=0.15, lw=0)
 
 
-def _ellipsoid(panel: Any, map_: Array, shift: Array) -> None:
+def _ellipsoid(panel: Any, map_: Array, shift: Array, view: Array = VIEW) -> None:
     """The image of the unit ball: its outline, where normals are across the view, and the images of
     three circles, what is behind thin."""
     turn = np.linspace(0, 2 * np.pi, 121)
     circle = np.stack([np.cos(turn), np.sin(turn)])
     a, b, c = map_.T
-    seen = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)]) @ VIEW  # |map| map⁻¹ VIEW
+    seen = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)]) @ view  # |map| map⁻¹ VIEW
     seen = seen if np.linalg.det(map_) >= 0 else -seen  # 0 of a flat body
     frame = np.linalg.svd(seen[None])[2][1:]
-    x, y = projected((map_ @ frame.T @ circle).T + shift).T
+    x, y = projected((map_ @ frame.T @ circle).T + shift, view).T
     panel.fill(x, y, facecolor="#f4f4f4", edgecolor="#333333", lw=0.8, zorder=0)
     for k in range(3):
         u = np.delete(np.eye(3), k, axis=1) @ circle
-        x, y = projected((map_ @ u).T + shift).T
+        x, y = projected((map_ @ u).T + shift, view).T
         front = seen @ u >= 0
         panel.plot(x, y, c=COLOURS[k], lw=0.4, alpha=0.4)
         panel.plot(np.where(front, x, np.nan), np.where(front, y, np.nan), c=COLOURS[k], lw=1.1)

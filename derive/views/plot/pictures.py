@@ -47,6 +47,10 @@ def _rotates(run: Run) -> bool:
 
 ROTATION = ("a group of rotations of R³, SO(3) or SE(3)", _rotates)
 ATTITUDE = ("columns A_11 … A_33", _columns(*body_pictures.ATTITUDE))
+ANY_ATTITUDE = (
+    "columns A_11 … A_33, or A_11 … A_22 of the plane",
+    lambda run: body_pictures.is_flat(run) or ATTITUDE[1](run),
+)
 
 KINDS = {
     "state": PictureKind(
@@ -86,7 +90,7 @@ KINDS = {
     "body": PictureKind(
         body_pictures.body,
         (
-            ATTITUDE,
+            ANY_ATTITUDE,
             (
                 "a body of points, of solids or with a tensor of inertia",
                 lambda run: any(body_pictures.drawn(run).values()),
@@ -214,13 +218,31 @@ def _sheet_of(
     word: Any,
     columns: tuple[Any, ...],
 ) -> Any:
-    """A figure with some kinds, one below the other."""
+    """A figure with some kinds, those of several in two columns of about one height."""
     sizes = [kinds[kind].size(run, *columns) for kind in chosen]
-    figure = sheet(max(x for x, _ in sizes), sum(y for _, y in sizes))
     if len(chosen) == 1:
+        figure = sheet(*sizes[0])
         kinds[chosen[0]].draw(figure, run, word, *columns)
         return figure
-    rows = figure.subfigures(len(chosen), 1, height_ratios=[y for _, y in sizes])
-    for row, kind in zip(rows, chosen, strict=True):
-        kinds[kind].draw(row, run, word, *columns)
+    first, *others = sorted(range(len(chosen)), key=lambda k: (k > 0, -sizes[k][1]))
+    halves: tuple[list[int], list[int]] = ([first], [])
+
+    def height(half: list[int]) -> float:
+        return sum(sizes[k][1] for k in half)
+
+    for k in others:
+        min(halves, key=height).append(k)
+    widths = [max(sizes[k][0] for k in half) for half in halves]
+    most = max(map(height, halves))
+    figure = sheet(sum(widths), most)
+    for column, half in zip(
+        figure.subfigures(1, 2, width_ratios=widths, squeeze=False)[0], halves, strict=True
+    ):
+        heights = [sizes[k][1] for k in sorted(half)]
+        rest = [most - sum(heights)] if most - sum(heights) > 0.1 else []
+        rows = column.subfigures(
+            len(half) + len(rest), 1, height_ratios=heights + rest, squeeze=False
+        )
+        for row, k in zip(rows[:, 0], sorted(half), strict=False):
+            kinds[chosen[k]].draw(row, run, word, *columns)
     return figure

@@ -110,9 +110,10 @@ def laid_out(figure: Any) -> None:
     figure.draw_without_rendering()
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
-    for part in figure.subfigs:
-        corners = part.bbox_relative.get_points().round(5)
-        part.bbox_relative.p0, part.bbox_relative.p1 = corners
+    for column in figure.subfigs:
+        for part in (column, *column.subfigs):
+            corners = part.bbox_relative.get_points().round(5)
+            part.bbox_relative.p0, part.bbox_relative.p1 = corners
     for panel in figure.get_axes():
         place = panel.get_position(original=True)
         panel.set_position(place.from_extents(*place.extents.round(5)), which="original")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import permutations
 from textwrap import wrap
 from typing import Any
@@ -14,7 +15,7 @@ import numpy as np
 from ...language.reserved import by_letter, letter_and_suffix
 from ...motion.emitted_code import KEPT, Column, in_words, parts
 from ...motion.run import Array, Run
-from .body_pictures import attitude
+from .body_pictures import attitude, paths
 from .plot_sheet import COLOURS, label
 
 # The state against time, and how well what motions keep was kept.
@@ -43,6 +44,36 @@ def letters(run: Run, kind: str = "state") -> list[tuple[str, list[Column]]]:
     return [(key, [known[x] for x in names]) for key, names in grouped.items()][:most]
 
 
+@dataclass(frozen=True)
+class Panel:
+    """Curves of one unit, by their names."""
+
+    name: str
+    unit: str
+    curves: dict[str, Array]
+
+
+def turned(run: Run, key: str, members: list[Column], word: Any) -> Panel | None:
+    """Of a rotation of space the tip of that axis of the body that goes least far, of one of the
+    plane its angle: all entries say no more, and hide it.  ``None`` of other columns."""
+    n = math.isqrt(len(members))
+    if [letter_and_suffix(x.name)[1] for x in members] not in INDICES:
+        return None
+    A = np.stack([run[x.name] for x in members], -1).reshape(-1, n, n)
+    if not np.allclose(A @ A.transpose(0, 2, 1), np.eye(n), atol=1e-6):
+        return None
+    if n == 2:
+        angle: Array = np.unwrap(np.arctan2(A[:, 1, 0], A[:, 0, 0]))
+        return Panel(word("angle"), "rad", {word("angle"): angle})
+    k = int(np.argmin(paths(A)))
+    tip = {label(members[n * i + k].name): A[:, i, k] for i in range(n)}
+    return Panel(f"{label(key)}$\\,e_{k + 1}$", "", tip)
+
+
+INDICES = [[f"{i}{j}" for i in range(1, n + 1) for j in range(1, n + 1)] for n in (2, 3)]
+"""Of the entries of a matrix of the plane, and of one of space."""
+
+
 def size_of_state(run: Run, kind: str = "state") -> tuple[float, float]:
     """Width and height of :func:`state`."""
     return 6.5, 0.6 + 1.7 * len(letters(run, kind))
@@ -54,14 +85,18 @@ def state(figure: Any, run: Run, word: Any, kind: str = "state") -> None:
     groups = letters(run, kind)
     panels = figure.subplots(len(groups), 1, sharex=True, squeeze=False)[:, 0]
     for panel, (key, members) in zip(panels, groups, strict=True):
-        size, fast = max(float(np.abs(run[x.name]).max()) for x in members), []
-        for k, x in enumerate(members[:MOST]):
-            if _is_too_fast(run[x.name], size):
-                fast.append(label(x.name))
+        shown = turned(run, key, members, word) if kind == "state" else None
+        if shown is None:
+            units = {x.unit for x in members}
+            unit = units.pop() if len(units) == 1 else ""
+            shown = Panel(label(key), unit, {label(x.name): run[x.name] for x in members})
+        size, fast = max(float(np.abs(y).max()) for y in shown.curves.values()), []
+        for k, (name, y) in enumerate([*shown.curves.items()][:MOST]):
+            if _is_too_fast(y, size):
+                fast.append(name)
                 continue
-            panel.plot(run.t, run[x.name], **_style(k), label=label(x.name))
-        units = {x.unit for x in members}
-        panel.set_ylabel(with_unit(label(key), units.pop() if len(units) == 1 else ""))
+            panel.plot(run.t, y, **_style(k), label=name)
+        panel.set_ylabel(with_unit(shown.name, shown.unit))
         _legend(panel, run, _named(f"{word('too few instants:')}\n", fast))
     panels[-1].set_xlabel(time_label(run))
 
@@ -91,7 +126,9 @@ def _legend(panel: Any, run: Run, others: str) -> None:
         return
     if others:
         panel.plot([], [], " ", label=others)
-    panel.legend(loc="center left", bbox_to_anchor=(1, 0.5), ncols=1 + (drawn > 6))
+    longest = max(len(str(x.get_label())) for x in panel.get_lines())
+    several = drawn > 6 and longest <= LONG
+    panel.legend(loc="center left", bbox_to_anchor=(1, 0.5), ncols=1 + several)
 
 
 def _style(k: int) -> dict[str, str]:
