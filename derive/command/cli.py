@@ -270,17 +270,13 @@ def command_check(args: argparse.Namespace) -> int:
 
 def told(name: str, verdicts: Sequence[Verdict]) -> int:
     """Print the verdicts on the record of a name: how many fail."""
+    from ..check.form.hypotheses_checked import in_a_line
+
     for v in verdicts:
         words = _trial_text(v) if v.holds else one_line(v.reason)
         print(f"{'holds' if v.holds else 'FAILS'}  {v.label}: {words}")
-    bad, steps = sum(not v.holds for v in verdicts), [v for v in verdicts if v.of == "equation"]
-    holding, bound = sum(v.holds for v in steps), max(v.bound for v in verdicts)
-    print(
-        f"{one_line(name)}: {holding} of {len(steps)} steps hold exactly"
-        + (", but the symbols are not as declared" if bad + holding > len(steps) else "")
-        + ("" if bad else f"; a false one passes with probability below {bound:.0e}")
-    )
-    return bad
+    print(f"{one_line(name)}: {in_a_line(verdicts)}")
+    return sum(not v.holds for v in verdicts)
 
 
 def _trial_text(v: Verdict) -> str:

@@ -9,12 +9,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
-from ..check.form.hypotheses_checked import Verdict
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
 from .api import in_keywords
 from .quoted import loaded
-from .shown import Answer, Shown
+from .shown import Answer, Page, Shown, Verdicts
 
 if TYPE_CHECKING:
     from ..motion.signals import Given
@@ -102,12 +101,12 @@ class Derived:
 
         return render(self.record, "latex", lang, transpose=transpose, hat=hat)
 
-    def check(self, seed: int | None = None) -> list[Verdict]:
+    def check(self, seed: int | None = None) -> Verdicts:
         """A verdict for the symbols and one for every step, by exact arithmetic and other formulas,
         at points that are new each time; the same ``seed`` gives the same points."""
         from ..check.checker import check
 
-        return check(self.record, seed)
+        return Verdicts(check(self.record, seed))
 
     def integrals(
         self, degree: int = 4, *, at_defaults: bool = False, conditions: bool = False
@@ -275,9 +274,9 @@ class Derived:
         exp: Sequence[float] = (),
         project: bool = False,
         language: str = "en",
-    ) -> str:
-        """A page of HTML in which the body moves from 0 to t, from a start as of ``simulate``; in
-        English or in French (``fr``)."""
+    ) -> Page:
+        """A page of HTML, a ``str`` that a notebook shows in a frame, in which the body moves from
+        0 to t, from a start as of ``simulate``; in English or in French (``fr``)."""
         from ..motion.first_numbers import require_numbers
         from ..motion.simulate import beginning
         from ..motion.trajectory import Method, instants
@@ -289,7 +288,8 @@ class Derived:
         code = motion_of(replace(self.problem, events=()), self.record, weightless=True)
         begin = beginning(code, self.problem, given=start or {}, exponent=exp, project=project)
         instants(Method(tol=tol), t, 1)
-        return motion_page(code, self.problem, self.record, begin, t, tol, named(language))
+        page = motion_page(code, self.problem, self.record, begin, t, tol, named(language))
+        return Page(page)
 
     @cached_property
     def translation(self) -> Translation:

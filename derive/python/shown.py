@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from html import escape
 from typing import Any, ClassVar
 
-from ..check.form.hypotheses_checked import Verdict
+from ..check.form.hypotheses_checked import Verdict, in_a_line
 from ..record.record import Derivation, Equation, Step
 from ..search import FIRST
 
@@ -125,6 +126,27 @@ class Shown:
         return self.markdown()
 
 
+class Page(str):
+    """A page of HTML, which a notebook shows in a frame of its own."""
+
+    def _repr_html_(self) -> str:
+        frame = f'<iframe srcdoc="{escape(self)}" style="width:100%;height:{HEIGHT}px;border:0">'
+        return f"{frame}</iframe>"
+
+
+HEIGHT = 560
+"""Of a page in a notebook, in pixels: a motion with its controls."""
+
+
+class Verdicts(list[Verdict]):
+    """Verdicts, of which a notebook shows what they come to, in a line with a tick, and why steps
+    do not hold."""
+
+    def _repr_markdown_(self) -> str:
+        bad = [f"* `{v.label}`: {' '.join(v.reason.split())}" for v in self if not v.holds]
+        return "\n".join([f"{'✗' if bad else '✓'} {in_a_line(self)}", *bad])
+
+
 class Finding:
     """What a ``_search`` found, with its ``record``: the derivation, whose last steps tell it; in a
     notebook it shows these."""
@@ -132,11 +154,11 @@ class Finding:
     _search: ClassVar[str]
     record: Derivation
 
-    def check(self, seed: int | None = None) -> list[Verdict]:
+    def check(self, seed: int | None = None) -> Verdicts:
         """A verdict for the symbols and every step, as :meth:`Derived.check` gives them."""
         from ..check.checker import check
 
-        return check(self.record, seed)
+        return Verdicts(check(self.record, seed))
 
     def __str__(self) -> str:
         return self._rendered("text")

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import base64
 from abc import abstractmethod
 from collections.abc import Sequence
+from contextlib import suppress
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +47,31 @@ class Simulated(Run):
     def plot(self, out: str | Path, kind: str = "", lang: str = "en") -> Path:
         """Draw it to a file, .svg, .pdf or .png, as ``derive plot --kind`` does; ``PlotError``."""
         return _drawn(self, Path(out), kind, lang)
+
+    def _repr_html_(self) -> str:
+        """Its picture, where there is matplotlib, and a table of what it begins and ends with."""
+        from ..views.plot.pictures import plot
+        from ..views.plot.plot_sheet import PlotError
+
+        if not len(self.t):
+            return f"<p>{escape(repr(self))}</p>"
+        with suppress(PlotError), in_keywords():
+            drawing = base64.b64encode(plot(self, "run.svg")).decode()
+            return f'<img src="data:image/svg+xml;base64,{drawing}">{self._ends()}'
+        return self._ends()
+
+    def _ends(self) -> str:
+        """The table of the first and last numbers of each column, and of the most that it was away
+        from the first."""
+        rows: list[tuple[str, ...]] = [
+            ("", f"t = {self.t[0]:g}", f"t = {self.t[-1]:g}", "largest change")
+        ]
+        for x in self.columns[1:]:
+            y = self[x.name]
+            name = f"{x.name} [{x.unit}]" if x.unit else x.name
+            rows.append((name, *(f"{v:.6g}" for v in (y[0], y[-1], np.abs(y - y[0]).max()))))
+        cells = ("".join(f"<td>{escape(cell)}</td>" for cell in row) for row in rows)
+        return f"<table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
 
     def save(self, out: str | Path) -> Path:
         """Write it to a file, .npz, .csv or .parquet."""

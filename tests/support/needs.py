@@ -64,6 +64,7 @@ ELSEWHERE = {
         "distributed": "distributed",
         "ipykernel": "ipykernel",
         "jax": "jax",
+        "marimo": "marimo",
         "nbclient": "nbclient",
         "nbformat": "nbformat",
         "pinocchio": "pin",

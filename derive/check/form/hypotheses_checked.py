@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -57,6 +57,17 @@ class Verdict:
     tried: tuple[int, tuple[str, ...]] = (0, ())
     of: str = "equation"
     note: str = ""
+
+
+def in_a_line(verdicts: Sequence[Verdict]) -> str:
+    """What verdicts come to: how many steps hold, and how likely a false one is to pass."""
+    bad, steps = sum(not v.holds for v in verdicts), [v for v in verdicts if v.of == "equation"]
+    holding, bound = sum(v.holds for v in steps), max(v.bound for v in verdicts)
+    return (
+        f"{holding} of {len(steps)} steps hold exactly"
+        + (", but the symbols are not as declared" if bad + holding > len(steps) else "")
+        + ("" if bad else f"; a false one passes with probability below {bound:.0e}")
+    )
 
 
 def no_sense(error: Exception) -> str:
