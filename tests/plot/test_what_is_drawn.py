@@ -135,6 +135,17 @@ def test_a_component_is_held_against_its_vector():
     assert said not in words_of(simulated("top", 0.5), "energy")  # one component alone
 
 
+def test_what_is_rounding_at_first_is_held_against_nothing():
+    """A trace that vanishes but for rounding, beside others: its own first value is no measure."""
+    table = [[0, 2.0, 1e-17, 3.0], [1, 2.0 + 2e-13, 1e-14, 3.0 + 6e-13]]
+    run = plain_run(table, trace_2="conserved", trace_3="conserved", trace_4="conserved")
+    panel, _ = panel_of(run, "energy")
+    names = panel.get_legend_handles_labels()[1]
+    assert [x for x in names if "absolute" in x] == ["trace 3 (absolute)"]
+    (line,) = [x for x in panel.get_lines() if x.get_label().startswith("trace 3")]
+    assert line.get_ydata()[-1] == pytest.approx(1e-14, rel=1e-2)
+
+
 def test_what_changes_by_damping_is_no_error():
     run = simulated("euler_top")
     for drives, told in ((["damping"], "relative change"), ([], "relative error")):

@@ -8,6 +8,7 @@ import json
 import math
 import re
 from collections.abc import Mapping, Sequence
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -142,16 +143,24 @@ def _rows(e: Ensemble, chosen: Sequence[str]) -> list[str]:
 
 def size_of_ends(e: Ensemble, chosen: Sequence[str]) -> tuple[float, float]:
     """Width and height of :func:`ends`."""
-    across, rows = len(e.varied_names[:ACROSS]), len(_rows(e, chosen))
-    return max(3.6, 1.0 + 2.3 * across), 0.8 + 1.5 * max(1, rows)
+    across, rows = len(e.varied_names[:ACROSS]), max(1, len(_rows(e, chosen)))
+    if across == 1:
+        return max(4.8, 0.4 + 2.5 * min(rows, WIDE)), 0.8 + 1.6 * math.ceil(rows / WIDE)
+    return 1.0 + 2.3 * across, 0.8 + 1.5 * rows
 
 
 def ends(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
-    """The state at the end against what is varied, a point each motion; of one that ended at an
+    """The state at the end against what is varied, a point each motion, a row of panels each
+    column, or where one thing is varied a panel; of one that ended at an
     event the state there, in another colour, and the time; a mark below stands for one that went
     wrong."""
     names, varied = _rows(e, chosen), e.varied_names[:ACROSS]
-    grid = figure.subplots(len(names), len(varied), sharex="col", sharey="row", squeeze=False)
+    if len(varied) == 1:
+        several = _panels(figure, len(names))
+        grid, lowest = [[x] for x in several], several[-WIDE:]
+    else:
+        grid = figure.subplots(len(names), len(varied), sharex="col", sharey="row", squeeze=False)
+        lowest = grid[-1]
     events, good = e.at_event, e.status == 0
     groups = [(_thinned(np.flatnonzero(x)), c) for x, c in ((good, 0), (events, 2)) if x.any()]
     lost = _thinned(np.flatnonzero(~(good | events)))
@@ -165,7 +174,7 @@ def ends(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
                 panel.plot(e.varied[lost, k], np.full(len(lost), 0.02), "|", c=COLOURS[1],
                            ms=5, transform=panel.get_xaxis_transform())  # fmt: skip
         row[0].set_ylabel(named(e, name))
-    for panel, name in zip(grid[-1], varied, strict=True):
+    for panel, name in zip(lowest, cycle(varied)):
         panel.set_xlabel(f"{named(e, name)}, {word('varied')}")
     unit = e.facts.get("units", {}).get(TIME, "")
     last = f"$t = {e.t[-1]:g}$ {unit}".strip()

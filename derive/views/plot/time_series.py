@@ -148,9 +148,13 @@ def _curve(panel: Any, t: Array, away: Array, k: int, **more: Any) -> None:
 
 def changes(run: Run) -> dict[str, tuple[Array, float]]:
     """|E − E₀| / |E₀| of the energy and of every conserved quantity, and |E₀|: of a component of a
-    vector that of the vector; where it is 0 the difference itself."""
+    vector that of the vector; where it is 0, or nothing but rounding beside others of its name, the
+    difference itself."""
     sizes, kept = norms(run), {**run.of_kind("energy"), **run.of_kind("conserved")}
     scales = {name: sizes.get(vector_of(name), abs(y[0])) for name, y in kept.items()}
+    for name, scale in scales.items():
+        alike = [y for x, y in scales.items() if base_of(x) == base_of(name)]
+        scales[name] = scale if scale > ROUNDED * max(alike) else 0.0
     return {x: (np.abs(y - y[0]) / (scales[x] or 1.0), scales[x]) for x, y in kept.items()}
 
 
@@ -208,8 +212,16 @@ def norms(run: Run) -> dict[str, float]:
 
 def vector_of(name: str) -> str:
     """Of which vector a conserved quantity is a component; empty where of none."""
-    base = re.sub(r"_\d+$", "", name)
-    return base if base in KEPT else ""
+    return base_of(name) if base_of(name) in KEPT else ""
+
+
+def base_of(name: str) -> str:
+    """A name without its number: ``trace`` of ``trace_3``."""
+    return re.sub(r"_\d+$", "", name)
+
+
+ROUNDED = 1e-12
+"""What is smaller, relative to others of its name, was 0."""
 
 
 def time_label(run: Run) -> str:
@@ -274,30 +286,31 @@ def maps(run: Run) -> Array:
 
 
 def spheroid(figure: Any, run: Run, word: Any) -> None:
-    """Semi-axes, integral of the pressure, and sections by the plane y = 0 of space."""
+    """Semi-axes and integral of the pressure, one below the other, and sections by the plane y = 0
+    of space."""
     M = maps(run)
-    left, right = figure.subplots(1, 2, width_ratios=(1.5, 1))
+    places = figure.subplot_mosaic(
+        [["axes", "section"], ["pressure", "section"]], width_ratios=(3, 2)
+    )
+    sizes, below, right = (places[x] for x in ("axes", "pressure", "section"))
+    below.sharex(sizes)
     axes = followed(np.asarray(np.linalg.svd(M, compute_uv=False), dtype=float))
     for k in range(3):
-        left.plot(run.t, axes[:, k], ("-", "--", ":")[k], c=COLOURS[k], label=f"$a_{k + 1}$")
+        sizes.plot(run.t, axes[:, k], ("-", "--", ":")[k], c=COLOURS[k], label=f"$a_{k + 1}$")
     (column,) = (x for x in run.columns if x.kind == "multiplier")
     length = "m" if column.unit else ""  # a run is in SI or has no units
-    left.set(ylabel=with_unit(word("semi-axes"), length))
-    below, theta = left.twinx(), run[column.name]
-    below.plot(run.t, theta, "-.", c=PRESSURE, label=word("integral of the pressure"))
-    below.axhline(0, c=PRESSURE, lw=0.5)
+    sizes.set(ylabel=with_unit(word("semi-axes"), length))
+    sizes.tick_params(labelbottom=False)
+    sizes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    theta = run[column.name]
+    below.plot(run.t, theta, c=PRESSURE)
+    below.axhline(0, c="#777777", lw=0.5)
     where = below.get_xaxis_transform()
     below.fill_between(
         run.t, 0, 1, where=theta < 0, transform=where, color=PRESSURE, alpha=0.12, lw=0
     )
-    below.set_ylabel(with_unit(word("integral of the pressure"), column.unit), color=PRESSURE)
-    below.tick_params(axis="y", colors=PRESSURE)
-    below.spines["right"].set(visible=True, color=PRESSURE)
-    left.set_xlabel(time_label(run))
-    handles, labels = left.get_legend_handles_labels()
-    handles += below.get_legend_handles_labels()[0]
-    labels += below.get_legend_handles_labels()[1]
-    figure.legend(handles, labels, loc="outside lower left", ncols=4)
+    told = wrap(with_unit(word("integral of the pressure"), column.unit), LINE // 2)
+    below.set(xlabel=time_label(run), ylabel="\n".join(told))
     rows = np.linspace(0, len(M) - 1, SECTIONS).round().astype(int)
     for shade, k in zip(np.linspace(0.25, 1, SECTIONS), rows, strict=True):
         right.plot(*section(M[k]), c=COLOURS[0], alpha=shade, label=f"$t = {run.t[k]:.3g}$")
