@@ -256,9 +256,7 @@ def of_attitude(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     here, there = b.unexplained, b.transposed()
     for term in terms:
         if there is not None and term.at is not None:
-            words = (
-                f"{term.name('')} is turned by A and not by Ā, the transpose of the attitude"
-            )
+            words = f"{term.name('')} is turned by A and not by Ā, the transpose of the attitude"
             yield Hypothesis(words, 0, here - (term.at(there) - term.values))
 
 
