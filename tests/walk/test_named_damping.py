@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import derive
+from derive.language.show import show
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from tests.support.library import module_of
@@ -75,3 +76,14 @@ def test_a_name_is_of_one_place_and_of_one_force():
     twice = [{**table, "on": [1]}, {**table, "on": [2]}]
     with pytest.raises(ProblemError, match="'air' is a force as well; choose another name"):
         problem_of({**data, "damping": twice})
+
+
+def test_the_signs_of_a_law_and_of_a_coordinate_are_one():
+    """ζ₁ is −Z₁₂ in the plane, so that −500 ζ₁ is 500 Z₁₂."""
+    body = {"given": {"m": MASS, "centre": [0, 0], "I_centre": 2}}
+    law = {"name": "water", "at": [0, 0], "frame": "body", "moment": ["-500*zeta_1"]}
+    record = derive.derive(
+        problem_of({"name": "boat", "group": "SE(2)", "body": body, "force": [law]})
+    ).record
+    (found,) = (e.rhs for s in record.steps for e in s.equations if e.lhs == ("par", "water"))
+    assert show(found) == "500 Z₁₂"
