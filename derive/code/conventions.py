@@ -336,7 +336,8 @@ def _acting(problem: Mapping[str, Any], places: Mapping[int, str]) -> Iterator[s
         found.append(f"Force of the state{name}: {what}.")
     for x in problem.get("flows", ()):
         at = places.get(x["on"]) or f" at point {x['on']}"
-        found += [f"Mass flows{at}{sized('dm/dt', x['rate'])}."]
+        name = f" {x['name']}" if "name" in x else ""
+        found += [f"Mass flows{name}{at}{sized('dm/dt', x['rate'])}."]
     for x in problem.get("damping", ()):
         on = ", ".join(map(place, x["on"]))
         found += [f"Damping: the force -kappa v on {on}{sized('kappa', x['coefficient'])}."]

@@ -54,7 +54,11 @@ def command_walk(args: argparse.Namespace) -> int:
     if args.labels == ["answer"]:
         args.labels, args.answer = [], True
     if (args.answer or "answer" in args.labels) and (args.labels or args.trivialisation):
-        raise UsageError("--answer shows its own steps: leave out steps and --trivialisation")
+        said = "--answer" if args.answer else "answer"
+        more = [x for x in args.labels if x != "answer"] + ["--trivialisation"] * bool(
+            args.trivialisation
+        )
+        raise UsageError(f"{said} shows its own steps: leave out {', '.join(more) or 'the second'}")
     walked = discrete_walk if args.discrete else derive
     with working(args.problem):
         problem, record = walked(args.problem, **allowed(args))
@@ -115,7 +119,9 @@ def command_trim(args: argparse.Namespace) -> int:
 
     at, given = _each_once("--at", args.at), _each_once("--given", args.given)
     free = [name for x in args.free or () for name in x.split(",")] or None
-    save_found(trim(doubted(args.problem, given=given), at, free, given)[1], args)
+    with working(args.problem):
+        _, record = trim(doubted(args.problem, given=given), at, free, given)
+    save_found(record, args)
     return 0
 
 

@@ -15,6 +15,7 @@ from ..pipeline import walk
 from ..problem.problem import Problem
 from ..programs import program
 from .showing import doubted
+from .terminal import working
 from .writing import one_line
 
 
@@ -31,7 +32,8 @@ def command_compare(args: argparse.Namespace) -> int:
     table = None if args.table is None else Path(args.table)
     states = STATES if args.states is None else max(1, args.states)
     seed = args.seed or 0
-    held = comparison(problem, made, Path(args.file), args.function, table, seed, states)
-    agrees, lines = reports(held, made)
+    with working(args.problem):
+        held = comparison(problem, made, Path(args.file), args.function, table, seed, states)
+        agrees, lines = reports(held, made)
     print(*map(one_line, lines), sep="\n")
     return 0 if agrees else 1

@@ -117,8 +117,10 @@ def run_of(
     """The run that a command asks for; ``Refused`` where there is none."""
     method = method_of(args, step_of(record.problem or {}, args.method, args.dt))
     light = is_weightless(record.problem or {}, start["given"])
+    with working(args.problem):
+        motion = motion_of(problem, record, method.step, method.order, weightless=light)
     return run(
-        motion_of(problem, record, method.step, method.order, weightless=light),
+        motion,
         problem,
         method,
         args.t,

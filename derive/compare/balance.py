@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from types import ModuleType
 from typing import Any
 
@@ -25,13 +26,14 @@ EXACT = 1e-9
 
 @dataclass(frozen=True)
 class Term:
-    """A term of M a = Σ terms at each state, (N, d), in words of its rows."""
+    """A term of M a = Σ terms at each state, (N, d), in words of its rows; ``part``: is it only one
+    of another term?  ``at``: the same at other states, where the attitude stands in it."""
 
     values: Array
     name: Callable[[str], str]
     centre: Array | None = None
     part: bool = False
-    """Is it only a part of another term?"""
+    at: Callable[[Array], Array] | None = None
 
 
 @dataclass
@@ -40,6 +42,7 @@ class Balance:
 
     ``x`` (N, state), ``u`` (N, inputs), ``t`` (N,), ``a`` (N, d): the user's rates of the velocity.
     ``parameters``: those of the problem by name; ``rows``: names of sets of rows → which.
+    ``changed``: numbers that are others in a hypothesis; ``more``: what it leaves besides.
     """
 
     code: ModuleType
@@ -51,6 +54,9 @@ class Balance:
     u: Array
     a: Array
     rows: Mapping[str, list[int]]
+    changed: Mapping[str, float] = field(default_factory=dict)
+    more: Array | float = 0.0
+    codes: dict[str, ModuleType | None] = field(default_factory=dict)
 
     def k(self, values: Mapping[str, float], code: ModuleType | None = None) -> Array:
         """The constants for all parameters by name; ``ValueError`` where no body has them."""
@@ -60,19 +66,34 @@ class Balance:
 
     def values(self, own: Mapping[str, float] | None = None) -> dict[str, float]:
         """All parameters for those of the problem, some of which may be others."""
-        return self.opened.values({**self.parameters, **(own or {})})
+        if own is None:
+            return dict(self._values)
+        return {**self.opened.values({**self.parameters, **own}), **self.changed}
+
+    @cached_property
+    def _values(self) -> dict[str, float]:
+        return self.values({})
+
+    @cached_property
+    def _constants(self) -> dict[int, Array]:
+        """The constants of its own numbers, by the code."""
+        return {}
+
+    @cached_property
+    def unexplained(self) -> Array:
+        """What is left by its own numbers."""
+        return self.left(self.values())
 
     def left(
         self,
         values: Mapping[str, float],
-        u: Array | None = None,
         of_mass: Mapping[str, float] | None = None,
     ) -> Array:
         """M a + b, (N, d), 0 where these parameters make our equations the user's, M by those
         ``of_mass`` where they are others; ``ValueError`` where no body has them."""
         M = self.code.mass_matrix(self.t, self.x, self.k(of_mass or values))
-        b = self.code.bias(self.t, self.x, self.k(values), self.u if u is None else u)
-        found: Array = np.einsum("...ij,...j->...i", M, self.a) + b
+        b = self.code.bias(self.t, self.x, self.k(values), self.u)
+        found: Array = np.einsum("...ij,...j->...i", M, self.a) + b + self.more
         return found
 
     def checked(self, left: Array, of_mass: Mapping[str, float]) -> Array:
@@ -105,6 +126,16 @@ class Balance:
         found: Array = self.x[:, entries].reshape(len(self.x), n, n)
         return found
 
+    def transposed(self) -> Array | None:
+        """The states with the transpose of A; none where there is no A."""
+        entries = [i for i, x in enumerate(self.code.STATE) if x.startswith("A_")]
+        n = math.isqrt(len(entries))
+        if not n:
+            return None
+        x = self.x.copy()
+        x[:, entries] = self.turns().transpose(0, 2, 1).reshape(len(x), -1)
+        return x
+
     def size(self) -> Array:
         """The size of the terms of each row, (d,)."""
         k = self.k(self.values())
@@ -117,35 +148,42 @@ class Balance:
     def bias(self, x: Array, u: Array, code: ModuleType | None = None) -> Array:
         """The bias b at some states and inputs, by the values of the problem."""
         module = code or self.code
-        found: Array = module.bias(self.t, x, self.k(self.values(), module), u)
+        if id(module) not in self._constants:
+            self._constants[id(module)] = self.k(self.values(), module)
+        found: Array = module.bias(self.t, x, self._constants[id(module)], u)
         return found
 
     def terms(self) -> Iterator[Term]:
         """What stands in M a = Σ terms: inputs, forces, damping, potentials, then what is left, by
         its degree in the velocity."""
-        problem, here = self.opened.problem, self.bias(self.x, self.u)
+        problem = self.opened.problem
         d = self.a.shape[1]
         for i, name in enumerate(self.code.INPUTS):
             u = self.u.copy()
             u[:, i] = 0
-            yield Term(self.bias(self.x, u) - here, _of(f"the input {name}"))
+
+            def pushed(x: Array, u: Array = u) -> Array:
+                return self.bias(x, u) - self.bias(x, self.u)
+
+            yield Term(pushed(self.x), _of(f"the input {name}"), at=pushed)
         bare = self.u * 0
         for key in ("forces", "damping", "potentials"):
             listed: tuple[Any, ...] = getattr(problem, key)
             for i, table in enumerate(listed):
-                fewer: Any = {key: (*listed[:i], *listed[i + 1 :])}
-                try:
-                    _, code = self.make(replace(problem, **fewer), True)
-                except Refused:
+                code = self._without({key: (*listed[:i], *listed[i + 1 :])}, f"{key} {i}")
+                if code is None:
                     continue
+                name = called(problem, table)
+
                 # u is kept: what a force makes of an input is its own
-                values, name = self.bias(self.x, self.u, code) - here, called(problem, table)
-                yield Term(values, _of(name), self._centre(table))
+                def acting(x: Array, code: ModuleType = code) -> Array:
+                    return self.bias(x, self.u, code) - self.bias(x, self.u)
+
+                yield Term(acting(self.x), _of(name), self._centre(table), at=acting)
                 if key != "potentials":
                     yield from self._by_velocities(code, name)
-        try:
-            _, rest = self.make(replace(problem, forces=(), damping=(), potentials=()), True)
-        except Refused:
+        rest = self._without({"forces": (), "damping": (), "potentials": ()}, "all")
+        if rest is None:
             return
 
         def at(part: slice, sign: float = 1.0) -> Array:
@@ -170,6 +208,15 @@ class Balance:
         yield Term(crossed, lambda row: "ω × Mv" if row == "force" else "the product of ω and v")
         if turning == 3:
             yield from self._of_momenta()
+
+    def _without(self, fewer: Any, key: str) -> ModuleType | None:
+        """The code of the problem that lacks something, made once; none where it has no walk."""
+        if key not in self.codes:
+            try:
+                self.codes[key] = self.make(replace(self.opened.problem, **fewer), True)[1]
+            except Refused:
+                self.codes[key] = None
+        return self.codes[key]
 
     def together(self) -> Iterator[Term]:
         """All inputs as one term, where there are several."""

@@ -18,6 +18,7 @@ from ..problem.problem import Problem
 from .balance import Balance, Made
 from .faults import NEAR, Explanation, explained, told
 from .opened import Opened, opened
+from .pairs import of_two
 from .user_states import RATES, WORDS, Item, Table, drawn, ours, own_blocks, rates, read
 from .users_code import Array, Call, CompareError, values
 
@@ -193,6 +194,8 @@ def reports(c: Comparison, make: Made) -> tuple[bool, list[str]]:
     found = _explained(c, make, off, d)
     link = "and" if found.together else "or"
     lines += [f"  {f'{link}: ' if i else ''}{x}" for i, x in enumerate(found.changes[:6])]
+    if not found.told_apart:
+        lines.append("  these are not told apart by the numbers")
     if not found.changes:
         lines.append("  no change of our equations that was tried explains this")
         lines += [f"  nearest: {found.nearest}"] * bool(found.nearest)
@@ -269,4 +272,6 @@ def _explained(c: Comparison, make: Made, off: Array, d: int) -> Explanation:
     turns = [i for i in range(d) if i not in moves]
     rows = {"moment": turns, "force": moves} if moves and turns else {"moment": turns}
     b = Balance(code, part, make, c.parameters, c.given["t"], to(x), c.u, a, rows)
-    return explained(b, list(b.terms()))
+    terms = list(b.terms())
+    found = explained(b, terms)
+    return found if found.changes and found.telling else of_two(b, terms) or found

@@ -37,9 +37,17 @@ class Hypothesis:
 def hypotheses(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     """All that are generated from the numbers and the terms of a problem."""
     yield from of_numbers(b)
-    yield from of_exchanges(b)
+    for words, rank, exchanged in of_exchanges(b):
+        if (left := possible(exchanged)) is not None:
+            yield Hypothesis(words, rank, left)
     yield from of_vectors(b)
     yield from of_the_point(b)
+    yield from of_terms(b, terms)
+
+
+def of_terms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
+    """All that may be otherwise in the terms by themselves."""
+    yield from of_attitude(b, terms)
     for view in views(b):
         for term in (*terms, *b.together()):
             yield from of_axes(b, term, view)
@@ -57,10 +65,13 @@ def views(b: Balance) -> list[tuple[str, Array]]:
 @dataclass(frozen=True)
 class Explanation:
     """Changes of our equations that make them the user's, each alone or all ``together``; else
-    which one is ``nearest``."""
+    which one is ``nearest``.  ``telling``: are none of them factors that say nothing?
+    ``told_apart``: are they not several pairs of which each explains all?"""
 
     changes: tuple[str, ...] = ()
     together: bool = False
+    telling: bool = True
+    told_apart: bool = True
     nearest: str = ""
 
 
@@ -75,10 +86,11 @@ def explained(b: Balance, terms: list[Term]) -> Explanation:
         return Explanation(tuple(dict.fromkeys(first)))
     for found in (*(of_several(b, terms, x) for x in views(b)), of_tables(b)):
         if found:
-            return Explanation(tuple(found), together=True)
+            words = tuple(x for x, _ in found)
+            return Explanation(words, together=True, telling=not any(rank for _, rank in found))
     if not tried:
         return Explanation()
-    whole = float(np.abs(b.left(b.values()) / size).max())
+    whole = float(np.abs(b.unexplained / size).max())
     nearest = min(tried, key=lambda x: float(np.abs(x.left / size).max()))
     part = float(np.abs(nearest.left / size).max()) / whole
     near = f"{nearest.words}: this would leave {part:.0%} of the difference"
@@ -147,26 +159,35 @@ def of_numbers(b: Balance) -> Iterator[Hypothesis]:
             yield Hypothesis(words, rank + 1, found[1])
 
 
-def of_exchanges(b: Balance) -> Iterator[Hypothesis]:
-    """Two numbers of one key are exchanged, or two inputs."""
+def of_exchanges(b: Balance) -> Iterator[tuple[str, int, Balance]]:
+    """Two numbers of one key are exchanged, or two inputs: in words, with what these leave."""
     base = b.values()
     for one, other in combinations(b.opened.slots, 2):
-        same = one.key == other.key and base[one.name] != base[other.name]
-        changed = {**base, one.name: base[other.name], other.name: base[one.name]}
-        if same and (left := _left(b, changed)) is not None:
-            yield Hypothesis(f"{one.words} and {other.words} are exchanged", 0, left)
+        if one.key == other.key and base[one.name] != base[other.name]:
+            changed = {one.name: base[other.name], other.name: base[one.name]}
+            words = f"{one.words} and {other.words} are exchanged"
+            yield words, 0, replace(b, changed={**b.changed, **changed})
     for one_name, other_name in combinations(b.parameters, 2):
         changed = {one_name: b.parameters[other_name], other_name: b.parameters[one_name]}
         units = [b.opened.problem.parameters[x].unit for x in changed]
-        same = units[0] == units[1] and len({*changed.values()}) == 2
-        if same and (left := _left(b, b.values(changed))) is not None:
-            yield Hypothesis(f"{one_name} and {other_name} are exchanged", 0, left)
+        if units[0] == units[1] and len({*changed.values()}) == 2:
+            words = f"{one_name} and {other_name} are exchanged"
+            yield words, 0, replace(b, parameters={**b.parameters, **changed})
     for i, j in combinations(range(b.u.shape[1]), 2):
         u = b.u.copy()
         u[:, [i, j]] = u[:, [j, i]]
-        names = b.code.INPUTS[i], b.code.INPUTS[j]
-        words = f"the inputs {names[0]} and {names[1]} are exchanged"
-        yield Hypothesis(words, 1, b.left(base, u))
+        words = f"the inputs {b.code.INPUTS[i]} and {b.code.INPUTS[j]} are exchanged"
+        yield words, 1, replace(b, u=u)
+
+
+CALLED = {"at of the": "the lever arm", "relative_to of": "the wind"}
+"""How a key begins → what it is to people."""
+
+
+def named_vector(key: str) -> str:
+    """A vector of the problem in words."""
+    found = next((x for begins, x in CALLED.items() if key.startswith(begins)), "")
+    return f"{found} ({key})" if found else key
 
 
 def of_vectors(b: Balance) -> Iterator[Hypothesis]:
@@ -176,12 +197,14 @@ def of_vectors(b: Balance) -> Iterator[Hypothesis]:
         own = [x.name for x in b.opened.slots if x.key == key and base[x.name]]
         if len(own) < 1:
             continue
-        name = f"the lever arm ({key})" if key.startswith("at of the") else key
+        name = named_vector(key)
 
         def scaled(s: float, own: list[str] = own) -> tuple[Values, Values]:
             return ({**base, **{x: s * base[x] for x in own}},) * 2
 
-        if found := fitted(b, scaled, 1.0):
+        # a wind stands under a root: from 1 alone Newton's method may end elsewhere
+        several = [fitted(b, scaled, x) for x in (1.0, -1.0, 0.0)]
+        if found := min(filter(None, several), key=lambda x: np.abs(x[1]).sum(), default=None):
             words, rank = changed(name, found[0])
             yield Hypothesis(words, rank, found[1])
 
@@ -215,7 +238,7 @@ def of_the_point(b: Balance) -> Iterator[Hypothesis]:
 def of_axes(b: Balance, term: Term, view: tuple[str, Array]) -> Iterator[Hypothesis]:
     """The numbers of a force or a moment are taken along the axes of the other frame."""
     (about, to), A = view, b.turns()
-    here, values, back = b.left(b.values()) @ to.T, term.values @ to.T, np.linalg.inv(to).T
+    here, values, back = b.unexplained @ to.T, term.values @ to.T, np.linalg.inv(to).T
     for rows in b.rows.values():
         if len(rows) != A.shape[1]:
             continue
@@ -228,27 +251,39 @@ def of_axes(b: Balance, term: Term, view: tuple[str, Array]) -> Iterator[Hypothe
             yield Hypothesis(words, 0, left @ back)
 
 
-def of_term(b: Balance, term: Term, view: tuple[str, Array]) -> Iterator[Hypothesis]:
+def of_attitude(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
+    """A vector of space is turned by A, not by its transpose, in a force or an input."""
+    here, there = b.unexplained, b.transposed()
+    for term in terms:
+        if there is not None and term.at is not None:
+            words = f"{term.name('')} is turned by A and not by Ā, the transpose of the attitude"
+            yield Hypothesis(words, 0, here - (term.at(there) - term.values))
+
+
+def of_term(
+    b: Balance, term: Term, view: tuple[str, Array], factors: tuple[float, ...] = ()
+) -> Iterator[Hypothesis]:
     """A term has another factor, in all rows or in some, or another power of a distance or of a
-    speed."""
+    speed; or has the ``factors`` alone, in all rows of a kind."""
     about, to = view
-    here, values = b.left(b.values()) @ to.T, term.values @ to.T
+    here, values = b.unexplained @ to.T, term.values @ to.T
     back, d = np.linalg.inv(to).T, here.shape[1]
     sets = {"": [*range(d)], **(b.rows if len(b.rows) > 1 else {})}
     single = {f"row {i + 1}": [i] for i in range(d)}
-    for name, rows in {**sets, **single}.items():
+    for name, rows in (sets if factors else {**sets, **single}).items():
         part = np.zeros_like(here)
         part[:, rows] = values[:, rows]
         square = float((part * part).sum())
         if not square:
             continue
         # M a = Σ terms with f times this one: what is left is (f − 1) times it
-        factor = 1 + float((part * here).sum()) / square
+        own = factors or (1 + float((part * here).sum()) / square,)
         kind = _kind(b, rows)
         called = f"{term.name(kind)}{about}" + (f" in {name}" if name in single else "")
-        words, rank = changed(called, factor)
-        yield Hypothesis(words, rank + (name in single), (here - (factor - 1) * part) @ back)
-        if name in sets:
+        for factor in own:
+            words, rank = changed(called, factor)
+            yield Hypothesis(words, rank + (name in single), (here - (factor - 1) * part) @ back)
+        if name in sets and not factors:
             for x in _powers(b, term, called, part, here):
                 yield replace(x, left=x.left @ back)
 
@@ -296,14 +331,18 @@ def _powers(b: Balance, term: Term, name: str, part: Array, here: Array) -> Iter
         yield Hypothesis(told_as, 1, here - (scaled - 1) * part)
 
 
-def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> list[str]:
+Told = list[tuple[str, int]]
+"""What is said, and how far each is from saying what happened."""
+
+
+def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> Told:
     """Factors of several terms, row by row, where these explain all; terms that cannot be told
     apart are said to be so."""
     about, to = view
-    here, size = b.left(b.values()) @ to.T, b.size() @ np.abs(to).T
+    here, size = b.unexplained @ to.T, b.size() @ np.abs(to).T
     whole = [(x, x.values @ to.T) for x in terms if not x.part]
     found: dict[str, dict[int, float]] = {}
-    said: list[str] = []
+    said: Told = []
     for row in range(here.shape[1]):
         columns = [(x, y[:, row]) for x, y in whole if np.abs(y[:, row]).max() > 1e-12 * size[row]]
         kind = _kind(b, [row])
@@ -320,20 +359,20 @@ def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> list[s
         if rank < len(columns):
             null = np.linalg.svd(design / scale)[2][rank:]
             alike = [x for x, n in zip(names, null.T, strict=True) if np.abs(n).max() > 1e-6]
-            said.append(f"cannot be told apart in row {row + 1}: {', '.join(alike)}")
+            said.append((f"cannot be told apart in row {row + 1}: {', '.join(alike)}", 1))
         for name, factor in zip(names, factors / scale, strict=True):
             if abs(factor) > NEAR:
                 found.setdefault(name, {})[row] = 1 + float(factor)
     for name, rows in found.items():
         values = [*rows.values()]
         if max(values) - min(values) <= NEAR:
-            said.append(changed(name, values[0])[0])
+            said.append(changed(name, values[0]))
         else:
-            said += [changed(f"{name} in row {i + 1}", x)[0] for i, x in rows.items()]
+            said += [(changed(f"{name} in row {i + 1}", x)[0], 1) for i, x in rows.items()]
     return said
 
 
-def of_tables(b: Balance) -> list[str]:
+def of_tables(b: Balance) -> Told:
     """Several numbers of the body, or of one force, where other values of these explain all."""
     base, size = b.values(), b.size()
     groups: dict[str, list[str]] = {}
@@ -342,12 +381,12 @@ def of_tables(b: Balance) -> list[str]:
     groups["parameters"] = []
     words = {x.name: x.words for x in b.opened.slots}
     for own in groups.values():
-        values, here = dict(base), b.left(base)
+        values, here = dict(base), b.unexplained
         for _ in range(TURNS if own else 0):
             slopes = []
             for name in own:
                 step = 1e-6 * max(abs(values[name]), 1e-3)
-                up, down = (_left(b, {**values, name: values[name] + s}) for s in (step, -step))
+                up, down = (possible(b, {**values, name: values[name] + s}) for s in (step, -step))
                 if up is None or down is None:
                     break
                 slopes.append(((up - down) / (2 * step)).ravel())
@@ -355,19 +394,20 @@ def of_tables(b: Balance) -> list[str]:
                 break
             change = np.linalg.lstsq(np.stack(slopes, axis=1), -here.ravel(), rcond=1e-9)[0]
             values |= {x: values[x] + float(y) for x, y in zip(own, change, strict=True)}
-            there = _left(b, values)
+            there = possible(b, values)
             if there is None:
                 break
             here = there
             if exact(here, size) and exact(b.checked(here, values), size):
                 changed = [x for x in own if abs(values[x] - base[x]) > NEAR * max(abs(base[x]), 1)]
                 every = {words[x]: base[x] for x in own}
-                return [told(words[x], base[x], values[x], every)[0] for x in changed]
+                return [told(words[x], base[x], values[x], every) for x in changed]
     return []
 
 
-def _left(b: Balance, values: Mapping[str, float]) -> Array | None:
+def possible(b: Balance, values: Mapping[str, float] | None = None) -> Array | None:
+    """What is left at some numbers, or at those of the balance; none where no body has them."""
     try:
-        return b.left(values)
+        return b.unexplained if values is None else b.left(values)
     except ValueError:
         return None

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from ..language.tree import Tree, add, mul, neg
+from ..language.tree import Tree, add, mul, neg, replaced
 from ..language.values import approximate
 from ..problem.problem import Problem
 from ..schema.body_kinds import GivenBody, MomentBody, Moments, PointBody
@@ -36,11 +36,13 @@ class Opened:
     central: bool = False
 
     def values(self, parameters: Mapping[str, float]) -> dict[str, float]:
-        """All parameters by name, for those of the problem that was opened."""
+        """All parameters by name, for those of the problem that was opened; ``ValueError`` where
+        a number has no value."""
         known = dict(parameters)
         for x in self.slots:
             found = approximate(x.tree, parameters, float)
-            assert found is not None
+            if found is None:
+                raise ValueError(f"{x.words} has no value at these parameters")
             known[x.name] = found
         return known
 
@@ -48,8 +50,8 @@ class Opened:
 class Opening:
     """Makes slots of the numbers of tables."""
 
-    def __init__(self, parameters: Mapping[str, float]):
-        self.parameters = parameters
+    def __init__(self, problem: Problem, parameters: Mapping[str, float]):
+        self.problem, self.parameters = problem, parameters
         self.slots: list[Slot] = []
 
     def slot(self, tree: Tree, key: str, words: str) -> Tree:
@@ -66,7 +68,25 @@ class Opening:
         for name, about, value in table.values():
             if about.trees:
                 changed[name] = self._entries(value, about.depth, f"{name} of {of}", name, of)
+        if wind := getattr(table, "relative_to", ()):
+            for v, other in self._blown(table, wind, of):
+                for name in table.expressed:
+                    changed[name] = tuple(replaced(t, v, other) for t in changed[name])
         return replace(table, **changed)
+
+    def _blown(self, x: Any, wind: Any, of: str) -> Iterator[tuple[Tree, Tree]]:
+        """The velocities of a place, from which a wind w is taken, as v + w − s, s its slot: a
+        number of its own, or where w is a function its factor times w."""
+        block, _ = self.problem.acted_on(x)
+        assert self.problem.group
+        first = self.problem.group.places[block - 1][0]
+        key = f"relative_to of {of}"
+        for k, w in enumerate(wind, 1):
+            s = self.slot(w, key, words := f"relative_to_{k} of {of}")
+            if s == w:
+                s = mul(self.slot(1, key, words), w)
+            v = ("entry", ("at", "v", x.on), first + k)
+            yield v, add(v, w, neg(s))
 
     def _entries(self, value: Any, depth: int, key: str, words: str, of: str) -> Any:
         if value is None or not depth:
@@ -76,8 +96,9 @@ class Opening:
         return tuple(self._entries(x, depth - 1, key, f"{words}{mark}{i}", of) for i, x in pairs)
 
     def moments(self, given: Moments, turns: bool) -> Moments:
-        """Of a body: the mass, the first moment or the centre, J or the tensor of inertia."""
-        n, central = len(given.c), given.central and turns
+        """Of a body: the mass, the first moment or the centre, J or the tensor of inertia, of one
+        that ``turns`` in the plane the number I."""
+        n, central = len(given.c), given.central
         span = range(n)
         m = self.slot(given.m, "mass", "the mass m")
         c, J = given.c, given.J
@@ -86,19 +107,27 @@ class Opening:
             J = _shifted(J, c, neg(given.m))
         first = "centre" if central else "c"
         own = tuple(self.slot(x, first, f"{first}_{i}") for i, x in enumerate(c, 1))
-        letter = ("I_centre" if central else "I") if turns else "J"
-        tensor = _other(J, 1) if turns else J
-        made: dict[tuple[int, int], Tree] = {}
-        for i in span:
-            for j in range(i, n):
-                key = f"{letter} on the diagonal" if i == j else f"{letter} off the diagonal"
-                entry = self.slot(tensor[i][j], key, f"{letter}_{i + 1}{j + 1}")
-                made[i, j] = made[j, i] = entry
-        rows = tuple(tuple(made[i, j] for j in span) for i in span)
-        rows = _other(rows, Fraction(1, 2)) if turns else rows
+        letter = "I_centre" if central else "I" if turns else "J"
+        if letter == "J":
+            rows = self._tensor(J, letter)
+        elif n == 3:
+            rows = _other(self._tensor(_other(J, 1), letter), Fraction(1, 2))
+        else:
+            half = div(self.slot(add(J[0][0], J[1][1]), letter, letter), 2)
+            rows = tuple(tuple(half if i == j else 0 for j in span) for i in span)
         if central:
             rows, own = _shifted(rows, own, m), tuple(mul(m, x) for x in own)
         return Moments(m=m, c=own, J=rows, central=given.central)
+
+    def _tensor(self, given: Any, letter: str) -> Any:
+        """A symmetric matrix with a slot for each number."""
+        made: dict[tuple[int, int], Tree] = {}
+        for i, row in enumerate(given):
+            for j in range(i, len(row)):
+                key = f"{letter} on the diagonal" if i == j else f"{letter} off the diagonal"
+                entry = self.slot(row[j], key, f"{letter}_{i + 1}{j + 1}")
+                made[i, j] = made[j, i] = entry
+        return tuple(tuple(made[i, j] for j in range(len(given))) for i in range(len(given)))
 
 
 def div(a: Tree, b: Tree) -> Tree:
@@ -122,16 +151,16 @@ def _other(J: Any, half: int | Fraction) -> Any:
 def opened(problem: Problem, parameters: Mapping[str, float]) -> Opened:
     """The problem with a parameter for every number of its body, forces, inputs and damping;
     ``parameters``: the values of its own."""
-    made = Opening(parameters)
+    made = Opening(problem, parameters)
     body, masses = problem.body, problem.masses
-    turns = problem.group is not None and problem.group.name in ("SO(3)", "SE(3)")
-    central = False
+    turning = ("SO(2)", "SE(2)", "SO(3)", "SE(3)")
+    turns, central = problem.group is not None and problem.group.name in turning, False
     if isinstance(body, PointBody):
         points = (made.table(x, f"point {k}") for k, x in enumerate(body.points, 1))
         body = replace(body, points=tuple(points))
     elif isinstance(body, GivenBody | MomentBody) and not masses:
         given = body.moments()
-        central = given.central and turns
+        central = given.central
         own = made.moments(given, turns)
         body = GivenBody(given=own, solids=body.solids if isinstance(body, GivenBody) else ())
 

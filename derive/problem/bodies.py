@@ -215,24 +215,30 @@ def outputs(
 def as_forces(
     damping: Sequence[AnyDamping], reader: FileReader
 ) -> tuple[tuple[Damping, ...], tuple[StatedForce, ...]]:
-    """The damping that is linear, and the other as forces of the state; a moment is at a place of
-    its own, the origin of the body."""
+    """The damping that is linear, and the other, and what has a name, as forces of the state; a
+    moment is at a place of its own, the origin of the body."""
     found: list[StatedForce] = []
-    for d in damping:
-        if isinstance(d, QuadraticDamping):
+    for k, d in enumerate(damping, 1):
+        if isinstance(d, QuadraticDamping) or (isinstance(d, Damping) and d.name):
+            if d.name and len(d.on) > 1:
+                raise ProblemError(
+                    f"damping {k}, name: it acts on {len(d.on)} points; give each a table"
+                )
             for i in d.on:
                 first, n = reader.of_place(i)
                 v = velocity_at_place(n, first, i, (0,) * n, turned=False).values()
-                force = tuple(neg(mul(d.coefficient, hypot(*v), x)) for x in v)
-                found.append(StatedForce(on=i, force=force))
+                size = (hypot(*v),) if isinstance(d, QuadraticDamping) else ()
+                force = tuple(neg(mul(d.coefficient, *size, x)) for x in v)
+                found.append(StatedForce(name=d.name, on=i, force=force))
         elif isinstance(d, RotationalDamping):
             _, factor = reader.moving().places[d.block - 1]
             reader.places.append(Place(at=(0,) * factor.n, block=d.block))
             turning = angular_velocity(reader.moving(), d.block)
             moment = tuple(neg(mul(d.coefficient, x)) for x in turning)
             on = len(reader.listed_places)
-            found.append(StatedForce(on=on, frame="body", moment=moment))
-    return tuple(d for d in damping if isinstance(d, Damping)), tuple(found)
+            found.append(StatedForce(name=d.name, on=on, frame="body", moment=moment))
+    kept = (d for d in damping if isinstance(d, Damping) and not d.name)
+    return tuple(kept), tuple(found)
 
 
 def negative_stiffness_of(

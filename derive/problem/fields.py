@@ -198,4 +198,6 @@ def meant(t: Tree, names: Mapping[str, Tree]) -> Tree:
         return t
     if t[0] == "par":
         return names.get(t[1], t)
-    return (t[0], *(meant(x, names) for x in t[1:]))
+    parts = [meant(x, names) for x in t[1:]]
+    # the signs of both are one: ζ₁ is −Z₁₂ in the plane
+    return mul(*parts) if t[0] == "mul" else (t[0], *parts)

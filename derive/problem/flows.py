@@ -90,7 +90,12 @@ def flow_forces(
             "its mass as that expression of t, as m0 - b*t for the rate -b"
         )
     found = [
-        StatedForce(on=x.on, frame="body", force=tuple(product(x.rate, u) for u in x.velocity))
+        StatedForce(
+            name=x.name,
+            on=x.on,
+            frame="body",
+            force=tuple(product(x.rate, u) for u in x.velocity),
+        )
         for x in flows
     ]
     within = _within(flows, moments, reader)

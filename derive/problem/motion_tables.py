@@ -145,7 +145,10 @@ def _entries_turned(
     where, A = f"initial, {name}{mark}", f"A{mark}"
     if not turns:
         whose = f"block {mark}" if mark else "the state"
-        raise ProblemError(f"{where}: {whose} has no rotation of R^3; give its numbers")
+        plane = not mark and reader.group is not None and reader.group.name in ("SO(2)", "SE(2)")
+        rest = [0] * (reader.group.dimension - 1) if plane and reader.group else []
+        how = f"exp = {['angle', *rest]}".replace("'", "") if plane else "its numbers"
+        raise ProblemError(f"{where}: {whose} has no rotation of R^3; give {how}")
     if other := next((x for x in table if x == "exp" or x.startswith(f"{A}_")), ""):
         both = f"{name}{mark} and {other} both say where the body is"
         raise ProblemError(f"initial: {both}; leave out one")

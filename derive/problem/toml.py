@@ -149,7 +149,7 @@ def problem_of(
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     linear, damped = as_forces(damping, reader)
     flows, pushed = flows_of(data, its_body, reader, inputs)
-    observed = outputs(data, reader, inputs, stated, potentials)
+    observed = outputs(data, reader, inputs, (*stated, *damped, *pushed), potentials)
     problem = Problem(
         name,
         moved,

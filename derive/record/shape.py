@@ -110,9 +110,9 @@ class _RecordReader(TableReader):
         inputs = self.each("inputs", lambda x, where: self.one_of(INPUTS, x, where))
         self.distinct(inputs, data["parameters"])
         self.each("damping", lambda x, where: self.typed(Damping, x, where))
-        forces = self.each("forces", self.acting) if "forces" in data else []
+        forces: list[Any] = self.each("forces", self.acting) if "forces" in data else []
         if "flows" in data:
-            self.each("flows", lambda x, where: self.typed(Flow, x, where))
+            forces += self.each("flows", lambda x, where: self.typed(Flow, x, where))
         outputs = []
         if "outputs" in data:
             outputs = self.each("outputs", lambda x, where: self.one_of(OUTPUTS, x, where))

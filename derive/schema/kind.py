@@ -197,19 +197,24 @@ Dual = Annotated[Row, Key("stated_covector", 1, trees=True)]
 in space, of t and the place; a covector of the Lie algebra."""
 
 
-class Acting(Table):
-    """What acts as a function of the state; with a ``name``, if it has one."""
+class Nameable(Table):
+    """What may have a ``name``, by which the equations and the code call its numbers."""
 
-    section = "force"
     name: Named = None
-    expressed: ClassVar[tuple[str, ...]]
-    """The keys that have expressions of the state."""
 
     @classmethod
     def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
         """A name where a table has one."""
         own = super().chosen(table, last)
-        return tuple(x for x in own if x != "name" or x in table)
+        return own if isinstance(own, str) else tuple(x for x in own if x != "name" or x in table)
+
+
+class Acting(Nameable):
+    """What acts as a function of the state."""
+
+    section = "force"
+    expressed: ClassVar[tuple[str, ...]]
+    """The keys that have expressions of the state."""
 
     def numbers(self) -> dict[str, Tree]:
         """Its numbers that are not 0 by their names, ``drag_1``, … of ``drag`` (of one number, the
@@ -280,7 +285,7 @@ class StatedCovector(Acting):
         return {"name": name, "covector": covector}
 
 
-class Flow(Table):
+class Flow(Nameable):
     """Mass that comes to a place of the body, or leaves there: the ``rate`` dm/dt, below 0 where it
     leaves, and its ``velocity`` relative to the body, along the axes of this."""
 
@@ -291,15 +296,20 @@ class Flow(Table):
 
     @classmethod
     def word(
-        cls, on: int | Sequence[Number], rate: Number, velocity: Sequence[Number] | None = None
+        cls,
+        on: int | Sequence[Number],
+        rate: Number,
+        velocity: Sequence[Number] | None = None,
+        name: str | None = None,
     ) -> Any:
         """Mass that flows at a point or a place of the body: dm/dt, below 0 where it leaves, and
-        its velocity relative to the body; expressions of t."""
-        return {"rate": rate, "velocity": velocity, **place(on, None)}
+        its velocity relative to the body; expressions of t; with a name in the equations."""
+        return {"name": name, "rate": rate, "velocity": velocity, **place(on, None)}
 
 
-class Damping(Table):
-    """−κ v on points: a Rayleigh function ½ κ ‖v‖², no potential."""
+class Damping(Nameable):
+    """−κ v on points: a Rayleigh function ½ κ ‖v‖², no potential; of one with a name a record has
+    a force of the state."""
 
     section = "damping"
     coefficient: Stiffness
@@ -313,13 +323,16 @@ class Damping(Table):
         at: Sequence[Number] | None = None,
         block: int | None = None,
         kind: str | None = None,
+        name: str | None = None,
     ) -> Any:
         """The force −κ v on points (all by default), or on a place of the body, in a product of
-        that of a block, outside dϖ; "quadratic", −κ ‖v‖ v; "rotational", the moment −κ ω."""
-        return {"kind": kind, "coefficient": coefficient, "on": on, "at": at, "block": block}
+        that of a block, outside dϖ; "quadratic", −κ ‖v‖ v; "rotational", the moment −κ ω; with a
+        name in the equations, where it acts at one place."""
+        told = {"name": name, "kind": kind, "coefficient": coefficient}
+        return told | {"on": on, "at": at, "block": block}
 
 
-class QuadraticDamping(Table):
+class QuadraticDamping(Nameable):
     """−κ ‖v‖ v on points, which a record has as forces of the state."""
 
     kind, section = "quadratic", "damping"
@@ -327,7 +340,7 @@ class QuadraticDamping(Table):
     on: Points
 
 
-class RotationalDamping(Table):
+class RotationalDamping(Nameable):
     """The moment −κ ω, ω the angular velocity in the body; the same of records."""
 
     kind, section = "rotational", "damping"

@@ -232,3 +232,39 @@ def f(x):
     moving = r * v, F / 3 - r * u
     return [b * r, -a * r, d * r, -c * r, a * u + b * v, c * u + d * v, F / 2, *moving]
 """
+
+PLANE = """
+name = "plane"
+group = "SE(2)"
+[parameters]
+k = 0.7
+[body]
+given = { m = 3, centre = [0.2, 0.1], I_centre = 2 }
+[[potential]]
+kind = "gravity"
+g = [1.3, -9.81]
+[[force]]
+name = "drag"
+at = [0, 0]
+relative_to = ["1.5*cos(t)", 0.4]
+force = ["-k*sqrt(v_1^2 + v_2^2)*v_1", "-k*sqrt(v_1^2 + v_2^2)*v_2"]
+"""
+
+PLANE_CODE = """
+import numpy as np
+
+k, m, I, s = 0.7, 3, 2, np.array([0.2, 0.1])
+WIND = 1
+
+
+def f(t, x):
+    A, w, v = x[[0, 1, 2, 3]].reshape(2, 2), x[6], x[7:]
+    weight = m * A.T @ [1.3, -9.81]
+    through = A @ v - WIND * np.array([1.5 * np.cos(t), 0.4])
+    drag = A.T @ (-k * np.linalg.norm(through) * through)
+    moment = s[1] * drag[0] - s[0] * drag[1]
+    turn = np.array([[0, -1], [1, 0]])
+    a = moment / I
+    dv = (weight + drag) / m - w * turn @ (v + w * turn @ s) - a * turn @ s
+    return np.concatenate([(w * A @ turn).ravel(), A @ v, [a], dv])
+"""

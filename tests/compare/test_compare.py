@@ -12,6 +12,7 @@ CALLS = {
     "wheel": 'call = "f(t, x, dx)"\nstate = ["quaternion", "omega"]',
     "drone": 'call = "f(x, u) -> dx"',
     "car": 'call = "f(x) -> dx"',
+    "plane": 'call = "f(t, x) -> dx"',
 }
 """Problem → how its code is called."""
 STEINER = ("STEINER", "1")
@@ -38,6 +39,7 @@ def test_right_code_agrees(name, capsys, tmp_path):
     assert (code, told.out[:9]) == (0, "agrees to"), told
 
 
+WIND = "the wind (relative_to of the force drag)"
 FAULTS = {
     "sign of a gyroscopic row": (
         "drone",
@@ -99,6 +101,25 @@ FAULTS = {
         "the moment of far centre has the power 1 of r, the distance from the centre",
     ),
     "wheel counted twice": ("wheel", ("2.3 + R", "2.3 + 2 * R"), "R has the factor 2"),
+    "gravity turned by A": (
+        "drone",
+        ("m * A.T @ [0, 0, -g]", "m * A @ [0, 0, -g]"),
+        "gravity is turned by A and not by Ā",
+    ),
+    "gravity turned by A, of a top": (
+        "top",
+        ("STEINER", "1"),
+        ("(c[j]*A[6 + k] - c[k]*A[6 + j])", "(c[j]*A[3*k + 2] - c[k]*A[3*j + 2])"),
+        "gravity is turned by A and not by Ā",
+    ),
+    "sign of gravity": (
+        "drone",
+        ("m * A.T @ [0, 0, -g]", "m * A.T @ [0, 0, g]"),
+        "g has the other sign",
+    ),
+    "sign of the wind": ("plane", ("WIND = 1", "WIND = -1"), f"{WIND} has the other sign"),
+    "no wind": ("plane", ("WIND = 1", "WIND = 0"), f"{WIND} is missing"),
+    "inertia in the plane": ("plane", ("3, 2,", "3, 4,"), "I_centre has the factor 2"),
     "arm of a damping": (
         "drone",
         ("moment + np.cross(DAMPED, drag)", "moment"),
@@ -110,8 +131,8 @@ FAULTS = {
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_is_named(fault, capsys, tmp_path):
-    name, change, words = FAULTS[fault]
-    code, told = compared(capsys, tmp_path, name, change)
+    name, *changes, words = FAULTS[fault]
+    code, told = compared(capsys, tmp_path, name, *changes)
     first = next(x for x in told.out.splitlines() if x[:1] == " ")
     assert code == 1
     assert first.strip().startswith(words), told.out
@@ -183,3 +204,40 @@ def test_several_faults_are_named_together(capsys, tmp_path):
     assert "ω × Iω about the centre of mass is missing" in told.out
     assert "the force of gravity about the centre of mass has the factor 2" in told.out
     assert "and: " in told.out
+
+
+PLANTED = {
+    "gyroscopic": (
+        ("GYRO = np.ones(3)", "GYRO = -np.ones(3)"),
+        "ω × Iω about the centre of mass has the other sign",
+    ),
+    "row": (
+        ("GYRO = np.ones(3)", "GYRO = np.array([1, -1, 1])"),
+        "ω × Iω about the centre of mass in row 2 has the other sign",
+    ),
+    "products": (FAULTS["products of inertia"][1], "I_centre_12 and I_centre_13 are exchanged"),
+    "turned": (FAULTS["gravity turned by A"][1], FAULTS["gravity turned by A"][2]),
+    "arm": (FAULTS["lever arm"][1], "the lever arm (at of the input thrust) has the other sign"),
+}
+PAIRS = [("gyroscopic", "products"), ("row", "turned")]
+ALIKE = [("gyroscopic", "arm")]
+"""Pairs of which one has a second name: an arm of the other sign, or a moment."""
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("pair", PAIRS + ALIKE, ids="-".join)
+def test_two_faults_of_different_kinds_are_named(pair, capsys, tmp_path):
+    changes, words = zip(*(PLANTED[x] for x in pair), strict=True)
+    code, told = compared(capsys, tmp_path, "drone", *changes)
+    lines = [x.strip() for x in told.out.splitlines() if x[:1] == " "]
+    assert code == 1
+    assert all(any(x in line for line in lines) for x in words), told.out
+    assert [x[:5] for x in lines].count("and: ") == (pair in PAIRS)
+    assert (lines[-1] == "these are not told apart by the numbers") == (pair in ALIKE)
+
+
+def test_three_faults_are_not_said_to_be_two(capsys, tmp_path):
+    changes = [PLANTED[x][0] for x in ("row", "products", "turned")]
+    code, told = compared(capsys, tmp_path, "drone", *changes)
+    assert code == 1
+    assert "no change of our equations that was tried explains this" in told.out

@@ -231,3 +231,9 @@ def test_the_step_answer_is_the_answer(capsys):
 def test_it_stands_alone(capsys, more):
     assert main(["walk", "top", "--answer", *more]) == 2
     assert "--answer shows its own steps" in capsys.readouterr().err
+
+
+def test_it_stands_alone_as_a_word(capsys):
+    assert main(["walk", "top", "kernel", "answer"]) == 2
+    told = "derive: answer shows its own steps: leave out kernel"
+    assert told in capsys.readouterr().err

@@ -30,7 +30,12 @@ ROCKET = {
     ],
     "potential": [{"kind": "gravity", "g": [0, 0, -G]}],
     "flow": [
-        {"at": [0.3, -0.2, -2], "rate": "-b*(1 + 2*t/9)", "velocity": [0.5, "1 + t", "-u"]},
+        {
+            "name": "jet",
+            "at": [0.3, -0.2, -2],
+            "rate": "-b*(1 + 2*t/9)",
+            "velocity": [0.5, "1 + t", "-u"],
+        },
         {"on": 3, "rate": "cos(t)/4", "velocity": ["t", 0, "u"]},
     ],
 }

@@ -14,6 +14,8 @@ from ..values.evaluate import evaluate
 from .point_masses import Vector, scaled_each
 
 Data = Mapping[str, Any]
+OBSERVED = {"outputs", "forces", "flows"}
+"""What in a problem has names of numbers that are found."""
 
 
 class Observed(Mapping[str, Any]):
@@ -38,7 +40,8 @@ class Observed(Mapping[str, Any]):
         for data in () if model.generic else model.problem.get("outputs", ()):
             names = numbers_of_output(data, self._acted_on(data)[1].n)
             self.told |= dict.fromkeys(names, data | {"names": names})
-        for data in () if model.generic else model.problem.get("forces", ()):
+        flows = () if model.generic else model.problem.get("flows", ())
+        for data in () if model.generic else (*model.problem.get("forces", ()), *map(_push, flows)):
             for name, tree in _numbers_of(data):
                 told = {"name": name, "kind": "expression", "names": [name], "y": [tree]}
                 self.told[name] = told
@@ -156,6 +159,11 @@ def _numbers_of(force: Data) -> Iterator[tuple[str, Any]]:
     trees = [x for key in ("force", "moment", "covector") for x in force.get(key, ())]
     names = one_or_more(force["name"], len(trees)) if "name" in force else ()
     yield from zip(names, trees, strict=False)
+
+
+def _push(flow: Data) -> Data:
+    """What flows pushes with the force ṁ u."""
+    return {**flow, "force": [["mul", flow["rate"], x] for x in flow["velocity"]]}
 
 
 def accelerations(model: Any) -> list[Vector]:

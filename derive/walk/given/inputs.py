@@ -232,7 +232,8 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
         pulls.append(pull)
     equations = [*definitions, Equation(forces.moments.name, add(*moments))]
     if b.affine:
-        equations.append(Equation(forces.resultant.name, add(*pulls)))
+        whole = add(*pulls) or column((0,) * group.n)  # moments alone
+        equations.append(Equation(forces.resultant.name, whole))
     step = draft.step(equations, prose(problem))
     return External(draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,))
 
@@ -353,7 +354,8 @@ def external_vectors(
         pulls.append(column(covector[3:]))
     equations = [*definitions, Equation(forces.moments.name, add(*moments))]
     if b.affine:
-        equations.append(Equation(forces.resultant.name, add(*pulls)))
+        whole = add(*pulls) or column((0,) * problem.group.n)  # moments alone
+        equations.append(Equation(forces.resultant.name, whole))
     step = draft.step(equations, prose(problem))
     return External(draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,))
 
