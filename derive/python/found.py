@@ -150,7 +150,7 @@ class InLetters:
 
     def _inequalities(self, known: Case, case: Case) -> tuple[str, ...]:
         algebra = self.found.about.algebra
-        sides = (inequality(algebra, *x)[1:] for x in case.beyond(known))
+        sides = (inequality(algebra, *x) for x in case.beyond(known))
         return tuple(f"{show(a)} > {show(b)}" for a, b in sides)
 
 

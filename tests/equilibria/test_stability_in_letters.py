@@ -30,7 +30,7 @@ def trees(found, cases):
     from derive.search.equilibria.letter_conditions import inequality
 
     algebra = found.about.algebra
-    return [[inequality(algebra, *x)[1:] for x in case.beyond(found.known)] for case in cases]
+    return [[inequality(algebra, *x) for x in case.beyond(found.known)] for case in cases]
 
 
 def at(t, numbers):

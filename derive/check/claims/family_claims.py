@@ -28,6 +28,8 @@ HALVINGS = 40
 POINTS = ("family.at", "family.origin")
 DEFINITE = ("stable", "stable_always", "on_the_leaf", "on_the_leaf_always", "indefinite")
 ROOTS = ("unstable", "unstable_large", "unstable_always", "imaginary")
+PROVED = {f"family.{x}" for x in (*DEFINITE, "positive")}
+"""The claims of which each family has one."""
 Inequalities = Sequence[tuple[Tree, Tree]]
 
 
@@ -65,9 +67,9 @@ class ClaimedFamily:
     def cases(self, kind: str) -> list[Inequalities]:
         """The cases of a claim, each its inequalities, two sides of which the first is greater."""
         if kind not in self.claims:
-            return []
+            return [[]] if kind == "positive" else []
         place = "positive" if kind == "positive" else "cases"
-        return [[(a, b) for _, a, b in case[1:]] for case in listed(self.claims[kind][place])]  # type: ignore[index,misc]
+        return [*map(_sides, listed(self.claims[kind][place]))]
 
     # -- numbers -------------------------------------------------------------------------------
 
@@ -160,6 +162,14 @@ class EquilibriumInNumbers:
         return dimension > 0 and dimension in self.point.squares(self.form)
 
 
+def _sides(case: Tree) -> Inequalities:
+    """The inequalities of a case, rows of a matrix."""
+    rows = case[1:] if isinstance(case, tuple) else ()
+    if not all(isinstance(x, tuple) and len(x) == 3 for x in rows):
+        raise RecordError("a case is no list of inequalities")
+    return [(x[1], x[2]) for x in rows if isinstance(x, tuple)]
+
+
 def substituted(t: Tree, numbers: Numbers) -> Tree:
     """A tree with numbers for letters."""
     for x, y in numbers.items():
@@ -185,9 +195,9 @@ def _at(system: ReducedSystem, step: Step, claim: Claim) -> str:
     proved of the stability is said."""
     using = [s for s in system.record.steps if step.label in s.uses]
     kinds = {x.kind for s in (step, *using) for x in s.claims}
-    if not kinds & {f"family.{x}" for x in (*DEFINITE, "positive")}:
+    if not kinds & PROVED:
         return "no step says what is proved of its stability"
-    told = next(s for s in (step, *using) if any(x.kind == "family.positive" for x in s.claims))
+    told = next(s for s in (step, *using) if any(x.kind in PROVED for x in s.claims))
     family = ClaimedFamily(system, told)
     if unknown := [x for x, _ in family.point if x not in system.variables]:
         return f"{unknown[0]} is no variable"
@@ -247,7 +257,7 @@ def _orbit(system: ReducedSystem, step: Step, claim: Claim) -> str:
 def _form(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The left side is kept, its derivative vanishes there, and what follows is said."""
     family = ClaimedFamily(system, step)
-    if not {*family.claims} & {*DEFINITE, "positive"}:
+    if not {x.kind for x in step.claims} & PROVED:
         return "the step does not say what follows of the stability"
     assert family.at(family.drawn()).form is not None
     return ""

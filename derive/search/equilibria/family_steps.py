@@ -72,7 +72,8 @@ def _told(
 def _verdict(draft: Draft, x: Family) -> Prose:
     """Under which inequalities it is stable, and under which it is not."""
     say_so = draft.claim
-    prose = say_so("family.positive", positive=_inequalities(x, x.apart, x.known))
+    supposed = _inequalities(x, x.apart, x.known)
+    prose = say_so("family.positive", positive=supposed) if supposed != ("matrix",) else ()
     cases = _cases(x, x.stable)
     if _long(cases):
         return prose + say("family.minors_large")
@@ -113,4 +114,4 @@ def _cases(x: Family, cases: Iterable[Case]) -> Tree:
 
 def _inequalities(x: Family, known: Case, case: Case) -> Tree:
     """The inequalities of a case beyond what is known, rows of a matrix: the greater side first."""
-    return ("matrix", *(inequality(x.about.algebra, *y) for y in case.beyond(known)))
+    return ("matrix", *(("row", *inequality(x.about.algebra, *y)) for y in case.beyond(known)))

@@ -118,13 +118,14 @@ def square_root(x: Element) -> Element | None:
     return found
 
 
-def inequality(algebra: PoissonPolynomials, sign: int, factors: Factors) -> Tree:
+def inequality(algebra: PoissonPolynomials, sign: int, factors: Factors) -> tuple[Tree, Tree]:
     """Two sides, the greater first: of one factor what is added and what is taken away, of several
     a product and 0; with a sign 0, that they do not vanish, by squares."""
     if len(factors) > 1 or not sign:
         trees = [algebra.letters_tree(f) for f in sorted(factors, key=str)]
         product = mul(*(trees if sign else (power(x, 2) for x in trees)))
-        return ("row", product, 0) if sign >= 0 else ("row", 0, product)
+        return (product, 0) if sign >= 0 else (0, product)
     (f,) = factors
     more, less = ({e: abs(c) for e, c in f.items() if (c > 0) is up} for up in (True, False))
-    return ("row", *map(algebra.letters_tree, (more, less)[::sign]))
+    above, below = map(algebra.letters_tree, (more, less)[::sign])
+    return above, below
