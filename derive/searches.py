@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from .search.equilibria.enclosed_points import Enclosed
     from .search.equilibria.entries_of_elements import EntryConditions
     from .search.equilibria.stability import Equilibrium
+    from .search.equilibria.stability_in_letters import Family
     from .search.integrals.all_integrals import IntegralsFound
     from .search.reduction.reduction_steps import Reduction
     from .search.symmetries.symmetry_steps import Symmetries
@@ -37,6 +38,14 @@ def integrals(
     Without the inputs of the problem; ``at_defaults``: with numbers for its parameters;
     ``conditions``: with those on the parameters under which there are more.
     """
+    whole, own, steps = _searched(problem, degree, at_defaults=at_defaults, conditions=conditions)
+    return whole, recorded(own, steps)
+
+
+def _searched(
+    problem: Problem, degree: int, *, at_defaults: bool = False, conditions: bool = False
+) -> tuple[IntegralsFound, Problem, tuple[Step, ...]]:
+    """The same, with the problem whose record it is and the steps of that."""
     from .search.integrals.all_integrals import found
     from .search.integrals.integral_steps import told
     from .search.integrals.reduced import reduced, require_group, with_defaults
@@ -53,9 +62,9 @@ def integrals(
         from .search.integrals.special_parameters import conditions as conditions_of
 
         whole = replace(whole, conditions=conditions_of(whole))
-    record, c = walk(problem), Chapter(problem.name, problem.group_name)
-    steps = told(whole, record.steps, c, driven=driven)
-    return whole, recorded(problem, (*record.steps, *steps))
+    steps = walk(problem).steps
+    chapter = Chapter(problem.name, problem.group_name)
+    return whole, problem, (*steps, *told(whole, steps, chapter, driven=driven))
 
 
 def equilibrium_near(
@@ -79,6 +88,24 @@ def equilibria(
     from .search.equilibria.stability import equilibria_of
 
     return _at_points(problem, values, degree, equilibria_of, partial(told, tried=not values))
+
+
+def families(problem: Problem, degree: int = 4) -> tuple[tuple[Family, ...], Derivation]:
+    """The families of relative equilibria through some points, with inequalities in the parameters
+    and in the momentum of each under which they are stable, and under which they are not; and the
+    record of the integrals up to a degree with the steps that tell them."""
+    from .schema.kind import Parameter
+    from .search.equilibria import stability_in_letters as letters
+    from .search.equilibria.family_steps import told_families
+
+    whole, own, steps = _searched(problem, degree)
+    names = letters.letters(whole.system, own.parameters)
+    whole = letters.with_letters(whole, names)
+    found = tuple(letters.families(whole, names, _elements(problem, whole)))
+    used = {x: Parameter(meaning="the momentum of a family") for y in found for x in y.names}
+    own = replace(own, parameters={**own.parameters, **used})
+    told = told_families(whole, found, steps, Chapter(problem.name, problem.group_name))
+    return found, recorded(own, (*steps, *told))
 
 
 def _at_points(

@@ -187,6 +187,8 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     steady.add_argument(
         "--near", action="append", type=coordinate, metavar="NAME=NUMBER", help=about
     )
+    about = "parameters and momenta stay letters: inequalities for what is stable, and what is not"
+    steady.add_argument("--letters", action="store_true", help=about)
     add_trim_options(held)
     emit.add_argument("problem", help="a ready-made name or a .toml file")
     add_writing_options(emit)

@@ -92,15 +92,19 @@ def command_integrals(args: argparse.Namespace) -> int:
 
 def command_equilibria(args: argparse.Namespace) -> int:
     """Find relative equilibria of the reduced equations of a problem, and their stability."""
-    from ..searches import equilibria, equilibrium_near
+    from ..searches import equilibria, equilibrium_near, families
 
+    if args.letters and (args.near or args.at):
+        raise UsageError("--letters has letters for the coordinates: give no --at and no --near")
     if args.near and args.at:
         raise UsageError("--at is exact and --near is not: give one of them")
     at, near = _each_once("--at", args.at), _each_once("--near", args.near)
     found: object
     problem = doubted(args.problem)
     with working(args.problem):
-        if near:
+        if args.letters:
+            found, record = families(problem, args.degree)
+        elif near:
             found, record = equilibrium_near(problem, near, args.degree)
         else:
             found, record = equilibria(problem, at, args.degree)

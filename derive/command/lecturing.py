@@ -16,7 +16,7 @@ from ..problem.toml import load
 from ..programs import trim
 from ..record.record import Derivation
 from ..search import FIRST
-from ..searches import equilibria, integrals, reduction, symmetries
+from ..searches import equilibria, families, integrals, reduction, symmetries
 from ..views.language import language
 from .showing import UsageError, derive, load_problem
 from .simulating import pdf_of
@@ -63,8 +63,11 @@ SEARCHES: dict[str, Callable[[Problem, Derivation], Derivation]] = {
 """Search → the record of what it finds of a problem, by the record of its walk."""
 
 
-RECORDS = SEARCHES | {"discrete": lambda problem, _: discrete(problem)}
-"""And the record of the motion in steps."""
+RECORDS = SEARCHES | {
+    "families": lambda problem, _: families(problem)[1],
+    "discrete": lambda problem, _: discrete(problem),
+}
+"""And those of equilibria in letters and of the motion in steps."""
 
 
 def chapter_on(name: str) -> tuple[lecture_text.Chapter, dict[str, Derivation]]:

@@ -169,7 +169,12 @@ DEGREES = 1000
 
 def polynomial_tree(f: Sequence[Number], x: Tree) -> Tree:
     """Σ f_k x^(n−k) as a tree, for coefficients from the highest power."""
-    terms = (mul(tree(c), power(x, k)) for k, c in zip(range(len(f) - 1, -1, -1), f, strict=True))
+    return polynomial_of([*map(tree, f)], x)
+
+
+def polynomial_of(f: Sequence[Tree], x: Tree) -> Tree:
+    """The same of coefficients that are trees."""
+    terms = (mul(c, power(x, k)) for k, c in zip(range(len(f) - 1, -1, -1), f, strict=True))
     return add(*terms)
 
 

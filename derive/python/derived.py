@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from .as_sympy import Translation
     from .conserved_quantities import SymmetriesOf
     from .expressions import Expressions
-    from .found import Equilibria, FirstIntegrals, Near, Reduced, Trimmed
+    from .found import Equilibria, Families, FirstIntegrals, Near, Reduced, Trimmed
     from .simulated import Simulated, SimulatedEnsemble
 
 
@@ -130,6 +130,15 @@ class Derived:
 
         values = {x: number_from(str(v)) for x, v in (at or {}).items()}
         return Equilibria(*equilibria(self.problem, values, degree))
+
+    def families(self, *, degree: int = 4) -> Families:
+        """The families of relative equilibria with one momentum, a letter, and at most one other
+        coordinate, 1 or −1, and the inequalities in letters under which they are stable, and
+        unstable.  ``degree``: of the integrals that are searched."""
+        from ..searches import families
+        from .found import Families
+
+        return Families(*families(self.problem, degree))
 
     def equilibrium_near(self, at: Mapping[str, Fraction | int | str], *, degree: int = 4) -> Near:
         """The relative equilibrium near a point with these coordinates, on its level of the

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
@@ -11,13 +11,16 @@ from typing import Any
 import sympy
 
 from ..language.reserved import suffixed
+from ..language.show import show
 from ..language.tree import Tree
 from ..language.univariate import Number
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..search.equilibria.enclosed_points import Enclosed
 from ..search.equilibria.equilibrium_points import coordinate
+from ..search.equilibria.letter_conditions import Case, inequality
 from ..search.equilibria.stability import Equilibrium
+from ..search.equilibria.stability_in_letters import Family
 from ..search.integrals.all_integrals import Condition, IntegralsFound
 from ..search.reduction.routhian import Routhian
 from ..search.trim.trimmed import Trim
@@ -112,6 +115,63 @@ class Equilibria(Finding):
 
     def __iter__(self) -> Iterator[Steady]:
         return map(Steady, self.found)
+
+
+@dataclass(frozen=True)
+class InLetters:
+    """A family of relative equilibria.  ``found``: all that is known of it."""
+
+    found: Family
+
+    @property
+    def at(self) -> dict[str, str]:
+        """The coordinates that are not 0, by their names."""
+        about = self.found.about
+        pairs = zip(about.system.variables, about.at, strict=True)
+        return {coordinate(v): show(about.tree(x)) for v, x in pairs if x}
+
+    @property
+    def stable(self) -> tuple[tuple[str, ...], ...]:
+        """The cases in which it is stable, each its inequalities."""
+        return self._cases(self.found.stable)
+
+    @property
+    def unstable(self) -> tuple[tuple[str, ...], ...]:
+        """Cases in which it is unstable, likewise."""
+        return self._cases(self.found.unstable)
+
+    @property
+    def supposed(self) -> tuple[str, ...]:
+        """What is supposed: that the kinetic energy is positive."""
+        return self._inequalities(self.found.apart, self.found.known)
+
+    def _cases(self, cases: Iterable[Case]) -> tuple[tuple[str, ...], ...]:
+        return tuple(self._inequalities(self.found.known, x) for x in cases)
+
+    def _inequalities(self, known: Case, case: Case) -> tuple[str, ...]:
+        algebra = self.found.about.algebra
+        sides = (inequality(algebra, *x) for x in case.beyond(known))
+        return tuple(f"{show(a)} > {show(b)}" for a, b in sides)
+
+
+@dataclass(frozen=True)
+class Families(Finding):
+    """Families of relative equilibria: a sequence of :class:`InLetters`; ``record``: their
+    derivation."""
+
+    _search = "equilibria"
+
+    found: tuple[Family, ...]
+    record: Derivation
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def __getitem__(self, k: int) -> InLetters:
+        return InLetters(self.found[k])
+
+    def __iter__(self) -> Iterator[InLetters]:
+        return map(InLetters, self.found)
 
 
 @dataclass(frozen=True)

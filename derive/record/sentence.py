@@ -134,6 +134,10 @@ KINDS = {
         "at origin none orbit form stable stable_beyond stable_compact on_the_leaf indefinite "
         "point unstable unstable_beyond open undecided eigenvalues squares near"
     ),
+    "family": (
+        "at origin letter positive orbit form stable stable_always on_the_leaf on_the_leaf_always "
+        "indefinite unstable unstable_large unstable_always imaginary"
+    ),
     "enclosure": "within signs stable unstable open eigenvalues",
     "trim": "rest steady corner unique isolated stable unstable open",
 }
@@ -206,7 +210,24 @@ def _nonzero(x: Tree) -> str:
     return ", ".join(f"{in_sentence(y)} ≠ 0" for y in x[1:])
 
 
-TEXTS = {
+def _inequalities(x: Tree) -> str:
+    """Rows of a matrix, two sides of which the first is the greater; several such with numbers."""
+    assert isinstance(x, tuple)
+    if x[0] == "row":
+        several = [*map(_inequalities, x[1:])]
+        numbered = (f"({k}) {y}" for k, y in enumerate(several, 1))
+        return "; ".join(numbered) if len(several) > 1 else "".join(several)
+    if x[0] != "matrix":
+        return in_sentence(x)
+    shown = ([*map(in_sentence, row[1:])] for row in x[1:])
+    return ", ".join(f"{y} < 0" if z == "0" else f"{z} > {y}" for z, y in shown)
+
+
+FAMILIES = (
+    *("positive", "stable", "on_the_leaf", "unstable", "unstable_large"),
+    *("unstable_always", "imaginary"),
+)
+TEXTS = dict.fromkeys((f"family.{x}" for x in FAMILIES), _inequalities) | {
     "equilibrium.near": _coordinates,
     "equilibrium.eigenvalues": _eigenvalues,
     "enclosure.eigenvalues": _eigenvalues,

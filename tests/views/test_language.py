@@ -24,7 +24,7 @@ from derive.record.sentence import PLACE, english, phrase, say
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, meanings
 from derive.schema.body_kinds import SOLIDS, MomentBody
 from derive.schema.kinds import kinds
-from derive.searches import symmetries
+from derive.searches import families, symmetries
 from derive.views import outline
 from derive.views.html import html
 from derive.views.language import (
@@ -44,7 +44,7 @@ from derive.views.text import markdown, step_markdown, step_text, text
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
 from tests.support.kinds import examples
-from tests.support.lagrangians import every_record
+from tests.support.lagrangians import every_record, heisenberg
 from tests.support.trims import balanced, drifting, leaning, resting_in_air, upside_down
 
 ROOT = Path(__file__).parents[2] / "derive"
@@ -115,6 +115,20 @@ TWO = " + ".join(f"zeta_{k}^2" for k in range(1, 7))
 ON_THE_RIGHT = {"L": "zeta_1^2 + zeta_2^2 + zeta_3^2", "trivialisation": "right"}
 
 
+def of(L, group="SO(3)", *letters):
+    own = {"name": "own", "group": group, "parameters": {x: {} for x in letters}}
+    return problem_of(own | {"lagrangian": {"L": L}})
+
+
+MASSES = "zeta_4^2 + zeta_5^2 + zeta_6^2"
+IN_LETTERS = [
+    of("(zeta_1^2 + zeta_2^2 + zeta_3^2)/2 - A_33"),
+    of(f"(a*zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2 + {MASSES})/2", "SE(3)", "a"),
+    of(f"(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2 + {MASSES})/2", "SE(3)"),
+    heisenberg(),
+    walks.problem("lagrange_top"),
+]
+"""Of these the stability is told in letters."""
 OF_THE_CORPUS = [
     *(f"{'forces' if x.endswith('forces') else 'points'} {x}" for x in CHOSEN),
     *(f"symmetries {x}" for x in symmetric.FILES),
@@ -171,6 +185,7 @@ def all_records():
     told.append(symmetries(walks.problem("gl3"), walks.record("gl3")).record)
     trims = (leaning, upside_down, drifting, resting_in_air, balanced)
     told += [found().record for found in trims]
+    told += [families(x)[1] for x in IN_LETTERS]
     return [*told, *every_record(), *map(walk, problems)]
 
 

@@ -12,6 +12,7 @@ from ..form.hypotheses_checked import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
 from . import (
     enclosure,
     equilibrium_claims,
+    family_claims,
     integral_claims,
     reduction_claims,
     symmetry_count,
@@ -90,7 +91,7 @@ OBLIGATORY = {
         *("casimirs.kept", "level.multiple", "condition.one", "condition.several"),
         *(f"first_integrals.all{x}" for x in ("", "_large", "_generic", "_generic_large")),
     ),
-    "expansion": ("equilibrium.form",),
+    "expansion": ("equilibrium.form", "family.form"),
     "enclosure": ("enclosure.within",),
     "trim": trim_claims.POINTS,
 }
@@ -129,6 +130,7 @@ JUDGES: dict[str, Judge] = {
     **{kind: _of_symmetries(judge) for kind, judge in symmetry_count.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
+    **{kind: _of_reduced(judge) for kind, judge in family_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in enclosure.JUDGES.items()},
 }
 """How each kind of claim is judged."""

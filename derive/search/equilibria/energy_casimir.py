@@ -98,10 +98,10 @@ def _tried(
 ) -> Iterator[Vector]:
     """Multipliers: the first ones, and along each freedom one between any two roots of det Q."""
     yield start
-    at_start = restricted(_second(start, energy, kept), on)
+    at_start = restricted(second_derivatives(start, energy, kept), on)
     nothing = Expansion(Fraction(0), [], [[Fraction(0)] * len(x) for x in energy.second], {})
     for direction in freedom:
-        along = restricted(_second(direction, nothing, kept), on)
+        along = restricted(second_derivatives(direction, nothing, kept), on)
         if any(map(any, along)):
             for mu in between_roots(at_start, along):
                 yield [x + mu * y for x, y in zip(start, direction, strict=True)]
@@ -143,7 +143,9 @@ def _simple(low: Fraction, high: Fraction) -> Fraction:
     return middle
 
 
-def _second(multipliers: Sequence[Number], energy: Expansion, kept: Sequence[Expansion]) -> Matrix:
+def second_derivatives(
+    multipliers: Sequence[Number], energy: Expansion, kept: Sequence[Expansion]
+) -> Matrix:
     """The second derivatives of F."""
     n = len(energy.second)
     return [
@@ -164,7 +166,7 @@ def restricted(second: Matrix, on: Leaf) -> Matrix:
 def _form(
     multipliers: Vector, energy: Expansion, kept: Sequence[Expansion], on: Leaf
 ) -> EnergyCasimirForm:
-    second = _second(multipliers, energy, kept)
+    second = second_derivatives(multipliers, energy, kept)
     n = len(second)
     pairs = [*zip(multipliers, kept, strict=True)]
     higher = dict(energy.higher)
@@ -235,8 +237,13 @@ def diagonalised(q: Matrix) -> list[tuple[Number, Vector]]:
 
 
 def field_of(rows: Matrix) -> Any:
-    """The field of SymPy that some numbers are in: Q, or Q(√d)."""
+    """The field of SymPy that some numbers are in: Q, Q(√d), or that of functions of letters."""
     from sympy import QQ, sqrt
+    from sympy.polys.fields import FracElement
+
+    own = (x.field for row in rows for x in row if isinstance(x, FracElement))
+    if found := next(own, None):
+        return found.to_domain()
 
     roots = {x.d for row in rows for x in row if isinstance(x, Quadratic)}
     return QQ.algebraic_field(sqrt(roots.pop())) if roots else QQ
@@ -246,6 +253,8 @@ def element(x: Number, field: Any) -> Any:
     """A number in a field of SymPy."""
     from sympy import QQ
 
+    if field.is_FractionField and not isinstance(x, Fraction):
+        return x
     if isinstance(x, Quadratic):
         parts = [QQ(y.numerator, y.denominator) for y in (x.b, x.a)]
         return field.dtype(parts, field.mod.to_list(), QQ)
@@ -253,7 +262,9 @@ def element(x: Number, field: Any) -> Any:
 
 
 def number_of(x: Any, field: Any) -> Number:
-    """The number of an element of a field of SymPy."""
+    """The number of an element of a field of SymPy; the element itself where it has letters."""
+    if field.is_FractionField:
+        return x  # type: ignore[no-any-return]
     if field.is_QQ:
         return Fraction(int(x.numerator), int(x.denominator))
     parts = [Fraction(int(y.numerator), int(y.denominator)) for y in x.to_list()]

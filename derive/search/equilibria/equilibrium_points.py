@@ -13,8 +13,9 @@ from ...language.expression import parse
 from ...language.limits import Refused
 from ...language.reserved import suffixed
 from ...language.tree import Tree
-from ...language.univariate import Number, value_of
-from ..integrals.lie_poisson import ONE, LiePoisson, PoissonPolynomials, Polynomial
+from ...language.univariate import Number, Quadratic, value_of
+from ...language.univariate import tree as number_tree
+from ..integrals.lie_poisson import ONE, LiePoisson, PoissonPolynomials, Polynomial, plain, scaled
 from .entries_of_elements import EntryConditions, numbers
 
 Point = tuple[Number, ...]
@@ -50,13 +51,18 @@ class About:
         """The ring of the polynomials."""
         return self.system.algebra
 
+    def tree(self, x: Number) -> Tree:
+        """A number, or a function of letters, as a tree."""
+        known = isinstance(x, (int, Fraction, Quadratic))
+        return number_tree(x) if known else scaled(self.algebra.number_tree(x))
+
     def expansion(self, f: Polynomial) -> Expansion:
-        """A polynomial with coefficients in Q, in powers of y."""
+        """A polynomial with coefficients in the field, in powers of y."""
         n = len(self.at)
         terms: dict[tuple[int, ...], Number] = {}
         for e, c in f.items():
             for m, x in self._shifted(e).items():
-                factor = Fraction(int(c.numerator), int(c.denominator))
+                factor = c if self.algebra.letters else Fraction(plain(c))
                 terms[m] = terms.get(m, Fraction(0)) + factor * x
         terms = {m: x for m, x in sorted(terms.items(), key=_order) if x != 0}
 

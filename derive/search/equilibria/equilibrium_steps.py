@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
+from typing import Any
 
 from ...language.derivatives import power
 from ...language.tree import Tree, add, mul, neg
@@ -14,6 +15,7 @@ from ...record.sentence import Prose
 from ...walk.chapter import Chapter, Draft, say
 from ..integrals.all_integrals import IntegralsFound
 from ..integrals.integral_steps import rate
+from ..integrals.lie_poisson import scaled
 from .enclosed_points import Enclosed, less
 from .energy_casimir import EnergyCasimirForm, Leaf
 from .equilibrium_points import About, Expansion
@@ -59,7 +61,7 @@ def told_enclosed(
     equations = [
         Equation(rate(v), expanded(e, away)) for v, e in zip(variables, x.about.rates, strict=True)
     ]
-    point = _point(x.about)
+    point = point_rows(x.about)
     rates = draft.step(equations, draft.claim("equilibrium.near", point=point))
     return rates, _enclosure(whole, x, (*made_from, rates), c)
 
@@ -89,7 +91,7 @@ def _enclosure(whole: IntegralsFound, x: Enclosed, made_from: Iterable[Step], c:
     return draft.step(equations, prose)
 
 
-def combined(energy: Expansion, kept: Sequence[Expansion], by: Sequence[Fraction]) -> Expansion:
+def combined(energy: Expansion, kept: Sequence[Expansion], by: Sequence[Number]) -> Expansion:
     """A polynomial plus multiples of others."""
     pairs, places = [*zip(by, kept, strict=True)], range(len(energy.slope))
     higher = dict(energy.higher)
@@ -123,7 +125,7 @@ def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool
     ]
     prose = say("equilibrium.tried") if tried else ()
     if any(x.about.at):
-        prose += draft.claim("equilibrium.at", point=_point(x.about))
+        prose += draft.claim("equilibrium.at", point=point_rows(x.about))
     else:
         prose += draft.claim("equilibrium.origin")
     if x.form:
@@ -135,43 +137,47 @@ def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool
     return draft.step(equations, prose + _verdict(draft, x))
 
 
-def _point(about: About) -> Tree:
+def point_rows(about: About) -> Tree:
     """The coordinates of a point that are not 0, each with its variable."""
     pairs = zip(about.system.variables, about.at, strict=True)
-    return ("matrix", *(("row", v, plain(x)) for v, x in pairs if x))
+    return ("matrix", *(("row", v, about.tree(x)) for v, x in pairs if x))
 
 
 def distances(about: About) -> list[Tree]:
     """The variables less their values at the point."""
     return [
-        add(v, neg(plain(number)))
+        add(v, neg(about.tree(number)))
         for v, number in zip(about.system.variables, about.at, strict=True)
     ]
 
 
-def linear(row: Sequence[Number], away: Sequence[Tree]) -> Tree:
+Shown = Callable[[Any], Tree]
+"""What a number, or a function of letters, is as a tree."""
+
+
+def linear(row: Sequence[Number], away: Sequence[Tree], shown: Shown = plain) -> Tree:
     """A linear form in the distances."""
-    return add(*(mul(plain(x), y) for x, y in zip(row, away, strict=True) if x))
+    return add(*(scaled(shown(x), y) for x, y in zip(row, away, strict=True) if x))
 
 
-def expanded(e: Expansion, away: Sequence[Tree]) -> Tree:
+def expanded(e: Expansion, away: Sequence[Tree], shown: Shown = plain) -> Tree:
     """A polynomial in powers of the distances."""
     n = len(away)
     pairs = [(i, j) for i in range(n) for j in range(i, n) if e.second[i][j]]
     squares = [
-        mul(plain(e.second[i][j] / 2), power(away[i], 2))
+        scaled(shown(e.second[i][j] / 2), power(away[i], 2))
         if i == j
-        else mul(plain(e.second[i][j]), away[i], away[j])
+        else scaled(shown(e.second[i][j]), away[i], away[j])
         for i, j in pairs
     ]
-    terms = (plain(e.value), linear(e.slope, away), *squares, *higher(e, away))
+    terms = (shown(e.value), linear(e.slope, away, shown), *squares, *higher(e, away, shown))
     return add(*(x for x in terms if x != 0))
 
 
-def higher(e: Expansion, away: Sequence[Tree]) -> list[Tree]:
+def higher(e: Expansion, away: Sequence[Tree], shown: Shown = plain) -> list[Tree]:
     """The terms above the second order."""
     return [
-        mul(plain(c), *(power(y, k) for y, k in zip(away, m, strict=True) if k))
+        scaled(shown(c), *(power(y, k) for y, k in zip(away, m, strict=True) if k))
         for m, c in e.higher.items()
     ]
 

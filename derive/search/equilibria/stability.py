@@ -129,9 +129,7 @@ def judged(whole: IntegralsFound, about: About, elements: Elements) -> Equilibri
     on = leaf(about)
     over = about.algebra.over_the_field
     found = form(about, on, [*map(over, whole.casimirs), *map(over, whole.integrals)])
-    slopes = [e.slope for e in about.rates]
-    image = times(slopes, on.basis)
-    linear = [image[i] for i in on.free]
+    linear = linear_on(about, on)
     characteristic = polynomial(linear)
     regular = whole.proved.proved and len(on.free) == whole.proved.rank
     squares = found.squares if found else diagonalised(along_the_orbit(about, on))
@@ -142,6 +140,12 @@ def judged(whole: IntegralsFound, about: About, elements: Elements) -> Equilibri
         compact=not regular and has_compact_stabilisers(whole.system),
         attained=attained(about, elements),
     )
+
+
+def linear_on(about: About, on: Leaf) -> Matrix:
+    """The linearised rates on the tangent space of the leaf, in its basis."""
+    image = times([e.slope for e in about.rates], on.basis)
+    return [image[i] for i in on.free]
 
 
 def has_compact_stabilisers(system: LiePoisson) -> bool:

@@ -192,7 +192,7 @@ class PoissonPolynomials:
     def _summed(self, coefficients: Mapping[Exponents, Tree]) -> Tree:
         order = sorted(coefficients, key=monomial_order)
         factors = {e: powers(self.system.variables, e) for e in order}
-        return add(*(_times(coefficients[e], factors[e]) for e in order))
+        return add(*(scaled(coefficients[e], *factors[e]) for e in order))
 
     def _factored(self, c: Any) -> Tree:
         """A coefficient in the ring, as a product."""
@@ -201,13 +201,17 @@ class PoissonPolynomials:
 
     def _product(self, factors: Iterable[tuple[Any, int]], start: int) -> list[Tree]:
         """The trees of powers of polynomials in the letters, which come after ``start`` others."""
-        names = [x if x == "π" else ("par", x) for x in self.letters]
         found: list[Tree] = []
         for f, k in factors:
-            own = sorted_terms((m[start:], y) for m, y in f.items())
-            tree = add(*(mul(plain(y), *powers(names, m)) for m, y in own))
+            tree = self.letters_tree({m[start:]: y for m, y in f.items()})
             found.append(tree if k == 1 else ("pow", tree, k))
         return found
+
+    def letters_tree(self, f: Mapping[Exponents, Any]) -> Tree:
+        """A polynomial in the letters as a tree."""
+        names = [x if x == "π" else ("par", x) for x in self.letters]
+        own = sorted_terms(f.items())
+        return add(*(mul(plain(y), *powers(names, m)) for m, y in own))
 
     def number_tree(self, c: Any) -> Tree:
         """An element of the field as a tree, a quotient of products."""
@@ -226,7 +230,7 @@ def plain(y: Any) -> int | Fraction:
     return int(q) if q.denominator == 1 else q
 
 
-def _times(c: Tree, factors: Sequence[Tree]) -> Tree:
+def scaled(c: Tree, *factors: Tree) -> Tree:
     """A coefficient times a monomial, in one numerator; a sign stands in front."""
     if not isinstance(c, tuple) or c[0] != "div":
         return mul(c, *factors)

@@ -1,0 +1,235 @@
+"""Families of relative equilibria in letters, and inequalities under which they are stable or not.
+
+The algorithm of :mod:`.energy_casimir` and :mod:`.stability` over the field of functions of the
+parameters and of the momentum of the family.  A form is definite where its leading minors, or those
+of its opposite, are positive.  With q(λ²) the characteristic polynomial on the leaf, its factors f,
+the roots of q are real and at most 0 only if the coefficients and the discriminant of each f are
+at least 0; where f = s² + bs + e², this is b ± 2e ≥ 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+from ...language.reserved import suffixed
+from ..integrals.all_integrals import IntegralsFound
+from ..integrals.lie_poisson import LiePoisson
+from .energy_casimir import (
+    Leaf,
+    along_the_orbit,
+    domain_matrix,
+    element,
+    leaf,
+    restricted,
+    second_derivatives,
+    solutions,
+)
+from .equilibrium_points import About, Elements, Expansion, Matrix, attained, tried
+from .letter_conditions import Case, Element, square_root
+from .stability import has_compact_stabilisers, linear_on, polynomial
+
+Vector = list[Element]
+TERMS = 10
+"""Of coefficients of more terms no discriminant is computed: it has hundreds."""
+
+
+@dataclass(frozen=True)
+class Family:
+    """Equilibria ``about`` a point in letters, with momenta of these ``names``; ``multipliers``: of
+    the form, none where there are none; ``characteristic``: polynomial on the leaf; ``apart``: that
+    letters do not vanish, ``known``: that the kinetic energy is positive, too; ``stable``: cases in
+    which the form is definite; ``unstable``: cases that prove it, all where they are ``counted``;
+    ``beyond``: are they stable off the leaf, too?"""
+
+    about: About
+    names: tuple[str, ...]
+    multipliers: tuple[Element, ...] | None
+    characteristic: tuple[Element, ...]
+    apart: Case
+    known: Case
+    stable: tuple[Case, ...]
+    unstable: tuple[Case, ...]
+    counted: bool
+    beyond: bool
+
+
+def letters(system: LiePoisson, taken: Mapping[str, Any]) -> tuple[str, ...]:
+    """The names of the momenta of families, ell_3 of Π₃; more l where a parameter has one."""
+    name, places = "ell", range(1, system.momenta + 1)
+    while any(suffixed(name, k) in taken for k in places):
+        name += "l"
+    return tuple(suffixed(name, k) for k in places)
+
+
+def with_letters(whole: IntegralsFound, names: Sequence[str]) -> IntegralsFound:
+    """What was found, over a field with more letters, which come last."""
+    system = replace(whole.system, parameters=(*whole.system.parameters, *names))
+    ring, zeros = system.algebra.ring, (0,) * len(names)
+
+    def over(f: Any) -> Any:
+        return ring.from_dict({(*e, *zeros): c for e, c in f.items()})
+
+    kept = ((*map(over, x),) for x in (whole.casimirs, whole.integrals))
+    casimirs, integrals = kept
+    return replace(whole, system=system, casimirs=casimirs, integrals=integrals)
+
+
+def families(whole: IntegralsFound, names: Sequence[str], on: Elements) -> Iterator[Family]:
+    """The families through the points that are tried, on leaves of more than a point; ``names``:
+    of their momenta."""
+    system = whole.system
+    algebra, momenta = system.algebra, system.momenta
+    own = [algebra.letters[x] for x in names]
+    kept = [*map(algebra.over_the_field, whole.casimirs)]
+    apart = Case((), frozenset(x.numer for x in own))
+    known = positive(system, apart)
+    if known is None:
+        return
+    for about in tried(system, kept, on):
+        one, rest = about.at[:momenta], about.at[momenta:]
+        chosen = tuple(x for x, y in zip(names, one, strict=True) if y)
+        at = (*(x * y if y else y for x, y in zip(own, one, strict=True)), *rest)
+        there = About(system, at)
+        moving = any(e.value for e in there.rates)
+        if attained(about, on) and not moving and leaf(there).free:
+            yield judged(whole, there, chosen, apart, known)
+
+
+def positive(system: LiePoisson, apart: Case) -> Case | None:
+    """The case with a positive kinetic energy; ``None`` where it cannot be."""
+    algebra, m = system.algebra, system.momenta
+    start = About(system, (Fraction(0),) * len(system.variables))
+    second = [row[:m] for row in start.expansion(algebra.hamiltonian).second[:m]]
+    numbers = [algebra.letters["π"]] if "π" in algebra.letters else []
+    case = apart.with_positive(*numbers, *minors(second))
+    return case.settled() if case else None
+
+
+def judged(
+    whole: IntegralsFound, about: About, names: tuple[str, ...], apart: Case, known: Case
+) -> Family:
+    """A family with the inequalities that prove its stability or instability."""
+    on = leaf(about)
+    over = about.algebra.over_the_field
+    energy = about.expansion(about.algebra.hamiltonian)
+    kept = [about.expansion(over(f)) for f in (*whole.casimirs, *whole.integrals)]
+    multipliers, stable = _definite(about, on, energy, kept, known)
+    characteristic = polynomial(linear_on(about, on))
+    factors = factors_of(characteristic[::2])
+    signs = (x for f in factors for x in must_not_be_negative(f))
+    unstable = {x.beyond(known): x for y in signs if (x := known.with_positive(-y))}
+    if () in unstable:
+        unstable = {(): unstable[()]}
+    regular = whole.proved.proved and len(on.free) == whole.proved.rank
+    return Family(
+        *(about, names, multipliers, characteristic),
+        *(apart, known, stable, (*unstable.values(),)),
+        counted=all(len(f) < 4 and len(must_not_be_negative(f)) >= len(f) - 1 for f in factors),
+        beyond=regular or has_compact_stabilisers(whole.system),
+    )
+
+
+def _definite(
+    about: About, on: Leaf, energy: Expansion, kept: Sequence[Expansion], known: Case
+) -> tuple[tuple[Element, ...] | None, tuple[Case, ...]]:
+    """Multipliers such that the form is definite on the leaf where it can be, and the cases in
+    which it is."""
+    choices = solutions([e.slope for e in kept], [-x for x in energy.slope])
+    if choices is None:
+        return None, definite(along_the_orbit(about, on), known)
+    first = None
+    for multipliers in _choices(about, on, energy, kept, *choices):
+        cases = definite(restricted(second_derivatives(multipliers, energy, kept), on), known)
+        poles = [x.field(x.denom) ** 2 for x in multipliers]
+        cases = tuple(y for x in cases if (y := x.with_positive(*poles)))
+        if cases:
+            return (*multipliers,), cases
+        first = first or ((*multipliers,), cases)
+    assert first
+    return first
+
+
+def _choices(
+    about: About,
+    on: Leaf,
+    energy: Expansion,
+    kept: Sequence[Expansion],
+    start: Vector,
+    freedom: Matrix,
+) -> Iterator[Vector]:
+    """Multipliers: along each freedom one in the middle of two roots of det Q, and the first."""
+    domain = about.algebra.field
+    start = [element(x, domain) for x in start]
+    at_start = restricted(second_derivatives(start, energy, kept), on)
+    zero = domain.zero
+    nothing = Expansion(zero, [], [[zero] * len(x) for x in energy.second], {})
+    for direction in freedom:
+        along = restricted(second_derivatives(direction, nothing, kept), on)
+        for mu in between(at_start, along, domain) if any(map(any, along)) else ():
+            yield [x + mu * y for x, y in zip(start, direction, strict=True)]
+    yield start
+
+
+def between(a: Matrix, b: Matrix, domain: Any) -> Iterator[Element]:
+    """Functions μ, each in the middle of two real roots of det(a + μb), where these are real."""
+    from sympy import Symbol
+    from sympy.polys.matrices import DomainMatrix
+
+    field = domain[Symbol("mu")]
+    rows = [
+        [
+            field(element(x, domain)) + field.gens[0] * element(y, domain)
+            for x, y in zip(*r, strict=True)
+        ]
+        for r in zip(a, b, strict=True)
+    ]
+    determinant = DomainMatrix(rows, (len(a), len(a)), field).charpoly()[-1]
+    factors = [f for f, _ in determinant.factor_list()[1]] if determinant else []
+    of = [[f.get((k,), domain.zero) for k in range(f.degree() + 1)] for f in factors]
+    yield from (-c[1] / (2 * c[2]) for c in of if len(c) == 3)
+    linear = [-c[0] / c[1] for c in of if len(c) == 2]
+    yield from ((x + y) / 2 for x, y in combinations(linear, 2))
+    yield from (x + s for x in linear for s in (1, -1))
+
+
+def minors(q: Matrix) -> list[Element]:
+    """The leading minors of a matrix."""
+    return [domain_matrix([row[:k] for row in q[:k]], k).det() for k in range(1, len(q) + 1)]
+
+
+def definite(q: Matrix, known: Case) -> tuple[Case, ...]:
+    """The cases in which a symmetric matrix is positive or negative definite."""
+    found = minors(q)
+    signed = ([x * s**k for k, x in enumerate(found, 1)] for s in (1, -1))
+    return tuple(y for x in signed if (y := known.with_positive(*x))) if found else ()
+
+
+def factors_of(q: Sequence[Element]) -> list[Vector]:
+    """The factors of a polynomial, its coefficients from the highest power, each with a leading
+    coefficient 1."""
+    from sympy import Symbol
+
+    if len(q) < 2:
+        return []
+    ring = q[-1].field.to_domain()[Symbol("s")].ring
+    n = len(q) - 1
+    whole = ring.from_dict({(n - k,): x for k, x in enumerate(q) if x})
+    factors = ((f, f.degree()) for f, _ in whole.factor_list()[1])
+    return [[f.get((d - k,), ring.domain.zero) / f.LC for k in range(d + 1)] for f, d in factors]
+
+
+def must_not_be_negative(f: Vector) -> Vector:
+    """Functions that are at least 0 where all roots of such a factor are real and at most 0, and,
+    where its degree is at most 2, only there."""
+    if len(f) == 3:
+        _, b, c = f
+        e = square_root(c)
+        if e is None:
+            long = any(len(x.numer) > TERMS for x in (b, c))
+            return [b, c, *(() if long else (b**2 - 4 * c,))]
+        return [b - 2 * e, b + 2 * e]
+    return f[1:]
