@@ -2,7 +2,8 @@
 export const WORDS = {
   en: {
     home: "derive", what: "Describe a body: its equations of motion, derived, checked, moving, and as code.",
-    answer: "Equations of motion", help: "Help",
+    answer: "Equations of motion", help: "Help", roadof: "The road to the equations", codein: "C, Python, JavaScript, …",
+    road: { lagrangian: "Lagrangian", group: "On the group", cartan: "Cartan form", exterior: "Its derivative", kernel: "Kernel", body: "This body", code: "Code" },
     help1: "Choose a thing in the gallery, a problem of the list, or write your own at the left: as text, or as a form.",
     help2: "Motion: the body moves by these equations; drag it, and set its numbers below it. Point at a letter or a term: it is the arrow of its colour.",
     help3: "Equations: the whole road to them, step by step; Check tries each step by another road. Projector (P): a step a screen, by the arrow keys or a clicker.",
@@ -61,7 +62,8 @@ export const WORDS = {
   },
   fr: {
     home: "derive", what: "Décrivez un corps : ses équations du mouvement, déduites, vérifiées, en mouvement, en code.",
-    answer: "Équations du mouvement", help: "Aide",
+    answer: "Équations du mouvement", help: "Aide", roadof: "Le chemin vers les équations", codein: "C, Python, JavaScript, …",
+    road: { lagrangian: "Lagrangien", group: "Sur le groupe", cartan: "Forme de Cartan", exterior: "Sa dérivée", kernel: "Noyau", body: "Ce corps", code: "Code" },
     help1: "Choisissez une chose dans la galerie, un problème de la liste, ou écrivez le vôtre à gauche : en texte, ou par un formulaire.",
     help2: "Mouvement : le corps se meut selon ces équations ; faites-le tourner, réglez ses nombres en dessous. Montrez une lettre ou un terme : c’est la flèche de sa couleur.",
     help3: "Équations : tout le chemin qui y mène, étape par étape ; Vérifier les examine par une autre voie. Projection (P) : une étape par écran, aux flèches ou à la télécommande.",
