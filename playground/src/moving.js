@@ -62,7 +62,7 @@ addEventListener("message", async ({ data, source, origin }) => {
     const into = document.createElement("button");
     Object.assign(into, { type: "button", className: "into", textContent: data.into });
     into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module) }));
-    home.querySelector(".beside").append(into);
+    home.querySelector(".values").append(into);
     tell({ moved: "" });
     new ResizeObserver(() => tell({ height: home.scrollHeight })).observe(home);
   } catch (e) {

@@ -14,6 +14,8 @@ export class Road {
 
   /* stations: [{ name, id, shown, paper }] as the record has them; name: of what is moved by the code */
   show(stations, words, name) {
+    this.place.parentElement.hidden = !stations.length;
+    if (!stations.length) return;
     this.words = words;
     const code = { name: "code", id: "", shown: `<code>${name}_rhs(t, x, k, …)</code>`, paper: words.codein };
     const all = stations.some((x) => x.name === "body") ? [...stations, code] : stations;
@@ -24,7 +26,6 @@ export class Road {
       return button;
     });
     this.place.replaceChildren(...this.#buttons.map((x) => make("li", {}, x)));
-    this.place.parentElement.hidden = !all.length;
   }
 
   /* the step that is read: the stations that are behind it, of all the steps in their order */

@@ -74,7 +74,7 @@ export class Motion {
     this.told = { ...told, lang, title: words.motion, into: words.into };
     this.more = null;
     this.frame = make("iframe", { src: "moving.html", title: words.motion });
-    this.note = make("p", { class: "note", role: "status" }, [words.moved, ...(told.page.pushed ? [words.pushed] : []), ...this.unset].join(" "));
+    this.note = make("p", { class: "note", role: "status" }, [...(told.page.pushed ? [words.pushed] : []), ...this.unset].join(" "));
     this.unset = [];
     this.place.replaceChildren(this.note, this.frame);
   }
