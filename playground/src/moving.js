@@ -58,7 +58,7 @@ addEventListener("message", async ({ data, source, origin }) => {
       return;
     }
     home.replaceChildren();
-    home.motion = globalThis.drawing.mount(home, { ...data.page, module, pointed: (lit) => tell({ lit }) }, chosen(data.pieces));
+    home.motion = globalThis.drawing.mount(home, { ...data.page, module, in_time: data.in_time, tilt: data.tilt, pointed: (lit) => tell({ lit }) }, { ...chosen(data.pieces), graph: globalThis.drawing.graph });
     const into = document.createElement("button");
     Object.assign(into, { type: "button", className: "into", textContent: data.into });
     into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module) }));

@@ -159,6 +159,8 @@ def test_a_top(fresh, site):
     the_vectors_of_a_cone(frame)
     the_arrows_and_the_letters(fresh, frame)
     # the wheel scrolls, and zooms with Ctrl alone
+    frame.locator(".side").scroll_into_view_if_needed()
+    scrolled = frame.evaluate("document.querySelector('.beside').scrollTop")
     side = frame.locator(".side").bounding_box()
     fresh.mouse.move(side["x"] + side["width"] / 2, side["y"] + side["height"] / 2)
     before = frame.locator(".side").screenshot()
@@ -166,7 +168,7 @@ def test_a_top(fresh, site):
     fresh.mouse.wheel(0, -300)
     fresh.keyboard.up("Control")
     until(frame, "true", lambda: frame.locator(".side").screenshot() != before)
-    assert frame.evaluate("document.querySelector('.beside').scrollTop") == 0
+    assert frame.evaluate("document.querySelector('.beside').scrollTop") == scrolled
 
     def at_the_end():
         fresh.mouse.wheel(0, 4000)
@@ -192,6 +194,40 @@ def test_a_top(fresh, site):
     before, after = into_the_text(fresh, frame, g="3,5", zeta_3="40")
     assert after["parameters"]["g"] == before["parameters"]["g"] | {"default": 3.5}
     assert after["initial"] == before["initial"] | {"zeta_3": 40}
+
+
+CURVE = """() => {
+    const pen = document.querySelector(".graph canvas").getContext("2d");
+    const [begin, line, stroke] = [pen.beginPath, pen.lineTo, pen.stroke].map((x) => x.bind(pen));
+    window.lines = [];
+    let path = [];
+    pen.beginPath = () => { path = []; begin(); };
+    pen.lineTo = (x, y) => { path.push(y); line(x, y); };
+    pen.stroke = () => { window.lines.push(path); stroke(); };
+}"""
+"""Keeps the heights of the lines of the graph."""
+
+
+def test_a_graph_of_what_is_chosen(fresh, site):
+    """The tilt goes with A₃₃, and what is kept is level."""
+    visit(fresh, f"{site}#top", "top")
+    frame = moving(fresh)
+    fresh.wait_for_selector("iframe[data-kept]", state="attached")
+    offered = frame.locator(".graph option").all_text_contents()
+    assert offered[0] == "cosine of the tilt of the third axis"
+    assert [x.split()[0] for x in offered[1:5]] == ["ζ₁", "ζ₂", "ζ₃", "energy"]
+    frame.evaluate(CURVE)
+
+    def heights(k):
+        frame.select_option(".graph select", index=k)
+        shown_at(frame, 0.3)
+        return frame.evaluate("window.lines.findLast((x) => x.length > 20)")
+
+    tilt, energy = np.array(heights(0)), np.array(heights(4))
+    trail = np.array(frame.evaluate(f"{MOTION}.trail.slice(1).map(([, x]) => x[8])"))
+    assert np.abs(np.corrcoef(trail, -tilt)[0, 1] - 1) < 1e-9
+    assert np.ptp(tilt) > 20
+    assert np.ptp(energy) < 1e-3
 
 
 def test_other_bodies(fresh, site):

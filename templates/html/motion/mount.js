@@ -8,7 +8,7 @@
  * outputs: the names of what is read off the motion, where there is some;
  * labels: { name: [meaning, unit] }; kept: { name: [words, unit] }; weightless: the names of what is kept
  * only where all of weight, trees, are 0; units: { t, energy }; body: see moving_body.py; words, comma }.
- * pieces: { stage, side: what draws there; turned_start; flattened, where a group stretches; the shapes of
+ * pieces: { stage, side, graph: what draws there; turned_start; flattened, where a group stretches; the shapes of
  * the body, and what makes them }.
  * Texts of a problem come in as text, never as markup. */
 function mount(element, page, pieces) {
@@ -81,7 +81,7 @@ function mount(element, page, pieces) {
     return found;
   }
 
-  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element), side = pieces.side?.(scene), views = side ? [stage, side] : [stage];
+  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element), side = pieces.side?.(scene), graph = pieces.graph?.(scene, page.in_time), views = [stage, ...(side ? [side] : []), ...(graph ? [graph] : [])];
 
   /* ---- the frame */
 
@@ -324,9 +324,16 @@ function mount(element, page, pieces) {
       (lost ? others : lines).append(make("tr", { "data-name": name }, make("th", { scope: "row" }, label, measured(" " + unit)), ...cells));
     }
     table.tHead.hidden = !lines.firstChild;
+    const [part] = page.body.parts, tilt = part?.n === 3 && !part.deforms ? part.map[2][2] : -1;
+    graph?.offer([
+      ...(tilt < 0 ? [] : [[page.tilt, (t, x) => x[tilt]]]),
+      ...page.adjusted.map((s) => [`${called(page.names[s])} ${about(page.names[s])[0]}`.trim(), (t, x) => x[s]]),
+      ...Object.keys(first).filter((name) => rows[name][1]).map((name) => [(page.kept[name] ?? [words[name]])[0], (t, x) => invariants(t, x)[name]]),
+    ]);
   }
 
   if (side) side.element.className = side.shape;
+  if (graph) graph.element.className = "flat";
   const beside = side ? [make("figure", {}, side.element, make("figcaption", {}, side.element.getAttribute(aria)))] : [];
   const coarse = (v) => 10 ** floor(log10(abs(v) || 1)) / 100;
   const of_start = page.adjusted.map((s) => adjuster(page.names[s], ...about(page.names[s]), x0[s], coarse(x0[s] || fast), (v) => (x0[s] = v)));
@@ -351,7 +358,7 @@ function mount(element, page, pieces) {
     make("div", { class: "controls", role: "group", [aria]: words.controls },
       button("❘◂", words.again, () => seek(0)), button("◂", words.back, () => stepped(-1)), toggle,
       button("▸", words.step, () => stepped(1)), slider, clock, make("label", {}, words.pace, " ", speeds), ...within),
-    make("div", { class: "beside" }, ...beside, table, make("p", { class: "keys" }, words.keys)),
+    make("div", { class: "beside" }, ...(graph ? [make("figure", { class: "graph" }, graph.list, graph.element), table, ...beside] : [...beside, table]), make("p", { class: "keys" }, words.keys)),
   );
   on(document, "keydown", (e) => {
     if (e.ctrlKey || e.metaKey || e.altKey || e.target.closest("input, select, summary, textarea, [role=slider]")) return;
