@@ -32,6 +32,7 @@ def seek(shown, t):
 def typed(shown, name, text):
     """Type a number, and leave its box."""
     row = shown.locator(f'[data-name="{name}"]')
+    row.evaluate("(e) => { (e.closest('details') ?? {}).open = true; }")
     if row.locator("[role=slider]").is_visible():
         row.locator("[role=slider]").press("Enter")
     row.locator("input[inputmode]").fill(text)
