@@ -97,6 +97,8 @@ class Play:
         from derive.views.arrows import arrows, legend, marks
         from derive.views.html import fragment
         from derive.views.language import language
+        from derive.views.latex import anchor
+        from derive.views.stations import told as road
 
         with self.refusals():
             self.read(text)
@@ -104,6 +106,7 @@ class Play:
             seen = arrows(self.record)
             told["answer"] = answer_mathml(self.record, marks(seen))
             told["arrows"] = legend(self.record, seen, language(lang))
+            told["road"] = [*road(self.record, anchor)]
             self.tell("derived", told)
             found = corrections(self.record)
             for piece in fragment([self.record], language=language(lang), findings=found):

@@ -11,6 +11,7 @@ import { asked, spoken } from "./link.js";
 import { menu } from "./menu.js";
 import { Motion } from "./see.js";
 import { Projector } from "./projector.js";
+import { Road } from "./road.js";
 import { Steps } from "./steps.js";
 import { Tabs } from "./tabs.js";
 import { Take } from "./take.js";
@@ -43,6 +44,7 @@ const projector = new Projector(the("projector"), {
   },
   left: (id) => (id ? go(id, true) : tabs.show("see")),
 });
+const road = new Road(the("road").firstElementChild, (id) => (id ? go(id) : tabs.show("take")));
 const take = new Take(the("take"), data, {
   ask: files, reasons, file: () => ({ name: problem_name(), text: text.text, title: equations.title || problem_name(), ready: chosen() }),
 });
@@ -117,6 +119,7 @@ function ended(how) {
 /* the equations of motion, at the head of what is derived */
 function answer(equations, vectors = []) {
   the("answer").hidden = !equations.length;
+  if (!equations.length) road.show([]);
   arrows.show(equations, vectors);
 }
 
@@ -155,6 +158,7 @@ async function walk() {
     if (kind === "derived") {
       count = news.steps;
       answer(news.answer, news.arrows);
+      road.show(news.road, words, news.name);
     }
     else if (kind === "warning") found.push({ line: 1, ...(news.message ? news : { message: news }), severity: "warning" });
     else if (kind === "error") {
@@ -207,12 +211,14 @@ async function check() {
   }
   if (walked?.text !== text.text) return say(words.unfit);
   equations.unticked();
+  road.unticked();
   say(words.checking);
   let count = 0, wrong = 0, bound = "", refused = "";
   const how = await engine.ask({ ask: "check", text: text.text }, (kind, news) => {
     if (kind === "error") refused = news.message;
     if (kind !== "verdict") return;
     equations.tick(news);
+    road.tick(news);
     if (news.of !== "equation") return;
     if (news.holds) ++count;
     else ++wrong;
@@ -413,6 +419,7 @@ function passed() {
   const at = equations.at();
   if (!places.stands || !at) return;
   steps.show(at.id);
+  road.here(at.id, steps.order);
   places.keep();
 }
 let resting = 0;

@@ -58,11 +58,11 @@ addEventListener("message", async ({ data, source, origin }) => {
       return;
     }
     home.replaceChildren();
-    home.motion = globalThis.drawing.mount(home, { ...data.page, module, pointed: (lit) => tell({ lit }) }, chosen(data.pieces));
+    home.motion = globalThis.drawing.mount(home, { ...data.page, module, in_time: data.in_time, tilt: data.tilt, pointed: (lit) => tell({ lit }) }, { ...chosen(data.pieces), graph: globalThis.drawing.graph });
     const into = document.createElement("button");
     Object.assign(into, { type: "button", className: "into", textContent: data.into });
     into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module) }));
-    home.querySelector(".beside").append(into);
+    home.querySelector(".values").append(into);
     tell({ moved: "" });
     new ResizeObserver(() => tell({ height: home.scrollHeight })).observe(home);
   } catch (e) {

@@ -71,10 +71,10 @@ export class Motion {
 
   show(words, lang, told) {
     this.words = words;
-    this.told = { ...told, lang, title: words.motion, into: words.into };
+    this.told = { ...told, lang, title: words.motion, into: words.into, in_time: words.inTime, tilt: words.tilt };
     this.more = null;
     this.frame = make("iframe", { src: "moving.html", title: words.motion });
-    this.note = make("p", { class: "note", role: "status" }, [words.moved, ...(told.page.pushed ? [words.pushed] : []), ...this.unset].join(" "));
+    this.note = make("p", { class: "note", role: "status" }, [...(told.page.pushed ? [words.pushed] : []), ...this.unset].join(" "));
     this.unset = [];
     this.place.replaceChildren(this.note, this.frame);
   }

@@ -29,9 +29,10 @@ export class Steps {
     this.select.hidden = !sections.length;
   }
 
+  get order() { return [...this.select.options].map((x) => x.value); }
+
   /* the step that is read */
   show(id) {
-    const listed = [...this.select.options].some((x) => x.value === id);
-    this.select.value = listed ? id : "";
+    this.select.value = this.order.includes(id) ? id : "";
   }
 }

@@ -8,7 +8,7 @@ import pytest
 import derive
 from derive.code.emit import emit
 from derive.code.options import Options
-from derive.command.showing import load_problem, ready_made
+from derive.command.showing import ready_made
 from derive.language.values import approximate
 from derive.problem.fields import state_names
 from derive.problem.toml import problem_of
@@ -17,7 +17,7 @@ from derive.views.figure.drawn_body import ExpressionValues
 from derive.views.page.moving_body import moving_body
 from derive.walk.spine.head import problem_data
 from tests.support.in_node import printed
-from tests.support.motion_pages import body_of, page, scripts, told
+from tests.support.motion_pages import body_of, scripts
 from tests.support.walks import derived
 
 
@@ -49,14 +49,6 @@ def test_every_ready_made_body_has_a_shape():
         state = state_names(d.problem.group) if d.problem.group else ()
         for part in body_of(d, [x for x in state if x != "t"])["parts"]:
             assert any(part.get(x) for x in ("points", "solids", "moments", "turning")), name
-
-
-def test_a_turn_has_the_slider_of_turns():
-    """A velocity that is no turn but a shear, or a stretch, has one to 1."""
-    for name in ("so3", "sl3", "two_tops"):
-        E = np.array(load_problem(name).group.basis, float)
-        turns = (-E.transpose(0, 2, 1) == E).all(axis=(1, 2))
-        assert told(page(name))["reach"] == np.where(turns, 60, 1).tolist()
 
 
 SIDES = (0.5, 1.2, 0.9)

@@ -58,22 +58,35 @@ def shown_at(frame, t):
 def adjuster(frame, name):
     """The row of a number, in an open group."""
     row = frame.locator(f'[data-name="{name}"].adjuster')
-    row.locator("xpath=ancestor::details").evaluate("(e) => { e.open = true; }")
+    row.evaluate(
+        "(e) => { for (let x = e; x; x = x.parentElement) if ('open' in x) x.open = true; }"
+    )
     return row
 
 
 def set_to(frame, name, value, key="Tab"):
     """Type a number."""
-    box = adjuster(frame, name).locator("input[inputmode]")
+    row = adjuster(frame, name)
+    row.locator("[role=slider]").press("Enter")
+    box = row.locator("input[inputmode]")
     box.fill(value)
     box.press(key)
 
 
 def slid(frame, **values):
-    """Each slider changes the motion, and all goes back."""
+    """Each number changes the motion, by keys and by dragging, and all goes back."""
     first = frame.evaluate(STATE, 1.0)
     for name, value in values.items():
-        adjuster(frame, name).locator("input[type=range]").fill(str(value))
+        slider = adjuster(frame, name).locator("[role=slider]")
+        was = float(slider.get_attribute("aria-valuenow"))
+        slider.press("PageUp" if value > was else "PageDown")
+        assert (float(slider.get_attribute("aria-valuenow")) > was) == (value > was)
+        slider.scroll_into_view_if_needed()
+        box, mouse = slider.bounding_box(), frame.page.mouse
+        mouse.move(box["x"] + 4, box["y"] + 8)
+        mouse.down()
+        mouse.move(box["x"] + (204 if value > was else -196), box["y"] + 8, steps=4)
+        mouse.up()
         assert apart(first, frame.evaluate(STATE, 1.0)) > 0.01, name
         frame.locator(".reset").click()
         assert frame.evaluate(STATE, 1.0) == first, name
@@ -146,6 +159,8 @@ def test_a_top(fresh, site):
     the_vectors_of_a_cone(frame)
     the_arrows_and_the_letters(fresh, frame)
     # the wheel scrolls, and zooms with Ctrl alone
+    frame.locator(".side").scroll_into_view_if_needed()
+    scrolled = frame.evaluate("document.querySelector('.beside').scrollTop")
     side = frame.locator(".side").bounding_box()
     fresh.mouse.move(side["x"] + side["width"] / 2, side["y"] + side["height"] / 2)
     before = frame.locator(".side").screenshot()
@@ -153,18 +168,18 @@ def test_a_top(fresh, site):
     fresh.mouse.wheel(0, -300)
     fresh.keyboard.up("Control")
     until(frame, "true", lambda: frame.locator(".side").screenshot() != before)
-    assert frame.evaluate("document.querySelector('.beside').scrollTop") == 0
+    assert frame.evaluate("document.querySelector('.beside').scrollTop") == scrolled
 
     def at_the_end():
         fresh.mouse.wheel(0, 4000)
-        reset = frame.locator(".reset").bounding_box()
-        return reset["y"] + reset["height"] <= 800
+        last = frame.locator(".keys").bounding_box()
+        return last["y"] + last["height"] <= 800
 
     until(frame, "true", at_the_end)
-    # every parameter and number of the start has a slider
+    # every parameter and number of the start can be set, those that are not 0 at sight
     names = frame.evaluate("[...document.querySelectorAll('.adjuster')].map((x) => x.dataset.name)")
-    start = [f"{x}_{k}" for x in ("zeta", "theta") for k in (1, 2, 3)]
-    assert names == [*start, *module_of("top").PARAMETERS]
+    start = ["zeta_1", "zeta_2", *(f"theta_{k}" for k in (1, 2, 3))]
+    assert names == ["zeta_3", *module_of("top").PARAMETERS, *start]
     slid(frame, g=5.0, zeta_1=40.0, theta_1=0.4)
     # what is kept is found behind the motion, and stays
     fresh.wait_for_selector("iframe[data-kept]", timeout=90_000)
@@ -179,6 +194,40 @@ def test_a_top(fresh, site):
     before, after = into_the_text(fresh, frame, g="3,5", zeta_3="40")
     assert after["parameters"]["g"] == before["parameters"]["g"] | {"default": 3.5}
     assert after["initial"] == before["initial"] | {"zeta_3": 40}
+
+
+CURVE = """() => {
+    const pen = document.querySelector(".graph canvas").getContext("2d");
+    const [begin, line, stroke] = [pen.beginPath, pen.lineTo, pen.stroke].map((x) => x.bind(pen));
+    window.lines = [];
+    let path = [];
+    pen.beginPath = () => { path = []; begin(); };
+    pen.lineTo = (x, y) => { path.push(y); line(x, y); };
+    pen.stroke = () => { window.lines.push(path); stroke(); };
+}"""
+"""Keeps the heights of the lines of the graph."""
+
+
+def test_a_graph_of_what_is_chosen(fresh, site):
+    """The tilt goes with A₃₃, and what is kept is level."""
+    visit(fresh, f"{site}#top", "top")
+    frame = moving(fresh)
+    fresh.wait_for_selector("iframe[data-kept]", state="attached")
+    offered = frame.locator(".graph option").all_text_contents()
+    assert offered[0] == "cosine of the tilt of the third axis"
+    assert [x.split()[0] for x in offered[1:5]] == ["ζ₁", "ζ₂", "ζ₃", "energy"]
+    frame.evaluate(CURVE)
+
+    def heights(k):
+        frame.select_option(".graph select", index=k)
+        shown_at(frame, 0.3)
+        return frame.evaluate("window.lines.findLast((x) => x.length > 20)")
+
+    tilt, energy = np.array(heights(0)), np.array(heights(4))
+    trail = np.array(frame.evaluate(f"{MOTION}.trail.slice(1).map(([, x]) => x[8])"))
+    assert np.abs(np.corrcoef(trail, -tilt)[0, 1] - 1) < 1e-9
+    assert np.ptp(tilt) > 20
+    assert np.ptp(energy) < 1e-3
 
 
 def test_other_bodies(fresh, site):
@@ -310,7 +359,7 @@ def test_on_a_phone_all_is_in_one_page_and_sides_together(browser, site):
         assert {*frame.evaluate(touch)} == {"pan-y"}
         until(frame, "document.documentElement.scrollHeight - innerHeight < 4 && innerHeight > 900")
         assert frame.locator("canvas").first.bounding_box()["height"] < 0.5 * 844
-        frame.locator(".reset").scroll_into_view_if_needed()
+        frame.locator(".keys").scroll_into_view_if_needed()
         assert page.evaluate("scrollY") > 200
         assert frame.locator(".keys").is_visible()
 

@@ -86,8 +86,6 @@ DEFINED = re.compile(
 )
 
 VELOCITIES = ("ζ", "w")
-REACH = 60.0
-"""1/s: an angular velocity has a slider to this at least, about ten turns in a second."""
 
 MOST, CURVES = 24, 12
 """So many numbers of the velocity have sliders; so many of the state are drawn where no body is."""
@@ -269,7 +267,6 @@ def data(
         words["kept"] = language.word("What is kept without inputs")
     if group is not None and group.name.startswith(("SL(", "SAff(")) and "defect" in words:
         words["defect"] += " |det A − 1|"
-    turning = {s for s, E in zip(velocity, made.basis, strict=False) if _turns(E)}
     return {
         **{x: [*map(float, getattr(begin, x))] for x in ("x", "p", "u")},
         "entries": entries,
@@ -280,7 +277,6 @@ def data(
         "order": len(basis[0]) if basis else 0,
         "names": {s: made.state[s] for s in {*adjusted, *curves}},
         "adjusted": adjusted,
-        "reach": [REACH if s in turning else 1 for s in adjusted],
         **({"lost": True} if lost else {}),
         "curves": curves,
         **({"outputs": made.outputs} if made.outputs else {}),
@@ -297,12 +293,6 @@ def data(
         "words": words,
         "comma": language.name == "fr",
     }
-
-
-def _turns(E: Sequence[Sequence[Any]]) -> bool:
-    """Is a matrix of the basis antisymmetric?"""
-    span = range(len(E))
-    return all(E[i][j] + E[j][i] == 0 for i in span for j in span)
 
 
 def _meaning(name: str, record: Derivation, language: Language) -> str:

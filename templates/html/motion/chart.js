@@ -53,6 +53,22 @@ function velocities(scene) {
   return { ...chart(scene, scene.page.words.velocities, scene.velocity.slice(0, 9)), shape: "side flat" };
 }
 
+/* one quantity in time, chosen from a list of [words, (t, x) => number] */
+function graph(scene, label) {
+  let all = [], now = 0;
+  const list = make("select", { "aria-label": label, change: () => {
+    now = list.selectedIndex;
+    scene.ask();
+  } });
+  const view = chart(scene, label, [0], [""], (t, x) => [all[now][1](t, x)]);
+  return { ...view, list, offer(choices) {
+    all = choices;
+    now = max(0, min(now, all.length - 1));
+    list.replaceChildren(...all.map(([words]) => make("option", {}, words)));
+    list.selectedIndex = now;
+  } };
+}
+
 /* what is read off the motion, beside the body */
 function readings(scene) {
   const { page } = scene, read = page.outputs;

@@ -4,12 +4,11 @@
  * page: { module: the emitted module, with gauss; x, p, u: the start, in the module's order;
  * t, tol: how long, how exact; entries: [row, column, place] of the element of the group in x, whose
  * order × order matrices have the basis, [row, column, entry] of each; names: { place: name } of what is
- * shown of x, adjusted: the places that have sliders, curves: those drawn where no body is;
- * reach: how far the slider of each goes at least; lost: is the energy not kept?
+ * shown of x, adjusted: the places whose numbers can be set, curves: those drawn where no body is; lost: is the energy not kept?
  * outputs: the names of what is read off the motion, where there is some;
  * labels: { name: [meaning, unit] }; kept: { name: [words, unit] }; weightless: the names of what is kept
  * only where all of weight, trees, are 0; units: { t, energy }; body: see moving_body.py; words, comma }.
- * pieces: { stage, side: what draws there; turned_start; flattened, where a group stretches; the shapes of
+ * pieces: { stage, side, graph: what draws there; turned_start; flattened, where a group stretches; the shapes of
  * the body, and what makes them }.
  * Texts of a problem come in as text, never as markup. */
 function mount(element, page, pieces) {
@@ -82,7 +81,7 @@ function mount(element, page, pieces) {
     return found;
   }
 
-  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element), side = pieces.side?.(scene), views = side ? [stage, side] : [stage];
+  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element), side = pieces.side?.(scene), graph = pieces.graph?.(scene, page.in_time), views = [stage, ...(side ? [side] : []), ...(graph ? [graph] : [])];
 
   /* ---- the frame */
 
@@ -225,57 +224,91 @@ function mount(element, page, pieces) {
     ask();
   } }), " ", words.within)] : [];
 
+  /* a number that is dragged sideways, moved by the arrow keys, or typed after Enter: by a step for a pixel where there is
+   * one, else by a part of itself, so that it keeps its sign */
   const adjusters = [];
-  function adjuster(name, title, unit, initial, low_end, high_end, put) {
-    const range = make("input", { type: "range", min: low_end, max: high_end, step: "any", value: initial, [aria]: `${called(name)} ${title}` });
-    const exact = make("input", { inputmode: "decimal", autocomplete: "off", [aria]: called(name) });
+  function adjuster(name, title, unit, initial, step, put) {
+    const label = `${called(name)} ${title}`;
+    const ends = step ? [initial - 1e3 * step, initial + 1e3 * step] : [initial / 100, initial * 100].sort((a, b) => a - b);
+    const drag = make("span", { role: "slider", tabindex: 0, class: "drag", [aria]: label, "aria-valuemin": ends[0], "aria-valuemax": ends[1] });
+    const exact = make("input", { inputmode: "decimal", autocomplete: "off", [aria]: label, hidden: "" });
     const wrong = (is) => exact.setAttribute("aria-invalid", is);
+    let value;
     const write = (v) => {
-      exact.value = mark(String(+v.toPrecision(6)), page);
+      value = v;
+      exact.value = drag.textContent = mark(String(+v.toPrecision(6)), page);
+      drag.setAttribute("aria-valuenow", v);
+      drag.setAttribute("aria-valuetext", `${exact.value} ${unit}`);
       wrong(false);
     };
     const take = (v) => {
+      write(v);
       put(v);
       changed = `: ${called(name)} = ${exact.value}`;
       place_of = whole;
       restart();
     };
-    on(range, "input", () => {
-      write(range.valueAsNumber);
-      take(range.valueAsNumber);
+    const typing = (is) => {
+      exact.hidden = !is;
+      drag.hidden = is;
+    };
+    const by = (count, from = value) => {
+      const v = step ? step * round(from / step + count) : +(from * exp(count / 150)).toPrecision(3);
+      take(max(ends[0], min(ends[1], +v.toPrecision(9))));
+    };
+    let held = null;
+    on(drag, "pointerdown", (e) => {
+      held = [e.clientX, value, false];
+      drag.setPointerCapture(e.pointerId);
+    });
+    on(drag, "pointermove", (e) => {
+      if (!held || !(held[2] ||= abs(e.clientX - held[0]) > 2)) return;
+      by(round(e.clientX - held[0]), held[1]);
+    });
+    for (const over of ["pointerup", "pointercancel"]) on(drag, over, () => (held = null));
+    const type = () => {
+      typing(true);
+      exact.select();
+    };
+    on(drag, "dblclick", type);
+    on(drag, "keydown", (e) => {
+      const count = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[e.key];
+      if (count) by(count * (step ? 1 : 5));
+      else if (e.key === "Home") take(initial);
+      else if (e.key === "Enter") type();
+      else return;
+      e.preventDefault();
+      e.stopPropagation();
     });
     on(exact, "change", () => {
       const text = exact.value.trim().replace(",", ".").replaceAll("−", "-"), v = Number(text);
-      if (!text || !Number.isFinite(v)) {
-        wrong(true);
-        tell(words.no_number, whole);
-        return;
-      }
-      range.min = min(range.min, v);
-      range.max = max(range.max, v);
-      range.value = v;
-      wrong(false);
-      take(v);
+      if (text && Number.isFinite(v)) return take(v);
+      wrong(true);
+      tell(words.no_number, whole);
     });
+    on(exact, "keydown", (e) => {
+      if (e.key !== "Enter" && e.key !== "Escape") return;
+      if (e.key === "Escape") write(value);
+      exact.blur();
+      drag.focus();
+    });
+    on(exact, "blur", () => typing(exact.getAttribute("aria-invalid") === "true"));
     adjusters.push(() => {
       put(initial);
-      range.value = initial;
       write(initial);
+      typing(false);
     });
     write(initial);
-    const whole = make("div", { class: "adjuster", "data-name": name },
-      make("span", { class: "name" }, called(name)), range, exact, measured(unit),
-      ...(title ? [make("small", {}, title)] : []));
+    const whole = make("span", { class: "adjuster", "data-name": name, title },
+      make("span", { class: "name" }, called(name)), ...(title ? [make("small", {}, title)] : []), drag, exact, measured(unit));
     return whole;
   }
-  const span = (v) => (v > 0 ? [0, 2 * v] : v < 0 ? [2 * v, 0] : [-1, 1]);
-  const about_zero = (least, most = max(least, 2 * fast)) => [-most, most];
   const about = (name) => page.labels[name] ?? ["", ""];
   const fast = max(...velocity.map((s) => abs(x0[s])), 0);
   const measured = (unit) => make("span", { class: "unit" }, unit);
-  const MOST = 24;
-  const group = (title, note, rows, open) => rows.length
-    ? [make("details", open ? { open: "" } : {}, make("summary", {}, title), ...(note ? [make("p", {}, note)] : []), ...rows)] : [];
+  const MOST = 24, FIRST = 8;
+  const group = (title, note, rows) => rows.length
+    ? [make("details", {}, make("summary", {}, title), ...(note ? [make("p", {}, note)] : []), ...rows)] : [];
 
   const rows = {};
   const table = make("table", {}, make("thead", {}, make("tr", {}, make("th", {}, words.kept), make("td", {}), make("th", {}, words.change))));
@@ -291,15 +324,27 @@ function mount(element, page, pieces) {
       (lost ? others : lines).append(make("tr", { "data-name": name }, make("th", { scope: "row" }, label, measured(" " + unit)), ...cells));
     }
     table.tHead.hidden = !lines.firstChild;
+    const [part] = page.body.parts, tilt = part?.n === 3 && !part.deforms ? part.map[2][2] : -1;
+    graph?.offer([
+      ...(tilt < 0 ? [] : [[page.tilt, (t, x) => x[tilt]]]),
+      ...page.adjusted.map((s) => [`${called(page.names[s])} ${about(page.names[s])[0]}`.trim(), (t, x) => x[s]]),
+      ...Object.keys(first).filter((name) => rows[name][1]).map((name) => [(page.kept[name] ?? [words[name]])[0], (t, x) => invariants(t, x)[name]]),
+    ]);
   }
 
   if (side) side.element.className = side.shape;
+  if (graph) graph.element.className = "flat";
   const beside = side ? [make("figure", {}, side.element, make("figcaption", {}, side.element.getAttribute(aria)))] : [];
+  const coarse = (v) => 10 ** floor(log10(abs(v) || 1)) / 100;
+  const of_start = page.adjusted.map((s) => adjuster(page.names[s], ...about(page.names[s]), x0[s], coarse(x0[s] || fast), (v) => (x0[s] = v)));
+  const still_ones = of_start.filter((_, i) => !page.x[page.adjusted[i]]);
+  const numbers = (names, list) => names.map((name, i) => adjuster(name, ...about(name), list[i], list[i] ? 0 : 0.01, (v) => (list[i] = v)));
+  const parameters = numbers(module.PARAMETERS, p), inputs = numbers(module.INPUTS, u);
   const settings = [
-    ...group(words.start, "", page.adjusted.map((s, i) => adjuster(page.names[s], ...about(page.names[s]), x0[s], ...about_zero(page.reach[i]), (v) => (x0[s] = v))), true),
-    ...group(words.element, words.turned, theta.slice(0, MOST).map((_, k) => adjuster(`theta_${k + 1}`, "", "", 0, -3, 3, (v) => (theta[k] = v))), false),
-    ...group(words.parameters, "", module.PARAMETERS.map((name, i) => adjuster(name, ...about(name), p[i], ...span(p[i]), (v) => (p[i] = v))), true),
-    ...group(words.inputs, "", module.INPUTS.map((name, i) => adjuster(name, ...about(name), u[i], ...span(u[i]), (v) => (u[i] = v))), false),
+    ...of_start.filter((x) => !still_ones.includes(x)), ...parameters.splice(0, FIRST), ...inputs.splice(0, FIRST),
+    ...group(words.start, "", still_ones),
+    ...group(words.element, words.turned, theta.slice(0, MOST).map((_, k) => adjuster(`theta_${k + 1}`, "", "", 0, 0.01, (v) => (theta[k] = v)))),
+    ...group(words.parameters, "", parameters), ...group(words.inputs, "", inputs),
   ];
   const reset = make("button", { type: "button", class: "reset", click: () => {
     for (const back of adjusters) back();
@@ -308,14 +353,15 @@ function mount(element, page, pieces) {
 
   element.classList.add("motion");
   element.append(
+    make("div", { class: "values" }, ...settings, reset),
     home,
     make("div", { class: "controls", role: "group", [aria]: words.controls },
       button("❘◂", words.again, () => seek(0)), button("◂", words.back, () => stepped(-1)), toggle,
-      button("▸", words.step, () => stepped(1)), slider, clock, make("label", {}, words.pace, " ", speeds), ...within, make("p", { class: "keys" }, words.keys)),
-    make("div", { class: "beside" }, ...beside, table, ...settings, reset),
+      button("▸", words.step, () => stepped(1)), slider, clock, make("label", {}, words.pace, " ", speeds), ...within),
+    make("div", { class: "beside" }, ...(graph ? [make("figure", { class: "graph" }, graph.list, graph.element), table, ...beside] : [...beside, table]), make("p", { class: "keys" }, words.keys)),
   );
   on(document, "keydown", (e) => {
-    if (e.ctrlKey || e.metaKey || e.altKey || e.target.closest("input, select, summary, textarea")) return;
+    if (e.ctrlKey || e.metaKey || e.altKey || e.target.closest("input, select, summary, textarea, [role=slider]")) return;
     if (e.key === " " && e.target.closest("button")) return;
     const does = { " ": () => (playing ? pause() : play()), ArrowLeft: () => stepped(-1), ArrowRight: () => stepped(1), Home: () => seek(0), End: () => seek(page.t) }[e.key];
     if (does) {

@@ -1,0 +1,48 @@
+/* The road to the equations in a few stations, at the foot of the page: each with its formula leads to its step, the last one
+ * to the code. */
+import { power } from "./equations.js";
+import { make } from "./dom.js";
+
+export class Road {
+  #buttons = [];
+
+  /* go(id): what a station does, of a step or, "", of the code */
+  constructor(place, go) {
+    this.place = place;
+    this.go = go;
+  }
+
+  /* stations: [{ name, id, shown, paper }] as the record has them; name: of what is moved by the code */
+  show(stations, words, name) {
+    this.place.parentElement.hidden = !stations.length;
+    if (!stations.length) return;
+    this.words = words;
+    const code = { name: "code", id: "", shown: `<code>${name}_rhs(t, x, k, …)</code>`, paper: words.codein };
+    const all = stations.some((x) => x.name === "body") ? [...stations, code] : stations;
+    this.#buttons = all.map(({ name: place, id, shown, paper }, i) => {
+      const button = make("button", { type: "button", "data-to": id, click: () => this.go(id) },
+        make("b", {}, `${i + 1} ${words.road[place]}`), make("span", { class: "formula" }), make("small", {}, paper || id));
+      button.children[1].innerHTML = shown;
+      return button;
+    });
+    this.place.replaceChildren(...this.#buttons.map((x) => make("li", {}, x)));
+  }
+
+  /* the step that is read: the stations that are behind it, of all the steps in their order */
+  here(id, order) {
+    const at = order.indexOf(id);
+    const last = this.#buttons.findLast((x) => x.dataset.to && order.indexOf(x.dataset.to) <= at);
+    for (const x of this.#buttons) x.setAttribute("aria-current", x === last ? "step" : "false");
+  }
+
+  unticked() {
+    for (const tick of this.place.querySelectorAll(".tick")) tick.remove();
+  }
+
+  tick({ id, holds, bound, reason }) {
+    const title = holds ? this.words.holds(power(bound)) : `${this.words.fails}: ${reason}`;
+    for (const x of this.#buttons.filter((y) => y.dataset.to === id)) {
+      x.firstChild.append(make("span", { class: holds ? "tick" : "tick wrong", role: "img", title, "aria-label": title }, holds ? " ✓" : " ✗"));
+    }
+  }
+}

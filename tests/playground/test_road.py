@@ -1,0 +1,102 @@
+"""The road at the foot of the page: its stations are equations of the steps that they lead to."""
+
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+from derive.command.showing import ready_made
+from tests.support.played import Played, text_of
+from tests.support.playground_site import chosen, visit
+
+WHOLE = ["lagrangian", "group", "cartan", "exterior", "kernel", "body"]
+NOTE = {"lagrangian": 3, "group": 12, "cartan": 15, "exterior": 25, "kernel": 34}
+"""A number that the note has at each station of a solid about a point."""
+
+
+class Articles(HTMLParser):
+    """The text of the articles of a walk, by their ids."""
+
+    def __init__(self):
+        super().__init__()
+        self.now, self.texts = "", {}
+
+    def handle_starttag(self, tag, attrs):
+        if tag == "article":
+            self.now = dict(attrs)["id"]
+
+    def handle_data(self, data):
+        self.texts[self.now] = self.texts.get(self.now, "") + "".join(data.split())
+
+
+def plain(markup):
+    """The text of a formula up to what is left out, in which only the shape of signs counts."""
+    found = Articles()
+    found.feed(markup)
+    return found.texts[""].partition("…")[0].rstrip("+=")
+
+
+@pytest.fixture
+def played(tmp_path, monkeypatch):
+    return Played(tmp_path, monkeypatch)
+
+
+def road(played, name):
+    """The stations of a problem, and the texts of its steps."""
+    heard = played.asked("walk", text=text_of(name), lang="en")
+    (told,) = (news for kind, news in heard if kind == "derived")
+    articles = Articles()
+    articles.feed("".join(news for kind, news in heard if kind == "piece"))
+    return told["road"], articles.texts
+
+
+@pytest.mark.parametrize("name", ready_made())
+def test_a_station_is_an_equation_of_its_step(played, name):
+    stations, texts = road(played, name)
+    assert stations
+    for x in stations:
+        shown = plain(x["shown"])
+        assert len(shown) > 1
+        assert shown in texts[x["id"]], (x["name"], shown)
+
+
+def listed(text):
+    """The numbers in a list with runs, (11)–(13), (17)."""
+    runs = (re.findall(r"\d+", run) for run in text.split(","))
+    return {n for run in runs for n in range(int(run[0]), int(run[-1]) + 1)}
+
+
+def names(stations):
+    return [x["name"] for x in stations]
+
+
+def test_which_stations_a_road_has(played):
+    for name in ("so3", "top", "se3", "sl3", "pendulum"):
+        assert names(road(played, name)[0]) == WHOLE, name
+    stated = ["group", "cartan", "exterior", "kernel", "body"]
+    assert names(road(played, "euler_top")[0]) == stated  # no points, so no L
+    assert names(road(played, "ideal_fluid")[0]) == WHOLE[:-1]
+    assert names(road(played, "linear")[0]) == WHOLE[:-1]  # any group has no body
+    assert names(road(played, "imu")[0]) == ["body"]  # a motion of first order
+    told = {x["name"]: x["paper"] for x in road(played, "so3")[0]}
+    for name, number in NOTE.items():
+        assert number in listed(told[name]), name
+
+
+def test_a_station_leads_to_its_step_and_is_ticked(fresh, site):
+    visit(fresh, f"{site}#so3")
+    stations = fresh.locator("#road button")
+    assert stations.count() == 7
+    stations.nth(4).focus()
+    fresh.keyboard.press("Enter")
+    fresh.wait_for_function("() => location.hash === '#so3/so3.kernel'")
+    assert fresh.locator("#walk article:focus").get_attribute("id") == "so3.kernel"
+    fresh.wait_for_selector("#road [data-to='so3.kernel'][aria-current=step]")
+    stations.nth(6).click()
+    assert fresh.is_visible("#take")
+    fresh.click("#check")
+    fresh.wait_for_selector("body[data-checked=holds]", timeout=90_000)
+    assert fresh.locator("#road .tick:not(.wrong)").count() == 6
+    chosen(fresh, "euler_top")
+    assert fresh.locator("#road .tick").count() == 0
+    assert stations.count() == 6
