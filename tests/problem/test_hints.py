@@ -220,6 +220,8 @@ def test_of_names_as_near_one_that_begins_so_is_meant():
     """The component that begins so, and all of them where there are some."""
     assert near_name("f1", ["f4_1", "f1_1", "f2_1"]) == "f1_1"
     assert near_name("zeta_9", ["zeta_1", "zeta_2"]) == "zeta_2"
+    assert near_name("w_1", ["T_1", "zeta_1"]) == "zeta_1"  # of translations alone
+    assert near_name("w_4", ["T_1", "zeta_1", "w_1"]) == "w_1"
     forces = [Force(f"f{k}", 1) for k in range(1, 5)]
     problem = Problem("b", "SO(2)", Points((1, [1, 0])), forces)
     with pytest.raises(MotionError) as caught:
