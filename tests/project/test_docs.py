@@ -215,7 +215,8 @@ def test_sympy_is_where_it_is_said_to_be():
     outside = {f"derive/python/{x}.py" for x in DOORS}
     files = (
         *(f"integrals/{x}" for x in ("lie_poisson", "parameter_cases", "reduced")),
-        *("equilibria/energy_casimir", "reduction/routhian", "reduction/state_functions"),
+        *("equilibria/energy_casimir", "equilibria/stability_in_letters"),
+        *("reduction/routhian", "reduction/state_functions"),
     )
     assert importing == outside | {f"derive/search/{x}.py" for x in files}
     assert all(f"`{x}`" in PAGES["docs/architecture.md"] for x in importing)
