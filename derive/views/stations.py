@@ -14,11 +14,12 @@ from .outline import latex_names, printed
 from .printing.line_breaking import measure
 from .printing.signs import Notation
 from .printing.tex import formula
-from .printing.typeset import Formula, literal, word
+from .printing.typeset import Formula, literal
+from .printing.typeset import word as symbol
 
 WIDE = 15.0
 """em: terms that go beyond are left out."""
-DOTS = word(r"\dots", "…")
+DOTS = symbol(r"\dots", "…")
 
 
 @dataclass(frozen=True)
