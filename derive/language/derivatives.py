@@ -77,7 +77,7 @@ def rate(t: Tree, known: Mapping[Tree, Tree]) -> Tree:
         return 0
     op, parts = t[0], operands(t)
     if op == "sum":
-        return _rate_of_sum(*parts, known)
+        return _rate_of_sum(parts[0], parts[1], known)
     rates = [rate(x, known) for x in parts]
     varied = [(k, x) for k, x in enumerate(rates) if x != 0]
     if not varied:
@@ -100,7 +100,7 @@ def rate(t: Tree, known: Mapping[Tree, Tree]) -> Tree:
 def _rate_of_sum(index: Tree, body: Tree, known: Mapping[Tree, Tree]) -> Tree:
     """The rate of a sum: of what varies in all its terms, and of members of families that do."""
     inside = rate(body, known)
-    found = [("sum", index, inside)] if inside != 0 else []
+    found: list[Tree] = [("sum", index, inside)] if inside != 0 else []
     for x, own in known.items():
         if isinstance(x, tuple) and x[0] == "at" and ("at", x[1], index) in nodes(body):
             found.append(rate(replaced(body, index, x[2]), {x: own}))

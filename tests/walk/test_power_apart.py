@@ -254,7 +254,12 @@ def test_a_stiffness_inside_the_body_is_told_apart_from_another():
 
 
 def test_the_record_holds():
-    assert all(x.holds for x in own_verdicts(derived().record))
+    record = derived().record
+    checker = Checker(record.problem, 7)
+    told = [s for s in record.steps if s.label in ("drone.input", "drone.power")]
+    assert len(told) == 2
+    assert all(checker.check(x).holds for x in told)
+    assert checker.symbols(record).holds
 
 
 @pytest.mark.parametrize("factor", [-1, 2])
