@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from hashlib import sha256
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from .tree import Tree, add, fold, mul, neg
+from .tree import Tree, add, fold, mul, neg, nodes, operands, replaced
 
 
 def _f(name: str, x: Tree) -> Tree:
@@ -62,6 +62,68 @@ def derivative(t: Tree, x: Tree) -> Tree:
         inner = derivative(t[2], x)
         return product(DERIVATIVES[t[1]](t[2]), inner) if inner != 0 else 0
     raise ValueError(f"no derivative of {op!r}")
+
+
+MULTILINEAR = ("mul", "inner", "metric", "wedge", "tr", "T", "hat", "entry")
+"""Operators that are linear in each of their operands but indices."""
+
+
+def rate(t: Tree, known: Mapping[Tree, Tree]) -> Tree:
+    """The rate of a tree of numbers, vectors and matrices, 0 where nothing in it varies; ``known``:
+    the rates of what varies by itself. ``ValueError`` for operators that have none."""
+    if t in known:
+        return known[t]
+    if not isinstance(t, tuple) or t[0] in ("par", "at") or t[:1] + t[2:] == ("call", "t"):
+        return 0
+    op, parts = t[0], operands(t)
+    if op == "sum":
+        return _rate_of_sum(parts[0], parts[1], known)
+    rates = [rate(x, known) for x in parts]
+    varied = [(k, x) for k, x in enumerate(rates) if x != 0]
+    if not varied:
+        return 0
+    if op in ("add", "row"):
+        return add(*rates) if op == "add" else ("row", *rates)
+    if op == "matrix":
+        rows = zip(rates, parts, strict=True)
+        return ("matrix", *(x or ("row", *(0 for _ in y[1:])) for x, y in rows))  # type: ignore[index]
+    if op in MULTILINEAR:
+        moved = ((*parts[:k], x, *parts[k + 1 :]) for k, x in varied)
+        return add(*(_multiple(mul(*x)) if op == "mul" else (op, *x) for x in moved))
+    if op == "norm2" and len(parts) == 1:
+        return mul(2, ("inner", *parts, *rates))
+    if op in ("div", "pow", "fun"):
+        return add(*(product(_slope(t, k), x) for k, x in varied))
+    raise ValueError(f"no rate of {op!r}")
+
+
+def _rate_of_sum(index: Tree, body: Tree, known: Mapping[Tree, Tree]) -> Tree:
+    """The rate of a sum: of what varies in all its terms, and of members of families that do."""
+    inside = rate(body, known)
+    found: list[Tree] = [("sum", index, inside)] if inside != 0 else []
+    for x, own in known.items():
+        if isinstance(x, tuple) and x[0] == "at" and ("at", x[1], index) in nodes(body):
+            found.append(rate(replaced(body, index, x[2]), {x: own}))
+    return add(*found)
+
+
+def _multiple(t: Tree) -> Tree:
+    """A product, of a number and a matrix by entries."""
+    match t:
+        case ("mul", int() | Fraction() as c, ("matrix", *rows)):
+            return ("matrix", *(("row", *(mul(c, x) for x in row[1:])) for row in rows))
+    return t
+
+
+def _slope(t: tuple[Any, ...], k: int) -> Tree:
+    """The derivative of an operator by its operand k alone."""
+    before = t[:2] if t[0] == "fun" else t[:1]
+    parts, after = operands(t), t[2:] if t[0] == "pow" else ()
+    slots = [f"∂{i}" for i, _ in enumerate(parts)]
+    found = derivative((*before, *slots, *after), slots[k])
+    for slot, x in zip(slots, parts, strict=True):
+        found = replaced(found, slot, x)
+    return found
 
 
 def power(x: Tree, n: int) -> Tree:

@@ -137,6 +137,10 @@ def numbers_of_input(told: Mapping[str, Any], dimension: int) -> list[str]:
     return [suffixed(name, k) for k in range(1, dimension + 1)]
 
 
+UNNAMED_FORCE, UNNAMED_DAMPING = "force", "damping"
+"""What forces of the state and damping are called in sums, where they have no names."""
+
+
 def numbers_of_output(told: Mapping[str, Any], dimension: int) -> list[str]:
     """The names of the numbers of an output, which is ``told`` as in a record, in a space of so
     many dimensions: of a vector, of a number, or of expressions."""

@@ -10,7 +10,7 @@ from ..algebra.groups import Group
 from ..algebra.structure import TorusLattice
 from ..language.limits import Refused
 from ..language.reserved import numbers_of_input, numbers_of_output
-from ..language.tree import Tree, add
+from ..language.tree import Tree
 from ..schema.body_kinds import AnyBody, Body, MomentBody, NoBody, Place, Point
 from ..schema.kind import (
     GROUP,
@@ -178,11 +178,9 @@ class Problem:
         return tuple(x.by_name() for x in self.forces if isinstance(x, StatedForce))
 
     @property
-    def stated_covector(self) -> tuple[Tree, ...]:
-        """The sum of the covectors of the state, by its values on the basis that the problem
-        states; empty where there are none."""
-        found = [x.by_name().covector for x in self.forces if isinstance(x, StatedCovector)]
-        return tuple(add(*entries) for entries in zip(*found, strict=True))
+    def stated_covectors(self) -> tuple[StatedCovector, ...]:
+        """The covectors of the state, by their numbers where these have names."""
+        return tuple(x.by_name() for x in self.forces if isinstance(x, StatedCovector))
 
     @property
     def named_numbers(self) -> dict[str, Tree]:

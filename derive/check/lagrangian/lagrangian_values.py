@@ -12,7 +12,7 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, nodes
 from ..trials.meaning import NameValues, Values
-from ..trials.output_values import OBSERVED, Observed
+from ..trials.output_values import Observed
 from ..values.arithmetic import EPS, EPS_PRIME, ETA, EvaluationError, nilpotent, part
 from ..values.evaluate import Environment, evaluate
 from . import reduced_by_symmetries
@@ -32,7 +32,7 @@ def environment(model: LagrangianModel) -> Environment:
         ),
         _families(model),
         _functions(model),
-        Observed(model) if OBSERVED & {*model.problem} else model.parameters,
+        Observed(model),
         elementary=model.elementary,
         unit=model.unit,
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -13,11 +13,19 @@ from typing import Any
 from ...algebra.groups import Group
 from ...language import rational as q
 from ...language.rational import Matrix
-from ...language.reserved import numbers_of_input, suffixed
+from ...language.reserved import (
+    UNNAMED_DAMPING,
+    UNNAMED_FORCE,
+    numbers_of_input,
+    suffixed,
+)
 from ...record.as_json import decode
 from ..values.evaluate import Environment, evaluate
 from .phase_point import PhasePoint
-from .point_masses import Vector
+from .point_masses import Vector, damping_members
+
+Given = tuple[tuple[Any, ...], Mapping[str, Any]]
+"""The numbers of what acts, and what the record tells of it."""
 
 
 class GivenForces(PhasePoint):
@@ -75,9 +83,12 @@ class GivenForces(PhasePoint):
     @cached_property
     def given_forces(self) -> list[Vector]:
         """The force on each point, in space, by force inputs."""
+        return self._forces_of(self._given())
+
+    def _forces_of(self, acting: Iterable[Given]) -> list[Vector]:
         total = [[Fraction(0)] * self.n for _ in self.points]
         linear = self.group.linear_part(self.g)
-        for u, data in self._given():
+        for u, data in acting:
             found = self._along(u, data, "direction" if "kind" in data else "force")
             if data.get("kind") == "torque" or not found:
                 continue
@@ -92,9 +103,12 @@ class GivenForces(PhasePoint):
     def couple(self) -> Matrix:
         """The skew matrix N in the body of all torques that are given: their power is Tr Z N̄, as
         that of two opposite forces ±½j(τ)a at ±a, on axes a of length 1."""
-        n, group, total = self.n, self.group, self.moments_of_flow
-        linear = group.linear_part(self.g)
-        for u, data in self._given():
+        return q.plus(self.moments_of_flow, self._couple_of(self._given()))
+
+    def _couple_of(self, acting: Iterable[Given]) -> Matrix:
+        n, group = self.n, self.group
+        total, linear = q.scaled(Fraction(0), q.identity(n)), group.linear_part(self.g)
+        for u, data in acting:
             key = "direction" if data.get("kind") == "torque" else "moment"
             if key == "moment" and not data.get(key):
                 continue
@@ -116,11 +130,28 @@ class GivenForces(PhasePoint):
         """What flows inside the body has of moments: none where nothing flows."""
         return q.scaled(Fraction(0), q.identity(self.n))
 
-    def work_of_couple(self, xi: Matrix) -> Any:
-        """The work of all torques that are given in a displacement g ξ."""
-        return q.dot(q.flatten(self.couple), q.flatten(self.group.linear_part(xi)))
+    def work_of_couple(self, xi: Matrix, couple: Matrix | None = None) -> Any:
+        """The work of all torques that are given, or of a ``couple``, in a displacement g ξ."""
+        N = self.couple if couple is None else couple
+        return q.dot(q.flatten(N), q.flatten(self.group.linear_part(xi)))
 
-    def _given(self) -> Iterator[tuple[tuple[Any, ...], Mapping[str, Any]]]:
+    def power_of(self, name: str) -> Any:
+        """The power of what acts by a name: of forces by the velocities of their points in space,
+        of torques by that of the body, of covectors by that of 𝔤; ``KeyError`` where nothing
+        does."""
+        acting = [(u, x) for u, x in self._given() if (x.get("name") or UNNAMED_FORCE) == name]
+        dual = [x for own, x in self.covectors() if (own or UNNAMED_FORCE) == name]
+        damped = damping_members(self) if name == UNNAMED_DAMPING and self.at.driven else {}
+        if not (acting or dual or damped):
+            raise KeyError(name)
+        velocities, turned = self.images(self.nu), q.times(q.inverted(self.g), self.nu)
+        power = self.work_of_couple(turned, self._couple_of(acting))
+        power += sum(map(q.dot, self._forces_of(acting), velocities), Fraction(0))
+        for i, kappa in damped.items():
+            power -= kappa * q.dot(velocities[i - 1], velocities[i - 1])
+        return power + sum((q.dot(x, self.group.nearest(self.Z)) for x in dual), Fraction(0))
+
+    def _given(self) -> Iterator[Given]:
         """The forces and torques that are given, each with its numbers, and those that are stated,
         which have none."""
         yield from zip(self.input_forces, self.inputs_of("force", "torque"), strict=True)

@@ -44,7 +44,7 @@ from .momenta import (
     rigid_body_values,
     space_values,
 )
-from .output_values import OBSERVED, Observed, accelerations
+from .output_values import Observed, accelerations
 from .point_masses import listed_count, outer_sum
 
 # The mapping from names to exact values that an environment reads.
@@ -87,7 +87,7 @@ def environment(model: Model) -> Environment:
         NameValues(model, GROUPS),
         _families(model),
         _functions(model),
-        Observed(model) if OBSERVED & {*model.problem} else model.parameters,
+        Observed(model),
         elementary=model.elementary,
         listed=listed_count(model),
         copies=model.copies,

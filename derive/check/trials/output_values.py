@@ -14,13 +14,11 @@ from ..values.evaluate import evaluate
 from .point_masses import Vector, scaled_each
 
 Data = Mapping[str, Any]
-OBSERVED = {"outputs", "forces", "flows"}
-"""What in a problem has names of numbers that are found."""
 
 
 class Observed(Mapping[str, Any]):
-    """The parameters of a model, and by their names the outputs of its problem and the numbers of
-    its forces of the state, each found when it is first asked for."""
+    """The parameters of a model, and by their names the outputs of its problem, the numbers of its
+    forces of the state and the powers of what acts, each found when it is first asked for."""
 
     def __init__(self, model: Any):
         self.model, self.known = model, dict(model.parameters)
@@ -47,6 +45,8 @@ class Observed(Mapping[str, Any]):
                 self.told[name] = told
 
     def __getitem__(self, name: str) -> Any:
+        if name not in self.known and name not in self.told and name.startswith("P_"):
+            self.known[name] = self.model.power_of(name[1:].lstrip("_"))
         if name not in self.known:
             data = self.told[name]
             values = self.kinds[data["kind"]](data)

@@ -6,7 +6,7 @@ No structure equation is used: dϖ comes from nilpotent numbers on a family in t
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -103,13 +103,18 @@ class PhasePoint(Draws):
     @cached_property
     def acting_covector(self) -> list[Any]:
         """The values on the basis of the covector of the inputs and of those of the state."""
+        still = [Fraction(0) for _ in self.group.basis]
+        return [*map(sum, zip(still, *(x for _, x in self.covectors()), strict=True))]
+
+    def covectors(self) -> Iterator[tuple[str, list[Any]]]:
+        """The covectors apart: the name, "" where it has none, and the values on the basis."""
+        yield from ((x["name"], self.covector) for x in self.inputs_of("covector"))
         forces = self.problem.get("forces", ()) if self.at.driven and not self.generic else ()
-        total = [*self.covector]
-        for listed in (x["covector"] for x in forces if "covector" in x):
-            own = [evaluate(decode(x, "covector"), self.of_state) for x in listed]
-            for a, e in enumerate(self.group.basis):
-                total[a] += sum(map(mul, self.group.in_user_basis.nearest(e), own), Fraction(0))
-        return total
+        columns = [self.group.in_user_basis.nearest(e) for e in self.group.basis]
+        for x in forces:
+            if "covector" in x:
+                own = [evaluate(decode(y, "covector"), self.of_state) for y in x["covector"]]
+                yield x.get("name", ""), [sum(map(mul, c, own), Fraction(0)) for c in columns]
 
     def _without_parts(self, parts: Collection[str], xi: Matrix) -> Matrix:
         """A random element of 𝔤 without these parts; ``xi`` where the group has none of them."""

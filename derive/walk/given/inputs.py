@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
 from ...algebra.calculus import gradient, reduce, substitute
 from ...algebra.groups import Group
 from ...algebra.word_trees import fold_inertia, normal_form, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
-from ...language.reserved import suffixed
+from ...language.reserved import UNNAMED_DAMPING, UNNAMED_FORCE, suffixed
 from ...language.tree import Tree, add, mul, neg, nodes, plain, replaced
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
@@ -22,7 +23,7 @@ from ..spine.cartan import body_rule
 from ..spine.lagrangian import sum_over
 from ..spine.principle import AND
 from ..vectors.isomorphism import OMEGA_P, ZETA, HatMap, anticommute, inertia_of, vector_sum
-from .potentials import applied, column, embedded
+from .potentials import Applied, applied, column, embedded
 
 INPUTS = phrase("input.forces")
 DRAG = phrase("input.damping")
@@ -30,14 +31,23 @@ Push = ForceInput | TorqueInput | StatedForce
 TORQUE, FORCE = Letter("u", 3), Letter("f_u", 3)
 
 
+class Part(NamedTuple):
+    """What acts by one name, among the moments and in the resultant, 0 where it is in none."""
+
+    name: str
+    moment: Tree
+    pull: Tree
+
+
 @dataclass(frozen=True)
 class External:
-    """The forces from outside dϖ on words: their ``moments`` and ``resultant``, and the step that
-    says these."""
+    """The forces from outside dϖ on words: their ``moments`` and ``resultant``, the step that says
+    these, and the ``parts`` of which they are the sums."""
 
     moments: Expr
     resultant: Expr
     steps: tuple[Step, ...]
+    parts: tuple[Part, ...] = ()
 
 
 def acts(problem: Problem) -> bool:
@@ -72,7 +82,7 @@ def where_given(problem: Problem) -> Prose:
     ]
     if stated:
         given += say("input.stated", forces=listed("{first}; {second}", stated))
-    if problem.stated_covector:
+    if problem.stated_covectors:
         called = [f"‘{x.name}’" for x in problem.forces if x.name and x not in own]
         names = {"name": ", ".join(called)} if called else {}
         given += say("input.named_covector" if called else "input.covector", **names)
@@ -217,25 +227,41 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
     definitions, drag = _damping(problem, b)
     drag = reduce(drag, body_rule(b, C))
     xi, eta = Letter("ξ′", b.n, b.n), Letter("η′", b.n)
-    moments, pulls = [draft.tree(gradient(drag, xi))], [draft.tree(gradient(drag, eta))]
+    parts = [Part(UNNAMED_DAMPING, draft.tree(gradient(drag, xi)), draft.tree(gradient(drag, eta)))]
     definitions += [*_velocities(draft, problem, b, {}), *named_forces(problem)]
     for e, given in pushes(problem):
+        moments: list[Tree] = []
+        force: Tree = 0
         if not isinstance(given, TorqueInput) and entries_of(problem, e, given):
             force = _in_body(draft, problem, e, given, C, b)
             moments.append(mul(force, ("T", ("at", "r", given.on))))
-            pulls.append(force)
         if couple := couple_of(problem, e, given):
             moments.append(_skew(problem, given, couple))
-    if any(terms := covector_terms(problem, group)):
-        moment, pull = _matrix_of_covector(group, b, [add(*x) for x in terms])
-        moments.append(moment)
-        pulls.append(pull)
+        parts.append(Part(given.name or UNNAMED_FORCE, add(*moments), force))
+    for name, x in covectors(problem, group):
+        parts.append(Part(name, *_matrix_of_covector(group, b, x)))
+    return _external(problem, b, forces, draft, definitions, parts)
+
+
+def _external(
+    problem: Problem,
+    b: Alphabet,
+    forces: Applied,
+    draft: Draft,
+    definitions: Sequence[Equation],
+    parts: Sequence[Part],
+) -> External:
+    """The sums of the parts, with their step."""
+    assert problem.group is not None
+    moments, pulls = ([x.moment for x in parts], [x.pull for x in parts])
     equations = [*definitions, Equation(forces.moments.name, add(*moments))]
     if b.affine:
-        whole = add(*pulls) or column((0,) * group.n)  # moments alone
+        whole = add(*pulls) or column((0,) * problem.group.n)  # moments alone
         equations.append(Equation(forces.resultant.name, whole))
-    step = draft.step(equations, prose(problem))
-    return External(draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,))
+    step, own = draft.step(equations, prose(problem)), tuple(x for x in parts if any(x[1:]))
+    return External(
+        draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,), own
+    )
 
 
 def _in_body(
@@ -254,21 +280,22 @@ def _in_body(
     return f if b.unit == C else mul("C", f)
 
 
-def stated_covector(problem: Problem, group: Group) -> list[Tree]:
-    """The covector of the state, by its values on the basis of the record; none without one."""
-    own = problem.stated_covector
-    columns = [group.in_user_basis.nearest(e) for e in group.basis] if own else []
-    return [add(*(mul(plain(x), q) for x, q in zip(c, own, strict=True) if x)) for c in columns]
-
-
-def covector_terms(problem: Problem, group: Group) -> list[tuple[Tree, ...]]:
-    """What covectors have along each element of the basis: the input its entry of u, that of the
-    state an expression; nothing where there is neither."""
-    stated = stated_covector(problem, group)
+def covectors(problem: Problem, group: Group) -> list[tuple[str, tuple[Tree, ...]]]:
+    """The covectors by their names, each by its values on the basis of the record: the input by the
+    entries of u, those of the state by expressions."""
+    span = range(1, group.dimension + 1)
+    given = [problem.covector] if problem.covector else []
+    stated = problem.stated_covectors
+    columns = [group.in_user_basis.nearest(e) for e in group.basis] if stated else []
     return [
-        (*((("entry", "u", a + 1),) if problem.covector else ()), *stated[a : a + 1])
-        for a in range(group.dimension)
+        *((x.name, tuple(("entry", "u", a) for a in span)) for x in given),
+        *((x.name or UNNAMED_FORCE, tuple(_on(c, x.covector) for c in columns)) for x in stated),
     ]
+
+
+def _on(c: Sequence[Fraction], own: Sequence[Tree]) -> Tree:
+    """The value of a covector on an element of 𝔤, by its coordinates."""
+    return add(*(mul(plain(x), q) for x, q in zip(c, own, strict=True) if x))
 
 
 def _matrix_of_covector(group: Group, b: Alphabet, covector: Sequence[Tree]) -> tuple[Tree, Tree]:
@@ -332,32 +359,28 @@ def external_vectors(
     definitions, drag = _damping(problem, b)
     turned, pulled = _in_vectors(drag, b, C, hat_map)
     draft.depends_on(turned, pulled)
-    moments, pulls = [vector_sum(turned)], [vector_sum(pulled)]
+    parts = [Part(UNNAMED_DAMPING, vector_sum(turned), vector_sum(pulled))]
     if problem.damping:
         definitions.append(Equation("I_D", tree_of(inertia_of(Letter("D", 3, 3, 1)))))
     definitions += _velocities(draft, problem, b, {b.Z.velocity: hat_map.hatted(ZETA)})
     definitions += named_forces(problem)
     for e, given in pushes(problem):
+        moments: list[Tree] = []
+        force: Tree = 0
         if not isinstance(given, TorqueInput) and entries_of(problem, e, given):
             force = _in_body(draft, problem, e, given, C, b)
             moments.append(("wedge", ("at", "r", given.on), force))
-            pulls.append(force)
         if couple := couple_of(problem, e, given):
             torque = column(couple)
             moments.append(mul(("T", "A"), torque) if given.frame == "space" else torque)
-    if problem.covector:
-        moments.append(TORQUE.name)
-        pulls.append(FORCE.name)
+        parts.append(Part(given.name or UNNAMED_FORCE, add(*moments), force))
     assert problem.group is not None
-    if covector := tuple(stated_covector(problem, problem.group)):
-        moments.append(column(covector[:3]))
-        pulls.append(column(covector[3:]))
-    equations = [*definitions, Equation(forces.moments.name, add(*moments))]
-    if b.affine:
-        whole = add(*pulls) or column((0,) * problem.group.n)  # moments alone
-        equations.append(Equation(forces.resultant.name, whole))
-    step = draft.step(equations, prose(problem))
-    return External(draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,))
+    for k, (name, x) in enumerate(covectors(problem, problem.group)):
+        whole: tuple[Tree, Tree] = (column(x[:3]), column(x[3:]))
+        if problem.covector and k == 0:
+            whole = (TORQUE.name, FORCE.name)
+        parts.append(Part(name, *(whole if b.affine else (whole[0], 0))))
+    return _external(problem, b, forces, draft, definitions, parts)
 
 
 def _in_vectors(drag: Expr, b: Alphabet, C: Expr, hat_map: HatMap) -> tuple[Expr, Expr]:

@@ -2,37 +2,55 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from itertools import count
+
 from ...algebra.groups import Group
-from ...algebra.words import Expr, inner, trace, word
-from ...language.tree import Tree, add, mul, names, neg
+from ...algebra.word_trees import tree_of
+from ...algebra.words import Expr, inner, number, trace, word
+from ...language.derivatives import rate
+from ...language.tree import Tree, add, mul, names, neg, replaced
 from ...problem.fields import coordinates
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ..chapter import Chapter, Steps, say
 from ..lie.any_lagrangian import AnyLagrangian
-from ..lie.at_places import from_outside
+from ..lie.at_places import from_outside, works_by_name
 from ..spine.alphabet import Alphabet
 from ..vectors.isomorphism import ZETA, vector_sum
 from .inputs import External
+from .potentials import Potentials
 
 # With the work u(ξ) of the forces beside it, dϖ(X, δy) = u(ξ − Z δt) for every δ. Along the motion
 # the coefficient of δt says ḣ + ∂ₜL̃ = u(Z): the work in a displacement, with Z in its place.
 
 
 def of_vectors(
-    problem: Problem, external: External | None, b: Alphabet, kept: Steps, motion: Step, c: Chapter
+    problem: Problem,
+    external: External | None,
+    b: Alphabet,
+    found: Potentials,
+    kept: Steps,
+    motion: Step,
+    c: Chapter,
 ) -> tuple[Step, ...]:
     """ḣ = ⟨μ_u, ζ⟩ + ⟨F_u, w⟩ + ∂ₜŨ; no step where nothing acts and Ũ leaves the time alone."""
     turning = inner(external.moments, word(ZETA)) if external else None
-    return _of_points(problem, external, turning, b, kept, motion, c)
+    return _of_points(problem, external, turning, b, found, kept, motion, c)
 
 
 def of_matrices(
-    problem: Problem, external: External | None, b: Alphabet, kept: Steps, motion: Step, c: Chapter
+    problem: Problem,
+    external: External | None,
+    b: Alphabet,
+    found: Potentials,
+    kept: Steps,
+    motion: Step,
+    c: Chapter,
 ) -> tuple[Step, ...]:
     """ḣ = Tr(Z N̄_u) + ⟨F_u, w⟩ + ∂ₜŨ, as ``of_vectors``: the work of N_u is Tr(ξ′N̄_u)."""
     turning = trace(word(b.Z.velocity) * external.moments.bar) if external else None
-    return _of_points(problem, external, turning, b, kept, motion, c)
+    return _of_points(problem, external, turning, b, found, kept, motion, c)
 
 
 def _of_points(
@@ -40,6 +58,7 @@ def _of_points(
     external: External | None,
     turning: Expr | None,
     b: Alphabet,
+    found: Potentials,
     kept: Steps,
     motion: Step,
     c: Chapter,
@@ -47,20 +66,63 @@ def _of_points(
     """The step, by the power of the moments; ``kept``: what is without forces."""
     draft = c.draft("power", "power")
     terms: list[Tree] = []
+    apart: dict[str, Tree] = {}
     if external and turning is not None:
-        whole = turning
-        if b.affine:
-            whole = whole + inner(external.resultant, word(b.w.velocity))
-        draft.depends_on(whole)
+        pulling = inner(external.resultant, word(b.w.velocity)) if b.affine else number(0)
+        draft.depends_on(whole := turning + pulling)
         terms.append(vector_sum(whole))
-    if problem.timed:
-        terms.append(b.dU_dt.name)
-    if not terms:
+        apart = _apart(problem, external, vector_sum(turning), vector_sum(pulling))
+    timed: list[Tree] = [b.dU_dt.name] if problem.timed else []
+    if not terms and not timed:
         return ()
     draft.depends_on(motion, *kept)
-    sentence = "acting" if external else "none"
-    timed = say("power.timed", rate=b.dU_dt.name) if problem.timed else ()
-    return (draft.step([Equation("ḣ", add(*terms))], say(f"power.{sentence}") + timed),)
+    prose = say("power.acting" if external else "power.none")
+    prose += say("power.apart") if apart else ()
+    prose += say("power.timed", rate=b.dU_dt.name) if timed else ()
+    own = [Equation(b.dU_dt.name, _in_time(b, found.steps[0]))] if timed else []
+    return (draft.step([*own, *_balance(terms, timed, apart)], prose),)
+
+
+def _in_time(b: Alphabet, potential: Step) -> Tree:
+    """∂ₜŨ, from the equations of Ũ and of what stands in it."""
+    known: dict[Tree, Tree] = {"t": 1}
+    for e in potential.equations:
+        known |= {e.lhs: x} if e.lhs != "U" and (x := rate(e.rhs, known)) != 0 else {}
+    return known.get(b.U.name, 0)
+
+
+def _apart(problem: Problem, external: External, turning: Tree, pulling: Tree) -> dict[str, Tree]:
+    """The power of what acts by each name, the whole with its part in the place of each sum."""
+    sums = tree_of(external.moments), tree_of(external.resultant)
+    found: dict[str, list[Tree]] = {}
+    for x in external.parts:
+        both = zip((turning, pulling), sums, (x.moment, x.pull), strict=True)
+        powers = (replaced(t, whole, part) for t, whole, part in both if part != 0)
+        found.setdefault(x.name, []).extend(powers)
+    return _named(problem, {name: add(*powers) for name, powers in found.items()})
+
+
+def _named(problem: Problem, powers: Mapping[str, Tree]) -> dict[str, Tree]:
+    """Powers by their names, P_drag of ``drag``, with more underscores where a number of the
+    problem has this name; none where one thing acts alone."""
+    taken = {*problem.parameters, *problem.named_numbers}
+    taken |= {name for x in problem.inputs for name in problem.numbers_of(x)}
+    taken |= {name for x in problem.outputs for name in problem.numbers_of_output(x)}
+    found: dict[str, Tree] = {}
+    for name, power in powers.items() if len(powers) > 1 else ():
+        free = (f"P{'_' * k}{name}" for k in count(1))
+        found[next(x for x in free if x not in taken)] = power
+    return found
+
+
+def _balance(whole: list[Tree], timed: list[Tree], apart: Mapping[str, Tree]) -> list[Equation]:
+    """ḣ as a whole, the powers apart and ḣ as their sum."""
+    named: list[Tree] = [("par", name) for name in apart]
+    return [
+        Equation("ḣ", add(*whole, *timed)),
+        *(Equation(name, x) for name, x in zip(named, apart.values(), strict=True)),
+        *([Equation("ḣ", add(*named, *timed))] if named else []),
+    ]
 
 
 def of_lagrangian(
@@ -68,14 +130,23 @@ def of_lagrangian(
 ) -> tuple[Step, ...]:
     """ḣ = Σ u_a ζ_a − ∂ₜL̃; no step where nothing acts and L̃ leaves the time alone."""
     assert problem.lagrangian is not None
-    along = [add(*terms) for terms in from_outside(problem, group)]
-    power = add(*(mul(x, z) for x, z in zip(along, coordinates(group), strict=True)))
-    timed = "t" in names(problem.lagrangian.L)
+    power = _along([add(*terms) for terms in from_outside(problem, group)], group)
+    timed = [neg("∂ₜL̃")] if "t" in names(problem.lagrangian.L) else []
     if power == 0 and not timed:
         return ()
     draft = c.draft("power", "power")
     motion = next(x for x in balance if x.label == c.label("motion"))
     draft.depends_on(general["moment_map"], motion)
+    found: dict[str, list[Tree]] = {}
+    for name, work in works_by_name(problem, group):
+        found.setdefault(name, []).append(_along(work, group))
+    apart = _named(problem, {name: add(*powers) for name, powers in found.items()})
     prose = say("power.none" if power == 0 else "power.acting")
+    prose += say("power.apart") if apart else ()
     prose += say("power.timed", rate="∂ₜL̃") if timed else ()
-    return (draft.step([Equation("ḣ", add(power, neg("∂ₜL̃") if timed else 0))], prose),)
+    return (draft.step(_balance([power], timed, apart), prose),)
+
+
+def _along(work: Sequence[Tree], group: Group) -> Tree:
+    """A covector by its values on the basis, at Z."""
+    return add(*(mul(x, z) for x, z in zip(work, coordinates(group), strict=True)))

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from ...algebra.groups import Group
 from ...language.expression import hypot
 from ...language.rational import Matrix
+from ...language.reserved import UNNAMED_FORCE
 from ...language.tree import Tree, add, mul, neg, nodes, plain
 from ...problem.fields import coordinates, velocity_at_place
 from ...problem.problem import Problem, ProblemError
@@ -24,7 +25,7 @@ from ...schema.output_kinds import (
     VelocityOutput,
 )
 from ..chapter import Chapter
-from ..given.inputs import Push, couple_of, covector_terms, entries_of, pushes
+from ..given.inputs import Push, couple_of, covectors, entries_of, pushes
 from ..given.outputs import equation_of, prose_of
 
 Trees = list[Tree]
@@ -33,15 +34,17 @@ Trees = list[Tree]
 def from_outside(problem: Problem, group: Group) -> list[tuple[Tree, ...]]:
     """What acts along each element of the basis from outside dϖ, term by term: covectors, and the
     work of forces and torques at places."""
-    covectors = covector_terms(problem, group)
+    works = [x for _, x in works_by_name(problem, group)]
+    span = range(group.dimension)
+    return [tuple(work[a] for work in works if work[a] != 0) for a in span]
+
+
+def works_by_name(problem: Problem, group: Group) -> list[tuple[str, Sequence[Tree]]]:
+    """The same apart, by the names of what acts."""
+    found: list[tuple[str, Sequence[Tree]]] = [*covectors(problem, group)]
     acting = pushes(problem)
-    if not acting:
-        return covectors
-    places = Places(problem, group)
-    works = [places.works(e, x) for e, x in acting]
-    return [
-        (*terms, *(work[a] for work in works if work[a] != 0)) for a, terms in enumerate(covectors)
-    ]
+    places = Places(problem, group) if acting else None
+    return found + [(x.name or UNNAMED_FORCE, places.works(e, x)) for e, x in acting if places]
 
 
 def named_forces(problem: Problem, group: Group) -> list[Equation]:
