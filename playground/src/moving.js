@@ -19,6 +19,31 @@ function numbers({ given }, page, { PARAMETERS, INPUTS }) {
   };
 }
 
+/* the rows of the numbers, what each says, and said first */
+const rows = () => [...document.querySelectorAll(".adjuster")];
+const said = (row) => row.querySelector("[role=slider]").getAttribute("aria-valuenow");
+let first = new Map();
+
+/* what is seen: the time, the camera where there is one, the numbers that have been set */
+function seen({ time, scene: { eye } }) {
+  const set = rows().map((x) => [x.dataset.name, said(x)]).filter(([name, v]) => v !== first.get(name));
+  return { t: time, ...(eye && { eye: [eye.azimuth, eye.elevation, eye.zoom] }), set: Object.fromEntries(set) };
+}
+
+/* and is seen again, at rest: numbers are put in as the reader types them */
+function restore({ t, eye, set = {} }, motion) {
+  for (const row of rows().filter((x) => Object.hasOwn(set, x.dataset.name))) {
+    const box = row.querySelector("input");
+    box.value = set[row.dataset.name];
+    box.dispatchEvent(new Event("change"));
+  }
+  if (eye && motion.scene.eye) {
+    const [azimuth, elevation, zoom] = eye;
+    Object.assign(motion.scene.eye, { azimuth, elevation: Math.max(-1.55, Math.min(Math.PI / 2, elevation)), zoom: Math.max(0.1, Math.min(20, zoom)) });
+  }
+  if (t !== undefined) motion.seek(t);
+}
+
 /* the arrow of a number is pointed at, elsewhere in the page */
 function lit(number) {
   const { motion } = document.getElementById("motion");
@@ -45,6 +70,7 @@ addEventListener("message", async ({ data, source, origin }) => {
   if (source !== parent || origin !== location.origin) return;
   if (data.light !== undefined) lit(data.light);
   if (data.project !== undefined) project(data.project);
+  if (data.seen) tell({ seen: seen(document.getElementById("motion").motion) });
   if (!data.source) return;
   document.documentElement.lang = data.lang;
   document.title = document.querySelector("h1").textContent = data.title;
@@ -63,6 +89,8 @@ addEventListener("message", async ({ data, source, origin }) => {
     Object.assign(into, { type: "button", className: "into", textContent: data.into });
     into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module) }));
     home.querySelector(".values").append(into);
+    first = new Map(rows().map((x) => [x.dataset.name, said(x)]));
+    if (data.restored) restore(data.restored, home.motion);
     tell({ moved: "" });
     new ResizeObserver(() => tell({ height: home.scrollHeight })).observe(home);
   } catch (e) {

@@ -137,7 +137,7 @@ def in_a_room(page):
     page.keyboard.press("p")
     assert shown("header").split("\n")[-1] == "so3.coadjoint"
     page.keyboard.press("PageDown")
-    addressed(page, "#so3/so3.kernel")
+    addressed(page, "#so3/so3.kernel&projected")
     step = article(page, "so3.kernel")
     assert read(page.locator("#projector .why")) == read(step.locator("> p").first)
     now = page.locator(f"#projector .now {SIDES}")
