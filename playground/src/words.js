@@ -30,7 +30,7 @@ export const WORDS = {
     missing: (x) => `There is no ready-made problem '${x}': here is so3 instead.`, nostep: (x) => `There is no step '${x}' here.`,
     projector: "Projector", leave: "Leave (Esc)", back: "The step before", on: "The next step", now: "now", stepof: (n, all) => `${n} of ${all}`,
     list: "Steps", wide: "Equations only", corrected: "what is corrected in the print",
-    file: "File", savefile: "Save this file", lines: (n) => `${n} lines`, show: "Show the code", default: (x) => `${x} (default)`,
+    file: "File", savefile: "Save this file", lines: (n, kB) => `${n} lines, ${kB} kB`, show: "Show the code", default: (x) => `${x} (default)`,
     further: "Further", about: {},
     values: {
       form: { source: ".h and .c", header: "one header" },
@@ -90,7 +90,7 @@ export const WORDS = {
     missing: (x) => `Il n’y a pas de problème tout prêt « ${x} » : voici so3 à la place.`, nostep: (x) => `Il n’y a pas d’étape « ${x} » ici.`,
     projector: "Projection", leave: "Quitter (Échap)", back: "L’étape précédente", on: "L’étape suivante", now: "maintenant", stepof: (n, all) => `${n} sur ${all}`,
     list: "Étapes", wide: "Équations seules", corrected: "ce qui est corrigé dans le texte imprimé",
-    file: "Fichier", savefile: "Enregistrer ce fichier", lines: (n) => `${n} lignes`, show: "Montrer le code", default: (x) => `${x} (par défaut)`,
+    file: "Fichier", savefile: "Enregistrer ce fichier", lines: (n, kB) => `${n} lignes, ${kB.replace(".", ",")} ko`, show: "Montrer le code", default: (x) => `${x} (par défaut)`,
     further: "En plus",
     values: {
       form: { source: ".h et .c", header: "un seul en-tête" },
