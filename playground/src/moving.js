@@ -1,6 +1,7 @@
 /* In a frame whose policy lets nothing be fetched: the emitted module, as a blob, and what moves the body by it.
  * The page about it is told how high it is, and the numbers that the reader has set. */
 import { dark } from "./dom.js";
+import { saving } from "./pictures.js";
 
 const chosen = (pieces) => Object.fromEntries(Object.entries(pieces).map(([x, name]) => [x, globalThis.drawing[name]]));
 const tell = (news) => parent.postMessage(news, location.origin);
@@ -89,6 +90,7 @@ addEventListener("message", async ({ data, source, origin }) => {
     Object.assign(into, { type: "button", className: "into", textContent: data.into });
     into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module) }));
     home.querySelector(".values").append(into);
+    home.querySelector(".stage").append(saving(home, data.name, data.saves));
     first = new Map(rows().map((x) => [x.dataset.name, said(x)]));
     if (data.restored) restore(data.restored, home.motion);
     tell({ moved: "" });

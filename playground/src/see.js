@@ -6,7 +6,7 @@ export class Motion {
   /* text: () → { text }, which takes the numbers that the reader has set; engine: what is asked; say(state, instead) tells, and
    * ended(how) tells an ending other than "end"; lit(number): an arrow of the body is pointed at; key(key): one was pressed there */
   constructor(place, { text, engine, say, ended, lit, key }) {
-    Object.assign(this, { place, engine, say, ended });
+    Object.assign(this, { place, text, engine, say, ended });
     this.unset = [];
     addEventListener("message", ({ data, source, origin }) => {
       if (origin !== location.origin || source !== this.frame?.contentWindow) return;
@@ -87,7 +87,8 @@ export class Motion {
 
   show(words, lang, told) {
     this.words = words;
-    this.told = { ...told, lang, title: words.motion, into: words.into, in_time: words.inTime, tilt: words.tilt, restored: this.restored };
+    this.told = { ...told, lang, title: words.motion, into: words.into, in_time: words.inTime, tilt: words.tilt, restored: this.restored, saves: words.saves };
+    this.told.name = this.text().text.match(/^\s*name\s*=\s*"(\w+)"/m)?.[1] ?? "motion";
     this.more = this.restored = null;
     this.frame = make("iframe", { src: "moving.html", title: words.motion });
     this.note = make("p", { class: "note", role: "status" }, [...(told.page.pushed ? [words.pushed] : []), ...this.unset].join(" "));
