@@ -60,6 +60,7 @@ def test_a_copied_link_shows_another_reader_the_same(fresh, site):
     until(frame, f"{MOTION}.time === 0.625")
     eye = frame.evaluate(EYE)
     fresh.click("#link")
+    fresh.wait_for_selector("#link:has-text('Lien copié')")
     link = fresh.evaluate("navigator.clipboard.readText()")
     assert link == fresh.url
     assert link.startswith(f"{site}?lang=fr#top&tab=see&t=0.625&eye=")
