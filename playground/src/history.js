@@ -11,10 +11,10 @@ export class Places {
   }
 
   /* the problem of the entry that is shown: its name, or p=… */
-  get word() { return location.hash.replace(/^#/, "").split("/")[0]; }
+  get word() { return location.hash.replace(/^#/, "").split(/[/&]/)[0]; }
 
   /* and its step, if any */
-  get named() { return decodeURIComponent(location.hash.split("/").slice(1).join("/")); }
+  get named() { return decodeURIComponent(location.hash.split("&")[0].split("/").slice(1).join("/")); }
 
   /* the place that the reader left the entry at which is shown */
   get left() { return history.state?.at ?? null; }
@@ -35,16 +35,21 @@ export class Places {
     this.#enter(anew || changed, placed(lang, word, word === before ? this.named : ""));
   }
 
-  /* the entry of a step; `again`: in the place of another step's, which was passed */
-  step(lang, word, id, again) {
+  /* the entry of a step; `again`: in the place of another step's, which was passed; seen: see link.js */
+  step(lang, word, id, again, seen) {
     this.keep();
-    this.#enter(!again, placed(lang, word, id));
+    this.#enter(!again, placed(lang, word, id, seen));
   }
 
   /* the entry that is shown, written in full */
-  settle(lang, word, step) {
+  settle(lang, word, step, seen) {
     this.stands = false;
-    history.replaceState(history.state, "", placed(lang, word, step));
+    this.see(lang, word, step, seen);
+  }
+
+  /* the same entry, which says what is seen */
+  see(lang, word, step, seen) {
+    history.replaceState(history.state, "", placed(lang, word, step, seen));
   }
 
   #enter(anew, url) {

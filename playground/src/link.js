@@ -1,5 +1,6 @@
 /* A problem as an address: #so3 for a ready-made one, #p=… for a text, compressed; #so3/linear.kernel for a step of it,
- * ?lang=fr for the language; nothing for the top, which moves. */
+ * ?lang=fr for the language; nothing for the top, which moves. Behind it what is seen: &tab=see&t=1.5&eye=0.5,0.3,1&set=m:2,g:0,
+ * or &projected, a step on the whole screen, and &projected=answer, the last of the screens. */
 const LARGEST = 400_000;
 
 async function through(stream, bytes) {
@@ -29,10 +30,15 @@ export async function unpacked(word) {
   return new TextDecoder("utf-8", { fatal: true }).decode(text);
 }
 
-/* what an address asks for: { name } or { text }, the { step } to go to; { damaged } where it cannot be read, and
- * { missing } the name of no ready-made problem */
+/* what an address asks for: { name } or { text }, the { step } to go to, what is { seen }; { damaged } where it cannot be
+ * read, and { missing } the name of no ready-made problem */
 export async function asked(hash, names) {
-  const [word, ...rest] = hash.replace(/^#/, "").split("/"), step = plain(rest.join("/"));
+  const [place, ...more] = hash.replace(/^#/, "").split("&");
+  return { ...await problem(place, names), seen: read(more) };
+}
+
+async function problem(place, names) {
+  const [word, ...rest] = place.split("/"), step = plain(rest.join("/"));
   if (!word) return { name: "top", step, first: true };
   const name = names.find((x) => x === word) ?? names.find((x) => x.toLowerCase() === word.toLowerCase());
   if (name) return { name, step };
@@ -55,5 +61,30 @@ function plain(word) {
 /* the language that an address asks for, if any */
 export const spoken = (search) => new URLSearchParams(search).get("lang");
 
-/* the address of a problem, which is a name or a packed text, and of a step of it, in a language */
-export const placed = (lang, word, step = "") => `?lang=${lang}#${word}${step && `/${encodeURIComponent(step)}`}`;
+/* the address of a problem, which is a name or a packed text, and of a step of it, in a language, and of what is seen of it */
+export const placed = (lang, word, step = "", seen = {}) => `?lang=${lang}#${word}${step && `/${encodeURIComponent(step)}`}${written(seen)}`;
+
+const TABS = ["walk", "see", "take"];
+const short = (v) => String(Number(v.toPrecision(7)));
+
+/* what is seen: { tab, projected: "" or "answer", t, eye: [azimuth, elevation, zoom], set: { name: number } }, what is there of it */
+function written({ tab, projected, t, eye, set = {} }) {
+  const numbers = Object.entries(set).map(([name, v]) => `${name}:${v}`);
+  return [
+    tab && tab !== "walk" && `&tab=${tab}`, projected !== undefined && `&projected${projected && `=${projected}`}`,
+    t !== undefined && `&t=${short(t)}`, eye && `&eye=${eye.map(short)}`, numbers.length && `&set=${numbers}`,
+  ].filter(Boolean).join("");
+}
+
+/* what it says of that, and nothing of what it says wrongly */
+function read(words) {
+  const told = Object.fromEntries(words.map((x) => x.split("="))), seen = {};
+  const eye = told.eye?.split(",").map(Number), set = told.set?.split(",").map((x) => x.split(":")) ?? [];
+  if (TABS.includes(told.tab)) seen.tab = told.tab;
+  if ("projected" in told) seen.projected = told.projected === "answer" ? "answer" : "";
+  if (told.t && Number.isFinite(Number(told.t))) seen.t = Number(told.t);
+  if (eye?.length === 3 && eye.every(Number.isFinite)) seen.eye = eye;
+  const numbers = set.filter(([name, v]) => /^\w+$/.test(name) && v && Number.isFinite(Number(v)));
+  if (numbers.length) seen.set = Object.fromEntries(numbers);
+  return seen;
+}

@@ -36,13 +36,17 @@ const form = new Form(the("form"), data.schema, (made) => { text.text = made; })
 const projector = new Projector(the("projector"), {
   equations, words: () => words,
   answer: (place) => { place.innerHTML = arrows.place.innerHTML; },
-  passed: (id) => places.step(lang, chosen() ?? places.word, id, true),
+  passed: (id) => places.step(lang, chosen() ?? places.word, id, true, { projected: id ? "" : "answer" }),
   beside: (is) => {
     document.body.classList.toggle("beside", is);
     motion.project(is);
     if (is && tabs.now !== "see") see();
   },
-  left: (id) => (id ? go(id, true) : tabs.show("see")),
+  left: (id) => {
+    if (id) return go(id, true);
+    places.step(lang, chosen() ?? places.word, "", true);
+    tabs.show("see");
+  },
 });
 const road = new Road(the("road").firstElementChild, (id) => (id ? go(id) : tabs.show("take")));
 const take = new Take(the("take"), data, {
@@ -200,6 +204,7 @@ function stands() {
   if (to?.step && !equations.go(to.step)) say(words.nostep(to.step));
   else if (to && !to.step) equations.back(to);
   passed();
+  if (to?.projected !== undefined) projector.enter(places.named, to.projected === "answer");
 }
 
 async function check() {
@@ -301,8 +306,10 @@ async function visit(tab) {
     speak();
   }
   const now = found.text ?? ready(found.name).text;
-  aim = places.left ?? (found.step ? { step: found.step } : {});
-  if (!notice) places.settle(lang, found.name ?? places.word, found.step);
+  aim = { ...(places.left ?? (found.step && { step: found.step })), projected: found.seen.projected };
+  if (!notice) places.settle(lang, found.name ?? places.word, found.step, found.seen);
+  tab ??= found.seen.tab;
+  if (tab === "see") motion.restore(found.seen);
   if (now === walked?.text && now === text.text && lang === walked.lang && !notice) {
     later(null);
     stands();
@@ -399,6 +406,8 @@ the("as-text").addEventListener("click", () => write("text"));
 the("as-form").addEventListener("click", () => write("form"));
 the("link").addEventListener("click", async (e) => {
   await places.problem(lang, chosen(), text.text);
+  const seen = tabs.now === "see" ? await motion.seen() : {};
+  places.see(lang, places.word, places.named, { tab: tabs.now, ...seen });
   await copy(location.href, e.target, words.linked);
 });
 the("wide").addEventListener("click", () => widen(!document.body.classList.contains("wide")));

@@ -1,6 +1,7 @@
 /* In a frame whose policy lets nothing be fetched: the emitted module, as a blob, and what moves the body by it.
  * The page about it is told how high it is, and the numbers that the reader has set. */
 import { dark } from "./dom.js";
+import { saving } from "./pictures.js";
 
 const chosen = (pieces) => Object.fromEntries(Object.entries(pieces).map(([x, name]) => [x, globalThis.drawing[name]]));
 const tell = (news) => parent.postMessage(news, location.origin);
@@ -17,6 +18,31 @@ function numbers({ given }, page, { PARAMETERS, INPUTS }) {
     parameters: told(PARAMETERS.map((name, i) => [name, given.p[i], page.p[i]]), false),
     exp: given.theta.some((a) => a !== 0) ? [...given.theta] : [],
   };
+}
+
+/* the rows of the numbers, what each says, and said first */
+const rows = () => [...document.querySelectorAll(".adjuster")];
+const said = (row) => row.querySelector("[role=slider]").getAttribute("aria-valuenow");
+let first = new Map();
+
+/* what is seen: the time, the camera where there is one, the numbers that have been set */
+function seen({ time, scene: { eye } }) {
+  const set = rows().map((x) => [x.dataset.name, said(x)]).filter(([name, v]) => v !== first.get(name));
+  return { t: time, ...(eye && { eye: [eye.azimuth, eye.elevation, eye.zoom] }), set: Object.fromEntries(set) };
+}
+
+/* and is seen again, at rest: numbers are put in as the reader types them */
+function restore({ t, eye, set = {} }, motion) {
+  for (const row of rows().filter((x) => Object.hasOwn(set, x.dataset.name))) {
+    const box = row.querySelector("input");
+    box.value = set[row.dataset.name];
+    box.dispatchEvent(new Event("change"));
+  }
+  if (eye && motion.scene.eye) {
+    const [azimuth, elevation, zoom] = eye;
+    Object.assign(motion.scene.eye, { azimuth, elevation: Math.max(-1.55, Math.min(Math.PI / 2, elevation)), zoom: Math.max(0.1, Math.min(20, zoom)) });
+  }
+  if (t !== undefined) motion.seek(t);
 }
 
 /* the arrow of a number is pointed at, elsewhere in the page */
@@ -45,6 +71,7 @@ addEventListener("message", async ({ data, source, origin }) => {
   if (source !== parent || origin !== location.origin) return;
   if (data.light !== undefined) lit(data.light);
   if (data.project !== undefined) project(data.project);
+  if (data.seen) tell({ seen: seen(document.getElementById("motion").motion) });
   if (!data.source) return;
   document.documentElement.lang = data.lang;
   document.title = document.querySelector("h1").textContent = data.title;
@@ -63,6 +90,9 @@ addEventListener("message", async ({ data, source, origin }) => {
     Object.assign(into, { type: "button", className: "into", textContent: data.into });
     into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module) }));
     home.querySelector(".values").append(into);
+    home.querySelector(".stage").append(saving(home, data.name, data.saves));
+    first = new Map(rows().map((x) => [x.dataset.name, said(x)]));
+    if (data.restored) restore(data.restored, home.motion);
     tell({ moved: "" });
     new ResizeObserver(() => tell({ height: home.scrollHeight })).observe(home);
   } catch (e) {

@@ -46,11 +46,11 @@ export class Projector {
     return true;
   }
 
-  /* show the walk from a step, by default its first */
-  enter(id) {
+  /* show the walk from a step, by default its first, or the answer, its last screen */
+  enter(id, last = false) {
     this.#steps = [...this.equations.root.querySelectorAll("article")];
     if (!this.#steps.length) return;
-    this.#at = Math.max(0, this.#steps.findIndex((x) => x.id === id));
+    this.#at = last ? this.#steps.length : Math.max(0, this.#steps.findIndex((x) => x.id === id));
     this.place.hidden = false;
     document.body.classList.add("projecting");
     dark(true);

@@ -6,7 +6,7 @@ export class Motion {
   /* text: () → { text }, which takes the numbers that the reader has set; engine: what is asked; say(state, instead) tells, and
    * ended(how) tells an ending other than "end"; lit(number): an arrow of the body is pointed at; key(key): one was pressed there */
   constructor(place, { text, engine, say, ended, lit, key }) {
-    Object.assign(this, { place, engine, say, ended });
+    Object.assign(this, { place, text, engine, say, ended });
     this.unset = [];
     addEventListener("message", ({ data, source, origin }) => {
       if (origin !== location.origin || source !== this.frame?.contentWindow) return;
@@ -15,6 +15,7 @@ export class Motion {
       else if (data.height) this.frame.style.setProperty("--height", `${data.height}px`);
       else if (data.lit !== undefined) lit(data.lit);
       else if (data.key) key(data.key);
+      else if (data.seen) this.heard?.(data.seen);
       else if (data.numbers) this.put(data.numbers, text());
       else Object.assign(this.frame.dataset, data);
       if (data.moved !== undefined) this.project(this.projected);
@@ -53,6 +54,21 @@ export class Motion {
     this.say(how === "late" ? words.notkept(this.engine.seconds) : how === "stopped" ? words.stopped : "", words.keeping);
   }
 
+  /* what is seen of it: { t, eye, set }, see link.js; nothing where nothing moves */
+  async seen() {
+    if (this.frame?.dataset.moved === undefined) return {};
+    return new Promise((done) => {
+      this.heard = done;
+      this.frame.contentWindow.postMessage({ seen: true }, location.origin);
+    });
+  }
+
+  /* what is to be seen of the next one */
+  restore(seen) {
+    this.forget();
+    this.restored = seen;
+  }
+
   /* light an arrow of the body */
   light(number) {
     this.frame?.contentWindow?.postMessage({ light: number }, location.origin);
@@ -71,8 +87,9 @@ export class Motion {
 
   show(words, lang, told) {
     this.words = words;
-    this.told = { ...told, lang, title: words.motion, into: words.into, in_time: words.inTime, tilt: words.tilt };
-    this.more = null;
+    this.told = { ...told, lang, title: words.motion, into: words.into, in_time: words.inTime, tilt: words.tilt, restored: this.restored, saves: words.saves };
+    this.told.name = this.text().text.match(/^\s*name\s*=\s*"(\w+)"/m)?.[1] ?? "motion";
+    this.more = this.restored = null;
     this.frame = make("iframe", { src: "moving.html", title: words.motion });
     this.note = make("p", { class: "note", role: "status" }, [...(told.page.pushed ? [words.pushed] : []), ...this.unset].join(" "));
     this.unset = [];

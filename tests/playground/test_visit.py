@@ -137,7 +137,7 @@ def in_a_room(page):
     page.keyboard.press("p")
     assert shown("header").split("\n")[-1] == "so3.coadjoint"
     page.keyboard.press("PageDown")
-    addressed(page, "#so3/so3.kernel")
+    addressed(page, "#so3/so3.kernel&projected")
     step = article(page, "so3.kernel")
     assert read(page.locator("#projector .why")) == read(step.locator("> p").first)
     now = page.locator(f"#projector .now {SIDES}")
@@ -464,12 +464,19 @@ def test_what_is_taken_is_shown_and_what_is_refused_is_told_beside(fresh, site):
     fresh.click("#take button:has-text('Show the code')")
     fresh.wait_for_selector(".code pre")
     listed = fresh.locator(".code option").all_inner_texts()
-    assert listed == ["mine.c", "mine.h", "mine.py"]
+    assert listed == ["mine.c", "mine.h", "mine.py", "main.c", "main.py"]
     assert '#include "mine.h"' in fresh.inner_text(".code pre")
     fresh.select_option(".code select", "mine.py")
     code = fresh.evaluate("document.querySelector('.code pre').textContent")
     compile(code, "mine.py", "exec")
     assert saved(".code button:has-text('Save')") == ("mine.py", code)
+    about = fresh.inner_text(".code .told")
+    assert f"{len(code.encode()) / 1e3:.1f} kB; " in about
+    assert "rhs" in about
+    fresh.select_option(".code select", "main.c")
+    name, program = saved(".code button:has-text('Save')")
+    assert name == "main.c"
+    assert "mine_rhs(0, x, k, u, dx);" in program
     fresh.click("#take summary")
     fresh.click("#take label:has-text('parameters')")
     assert fresh.locator(".code pre").count() == 0  # it was of other options

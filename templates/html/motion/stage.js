@@ -3,7 +3,7 @@ function solid_stage(scene, pieces) {
   const { page } = scene, { body } = page;
   const stage = canvas(scene, page.words.stage);
   const falling = () => valued(page.module, scene.p).vector(body.gravity);
-  const eye = camera(scene, stage, ...(body.planar ? [[0, 0, 1], -PI / 2, PI / 2] : [scaled(-1, falling()), 0.55, 0.33]));
+  const eye = scene.eye = camera(scene, stage, ...(body.planar ? [[0, 0, 1], -PI / 2, PI / 2] : [scaled(-1, falling()), 0.55, 0.33]));
   const vectors = pieces.arrows?.(scene, stage);
   let drawn, reached = 0;
 

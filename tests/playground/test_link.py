@@ -1,0 +1,93 @@
+"""An address is what is seen: the problem, its step, the tab, the time, the camera, the numbers."""
+
+import json
+
+import pytest
+
+from tests.playground.test_moving import MOTION, STATE, adjuster, until
+from tests.support import in_node
+from tests.support.playground_site import chosen, moving, opened, visit, walked
+
+LINK = 'import { asked, placed } from "./src/link.js";'
+SEEN = [
+    {},
+    {"tab": "take"},
+    {"projected": ""},
+    {"projected": "answer"},
+    {"tab": "see", "t": 1.5, "eye": [-0.25, 1.5, 2], "set": {"zeta_1": "-3", "m": "1e-7"}},
+]
+
+
+def test_what_is_seen_goes_through_an_address():
+    script = f"""{LINK}
+        const seen = {json.dumps(SEEN)}, told = [];
+        for (const x of seen) {{
+            const address = placed("fr", "so3", "so3.kernel", x);
+            told.push(await asked(address.slice(address.indexOf("#")), ["so3"]));
+        }}
+        console.log(JSON.stringify(told));"""
+    found = json.loads(in_node.printed(script))
+    numbers = [x | {"set": {k: float(v) for k, v in x["set"].items()}} for x in SEEN[-1:]]
+    assert [x["step"] for x in found] == ["so3.kernel"] * 5
+    assert [x["name"] for x in found] == ["so3"] * 5
+    told = [x["seen"] for x in found]
+    told[-1]["set"] = {k: float(v) for k, v in told[-1]["set"].items()}
+    assert told == SEEN[:-1] + numbers
+
+
+@pytest.mark.parametrize(
+    "wrong", ["tab=x", "t=NaN", "t=", "eye=1,2", "eye=a,b,c", "set=m:x", "set=m", "set=<b>:1", "p"]
+)
+def test_what_an_address_says_wrongly_is_not_seen(wrong):
+    script = f'{LINK} console.log(JSON.stringify(await asked("#so3&{wrong}", ["so3"])));'
+    assert json.loads(in_node.printed(script)) == {"name": "so3", "step": "", "seen": {}}
+
+
+EYE = f"(({{ azimuth, elevation, zoom }}) => [azimuth, elevation, zoom])({MOTION}.scene.eye)"
+
+
+def test_a_copied_link_shows_another_reader_the_same(fresh, site):
+    fresh.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    visit(fresh, f"{site}?lang=fr#top", "top")
+    frame = moving(fresh)
+    row = adjuster(frame, "zeta_3")
+    row.locator("[role=slider]").press("Enter")
+    row.locator("input").fill("123,5")
+    row.locator("input").press("Enter")
+    frame.locator("canvas").first.press("ArrowUp")
+    frame.locator("canvas").first.press("+")
+    state = frame.evaluate(STATE, 0.625)
+    until(frame, f"{MOTION}.time === 0.625")
+    eye = frame.evaluate(EYE)
+    fresh.click("#link")
+    fresh.wait_for_selector("#link:has-text('Lien copié')")
+    link = fresh.evaluate("navigator.clipboard.readText()")
+    assert link == fresh.url
+    assert link.startswith(f"{site}?lang=fr#top&tab=see&t=0.625&eye=")
+    assert link.endswith("&set=zeta_3:123.5")
+    with opened(fresh.context.browser) as other:
+        visit(other, link, "top")
+        assert other.url == link
+        assert other.evaluate("document.documentElement.lang") == "fr"
+        other.wait_for_selector("iframe[data-moved]")
+        shown = other.query_selector("iframe").content_frame()
+        until(shown, f"{MOTION}.time === 0.625")
+        assert shown.evaluate(f"[...{MOTION}.state]") == state
+        assert shown.evaluate(EYE) == pytest.approx(eye, rel=1e-6)
+        # another problem leaves it behind
+        chosen(other, "so3")
+        assert other.url == f"{site}?lang=fr#so3"
+
+
+def test_an_address_of_a_step_on_the_whole_screen(fresh, site):
+    fresh.goto(f"{site}?lang=en#so3/so3.kernel&projected")
+    walked(fresh)
+    assert fresh.inner_text("#projector header .from") == "so3.kernel"
+    assert fresh.url == f"{site}?lang=en#so3/so3.kernel&projected"
+    fresh.keyboard.press("End")
+    assert fresh.url == f"{site}?lang=en#so3&projected=answer"
+    fresh.reload()
+    walked(fresh)
+    assert fresh.locator(".screen p math").count() == fresh.locator("#answer p math").count() > 0
+    fresh.keyboard.press("Escape")
+    assert fresh.url == f"{site}?lang=en#so3"

@@ -1,0 +1,70 @@
+"""What moves is saved as a picture and as a film."""
+
+from tests.playground.test_moving import MOTION, shown_at
+from tests.support.playground_site import moving, opened, visit
+
+DRAWN = """async (bytes) => {
+    const picture = await createImageBitmap(new Blob([Uint8Array.from(bytes)]));
+    const canvas = new OffscreenCanvas(picture.width, picture.height);
+    const pen = canvas.getContext("2d");
+    pen.drawImage(picture, 0, 0);
+    const { data } = pen.getImageData(0, 0, canvas.width, canvas.height);
+    let ink = 0, clear = 0;
+    for (let i = 0; i < data.length; i += 4) {
+        if (data[i + 3] < 255) ++clear;
+        if (data[i] !== data[0] || data[i + 1] !== data[1] || data[i + 2] !== data[2]) ++ink;
+    }
+    return [picture.width, picture.height, ink / data.length * 4, clear];
+}"""
+"""The size of a picture, the part of it that is not of the colour of its corner, and how many of
+its points are clear."""
+LONG = """async (bytes) => {
+    const film = document.createElement("video");
+    film.muted = true;
+    film.src = URL.createObjectURL(new Blob([Uint8Array.from(bytes)], { type: "video/webm" }));
+    await film.play();
+    await new Promise((done) => film.addEventListener("ended", done));
+    return [film.videoWidth, film.videoHeight, film.currentTime];
+}"""
+"""The size of a film, and how long it was when it had been played."""
+
+
+def saved(page, frame, words, again=""):
+    """The name and bytes of what a button saves, which is pressed ``again`` after a second."""
+    with page.expect_download() as waiting:
+        frame.click(f"button:has-text('{words}')")
+        if again:
+            page.wait_for_timeout(1000)
+            frame.click(f"button:has-text('{again}')")
+    return waiting.value.suggested_filename, [*waiting.value.path().read_bytes()]
+
+
+def test_a_picture_and_a_film_are_saved(fresh, site):
+    visit(fresh, f"{site}#top", "top")
+    frame = moving(fresh)
+    shown_at(frame, 0.5)
+    size = frame.evaluate(
+        "(({ width, height }) => [width, height])(document.querySelector('canvas'))"
+    )
+    name, picture = saved(fresh, frame, "Save PNG")
+    assert name == "top.png"
+    *found, ink, clear = fresh.evaluate(DRAWN, picture)
+    assert found == size
+    assert 0.03 < ink < 0.9
+    assert clear == 0
+    name, film = saved(fresh, frame, "Film", "Stop and save")
+    assert name == "top.webm"
+    assert frame.evaluate(f"{MOTION}.time") > 0.5
+    frame.wait_for_selector("button:has-text('Film')")
+    with opened(fresh.context.browser) as other:  # whose policy lets a film be shown
+        *found, long = other.evaluate(LONG, film)
+    assert found == size
+    assert 0.5 < long < 5
+
+
+def test_without_a_recorder_a_line_says_so(fresh, site):
+    fresh.add_init_script("delete globalThis.MediaRecorder")
+    visit(fresh, f"{site}?lang=fr#top", "top")
+    frame = moving(fresh)
+    assert frame.locator("button:has-text('Filmer')").count() == 0
+    assert "ce navigateur n’en enregistre pas" in frame.inner_text(".saves")

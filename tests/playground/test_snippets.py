@@ -1,0 +1,98 @@
+"""Programs that the page writes for the emitted code: each runs, and all say the same rates."""
+
+import math
+import subprocess
+import sys
+
+import pytest
+
+from derive.command.cli import main
+from tests.support import in_node
+from tests.support.needs import CC, needs, present
+
+IMPORTS = """
+import { about, snippets } from "./src/snippets.js";
+const told = (files) => ({ programs: snippets(new Map(Object.entries(files))),
+    about: Object.fromEntries(Object.entries(files).map(([name, text]) => [name, about(text)])) });
+"""
+RUNS = {
+    "main.c": [[CC, "-std=c99", "-pedantic", "-Wall", "-Werror", "main.c", "NAME.c", "-lm"]],
+    "main.cpp": [
+        [CC, "-std=c99", "-c", "NAME.c"],
+        ["g++", "-std=c++17", "main.cpp", "NAME.o", "-lm"],
+    ],
+    "main.rs": [["rustc", "--edition=2021", "-A", "warnings", "main.rs", "-o", "a.out"]],
+    "main.py": [],
+    "main.mjs": [],
+}
+INTERPRETER = {"main.py": [sys.executable, "-B"], "main.mjs": ["node"]}
+
+
+def written(folder, problem, *options):
+    """What is emitted, and the programs of the page beside it, whose names are returned, and what
+    the files say of themselves."""
+    assert main(["emit", problem, *options, "--out", str(folder)]) == 0
+    files = {x.name: x.read_text(encoding="utf-8") for x in folder.iterdir()}
+    found = in_node.told(IMPORTS, "told(given)", files)
+    for name, text in found["programs"]:
+        (folder / name).write_text(text, encoding="utf-8")
+    return [name for name, _ in found["programs"]], found["about"]
+
+
+def rates(folder, program, problem):
+    """What a program prints."""
+    for command in RUNS[program]:
+        line = [x.replace("NAME", problem) for x in command]
+        subprocess.run(line, cwd=folder, check=True, capture_output=True)
+    command = [*INTERPRETER[program], program] if program in INTERPRETER else ["./a.out"]
+    done = subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True)
+    return {name: float(x) for name, x in map(str.split, done.stdout.splitlines())}
+
+
+@needs("cc", "node")
+@pytest.mark.parametrize(
+    "problem", ["so3", "se3", "top", "comet", "two_tops", "heisenberg", "kirchhoff"]
+)
+def test_a_program_of_each_language_runs_and_says_the_same(problem, tmp_path, capsys):
+    languages, tried = ["c", "python", "javascript"], ["main.c", "main.py", "main.mjs"]
+    if present("g++"):
+        languages.append("cpp")
+        tried.append("main.cpp")
+    if present("rustc") and problem in ("so3", "top"):
+        languages.append("rust")
+        tried.append("main.rs")
+    languages.append("julia")
+    names, about = written(tmp_path, problem, *(y for x in languages for y in ("--lang", x)))
+    assert {*names} == {*tried, "main.jl"}
+    assert "rhs" in about[f"{problem}.h"]["operations"]
+    found = [rates(tmp_path, x, problem) for x in tried]
+    first = found[0]
+    assert [*first] == about[f"{problem}.py"]["state"] == about[f"{problem}.jl"]["state"]
+    assert any(first.values())
+    assert all(map(math.isfinite, first.values()))
+    for other in found[1:]:
+        assert other == pytest.approx(first, rel=1e-6, abs=1e-12)
+    capsys.readouterr()
+
+
+@needs("cc", "node")
+@pytest.mark.parametrize(
+    "options", [["--attitude", "quaternion", "--real", "float"], ["--form", "header"]]
+)
+def test_a_program_follows_the_options(options, tmp_path, capsys):
+    names, about = written(tmp_path, "se3", "--lang", "c", *options)
+    assert names == ["main.c"]
+    command = [
+        CC,
+        "-std=c99",
+        "-Wall",
+        "-Werror",
+        "main.c",
+        *([] if "--form" in options else ["se3.c"]),
+    ]
+    subprocess.run([*command, "-lm"], cwd=tmp_path, check=True)
+    done = subprocess.run(["./a.out"], cwd=tmp_path, check=True, capture_output=True, text=True)
+    found = [x.split() for x in done.stdout.splitlines()]
+    assert [name for name, _ in found] == about["se3.h"]["state"]
+    assert all(math.isfinite(float(x)) for _, x in found)
+    capsys.readouterr()
