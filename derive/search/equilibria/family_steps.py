@@ -44,7 +44,7 @@ def _told(
         Equation(rate(v), expanded(e, away, about.tree))
         for v, e in zip(variables, about.rates, strict=True)
     ]
-    prose = say("equilibrium.tried") if k == 1 else ()
+    prose = say("family.tried") if k == 1 else ()
     prose += (
         say_so("family.at", point=point_rows(about)) if any(about.at) else say_so("family.origin")
     )
