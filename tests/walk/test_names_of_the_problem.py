@@ -184,7 +184,7 @@ def test_the_numbers_of_inputs_have_the_names_of_the_file(road, group):
     given = {f"thrust_{k}" for k in (1, 2, 3)} | {f"F_{k}" for k in range(1, size + 1)}
     named = {x[1] for x in parts if isinstance(x, tuple) and x[0] == "par"}
     assert named
-    assert named <= given
+    assert named <= given | {"P_thrust", "P_F"}  # the powers
 
 
 def test_where_a_force_acts_is_told_where_it_enters():

@@ -18,7 +18,7 @@ function polhode(scene) {
       const axes = turning > 0 && principal(I).map(([q, v]) => (q > 0 ? scaled(sqrt(turning / q), v) : null));
       const wires = axes && axes.every(Boolean) ? axes : [];
       const most = max(...trail.map(([, y]) => size(at(y))), size(now), ...wires.map(size)) || 1;
-      const pic = picture(scene, side, glance, [0, 0, 0], 0.36 * min(side.width, side.height) / most * glance.zoom);
+      const pic = picture(scene, side, glance, [0, 0, 0], 0.33 * min(side.width, side.height) / most * glance.zoom);
       wires.forEach((a, i) => {
         const b = wires[(i + 1) % 3];
         for (let k = 0; k < 48; ++k) {
