@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 from ...language import rational as q
 from ...language.tree import Tree, nodes, replaced
@@ -56,7 +57,7 @@ class ClaimedFamily:
         """The coordinates that are told."""
         rows = self.claims["at"]["point"] if "at" in self.claims else ("matrix",)
         assert isinstance(rows, tuple)
-        return [(x, y) for _, x, y in rows[1:]]
+        return [(x, y) for _, x, y in _once(rows[1:])]
 
     @cached_property
     def letters(self) -> list[Tree]:
@@ -69,7 +70,7 @@ class ClaimedFamily:
         if kind not in self.claims:
             return [[]] if kind == "positive" else []
         place = "positive" if kind == "positive" else "cases"
-        return [*map(_sides, listed(self.claims[kind][place]))]
+        return [*map(_sides, _once(listed(self.claims[kind][place])))]
 
     # -- numbers -------------------------------------------------------------------------------
 
@@ -88,13 +89,14 @@ class ClaimedFamily:
                 return numbers
         raise RecordError("no numbers are found for which the kinetic energy is positive")
 
-    def beside(self, a: Tree, b: Tree) -> Iterator[Numbers]:
+    def beside(self, a: Tree, b: Tree, *, fair: bool = True) -> Iterator[Numbers]:
         """Numbers at which a side of an inequality is a little greater than the other, and a little
-        less, all but one letter the same, where some are found."""
+        less, all but one letter the same, where some are found; ``fair``: the kinetic energy is
+        positive where this letter comes from, too."""
         own = {*nodes(a), *nodes(b)}
         for _ in range(TRIES):
             letter = self.system.random.choice([x for x in self.letters if x in own])
-            one, other = self.drawn(), self.drawn()
+            one, other = self.drawn(), self.drawn(fair=fair)
             ends = [{**one, letter: x[letter]} for x in (one, other)]
             greater = [_greater(a, b, x) for x in ends]
             if greater[0] == greater[1]:
@@ -167,7 +169,14 @@ def _sides(case: Tree) -> Inequalities:
     rows = case[1:] if isinstance(case, tuple) else ()
     if not all(isinstance(x, tuple) and len(x) == 3 for x in rows):
         raise RecordError("a case is no list of inequalities")
-    return [(x[1], x[2]) for x in rows if isinstance(x, tuple)]
+    return [(x[1], x[2]) for x in _once(rows) if isinstance(x, tuple)]
+
+
+def _once(rows: Sequence[Any]) -> Sequence[Any]:
+    """Rows; ``RecordError`` where one stands there twice."""
+    if len({*rows}) < len(rows):
+        raise RecordError("something is told twice")
+    return rows
 
 
 def substituted(t: Tree, numbers: Numbers) -> Tree:
@@ -220,12 +229,14 @@ def _letter(system: ReducedSystem, step: Step, claim: Claim) -> str:
 def _positive(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The inequalities say that the kinetic energy is positive definite, no more and no less."""
     family, m = ClaimedFamily(system, step), system.momenta
-    for k in range(2 * DRAWS):
-        numbers = family.drawn(fair=k % 2 == 0)
+    (positive,) = family.cases("positive")
+    several = [family.drawn(fair=k % 2 == 0) for k in range(2 * DRAWS)]
+    several += [x for pair in positive for x in family.beside(*pair, fair=False)]
+    for numbers in several:
         energy = family.at(numbers).point
         origin = ClaimedEquilibrium(energy.system, {})
         second = [row[:m] for row in origin.energy.matrix(origin.n)[:m]]
-        if (signature(second) == (m, 0)) is not _hold(family.cases("positive")[0], numbers):
+        if (signature(second) == (m, 0)) is not _hold(positive, numbers):
             return "the kinetic energy is positive elsewhere, or not there"
     return ""
 
