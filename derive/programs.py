@@ -7,8 +7,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .language.limits import Refused
-from .language.reserved import did_you_mean, near_name, suffixed
+from .language.reserved import did_you_mean, near_name
 from .pipeline import discrete, lagrangian_road, walk
+from .problem.fields import state_names
 from .problem.principal import principal
 from .problem.problem import Problem, ProblemError
 from .record.record import Derivation
@@ -102,12 +103,11 @@ def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
         return None
     told = reduced.record[f"{problem.name}.effective"].equations
     V = next(e.rhs for e in told if e.lhs == "𝒱")
-    _, _, i, j = left.entry
-    group = problem.group
-    moved = group is not None and group.affine and j == group.size
-    turns = group is not None and "orthogonal" in group.relations and not moved
-    name = suffixed("T", i) if moved else suffixed("A", i, j)
-    return OneDegree((i, j), V, momenta_of(found), name, turns)
+    if problem.group is None:
+        return None
+    name = next(x for x, t in state_names(problem.group).items() if t == left.entry)
+    turns = "orthogonal" in problem.group.relations and name.startswith("A")
+    return OneDegree(left.entry, V, momenta_of(found), name, turns)
 
 
 def trim(

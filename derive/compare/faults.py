@@ -34,12 +34,21 @@ class Hypothesis:
     left: Array
 
 
+@dataclass(frozen=True)
+class Changed:
+    """Our equations with one change, in words, and how far it is from saying what happened."""
+
+    words: str
+    rank: int
+    balance: Balance
+
+
 def hypotheses(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     """All that are generated from the numbers and the terms of a problem."""
     yield from of_numbers(b)
-    for words, rank, exchanged in of_exchanges(b):
-        if (left := possible(exchanged)) is not None:
-            yield Hypothesis(words, rank, left)
+    for x in of_exchanges(b):
+        if (left := possible(x.balance)) is not None:
+            yield Hypothesis(x.words, x.rank, left)
     yield from of_vectors(b)
     yield from of_the_point(b)
     yield from of_terms(b, terms)
@@ -159,25 +168,25 @@ def of_numbers(b: Balance) -> Iterator[Hypothesis]:
             yield Hypothesis(words, rank + 1, found[1])
 
 
-def of_exchanges(b: Balance) -> Iterator[tuple[str, int, Balance]]:
-    """Two numbers of one key are exchanged, or two inputs: in words, with what these leave."""
+def of_exchanges(b: Balance) -> Iterator[Changed]:
+    """Two numbers of one key are exchanged, or two inputs."""
     base = b.values()
     for one, other in combinations(b.opened.slots, 2):
         if one.key == other.key and base[one.name] != base[other.name]:
             changed = {one.name: base[other.name], other.name: base[one.name]}
             words = f"{one.words} and {other.words} are exchanged"
-            yield words, 0, replace(b, changed={**b.changed, **changed})
+            yield Changed(words, 0, replace(b, changed={**b.changed, **changed}))
     for one_name, other_name in combinations(b.parameters, 2):
         changed = {one_name: b.parameters[other_name], other_name: b.parameters[one_name]}
         units = [b.opened.problem.parameters[x].unit for x in changed]
         if units[0] == units[1] and len({*changed.values()}) == 2:
             words = f"{one_name} and {other_name} are exchanged"
-            yield words, 0, replace(b, parameters={**b.parameters, **changed})
+            yield Changed(words, 0, replace(b, parameters={**b.parameters, **changed}))
     for i, j in combinations(range(b.u.shape[1]), 2):
         u = b.u.copy()
         u[:, [i, j]] = u[:, [j, i]]
         words = f"the inputs {b.code.INPUTS[i]} and {b.code.INPUTS[j]} are exchanged"
-        yield words, 1, replace(b, u=u)
+        yield Changed(words, 1, replace(b, u=u))
 
 
 CALLED = {"at of the": "the lever arm", "relative_to of": "the wind"}

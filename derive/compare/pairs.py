@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from .faults import (
     ABOUT,
     NEAR,
     NEARER,
+    Changed,
     Explanation,
     Hypothesis,
     changed,
@@ -28,15 +29,6 @@ from .faults import (
 
 FACTORS = (-1.0, 0.0, 2.0, 0.5)
 """What something is multiplied by, of the first of two changes: the second is fitted."""
-
-
-@dataclass(frozen=True)
-class Changed:
-    """Our equations with one change, in words, and how far it is from saying what happened."""
-
-    words: str
-    rank: int
-    balance: Balance
 
 
 def of_two(b: Balance, terms: list[Term]) -> Explanation | None:
@@ -133,8 +125,7 @@ def _both(b: Balance, one: Balance, other: Balance) -> Balance:
 
 def of_numbers(b: Balance) -> Iterator[Changed]:
     """Numbers exchanged, or times one of the factors: a parameter, one of a table, a vector."""
-    for words, rank, balance in of_exchanges(b):
-        yield Changed(words, rank, balance)
+    yield from of_exchanges(b)
     base = b.values()
     for factor in FACTORS:
         for name, old in b.parameters.items():

@@ -80,12 +80,8 @@ LONGEST = 40
 
 def near_name(word: str, known: Iterable[str], alike: float = 0.6) -> str:
     """The known name nearest to a word, ``alike`` from 0 (any) to 1 (the same), and of those as
-    near the last that begins as it does for longest; "" if none is.  A velocity of translations is
-    w only where something turns as well, else ζ."""
+    near the last that begins as it does for longest; "" if none is."""
     listed, word = [*known], word[:LONGEST]
-    velocity, turning = word.replace("w_", "zeta_", 1), any(x.startswith("w_") for x in listed)
-    if word.startswith("w_") and velocity in listed and not turning:
-        return velocity
     close = {*difflib.get_close_matches(word, listed, len(listed) or 1, alike)}
 
     def nearness(name: str) -> tuple[float, int]:

@@ -282,7 +282,7 @@ class OneDegree:
     ``momenta`` are called among what the motion keeps, and the entry among the state, its ``name``;
     is the entry that of a rotation: it ``turns``?"""
 
-    entry: tuple[int, int]
+    entry: Tree
     V: Tree
     momenta: tuple[str, ...]
     name: str
@@ -306,8 +306,7 @@ class OneDegree:
         return {"entry": self.name, "u": u.tolist(), "V": V.tolist()}
 
     def _value(self, u: Any, numbers: Mapping[str, float]) -> Any:
-        i, j = self.entry
-        known: dict[Tree, Any] = {("entry", "A", i, j): u}
+        known: dict[Tree, Any] = {self.entry: u}
         known |= {("at", "𝒥", k): numbers[x] for k, x in enumerate(self.momenta, 1)}
         tree = self.V
         for k, x in enumerate(known):

@@ -14,12 +14,12 @@ from ..code.torus.lattice_state import turned
 from ..language.expression import names
 from ..language.limits import Refused
 from ..language.rational import Matrix
-from ..language.reserved import did_you_mean, near_name
 from ..language.tree import Tree
 from ..language.values import approximate
 from ..problem.fields import state_names
 from ..problem.motion_tables import named
 from ..problem.problem import Problem
+from ..schema.table import nearest
 
 
 class MotionError(Refused, ValueError):
@@ -98,7 +98,7 @@ def _known(values: Collection[str], given: Mapping[str, float], where: str) -> N
     """``MotionError`` for a name that means nothing, and for a number that is none."""
     for name, number in given.items():
         if name not in values:
-            near = did_you_mean(near_name(name, [*values]), after=" ")
+            near = f"{nearest(name, values)} ".removeprefix("; ").lstrip()
             if components := [x for x in values if x.startswith(f"{name}_")]:
                 near = f"give its components {_listed(components)}; "
             if name == "exp":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
@@ -26,7 +26,7 @@ from ..search.reduction.routhian import Routhian
 from ..search.trim.trimmed import Trim
 from .api import in_keywords
 from .quoted import loaded
-from .shown import Finding, Shown, ShownEquation
+from .shown import Finding, SeveralFound, Shown, ShownEquation
 
 # The relative equilibria of a problem as Python holds them, and their record.
 
@@ -99,22 +99,13 @@ class Near(Finding, Judged):
 
 
 @dataclass(frozen=True)
-class Equilibria(Finding):
+class Equilibria(SeveralFound[Steady]):
     """Relative equilibria: a sequence of :class:`Steady`; ``record``: their derivation."""
 
-    _search = "equilibria"
+    _search, _each = "equilibria", Steady
 
     found: tuple[Equilibrium, ...]
     record: Derivation
-
-    def __len__(self) -> int:
-        return len(self.found)
-
-    def __getitem__(self, k: int) -> Steady:
-        return Steady(self.found[k])
-
-    def __iter__(self) -> Iterator[Steady]:
-        return map(Steady, self.found)
 
 
 @dataclass(frozen=True)
@@ -155,23 +146,14 @@ class InLetters:
 
 
 @dataclass(frozen=True)
-class Families(Finding):
+class Families(SeveralFound[InLetters]):
     """Families of relative equilibria: a sequence of :class:`InLetters`; ``record``: their
     derivation."""
 
-    _search = "equilibria"
+    _search, _each = "equilibria", InLetters
 
     found: tuple[Family, ...]
     record: Derivation
-
-    def __len__(self) -> int:
-        return len(self.found)
-
-    def __getitem__(self, k: int) -> InLetters:
-        return InLetters(self.found[k])
-
-    def __iter__(self) -> Iterator[InLetters]:
-        return map(InLetters, self.found)
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from html import escape
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 from ..check.form.hypotheses_checked import Verdict, in_a_line
 from ..record.record import Derivation, Equation, Step
@@ -147,6 +148,9 @@ class Verdicts(list[Verdict]):
         return "\n".join([f"{'✗' if bad else '✓'} {in_a_line(self)}", *bad])
 
 
+T = TypeVar("T")
+
+
 class Finding:
     """What a ``_search`` found, with its ``record``: the derivation, whose last steps tell it; in a
     notebook it shows these."""
@@ -178,3 +182,19 @@ class Finding:
         from ..views.rendering import render
 
         return render(self.record, form, lang, steps=self.record.since(FIRST[self._search]))
+
+
+class SeveralFound(Finding, Generic[T]):
+    """What a search ``found``, one after the other, each as an ``_each``."""
+
+    _each: ClassVar[Any]
+    found: tuple[Any, ...]
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def __getitem__(self, k: int) -> T:
+        return self._each(self.found[k])  # type: ignore[no-any-return]
+
+    def __iter__(self) -> Iterator[T]:
+        return map(self._each, self.found)

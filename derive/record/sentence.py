@@ -223,10 +223,7 @@ def _inequalities(x: Tree) -> str:
     return ", ".join(f"{y} < 0" if z == "0" else f"{z} > {y}" for z, y in shown)
 
 
-FAMILIES = (
-    *("positive", "stable", "on_the_leaf", "unstable", "unstable_large"),
-    *("unstable_always", "imaginary"),
-)
+FAMILIES = ("positive", "stable", "on_the_leaf", "unstable", "unstable_large")
 TEXTS = dict.fromkeys((f"family.{x}" for x in FAMILIES), _inequalities) | {
     "equilibrium.near": _coordinates,
     "equilibrium.eigenvalues": _eigenvalues,

@@ -29,6 +29,7 @@ from derive.motion.run import Run, written
 from derive.problem.problem import ProblemError, data
 from derive.problem.toml import doubts, load
 from derive.python.api import Table
+from derive.schema.table import nearest
 
 HEAD = 'name = "good"\ngroup = "SO(3)"\n'
 POINTS = "".join(f"[[point]]\nmass = 1\nat = {[int(i == j) for j in range(3)]}\n" for i in range(3))
@@ -220,8 +221,8 @@ def test_of_names_as_near_one_that_begins_so_is_meant():
     """The component that begins so, and all of them where there are some."""
     assert near_name("f1", ["f4_1", "f1_1", "f2_1"]) == "f1_1"
     assert near_name("zeta_9", ["zeta_1", "zeta_2"]) == "zeta_2"
-    assert near_name("w_1", ["T_1", "zeta_1"]) == "zeta_1"  # of translations alone
-    assert near_name("w_4", ["T_1", "zeta_1", "w_1"]) == "w_1"
+    assert "zeta_1" in nearest("w_1", ["T_1", "zeta_1"])  # of translations alone
+    assert "w_1" in nearest("w_4", ["T_1", "zeta_1", "w_1"])
     forces = [Force(f"f{k}", 1) for k in range(1, 5)]
     problem = Problem("b", "SO(2)", Points((1, [1, 0])), forces)
     with pytest.raises(MotionError) as caught:

@@ -3,7 +3,6 @@ every inequality that it has, by what is true there of the equilibrium in number
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -11,14 +10,14 @@ from functools import cached_property
 from typing import Any
 
 from ...language import rational as q
-from ...language.tree import Tree, nodes, replaced
+from ...language.tree import Tree, nodes
 from ...language.univariate import Number, coefficients_of, value_of
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
 from .equilibrium_claims import ClaimedEquilibrium, kept
 from .exact_spectra import signature
 from .integral_claims import Judge, listed
-from .reduced_system import ReducedSystem
+from .reduced_system import ReducedSystem, substituted
 
 Numbers = Mapping[Tree, Fraction]
 DRAWS = 8
@@ -67,25 +66,28 @@ class ClaimedFamily:
 
     def cases(self, kind: str) -> list[Inequalities]:
         """The cases of a claim, each its inequalities, two sides of which the first is greater."""
-        if kind not in self.claims:
-            return [[]] if kind == "positive" else []
-        place = "positive" if kind == "positive" else "cases"
-        return [*map(_sides, _once(listed(self.claims[kind][place])))]
+        told = dict(self.claims[kind].values) if kind in self.claims else {}
+        return [*map(_sides, _once(listed(told["cases"])))] if "cases" in told else []
+
+    @cached_property
+    def supposed(self) -> Inequalities:
+        """That the kinetic energy is positive definite."""
+        return _sides(self.claims["positive"]["positive"]) if "positive" in self.claims else []
 
     # -- numbers -------------------------------------------------------------------------------
 
     def drawn(self, *, fair: bool = True) -> Numbers:
         """Random numbers for the letters, π positive; ``fair``: with a positive kinetic energy, as
         the claims have it."""
-        random, (positive,) = self.system.random, self.cases("positive")
-        alone = {a for a, b in positive if b == 0}
+        random = self.system.random
+        alone = {a for a, b in self.supposed if b == 0}
         for _ in range(TRIES):
             sizes = (Fraction(random.randint(1, 40), random.randint(1, 12)) for _ in self.letters)
             numbers = {
                 x: y if x == "π" or (fair and x in alone) or random.random() < 0.5 else -y
                 for x, y in zip(self.letters, sizes, strict=True)
             }
-            if not fair or _hold(positive, numbers):
+            if not fair or _hold(self.supposed, numbers):
                 return numbers
         raise RecordError("no numbers are found for which the kinetic energy is positive")
 
@@ -113,13 +115,7 @@ class ClaimedFamily:
 
     def at(self, numbers: Numbers) -> EquilibriumInNumbers:
         """The family at these numbers."""
-        found = copy.copy(self.system)
-        for name in ("anywhere", "parameters", "fault"):
-            found.__dict__.pop(name, None)
-        found.energy = substituted(self.system.energy, numbers)
-        for name in ("rates", "casimirs", "integrals"):
-            trees = (substituted(t, numbers) for t in getattr(self.system, name))
-            setattr(found, name, (*trees,))
+        found = self.system.with_numbers(numbers)
         at = {x: value_of(substituted(y, numbers)) for x, y in self.point}
         form = None
         if "form" in self.claims:
@@ -134,9 +130,8 @@ class ClaimedFamily:
         for kind in ("stable", "on_the_leaf", "unstable", "unstable_large"):
             for case in self.cases(kind):
                 several += [x for pair in case for x in self.beside(*pair)]
-        positive = self.cases("positive")[0]
         for numbers in several:
-            if _hold(positive, numbers):
+            if _hold(self.supposed, numbers):
                 yield numbers, self.at(numbers)
 
 
@@ -177,13 +172,6 @@ def _once(rows: Sequence[Any]) -> Sequence[Any]:
     if len({*rows}) < len(rows):
         raise RecordError("something is told twice")
     return rows
-
-
-def substituted(t: Tree, numbers: Numbers) -> Tree:
-    """A tree with numbers for letters."""
-    for x, y in numbers.items():
-        t = replaced(t, x, y)
-    return t
 
 
 def _greater(a: Tree, b: Tree, numbers: Numbers) -> bool:
@@ -229,14 +217,13 @@ def _letter(system: ReducedSystem, step: Step, claim: Claim) -> str:
 def _positive(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The inequalities say that the kinetic energy is positive definite, no more and no less."""
     family, m = ClaimedFamily(system, step), system.momenta
-    (positive,) = family.cases("positive")
     several = [family.drawn(fair=k % 2 == 0) for k in range(2 * DRAWS)]
-    several += [x for pair in positive for x in family.beside(*pair, fair=False)]
+    several += [x for pair in family.supposed for x in family.beside(*pair, fair=False)]
     for numbers in several:
         energy = family.at(numbers).point
         origin = ClaimedEquilibrium(energy.system, {})
         second = [row[:m] for row in origin.energy.matrix(origin.n)[:m]]
-        if (signature(second) == (m, 0)) is not _hold(positive, numbers):
+        if (signature(second) == (m, 0)) is not _hold(family.supposed, numbers):
             return "the kinetic energy is positive elsewhere, or not there"
     return ""
 
@@ -244,11 +231,11 @@ def _positive(system: ReducedSystem, step: Step, claim: Claim) -> str:
 def _definite(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The form is definite where it is claimed, no more and no less, and proves what is said."""
     family, kind = ClaimedFamily(system, step), claim.kind.partition(".")[2]
-    cases, always = family.cases(kind) if "cases" in dict(claim.values) else [], kind[-6:]
+    cases, always = family.cases(kind), kind.endswith("_always")
     proves = {"stable", "stable_compact", "stable_beyond"}
     proves |= {"on_the_leaf"} if kind.startswith("on_the_leaf") else set()
     for numbers, x in family.trials():
-        if x.definite is not (always == "always" or _any(cases, numbers)):
+        if x.definite is not (always or _any(cases, numbers)):
             return "the second derivative is definite elsewhere, or not there"
         if x.definite and (found := x.point.verdict(x.form)) not in proves:
             return f"what follows is: {found}"
@@ -278,7 +265,7 @@ def _roots(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The polynomial is the characteristic one, and some root has a positive real part where it is
     claimed, and nowhere else, unless that is left open."""
     family, kind = ClaimedFamily(system, step), claim.kind.partition(".")[2]
-    cases = family.cases(kind) if "cases" in dict(claim.values) else []
+    cases = family.cases(kind)
     told = coefficients_of(claim["polynomial"], "λ")
     for numbers, x in family.trials():
         found: list[Number] = [value_of(substituted(c, numbers)) for c in told]

@@ -12,7 +12,7 @@ from typing import Any
 from ...algebra.exact_kernel import residue_of
 from ...algebra.groups import Group
 from ...language.show import show
-from ...language.tree import Tree, nodes
+from ...language.tree import Tree, nodes, replaced
 from ...record.record import Derivation, RecordError, Step
 from ..trials.trial_points import group_of
 from ..values.residue import random_prime
@@ -64,6 +64,16 @@ class ReducedSystem:
         trees = (self.energy, *self.rates, *self.casimirs, *self.integrals)
         found = (x for t in trees for x in nodes(t) if x == "π" or _is_parameter(x))
         return [*dict.fromkeys(found)]
+
+    def with_numbers(self, numbers: Mapping[Tree, Fraction]) -> ReducedSystem:
+        """The same with numbers for some letters."""
+        found = ReducedSystem(self.record, self.group, self.random)
+        found.energy = substituted(self.energy, numbers)
+        found.rates, found.casimirs, found.integrals = (
+            tuple(substituted(t, numbers) for t in trees)
+            for trees in (self.rates, self.casimirs, self.integrals)
+        )
+        return found
 
     # -- points --------------------------------------------------------------------------------
 
@@ -179,6 +189,13 @@ class ResiduePoint:
     def rank_on_leaves(self, f: Sequence[Tree]) -> int:
         """How many are independent of each other and of all Casimirs: as many as their fields."""
         return rank([self.field(x) for x in f], self.p)
+
+
+def substituted(t: Tree, numbers: Mapping[Tree, Fraction]) -> Tree:
+    """A tree with numbers for letters."""
+    for x, y in numbers.items():
+        t = replaced(t, x, y)
+    return t
 
 
 def _is_parameter(x: Tree) -> bool:

@@ -11,7 +11,7 @@ the ℓ_k independent: the signs of the d_k are the signature on T.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -80,7 +80,7 @@ def form(about: About, on: Leaf, conserved: Sequence[Polynomial]) -> EnergyCasim
         return None
     start, freedom = choices
     first: EnergyCasimirForm | None = None
-    for multipliers in _tried(start, freedom, energy, kept, on):
+    for multipliers in multipliers_tried(start, freedom, energy, kept, on, between_roots):
         found = _form(multipliers, energy, kept, on)
         first = first or found
         if definite(found, on):
@@ -93,33 +93,44 @@ def definite(found: EnergyCasimirForm, on: Leaf) -> bool:
     return len(on.free) in found.signature
 
 
-def _tried(
-    start: Vector, freedom: Matrix, energy: Expansion, kept: Sequence[Expansion], on: Leaf
+def multipliers_tried(
+    start: Vector,
+    freedom: Matrix,
+    energy: Expansion,
+    kept: Sequence[Expansion],
+    on: Leaf,
+    between: Callable[[Matrix, Matrix], Iterable[Number]],
 ) -> Iterator[Vector]:
-    """Multipliers: the first ones, and along each freedom one between any two roots of det Q."""
+    """Multipliers: the first ones, and along each freedom those ``between`` roots of det Q."""
     yield start
     at_start = restricted(second_derivatives(start, energy, kept), on)
-    nothing = Expansion(Fraction(0), [], [[Fraction(0)] * len(x) for x in energy.second], {})
+    nothing = Expansion(energy.value, [], [[x - x for x in row] for row in energy.second], {})
     for direction in freedom:
         along = restricted(second_derivatives(direction, nothing, kept), on)
         if any(map(any, along)):
-            for mu in between_roots(at_start, along):
+            for mu in between(at_start, along):
                 yield [x + mu * y for x, y in zip(start, direction, strict=True)]
+
+
+def pencil(a: Matrix, b: Matrix, own: Any) -> Any:
+    """det(a + μb), in the polynomials in μ over the field that the entries are in."""
+    from sympy import Symbol
+    from sympy.polys.matrices import DomainMatrix
+
+    field: Any = own[Symbol("mu")]
+    pairs = [
+        [field(element(x, own)) + field.gens[0] * element(y, own) for x, y in zip(*r, strict=True)]
+        for r in zip(a, b, strict=True)
+    ]
+    return DomainMatrix(pairs, (len(a), len(a)), field).charpoly()[-1]
 
 
 def between_roots(a: Matrix, b: Matrix) -> list[Fraction]:
     """Numbers μ, one in each interval between the real roots of det(a + μb)."""
     from sympy import Poly, Symbol
-    from sympy.polys.matrices import DomainMatrix
 
-    mu, n = Symbol("mu"), len(a)
-    own = field_of([*a, *b])
-    field: Any = own[mu]
-    pairs = [
-        [field(element(x, own)) + field.gens[0] * element(y, own) for x, y in zip(*r, strict=True)]
-        for r in zip(a, b, strict=True)
-    ]
-    terms = DomainMatrix(pairs, (n, n), field).charpoly()[-1].items()
+    mu, own = Symbol("mu"), field_of([*a, *b])
+    terms = pencil(a, b, own).items()
     determinant = rational_multiple({m: number_of(c, own) for (m,), c in terms})
     determinant = Poly.from_dict(determinant, mu, domain="QQ")
     if determinant.is_zero or determinant.degree() < 1:

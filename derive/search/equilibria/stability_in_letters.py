@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from itertools import combinations
 from typing import Any
 
@@ -24,6 +25,8 @@ from .energy_casimir import (
     domain_matrix,
     element,
     leaf,
+    multipliers_tried,
+    pencil,
     restricted,
     second_derivatives,
     solutions,
@@ -141,53 +144,24 @@ def _definite(
     choices = solutions([e.slope for e in kept], [-x for x in energy.slope])
     if choices is None:
         return None, definite(along_the_orbit(about, on), known)
-    first = None
-    for multipliers in _choices(about, on, energy, kept, *choices):
+    start, freedom = choices
+    domain = about.algebra.field
+    start = [element(x, domain) for x in start]
+    middle = partial(between, domain=domain)
+    plain, *others = multipliers_tried(start, freedom, energy, kept, on, middle)
+    several: list[Vector] = [*others, plain]  # in the middle it is definite wherever it is with any
+    for multipliers in several:
         cases = definite(restricted(second_derivatives(multipliers, energy, kept), on), known)
         poles = [x.field(x.denom) ** 2 for x in multipliers]
         cases = tuple(y for x in cases if (y := x.with_positive(*poles)))
         if cases:
             return (*multipliers,), cases
-        first = first or ((*multipliers,), cases)
-    assert first
-    return first
-
-
-def _choices(
-    about: About,
-    on: Leaf,
-    energy: Expansion,
-    kept: Sequence[Expansion],
-    start: Vector,
-    freedom: Matrix,
-) -> Iterator[Vector]:
-    """Multipliers: along each freedom one in the middle of two roots of det Q, and the first."""
-    domain = about.algebra.field
-    start = [element(x, domain) for x in start]
-    at_start = restricted(second_derivatives(start, energy, kept), on)
-    zero = domain.zero
-    nothing = Expansion(zero, [], [[zero] * len(x) for x in energy.second], {})
-    for direction in freedom:
-        along = restricted(second_derivatives(direction, nothing, kept), on)
-        for mu in between(at_start, along, domain) if any(map(any, along)) else ():
-            yield [x + mu * y for x, y in zip(start, direction, strict=True)]
-    yield start
+    return (*several[0],), ()
 
 
 def between(a: Matrix, b: Matrix, domain: Any) -> Iterator[Element]:
     """Functions μ, each in the middle of two real roots of det(a + μb), where these are real."""
-    from sympy import Symbol
-    from sympy.polys.matrices import DomainMatrix
-
-    field = domain[Symbol("mu")]
-    rows = [
-        [
-            field(element(x, domain)) + field.gens[0] * element(y, domain)
-            for x, y in zip(*r, strict=True)
-        ]
-        for r in zip(a, b, strict=True)
-    ]
-    determinant = DomainMatrix(rows, (len(a), len(a)), field).charpoly()[-1]
+    determinant = pencil(a, b, domain)
     factors = [f for f, _ in determinant.factor_list()[1]] if determinant else []
     of = [[f.get((k,), domain.zero) for k in range(f.degree() + 1)] for f in factors]
     yield from (-c[1] / (2 * c[2]) for c in of if len(c) == 3)

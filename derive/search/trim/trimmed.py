@@ -23,10 +23,10 @@ from ...algebra.groups import Group
 from ...code.program import Program
 from ...language import rational as q
 from ...language.rational import Matrix
-from ...language.reserved import did_you_mean, near_name
 from ...language.univariate import Number, Quadratic, RootError, grows, root, routh
 from ...problem.fields import entries, state_names
 from ...problem.problem import Problem
+from ...schema.table import nearest
 from ..equilibria.stability import eigenvalues, polynomial
 from .steady_velocity import FLOATS, Arithmetic, NoTrimError, Rates, exact, solutions
 
@@ -108,7 +108,7 @@ class _Question:
         names = (*program.state, *program.inputs)
         for name in (*at, *(free or ())):
             if name not in names:
-                near = did_you_mean(near_name(name, names), "; ") or f"; these are {entries(names)}"
+                near = nearest(name, names) or f"; these are {entries(names)}"
                 raise NoTrimError(f"{name} is no number of the state and no input{near}")
         wanted = free or [x for x in program.inputs if x not in at]
         self.free = tuple(x for x in wanted if x in program.inputs)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from itertools import count
 
 from ...algebra.groups import Group
@@ -25,49 +26,33 @@ from .potentials import Potentials
 # the coefficient of δt says ḣ + ∂ₜL̃ = u(Z): the work in a displacement, with Z in its place.
 
 
-def of_vectors(
-    problem: Problem,
-    external: External | None,
-    b: Alphabet,
-    found: Potentials,
-    kept: Steps,
-    motion: Step,
-    c: Chapter,
-) -> tuple[Step, ...]:
-    """ḣ = ⟨μ_u, ζ⟩ + ⟨F_u, w⟩ + ∂ₜŨ; no step where nothing acts and Ũ leaves the time alone."""
-    turning = inner(external.moments, word(ZETA)) if external else None
-    return _of_points(problem, external, turning, b, found, kept, motion, c)
+def in_vectors(external: External, _: Alphabet) -> Expr:
+    """The power ⟨μ_u, ζ⟩ of the moments."""
+    return inner(external.moments, word(ZETA))
 
 
-def of_matrices(
-    problem: Problem,
-    external: External | None,
-    b: Alphabet,
-    found: Potentials,
-    kept: Steps,
-    motion: Step,
-    c: Chapter,
-) -> tuple[Step, ...]:
-    """ḣ = Tr(Z N̄_u) + ⟨F_u, w⟩ + ∂ₜŨ, as ``of_vectors``: the work of N_u is Tr(ξ′N̄_u)."""
-    turning = trace(word(b.Z.velocity) * external.moments.bar) if external else None
-    return _of_points(problem, external, turning, b, found, kept, motion, c)
+def in_matrices(external: External, b: Alphabet) -> Expr:
+    """The power Tr(Z N̄_u), as the work of N_u is Tr(ξ′N̄_u)."""
+    return trace(word(b.Z.velocity) * external.moments.bar)
 
 
 def _of_points(
+    turned: Callable[[External, Alphabet], Expr],
     problem: Problem,
     external: External | None,
-    turning: Expr | None,
     b: Alphabet,
     found: Potentials,
     kept: Steps,
     motion: Step,
     c: Chapter,
 ) -> tuple[Step, ...]:
-    """The step, by the power of the moments; ``kept``: what is without forces."""
+    """ḣ = the power of the moments, ``turned``, + ⟨F_u, w⟩ + ∂ₜŨ; no step where nothing acts and Ũ
+    leaves the time alone; ``kept``: what is without forces."""
     draft = c.draft("power", "power")
     terms: list[Tree] = []
     apart: dict[str, Tree] = {}
-    if external and turning is not None:
+    if external:
+        turning = turned(external, b)
         pulling = inner(external.resultant, word(b.w.velocity)) if b.affine else number(0)
         draft.depends_on(whole := turning + pulling)
         terms.append(vector_sum(whole))
@@ -81,6 +66,9 @@ def _of_points(
     prose += say("power.timed", rate=b.dU_dt.name) if timed else ()
     own = [Equation(b.dU_dt.name, _in_time(b, found.steps[0]))] if timed else []
     return (draft.step([*own, *_balance(terms, timed, apart)], prose),)
+
+
+of_vectors, of_matrices = partial(_of_points, in_vectors), partial(_of_points, in_matrices)
 
 
 def _in_time(b: Alphabet, potential: Step) -> Tree:
