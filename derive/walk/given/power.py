@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from collections.abc import Mapping, Sequence
 from itertools import count
 
 from ...algebra.groups import Group
@@ -26,18 +25,7 @@ from .potentials import Potentials
 # the coefficient of δt says ḣ + ∂ₜL̃ = u(Z): the work in a displacement, with Z in its place.
 
 
-def in_vectors(external: External, _: Alphabet) -> Expr:
-    """The power ⟨μ_u, ζ⟩ of the moments."""
-    return inner(external.moments, word(ZETA))
-
-
-def in_matrices(external: External, b: Alphabet) -> Expr:
-    """The power Tr(Z N̄_u), as the work of N_u is Tr(ξ′N̄_u)."""
-    return trace(word(b.Z.velocity) * external.moments.bar)
-
-
-def _of_points(
-    turned: Callable[[External, Alphabet], Expr],
+def of_points(
     problem: Problem,
     external: External | None,
     b: Alphabet,
@@ -46,13 +34,13 @@ def _of_points(
     motion: Step,
     c: Chapter,
 ) -> tuple[Step, ...]:
-    """ḣ = the power of the moments, ``turned``, + ⟨F_u, w⟩ + ∂ₜŨ; no step where nothing acts and Ũ
-    leaves the time alone; ``kept``: what is without forces."""
+    """ḣ = ⟨μ_u, ζ⟩ + ⟨F_u, w⟩ + ∂ₜŨ, on matrices Tr(Z N̄_u) for the first; no step where nothing
+    acts and Ũ leaves the time alone; ``kept``: what is without forces."""
     draft = c.draft("power", "power")
     terms: list[Tree] = []
     apart: dict[str, Tree] = {}
     if external:
-        turning = turned(external, b)
+        turning = _power_of_moments(external, b)
         pulling = inner(external.resultant, word(b.w.velocity)) if b.affine else number(0)
         draft.depends_on(whole := turning + pulling)
         terms.append(vector_sum(whole))
@@ -68,7 +56,12 @@ def _of_points(
     return (draft.step([*own, *_balance(terms, timed, apart)], prose),)
 
 
-of_vectors, of_matrices = partial(_of_points, in_vectors), partial(_of_points, in_matrices)
+def _power_of_moments(external: External, b: Alphabet) -> Expr:
+    """⟨μ_u, ζ⟩ of vectors of R³; Tr(Z N̄_u) of matrices, as the work of N_u is Tr(ξ′N̄_u)."""
+    moments = external.moments
+    if (moments.rows, moments.cols) == (3, 1):
+        return inner(moments, word(ZETA))
+    return trace(word(b.Z.velocity) * moments.bar)
 
 
 def _in_time(b: Alphabet, potential: Step) -> Tree:
