@@ -68,7 +68,7 @@ notes: $(CORE)  ## lecture notes of SO(3), SE(3), SL(3): notes.pdf and notes.htm
 	$(BIN)/derive notes so3 se3 sl3 --out notes.pdf
 
 dist: $(ALL)   ## minutes more of tests: wheels, old and new versions, every build of the C
-	$(BIN)/python -m pytest -m dist -n 2 --dist loadfile -rP
+	$(BIN)/python -m pytest -m dist $(ON) -rP
 
 docs: $(CORE)   ## the site of docs/ and of the docstrings, in build/docs; a dead link is an error
 	$(INSTALL) --editable ".[docs]"
@@ -78,8 +78,7 @@ docs: $(CORE)   ## the site of docs/ and of the docstrings, in build/docs; a dea
 NODE_MODULES := playground/node_modules/.package-lock.json
 
 playground: $(STAMP) $(NODE_MODULES) ## the playground in the browser, a static folder: build/site/play
-	$(BIN)/python -m playground.stage build/playground/stage
-	node playground/build.mjs build/playground/stage build/site/play
+	$(BIN)/python -m playground.site
 
 site: docs playground ## the documentation and the playground, one static folder: build/site
 	cp -R build/docs/. build/site/

@@ -2,8 +2,9 @@
 
 import pytest
 
+from playground.site import built
 from tests.support.needs import need
-from tests.support.playground_site import built, chromium, opened, served, visit
+from tests.support.playground_site import chromium, opened, served, visit
 
 
 @pytest.fixture(scope="module")

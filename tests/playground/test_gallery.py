@@ -10,8 +10,8 @@ import pytest
 from derive.command.showing import ready_made
 from derive.views.language import LANGUAGES
 from playground.shelves import picture, shelves
+from playground.site import built
 from tests.support.playground_site import (
-    built,
     moving,
     opened,
     rewalked,

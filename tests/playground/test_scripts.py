@@ -11,12 +11,12 @@ from derive import derive as derived
 from derive.code.options import CHOICES, REPEATED
 from derive.command.showing import READY, ready_made
 from derive.problem.toml import load
+from playground.site import ROOT, built
 from playground.stage import schema
 from tests.support import in_node
 from tests.support.library import module_of
 from tests.support.needs import need
 from tests.support.played import PENDULUM, text_of
-from tests.support.playground_site import ROOT, built
 
 # ---- the clock: of what is silent, not of what is long
 

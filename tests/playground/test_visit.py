@@ -6,11 +6,11 @@ from xml.etree import ElementTree
 
 from derive.command.showing import ready_made
 from derive.views.language import LANGUAGES
+from playground.site import built
 from tests.support import in_node
 from tests.support.needs import need
 from tests.support.played import PENDULUM, UNKNOWN_KEY, text_of
 from tests.support.playground_site import (
-    built,
     chosen,
     first_walk,
     opened,

@@ -3,8 +3,8 @@
 import json
 import subprocess
 
+from playground.site import OWN
 from tests.support.needs import need
-from tests.support.playground_site import OWN
 
 
 def printed(script):

@@ -16,8 +16,9 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 from derive.command.cli import main
+from playground.site import built
 from tests.support.needs import BROWSERS
-from tests.support.playground_site import built, chromium, served
+from tests.support.playground_site import chromium, served
 
 PICTURES = Path(__file__).parents[2] / "docs" / "pictures"
 FRAMES, SPAN = 60, 0.48

@@ -11,7 +11,7 @@ from functools import cache
 
 from derive.command.showing import READY
 from derive.record.record import AMENDED
-from tests.support.playground_site import OWN
+from playground.site import OWN
 
 PENDULUM = """name = "mine"
 group = "SO(3)"

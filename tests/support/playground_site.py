@@ -1,21 +1,14 @@
-"""The playground built once for all tests, served on this machine, and pages of it in Chromium."""
+"""The playground served on this machine, and pages of it in Chromium."""
 
 import gzip
-import hashlib
 import shutil
-import subprocess
-import sys
 import threading
 from contextlib import contextmanager
-from pathlib import Path
 
 from playground.serve import server
+from playground.site import OWN, built
 from tests.support.needs import BROWSERS
 
-ROOT = Path(__file__).parents[2]
-OWN, SITE = ROOT / "playground", ROOT / "build" / "site" / "play"
-STAMP = ROOT / "build" / "playground" / "stamp"
-SOURCES = ("derive", "templates", "playground")
 BEHIND = (
     *("keep.js", "rest.tar.gz", "mpmath.tar.gz"),
     *("moving.html", "moving.js", "motion.css", "motion.js"),
@@ -23,36 +16,6 @@ BEHIND = (
 )
 """Files that are fetched behind the first walk: the rest of the package, and what a motion and the
 worker of the service ask for."""
-
-
-def signature():
-    """The hash of all that the playground is made of."""
-    made = hashlib.sha256()
-    for folder in SOURCES:
-        for path in sorted((ROOT / folder).rglob("*")):
-            parts = {"node_modules", "__pycache__"} & {*path.parts}
-            if path.is_file() and not parts:
-                made.update(str(path.relative_to(ROOT)).encode() + path.read_bytes())
-    return made.hexdigest()
-
-
-def built():
-    """The folder of the playground as it is now; one process builds it."""
-    import fcntl
-
-    STAMP.parent.mkdir(parents=True, exist_ok=True)
-    with STAMP.with_suffix(".lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        now = signature()
-        if not (STAMP.is_file() and STAMP.read_text() == now and SITE.is_dir()):
-            if not (OWN / "node_modules").is_dir():
-                command = ["npm", "ci", "--no-audit", "--no-fund"]
-                subprocess.run(command, cwd=OWN, check=True, capture_output=True)
-            stage = STAMP.with_name("stage")
-            subprocess.run([sys.executable, "-m", "playground.stage", stage], cwd=ROOT, check=True)
-            subprocess.run(["node", OWN / "build.mjs", stage, SITE], cwd=ROOT, check=True)
-            STAMP.write_text(now)
-    return SITE
 
 
 @contextmanager
