@@ -15,6 +15,8 @@ import subprocess
 import sys
 import zipfile
 from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from itertools import repeat
 from pathlib import Path
 from typing import Any
 
@@ -176,31 +178,38 @@ def moved(g: Group, meaning: str) -> dict[str, object]:
 
 def stored(out: Path) -> set[str]:
     """What the worker tells of the ready-made problems, so that these are read, and move, before
-    there is Python: a file for each, in each language, in the order of its news; the names of those
-    that move."""
+    there is Python; the names of those that move."""
+    folder = out.with_name("stored")
+    folder.mkdir()
+    (folder / "amendments.pickle").write_bytes(pickle.dumps(amendments(AMENDED)))
+    names = ready_made()
+    with ProcessPoolExecutor() as pool:
+        moves = pool.map(stored_of, names, repeat(out), repeat(folder))
+        return {name for name, moving in zip(names, moves, strict=True) if moving}
+
+
+def stored_of(name: str, out: Path, folder: Path) -> bool:
+    """A file of a problem in each language, with the news of the worker in their order; does the
+    problem move?"""
     sys.path.insert(0, str(HERE / "python"))
     import play
 
-    folder = out.with_name("stored")
-    folder.mkdir()
-    play.FOLDER, play.STORED = folder / "problem", folder / "amendments.pickle"
-    play.STORED.write_bytes(pickle.dumps(amendments(AMENDED)))
+    play.FOLDER, play.STORED = folder / name, folder / "amendments.pickle"
     heard: list[tuple[str, Any]] = []
-    moving = set()
     played = play.Play(lambda kind, news: heard.append((kind, json.loads(news))))
-    for name in ready_made():
-        text = (READY / f"{name}.toml").read_text(encoding="utf-8")
-        for lang in SPOKEN:
-            told: dict[str, list[tuple[str, Any]]] = {}
-            for ask in STORED:
-                heard.clear()
-                getattr(played, ask)(text, lang)
-                told[ask] = [*heard]
-            once(told)
-            moving |= {name for kind, _ in told["motion"] if kind == "motion"}
-            made = json.dumps(told, ensure_ascii=False, separators=(",", ":")).encode()
-            (out / f"{name}.{lang}.json.gz").write_bytes(gzip.compress(made, 9, mtime=0))
-    return moving
+    text = (READY / f"{name}.toml").read_text(encoding="utf-8")
+    moves = False
+    for lang in SPOKEN:
+        told: dict[str, list[tuple[str, Any]]] = {}
+        for ask in STORED:
+            heard.clear()
+            getattr(played, ask)(text, lang)
+            told[ask] = [*heard]
+        once(told)
+        moves |= any(kind == "motion" for kind, _ in told["motion"])
+        made = json.dumps(told, ensure_ascii=False, separators=(",", ":")).encode()
+        (out / f"{name}.{lang}.json.gz").write_bytes(gzip.compress(made, 9, mtime=0))
+    return moves
 
 
 def gallery(moving: set[str]) -> list[dict[str, Any]]:
