@@ -145,7 +145,8 @@ def add_trim_options(held: argparse.ArgumentParser) -> None:
     about = "of the state or an input, as zeta_3=1/2; repeated, others are those of g = 1, and 0"
     held.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)
     about = (
-        "an input or a velocity to be found, this near what --at gives; repeated, or with commas "
+        "an input or a velocity to be found, this near what --at gives, or a turn of g from there, "
+        "eta_1; repeated, or with commas "
     )
     about += "(default: all inputs that --at does not give)"
     held.add_argument("--free", action="append", metavar="NAME", help=about)

@@ -156,8 +156,8 @@ class Derived:
         free: Sequence[str] | None = None,
         given: Mapping[str, float] | None = None,
     ) -> Trimmed:
-        """The inputs and velocities ``free``, else all inputs that are not given, with which the
-        velocity of a state stays as it is; ``at``: numbers of the state and of inputs, as
+        """The inputs, velocities and turns of g ``free``, else all inputs that are not given, with
+        which the velocity of a state stays as it is; ``at``: numbers of the state and of inputs, as
         ``{"zeta_3": "1/2"}``, else those of g = 1, and 0, for a free velocity where it is sought;
         ``given``: parameters in place of their defaults.  ``ValueError`` where there is none, or
         there are many."""

@@ -139,7 +139,7 @@ KINDS = {
         "indefinite unstable unstable_large unstable_always imaginary"
     ),
     "enclosure": "within signs stable unstable open eigenvalues",
-    "trim": "rest steady corner unique isolated stable unstable open",
+    "trim": "rest steady corner unique isolated isolated_with_turns stable unstable open",
 }
 CLAIMS = frozenset(
     f"{subject}.{name}" for subject, names in KINDS.items() for name in names.split()

@@ -78,6 +78,7 @@ RECORDS = {
     "a trim, steady": lambda: trims.drifting().record,
     "a trim, at a corner": lambda: trims.resting_in_air().record,
     "a trim, found": lambda: trims.balanced().record,
+    "a trim, turned": lambda: trims.in_a_wind().record,
     "large": lambda: large("euler_top"),
     "large at defaults": lambda: large("euler_top", at_defaults=True),
 }
@@ -95,6 +96,7 @@ FALSE = {
     ("first_integrals.complete_by_one", "number"): (1, 0),
     ("trim.unique", "inputs"): (("row", ("par", "u"), ("par", "u")),),
     ("trim.isolated", "numbers"): (("row", ("entry", "w", 1), ("entry", "w", 1)),),
+    ("trim.isolated_with_turns", "numbers"): (("row", ("entry", "ξ", 1), ("entry", "ξ", 1)),),
 }
 """Values that make a claim false where another one does not: the energy of a ball is a Casimir, and
 fewer inputs are independent, too."""

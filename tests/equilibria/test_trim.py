@@ -107,7 +107,7 @@ def test_a_velocity_that_stays_for_an_instant_is_refused():
         ("--at A_11=sqrt(2)", "no element of SO(2) has the entries"),
         ("--at A_11=1/0", "is no exact number"),
         ("--at m=1", "m is no number of the state and no input"),
-        ("--free A_11", "inputs and velocities are found"),
+        ("--free A_11", "inputs, velocities and turns from there, as eta_1, are found"),
         ("--free u", "u is no number of the state and no input"),
         ("--free zeta_1,u", ": u is no number of the state and no input"),
         ("--at zeta_1=1 --at zeta_1=2", "given more than once"),

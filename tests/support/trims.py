@@ -68,3 +68,10 @@ def balanced():
 def resting_in_air():
     """It rests, where ‖v‖ has no derivative."""
     return flying().trim()
+
+
+def in_a_wind():
+    """It leans into a wind of 5 along the first axis, with a drag −2v."""
+    wind = {"name": "drag", "frame": "space", "at": [0, 0], "relative_to": ["5", "0"]}
+    found = drone(force=[wind | {"force": ["-2*v_1", "-2*v_2"]}])
+    return found.trim({}, ["eta_1", "u", "v"])

@@ -272,7 +272,7 @@ def _unique(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 
 
 def _isolated(c: ClaimedRecord, step: Step, claim: Claim) -> str:
-    """The derivatives of the load by these numbers are independent."""
+    """The derivatives of the load by these numbers are independent; by ξ, of δg = gξ or ξg."""
     here, told = _trim_of(c, step), claim["numbers"]
     assert isinstance(told, tuple)
     basis, none, rows = c.group.in_user_basis, q.scaled(Fraction(0), here.Z), []
@@ -283,7 +283,9 @@ def _isolated(c: ClaimedRecord, step: Step, claim: Claim) -> str:
             rows.append(here.change(here.here, here.at(here.g, here.Z, more)))
         else:
             place = x[2] - 1 + (basis.dimension - basis.n if x[1] == "w" else 0)
-            rows.append(here.shifted(none, basis.basis[place]))
+            along = basis.basis[place]
+            turns = x[1] == "ξ"
+            rows.append(here.shifted(along, none) if turns else here.shifted(none, along))
     return "" if q.rank(q.matrix(rows)) == len(rows) else "others may do so near there"
 
 
@@ -307,7 +309,7 @@ def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 JUDGES: dict[str, Callable[[ClaimedRecord, Step, Claim], str]] = {
     **dict.fromkeys(POINTS, _at),
     "trim.unique": _unique,
-    "trim.isolated": _isolated,
+    **dict.fromkeys(("trim.isolated", "trim.isolated_with_turns"), _isolated),
     "trim.corner": _corner,
     **dict.fromkeys(VERDICTS, _verdict),
 }

@@ -46,8 +46,9 @@ class NoTrimError(Refused, ValueError):
 
 @dataclass(frozen=True)
 class Rates:
-    """Functions of what is unknown, ``names``, first the ``velocities``: ``values(y, numbers)``,
-    all 0 where it is found, and ``slopes(y, numbers)``, a row of derivatives for each of them."""
+    """Functions of what is unknown, ``names``, first the ``velocities``, then what begins at 0,
+    turns of g and inputs: ``values(y, numbers)``, all 0 where it is found, and ``slopes(y,
+    numbers)``, a row of derivatives for each of them."""
 
     names: tuple[str, ...]
     velocities: int
@@ -72,10 +73,10 @@ def solutions(f: Rates, near: Sequence[float]) -> list[Fraction]:
             f"many trims: near {_told(f, found[0])} there are others; free fewer of these"
         )
     if not found:
-        told = ", ".join(f.names[:m])
+        what = f"for {', '.join(f.names[:m])}" if m else "for g, or free others"
         raise NoTrimError(
-            f"no trim is found: from no start does Newton's method lead to one; give numbers near "
-            f"it by --at for {told}"
+            "no trim is found: from no start does Newton's method lead to one; give numbers near "
+            f"it by --at {what}"
         )
     if len(isolated) > 1:
         several = "; ".join(_told(f, y) for y in isolated)
@@ -137,8 +138,8 @@ def _of_fraction(name: str, x: Any) -> Any:
 
 
 def _digits(x: Any) -> Any:
-    """A number to many digits, as a fraction."""
-    return x.a + x.b * _of_fraction("sqrt", x.d) if isinstance(x, Quadratic) else x
+    """A number to many digits, as a fraction; of g turned there are more."""
+    return x.a + x.b * _of_fraction("sqrt", x.d) if isinstance(x, Quadratic) else _rounded(x)
 
 
 DIGITS = Arithmetic(_digits, _of_fraction)

@@ -27,7 +27,9 @@ def told(trim: Trim, group: Group, steps: Iterable[Step], c: Chapter) -> Step:
         places, velocity = entries_of(group), [*trim.state][-group.dimension :]
         names = (*(_named(x, places, velocity, group) for x in trim.sought),)
         names += (*(("par", x) for x in trim.free),)
-        prose += draft.claim("trim.isolated", numbers=("row", *names))
+        turns = any(x not in trim.state for x in trim.sought)
+        kind = "trim.isolated_with_turns" if turns else "trim.isolated"
+        prose += draft.claim(kind, numbers=("row", *names))
     elif trim.free:
         inputs: Tree = ("row", *(("par", x) for x in trim.free))
         prose += draft.claim("trim.unique", inputs=inputs)
@@ -53,10 +55,12 @@ def _rows(trim: Trim, group: Group) -> list[tuple[Tree, Number]]:
 def _named(
     name: str, places: dict[str, tuple[int, int]], velocity: list[str], group: Group
 ) -> Tree:
-    """A number of the state as a tree: an entry of A, T, ζ or w."""
+    """A number of the state as a tree: an entry of A, T, ζ or w; of ξ for a turn of g."""
     if name in places:
         i, j = places[name]
         return ("entry", "T", i + 1) if name.startswith("T_") else ("entry", "A", i + 1, j + 1)
+    if name not in velocity:
+        return ("entry", "ξ", velocity.index(name.replace("eta", "zeta")) + 1)
     a = velocity.index(name) + 1
     if name.startswith("w"):
         return ("entry", "w", a - len(velocity) + group.n)

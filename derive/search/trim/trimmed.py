@@ -12,7 +12,7 @@ left is small with its differences, which is all that Lyapunov's theorems need.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -28,6 +28,8 @@ from ...problem.fields import entries, state_names
 from ...problem.problem import Problem
 from ...schema.table import nearest
 from ..equilibria.stability import eigenvalues, polynomial
+from .cayley_chart import slopes as chart_slopes
+from .cayley_chart import turned
 from .steady_velocity import FLOATS, Arithmetic, NoTrimError, Rates, exact, solutions
 
 Numbers = Mapping[str, Number]
@@ -42,9 +44,9 @@ PRIME = 2**61 - 1
 @dataclass(frozen=True)
 class Trim:
     """An equilibrium under inputs.  ``state``, ``inputs``: name → number; ``free``: the names of
-    those inputs that were found, ``sought``: of the velocities; ``matrix``: D of the equations
-    linearised in (η, δζ), (2d, 2d), the inputs held; ``resting``: is the velocity 0?  ``corner``:
-    is a root 0 there, which has no derivative?"""
+    those inputs that were found, ``sought``: of the velocities and turns of g; ``matrix``: D of the
+    equations linearised in (η, δζ), (2d, 2d), the inputs held; ``resting``: is the velocity 0?
+    ``corner``: is a root 0 there, which has no derivative?"""
 
     state: Numbers
     inputs: Numbers
@@ -76,9 +78,9 @@ class Trim:
 def trimmed(
     problem: Problem, program: Program, at: Mapping[str, Number], free: Sequence[str] | None = None
 ) -> Trim:
-    """The inputs and velocities ``free``, or all inputs that are not given, for a state and other
-    inputs: those ``at`` has, else g = 1 and 0; ``program``: with its jacobian.  ``NoTrimError``
-    where there is none, or several."""
+    """The inputs, velocities and turns of g ``free``, or all inputs that are not given, for a state
+    and other inputs: those ``at`` has, else g = 1 and 0; ``program``: with its jacobian.
+    ``NoTrimError`` where there is none, or several."""
     try:
         return _Question(problem, program, at, free).answered()
     except RootError as error:
@@ -105,24 +107,23 @@ class _Question:
         self.right = program.variation.startswith("eta")
         self.places = entries_of(problem.group)
         self.require()
-        names = (*program.state, *program.inputs)
-        for name in (*at, *(free or ())):
-            if name not in names:
-                near = nearest(name, names) or f"; these are {entries(names)}"
-                raise NoTrimError(f"{name} is no number of the state and no input{near}")
+        velocity = program.state[-self.d :]
+        self.turns = {x.replace("zeta", "eta"): a for a, x in enumerate(velocity) if "zeta" in x}
+        self.require_names(at, ())
+        self.require_names(free or (), self.turns)
         wanted = free or [x for x in program.inputs if x not in at]
         self.free = tuple(x for x in wanted if x in program.inputs)
         self.sought = tuple(x for x in wanted if x not in program.inputs)
         if given := [x for x in self.free if x in at]:
             raise NoTrimError(f"{given[0]} is given by --at, and free: leave out one")
-        velocity = program.state[-self.d :]
-        if fixed := [x for x in self.sought if x not in velocity]:
+        if fixed := [x for x in self.sought if x not in (*velocity, *self.turns)]:
             raise NoTrimError(
                 f"--free {fixed[0]}: of g, which --at gives, as A_11=4/5 with all that change so; "
-                "inputs and velocities are found"
+                "inputs, velocities and turns from there, as eta_1, are found"
             )
-        self.near = [float(at[x]) for x in self.sought if x in at]
-        if 0 < len(self.near) < len(self.sought):
+        self.velocities = [x for x in self.sought if x in velocity]
+        self.near = [float(at[x]) for x in self.velocities if x in at]
+        if 0 < len(self.near) < len(self.velocities):
             raise NoTrimError("--at gives some of the velocities that are free: give all or none")
         one = q.identity(self.group.size)
         start = {x: one[i][j] for x, (i, j) in self.places.items()}
@@ -133,6 +134,14 @@ class _Question:
             self.k = program.functions["constants"].values({"p": p}, EXACTLY.call)
         except ZeroDivisionError:
             raise NoTrimError("no body has these parameters: its mass matrix is singular") from None
+
+    def require_names(self, names: Iterable[str], more: Iterable[str]) -> None:
+        """``NoTrimError`` where one is no number of the state and no input, and is not in more."""
+        known = (*self.program.state, *self.program.inputs, *more)
+        for name in names:
+            if name not in known:
+                near = nearest(name, known) or f"; these are {entries(known)}"
+                raise NoTrimError(f"{name} is no number of the state and no input{near}")
 
     def require(self) -> None:
         """``NoTrimError`` where this has no exact numbers, or has the time in it."""
@@ -154,7 +163,8 @@ class _Question:
         """The trim; ``NoTrimError`` where there is none, or there are many."""
         self.require_element()
         if self.sought:
-            self.find_velocity()
+            self.find_state()
+            self.require_element()
         held = self.rates({})
         columns = tuple(self.changed(held, {name: Fraction(1)}) for name in self.free)
         by = {name: Fraction(k * k + 3, 7) for k, name in enumerate(self.free)}
@@ -174,17 +184,29 @@ class _Question:
             self.has_corner(u),
         )
 
-    def find_velocity(self) -> None:
-        """Put those velocities in the state with which, and with free inputs, its rates vanish."""
-        program = self.program
-        places = [program.state.index(x) for x in self.sought]
+    def find_state(self) -> None:
+        """Put those velocities, and turns of g, in the state with which, and with free inputs, its
+        rates vanish."""
+        program, g = self.program, self.element()
+        places = [program.state.index(x) for x in self.velocities]
+        turns = [self.turns[x] for x in self.sought if x in self.turns]
         inputs = [program.inputs.index(x) for x in self.free]
+        n = len(places) + len(turns)
+
+        def eta(y: Sequence[Any]) -> list[Any]:
+            by = dict(zip(turns, y[len(places) : n], strict=True))
+            return [by.get(a, Fraction(0)) for a in range(self.d)]
 
         def at(y: Sequence[Any]) -> tuple[list[Any], list[Any]]:
             x, u = [*self.x], [*self.u]
+            if turns:
+                there = turned(self.group, g, eta(y), right=self.right)
+                for i, name in enumerate(program.state[: -self.d]):
+                    row, column = self.places[name]
+                    x[i] = there[row][column]
             for i, value in zip(places, y, strict=False):
                 x[i] = value
-            for i, value in zip(inputs, y[len(places) :], strict=True):
+            for i, value in zip(inputs, y[n:], strict=True):
                 u[i] = value
             return x, u
 
@@ -194,18 +216,23 @@ class _Question:
         def slopes(y: Sequence[Any], numbers: Arithmetic) -> list[list[Any]]:
             x, u = at(y)
             D = self._rows(self._values("jacobian", x, u, numbers))[self.d :]
-            first, n = self.d - len(x), len(places)
+            first = self.d - len(x)
+            chart = chart_slopes(self.group, eta(y), right=self.right) if turns else ()
             more = [
                 rates([*y[: n + k], y[n + k] + 1, *y[n + k + 1 :]], numbers)
                 for k, _ in enumerate(inputs)
             ]
             held = rates(y, numbers)
             return [
-                [*(row[self.d + first + i] for i in places), *(m[a] - held[a] for m in more)]
-                for a, row in enumerate(D)
+                [
+                    *(row[self.d + first + i] for i in places),
+                    *(q.dot(row[: self.d], chart[a]) for a in turns),
+                    *(m[b] - held[b] for m in more),
+                ]
+                for b, row in enumerate(D)
             ]
 
-        names = (*self.sought, *self.free)
+        names = (*self.velocities, *(x for x in self.sought if x in self.turns), *self.free)
         y = exact(names, solutions(Rates(names, len(places), rates, slopes), self.near))
         self.x, self.u = at(y)
         if any(self.rates({})):
