@@ -355,6 +355,7 @@ OF_OUTPUTS = {
     "distance": "the distance to another point, or to a point of space",
     "momentum": "the momentum, the sum of m v",
     "tension": "the tension of a spring",
+    "power": "the power",
     "expression": "a function of the state",
 }
 """What is read, by kinds; of a place beside it, in a frame."""
@@ -367,9 +368,10 @@ def _output(entry: Mapping[str, Any], places: Mapping[int, str]) -> list[str]:
     frame = "body" if kind == "specific_force" else entry.get("frame", "")
     seen = f", in the {frame} frame" * bool(frame)
     name = f"{entry['name']}{at if on else ''}"
+    whose = f" of {entry['of'] or 'all that acts'}" if kind == "power" else ""
     told = comment(entry["unit"])
     unit = f", in {told}" * bool(told and told.isascii())
-    return textwrap.wrap(f"Output {name}: {OF_OUTPUTS[kind]}{seen}{unit}.", 88)
+    return textwrap.wrap(f"Output {name}: {OF_OUTPUTS[kind]}{whose}{seen}{unit}.", 88)
 
 
 # The text of the comment at the head of a file, line by line.

@@ -137,11 +137,19 @@ UNNAMED_FORCE, UNNAMED_DAMPING = "force", "damping"
 """What forces of the state and damping are called in sums, where they have no names."""
 
 
+def acting_names(inputs: Mapping[str, str], forces: Iterable[str], *, damped: bool) -> list[str]:
+    """What acts, by names: ``inputs``: name → kind; ``forces``: their names, "" of what has none;
+    ``damped``: is there a damping?"""
+    names = [name for name, kind in inputs.items() if kind != "scalar"]
+    names += [x or UNNAMED_FORCE for x in forces]
+    return [*dict.fromkeys(names + [UNNAMED_DAMPING] * damped)]
+
+
 def numbers_of_output(told: Mapping[str, Any], dimension: int) -> list[str]:
     """The names of the numbers of an output, which is ``told`` as in a record, in a space of so
     many dimensions: of a vector, of a number, or of expressions."""
     kind, name = told["kind"], told["name"]
-    size = 1 if kind in ("distance", "tension") else dimension
+    size = 1 if kind in ("distance", "tension", "power") else dimension
     if kind == "rate":
         size = 3 if dimension == 3 else 1
     size = len(told["y"]) if kind == "expression" else size

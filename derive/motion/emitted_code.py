@@ -50,6 +50,7 @@ UNITS |= dict.fromkeys(("angular_momentum", "body_angular_momentum"), "kg m^2/s"
 """Those of columns of a kind, and of the components of what is kept."""
 
 UNITS_OF_OUTPUTS = {"rate": "1/s", "momentum": "kg m/s", "tension": "kg m/s^2"}
+UNITS_OF_OUTPUTS |= {"power": "kg m^2/s^3"}
 UNITS_OF_OUTPUTS |= dict.fromkeys(("place", "distance"), "m") | {"velocity": "m/s"}
 UNITS_OF_OUTPUTS |= dict.fromkeys(("acceleration", "specific_force"), "m/s^2")
 """Those of what is read off a motion, by kinds; of a direction and of expressions none is known."""

@@ -43,7 +43,7 @@ from ..schema.kind import (
     TorqueInput,
 )
 from ..schema.kinds import kinds
-from ..schema.output_kinds import OUTPUTS, ExpressionOutput, Output
+from ..schema.output_kinds import OUTPUTS, ExpressionOutput, Output, PowerOutput
 from ..schema.table import ACTIONS, Slot
 from .fields import angular_velocity, tables, velocity_at_place
 from .file_reader import FileReader
@@ -208,6 +208,11 @@ def outputs(
         reader.one_of(OUTPUTS, {"kind": kind, **x} if "y" in x else x, where)
         for where, x in tabled.items()
     )
+    for where, output in zip(tabled, found, strict=True):
+        if isinstance(output, PowerOutput) and not reader.acts:
+            raise ProblemError(
+                f"{where}: there is no power to be read off where nothing acts, or mass flows"
+            )
     reader.distinct_outputs(found, inputs, reader.parameters, acting)
     return found
 

@@ -3,15 +3,15 @@ expressions of places and of the state."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
 from ..algebra.groups import Group
-from ..language.reserved import PLACE
+from ..language.reserved import PLACE, acting_names
 from ..language.tree import Tree, replaced, subtrees
 from ..language.values import approximate
 from ..schema.body_kinds import Place, Point
-from ..schema.kind import Advected, Potential
+from ..schema.kind import Acting, Advected, Damping, Input, Potential
 from ..schema.table import DETERMINANT, Slot
 from ..schema.table_reader import TableReader
 from .fields import (
@@ -33,9 +33,8 @@ class ForceReader(TableReader):
     have named so far.
 
     ``potentials``: those that the problem has; ``observing``: is what is read off motions being
-    read, whose places may be those of forces?  ``pointless``: no points give the Lagrangian, where
-    an algebra carries along what is ``advected``.
-    """
+    read, whose places may be those of forces?  ``acts``: the names of what acts.  ``pointless``: no
+    points give the Lagrangian, where an algebra carries along what is ``advected``."""
 
     error = ProblemError
     numbered = "[[point]] tables"
@@ -46,6 +45,7 @@ class ForceReader(TableReader):
     potentials: tuple[Potential, ...] = ()
     advected: tuple[Advected, ...] | None = None
     observing = pointless = False
+    acts: Collection[str] = ()
 
     # -- where it acts -------------------------------------------------------------------------
 
@@ -204,6 +204,17 @@ class ForceReader(TableReader):
     def is_spring(self, k: int) -> bool:
         """Is it one of those that have been read?"""
         return 1 <= k <= len(self.potentials) and self.potentials[k - 1].kind == "spring"
+
+    def knows_acting(
+        self, inputs: Iterable[Input], forces: Iterable[Acting], damping: Sequence[Damping] = ()
+    ) -> None:
+        """Remember by what names these act."""
+        kinds = {x.name: x.kind for x in inputs}
+        self.acts = acting_names(kinds, [x.name or "" for x in forces], damped=bool(damping))
+
+    def acting_names(self) -> Collection[str]:
+        """Those of what has been read."""
+        return self.acts
 
     def _of_state(self, slot: Slot, count: int | None) -> Vector:
         found, on, group = slot.found, slot.found.get("on"), self.moving()

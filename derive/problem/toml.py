@@ -149,6 +149,8 @@ def problem_of(
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     linear, damped = as_forces(damping, reader)
     flows, pushed = flows_of(data, its_body, reader, inputs)
+    if not flows:  # of these a walk has no power
+        reader.knows_acting(inputs, (*stated, *damped), linear)
     observed = outputs(data, reader, inputs, (*stated, *damped, *pushed), potentials)
     problem = Problem(
         name,
@@ -243,6 +245,7 @@ def _without_points(
                 f"output {k}: beside [{where}] are no points: give expressions 'y' of the state"
                 + ("" if advected is not None else f", or one of {', '.join(others)}")
             )
+    reader.knows_acting(inputs, stated)
     observed = outputs(data, reader, inputs, stated)
     problem = Problem(
         name,

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from ..language.derivatives import DERIVATIVES
 from ..language.laurent import LEVEL, degree_in_level
 from ..language.limits import BASIS, CARRIED, LAYERS, TORUS
-from ..language.reserved import taken
+from ..language.reserved import acting_names, taken
 from ..language.tree import Tree, nodes, replaced
 from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
 from ..schema.kind import (
@@ -433,6 +433,13 @@ class _RecordReader(TableReader):
         """Is it one of the problem?"""
         listed = self.data["potentials"]
         return 1 <= k <= len(listed) and listed[k - 1]["kind"] == "spring"
+
+    def acting_names(self) -> list[str]:
+        """Those of the problem's inputs, forces and damping."""
+        data = self.data
+        inputs = {x["name"]: x["kind"] for x in data["inputs"]}
+        forces = [x.get("name", "") for x in data.get("forces", ())]
+        return acting_names(inputs, forces, damped=bool(data["damping"]))
 
     def dimension(self, _: Slot) -> None:
         """The sizes of blocks are not known here."""

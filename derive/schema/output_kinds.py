@@ -10,12 +10,13 @@ Direction = Annotated[Row, Key("direction", 1, trees=True)]
 OtherEnd = Annotated[int | None, Key("other_end", keys=("to",))]
 Anchor = Annotated[Row | None, Key("anchor", 1, trees=True, keys=("to",))]
 SpringNumber = Annotated[int, Key("spring")]
+Acting = Annotated[str | None, Key("acting_name", null=True)]
 ReadAt = Annotated[int | None, Key("end", keys=ATTACHED)]
 Unit = Annotated[str, Key("unit")]
 Expressions = Annotated[Row, Key("observed", 1, trees=True)]
 """A vector that is not 0; the point, or the point of space, up to which a distance is; a potential
-that is a spring, by its number; the place whose r_1, …, v_1, … expressions name, if they do;
-a unit; expressions of the state, t, inputs and parameters."""
+that is a spring, by its number; what acts, by its name; the place whose r_1, …, v_1, … expressions
+name, if they do; a unit; expressions of the state, t, inputs and parameters."""
 
 
 class Output(Table):
@@ -103,6 +104,13 @@ class TensionOutput(Output):
     of: SpringNumber
 
 
+class PowerOutput(Output):
+    """The power of what acts by a name, or of all that acts."""
+
+    kind = "power"
+    of: Acting = None
+
+
 class ExpressionOutput(Output):
     """Expressions y of the state, and of the coordinates r_1, … and the velocity v_1, … of a place
     where one is said."""
@@ -127,14 +135,14 @@ class ExpressionOutput(Output):
         block: int | None = None,
         to: int | Sequence[Number] | None = None,
         direction: Sequence[Number] | None = None,
-        of: int | None = None,
+        of: int | str | None = None,
         unit: str | None = None,
     ) -> Any:
         """What is read off a motion: the "place", "velocity", "acceleration" or "specific_force" of
         a point or a place of the body; a "rate", that of turning; a "direction" of the body in
         space, or of space in the frame "body"; the "distance" to a point or an anchor; the
-        "momentum"; the "tension" of a spring, the potential of that number; or expressions y. A
-        unit is beside it in runs."""
+        "momentum"; the "tension" of a spring, the potential of that number; the "power" of what
+        acts by a name, or of all; or expressions y. A unit is beside it in runs."""
         told = {"name": name, "kind": kind, "y": y, "frame": frame, "to": to}
         told |= {"direction": direction, "of": of, "block": block, "unit": unit}
         return told if on is None else told | place(on, block)
@@ -152,6 +160,7 @@ OUTPUTS: dict[str, type[Output]] = {
         DistanceOutput,
         MomentumOutput,
         TensionOutput,
+        PowerOutput,
         ExpressionOutput,
     )
 }

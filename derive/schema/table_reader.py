@@ -15,7 +15,7 @@ from ..language.reserved import COLUMNS, WORDS, numbers_of_input, taken
 from ..language.tree import Tree
 from .kind import Acting, Input, Parameter
 from .output_kinds import Output
-from .table import Rows, Slot, Table, hint
+from .table import Rows, Slot, Table, hint, nearest
 
 UNIT = re.compile(r"[\w^*/.·°%⁰¹²³⁴-⁹⁻ -]{0,30}")
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
@@ -359,6 +359,18 @@ class TableReader(ABC):
         if type(k) is not int or not self.is_spring(k):
             raise self.fail(f"{slot.path}: expected the number of a [[potential]] that is a spring")
         return k
+
+    @abstractmethod
+    def acting_names(self) -> Collection[str]:
+        """The names of what acts from outside; those of what has none."""
+
+    def acting_name(self, slot: Slot) -> str | None:
+        """What acts, by its name; nothing for all of it."""
+        known, name = self.acting_names(), slot.table.get(slot.key)
+        if name is not None and name not in known:
+            near = nearest(str(name), known) or f"; what acts: {', '.join(known) or 'nothing'}"
+            raise self.fail(f"{slot.path}: nothing acts by the name {name!r}{near}")
+        return name
 
     @abstractmethod
     def stated_couple(self, slot: Slot) -> tuple[Tree, ...]:

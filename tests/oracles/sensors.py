@@ -47,6 +47,10 @@ def outputs(data, basis, p, t, x, u):
             i, j = (r[found.at["point", i]] for i in spring["between"])
             stretched = np.linalg.norm(i - j) - evaluate(spring.get("length", 0), p)
             vector, in_body = [evaluate(spring["stiffness"], p) * stretched], False
+        elif kind == "power":  # of damping at all points, where nothing else acts
+            kappa = sum(evaluate(x["coefficient"], p) for x in data["damping"])
+            moving = [v[found.at[key]] for key in found.points()]
+            vector, in_body = [-kappa * sum(y @ y for y in moving)], False
         else:
             here = {f"r_{i}": y for i, y in enumerate(r[at], 1)} if at else {}
             here |= {f"v_{i}": y for i, y in enumerate(v[at], 1)} if at else {}

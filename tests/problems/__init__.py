@@ -586,6 +586,8 @@ on = 1
 coefficient = 0.3
 """
 RATES = '[[output]]\nname = "gyro"\nkind = "rate"\n'
+POWERS = '[[output]]\nname = "lost"\nkind = "power"\nof = "damping"\n'
+POWERS += '[[output]]\nname = "whole"\nkind = "power"\n'
 OTHER = RATES.replace("gyro", "turn") + "block = 2\n"
 OTHER += '[[output]]\nname = "beside"\nkind = "momentum"\n'
 
@@ -606,7 +608,7 @@ def read_off(group, n, *more):
 PROBLEMS |= {
     "SE(3) outputs": read_off("SE(3)", 3, RATES, DRIVEN),
     "SE(2) x SO(2) outputs": read_off("SE(2) x SO(2)", 2, RATES, OTHER, IN_THE_PLANE),
-    "SL(2) outputs": read_off("SL(2)", 2),
+    "SL(2) outputs": read_off("SL(2)", 2, POWERS),
     "SO(2) outputs": read_off("SO(2)", 2, RATES),
 }
 PROBLEMS["SE(2) outputs"] = """

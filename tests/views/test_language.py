@@ -45,7 +45,14 @@ from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
 from tests.support.kinds import examples
 from tests.support.lagrangians import every_record, heisenberg
-from tests.support.trims import balanced, drifting, leaning, resting_in_air, upside_down
+from tests.support.trims import (
+    balanced,
+    drifting,
+    in_a_wind,
+    leaning,
+    resting_in_air,
+    upside_down,
+)
 
 ROOT = Path(__file__).parents[2] / "derive"
 ENTRIES = catalogue_entries()
@@ -88,6 +95,7 @@ CHOSEN = (
     *("a cylinder", "SL(4)", "Aff(2)", "SAff(2)", "weighted"),
     *("SE(3) x SE(3)", "a flat body", "so(3) skewed", "SE(3) torques", "SE(2) torques"),
     *("SE(3) of the state", "Aff(3) of the state", "SE(3) outputs", "SE(2) outputs"),
+    "SL(2) outputs",
     "SL(3) covector of the state",
 )
 
@@ -183,7 +191,7 @@ def all_records():
     problems += [problem_of({"name": "own"} | x) for x in OWN]
     told = [*map(walks.record, ready_made()), *map(corpus.record, OF_THE_CORPUS)]
     told.append(symmetries(walks.problem("gl3"), walks.record("gl3")).record)
-    trims = (leaning, upside_down, drifting, resting_in_air, balanced)
+    trims = (leaning, upside_down, drifting, resting_in_air, balanced, in_a_wind)
     told += [found().record for found in trims]
     told += [families(x)[1] for x in IN_LETTERS]
     return [*told, *every_record(), *map(walk, problems)]

@@ -281,3 +281,100 @@ def test_nothing_acts_by_a_name_that_nothing_has():
     last = replace(step.equations[-2], lhs=("par", "P_wind"), rhs=0)
     forged = replace(step, equations=(*step.equations, last))
     assert not Checker(derived().record.problem, 7).check(forged).holds
+
+
+# -- read off by the code ------------------------------------------------------------------------
+
+
+def read_by(data):
+    """The outputs of a problem by its emitted code, with the parameters and inputs of arguments."""
+    module = module_of(problem_of(data))
+
+    def read(x, inputs):
+        k = module.constants(arrange(module, data.get("parameters", {})))
+        u = np.array([inputs[name] for name in module.INPUTS], float)
+        return module.outputs(0.3, x, k, u)
+
+    return read
+
+
+def test_the_code_reads_each_power():
+    told = [{"name": f"of_{x}", "kind": "power", "of": x} for x in NAMES.values()]
+    read = read_by(DRONE | {"output": [*told, {"name": "whole", "kind": "power"}]})
+    _, states, *_ = flight()
+    for x in states:
+        wanted = [powers(x)[name] for name in NAMES.values()]
+        assert np.allclose(read(x, GIVEN), [*wanted, sum(wanted)], rtol=1e-8, atol=1e-12)
+
+
+OUTPUT = {"name": "power", "kind": "power"}
+SPEEDS = [f"zeta_{i}" for i in range(1, 7)]
+PUSHED = {"name": "f", "kind": "force", "on": 2}
+FEW = {
+    "a torque in the plane": (
+        {"group": "SO(2)", "point": [{"mass": 2, "at": [0, -1]}]},
+        {"input": [{"name": "u", "kind": "torque"}], "output": [OUTPUT | {"of": "u"}]},
+    ),
+    "a force on a point of what stretches": (
+        {
+            "group": "SL(3)",
+            "point": [{"mass": 1 + i, "at": [int(i == k) for k in range(3)]} for i in range(4)],
+        },
+        {"input": [PUSHED], "damping": [{"coefficient": 3, "on": 1}], "output": [OUTPUT]},
+    ),
+    "beside a Lagrangian": (
+        {
+            "group": "SE(3)",
+            "lagrangian": {
+                "L": "(" + "+".join(f"{i}*{x}^2" for i, x in enumerate(SPEEDS, 1)) + ")/2"
+            },
+        },
+        {"input": [{"name": "f", "kind": "force", "at": [1, 2, 3]}], "output": [OUTPUT]},
+    ),
+}
+
+
+def wanted_power(name, x):
+    """Force by velocity, from the numbers of the state."""
+    f = np.array([0.3, -0.2, 0.5])
+    if name == "a torque in the plane":
+        return 0.7 * x[4]
+    if name == "beside a Lagrangian":
+        A, _, zeta, w = split(x)
+        return f @ A @ (np.cross(zeta, [1, 2, 3]) + w)
+    A, zeta = x[:9].reshape(3, 3), x[9:]
+    basis = module_of(problem_of(problem_named(name))).BASIS
+    moved = A @ np.tensordot(zeta, np.array(basis, float), 1)
+    return f @ moved[:, 1] - 3 * moved[:, 0] @ moved[:, 0]
+
+
+def problem_named(name):
+    body, acting = FEW[name]
+    return {"name": "acted"} | body | acting
+
+
+@pytest.mark.parametrize("name", [*FEW])
+def test_it_is_read_where_other_things_act(name):
+    read, rng = read_by(problem_named(name)), np.random.default_rng(4)
+    size = len(module_of(problem_of(problem_named(name))).STATE)
+    x, inputs = rng.normal(size=size), {"u": 0.7, "f_1": 0.3, "f_2": -0.2, "f_3": 0.5}
+    assert math.isclose(read(x, inputs)[0], wanted_power(name, x), rel_tol=1e-12)
+    assert all(v.holds for v in own_verdicts(derive.derive(problem_of(problem_named(name))).record))
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"output": [OUTPUT | {"of": "thrst"}]}, "output 1, of: .*did you mean 'thrust'"),
+        ({"output": [OUTPUT | {"of": "wind"}]}, "what acts: thrust, line, twist, u, drag, damping"),
+        ({"output": [OUTPUT | {"of": 3}]}, "output 1, of: .*3"),
+        (
+            {x: [] for x in ("input", "force", "damping", "potential")}
+            | {"parameters": {}, "output": [OUTPUT]},
+            "no power to be read off where nothing acts",
+        ),
+    ],
+)
+def test_what_does_not_act_has_no_power(change, message):
+    with pytest.raises(derive.ProblemError, match=message):
+        problem_of(DRONE | change)

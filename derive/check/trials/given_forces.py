@@ -16,6 +16,7 @@ from ...language.rational import Matrix
 from ...language.reserved import (
     UNNAMED_DAMPING,
     UNNAMED_FORCE,
+    acting_names,
     numbers_of_input,
     suffixed,
 )
@@ -134,6 +135,14 @@ class GivenForces(PhasePoint):
         """The work of all torques that are given, or of a ``couple``, in a displacement g ξ."""
         N = self.couple if couple is None else couple
         return q.dot(q.flatten(N), q.flatten(self.group.linear_part(xi)))
+
+    def power(self) -> Any:
+        """That of all that acts."""
+        forces = [str(x.get("name", "")) for x in self.problem.get("forces", ())]
+        inputs = {x["name"]: x["kind"] for x in self.problem.get("inputs", ())}
+        damped = bool(self.problem.get("damping"))
+        found = map(self.power_of, acting_names(inputs, forces, damped=damped))
+        return sum(found, Fraction(0))
 
     def power_of(self, name: str) -> Any:
         """The power of what acts by a name: of forces by the velocities of their points in space,

@@ -32,6 +32,7 @@ class Observed(Mapping[str, Any]):
             "distance": self.distance,
             "momentum": self.momentum,
             "tension": self.tension,
+            "power": lambda x: (model.power_of(x["of"]) if x["of"] else model.power(),),
             "expression": self.expression,
         }
         self.told: dict[str, Data] = {}

@@ -9,7 +9,7 @@ from ...algebra.calculus import derivation, gradient, substitute
 from ...algebra.groups import Group
 from ...algebra.word_trees import WordNotation, tree_of
 from ...algebra.words import Expr, Letter, inner, word
-from ...language.tree import Tree, add, mul, neg, nodes, replaced
+from ...language.tree import Tree, add, mul, names, neg, nodes, operands, replaced
 from ...problem.fields import angular_velocity
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
@@ -24,12 +24,13 @@ from ...schema.output_kinds import (
     MomentumOutput,
     Output,
     PlaceOutput,
+    PowerOutput,
     RateOutput,
     SpecificForceOutput,
     TensionOutput,
     VelocityOutput,
 )
-from ..chapter import Chapter, Draft, phrase, say
+from ..chapter import Chapter, Draft, Steps, phrase, say
 from ..spine.alphabet import Alphabet
 from ..spine.lagrangian import sum_over
 from ..vectors.isomorphism import ZETA, ZETA_DOT, HatMap
@@ -41,14 +42,20 @@ RATES = (ZETA_DOT, Letter("ẇ", 3))
 
 
 def of_matrices(
-    problem: Problem, group: Group, b: Alphabet, C: Expr, solved: tuple[Step, ...], c: Chapter
+    problem: Problem,
+    group: Group,
+    b: Alphabet,
+    C: Expr,
+    solved: tuple[Step, ...],
+    power: Steps,
+    c: Chapter,
 ) -> tuple[Step, ...]:
     """The step of the outputs, none where there are none, after the equations of motion are
     ``solved``: for Ż, where these have the coordinates alone, the equation that says it by them.
-    ``C``: ĀA, as a step says it."""
+    ``C``: ĀA, as a step says it; ``power``: the step that says what acts by it."""
     by_coordinates = not any(e.lhs == b.Z.acceleration.name for s in solved for e in s.equations)
     rates = stated("Ż = Σ_a ζ̇_a E_a") if by_coordinates else []
-    return _Observed(problem, group, b, C, {}, c).steps(solved, rates)
+    return _Observed(problem, group, b, C, {}, power, c).steps(solved, rates)
 
 
 def of_vectors(
@@ -58,11 +65,12 @@ def of_vectors(
     C: Expr,
     hat_map: HatMap,
     motion: Step,
+    power: Steps,
     c: Chapter,
 ) -> tuple[Step, ...]:
     """The same in R³, where Z = j(ζ)."""
     images = {b.Z.velocity: hat_map.hatted(ZETA), b.Z.acceleration: hat_map.hatted(ZETA_DOT)}
-    return _Observed(problem, group, b, C, images, c).steps((motion,), [])
+    return _Observed(problem, group, b, C, images, power, c).steps((motion,), [])
 
 
 def equation_of(problem: Problem, x: Output, found: Sequence[Tree]) -> Equation:
@@ -85,6 +93,9 @@ def in_words(problem: Problem, x: Output) -> Sentence:
         frame = "_at" if isinstance(x, ExpressionOutput) else frame
     if isinstance(x, DistanceOutput) and x.other_end:
         frame, places["other"] = "_between", f"r_{x.other_end}"
+    if isinstance(x, PowerOutput):
+        frame = "" if x.of else "_whole"
+        places |= {"of": f"‘{x.of}’"} if x.of else {}
     return phrase(f"output.{x.kind}{frame}", **places)
 
 
@@ -94,14 +105,35 @@ def prose_of(problem: Problem) -> Prose:
     return say("output.read", outputs=listed("{first}; {second}", told))
 
 
+def read_off(power: Sequence[Step], name: str | None) -> Tree:
+    """The power of what acts by a name, or of all that acts, as the step ``power`` says it."""
+    (step,) = power
+    apart = [e.lhs for e in step.equations if isinstance(e.lhs, tuple)]
+    if not apart:  # one thing acts
+        first = next(e.rhs for e in step.equations if e.lhs == "ḣ")
+        terms = operands(first) if isinstance(first, tuple) and first[0] == "add" else (first,)
+        return add(*(x for x in terms if not {"∂ₜŨ", "∂ₜL̃"} & {*names(x)}))
+    if name is None:
+        return add(*apart)
+    return next(x for x in apart if str(x[1])[1:].lstrip("_") == name.lstrip("_"))
+
+
 class _Observed:
     """The outputs of one problem in letters of its group; ``images``: what stands for some of
     them."""
 
     def __init__(
-        self, problem: Problem, group: Group, b: Alphabet, C: Expr, images: Images, c: Chapter
+        self,
+        problem: Problem,
+        group: Group,
+        b: Alphabet,
+        C: Expr,
+        images: Images,
+        power: Steps,
+        c: Chapter,
     ):
         self.problem, self.group, self.b, self.C, self.images = problem, group, b, C, images
+        self.power_step = power
         self.draft: Draft = c.draft("outputs", "output")
         turned = word(b.Z.velocity) * word(b.r_i)
         self.velocity = turned + word(b.w.velocity) if b.affine else turned
@@ -119,6 +151,7 @@ class _Observed:
             DistanceOutput: self.distance,
             MomentumOutput: self.momentum,
             TensionOutput: self.tension,
+            PowerOutput: self.power,
             ExpressionOutput: lambda x: x.y,
         }
 
@@ -237,6 +270,11 @@ class _Observed:
         assert isinstance(spring, Spring)
         length = self._length(*spring.ends, spring.anchor)
         return (mul(spring.stiffness, add(length, neg(spring.length))),)
+
+    def power(self, x: PowerOutput) -> Sequence[Tree]:
+        """P of what acts by a name, or the sum of all."""
+        self.draft.depends_on(*self.power_step)
+        return (read_off(self.power_step, x.of),)
 
     def _length(self, i: int, j: int | None, anchor: Sequence[Tree] | None) -> Tree:
         """The length of what is between a point and another, or a point of space."""

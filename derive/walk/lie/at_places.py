@@ -21,12 +21,13 @@ from ...schema.output_kinds import (
     ExpressionOutput,
     Output,
     PlaceOutput,
+    PowerOutput,
     RateOutput,
     VelocityOutput,
 )
 from ..chapter import Chapter
 from ..given.inputs import Push, couple_of, covectors, entries_of, pushes
-from ..given.outputs import equation_of, prose_of
+from ..given.outputs import equation_of, prose_of, read_off
 
 Trees = list[Tree]
 
@@ -55,14 +56,19 @@ def named_forces(problem: Problem, group: Group) -> list[Equation]:
 
 
 def outputs(
-    problem: Problem, group: Group, balance: Sequence[Step], c: Chapter
+    problem: Problem, group: Group, balance: Sequence[Step], power: Sequence[Step], c: Chapter
 ) -> tuple[Step, ...]:
     """The step of what is read off a motion, none where nothing is; ``balance``: the steps up to
-    the equations of motion."""
+    the equations of motion; ``power``: the one that says what acts by it."""
     if not problem.outputs:
         return ()
     places, draft = Places(problem, group), c.draft("outputs", "output")
-    given = [equation_of(problem, x, places.read(x)) for x in problem.outputs]
+    given = []
+    for x in problem.outputs:
+        if isinstance(x, PowerOutput):
+            draft.depends_on(*power)
+        found = [read_off(power, x.of)] if isinstance(x, PowerOutput) else places.read(x)
+        given.append(equation_of(problem, x, found))
     named = {t for e in given for t in nodes(e.rhs)}
     if not named.isdisjoint(places.rates):
         draft.depends_on(next(x for x in balance if x.label == c.label("motion")))
