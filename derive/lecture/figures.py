@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
 from .lecture_text import tree
+from .rolling_figure import poinsot
 from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, number, panel, solved
 from .top_figures import tilts, top_paths
 
@@ -167,6 +168,7 @@ def theory(_: Claims) -> Scene:
 FIGURES: dict[str, Callable[[Claims], Scene]] = {
     "theory": theory,
     "polhodes": polhodes,
+    "rolling": poinsot,
     "tilts": tilts,
     "paths": top_paths,
 }

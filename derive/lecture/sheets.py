@@ -132,20 +132,34 @@ class View:
 
     def on_sphere(self, curve: Sequence[Vector], role: str, pen: str = "line") -> list[Stroke]:
         """A curve on the sphere; behind it, it is pale."""
+        return self.on_surface(curve, lambda u: u, lambda u: self.depth(u) > 0, role, pen)
+
+    def on_surface(
+        self,
+        curve: Sequence[Vector],
+        image: Callable[[Vector], Vector],
+        front: Callable[[Vector], bool],
+        role: str,
+        pen: str = "line",
+    ) -> list[Stroke]:
+        """The ``image`` of a curve on the sphere of radius 1, pale where it is not in ``front``."""
         return [
-            Stroke(tuple(map(self.at, run)), role, pen if front else "hidden")
-            for run, front in self._runs(curve)
+            Stroke(tuple(self.at(image(u)) for u in run), role, pen if ahead else "hidden")
+            for run, ahead in _runs(curve, front)
         ]
 
-    def _runs(self, curve: Sequence[Vector]) -> Iterable[tuple[list[Vector], bool]]:
-        """A curve cut where it passes behind; each run goes to where the next begins."""
-        run = [curve[0]]
-        for x, y in pairwise(curve):
-            run.append(y)
-            if (self.depth(x) > 0) != (self.depth(y) > 0):
-                yield run, self.depth(x) > 0
-                run = [y]
-        yield run, self.depth(curve[-1]) > 0
+
+def _runs(
+    curve: Sequence[Vector], front: Callable[[Vector], bool]
+) -> Iterable[tuple[list[Vector], bool]]:
+    """A curve cut where it passes behind; each run goes to where the next begins."""
+    run = [curve[0]]
+    for x, y in pairwise(curve):
+        run.append(y)
+        if front(x) != front(y):
+            yield run, front(x)
+            run = [y]
+    yield run, front(curve[-1])
 
 
 def number(t: Tree, of: Mapping[Tree, float]) -> float:

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derive.command.lecturing import records_of
-from derive.lecture import document, figures, top_figures
+from derive.lecture import document, figures, rolling_figure, top_figures
 from derive.lecture.lecture_text import LectureError, chapters, parsed
 from derive.views.language import LANGUAGES, language
 from tests.support.library import module_of
@@ -98,6 +98,34 @@ def test_the_racket_flips_as_the_emitted_code_says():
     for kept in (zeta**2 @ moments, zeta**2 @ moments**2):
         assert np.ptp(kept) < 1e-8
     assert (np.diff(np.sign(zeta[:, 1])) != 0).sum() == 2
+
+
+def test_the_ellipsoid_rolls_as_the_emitted_code_says():
+    """The point of contact stays in one plane; its place there up to a rotation, by A in space."""
+    code, end, steps = module_of("euler_top"), 20.0, 2000
+    moments = np.array(rolling_figure.MOMENTS)
+    start = [*np.eye(3).ravel(), *rolling_figure.START]
+    run = solve_ivp(
+        code.rhs,
+        (0, end),
+        start,
+        t_eval=np.linspace(0, end, steps + 1)[::100],
+        args=(code.constants(list(moments)),),
+        rtol=1e-11,
+        atol=1e-13,
+    )
+    wanted = np.array([x[:9].reshape(3, 3) @ x[9:] for x in run.y.T])
+    momentum = moments * rolling_figure.START
+    down = momentum / np.linalg.norm(momentum)
+    first = np.cross(momentum, [0, 0, 1])
+    first /= np.linalg.norm(first)
+    motion = rolling_figure.rolling(CLAIMS, end, steps)[::100]
+    found = np.array([rolling_figure.in_space(*x)(x[0]) for x in motion])
+    axes = np.array([first, np.cross(first, down), -down])
+    assert np.allclose(found, wanted @ axes.T, rtol=0, atol=1e-5)
+    assert np.ptp(found[:, 2]) < 1e-8
+    radii = np.hypot(found[:, 0], found[:, 1])
+    assert np.ptp(radii) > 0.1
 
 
 def test_the_racket_of_the_theory_is_turned_as_a_solid():

@@ -1,0 +1,149 @@
+"""Poinsot's motion as a figure: the ellipsoid of inertia that rolls on its plane, the polhode on
+it, and the herpolhode in the plane, by the equations that the text displays."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from ..views.figure.drawing import Dot, Label, Scene, Stroke, arrow
+from .lecture_text import tree
+from .sheets import AXES, TURN, Claims, Vector, View, beside, number, panel, solved
+
+MOMENTS = (1.0, 1.9, 2.6)
+"""The principal moments of inertia; a triangle has such sides, so some body has them."""
+START = (0.78, 0.42, 0.3)
+"""The angular velocity in the body at first."""
+ROLLED, DRAWN = 14.0, 75.0
+"""For how long it is followed on the left, and on the right."""
+SEEN = 75.0, 20.0
+"""From where the left is seen, in degrees."""
+
+
+def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
+    """a ∧ b."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def dot(a: Sequence[float], b: Sequence[float]) -> float:
+    """⟨a, b⟩."""
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def _unit(v: Sequence[float]) -> Vector:
+    length = math.sqrt(dot(v, v))
+    return tuple(x / length for x in v)
+
+
+def _momentum(zeta: Sequence[float]) -> Vector:
+    return tuple(x * y for x, y in zip(MOMENTS, zeta, strict=True))
+
+
+def rolling(claims: Claims, end: float, steps: int) -> list[tuple[Vector, Vector]]:
+    """The angular velocity in the body, and an axis of space there that is orthogonal to the
+    angular momentum, over time: a row r of A, whose rate by Ȧ = A j(ζ) is r ∧ ζ."""
+    moments = {tree(f"λ{k}"): x for k, x in zip("₁₂₃", MOMENTS, strict=True)}
+    rates = [e.rhs for e in claims["free.principal"]]
+    letters = [tree(f"ζ{k}") for k in "₁₂₃"]
+
+    def rate(x: Vector) -> Vector:
+        values = moments | dict(zip(letters, x[:3], strict=True))
+        return (*(number(y, values) for y in rates), *cross(x[3:], x[:3]))
+
+    first = _unit(cross(_momentum(START), (0.0, 0.0, 1.0)))
+    return [(x[:3], x[3:]) for _, x in solved(rate, (*START, *first), end, steps)]
+
+
+def in_space(zeta: Vector, row: Vector) -> Callable[[Sequence[float]], Vector]:
+    """Where a vector of the body is in axes of space: two horizontal ones, and the third against
+    the angular momentum, so that the plane is below."""
+    down = _unit(_momentum(zeta))
+    second = cross(row, down)
+    return lambda v: (dot(v, row), dot(v, second), -dot(v, down))
+
+
+def herpolhode(claims: Claims, end: float, steps: int) -> list[Vector]:
+    """The point of contact in its plane."""
+    return [in_space(*x)(x[0])[:2] for x in rolling(claims, end, steps)]
+
+
+def poinsot(claims: Claims) -> Scene:
+    """The ellipsoid on its plane; the herpolhode beside."""
+    return beside(_ellipsoid(claims), _path(claims), gap=5)
+
+
+def _ellipsoid(claims: Claims) -> Scene:
+    motion = rolling(claims, ROLLED, 900)
+    placed = in_space(*motion[0])
+    height = placed(START)[2]
+    view = View((32.0, 31.0), 16.0, *SEEN)
+    level = math.sqrt(dot(START, _momentum(START)))
+    axes = [level / math.sqrt(x) for x in MOMENTS]
+
+    def image(u: Sequence[float]) -> Vector:
+        """A point of the sphere of radius 1 on the ellipsoid, in space."""
+        return placed([a * x for a, x in zip(axes, u, strict=True)])
+
+    seen = tuple(view.depth(image([float(i == k) for i in range(3)])) for k in range(3))
+    # the normal at the image of u is that of u/a, so that it is in front where ⟨u, seen/a²⟩ > 0
+    eye = tuple(x / a**2 for x, a in zip(seen, axes, strict=True))
+
+    def front(u: Sequence[float]) -> bool:
+        return dot(u, eye) > 0
+
+    corners = [(x * 1.5, y * 1.5, height) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    plane = Stroke(tuple(view.at(x) for x in corners), "support", "wash")
+    edge = Stroke((*plane.points, plane.points[0]), "support", "thin")
+    path = [(x, y, height) for x, y in (in_space(*m)(m[0])[:2] for m in motion)]
+    strokes = [plane, edge, Stroke(tuple(map(view.at, path)), AXES[2])]
+    strokes.append(_outline(view, image, eye))
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        circle = [_in_plane(i, j, x) for x in TURN]
+        strokes += view.on_surface(circle, image, front, AXES[k], "thin")
+    polhode = [tuple(x / a for x, a in zip(m[0], axes, strict=True)) for m in motion]
+    strokes += view.on_surface(polhode, image, front, "body")
+    foot = view.at((0.0, 0.0, height))
+    strokes += [*arrow(view.at((0.0, 0.0, 0.0)), view.at(placed(START)), "axis")]
+    strokes += [*arrow(view.at((0.0, 0.0, 0.0)), foot, "axis")]
+    contact = view.at(placed(START))
+    labels = [
+        Label("ℓ", at=(foot[0] + 2.4, (foot[1] + view.centre[1]) / 2)),
+        Label("Aζ", at=(contact[0] - 4.4, contact[1] - 1.4)),
+        Label("O", at=(view.centre[0] - 2.6, view.centre[1] + 1.4)),
+    ]
+    return panel((66, 54), strokes, labels, [Dot(view.centre, 0.6, "body")])
+
+
+def _in_plane(i: int, j: int, angle: float) -> Vector:
+    found = [0.0, 0.0, 0.0]
+    found[i], found[j] = math.cos(angle), math.sin(angle)
+    return tuple(found)
+
+
+def _outline(view: View, image: Callable[[Vector], Vector], eye: Vector) -> Stroke:
+    """The outline of the ellipsoid: the image of the great circle orthogonal to ``eye``."""
+    first = _unit(cross(eye, (0.0, 0.0, 1.0)))
+    second = _unit(cross(eye, first))
+    turned = (
+        tuple(math.cos(x) * a + math.sin(x) * b for a, b in zip(first, second, strict=True))
+        for x in TURN
+    )
+    return Stroke(tuple(view.at(image(u)) for u in turned), "body", "thin")
+
+
+def _path(claims: Claims) -> Scene:
+    """The herpolhode between the two circles that it touches."""
+    path = herpolhode(claims, DRAWN, 4500)
+    radii = [math.hypot(*p) for p in path]
+    scale, centre = 20.0 / max(radii), (22.0, 22.0)
+
+    def at(p: Sequence[float]) -> tuple[float, float]:
+        return centre[0] + scale * p[0], centre[1] + scale * p[1]
+
+    strokes = [
+        Stroke(tuple(at((r * math.cos(x), r * math.sin(x))) for x in TURN), "support", "thin")
+        for r in (min(radii), max(radii))
+    ]
+    strokes.append(Stroke(tuple(map(at, path[::3])), AXES[2], "thin"))
+    return panel((44, 44), strokes, (), [Dot(centre, 0.5, "axis")])
