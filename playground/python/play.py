@@ -148,17 +148,32 @@ class Play:
             shutil.rmtree(out, ignore_errors=True)
             out.mkdir()
             command = [self.path.name if x == "FILE" else x for x in shlex.split(words)]
-            said = io.StringIO()
-            with inside(FOLDER), redirect_stderr(said):
-                try:
-                    status = main(command)
-                except SystemExit as ended:
-                    status = ended.code
-            if status:
-                self.fault(said.getvalue().strip().splitlines()[-1])
+            if self.run(command) is None:
                 return None
             written = {x.name: x.read_bytes() for x in sorted(out.iterdir())}
         return zipped(written) if written else None
+
+    def found(self, text: str, what: str, lang: str) -> None:
+        """What a command, with its options, searches of the equations, as its HTML for a page."""
+        with self.refusals():
+            self.read(text)
+            told = ("--format", "html", "--fragment", "--lang", lang)
+            page = self.run([*what.split(), self.path.name, *told])
+            if page is not None:
+                self.tell("found", page)
+
+    def run(self, command: list[str]) -> str | None:
+        """What a command prints; nothing where it is refused, which is told."""
+        said, printed = io.StringIO(), io.StringIO()
+        with inside(FOLDER), redirect_stderr(said), redirect_stdout(printed):
+            try:
+                status = main(command)
+            except SystemExit as ended:
+                status = ended.code
+        if status:
+            self.fault(said.getvalue().strip().splitlines()[-1])
+            return None
+        return printed.getvalue()
 
     def refused(self, text: str, words: str) -> None:
         """Why options that are not among ``words``, those of an emission, cannot be added."""

@@ -64,7 +64,7 @@ export const spoken = (search) => new URLSearchParams(search).get("lang");
 /* the address of a problem, which is a name or a packed text, and of a step of it, in a language, and of what is seen of it */
 export const placed = (lang, word, step = "", seen = {}) => `?lang=${lang}#${word}${step && `/${encodeURIComponent(step)}`}${written(seen)}`;
 
-const TABS = ["walk", "see", "take"];
+const TABS = ["walk", "see", "find", "take"];
 const short = (v) => String(Number(v.toPrecision(7)));
 
 /* what is seen: { tab, projected: "" or "answer", t, eye: [azimuth, elevation, zoom], set: { name: number } }, what is there of it */

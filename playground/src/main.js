@@ -7,6 +7,7 @@ import { Equations, power } from "./equations.js";
 import { Form, SCAFFOLD } from "./form.js";
 import { Gallery } from "./gallery.js";
 import { Places } from "./history.js";
+import { Found } from "./found.js";
 import { asked, spoken } from "./link.js";
 import { menu } from "./menu.js";
 import { Motion } from "./see.js";
@@ -52,12 +53,22 @@ const road = new Road(the("road").firstElementChild, (id) => (id ? go(id) : tabs
 const take = new Take(the("take"), data, {
   ask: files, reasons, file: () => ({ name: problem_name(), text: text.text, title: equations.title || problem_name(), ready: chosen() }),
 });
+const searches = new Found(the("find"), css, document.querySelector(".read .bar"), {
+  go: (id) => go(id),
+  ask: async (what, asking, heard) => {
+    say(words.searching);
+    const how = await engine.ask({ ask: "found", what, ...asking }, heard);
+    if (ended(how)) say("");
+    return how;
+  },
+});
 const gallery = new Gallery(the("gallery"), {
   ready, chosen: () => chosen(), choose: (name, moves) => choose(ready(name).text, moves ? "see" : "walk"),
 });
-const tabs = new Tabs(["walk", "see", "take"], (name) => {
+const tabs = new Tabs(["walk", "see", "find", "take"], (name) => {
   the("steps").parentElement.hidden = name !== "walk";
   if (name === "see") see();
+  if (name === "find") find();
   if (name === "take") take.weigh();
 });
 
@@ -148,6 +159,7 @@ async function derive() {
     wanted = false;
     await check();
   } else if (tabs.now === "see") await see();
+  else if (tabs.now === "find") await find();
   else take.weigh();
 }
 
@@ -237,6 +249,10 @@ async function check() {
 
 async function see() {
   if (walked && !running && !timer) await motion.of(walked, words);
+}
+
+async function find() {
+  if (walked && !running && !timer) await searches.of(walked, words, chosen() ?? `${problem_name()}.toml`);
 }
 
 /* the files of a command as { zip }, or what it { refused }; a walk that runs is waited for */

@@ -65,6 +65,7 @@ const ASKED = {
   motion: (play, m) => play.motion(m.text, m.lang),
   refused: (play, m) => play.refused(m.text, m.words),
   kept: (play, m) => play.kept(m.text, m.lang),
+  found: (play, m) => play.found(m.text, m.what, m.lang),
   files: (play, m) => {
     const made = play.files(m.text, m.words);
     if (!made) return;

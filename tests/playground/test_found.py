@@ -1,0 +1,57 @@
+"""What is searched of the equations, in a tab of the playground: as the commands say it."""
+
+import re
+
+import pytest
+
+from derive.command.cli import main
+from tests.support.playground_site import opened, violations, visit
+
+PLACE = "document.querySelector('#find > div:last-child').shadowRoot"
+STEPS = f"[...{PLACE}.querySelectorAll('article')].map((x) => x.id)"
+
+
+def steps_found(page, what):
+    """The steps of a search, when they stand there."""
+    page.click(f"[data-search={what}]")
+    page.wait_for_selector("#find article, #find .fault", state="attached", timeout=60_000)
+    return page.evaluate(STEPS)
+
+
+def by_the_command(capsys, *words):
+    assert main([*words, "--format", "html", "--fragment"]) == 0
+    return re.findall(r'<article id="([^"]+)"', capsys.readouterr().out)
+
+
+@pytest.fixture(scope="module")
+def found(browser, site):
+    with opened(browser) as page:
+        visit(page, f"{site}?lang=en#euler_top&tab=find", "euler_top")
+        yield page
+
+
+@pytest.mark.parametrize("what", ["symmetries", "integrals", "equilibria", "reduction"])
+def test_a_search_is_that_of_its_command(found, what, capsys):
+    options = ["--letters"] * (what == "equilibria")
+    wanted = by_the_command(capsys, what, "euler_top", *options)
+    assert steps_found(found, what) == wanted != []
+    assert found.inner_text("#find code").split() == ["derive", what, "euler_top", *options]
+
+
+def test_a_link_goes_to_a_step_there(found):
+    first, *_, last = steps_found(found, "equilibria")
+    found.click(f"#find article[id='{last}'] h3 a")
+    assert found.evaluate(f"{PLACE}.querySelector('.aimed').id") == last != first
+
+
+def test_nothing_is_wrong_for_screen_readers(found):
+    steps_found(found, "symmetries")
+    assert violations(found) == []
+
+
+def test_what_is_refused_is_one_line_and_in_the_other_language(browser, site):
+    with opened(browser) as page:
+        visit(page, f"{site}?lang=fr#jelly&tab=find", "jelly")
+        assert page.inner_text("[data-search=equilibria]") == "Équilibres"
+        assert steps_found(page, "integrals") == []
+        assert page.evaluate(f"{PLACE}.querySelector('.fault').textContent").startswith("derive: ")
