@@ -10,6 +10,7 @@ import { Places } from "./history.js";
 import { Found } from "./found.js";
 import { asked, spoken } from "./link.js";
 import { menu } from "./menu.js";
+import { opens } from "./opened.js";
 import { Motion } from "./see.js";
 import { Projector } from "./projector.js";
 import { Road } from "./road.js";
@@ -426,6 +427,7 @@ the("link").addEventListener("click", async (e) => {
   places.see(lang, places.word, places.named, { tab: tabs.now, ...seen });
   await copy(location.href, e.target, words.linked);
 });
+opens(the("open"), { open: (now) => choose(now), say: (line) => say(line), words: () => words });
 the("wide").addEventListener("click", () => widen(!document.body.classList.contains("wide")));
 const project = () => places.stands && projector.enter(tabs.now === "walk" ? equations.at()?.id : places.named);
 the("project").addEventListener("click", project);

@@ -1,0 +1,36 @@
+/* Files of the reader: chosen by a button, or dropped on the page. A problem file is opened; of others a line says what to do. */
+import { make } from "./dom.js";
+
+const LARGEST = 500_000;
+const OTHERS = { stl: "mesh", obj: "mesh", off: "mesh", json: "run", csv: "run", npz: "run" };
+
+/* button: what asks for a file; open(text): of a problem file; say(line): why another is not; words(): of the language */
+export function opens(button, { open, say, words }) {
+  const choice = make("input", { type: "file", accept: ".toml", hidden: true, "aria-hidden": "true", change: () => {
+    read(choice.files[0]);
+    choice.value = "";
+  } });
+  button.after(choice);
+  button.addEventListener("click", () => choice.click());
+
+  async function read(file) {
+    if (!file) return;
+    const kind = file.name.split(".").at(-1).toLowerCase();
+    if (kind !== "toml") return say(words().opened[OTHERS[kind] ?? "other"](file.name));
+    if (file.size > LARGEST) return say(words().opened.large(file.name));
+    try {
+      open(new TextDecoder("utf-8", { fatal: true }).decode(await file.arrayBuffer()));
+    } catch {
+      say(words().opened.unread(file.name));
+    }
+  }
+
+  const files = (e) => [...e.dataTransfer?.types ?? []].includes("Files");
+  addEventListener("dragover", (e) => { if (files(e)) e.preventDefault(); }, true);
+  addEventListener("drop", (e) => {
+    if (!files(e)) return;
+    e.preventDefault();
+    e.stopPropagation();
+    read(e.dataTransfer.files[0]);
+  }, true);
+}
