@@ -84,8 +84,8 @@ MATRICES = (
     Stage("space", "cartan.momentum a", "SpaceMomenta", conserved.matrix_momenta),
     Stage("conserved", "problem potentials space solution.motion special.letters c",
           "Steps", conserved.conserved_steps),
-    Stage("power", "problem external? special.letters potentials conserved solution.motion c_u",
-          "Steps", power.of_points),
+    Stage("power", "problem external? special.letters special.C trivial body pullback.steps "
+          "potentials conserved? solution.motion c_u", "Steps", power.of_points),
     Stage("by_momenta", "general driven centred? group c c_u",
           "Steps", by_momenta.of_matrices),
     Stage("outputs", "problem group special.letters special.C solution.steps power? c_u",
@@ -124,8 +124,8 @@ VECTORS = (
     Stage("space", "vectors.momenta isometry.letters", "SpaceMomenta", conserved.vector_momenta),
     Stage("conserved", "problem potentials space motion isometry.letters c",
           "Steps", conserved.conserved_steps),
-    Stage("power", "problem external? isometry.letters potentials conserved motion c_u",
-          "Steps", power.of_points),
+    Stage("power", "problem external? isometry.letters isometry.C trivial body pullback.steps "
+          "potentials conserved? motion c_u", "Steps", power.of_points),
     Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
           "Steps", by_momenta.of_rotations, "linear"),
     Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
@@ -228,7 +228,7 @@ def walk(problem: Problem) -> Derivation:
         kinds = {"affine" if group.affine else "linear", *group.relations}
         kinds |= {"element" if problem.advected is None else "reduced"}
         if problem.flows:  # what is said of Π̇ and of momenta in space is of masses that stay
-            road = tuple(x for x in road if x.name not in ("by_momenta", "conserved", "power"))
+            road = tuple(x for x in road if x.name not in ("by_momenta", "conserved"))
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
         steps += by_name(problem, follow(road, values | own, kinds)["steps"])
     if problem.torus:

@@ -210,9 +210,7 @@ def outputs(
     )
     for where, output in zip(tabled, found, strict=True):
         if isinstance(output, PowerOutput) and not reader.acts:
-            raise ProblemError(
-                f"{where}: there is no power to be read off where nothing acts, or mass flows"
-            )
+            raise ProblemError(f"{where}: there is no power to be read off where nothing acts")
     reader.distinct_outputs(found, inputs, reader.parameters, acting)
     return found
 

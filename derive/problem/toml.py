@@ -149,8 +149,7 @@ def problem_of(
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     linear, damped = as_forces(damping, reader)
     flows, pushed = flows_of(data, its_body, reader, inputs)
-    if not flows:  # of these a walk has no power
-        reader.knows_acting(inputs, (*stated, *damped), linear)
+    reader.knows_acting(inputs, (*stated, *damped, *pushed), linear)
     observed = outputs(data, reader, inputs, (*stated, *damped, *pushed), potentials)
     problem = Problem(
         name,

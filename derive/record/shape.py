@@ -438,7 +438,9 @@ class _RecordReader(TableReader):
         """Those of the problem's inputs, forces and damping."""
         data = self.data
         inputs = {x["name"]: x["kind"] for x in data["inputs"]}
-        forces = [x.get("name", "") for x in data.get("forces", ())]
+        told = (*data.get("forces", ()), *data.get("flows", ()))
+        forces = [x.get("name", "") for x in told]
+        forces += [""] * bool(data.get("flows"))  # what flows inside
         return acting_names(inputs, forces, damped=bool(data["damping"]))
 
     def dimension(self, _: Slot) -> None:

@@ -8,7 +8,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import derive
+from derive.check.checker import Checker
 from derive.command.cli import main
+from derive.language.tree import add
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from tests.oracles import relative_error
@@ -301,3 +303,52 @@ def test_what_is_of_masses_that_stay_refuses_it(words, tmp_path, capsys):
 def test_moments_that_are_parameters_do_not_say_how_they_change():
     with pytest.raises(ProblemError, match="do not say how they change"):
         problem_of(LINE | {"flow": [{"at": [0, 0, 0], "rate": -1, "velocity": [0, 0, -1]}]})
+
+
+# -- power ---------------------------------------------------------------------------------------
+
+
+def read_by_name(what):
+    """The problem with the powers of all that acts as outputs, by its emitted Python."""
+    data = with_moments() if what == "moments" else on(what)
+    told = [{"name": "whole", "kind": "power"}, {"name": "jet_s", "kind": "power", "of": "jet"}]
+    return module_of(problem_of(data | {"output": told}))
+
+
+@pytest.mark.parametrize("what", ["SE(3)", "SO(3)", "SE(2)", "SO(2)", "moments"])
+def test_what_acts_changes_the_energy_at_one_time(what):
+    """Σ P is the derivative of the energy by the state, along the motion, the masses held."""
+    m, rng = read_by_name(what), np.random.default_rng(5)
+    k = m.constants(arrange(m, {"m0": 10, "b": RATE, "u": SPEED}))
+    n = 3 if "3" in what or what == "moments" else 2
+    A = np.linalg.qr(rng.normal(size=(n, n)))[0]
+    A[:, 0] *= np.linalg.det(A)
+    x = np.concatenate([A.ravel(), rng.normal(size=len(m.STATE) - n * n)])
+    t, h = 1.3, 1e-5
+    xdot = m.rhs(t, x, k, ())
+    ends = [m.energy(t, x + s * h * xdot, k) for s in (-2, -1, 1, 2)]
+    wanted = (ends[0] - 8 * ends[1] + 8 * ends[2] - ends[3]) / (12 * h)
+    assert m.outputs(t, x, k, ())[0] == pytest.approx(wanted, rel=1e-8)
+    spin, speed = x[n * n + n * ("SE" in what or what == "moments") :], np.zeros(n)
+    if "SE" in what or what == "moments":
+        spin, speed = spin[:-n], spin[-n:]
+    turned = spin if n == 3 else np.array([spin[0], 0, 0])
+    at, push = EXITS[0], rates(t)[0] * velocities(t)[0]
+    cut = slice(3 - n, 3)
+    velocity = np.cross(turned, at * ([1] * 3 if n == 3 else [0, 1, 1]))[cut] + speed
+    assert m.outputs(t, x, k, ())[1] == pytest.approx(push[cut] @ velocity, rel=1e-10)
+
+
+@pytest.mark.parametrize("what", ["SE(3)", "SO(2)", "moments"])
+def test_a_forged_rate_of_the_energy_is_refused(what):
+    problem = problem_of(with_moments() if what == "moments" else on(what))
+    record = derive.derive(problem).record
+    step = next(s for s in record.steps if s.label == "rocket.power")
+    checker = Checker(record.problem, 7)
+    assert checker.check(step).holds
+    for k, e in enumerate(step.equations):
+        terms = e.rhs[1:] if isinstance(e.rhs, tuple) and e.rhs[0] == "add" else (e.rhs,)
+        for j in range(len(terms)):
+            less = add(*terms[:j], *terms[j + 1 :])
+            forged = (*step.equations[:k], replace(e, rhs=less), *step.equations[k + 1 :])
+            assert not checker.check(replace(step, equations=forged)).holds, (k, j)

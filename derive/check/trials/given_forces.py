@@ -126,6 +126,12 @@ class GivenForces(PhasePoint):
                     total = q.plus(total, q.scaled(skew[row][column], place))
         return total
 
+    def flow_forces(self, name: str) -> list[tuple[int, Matrix]]:
+        """The forces in the body, on its points by their numbers from 1, of flows of a name; what
+        flows inside has none."""
+        del name
+        return []
+
     @property
     def moments_of_flow(self) -> Matrix:
         """What flows inside the body has of moments: none where nothing flows."""
@@ -138,7 +144,9 @@ class GivenForces(PhasePoint):
 
     def power(self) -> Any:
         """That of all that acts."""
-        forces = [str(x.get("name", "")) for x in self.problem.get("forces", ())]
+        told = (*self.problem.get("forces", ()), *self.problem.get("flows", ()))
+        forces = [str(x.get("name", "")) for x in told]
+        forces += [""] * bool(self.problem.get("flows"))  # what flows inside
         inputs = {x["name"]: x["kind"] for x in self.problem.get("inputs", ())}
         damped = bool(self.problem.get("damping"))
         found = map(self.power_of, acting_names(inputs, forces, damped=damped))
@@ -151,11 +159,17 @@ class GivenForces(PhasePoint):
         acting = [(u, x) for u, x in self._given() if (x.get("name") or UNNAMED_FORCE) == name]
         dual = [x for own, x in self.covectors() if (own or UNNAMED_FORCE) == name]
         damped = damping_members(self) if name == UNNAMED_DAMPING and self.at.driven else {}
-        if not (acting or dual or damped):
+        flowing = self.flow_forces(name)
+        if not (acting or dual or damped or flowing):
             raise KeyError(name)
         velocities, turned = self.images(self.nu), q.times(q.inverted(self.g), self.nu)
         power = self.work_of_couple(turned, self._couple_of(acting))
         power += sum(map(q.dot, self._forces_of(acting), velocities), Fraction(0))
+        linear = self.group.linear_part(self.g)
+        for i, force in flowing:
+            power += q.dot(q.flatten(q.times(linear, force)), velocities[i - 1])
+        if flowing and name == UNNAMED_FORCE:
+            power += self.work_of_couple(turned, self.moments_of_flow)
         for i, kappa in damped.items():
             power -= kappa * q.dot(velocities[i - 1], velocities[i - 1])
         return power + sum((q.dot(x, self.group.nearest(self.Z)) for x in dual), Fraction(0))

@@ -160,7 +160,8 @@ def _energies(model: Model) -> Values:
     value = part(model.lagrangian(model.t, model.g, model.Z), 0)
     potential = part(model.potential(model.t, model.images(model.g)), 0)
     energy = part(model.energy(model.t, model.g, model.Z), 0)
-    later = model.potential(model.t + nilpotent(EPS), model.images(model.g))
+    body = model.onward_body
+    later = body.potential(model.t + nilpotent(EPS), body.images(model.g))
     own = {"U": potential, "Ũ": potential, "∂ₜŨ": part(later, EPS)}
     return {"L": value, "L̃": value, "h̃": energy, **own}
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -11,6 +12,7 @@ from ...algebra.groups import Group
 from ...algebra.samplers import Source
 from ...language import rational as q
 from ...language.rational import Matrix
+from ...language.reserved import UNNAMED_FORCE
 from ..values.arithmetic import ETA, Nilpotent, nilpotent
 from ..values.draws import Locus, at_time
 from ..values.evaluate import Environment
@@ -24,6 +26,7 @@ from .point_masses import (
     Vector,
     damping_members,
     listed_count,
+    points_later,
 )
 
 
@@ -120,6 +123,21 @@ class Model(Body, GivenForces):
         """What flows in the body pushes by this; ``None`` where nothing does."""
         flows = self.at.driven and not self.generic and self.problem.get("flows")
         return flowing(self, self.group.linear_part(self.Z)) if flows else None
+
+    def flow_forces(self, name: str) -> list[tuple[int, Matrix]]:
+        """Those of a name, with what flows inside among those without one."""
+        names = [x.get("name", "") for x in self.problem["flows"]] if self.flow else []
+        pairs = zip((*names, ""), self.flow.forces if self.flow else (), strict=False)
+        return [force for own, force in pairs if (own or UNNAMED_FORCE) == name]
+
+    @cached_property
+    def onward_body(self) -> Model:
+        """The body a little later, where mass flows: other masses, and other points of moments."""
+        if self.generic or not self.problem.get("flows"):
+            return self
+        found = copy(self)
+        found.masses, found.points = points_later(self)
+        return found
 
     @property
     def moments_of_flow(self) -> Matrix:

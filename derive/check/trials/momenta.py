@@ -158,7 +158,7 @@ def space_values(model: Model, acceleration: Matrix) -> dict[str, Any]:
         "ℓ̇": _angular_momentum(model, places, forces),
         "p": _resultant(model, speeds),
         "ṗ": _resultant(model, forces),
-        "ḣ": part(model.energy(t, g, Z), EPS),
+        "ḣ": part(model.onward_body.energy(t, g, Z), EPS),
     }
 
 

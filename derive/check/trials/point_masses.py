@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -15,7 +16,7 @@ from ...language.tree import Tree
 from ...record.as_json import decode
 from ...record.record import RecordError
 from ..kinds import accounts, uses_body_axes
-from ..values.arithmetic import ETA, Nilpotent, nilpotent, part
+from ..values.arithmetic import EPS, ETA, Nilpotent, nilpotent, part
 from ..values.draws import Draws, at_time
 from ..values.evaluate import Environment, evaluate
 from .equimomental import equimomental_points, moments_of, remaining_moments
@@ -46,6 +47,29 @@ def points_of(model: Draws) -> Points:
         return own + empty + masses, points + places + rest, blocks
     masses, points = _random_points(model, model.n + 1 + model.spare)
     return empty + masses, places + points, blocks + [1] * len(points)
+
+
+def points_later(model: Body) -> tuple[list[Any], list[Vector]]:
+    """The masses and places at t + ε of what :func:`points_of` drew at t: those that are at random
+    stay, and those that complete the moments have those of then."""
+    body, env = model.problem["body"], model.expressions
+    later = copy(model)
+    later.expressions = at_time(env, model.t + nilpotent(EPS))
+    listed = body.get("points", [])
+    own = [evaluate(decode(p["mass"], "mass"), later.expressions) for p in listed]
+    first = listed_count(model)
+    masses, points = [*own, *model.masses[len(own) : first]], [*model.points[:first]]
+    if body["kind"] == "given":
+        drawn = slice(first, first + model.spare)
+        masses += model.masses[drawn]
+        points += model.points[drawn]
+        more = equimomental_points(
+            *remaining_moments(model.masses[drawn], model.points[drawn], *moments_of(later))
+        )
+        masses += more[0]
+        points += more[1]
+    count = len(masses)
+    return [*masses, *model.masses[count:]], [*points, *model.points[count:]]
 
 
 def listed_count(model: Draws) -> int:

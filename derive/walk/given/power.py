@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import count
 
+from ...algebra.calculus import substitute
 from ...algebra.groups import Group
 from ...algebra.word_trees import tree_of
 from ...algebra.words import Expr, inner, number, trace, word
@@ -17,6 +18,7 @@ from ..chapter import Chapter, Steps, say
 from ..lie.any_lagrangian import AnyLagrangian
 from ..lie.at_places import from_outside, works_by_name
 from ..spine.alphabet import Alphabet
+from ..spine.cartan import Cartan
 from ..vectors.isomorphism import ZETA, vector_sum
 from .inputs import External
 from .potentials import Potentials
@@ -29,13 +31,19 @@ def of_points(
     problem: Problem,
     external: External | None,
     b: Alphabet,
+    C: Expr,
+    trivial: Cartan,
+    body: Steps,
+    moments: Steps,
     found: Potentials,
-    kept: Steps,
+    kept: Steps | None,
     motion: Step,
     c: Chapter,
 ) -> tuple[Step, ...]:
     """ḣ = ⟨μ_u, ζ⟩ + ⟨F_u, w⟩ + ∂ₜŨ, on matrices Tr(Z N̄_u) for the first; no step where nothing
-    acts and Ũ leaves the time alone; ``kept``: what is without forces."""
+    acts and Ũ leaves the time alone; ``kept``: what is without forces.  Where mass flows the
+    energy changes with the moments, too: ``trivial`` has h̃, ``body`` and ``moments`` say m, c, J, C
+    what ĀA is."""
     draft = c.draft("power", "power")
     terms: list[Tree] = []
     apart: dict[str, Tree] = {}
@@ -45,14 +53,22 @@ def of_points(
         draft.depends_on(whole := turning + pulling)
         terms.append(vector_sum(whole))
         apart = _apart(problem, external, vector_sum(turning), vector_sum(pulling))
-    timed: list[Tree] = [b.dU_dt.name] if problem.timed else []
+    sums = [s for s in moments if any(e.lhs == b.J.name for e in s.equations)]
+    known = _rates([*body, *sums]) if problem.flows else {}
+    in_time = _in_time(b, found.steps[0], known)
+    timed: list[Tree] = [b.dU_dt.name] if problem.timed or in_time != 0 else []
+    own = [Equation(b.dU_dt.name, in_time)] if timed else []
+    if problem.flows:
+        kinetic = substitute(trivial.energy + word(b.U), {b.U: number(0), b.C: C})
+        draft.depends_on(kinetic, *body, *sums)
+        timed.append(rate(tree_of(kinetic), known))
     if not terms and not timed:
         return ()
-    draft.depends_on(motion, *kept)
+    draft.depends_on(motion, *(kept or found.steps))
     prose = say("power.acting" if external else "power.none")
     prose += say("power.apart") if apart else ()
-    prose += say("power.timed", rate=b.dU_dt.name) if timed else ()
-    own = [Equation(b.dU_dt.name, _in_time(b, found.steps[0]))] if timed else []
+    prose += say("power.timed", rate=b.dU_dt.name) if own else ()
+    prose += say("power.flow") if problem.flows else ()
     return (draft.step([*own, *_balance(terms, timed, apart)], prose),)
 
 
@@ -64,12 +80,17 @@ def _power_of_moments(external: External, b: Alphabet) -> Expr:
     return trace(word(b.Z.velocity) * moments.bar)
 
 
-def _in_time(b: Alphabet, potential: Step) -> Tree:
-    """∂ₜŨ, from the equations of Ũ and of what stands in it."""
-    known: dict[Tree, Tree] = {"t": 1}
-    for e in potential.equations:
-        known |= {e.lhs: x} if e.lhs != "U" and (x := rate(e.rhs, known)) != 0 else {}
-    return known.get(b.U.name, 0)
+def _in_time(b: Alphabet, potential: Step, moments: Mapping[Tree, Tree]) -> Tree:
+    """∂ₜŨ, from the equations of Ũ and of what stands in it, by the rates of the moments."""
+    return _rates([potential], moments).get(b.U.name, 0)
+
+
+def _rates(steps: Sequence[Step], known: Mapping[Tree, Tree] | None = None) -> dict[Tree, Tree]:
+    """The rates of what equations say by the time, and by what is known."""
+    found: dict[Tree, Tree] = {"t": 1, **(known or {})}
+    for e in (e for s in steps for e in s.equations):
+        found |= {e.lhs: x} if e.lhs != "U" and (x := rate(e.rhs, found)) != 0 else {}
+    return found
 
 
 def _apart(problem: Problem, external: External, turning: Tree, pulling: Tree) -> dict[str, Tree]:
