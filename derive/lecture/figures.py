@@ -10,6 +10,7 @@ from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
 from .lecture_text import tree
 from .rolling_figure import poinsot
 from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, number, panel, solved
+from .tetrahedron_figure import tetrahedron
 from .top_figures import tilts, top_paths
 
 MOMENTS = (1.0, 2.0, 2.6)
@@ -171,5 +172,6 @@ FIGURES: dict[str, Callable[[Claims], Scene]] = {
     "rolling": poinsot,
     "tilts": tilts,
     "paths": top_paths,
+    "tetrahedron": tetrahedron,
 }
 """The figures by the labels of their blocks."""

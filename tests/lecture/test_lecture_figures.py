@@ -8,8 +8,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derive.command.lecturing import records_of
-from derive.lecture import document, figures, rolling_figure, top_figures
+from derive.lecture import document, figures, rolling_figure, tetrahedron_figure, top_figures
 from derive.lecture.lecture_text import LectureError, chapters, parsed
+from derive.problem.toml import problem_of
 from derive.views.language import LANGUAGES, language
 from tests.support.library import module_of
 
@@ -126,6 +127,31 @@ def test_the_ellipsoid_rolls_as_the_emitted_code_says():
     assert np.ptp(found[:, 2]) < 1e-8
     radii = np.hypot(found[:, 0], found[:, 1])
     assert np.ptp(radii) > 0.1
+
+
+def test_four_points_move_as_the_emitted_code_says():
+    """The same points and springs as a problem; the volume stays, and θ is that of its walk."""
+    points = tetrahedron_figure.PLACES.tolist()
+    springs = [
+        {"kind": "spring", "between": [i, j], "stiffness": tetrahedron_figure.SPRING, "length": 0}
+        for i in range(1, 5)
+        for j in range(1, i)
+    ]
+    listed = zip(tetrahedron_figure.MASSES, points, strict=True)
+    data = {"name": "four", "group": "SL(3)", "potential": springs}
+    data["point"] = [{"mass": m, "at": at} for m, at in listed]
+    code = module_of(problem_of(data))
+    basis = np.array(code.BASIS, float)
+    rows = basis.reshape(len(basis), 9).T
+    zeta = np.linalg.lstsq(rows, tetrahedron_figure.VELOCITY.ravel(), rcond=None)[0]
+    motion = tetrahedron_figure.motion(CLAIMS)
+    times, k = [t for t, *_ in motion], code.constants([])
+    start, end = [*np.eye(3).ravel(), *zeta], (0, times[-1])
+    run = solve_ivp(code.rhs, end, start, t_eval=times, args=(k,), rtol=1e-11, atol=1e-13)
+    found = np.array([A.ravel() for _, A, _ in motion])
+    assert np.allclose(found, run.y[:9].T, rtol=0, atol=1e-6)
+    assert np.allclose([np.linalg.det(A) for _, A, _ in motion], 1, rtol=0, atol=1e-8)
+    assert min(y for *_, y in motion) > 0
 
 
 def test_the_racket_of_the_theory_is_turned_as_a_solid():

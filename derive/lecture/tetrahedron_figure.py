@@ -1,0 +1,113 @@
+"""Four points that keep the volume of their tetrahedron, by the equations that the text displays:
+the tetrahedron at three times, and the multiplier over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import reduce
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from ..language.tree import Tree
+from ..views.figure.drawing import Dot, Label, Scene, Stroke
+from .sheets import AXES, Claims, Frame, Vector, View, beside, panel, solved
+
+PLACES = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / 2
+MASSES, SPRING = (1.0, 1.0, 1.0, 2.0), 1.5
+"""Of the points; the stiffness of the springs between each two of them, of length 0."""
+VELOCITY = np.array([[0.9, 0.5, 0.0], [-0.2, -0.5, 0.6], [0.3, 0.0, -0.4]])
+"""Z at first, of trace 0; A is 1."""
+END, STEPS = 6.0, 1200
+TIMES = (0.0, 1.0, 2.0)
+"""When the tetrahedron is drawn."""
+
+
+def value(t: Tree, of: Mapping[Tree, Any]) -> Any:
+    """The value of an expression of numbers and square matrices, by those ``of`` its letters."""
+    if not isinstance(t, tuple):
+        return of[t] if t in of else float(t)
+    if t[0] == "pow":
+        return np.linalg.matrix_power(value(t[1], of), t[2])
+    parts = [value(x, of) for x in t[1:]]
+    match t[0]:
+        case "add":
+            return sum(parts)
+        case "mul":
+            return reduce(np.dot, parts)
+        case "div":
+            return parts[0] / parts[1]
+        case "inv":
+            return np.linalg.inv(parts[0])
+        case "T":
+            return parts[0].T
+        case "tr":
+            return np.trace(parts[0])
+    raise ValueError(f"no value for the operator {t[0]!r}")
+
+
+def moments() -> dict[Tree, Any]:
+    """J of the points, and K of the springs: Σ k d d̄ over the pairs."""
+    J = sum(m * np.outer(r, r) for m, r in zip(MASSES, PLACES, strict=True))
+    apart = [a - b for a, b in combinations(PLACES, 2)]
+    return {"J": J, "K": sum(SPRING * np.outer(d, d) for d in apart)}
+
+
+def multiplier(claims: Claims, known: Mapping[Tree, Any], A: Any, alpha: Any) -> dict[Tree, Any]:
+    """All letters in a state, θ among them."""
+    at = {**known, "A": A, "C": A.T @ A, "Z": np.linalg.solve(A, alpha)}
+    return at | {"θ": value(claims["sl3.space"][0].rhs, at)}
+
+
+def motion(claims: Claims) -> list[tuple[float, Any, float]]:
+    """Time, A and θ."""
+    known = moments()
+
+    def split(x: Vector) -> tuple[Any, Any]:
+        A, alpha = np.reshape(x, (2, 3, 3))
+        return A, alpha
+
+    def rate(x: Vector) -> Vector:
+        A, alpha = split(x)
+        at = multiplier(claims, known, A, alpha)
+        return (*alpha.ravel(), *value(claims["sl3.space"][1].rhs, at).ravel())
+
+    start = (*np.eye(3).ravel(), *VELOCITY.ravel())
+    found = ((t, *split(x)) for t, x in solved(rate, start, END, STEPS, each=4))
+    return [(t, A, float(multiplier(claims, known, A, v)["θ"])) for t, A, v in found]
+
+
+def tetrahedron(claims: Claims) -> Scene:
+    """The tetrahedron at its times, and θ beside."""
+    run = motion(claims)
+    shown = [min(run, key=lambda x: abs(x[0] - t)) for t in TIMES]
+    places = [_placed(A, t) for t, A, _ in shown]
+    return beside(beside(*places, gap=0), _multiplier([(t, y) for t, _, y in run]), gap=3)
+
+
+def _placed(A: Any, t: float) -> Scene:
+    """The points at a time, and what joins them; the edges to the farthest are pale."""
+    view = View((12.5, 17.5), 11.0, 25, 18)
+    moved = [tuple(map(float, A @ r)) for r in PLACES]
+    far = min(range(4), key=lambda i: view.depth(moved[i]))
+    strokes = [
+        Stroke(
+            (view.at(moved[i]), view.at(moved[j])), AXES[0], "hidden" if far in (i, j) else "line"
+        )
+        for i, j in combinations(range(4), 2)
+    ]
+    dots = [
+        Dot(view.at(r), 0.55 * m ** (1 / 3), "body") for m, r in zip(MASSES, moved, strict=True)
+    ]
+    return panel((25, 36), strokes, [Label(f"t = {t:g}", at=(12.5, 2.0))], dots)
+
+
+def _multiplier(curve: list[tuple[float, float]]) -> Scene:
+    low, high = (f(y for _, y in curve) for f in (min, max))
+    frame = Frame((7.0, 6.0), (32.0, 22.0), (0.0, min(low, 0.0)), (END, high))
+    times = {float(t): f"{t}" for t in (0, 2, 4, 6)}
+    strokes, labels = frame.axes((Label("t"), Label("θ")), times, {0.0: "0"})
+    strokes.append(frame.curve([(0, 0), (END, 0)], "axis", "thin"))
+    strokes.append(frame.curve(curve, AXES[0]))
+    return panel((46, 36), strokes, labels)
