@@ -10,8 +10,8 @@ from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
 from .lecture_text import tree
 from .rolling_figure import poinsot
 from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, number, panel, solved
-from .tetrahedron_figure import tetrahedron
 from .top_figures import tilts, top_paths
+from .volume_figures import ellipse, tetrahedron
 
 MOMENTS = (1.0, 2.0, 2.6)
 """The principal moments of inertia of the body whose polhodes are drawn."""
@@ -173,5 +173,6 @@ FIGURES: dict[str, Callable[[Claims], Scene]] = {
     "tilts": tilts,
     "paths": top_paths,
     "tetrahedron": tetrahedron,
+    "ellipse": ellipse,
 }
 """The figures by the labels of their blocks."""

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derive.command.lecturing import records_of
-from derive.lecture import document, figures, rolling_figure, tetrahedron_figure, top_figures
+from derive.lecture import document, figures, rolling_figure, top_figures, volume_figures
 from derive.lecture.lecture_text import LectureError, chapters, parsed
 from derive.problem.toml import problem_of
 from derive.views.language import LANGUAGES, language
@@ -131,20 +131,22 @@ def test_the_ellipsoid_rolls_as_the_emitted_code_says():
 
 def test_four_points_move_as_the_emitted_code_says():
     """The same points and springs as a problem; the volume stays, and θ is that of its walk."""
-    points = tetrahedron_figure.PLACES.tolist()
+    points = volume_figures.PLACES.tolist()
     springs = [
-        {"kind": "spring", "between": [i, j], "stiffness": tetrahedron_figure.SPRING, "length": 0}
+        {"kind": "spring", "between": [i, j], "stiffness": volume_figures.SPRING, "length": 0}
         for i in range(1, 5)
         for j in range(1, i)
     ]
-    listed = zip(tetrahedron_figure.MASSES, points, strict=True)
+    listed = zip(volume_figures.MASSES, points, strict=True)
     data = {"name": "four", "group": "SL(3)", "potential": springs}
     data["point"] = [{"mass": m, "at": at} for m, at in listed]
     code = module_of(problem_of(data))
     basis = np.array(code.BASIS, float)
     rows = basis.reshape(len(basis), 9).T
-    zeta = np.linalg.lstsq(rows, tetrahedron_figure.VELOCITY.ravel(), rcond=None)[0]
-    motion = tetrahedron_figure.motion(CLAIMS)
+    zeta = np.linalg.lstsq(rows, volume_figures.VELOCITY.ravel(), rcond=None)[0]
+    motion = volume_figures.motion(
+        CLAIMS, volume_figures.moments(), volume_figures.VELOCITY, volume_figures.END
+    )
     times, k = [t for t, *_ in motion], code.constants([])
     start, end = [*np.eye(3).ravel(), *zeta], (0, times[-1])
     run = solve_ivp(code.rhs, end, start, t_eval=times, args=(k,), rtol=1e-11, atol=1e-13)
@@ -152,6 +154,24 @@ def test_four_points_move_as_the_emitted_code_says():
     assert np.allclose(found, run.y[:9].T, rtol=0, atol=1e-6)
     assert np.allclose([np.linalg.det(A) for _, A, _ in motion], 1, rtol=0, atol=1e-8)
     assert min(y for *_, y in motion) > 0
+
+
+def test_an_ellipse_of_fluid_keeps_its_area():
+    """Ä = θ cof A, where the area has no second derivative: θ ‖cof A‖² + 2 det Ȧ = 0."""
+
+    def rate(_, x):
+        A, v = x.reshape(2, 2, 2)
+        cofactors = np.array([[A[1, 1], -A[1, 0]], [-A[0, 1], A[0, 0]]])
+        theta = -2 * np.linalg.det(v) / (cofactors**2).sum()
+        return np.concatenate([v.ravel(), theta * cofactors.ravel()])
+
+    J, strain = {"J": np.eye(2), "K": np.zeros((2, 2))}, volume_figures.STRAIN
+    motion = volume_figures.motion(CLAIMS, J, strain, volume_figures.SPREAD)
+    times = [t for t, *_ in motion]
+    start = [*np.eye(2).ravel(), *strain.ravel()]
+    run = solve_ivp(rate, (0, times[-1]), start, t_eval=times, rtol=1e-11, atol=1e-13)
+    assert np.allclose([A.ravel() for _, A, _ in motion], run.y[:4].T, rtol=0, atol=1e-7)
+    assert all(y > 0 for *_, y in motion)
 
 
 def test_the_racket_of_the_theory_is_turned_as_a_solid():

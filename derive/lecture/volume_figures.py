@@ -1,5 +1,5 @@
-"""Four points that keep the volume of their tetrahedron, by the equations that the text displays:
-the tetrahedron at three times, and the multiplier over time."""
+"""What keeps its volume, by the equations that the text displays: four points at three times, with
+the multiplier over time, and an ellipse of fluid with its pressure."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from ..language.tree import Tree
 from ..views.figure.drawing import Dot, Label, Scene, Stroke
-from .sheets import AXES, Claims, Frame, Vector, View, beside, panel, solved
+from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, panel, solved
 
 PLACES = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / 2
 MASSES, SPRING = (1.0, 1.0, 1.0, 2.0), 1.5
@@ -60,12 +60,14 @@ def multiplier(claims: Claims, known: Mapping[Tree, Any], A: Any, alpha: Any) ->
     return at | {"θ": value(claims["sl3.space"][0].rhs, at)}
 
 
-def motion(claims: Claims) -> list[tuple[float, Any, float]]:
-    """Time, A and θ."""
-    known = moments()
+def motion(
+    claims: Claims, known: Mapping[Tree, Any], velocity: Any, end: float
+) -> list[tuple[float, Any, float]]:
+    """Time, A and θ, from A = 1 with a velocity; ``known``: J and K."""
+    n = len(velocity)
 
     def split(x: Vector) -> tuple[Any, Any]:
-        A, alpha = np.reshape(x, (2, 3, 3))
+        A, alpha = np.reshape(x, (2, n, n))
         return A, alpha
 
     def rate(x: Vector) -> Vector:
@@ -73,14 +75,14 @@ def motion(claims: Claims) -> list[tuple[float, Any, float]]:
         at = multiplier(claims, known, A, alpha)
         return (*alpha.ravel(), *value(claims["sl3.space"][1].rhs, at).ravel())
 
-    start = (*np.eye(3).ravel(), *VELOCITY.ravel())
-    found = ((t, *split(x)) for t, x in solved(rate, start, END, STEPS, each=4))
+    start = (*np.eye(n).ravel(), *np.ravel(velocity))
+    found = ((t, *split(x)) for t, x in solved(rate, start, end, STEPS, each=4))
     return [(t, A, float(multiplier(claims, known, A, v)["θ"])) for t, A, v in found]
 
 
 def tetrahedron(claims: Claims) -> Scene:
     """The tetrahedron at its times, and θ beside."""
-    run = motion(claims)
+    run = motion(claims, moments(), VELOCITY, END)
     shown = [min(run, key=lambda x: abs(x[0] - t)) for t in TIMES]
     places = [_placed(A, t) for t, A, _ in shown]
     return beside(beside(*places, gap=0), _multiplier([(t, y) for t, _, y in run]), gap=3)
@@ -104,10 +106,38 @@ def _placed(A: Any, t: float) -> Scene:
 
 
 def _multiplier(curve: list[tuple[float, float]]) -> Scene:
-    low, high = (f(y for _, y in curve) for f in (min, max))
-    frame = Frame((7.0, 6.0), (32.0, 22.0), (0.0, min(low, 0.0)), (END, high))
-    times = {float(t): f"{t}" for t in (0, 2, 4, 6)}
+    (end, _), (low, high) = curve[-1], ([f(y for _, y in curve) for f in (min, max)])
+    frame = Frame((7.0, 6.0), (32.0, 22.0), (0.0, min(low, 0.0)), (end, high))
+    times = {float(t): f"{t}" for t in range(0, int(end) + 1, 2)}
     strokes, labels = frame.axes((Label("t"), Label("θ")), times, {0.0: "0"})
-    strokes.append(frame.curve([(0, 0), (END, 0)], "axis", "thin"))
+    strokes.append(frame.curve([(0, 0), (end, 0)], "axis", "thin"))
     strokes.append(frame.curve(curve, AXES[0]))
     return panel((46, 36), strokes, labels)
+
+
+# An ellipse of a homogeneous fluid, in the plane: J is a multiple of 1, here 1, and nothing acts.
+
+STRAIN = np.array([[0.55, 0.2], [-0.25, -0.55]])
+"""Its Z at first, a circle's."""
+SPREAD, LEVELS = 4.0, (0.0, 0.25, 0.5, 0.75)
+"""For how long it is followed; the levels of the pressure, as parts of that in the middle."""
+
+
+def ellipse(claims: Claims) -> Scene:
+    """The ellipse at three times, with lines of equal pressure, and θ beside."""
+    run = motion(claims, {"J": np.eye(2), "K": np.zeros((2, 2))}, STRAIN, SPREAD)
+    shown = [min(run, key=lambda x: abs(x[0] - t)) for t in TIMES]
+    places = [_fluid(A, t) for t, A, _ in shown]
+    return beside(beside(*places, gap=0), _multiplier([(t, y) for t, _, y in run]), gap=3)
+
+
+def _fluid(A: Any, t: float) -> Scene:
+    """Images of the circles ‖r‖² = 1 − p/p₀."""
+    centre, scale = (13.0, 16.0), 5.0
+    strokes = []
+    for level in LEVELS:
+        r = (1 - level) ** 0.5
+        moved = (A @ (r * np.cos(x), r * np.sin(x)) for x in TURN)
+        points = tuple((centre[0] + scale * x, centre[1] + scale * y) for x, y in moved)
+        strokes += [Stroke(points, AXES[0], "wash"), Stroke(points, AXES[0], "thin")]
+    return panel((26, 28), strokes, [Label(f"t = {t:g}", at=(13.0, 4.0))])
