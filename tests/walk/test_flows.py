@@ -352,3 +352,29 @@ def test_a_forged_rate_of_the_energy_is_refused(what):
             less = add(*terms[:j], *terms[j + 1 :])
             forged = (*step.equations[:k], replace(e, rhs=less), *step.equations[k + 1 :])
             assert not checker.check(replace(step, equations=forged)).holds, (k, j)
+
+
+def test_of_one_flow_alone_the_power_is_told_apart():
+    """Mass that leaves where it is: nothing flows inside, and ḣ has what its moments make, too."""
+    tank = {"mass": "m0 - b*t", "at": [0, 0, 1]}
+    more = [{"mass": 2, "at": at} for at in ([1, 0, 0], [0, 1, 0], [-1, -1, 0])]
+    data = {
+        "name": "tank",
+        "group": "SE(3)",
+        "parameters": {"m0": 10.0, "b": RATE},
+        "point": [tank, *more],
+        "flow": [{"name": "jet", "on": 1, "rate": "-b", "velocity": [0, 0, -3]}],
+        "output": [
+            {"name": "whole", "kind": "power"},
+            {"name": "own", "kind": "power", "of": "jet"},
+        ],
+    }
+    problem = problem_of(data)
+    record = derive.derive(problem).record
+    assert all(v.holds for v in own_verdicts(record))
+    m, rng = module_of(problem), np.random.default_rng(8)
+    x = np.concatenate([np.eye(3).ravel(), rng.normal(size=9)])
+    spin, speed = x[12:15], x[15:]
+    push = 3 * RATE * (np.cross(spin, [0, 0, 1]) + speed)[2]
+    found = m.outputs(0.4, x, m.constants(arrange(m, data["parameters"])), ())
+    assert found == pytest.approx([push, push], rel=1e-12)

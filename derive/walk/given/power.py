@@ -106,12 +106,12 @@ def _apart(problem: Problem, external: External, turning: Tree, pulling: Tree) -
 
 def _named(problem: Problem, powers: Mapping[str, Tree]) -> dict[str, Tree]:
     """Powers by their names, P_drag of ``drag``, with more underscores where a number of the
-    problem has this name; none where one thing acts alone."""
+    problem has this name; none where one thing acts alone, and all of ḣ is its power."""
     taken = {*problem.parameters, *problem.named_numbers}
     taken |= {name for x in problem.inputs for name in problem.numbers_of(x)}
     taken |= {name for x in problem.outputs for name in problem.numbers_of_output(x)}
     found: dict[str, Tree] = {}
-    for name, power in powers.items() if len(powers) > 1 else ():
+    for name, power in powers.items() if len(powers) > 1 or problem.flows else ():
         free = (f"P{'_' * k}{name}" for k in count(1))
         found[next(x for x in free if x not in taken)] = power
     return found
