@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .code.program import Program
     from .language.univariate import Number
     from .motion.emitted import Emitted, OneDegree
-    from .search.trim.trimmed import Trim
+    from .search.trim.trim import Trim
 
 
 def motion_of(
@@ -132,7 +132,8 @@ def trim(
     problem = with_parameters(problem, given or {})
     record = walk(problem)
     try:
-        made = program(problem, record, Options(jacobian=("state",)))
+        by = ("state", "inputs") if problem.inputs else ("state",)
+        made = program(problem, record, Options(jacobian=by))
     except LoweringError:
         raise ProblemError(
             f"{problem.name}: a trim is by linearised equations on a whole group of matrices, "

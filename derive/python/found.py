@@ -23,7 +23,7 @@ from ..search.equilibria.stability import Equilibrium
 from ..search.equilibria.stability_in_letters import Family
 from ..search.integrals.all_integrals import Condition, IntegralsFound
 from ..search.reduction.routhian import Routhian
-from ..search.trim.trimmed import Trim
+from ..search.trim.trim import Trim
 from .api import in_keywords
 from .quoted import loaded
 from .shown import Finding, SeveralFound, Shown, ShownEquation

@@ -139,7 +139,10 @@ KINDS = {
         "indefinite unstable unstable_large unstable_always imaginary"
     ),
     "enclosure": "within signs stable unstable open eigenvalues",
-    "trim": "rest steady corner unique isolated isolated_with_turns stable unstable open",
+    "trim": (
+        "rest steady corner unique isolated isolated_with_turns stable unstable open near_rest "
+        "near_steady near_turned near_turned_on_the_left near_stable near_unstable near_open"
+    ),
 }
 CLAIMS = frozenset(
     f"{subject}.{name}" for subject, names in KINDS.items() for name in names.split()
@@ -170,7 +173,8 @@ class Claim:
     @property
     def texts(self) -> dict[str, str]:
         """What stands in the places of the sentence."""
-        return {name: TEXTS.get(self.kind, text)(x) for name, x in self.values}
+        by_kind = TEXTS.get(self.kind, text)
+        return {name: TEXTS.get(f"{self.kind}.{name}", by_kind)(x) for name, x in self.values}
 
 
 def text(x: Tree) -> str:
@@ -226,12 +230,16 @@ def _inequalities(x: Tree) -> str:
 FAMILIES = ("positive", "stable", "on_the_leaf", "unstable", "unstable_large")
 TEXTS = dict.fromkeys((f"family.{x}" for x in FAMILIES), _inequalities) | {
     "equilibrium.near": _coordinates,
+    **dict.fromkeys(("trim.near_rest.near", "trim.near_steady.near"), _coordinates),
+    "trim.near_turned.entries": _coordinates,
+    "trim.near_turned_on_the_left.entries": _coordinates,
     "equilibrium.eigenvalues": _eigenvalues,
     "enclosure.eigenvalues": _eigenvalues,
     "reduction.isotropy": _nonzero,
     "reduction.divided": _nonzero,
 }
-"""How the values of some kinds stand in their sentences, those of others as :func:`text` has it."""
+"""How the values of some kinds, or of some of their places, stand in their sentences, those of
+others as :func:`text` has it."""
 
 
 def rendered(claim: Claim, **phrases: Sentence) -> Sentence:

@@ -79,6 +79,10 @@ RECORDS = {
     "a trim, at a corner": lambda: trims.resting_in_air().record,
     "a trim, found": lambda: trims.balanced().record,
     "a trim, turned": lambda: trims.in_a_wind().record,
+    "a trim, enclosed": lambda: trims.cubed().record,
+    "a trim, enclosed, turned": lambda: trims.nearly_upside_down().record,
+    "a trim, enclosed, on the right": lambda: trims.turned_in_space().record,
+    "a trim, enclosed, steady": lambda: trims.spun().record,
     "large": lambda: large("euler_top"),
     "large at defaults": lambda: large("euler_top", at_defaults=True),
 }

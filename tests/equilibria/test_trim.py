@@ -128,7 +128,7 @@ def test_bad_input_is_one_line(options, said, capsys):
     ("problem", "said"),
     [
         ("euler_poisson", "derive equilibria may tell"),
-        ("top", "π, or a root, is in the equations"),
+        ("top", "π, or a root, is in the equations: .* say by --free"),
         ("sl3", "no trim: dzeta_1/dt is"),
         ("zeitlin", "and a fluid has none"),
         ("ideal_fluid", "and a fluid has none"),
@@ -165,9 +165,7 @@ def test_what_acts_must_be_steady_smooth_and_linear():
     parameter = {"parameters": {"k": {}}}
     for problem, why in (
         (acting("t"), "depends on the time"),
-        (acting("u^2"), "inputs do not act linearly"),
         (acting("abs(zeta_1)"), "has no derivative there"),
-        (acting("sin(zeta_1)"), "sin is in the equations"),
         (acting("k*zeta_1", **parameter), "k has no default"),
     ):
         with pytest.raises(ProblemError, match=why):

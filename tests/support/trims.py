@@ -75,3 +75,37 @@ def in_a_wind():
     wind = {"name": "drag", "frame": "space", "at": [0, 0], "relative_to": ["5", "0"]}
     found = drone(force=[wind | {"force": ["-2*v_1", "-2*v_2"]}])
     return found.trim({}, ["eta_1", "u", "v"])
+
+
+# Trims of which no number is one of a square root.
+
+
+def cubed():
+    """A torque u + u³ keeps a pendulum aside."""
+    return derive(problem_of(PENDULUM | {"force": [{"covector": ["u^3"]}]})).trim(TURNED)
+
+
+def nearly_upside_down():
+    """A pendulum that stands, beside a torque that is cubic in A."""
+    bent = PENDULUM | {"force": [{"covector": ["-A_21^3"]}]}
+    return derive(problem_of(bent)).trim({"A_11": -1, "A_22": -1, "u": 1}, ["eta_1"])
+
+
+def turned_in_space():
+    """The same on the right, of a Lagrangian."""
+    L = "zeta_1^2/2 + 3*A_11 + 4*A_21 + A_21^3"
+    data = {"name": "turned", "group": "SO(2)", "lagrangian": {"L": L, "trivialisation": "right"}}
+    quarter = {"A_11": "3/5", "A_12": "-4/5", "A_21": "4/5", "A_22": "3/5"}
+    return derive(problem_of(data)).trim(quarter, ["eta_1"])
+
+
+def spun():
+    """A torque u against friction of the first and the third degree."""
+    problem = {
+        "name": "spun",
+        "group": "SO(2)",
+        "point": [{"mass": 1, "at": [1, 0]}],
+        "force": [{"covector": ["-zeta_1 - zeta_1^3"]}],
+        "input": [{"name": "u", "kind": "torque"}],
+    }
+    return derive(problem_of(problem)).trim({"u": 1}, ["zeta_1"])

@@ -47,10 +47,14 @@ from tests.support.kinds import examples
 from tests.support.lagrangians import every_record, heisenberg
 from tests.support.trims import (
     balanced,
+    cubed,
     drifting,
     in_a_wind,
     leaning,
+    nearly_upside_down,
     resting_in_air,
+    spun,
+    turned_in_space,
     upside_down,
 )
 
@@ -192,6 +196,7 @@ def all_records():
     told = [*map(walks.record, ready_made()), *map(corpus.record, OF_THE_CORPUS)]
     told.append(symmetries(walks.problem("gl3"), walks.record("gl3")).record)
     trims = (leaning, upside_down, drifting, resting_in_air, balanced, in_a_wind)
+    trims += (cubed, nearly_upside_down, turned_in_space, spun)
     told += [found().record for found in trims]
     told += [families(x)[1] for x in IN_LETTERS]
     return [*told, *every_record(), *map(walk, problems)]

@@ -10,6 +10,7 @@ from ...record.record import RecordError, Step
 from ...record.sentence import Claim, fault
 from ..form.hypotheses_checked import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
 from . import (
+    enclosed_trims,
     enclosure,
     equilibrium_claims,
     family_claims,
@@ -93,7 +94,7 @@ OBLIGATORY = {
     ),
     "expansion": ("equilibrium.form", "family.form"),
     "enclosure": ("enclosure.within",),
-    "trim": trim_claims.POINTS,
+    "trim": (*trim_claims.POINTS, *enclosed_trims.POINTS),
 }
 """Rule → the claims of which each of its steps makes one: without it no claim is judged there."""
 
@@ -127,6 +128,7 @@ JUDGES: dict[str, Judge] = {
     **reduction_claims.JUDGES,
     **ORBIT_JUDGES,
     **trim_claims.JUDGES,
+    **enclosed_trims.JUDGES,
     **{kind: _of_symmetries(judge) for kind, judge in symmetry_count.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in equilibrium_claims.JUDGES.items()},

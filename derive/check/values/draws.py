@@ -11,6 +11,7 @@ from typing import Any
 
 from ...algebra.groups import Group
 from ...algebra.samplers import Source
+from ...language.intervals import pi as bounds_of_pi
 from ...language.rational import Matrix, flatten
 from ...language.reserved import suffixed
 from ...language.show import show
@@ -50,7 +51,8 @@ class Draws:
 
     ``size``: integers are drawn within ±size. ``generic``: the potential is left open, and with it
     inputs and places. ``pi``: the value of π, as in code, where roots of numbers are numbers like
-    others; else any number. ``few``: no spare points; ``given``: the values of some parameters.
+    others; else any number. ``few``: no spare points; ``given``: the values of some parameters;
+    ``bounded``: π and functions are within bounds.
     """
 
     def __init__(
@@ -64,6 +66,7 @@ class Draws:
         pi: Fraction | None = None,
         few: bool = False,
         given: Mapping[str, Any] | None = None,
+        bounded: bool = False,
     ):
         self.problem, self.group, self.random, self.size = problem, group, random, size
         self.generic, self.spare, self.n = generic, 0 if few else SPARE, group.n
@@ -71,9 +74,10 @@ class Draws:
         self.parameters |= given or {}
         exact = pi is None and not isinstance(random, ResidueSource)
         self.elementary = ElementaryValues(lambda: self.draw(positive=True), exact=exact)
+        self.elementary.bounded = bounded
         self.graded = isinstance(random, DegreeSource)
         self.unit = indeterminate(0, 1) if self.graded else Fraction(1)
-        self.pi = self.draw(positive=True) if pi is None else pi
+        self.pi: Any = bounds_of_pi() if bounded else self.draw(positive=True) if pi is None else pi
 
     def draw(self, *, positive: bool = False, slots: int = 0) -> Any:
         """A random integer of the ring drawn from, ``positive`` from 1 on; ``slots``: counted as an

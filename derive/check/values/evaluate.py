@@ -9,6 +9,8 @@ from functools import lru_cache, reduce
 from typing import Any
 
 from ...language import rational as q
+from ...language.intervals import Interval
+from ...language.intervals import function as bounds
 from ...language.tree import Tree
 from ...language.univariate import Quadratic, root
 from ..form.function_signatures import AXIS, INDEX_SETS, LATTICE, MATRICES, POINT
@@ -31,6 +33,7 @@ from .arithmetic import (
     wedge,
 )
 from .residue import Graded
+from .varying import Varying
 
 LARGEST_NESTING = 3
 
@@ -330,14 +333,20 @@ class ElementaryValues:
         self.draw, self.exact, self.radicand = draw, exact, 0
         self.true_root: Callable[[Any], Any] | None = None
         """√x, where it is not any number."""
+        self.bounded = False
+        """Are values those of the functions, within bounds?"""
         self.values: dict[tuple[str, Any], Any] = {}
         self.graded_arguments: list[Graded] = []
 
     def value(self, name: str, x: Any) -> Any:
         """The value of a function at x, the same each time; two graded numbers are different
         arguments unless they are one object."""
+        if isinstance(x, Varying):
+            return x.chained(self.value(name, x.value), self.derivatives(name, x.value)[0])
         if name == "sqrt" and self.true_root:
             return self.true_root(x)
+        if self.bounded:
+            return bounds(name, Interval.of(x))
         at = id(x) if isinstance(x, Graded) else x
         key = (name, at)
         if key not in self.values:
@@ -352,7 +361,7 @@ class ElementaryValues:
     def written(self, name: str, x: int | Fraction) -> Any:
         """The function of a number that a claim writes: a root of the first quadratic field that
         is met exactly, else as of any number."""
-        if self.exact and name == "sqrt" and x >= 0:
+        if self.exact and not self.bounded and name == "sqrt" and x >= 0:
             y = root(x)
             if not isinstance(y, Quadratic) or self.radicand in (0, y.d):
                 self.radicand = y.d if isinstance(y, Quadratic) else self.radicand

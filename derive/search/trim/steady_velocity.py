@@ -7,11 +7,12 @@ exact numbers in.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
-from math import isqrt, sqrt
+from math import isqrt
 from typing import Any
 
 from ...language import rational as q
@@ -56,9 +57,18 @@ class Rates:
     slopes: Callable[[Sequence[Any], Arithmetic], list[list[Any]]]
 
 
+class NotExactError(NoTrimError):
+    """There are no exact numbers for it, or it is not known which."""
+
+
 def solutions(f: Rates, near: Sequence[float]) -> list[Fraction]:
-    """The one solution, to many digits: the one ``near`` these velocities, or that to which some
-    starts lead; ``NoTrimError`` for none or several."""
+    """The one solution, as :func:`approximately` has it, to many digits."""
+    return _in_fractions(f, approximately(f, near))
+
+
+def approximately(f: Rates, near: Sequence[float]) -> list[float]:
+    """The one solution ``near`` these velocities, or that to which some starts lead;
+    ``NoTrimError`` for none or several."""
     m = f.velocities
     signs = product((1.0, -1.0), repeat=m) if m <= SIGNED else [(1.0,) * m, (-1.0,) * m]
     starts = [list(near)] if near else [[a * x for x in s] for s in signs for a in STARTS]
@@ -70,7 +80,7 @@ def solutions(f: Rates, near: Sequence[float]) -> list[Fraction]:
     isolated = [y for y in found if _rank(f, y) == len(y)]
     if found and not isolated:
         raise NoTrimError(
-            f"many trims: near {_told(f, found[0])} there are others; free fewer of these"
+            f"many trims: near {describe(f, found[0])} there are others; free fewer of these"
         )
     if not found:
         what = f"for {', '.join(f.names[:m])}" if m else "for g, or free others"
@@ -79,12 +89,13 @@ def solutions(f: Rates, near: Sequence[float]) -> list[Fraction]:
             f"it by --at {what}"
         )
     if len(isolated) > 1:
-        several = "; ".join(_told(f, y) for y in isolated)
+        several = "; ".join(describe(f, y) for y in isolated)
         raise NoTrimError(f"several trims: {several}; say near which by --at, too")
-    return _in_fractions(f, isolated[0])
+    return isolated[0]
 
 
-def _told(f: Rates, y: Sequence[float]) -> str:
+def describe(f: Rates, y: Sequence[float]) -> str:
+    """Numbers by their names."""
     return ", ".join(f"{x} = {v:.6g}" for x, v in zip(f.names, y, strict=True))
 
 
@@ -93,7 +104,7 @@ def _of_float(name: str, x: float) -> float:
         return float(x == 0)
     if name == "sqrt" and x < 0:
         raise RootError("the root of a negative number")
-    return sqrt(x) if name == "sqrt" else abs(x)
+    return float(abs(x) if name == "abs" else getattr(math, name)(x))
 
 
 FLOATS = Arithmetic(float, _of_float)
@@ -107,7 +118,7 @@ def _newton(f: Rates, y: list[float]) -> list[float] | None:
         try:
             rates, slopes = (np.array(g(y, FLOATS), dtype=float) for g in (f.values, f.slopes))
             step = np.linalg.lstsq(slopes, -rates, rcond=1e-12)[0]
-        except (ValueError, ZeroDivisionError, np.linalg.LinAlgError):
+        except (ValueError, ArithmeticError, np.linalg.LinAlgError):
             return None
         y = [*map(float, np.array(y) + step)]
         if not all(abs(x) < LARGEST for x in y):
@@ -165,9 +176,8 @@ def exact(names: Sequence[str], y: Sequence[Fraction]) -> list[Number]:
     found = [_read_off(x) for x in y]
     if None in found:
         k = found.index(None)
-        raise NoTrimError(
-            f"{names[k]} is about {float(y[k]):.12g}, and no number with one square root: a trim "
-            "is exact; give it by --at, and free an input"
+        raise NotExactError(
+            f"{names[k]} is about {float(y[k]):.12g}, and no number with one square root"
         )
     return [x for x in found if x is not None]
 

@@ -1,0 +1,243 @@
+"""The state and the inputs of which a trim is asked, and the emitted equations in any numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from fractions import Fraction
+from functools import cached_property
+from random import Random
+from typing import Any
+
+from ...algebra.groups import Group
+from ...code.program import Program
+from ...language import rational as q
+from ...language.rational import Matrix
+from ...language.univariate import Number, root
+from ...problem.fields import entries, state_names
+from ...problem.problem import Problem
+from ...schema.table import nearest
+from .cayley_chart import slopes as chart_slopes
+from .cayley_chart import turned
+from .steady_velocity import FLOATS, Arithmetic, NoTrimError, Rates
+
+Numbers = Mapping[str, Number]
+ROUNDING = 1e-9
+"""A sum of floats that is smaller, beside its terms, is 0."""
+
+
+class Question:
+    """The state and the inputs of which something is asked, and what is free in them; ``numbers``:
+    those in which the equations are evaluated."""
+
+    numbers: Arithmetic
+
+    def __init__(
+        self,
+        problem: Problem,
+        program: Program,
+        at: Mapping[str, Number],
+        free: Sequence[str] | None,
+    ):
+        assert problem.group
+        self.group: Group = problem.group.in_user_basis
+        self.program, self.d = program, program.dimension
+        self.right = program.variation.startswith("eta")
+        self.places = entries_of(problem.group)
+        self.require()
+        velocity = program.state[-self.d :]
+        self.turns = {x.replace("zeta", "eta"): a for a, x in enumerate(velocity) if "zeta" in x}
+        self.require_names(at, ())
+        self.require_names(free or (), self.turns)
+        wanted = free or [x for x in program.inputs if x not in at]
+        self.free = tuple(x for x in wanted if x in program.inputs)
+        self.sought = tuple(x for x in wanted if x not in program.inputs)
+        if given := [x for x in self.free if x in at]:
+            raise NoTrimError(f"{given[0]} is given by --at, and free: leave out one")
+        if fixed := [x for x in self.sought if x not in (*velocity, *self.turns)]:
+            raise NoTrimError(
+                f"--free {fixed[0]}: of g, which --at gives, as A_11=4/5 with all that change so; "
+                "inputs, velocities and turns from there, as eta_1, are found"
+            )
+        self.velocities = [x for x in self.sought if x in velocity]
+        self.near = [float(at[x]) for x in self.velocities if x in at]
+        if 0 < len(self.near) < len(self.velocities):
+            raise NoTrimError("--at gives some of the velocities that are free: give all or none")
+        one = q.identity(self.group.size)
+        start = {x: one[i][j] for x, (i, j) in self.places.items()}
+        self.x: list[Number] = [at.get(n, start.get(n, Fraction(0))) for n in program.state]
+        self.u: list[Number] = [at.get(n, Fraction(0)) for n in program.inputs]
+
+    @cached_property
+    def k(self) -> list[Any]:
+        """The constants of the program, in the numbers of the question."""
+        p = [self.numbers.of(Fraction(str(x[1]))) for x in self.program.parameters]
+        try:
+            return self.program.functions["constants"].values({"p": p}, self.numbers.call)
+        except ZeroDivisionError:
+            raise NoTrimError("no body has these parameters: its mass matrix is singular") from None
+
+    def require_names(self, names: Iterable[str], more: Iterable[str]) -> None:
+        """``NoTrimError`` where one is no number of the state and no input, and is not in more."""
+        known = (*self.program.state, *self.program.inputs, *more)
+        for name in names:
+            if name not in known:
+                near = nearest(name, known) or f"; these are {entries(known)}"
+                raise NoTrimError(f"{name} is no number of the state and no input{near}")
+
+    def require(self) -> None:
+        """``NoTrimError`` where this has no numbers, or has the time in it."""
+        program = self.program
+        if missing := [x[0] for x in program.parameters if x[1] is None]:
+            raise NoTrimError(f"a trim is of numbers, and {missing[0]} has no default")
+        if any(x.array == "t" for x in program.functions["rhs"].loads):
+            raise NoTrimError("what acts depends on the time: nothing is steady")
+
+    # -- what is free ------------------------------------------------------------------------------
+
+    def unknown(self) -> Rates:
+        """ζ̇ as a function of the velocities, turns of g and inputs that are free."""
+        turns = [x for x in self.sought if x in self.turns]
+        names = (*self.velocities, *turns, *self.free)
+        return Rates(names, len(self.velocities), self._free_rates, self._free_slopes)
+
+    def at(self, y: Sequence[Any]) -> tuple[list[Any], list[Any]]:
+        """The state and the inputs with these velocities, turns of g and inputs in them."""
+        x, u, turns = [*self.x], [*self.u], self._turned(y)
+        if turns:
+            there = turned(self.group, self.element(), turns, right=self.right)
+            for i, name in enumerate(self.program.state[: -self.d]):
+                row, column = self.places[name]
+                x[i] = there[row][column]
+        for name, value in zip(self.velocities, y, strict=False):
+            x[self.program.state.index(name)] = value
+        for name, value in zip(self.free, y[len(y) - len(self.free) :], strict=True):
+            u[self.program.inputs.index(name)] = value
+        return x, u
+
+    def _turned(self, y: Sequence[Any]) -> list[Any]:
+        """η of the turn of g; none where it does not turn."""
+        turns = [self.turns[x] for x in self.sought if x in self.turns]
+        by = dict(zip(turns, y[len(self.velocities) :], strict=False))
+        return [by.get(a, Fraction(0)) for a in range(self.d)] if turns else []
+
+    def _free_rates(self, y: Sequence[Any], numbers: Arithmetic) -> list[Any]:
+        return self.evaluated("rhs", *self.at(y), numbers)[-self.d :]
+
+    def _free_slopes(self, y: Sequence[Any], numbers: Arithmetic) -> list[list[Any]]:
+        x, u = self.at(y)
+        D = self._rows(self.evaluated("jacobian", x, u, numbers))[self.d :]
+        by_inputs = self.evaluated("jacobian_inputs", x, u, numbers) if self.free else []
+        n, first, turns = len(u), self.d - len(x), self._turned(y)
+        chart = chart_slopes(self.group, turns, right=self.right) if turns else ()
+        turning = [self.turns[x] for x in self.sought if x in self.turns]
+        places = [self.program.state.index(x) + self.d + first for x in self.velocities]
+        inputs = [self.program.inputs.index(x) for x in self.free]
+        return [
+            [
+                *(row[i] for i in places),
+                *(q.dot(row[: self.d], chart[a]) for a in turning),
+                *(by_inputs[n * (self.d + b) + i] for i in inputs),
+            ]
+            for b, row in enumerate(D)
+        ]
+
+    # -- the emitted equations ---------------------------------------------------------------------
+
+    def evaluated(
+        self, name: str, x: Sequence[Any], u: Sequence[Any], numbers: Arithmetic | None = None
+    ) -> list[Any]:
+        """What an emitted function gives in a state, with inputs."""
+        numbers = numbers or self.numbers
+        arrays = {key: [*map(numbers.of, y)] for key, y in (("x", x), ("k", self.k), ("u", u))}
+        return self.program.functions[name].values(arrays, numbers.call)
+
+    def with_more(self, more: Numbers) -> list[Number]:
+        """All inputs, with some more."""
+        pairs = zip(self.program.inputs, self.u, strict=True)
+        return [x + more.get(name, 0) for name, x in pairs]
+
+    def rates(self, more: Numbers) -> list[Any]:
+        """ζ̇ in the state, with some inputs more."""
+        return self.evaluated("rhs", self.x, self.with_more(more))[-self.d :]
+
+    def changed(self, held: Sequence[Number], more: Numbers) -> tuple[Number, ...]:
+        """What ζ̇ is more with some inputs more."""
+        return tuple(y - x for x, y in zip(held, self.rates(more), strict=True))
+
+    def linear(self, x: Sequence[Any], u: Sequence[Any]) -> Matrix:
+        """D in a state, with inputs."""
+        return self._rows(self.evaluated("jacobian", x, u))
+
+    def _rows(self, found: Sequence[Any]) -> Matrix:
+        """D of what ``jacobian`` gives: the rates, then its rows."""
+        n = 2 * self.d
+        entries = found[len(self.program.state) :]
+        return tuple(tuple(entries[n * i : n * i + n]) for i in range(n))
+
+    # -- the group ---------------------------------------------------------------------------------
+
+    def element(self, x: Sequence[Any] | None = None) -> Matrix:
+        """g, a matrix of the group's size, of a state."""
+        g = [[*row] for row in q.identity(self.group.size)]
+        for name, value in zip(self.program.state, x or self.x, strict=True):
+            if name in self.places:
+                i, j = self.places[name]
+                g[i][j] = value
+        return q.matrix(g)
+
+    def require_element(self) -> None:
+        """``NoTrimError`` where g is off the group by its relations, or these are not all."""
+        g, whole = self.element(), self.program.functions.get("defect")
+        if g == q.identity(self.group.size):
+            return
+        off = whole.values({"x": self.x}, EXACTLY.call)[0] if whole else 0
+        blocks = (
+            tuple(row[k : k + factor.n] for row in g[k : k + factor.n])
+            for k, factor in self.group.places
+        )
+        if off or any(q.determinant(a) <= 0 for a in blocks):
+            raise NoTrimError(f"no element of {self.group.name} has the entries that --at gives")
+        if self.group.larger:
+            raise NoTrimError(f"of {self.group.name}, g = 1 alone is proved to be an element")
+
+    def require_steady(self, x: Sequence[Any], u: Sequence[Any]) -> None:
+        """``NoTrimError`` where ζ̇ may change as g moves on: its derivative along the motion at a
+        random element.  In floats, as roots there are of any numbers; the checker is exact."""
+        g, other = self.element(x), self.group.sample(Random(1))
+        h = q.times(other, q.inverted(g)) if self.right else q.times(q.inverted(other), g)
+        Z = self.group.hat(x[-self.d :])
+        eta = self.group.nearest(q.times(q.times(h, Z), q.inverted(h)))
+        entries = {x: other[i][j] for x, (i, j) in self.places.items()}
+        there = [entries.get(n, y) for n, y in zip(self.program.state, x, strict=True)]
+        below = self._rows(self.evaluated("jacobian", there, u, FLOATS))[self.d :]
+        for name, row in zip(self.program.state[-self.d :], below, strict=True):
+            terms = [a * float(b) for a, b in zip(row[: self.d], eta, strict=True)]
+            if abs(sum(terms)) > ROUNDING * sum(map(abs, terms)):
+                raise NoTrimError(
+                    f"no steady motion is proved: d{name}/dt is 0 now, but what acts may be "
+                    "other where g goes"
+                )
+
+
+def entries_of(group: Group) -> dict[str, tuple[int, int]]:
+    """The names of the entries of g in the state → their places in it, from 0."""
+    named = state_names(group).items()
+    return {x: (t[2] - 1, t[3] - 1) for x, t in named if isinstance(t, tuple) and t[1] == "A"}
+
+
+def function_with_corner(corner: int) -> Callable[[str, Any], Any]:
+    """The functions of exact numbers, roots and absolute values, ``corner`` where these are 0; and
+    the tests for 0 of constants."""
+
+    def call(name: str, x: Any) -> Any:
+        if name == "none":
+            return Fraction(int(x == 0))
+        if x == 0:
+            return Fraction(corner)
+        return root(x) if name == "sqrt" else x if x > 0 else -x
+
+    return call
+
+
+EXACTLY = Arithmetic(lambda x: x, function_with_corner(0))
+"""In fractions, and in numbers with one square root."""

@@ -1,0 +1,183 @@
+"""Trims within bounds: beside numbers of another source, and what a checker must refuse of them."""
+
+import tomllib
+from dataclasses import replace
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+
+from derive import ProblemError, derive
+from derive.check.claims.claim_checker import ClaimChecker
+from derive.problem.toml import problem_of
+from derive.record.prose import message
+from derive.record.sentence import Claim
+from tests.check.test_record_claims import said
+from tests.equilibria.test_trim_attitude import WIND, attitude
+from tests.support.trims import (
+    ASIDE,
+    DRONE,
+    PENDULUM,
+    TURNED,
+    cubed,
+    nearly_upside_down,
+    spun,
+    turned_in_space,
+)
+from tests.support.walks import SEED
+
+
+def holds(found):
+    return all(v.holds for v in found.check(SEED))
+
+
+def is_near(found, name, value):
+    """Within the radius that is claimed, which is small."""
+    radius = found.found.radius
+    return radius < 1e-8 and abs(float(found.found.near[name]) - value) <= radius
+
+
+def test_a_root_of_a_cubic_is_enclosed():
+    """u + u³ = 12."""
+    found = cubed()
+    assert is_near(found, "u", float(mpmath.findroot(lambda u: u + u**3 - 12, 2)))
+    assert found.verdict == "stable"
+    assert holds(found)
+
+
+def test_a_standing_pendulum_leans_a_little():
+    """20 s + s³ = 1 for s = A₂₁."""
+    found = nearly_upside_down()
+    s = float(mpmath.findroot(lambda s: 20 * s + s**3 - 1, 0.05))
+    assert abs(float(found.found.state["A_21"]) - s) <= found.found.radius
+    assert found.verdict == "unstable"
+    assert holds(found)
+
+
+def test_on_the_right_the_displacement_stands_before_g():
+    found = turned_in_space()
+    angle = float(
+        mpmath.findroot(
+            lambda a: (
+                (-3 + 0j).real * mpmath.sin(a)
+                + 4 * mpmath.cos(a)
+                + 3 * mpmath.sin(a) ** 2 * mpmath.cos(a)
+            ),
+            1,
+        )
+    )
+    assert abs(float(found.found.state["A_11"]) - np.cos(angle)) <= found.found.radius
+    assert found.found.right
+    assert holds(found)
+
+
+def test_a_steady_speed_of_the_third_degree():
+    found = spun()
+    assert is_near(found, "zeta_1", float(mpmath.findroot(lambda w: w + w**3 - 1, 1)))
+    assert (found.found.resting, found.verdict) == (False, "open")
+    assert holds(found)
+
+
+def test_a_parameter_may_be_an_angle():
+    """The cosine of 0.3 in what acts: 12 + 5 cos 0.3."""
+    bent = {"parameters": {"a": 0.3}, "force": [{"covector": ["-5*cos(a)"]}]}
+    found = derive(problem_of(PENDULUM | bent)).trim(TURNED)
+    assert is_near(found, "u", 12 + 5 * np.cos(0.3))
+    assert holds(found)
+
+
+def test_a_drone_leans_into_a_wind_of_three_components():
+    """The axis of the thrust is along what it must hold; the turn is about a horizontal axis."""
+    wind = np.array([3.0, 2.0, 1.0])
+    problem = tomllib.loads(WIND.replace('["3", "4", "0"]', '["3", "2", "1"]'))
+    found = derive(problem_of(problem)).trim({}, ["eta_1", "eta_2", "f"])
+    force = 20 * np.array([0, 0, 1]) - 0.5 * np.linalg.norm(wind) * wind
+    A = attitude(found, 3)
+    assert is_near(found, "f", np.linalg.norm(force))
+    assert np.allclose(A[:, 2], force / np.linalg.norm(force), atol=2 * float(found.found.radius))
+    assert abs(A[0, 1] - A[1, 0]) <= 2 * found.found.radius
+    assert holds(found)
+
+
+def test_the_speed_of_a_tilt_against_a_cubic_drag():
+    force = ["-0.1*v_1 - 0.05*v_1^3", "-0.1*v_2 - 0.05*v_2^3"]
+    drag = {"name": "drag", "frame": "space", "at": [0, 0], "force": force}
+    thrust = {"u": "25/2", "v": "25/2"}
+    made = derive(problem_of(DRONE | {"force": [drag]}))
+    found = made.trim(ASIDE | thrust, ["w_1", "w_2"])
+    v1, v2 = (float(mpmath.findroot(lambda v, F=F: 0.1 * v + 0.05 * v**3 - F, F)) for F in (15, 0))
+    body = np.array([[4, -3], [3, 4]]) @ [v1, v2] / 5
+    assert is_near(found, "w_1", body[0])
+    assert is_near(found, "w_2", body[1])
+
+
+@pytest.mark.parametrize(
+    ("more", "at", "free", "why"),
+    [
+        ({"force": [{"covector": ["sin(t)"]}]}, TURNED, None, "depends on the time"),
+        ({"force": [{"covector": ["sin(u)"]}]}, TURNED | {"u": 1}, [], "say by --free"),
+        ({"force": [{"covector": ["sqrt(u - 13)"]}]}, TURNED, ["u"], "no trim is found"),
+    ],
+)
+def test_what_is_not_enclosed_is_refused_in_one_line(more, at, free, why):
+    with pytest.raises(ProblemError, match=why) as error:
+        derive(problem_of(PENDULUM | more)).trim(at, free)
+    assert "\n" not in str(error.value)
+
+
+def test_rates_that_only_seem_to_vanish_are_refused():
+    """cosh u = 1 has a double root, of which no bounds are proved."""
+    flat = PENDULUM | {"force": [{"covector": ["12 + cosh(u - 1) - 1 - u"]}]}
+    with pytest.raises(ProblemError, match="that they vanish is not proved"):
+        derive(problem_of(flat)).trim(TURNED, ["u"])
+
+
+# -- the checker ----------------------------------------------------------------------------------
+
+
+def changed(found, kind, **values):
+    """What is wrong with a claim of other values."""
+    step = found.record.steps[-1]
+    (old,) = (x for x in step.claims if x.kind == kind)
+    new = Claim(kind, tuple((dict(old.values) | values).items()))
+    return ClaimChecker(found.record, SEED).fault(said(step, old, new))
+
+
+def test_bounds_without_the_solution_are_refused():
+    found = cubed()
+    beside = ("row", ("par", "u"), found.found.near["u"] + 3 * found.found.radius)
+    why = changed(found, "trim.near_rest", near=("matrix", beside))
+    assert "that one solution is within the bounds is not proved" in why
+
+
+def test_bounds_with_several_are_refused():
+    """(u³ − 2)(u − 3/2) = 0 has two solutions within 99/100 of either."""
+    bent = PENDULUM | {"force": [{"covector": ["12 + (u^3 - 2)*(u - 3/2) - u"]}]}
+    found = derive(problem_of(bent)).trim(TURNED, ["u"])
+    assert holds(found)
+    assert changed(found, "trim.near_rest", radius=Fraction(99, 100))
+
+
+def test_more_numbers_than_rates_are_refused():
+    near = found_near(cubed())
+    why = changed(cubed(), "trim.near_rest", near=("matrix", *near, ("row", ("entry", "ξ", 1), 0)))
+    assert "2 numbers are free in loads of 1 dimensions" in why
+
+
+def found_near(found):
+    return [("row", ("par", x), y) for x, y in found.found.near.items()]
+
+
+def test_an_entry_is_no_displacement():
+    near = ("matrix", *found_near(cubed()), ("row", ("entry", "A", 3, 3), 1))
+    assert "are told to be near" in changed(cubed(), "trim.near_rest", near=near)
+
+
+def test_what_turns_g_tells_its_entries():
+    found = nearly_upside_down()
+    step = found.record.steps[-1]
+    left = tuple(x for x in step.claims if not x.kind.startswith("trim.near_turned"))
+    prose = tuple(x for x in step.prose if x.message != message("trim.near_turned"))
+    silent = replace(step, claims=left, prose=prose)
+    assert "the entries of g are not told" in ClaimChecker(found.record, SEED).fault(silent)
