@@ -18,8 +18,8 @@ from ..record.record import Derivation
 from ..search import FIRST
 from ..searches import equilibria, families, integrals, reduction, symmetries
 from ..views.language import language
+from .noting import pdf_of
 from .showing import UsageError, derive, load_problem
-from .simulating import pdf_of
 from .writing import with_progress, write
 
 ENDINGS = (".tex", ".pdf", ".html")

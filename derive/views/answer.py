@@ -50,7 +50,8 @@ def equations_of_motion(d: Derivation) -> tuple[Equation, ...]:
     """The equations of the answer, without those of a vector whose entries are told."""
     solved, *expanded = steps_of_answer(d)
     rates = {x for e in solved.equations for x in names(e.lhs)}
-    told = [e for step in expanded for e in step.equations if rates & {*names(e.lhs)}]
+    both = [e for step in expanded for e in step.equations if rates & {*names(e.lhs)}]
+    told = [*{e.lhs: e for e in both}.values()]  # by the step that says most, where both tell it
     parts = [x for e in told for x in nodes(e.lhs) if isinstance(x, tuple)]
     in_entries = {x[1] for x in parts if x[0] == "entry"}
     return (*(e for e in solved.equations if e.lhs not in in_entries), *told)
