@@ -14,7 +14,7 @@ export const WORDS = {
     how: "How to write it", text: "Text", form: "Form", sentence: "Sentence",
     phrases: {
       and: "and", made: "A body with ", under: ", under ", starts: ", starting with ", where: ", where ",
-      point: "a point", moments: "a body given by its moments", system: "a system",
+      point: "a point", moments: "a body given by its moments", system: "a system", lagrangian: "a system of Lagrangian",
       solid: { ball: "a ball", box: "a box", ellipsoid: "an ellipsoid", cylinder: "a cylinder", cone: "a cone", hollow_ball: "a hollow ball", tetrahedron: "a tetrahedron" },
       of: {
         mass: "of mass", at: "at", density: "of density", radius: "of radius", height: "of height", sides: "with sides", semi_axes: "with semi-axes", outer: "of outer radius",
@@ -104,7 +104,7 @@ export const WORDS = {
     how: "Comment l’écrire", text: "Texte", form: "Formulaire", sentence: "Phrase",
     phrases: {
       and: "et", made: "Un corps avec ", under: ", sous l’action ", starts: ", avec au départ ", where: ", où ",
-      point: "un point", moments: "un corps donné par ses moments", system: "un système",
+      point: "un point", moments: "un corps donné par ses moments", system: "un système", lagrangian: "un système de lagrangien",
       solid: { ball: "une boule", box: "un pavé", ellipsoid: "un ellipsoïde", cylinder: "un cylindre", cone: "un cône", hollow_ball: "une boule creuse", tetrahedron: "un tétraèdre" },
       of: {
         mass: "de masse", at: "en", density: "de masse volumique", radius: "de rayon", height: "de hauteur", sides: "de côtés", semi_axes: "de demi-axes", outer: "de rayon extérieur",
