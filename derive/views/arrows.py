@@ -1,18 +1,19 @@
 """The vectors of the equations of motion that are seen on a body: of each the letter or term that
 it is there, and what it means; its numbers are read off the motion, as outputs are.
 
-A vector is in the frame of the part of the body that it belongs to.
+A vector is in the frame of the part of the body that it belongs to; in a plane, one that turns it
+stands out of the plane. A matrix is seen as what it makes of the points of the body.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from ..language.show import show
-from ..language.tree import Tree, names, nodes, terms
+from ..language.show import show, signed
+from ..language.tree import Tree, names, neg, nodes
 from ..record.record import Derivation, Equation, Step
 from .answer import equations_of_motion, steps_of_answer
 from .figure.stated_inertia import SIZES, along, shifts, turns
@@ -26,6 +27,13 @@ TURNING, ORIGIN = "angular velocity in the body", "velocity of the body's origin
 GRAVITY = "torque of gravity", "acceleration of gravity"
 FORCES = "torque of the forces", "acceleration by the forces"
 """What vectors mean, as messages of the views."""
+WHOLE, TURNED = "whole torque", "angular acceleration by the forces"
+POINTS = "velocity of the points about the origin"
+PULLED = "acceleration of the points by the forces"
+HELD = "acceleration of the points that keeps the volume"
+CARRIED = "acceleration of the points by their own motion"
+PLANAR = {"SO(2)": 2, "SE(2)": 3}
+"""The factors that turn a body of the plane, and the size of their matrices."""
 MOST = 10
 """So many have a colour."""
 
@@ -33,15 +41,16 @@ MOST = 10
 @dataclass(frozen=True)
 class Arrow:
     """A vector: the ``trees`` that it is in equations, the first to be shown; what it means, as a
-    message of the views, or by a symbol; its three entries; the ``part`` of the body, from 0; where
-    it begins, at the body's origin or at its ``centre``; those of one ``scale`` are compared."""
+    message of the views, or by a symbol; its entries, three for each of the ``parts`` of the body,
+    from 0, that have one, or nine, row by row, of a matrix; where it begins, at the body's origin
+    or at its ``centre``; those of one ``scale`` are compared."""
 
     trees: tuple[Tree, ...]
     meaning: str
     of: str
     entries: tuple[Tree, ...]
     scale: str
-    part: int = 0
+    parts: tuple[int, ...] = (0,)
     centre: bool = True
 
     @property
@@ -49,32 +58,81 @@ class Arrow:
         """What names it: its letter or term, else the entries of a column."""
         first = self.trees[0]
         listed = isinstance(first, tuple) and first[0] == "entry"
-        return self.trees if listed else (first,)
+        return tuple(t for t in self.trees if t != "Z") if listed else (first,)
 
 
 def arrows(d: Derivation) -> tuple[Arrow, ...]:
     """The vectors that stand in the answer of a record, the velocities first."""
     if not isinstance(d.problem.get("n"), int) or "basis" not in d.problem:
         return ()
-    equations = (*steps_of_answer(d)[0].equations, *equations_of_motion(d))
-    there = {t for e in equations for side in (e.lhs, e.rhs) for t in nodes(side)}
-    found = [x for x in (*_velocities(d), *_terms(d)) if there & {*x.trees}]
-    return tuple(found[:MOST])
+    told = _there(equations_of_motion(d))
+    there = told | _there(steps_of_answer(d)[0].equations)
+    found = [x for x in _velocities(d) if there & {*x.trees}]
+    if not any(x.scale == "turning" for x in found):
+        found += _in_letters(d, "Z", TURNING, "turning")
+    loads = _in_letters(d, "β", WHOLE, "torque") if "β" in told else ()
+    terms = {x.trees: x for x in _terms(d) if there & {*x.trees}}
+    return (*found, *loads, *terms.values())[:MOST]
+
+
+def _there(equations: Iterable[Equation]) -> set[Tree]:
+    """The trees that stand in equations."""
+    return {t for e in equations for side in (e.lhs, e.rhs) for t in nodes(side)}
+
+
+def _factors(d: Derivation) -> list[str]:
+    return str(d.problem["group"]).split(" x ")
+
+
+def _turning(d: Derivation) -> list[list[int]]:
+    """Of each part the numbers, from 0, of the basis that turn it about e_1, e_2, e_3, −1 for none;
+    nothing where a part is more than turned and moved."""
+    offset, basis, found = 0, _basis(d), []
+    for name in _factors(d):
+        at = along(basis, turns(offset))
+        if name in PLANAR:
+            at = [-1, -1, at[2]]
+        if name not in SIZES | PLANAR or at[2] == -1:
+            return []
+        found.append(at)
+        offset += (SIZES | PLANAR)[name]
+    return found
+
+
+def _basis(d: Derivation) -> list[list[list[Fraction]]]:
+    return [[[*map(Fraction, row)] for row in E] for E in d.problem["basis"]]
+
+
+def _in_letters(d: Derivation, letter: str, meaning: str, scale: str) -> Iterator[Arrow]:
+    """Z, or the load β, where the parts have no other motion in it than to turn, by its entries in
+    the basis; else Z as it moves the points."""
+    turning = _turning(d)
+    if turning and ("w" in {s.name for s in d.symbols} or "SE" not in d.problem["group"]):
+        column = "ζ" if letter == "Z" else letter
+        entries = (("entry", column, k + 1) if k >= 0 else 0 for at in turning for k in at)
+        yield Arrow((letter,), meaning, "", (*entries,), scale, (*range(len(turning)),))
+    elif letter == "Z" and not turning and _moves_points(d):
+        yield _matrix(("Z",), POINTS, "sliding", d.problem["n"])
+
+
+def _moves_points(d: Derivation) -> bool:
+    """Is Z the matrix of one factor that moves points of the plane, or of space?"""
+    advected, single = d.problem.get("advected"), len(_factors(d)) == 1
+    return not advected and single and d.problem["n"] in (2, 3)
 
 
 def _velocities(d: Derivation) -> Iterator[Arrow]:
     """Those of each part that turns, or of its origin."""
     named = {s.name for s in d.symbols}
-    factors = str(d.problem["group"]).split(" x ")
+    factors = _factors(d)
     if "w" in named and len(factors) == 1:
         entries: list[Tree] = [("entry", "w", k) for k in range(1, d.problem["n"] + 1)]
         if factors[0] in SIZES:
             yield _of_entries("ζ", [0, 1, 2], TURNING, "turning", 0)
         if len(entries) in (2, 3):
-            made = (*entries, *[0] * (3 - len(entries)))
-            yield Arrow(("w", *entries), ORIGIN, "", made, "sliding", centre=False)
+            yield Arrow(("w", *entries), ORIGIN, "", _padded(entries), "sliding", centre=False)
         return
-    offset, basis = 0, [[[*map(Fraction, row)] for row in E] for E in d.problem["basis"]]
+    offset, basis = 0, _basis(d)
     for part, name in enumerate(factors):
         if name not in SIZES:
             return
@@ -93,25 +151,53 @@ def _of_entries(
     """The vector of some entries of a column, from 0; is that the ``whole`` column?"""
     entries = tuple(("entry", letter, k + 1) for k in at)
     alone = (letter,) if whole and [*at] == [0, 1, 2] else ()
-    return Arrow((*alone, *entries), meaning, "", entries, scale, part, scale == "turning")
+    named = (*alone, *entries, *(("Z",) if alone else ()))
+    return Arrow(named, meaning, "", entries, scale, (part,), scale == "turning")
+
+
+def _padded(entries: Sequence[Tree]) -> tuple[Tree, ...]:
+    """Two entries or three as three."""
+    return (*entries, *[0] * (3 - len(entries)))
 
 
 def _terms(d: Derivation) -> Iterator[Arrow]:
-    """What turns a body of space and what moves it, term by term; its angular momentum."""
-    for e in steps_of_answer(d)[0].equations:
+    """What turns a body and what moves it, or its points, term by term; its angular momentum."""
+    n, turning = d.problem["n"], _turning(d)
+    for e in (*steps_of_answer(d)[0].equations, *equations_of_motion(d)):
         match e.lhs, e.rhs:
             case "ζ̇", ("mul", ("inv", "I" | "I_c" as inertia), torque):
                 momentum = ("mul", inertia, "ζ")
-                yield _term(momentum, "angular momentum in the body", "", "momentum")
-                for t in terms(torque):
-                    if t == ("wedge", momentum, "ζ"):
+                yield _term((momentum,), "angular momentum in the body", "", "momentum")
+                for t in _signed(torque):
+                    if t[-1] == ("wedge", momentum, "ζ"):
                         yield _term(t, "gyroscopic torque", "", "torque")
                     else:
-                        yield _term(t, *_cause(t, 0), "torque")
-            case "ẇ", force if d.problem["n"] == 3:
-                for t in terms(force):
-                    if not RATES & {*names(t)}:
-                        yield _term(t, *_cause(t, 1), "force")
+                        yield _term(t, *_cause(t[-1], 0), "torque")
+            case "ẇ", force if n in (2, 3):
+                for t in _signed(force):
+                    if not RATES & {*names(t[0])}:
+                        yield _term(t, *_cause(t[-1], 1), "force", n)
+            case "Ż", force if not turning and _moves_points(d) and "ζ̇" not in names(force):
+                for t in _signed(force):
+                    yield _matrix(t, _cause_of_matrix(t[0]), "force", n)
+            case ("entry", "ζ̇", k), rate if [-1, -1, k - 1] in turning:
+                for t in _signed(rate):
+                    if not RATES & {*names(t[0])}:
+                        part = turning.index([-1, -1, k - 1])
+                        yield Arrow(t, TURNED, "", (0, 0, t[0]), "torque", (part,))
+
+
+def _signed(t: Tree) -> Iterator[tuple[Tree, ...]]:
+    """The terms of a sum, each as it is, then without its sign."""
+    for sign, term in signed(t):
+        yield (term,) if sign == "+" else (neg(term), term)
+
+
+def _matrix(trees: tuple[Tree, ...], meaning: str, scale: str, n: int) -> Arrow:
+    """A matrix, of n rows."""
+    span = (1, 2, 3)
+    entries = (("entry", trees[0], i, j) if max(i, j) <= n else 0 for i in span for j in span)
+    return Arrow(trees, meaning, "", (*entries,), scale)
 
 
 def _cause(t: Tree, moves: int) -> tuple[str, str]:
@@ -121,10 +207,16 @@ def _cause(t: Tree, moves: int) -> tuple[str, str]:
     return (GRAVITY if "γ" in names(t) else FORCES)[moves], ""
 
 
-def _term(t: Tree, meaning: str, of: str, scale: str) -> Arrow:
-    """A term of a column of three numbers."""
-    entries = tuple(("entry", t, k) for k in (1, 2, 3))
-    return Arrow((t,), meaning, of, entries, scale)
+def _cause_of_matrix(t: Tree) -> str:
+    """What a term of the rate of Z means."""
+    there = {*names(t)}
+    return HELD if "θ" in there else CARRIED if there == {"Z"} else PULLED
+
+
+def _term(trees: tuple[Tree, ...], meaning: str, of: str, scale: str, n: int = 3) -> Arrow:
+    """A term of a column of n numbers."""
+    entries = _padded([("entry", trees[0], k) for k in range(1, n + 1)])
+    return Arrow(trees, meaning, of, entries, scale)
 
 
 # What is made of them: the record whose code has their numbers, the marks of the answer, the words.
@@ -163,11 +255,14 @@ def drawn(found: Sequence[Arrow], after: int) -> list[dict[str, Any]]:
     """What draws the arrows, as JSON has it; their numbers stand ``after`` so many others."""
     return [
         {
-            "at": after + 3 * i,
+            "number": i,
+            "at": after + sum(len(y.entries) for y in found[: i - 1]) + 3 * k,
             "label": ", ".join(map(show, x.shown)),
-            "part": x.part,
+            "part": part,
             "scale": x.scale,
             **({"centre": True} if x.centre else {}),
+            **({"matrix": True} if len(x.entries) == 9 and len(x.parts) == 1 else {}),
         }
-        for i, x in enumerate(found)
+        for i, x in enumerate(found, 1)
+        for k, part in enumerate(x.parts)
     ]

@@ -228,7 +228,7 @@ class Play:
         begin = first_numbers(with_numbers(made), self.problem, {})
         chosen = Options(step=("gauss",))
         (source,) = emit(made, record, ("javascript",), made.name, chosen).values()
-        own = made.outputs[: len(made.outputs) - 3 * len(seen)]
+        own = made.outputs[: len(made.outputs) - sum(len(x.entries) for x in seen)]
         code = EmittedCode(replace(made, outputs=own), self.record, base_units(self.problem))
         page = data(code, self.problem, self.record, begin, language(lang))
         page["arrows"] = drawn(seen, len(own))

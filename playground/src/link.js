@@ -1,6 +1,7 @@
 /* A problem as an address: #so3 for a ready-made one, #p=… for a text, compressed; #so3/linear.kernel for a step of it,
- * ?lang=fr for the language; nothing for the top, which moves. Behind it what is seen: &tab=see&t=1.5&eye=0.5,0.3,1&set=m:2,g:0,
- * or &projected, a step on the whole screen, and &projected=answer, the last of the screens. */
+ * ?lang=fr for the language; nothing for the top, which moves. Behind it what is seen:
+ * &tab=see&t=1.5&until=40&second=zeta_1:0.001&eye=0.5,0.3,1&set=m:2,g:0, or &projected, a step on the whole screen,
+ * and &projected=answer, the last of the screens. */
 const LARGEST = 400_000;
 
 async function through(stream, bytes) {
@@ -67,24 +68,28 @@ export const placed = (lang, word, step = "", seen = {}) => `?lang=${lang}#${wor
 const TABS = ["walk", "see", "find", "take"];
 const short = (v) => String(Number(v.toPrecision(7)));
 
-/* what is seen: { tab, projected: "" or "answer", t, eye: [azimuth, elevation, zoom], set: { name: number } }, what is there of it */
-function written({ tab, projected, t, eye, set = {} }) {
+/* what is seen: { tab, projected: "" or "answer", t, until, second: [name, ε], eye: [azimuth, elevation, zoom], set: { name:
+ * number } }, what is there of it */
+function written({ tab, projected, t, until, second, eye, set = {} }) {
   const numbers = Object.entries(set).map(([name, v]) => `${name}:${v}`);
   return [
     tab && tab !== "walk" && `&tab=${tab}`, projected !== undefined && `&projected${projected && `=${projected}`}`,
-    t !== undefined && `&t=${short(t)}`, eye && `&eye=${eye.map(short)}`, numbers.length && `&set=${numbers}`,
+    t !== undefined && `&t=${short(t)}`, until && `&until=${short(until)}`, second && `&second=${second[0]}:${short(second[1])}`,
+    eye && `&eye=${eye.map(short)}`, numbers.length && `&set=${numbers}`,
   ].filter(Boolean).join("");
 }
 
 /* what it says of that, and nothing of what it says wrongly */
 function read(words) {
   const told = Object.fromEntries(words.map((x) => x.split("="))), seen = {};
-  const eye = told.eye?.split(",").map(Number), set = told.set?.split(",").map((x) => x.split(":")) ?? [];
+  const eye = told.eye?.split(",").map(Number), number = (v) => v && Number.isFinite(Number(v));
+  const pairs = (word = "") => word.split(",").map((x) => x.split(":")).filter(([name, v]) => /^\w+$/.test(name) && number(v));
+  const numbers = pairs(told.set), [second] = pairs(told.second);
   if (TABS.includes(told.tab)) seen.tab = told.tab;
   if ("projected" in told) seen.projected = told.projected === "answer" ? "answer" : "";
-  if (told.t && Number.isFinite(Number(told.t))) seen.t = Number(told.t);
+  for (const name of ["t", "until"]) if (number(told[name])) seen[name] = Number(told[name]);
+  if (second) seen.second = [second[0], Number(second[1])];
   if (eye?.length === 3 && eye.every(Number.isFinite)) seen.eye = eye;
-  const numbers = set.filter(([name, v]) => /^\w+$/.test(name) && v && Number.isFinite(Number(v)));
   if (numbers.length) seen.set = Object.fromEntries(numbers);
   return seen;
 }

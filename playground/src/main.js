@@ -14,6 +14,7 @@ import { opens } from "./opened.js";
 import { Motion } from "./see.js";
 import { Projector } from "./projector.js";
 import { Road } from "./road.js";
+import { Sentence } from "./sentence.js";
 import { Steps } from "./steps.js";
 import { Tabs } from "./tabs.js";
 import { Take } from "./take.js";
@@ -34,7 +35,10 @@ const engine = new Engine({ seconds: SECONDS, onstate, onbegin: () => say(words.
 const motion = new Motion(the("see"), { text: () => text, engine, say, ended, lit: (number) => arrows.lit(number), key: (key) => projector.key(key) });
 const arrows = new Arrows(the("answer").lastElementChild, (number) => motion.light(number));
 const text = editor(the("editor"), data.schema, words, edited);
-const form = new Form(the("form"), data.schema, (made) => { text.text = made; });
+const faces = { form: Form, sentence: Sentence };
+for (const [x, Face] of Object.entries(faces)) faces[x] = new Face(the(x), data.schema, (made) => { text.text = made; });
+/* the face of the problem that is seen in the place of its text */
+const face = () => Object.keys(faces).find((x) => !the(x).hidden);
 const projector = new Projector(the("projector"), {
   equations, words: () => words,
   answer: (place) => { place.innerHTML = arrows.place.innerHTML; },
@@ -341,7 +345,7 @@ async function visit(tab) {
   motion.forget();
   about();
   take.told();
-  if (!the("form").hidden) await filled();
+  if (face()) await filled();
   await derive();
 }
 
@@ -365,32 +369,30 @@ function speak() {
   for (const button of document.querySelectorAll("[data-lang]")) button.setAttribute("aria-pressed", String(button.dataset.lang === lang));
 }
 
-async function filled() {
-  if (await plain(() => true) === "superseded") unread();
+async function filled(as = face()) {
+  if (await plain(() => true, as) === "superseded") unread();
 }
 
 /* a walk overtook the question whether the text is TOML: it is asked again behind it */
 async function unread() {
   await running;
-  if (!the("form").hidden && await plain((found) => found && !found.read) === "superseded" && running) unread();
+  if (face() && await plain((found) => found && !found.read) === "superseded" && running) unread();
 }
 
-/* show the form of the text where `fit` says so of what Python says of it; how the question ended */
-async function plain(fit) {
+/* show a face of the text where `fit` says so of what Python says of it; how the question ended */
+async function plain(fit, as = face()) {
   let found = null;
   const how = await engine.ask({ ask: "plain", text: text.text }, (kind, news) => { if (kind === "plain") found = news; });
-  if (fit(found)) form.show(found, words);
+  if (fit(found)) faces[as].show(found, words);
   return how;
 }
 
 async function write(as) {
-  const shown = as === "form";
-  the("as-form").setAttribute("aria-pressed", String(shown));
-  the("as-text").setAttribute("aria-pressed", String(!shown));
-  if (shown) await filled();
-  if (the("as-form").getAttribute("aria-pressed") !== String(shown)) return; // asked for the other meanwhile
-  the("form").hidden = !shown;
-  the("editor").hidden = shown;
+  const all = ["text", ...Object.keys(faces)];
+  for (const x of all) the(`as-${x}`).setAttribute("aria-pressed", String(x === as));
+  if (as !== "text") await filled(as);
+  if (the(`as-${as}`).getAttribute("aria-pressed") !== "true") return; // asked for another meanwhile
+  for (const x of all) the(x === "text" ? "editor" : x).hidden = x !== as;
 }
 
 function widen(wide) {
@@ -409,7 +411,7 @@ for (const button of document.querySelectorAll("[data-lang]")) {
     speak();
     motion.forget();
     await places.problem(lang, chosen(), text.text);
-    if (!the("form").hidden) filled();
+    if (face()) filled();
     derive();
   });
 }
@@ -419,8 +421,7 @@ the("stop").addEventListener("click", () => {
   wanted = false;
   engine.stop();
 });
-the("as-text").addEventListener("click", () => write("text"));
-the("as-form").addEventListener("click", () => write("form"));
+for (const x of ["text", ...Object.keys(faces)]) the(`as-${x}`).addEventListener("click", () => write(x));
 the("link").addEventListener("click", async (e) => {
   await places.problem(lang, chosen(), text.text);
   const seen = tabs.now === "see" ? await motion.seen() : {};

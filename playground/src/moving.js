@@ -21,18 +21,18 @@ function numbers({ given }, page, { PARAMETERS, INPUTS }) {
 }
 
 /* the rows of the numbers, what each says, and said first */
-const rows = () => [...document.querySelectorAll(".adjuster")];
+const rows = () => [...document.querySelectorAll(".values .adjuster")];
 const said = (row) => row.querySelector("[role=slider]").getAttribute("aria-valuenow");
 let first = new Map();
 
-/* what is seen: the time, the camera where there is one, the numbers that have been set */
-function seen({ time, scene: { eye } }) {
+/* what is seen: the time, until when it goes, the second motion, the camera where there is one, the numbers that have been set */
+function seen({ time, until, second, scene: { eye, page } }) {
   const set = rows().map((x) => [x.dataset.name, said(x)]).filter(([name, v]) => v !== first.get(name));
-  return { t: time, ...(eye && { eye: [eye.azimuth, eye.elevation, eye.zoom] }), set: Object.fromEntries(set) };
+  return { t: time, ...(until > page.t && { until }), ...(second?.told && { second: second.told }), ...(eye && { eye: [eye.azimuth, eye.elevation, eye.zoom] }), set: Object.fromEntries(set) };
 }
 
 /* and is seen again, at rest: numbers are put in as the reader types them */
-function restore({ t, eye, set = {} }, motion) {
+function restore({ t, until, second, eye, set = {} }, motion) {
   for (const row of rows().filter((x) => Object.hasOwn(set, x.dataset.name))) {
     const box = row.querySelector("input");
     box.value = set[row.dataset.name];
@@ -42,6 +42,8 @@ function restore({ t, eye, set = {} }, motion) {
     const [azimuth, elevation, zoom] = eye;
     Object.assign(motion.scene.eye, { azimuth, elevation: Math.max(-1.55, Math.min(Math.PI / 2, elevation)), zoom: Math.max(0.1, Math.min(20, zoom)) });
   }
+  if (second && motion.second) motion.second.told = second;
+  if (Math.max(until ?? 0, t ?? 0) > motion.until) motion.until = Math.max(until ?? 0, t ?? 0);
   if (t !== undefined) motion.seek(t);
 }
 
@@ -85,7 +87,7 @@ addEventListener("message", async ({ data, source, origin }) => {
       return;
     }
     home.replaceChildren();
-    home.motion = globalThis.drawing.mount(home, { ...data.page, module, in_time: data.in_time, tilt: data.tilt, pointed: (lit) => tell({ lit }) }, { ...chosen(data.pieces), graph: globalThis.drawing.graph });
+    home.motion = globalThis.drawing.mount(home, { ...data.page, ...data.moving, module, pointed: (lit) => tell({ lit }) }, { ...chosen(data.pieces), graph: globalThis.drawing.graph, second: globalThis.drawing.second_motion });
     const into = document.createElement("button");
     Object.assign(into, { type: "button", className: "into", textContent: data.into });
     into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module) }));

@@ -87,7 +87,7 @@ export class Motion {
 
   show(words, lang, told) {
     this.words = words;
-    this.told = { ...told, lang, title: words.motion, into: words.into, in_time: words.inTime, tilt: words.tilt, restored: this.restored, saves: words.saves };
+    this.told = { ...told, lang, title: words.motion, into: words.into, moving: words.moving, restored: this.restored, saves: words.saves };
     this.told.name = this.text().text.match(/^\s*name\s*=\s*"(\w+)"/m)?.[1] ?? "motion";
     this.more = this.restored = null;
     this.frame = make("iframe", { src: "moving.html", title: words.motion });

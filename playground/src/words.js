@@ -11,7 +11,24 @@ export const WORDS = {
     help5: "Copy link: the problem, and what you see of it, as an address. Nothing leaves this machine.",
     gallery: "Gallery", choose: "What moves?", close: "Close", nogallery: "The gallery could not be loaded: the list beside it has the same problems.",
     language: "Language", ready: "Problem", own: "of your own", write: "The problem",
-    how: "How to write it", text: "Text", form: "Form", open: "Open …", link: "Copy link", linked: "Link copied",
+    how: "How to write it", text: "Text", form: "Form", sentence: "Sentence",
+    phrases: {
+      and: "and", made: "A body with ", under: ", under ", starts: ", starting with ", where: ", where ",
+      point: "a point", moments: "a body given by its moments", system: "a system", lagrangian: "a system of Lagrangian",
+      solid: { ball: "a ball", box: "a box", ellipsoid: "an ellipsoid", cylinder: "a cylinder", cone: "a cone", hollow_ball: "a hollow ball", tetrahedron: "a tetrahedron" },
+      of: {
+        mass: "of mass", at: "at", density: "of density", radius: "of radius", height: "of height", sides: "with sides", semi_axes: "with semi-axes", outer: "of outer radius",
+        inner: "of inner radius", vertices: "with vertices", rotation: "turned by", shift: "shifted by", g: "g =", U: "U =", length: "length at rest",
+      },
+      group: {
+        "SO(2)": "turns in the plane about a point", "SE(2)": "moves in the plane", "SO(3)": "turns about a fixed point", "SE(3)": "moves in space",
+        "SL(3)": "deforms about a point, at constant volume,", "GL(3)": "deforms about a point", "SAff(3)": "moves and deforms, at constant volume,", "Aff(3)": "moves and deforms",
+      },
+      force: {
+        gravity: "its weight", spring: "a spring", torsion: "a torsion spring", attraction: "an attraction", far_centre: "an attraction from afar", self_gravity: "its own gravity",
+        field: "a field", harmonic: "a harmonic field", volume: "an energy of its volume", expression: "a potential", covector: "an input", force: "a force", torque: "a torque", damping: "damping",
+      },
+    }, open: "Open …", link: "Copy link", linked: "Link copied",
     read: "What is derived", equations: "Equations", motion: "Motion", find: "Find", take: "Take", check: "Check",
     searches: { symmetries: "Symmetries", integrals: "First integrals", equilibria: "Equilibria", reduction: "Reduction" },
     opened: {
@@ -33,7 +50,11 @@ export const WORDS = {
     mathml: "copy the MathML", tex: "copy the LaTeX", copied: "copied",
     nomotion: "No motion:",
     pushed: "The file starts it at rest: it has been pushed.", stale: "The text has changed: this is the motion of before.",
-    inTime: "In time", tilt: "cosine of the tilt of the third axis", into: "Into the problem", saves: { picture: "Save PNG", film: "Film (WebM)", stop: "Stop and save", none: "No film: this browser records none." },
+    moving: {
+      in_time: "In time", tilt: "cosine of the tilt of the third axis", apart: "log₁₀ of the distance of the two",
+      second: { show: "two motions, ε apart", of: "the number of the start in which they differ" },
+    },
+    into: "Into the problem", saves: { picture: "Save PNG", film: "Film (WebM)", stop: "Stop and save", none: "No film: this browser records none." },
     left: (x) => `Set in the text, but for ${x}: change that there.`,
     queued: "Deriving …, then the check", unfit: "There is nothing to check: first mend what is marked in the problem.",
     missing: (x) => `There is no ready-made problem '${x}': here is so3 instead.`, nostep: (x) => `There is no step '${x}' here.`,
@@ -80,7 +101,25 @@ export const WORDS = {
     help5: "Copier le lien : le problème, et ce que vous en voyez, en une adresse. Rien ne quitte cette machine.",
     gallery: "Galerie", choose: "Qu’est-ce qui bouge ?", close: "Fermer", nogallery: "La galerie n’a pas pu être chargée : la liste à côté a les mêmes problèmes.",
     language: "Langue", ready: "Problème", own: "le vôtre", write: "Le problème",
-    how: "Comment l’écrire", text: "Texte", form: "Formulaire", open: "Ouvrir …", link: "Copier le lien", linked: "Lien copié",
+    how: "Comment l’écrire", text: "Texte", form: "Formulaire", sentence: "Phrase",
+    phrases: {
+      and: "et", made: "Un corps avec ", under: ", sous l’action ", starts: ", avec au départ ", where: ", où ",
+      point: "un point", moments: "un corps donné par ses moments", system: "un système", lagrangian: "un système de lagrangien",
+      solid: { ball: "une boule", box: "un pavé", ellipsoid: "un ellipsoïde", cylinder: "un cylindre", cone: "un cône", hollow_ball: "une boule creuse", tetrahedron: "un tétraèdre" },
+      of: {
+        mass: "de masse", at: "en", density: "de masse volumique", radius: "de rayon", height: "de hauteur", sides: "de côtés", semi_axes: "de demi-axes", outer: "de rayon extérieur",
+        inner: "de rayon intérieur", vertices: "de sommets", rotation: "avec la rotation", shift: "avec le décalage", g: "g =", U: "U =", length: "longueur à vide",
+      },
+      group: {
+        "SO(2)": "tourne dans le plan autour d’un point", "SE(2)": "se meut dans le plan", "SO(3)": "tourne autour d’un point fixe", "SE(3)": "se meut dans l’espace",
+        "SL(3)": "se déforme autour d’un point, à volume constant,", "GL(3)": "se déforme autour d’un point", "SAff(3)": "se meut et se déforme, à volume constant,", "Aff(3)": "se meut et se déforme",
+      },
+      force: {
+        gravity: "de son poids", spring: "d’un ressort", torsion: "d’un ressort de torsion", attraction: "d’une attraction", far_centre: "d’une attraction lointaine",
+        self_gravity: "de sa propre pesanteur", field: "d’un champ", harmonic: "d’un champ harmonique", volume: "d’une énergie de volume", expression: "d’un potentiel",
+        covector: "d’une commande", force: "d’une force", torque: "d’un couple", damping: "d’un amortissement",
+      },
+    }, open: "Ouvrir …", link: "Copier le lien", linked: "Lien copié",
     read: "Ce qui est déduit", equations: "Équations", motion: "Mouvement", find: "Chercher", take: "Emporter", check: "Vérifier",
     searches: { symmetries: "Symétries", integrals: "Intégrales premières", equilibria: "Équilibres", reduction: "Réduction" },
     opened: {
@@ -102,7 +141,11 @@ export const WORDS = {
     mathml: "copier le MathML", tex: "copier le LaTeX", copied: "copié",
     nomotion: "Pas de mouvement :",
     pushed: "Le fichier le fait partir du repos : il a été poussé.", stale: "Le texte a changé : ceci est le mouvement d’avant.",
-    inTime: "Au cours du temps", tilt: "cosinus de l’inclinaison du troisième axe", into: "Dans le problème", saves: { picture: "Enregistrer PNG", film: "Filmer (WebM)", stop: "Arrêter, enregistrer", none: "Pas de film : ce navigateur n’en enregistre pas." },
+    moving: {
+      in_time: "Au cours du temps", tilt: "cosinus de l’inclinaison du troisième axe", apart: "log₁₀ de la distance des deux",
+      second: { show: "deux mouvements, à ε l’un de l’autre", of: "le nombre du départ où ils diffèrent" },
+    },
+    into: "Dans le problème", saves: { picture: "Enregistrer PNG", film: "Filmer (WebM)", stop: "Arrêter, enregistrer", none: "Pas de film : ce navigateur n’en enregistre pas." },
     left: (x) => `Mis dans le texte, sauf ${x} : à changer là.`,
     queued: "Calcul …, puis vérification", unfit: "Il n’y a rien à vérifier : corrigez d’abord ce qui est marqué dans le problème.",
     missing: (x) => `Il n’y a pas de problème tout prêt « ${x} » : voici so3 à la place.`, nostep: (x) => `Il n’y a pas d’étape « ${x} » ici.`,

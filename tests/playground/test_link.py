@@ -14,6 +14,7 @@ SEEN = [
     {"tab": "take"},
     {"projected": ""},
     {"projected": "answer"},
+    {"tab": "see", "t": 30, "until": 80, "second": ["zeta_1", 1e-3]},
     {"tab": "see", "t": 1.5, "eye": [-0.25, 1.5, 2], "set": {"zeta_1": "-3", "m": "1e-7"}},
 ]
 
@@ -28,15 +29,19 @@ def test_what_is_seen_goes_through_an_address():
         console.log(JSON.stringify(told));"""
     found = json.loads(in_node.printed(script))
     numbers = [x | {"set": {k: float(v) for k, v in x["set"].items()}} for x in SEEN[-1:]]
-    assert [x["step"] for x in found] == ["so3.kernel"] * 5
-    assert [x["name"] for x in found] == ["so3"] * 5
+    assert [x["step"] for x in found] == ["so3.kernel"] * 6
+    assert [x["name"] for x in found] == ["so3"] * 6
     told = [x["seen"] for x in found]
     told[-1]["set"] = {k: float(v) for k, v in told[-1]["set"].items()}
     assert told == SEEN[:-1] + numbers
 
 
 @pytest.mark.parametrize(
-    "wrong", ["tab=x", "t=NaN", "t=", "eye=1,2", "eye=a,b,c", "set=m:x", "set=m", "set=<b>:1", "p"]
+    "wrong",
+    [
+        *("tab=x", "t=NaN", "t=", "eye=1,2", "eye=a,b,c", "set=m:x", "set=m", "set=<b>:1", "p"),
+        *("until=x", "second=zeta_1", "second=zeta_1:x", "second="),
+    ],
 )
 def test_what_an_address_says_wrongly_is_not_seen(wrong):
     script = f'{LINK} console.log(JSON.stringify(await asked("#so3&{wrong}", ["so3"])));'

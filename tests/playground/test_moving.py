@@ -177,7 +177,9 @@ def test_a_top(fresh, site):
 
     until(frame, "true", at_the_end)
     # every parameter and number of the start can be set, those that are not 0 at sight
-    names = frame.evaluate("[...document.querySelectorAll('.adjuster')].map((x) => x.dataset.name)")
+    names = frame.evaluate(
+        "[...document.querySelectorAll('.values .adjuster')].map((x) => x.dataset.name)"
+    )
     start = ["zeta_1", "zeta_2", *(f"theta_{k}" for k in (1, 2, 3))]
     assert names == ["zeta_3", *module_of("top").PARAMETERS, *start]
     slid(frame, g=5.0, zeta_1=40.0, theta_1=0.4)
@@ -196,14 +198,38 @@ def test_a_top(fresh, site):
     assert after["initial"] == before["initial"] | {"zeta_3": 40}
 
 
+DRAWN = f"{MOTION}.scene.drawn.map(([number]) => number)"
+
+
+def test_arrows_in_a_plane_of_two_bodies_and_of_points(fresh, site):
+    """An arc out of the plane, one arrow a body, and one at each point."""
+    for name, expected in {
+        "pendulum": [1] * 16 + [2] * 16,
+        "two_tops": [1, 1, 2, 2],
+        "sl3": [1] * 4 + [2] * 4 + [3] * 4 + [4] * 4,
+    }.items():
+        visit(fresh, f"{site}#{name}", name)
+        frame = moving(fresh)
+        frame.evaluate(STATE, 0.4)
+        until(frame, f"{DRAWN}.length > 0 && {MOTION}.time === 0.4")
+        assert frame.evaluate(DRAWN) == expected
+        buttons = fresh.locator("#answer .legend button")
+        assert buttons.count() == len({*expected})
+        buttons.last.focus()
+        until(frame, f"{MOTION}.scene.lit === {expected[-1]}")
+
+
 CURVE = """() => {
-    const pen = document.querySelector(".graph canvas").getContext("2d");
-    const [begin, line, stroke] = [pen.beginPath, pen.lineTo, pen.stroke].map((x) => x.bind(pen));
     window.lines = [];
-    let path = [];
-    pen.beginPath = () => { path = []; begin(); };
-    pen.lineTo = (x, y) => { path.push(y); line(x, y); };
-    pen.stroke = () => { window.lines.push(path); stroke(); };
+    for (const canvas of document.querySelectorAll(".graph canvas")) {
+        const pen = canvas.getContext("2d");
+        const own = [pen.beginPath, pen.lineTo, pen.stroke];
+        const [begin, line, stroke] = own.map((x) => x.bind(pen));
+        let path = [];
+        pen.beginPath = () => { path = []; begin(); };
+        pen.lineTo = (x, y) => { path.push(y); line(x, y); };
+        pen.stroke = () => { window.lines.push(path); stroke(); };
+    }
 }"""
 """Keeps the heights of the lines of the graph."""
 
@@ -228,6 +254,64 @@ def test_a_graph_of_what_is_chosen(fresh, site):
     assert np.abs(np.corrcoef(trail, -tilt)[0, 1] - 1) < 1e-9
     assert np.ptp(tilt) > 20
     assert np.ptp(energy) < 1e-3
+
+
+SLOWEST = """async ([does, until]) => {
+    let slowest = 0, frames = 0;
+    const each = window.requestAnimationFrame.bind(window);
+    window.requestAnimationFrame = (f) => each((now) => {
+        const begin = performance.now();
+        f(now);
+        slowest = Math.max(slowest, performance.now() - begin);
+        frames += 1;
+    });
+    does === "seek" ? MOTION.seek(until) : MOTION.play();
+    await new Promise((done) => {
+        const look = () => (MOTION.time >= until ? done() : setTimeout(look, 50));
+        look();
+    });
+    MOTION.pause();
+    window.requestAnimationFrame = each;
+    return [frames, slowest];
+}""".replace("MOTION", MOTION)
+"""How many frames a motion took, and the milliseconds of the script in the slowest."""
+
+
+def test_two_motions_side_by_side_for_longer(fresh, site):
+    """The second is that of a reader who sets the number; the graph has both and their distance."""
+    visit(fresh, f"{site}#top", "top")
+    frame = moving(fresh)
+    frame.locator(".two input[type=checkbox]").check()
+    frame.locator(".two select").select_option("zeta_3")
+    first = frame.evaluate(STATE, 2.0)
+    run = f"{MOTION}.scene.other"
+    second = frame.evaluate(f"({run}.reach(2, Infinity), [...{run}.at(2)])")
+    assert 1e-4 < apart(first, second) < 10
+    frame.evaluate(CURVE)
+    shown_at(frame, 2)
+    lines = [x for x in frame.evaluate("window.lines") if len(x) > 20]
+    two, one, distance = lines[-3:]
+    assert np.ptp(one) > 10
+    assert 0 < apart(one, two) < np.ptp(one)
+    tilts = frame.evaluate(f"{MOTION}.trail.slice(1).map(([, x, y]) => x[8] - y[8])")
+    expected = np.log10(np.abs(tilts))
+    assert np.abs(np.corrcoef(expected, -np.array(distance))[0, 1] - 1) < 1e-9
+    assert frame.locator(".graph figure canvas").is_visible()
+    # it goes on, in frames that stay short, and what was there stays
+    assert frame.evaluate(f"{MOTION}.until") == 20
+    frame.locator(".controls select").first.select_option("160 s")
+    frames, slowest = frame.evaluate(SLOWEST, ["seek", 150])
+    assert frames > 5
+    assert slowest < 1000
+    assert apart(frame.evaluate(STATE, 2.0), first) < 1e-6
+    shown_at(frame, 150)
+    assert change(frame, "energy") < 1e-8
+    # alone again, from the number that the second began with
+    frame.locator(".two input[type=checkbox]").uncheck()
+    assert frame.evaluate(f"{run} === null")
+    assert not frame.locator(".graph figure canvas").is_visible()
+    set_to(frame, "zeta_3", "100.1")
+    assert frame.evaluate(STATE, 2.0) == second
 
 
 def test_other_bodies(fresh, site):

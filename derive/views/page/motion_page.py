@@ -36,6 +36,8 @@ WORDS = {
     "time": "time",
     "speed": "seconds of the motion in a second",
     "pace": "speed",
+    "until": "until",
+    "length": "how long the motion goes on",
     "within": "seen from the body",
     "controls": "the time",
     "stage": "the body, turned by dragging or by the arrow keys",
@@ -101,6 +103,7 @@ SCRIPTS = (
     "arrows",
     "stage",
     "chart",
+    "second",
     "polhode",
     "mount",
 )

@@ -1,12 +1,13 @@
 /* The vectors of the equations, on the body: of each three numbers, in the frame of its part, among those that are read
- * off the motion. page.arrows: { at: the place of the first, part, centre: does it begin at the centre of mass?, scale:
- * those of one are compared, label }; scene.lit: the number, from 1, of the one that is pointed at, else 0;
+ * off the motion. page.arrows: { number, from 1; at: the place of the first, part, centre: does it begin at the centre of
+ * mass?, matrix: are they nine, of a matrix, whose product with each point is a vector there?, scale: those of one are
+ * compared, label }; in a plane a vector out of it is an arc. scene.lit: the number of the one that is pointed at, else 0;
  * scene.large: letters and lines are so many times larger. */
 const LENGTHS = { turning: 1.35, momentum: 1.15, sliding: 1, torque: 0.85, force: 0.85 };
 
 function arrows_of(scene, view) {
-  const { arrows, module, pointed } = scene.page;
-  let most = {}, seen = null, hues = [], drawn = []; // of each arrow that is drawn its number and its ends in the picture
+  const { arrows, module, pointed, body: { planar } } = scene.page;
+  let most = {}, seen = null, hues = [], drawn = []; // of each line that is drawn the number of its arrow and its ends in the picture
 
   /* the one that passes near a place of the picture: its number, else 0 */
   const near = (x, y) => {
@@ -39,34 +40,54 @@ function arrows_of(scene, view) {
     });
   };
 
+  /* the points of a part that a matrix is seen at: those that have a mass, else the ends of its axes */
+  const places = ({ points, tips, reach }) => {
+    const heavy = Object.values(points).filter((x) => x.mass > 0).map((x) => x.at);
+    return heavy.length ? heavy : tips.map((tip) => scaled(1 - 0.28 * reach / size(tip), tip));
+  };
+  /* where the vectors of an arrow begin, and what they are */
+  const vectors = ({ at, matrix, centre }, part, read) => {
+    const row = (k) => [0, 1, 2].map((j) => read[at + 3 * k + j]);
+    if (matrix) return places(part).map((r) => [r, [0, 1, 2].map((k) => dot(row(k), r))]);
+    return [[part.fixed || !centre ? [0, 0, 0] : part.centre, row(0)]];
+  };
+  /* an arrow as a line: straight, or about its beginning */
+  const line = (from, v, long, far) => {
+    if (!planar || !v[2]) return [from, plus(from, v, long)];
+    return Array.from({ length: 17 }, (_, k) => plus(from, [cos(v[2] * long / far * k / 16), sin(v[2] * long / far * k / 16), 0], far));
+  };
+
   return {
     restart() {
       most = {};
     },
     draw(pic, x, parts, spots) {
       const { colours, lit, run, u, time } = scene;
-      if (seen !== colours) hues = arrows.map((_, i) => colours.read(`arrow-${i + 1}`));
+      if (seen !== colours) hues = Object.fromEntries(arrows.map(({ number }) => [number, colours.read(`arrow-${number}`)]));
       seen = colours;
-      const read = module.outputs(time, x, run.k, u), size_of = (a) => size(vector(a));
-      const vector = ({ at }) => [0, 1, 2].map((k) => read[at + k]);
-      for (const a of arrows) most[a.scale] = max(most[a.scale] ?? 0, size_of(a) || 0);
+      const read = module.outputs(time, x, run.k, u);
+      const all = arrows.flatMap((a) => vectors(a, parts[a.part], read).map(([from, v], k) => {
+        const at = spots[a.part]; // a body that stretches takes its vectors along
+        return { ...a, from, v, long: size(plus(at(plus(from, v)), at(from), -1)) || 0, first: k === 0 };
+      }));
+      for (const { scale, long } of all) most[scale] = max(most[scale] ?? 0, long);
       drawn = scene.drawn = [];
-      arrows.forEach((a, i) => {
-        const part = parts[a.part], at = spots[a.part], from = part.fixed || !a.centre ? [0, 0, 0] : part.centre;
-        const long = size_of(a) / most[a.scale];
-        if (!(long > 0.01)) return;
-        const tip = plus(from, vector(a), LENGTHS[a.scale] * part.reach / most[a.scale]);
-        drawn.push([i + 1, pic.to(at(from)), pic.to(at(tip))]);
-        const [, p, q] = drawn.at(-1), wide = hypot(q[0] - p[0], q[1] - p[1]) || 1;
-        const c = (q[0] - p[0]) / wide, s = (q[1] - p[1]) / wide, dim = lit && lit !== i + 1;
-        pic.items.push([1e9 + (lit === i + 1), () => {
-          view.pen.globalAlpha = dim ? 0.2 : 1;
-          view.stroke([p, [q[0] - 4 * c, q[1] - 4 * s]], hues[i], (lit === i + 1 ? 4 : 2.5) * (scene.large ?? 1));
-          pic.head(q[0], q[1], c, s, hues[i], 1.6);
-          label(pic, a.label, q[0] + 9 * c, q[1] + 15 * s, hues[i], c < -0.3 ? 1 : c > 0.3 ? 0 : 0.5);
+      for (const { number, from, v, long, scale, label: name, part: k, matrix, first } of all) {
+        if (!(long > 0.01 * most[scale])) continue;
+        const { reach } = parts[k], far = (0.3 + 0.11 * number) * reach;
+        const path = line(from, v, (matrix ? 0.8 : 1) * LENGTHS[scale] * reach / most[scale], far).map((r) => pic.to(spots[k](r)));
+        for (let i = 0; i + 1 < path.length; ++i) drawn.push([number, path[i], path[i + 1]]);
+        const [p, q] = path.slice(-2), wide = hypot(q[0] - p[0], q[1] - p[1]) || 1, hue = hues[number];
+        const c = (q[0] - p[0]) / wide, s = (q[1] - p[1]) / wide, is = lit === number;
+        path.splice(-1, 1, wide > 4 ? [q[0] - 4 * c, q[1] - 4 * s] : p);
+        pic.items.push([1e9 + is, () => {
+          view.pen.globalAlpha = lit && !is ? 0.2 : 1;
+          view.stroke(path, hue, (is ? 4 : matrix ? 1.8 : 2.5) * (scene.large ?? 1));
+          pic.head(q[0], q[1], c, s, hue, 1.6);
+          if (first || is) label(pic, name, q[0] + 9 * c, q[1] + 15 * s, hue, c < -0.3 ? 1 : c > 0.3 ? 0 : 0.5);
           view.pen.globalAlpha = 1;
         }]);
-      });
+      }
     },
   };
 }

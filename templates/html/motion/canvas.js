@@ -119,8 +119,10 @@ function picture({ colours, large = 1 }, view, eye, target, scale) {
         pen.globalAlpha = 1;
       }]);
     },
-    line(a, b, colour, width = 1.2, alpha = 1, lift = 0) {
-      const s = [to(a), to(b)];
+    line(a, b, colour, width, alpha, lift) {
+      own.drawn_line([to(a), to(b)], colour, width, alpha, lift);
+    },
+    drawn_line(s, colour, width = 1.2, alpha = 1, lift = 0) {
       items.push([mean(s) + lift, () => {
         pen.globalAlpha = alpha;
         stroke(s, colour, width);

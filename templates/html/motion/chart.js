@@ -1,5 +1,5 @@
 /* Curves of some places of the state in time, or of other values there, with their names; those after the sixth are
- * dashed, in the same colours. */
+ * dashed, in the same colours; those of the second motion, where there is one, are faint. */
 function chart(scene, label, places, names = scene.page.names, values = (t, x) => x) {
   const view = canvas(scene, label);
   return {
@@ -8,9 +8,9 @@ function chart(scene, label, places, names = scene.page.names, values = (t, x) =
       const { pen } = view, { colours, page } = scene;
       pen.clearRect(0, 0, view.width, view.height);
       if (scene.trail.length < 2) return;
-      const trail = scene.trail.map(([t, x]) => [t, values(t, x)]);
+      const trail = scene.trail.map(([t, x, y]) => [t, values(t, x), y && values(t, y)]);
       const t0 = trail[0][0], t1 = trail.at(-1)[0] || 1;
-      const all = trail.flatMap(([, x]) => places.map((s) => x[s]));
+      const all = trail.flatMap(([, x, y]) => places.flatMap((s) => (y ? [x[s], y[s]] : [x[s]])));
       const least = min(...all), most = max(...all);
       const middle = (least + most) / 2, half = max((most - least) / 2, 0.02 * max(abs(least), abs(most)), 1e-12);
       const left = 64, right = view.width - 46, foot = view.height - 18;
@@ -35,6 +35,11 @@ function chart(scene, label, places, names = scene.page.names, values = (t, x) =
       ends.forEach(([y, s, i], k) => {
         const colour = colours.lines[i % 6];
         pen.setLineDash(i > 5 ? [4, 3] : []);
+        if (trail[0][2]) {
+          pen.globalAlpha = places.length > 1 ? 0.4 : 1;
+          view.stroke(trail.map(([t, , y]) => [X(t), Y(y[s])]), places.length > 1 ? colour : colours.ghost, 1.5);
+          pen.globalAlpha = 1;
+        }
         view.stroke(trail.map(([t, x]) => [X(t), Y(x[s])]), colour, 1.5);
         view.stroke([[right + 2, y], [right + 11, at[k]]], colours.line); // to its name: no part of the curve
         write(called(names[s]), right + 13, at[k], "left", colour);
@@ -53,15 +58,23 @@ function velocities(scene) {
   return { ...chart(scene, scene.page.words.velocities, scene.velocity.slice(0, 9)), shape: "side flat" };
 }
 
-/* one quantity in time, chosen from a list of [words, (t, x) => number] */
-function graph(scene, label) {
+/* one quantity in time, chosen from a list of [words, (t, x) => number]; of two motions its distance, too, as a logarithm */
+function graph(scene, label, between) {
   let all = [], now = 0;
   const list = make("select", { "aria-label": label, change: () => {
     now = list.selectedIndex;
     scene.ask();
   } });
   const view = chart(scene, label, [0], [""], (t, x) => [all[now][1](t, x)]);
-  return { ...view, list, offer(choices) {
+  const log = (t, x, y) => [y ? log10(max(abs(all[now][1](t, x) - all[now][1](t, y)), 1e-16)) : 0];
+  const apart = chart({ get trail() { return scene.trail.map(([t, x, y]) => [t, log(t, x, y)]); }, get colours() { return scene.colours; }, page: scene.page, redraw: scene.redraw }, between, [0], [""]);
+  const below = make("figure", { hidden: "" }, make("figcaption", {}, between), apart.element);
+  for (const x of [view, apart]) x.element.className = "flat";
+  return { figure: make("figure", { class: "graph" }, list, view.element, below), draw() {
+    below.hidden = !scene.other;
+    view.draw();
+    if (scene.other) apart.draw();
+  }, offer(choices) {
     all = choices;
     now = max(0, min(now, all.length - 1));
     list.replaceChildren(...all.map(([words]) => make("option", {}, words)));

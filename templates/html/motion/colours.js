@@ -8,6 +8,8 @@ function colours_of(element) {
     return `rgb(${rgb(read(name)).map((v) => min(255, round(light < 1 ? v * light : v + (255 - v) * (light - 1)))).join(" ")})`;
   });
   const colours = { read, tones: [["body", "pale"], ["other", "pale"]].map((pair) => pair.map(shades)) };
+  colours.ghost = read("ghost");
+  colours.ghosts = ["ghost", "pale"].map(shades);
   for (const name of ["ink", "soft", "line", "paper", "mark", "e1", "e2", "e3"]) colours[name] = read(name);
   colours.lines = ["e3", "e1", "e2", "mark", "other", "soft"].map(read);
   return colours;

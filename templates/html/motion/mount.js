@@ -1,5 +1,5 @@
 /* A motion in an element of a page: mount(element, page, pieces) builds all that is seen, and returns
- * what moves it: { time, state, seek, play, pause, run, keep, scene, recolour }, and the numbers as they are: { given, trail }.
+ * what moves it: { time, state, seek, play, pause, run, until, second, keep, scene, recolour }, and the numbers as they are: { given, trail }.
  *
  * page: { module: the emitted module, with gauss; x, p, u: the start, in the module's order;
  * t, tol: how long, how exact; entries: [row, column, place] of the element of the group in x, whose
@@ -8,8 +8,8 @@
  * outputs: the names of what is read off the motion, where there is some;
  * labels: { name: [meaning, unit] }; kept: { name: [words, unit] }; weightless: the names of what is kept
  * only where all of weight, trees, are 0; units: { t, energy }; body: see moving_body.py; words, comma }.
- * pieces: { stage, side, graph: what draws there; turned_start; flattened, where a group stretches; the shapes of
- * the body, and what makes them }.
+ * pieces: { stage, side, graph: what draws there; second: another motion beside this; turned_start; flattened, where a
+ * group stretches; the shapes of the body, and what makes them }.
  * Texts of a problem come in as text, never as markup. */
 function mount(element, page, pieces) {
   const { module, words } = page, aria = "aria-label";
@@ -29,8 +29,8 @@ function mount(element, page, pieces) {
 
   const energy = module.energy ?? (module.CONSERVED?.includes("energy")
     && ((t, x, k) => module.conserved(t, x, k)[module.CONSERVED.indexOf("energy")]));
-  const scene = { page, p, u, velocity, energy, ask, run: null, trail: [], get time() { return time; }, redraw: () => scene.run && show(scene.run.at(time), before) };
-  let run, time = 0, wanted = null, playing = false, trail = [], first = {}, told = 0;
+  const scene = { page, p, u, velocity, energy, ask, run: null, other: null, trail: [], get time() { return time; }, redraw: () => scene.run && show(scene.run.at(time), before) };
+  let run, time = 0, until = page.t, wanted = null, playing = false, trail = [], first = {}, told = 0;
   let keeping = module, k = null;  // what gives the numbers that are kept, and its constants
   let moved;  // what gravity moves
 
@@ -44,6 +44,8 @@ function mount(element, page, pieces) {
     run = scene.run = null;
     try {
       run = scene.run = begun(page, p, u, start());
+      const other = second?.start(start());
+      scene.other = other ? begun(page, p, u, other) : null;
     } catch (e) {
       tell(`${words.singular}${changed}.`, place_of ?? home);
       for (const cell of table.querySelectorAll("td")) cell.textContent = "";
@@ -81,7 +83,7 @@ function mount(element, page, pieces) {
     return found;
   }
 
-  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element), side = pieces.side?.(scene), graph = pieces.graph?.(scene, page.in_time), views = [stage, ...(side ? [side] : []), ...(graph ? [graph] : [])];
+  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element), side = pieces.side?.(scene), graph = pieces.graph?.(scene, page.in_time, page.apart), views = [stage, ...(side ? [side] : []), ...(graph ? [graph] : [])];
 
   /* ---- the frame */
 
@@ -90,21 +92,28 @@ function mount(element, page, pieces) {
     asked ||= requestAnimationFrame(frame);
   }
 
+  /* of both motions, where there are two */
+  const runs = () => (scene.other ? [run, scene.other] : [run]);
+  const last = () => min(...runs().map((x) => x.last));
+  const over = () => runs().some((x) => x.ended) && time >= last();
+  const reach = (t, late) => runs().map((x) => x.reach(t, late)).every(Boolean);
+  const states = (t) => runs().map((x) => x.at(t).slice());
+
   function frame(now) {
     asked = 0;
     if (!run) return;
     const late = performance.now() + 14;
     if (playing) {
       const by = min(0.1, (now - before) / 1000 || 1 / 60) * speed;
-      const next = min(time + by, page.t);
-      run.reach(next, late);
-      time = min(next, run.last >= next ? next : max(time, run.last));
-      if (time >= page.t || run.ended && time >= run.last) pause();
+      const next = min(time + by, until);
+      reach(next, late);
+      time = min(next, last() >= next ? next : max(time, last()));
+      if (time >= until || over()) pause();
       push();
     } else if (wanted !== null) {
-      const ready = run.reach(wanted, late);
-      time = min(wanted, run.last);
-      if (ready || run.ended) {
+      const ready = reach(wanted, late);
+      time = min(wanted, last());
+      if (ready || over()) {
         wanted = null;
         fill();
       }
@@ -130,7 +139,7 @@ function mount(element, page, pieces) {
     const [from, x] = trail.at(-1), count = min(TRAIL, ceil((time - from) / spacing(x)));
     for (let i = 1; i <= count; ++i) {
       const t = from + (time - from) * i / count;
-      trail.push([t, run.at(t).slice()]);
+      trail.push([t, ...states(t)]);
     }
     trail.splice(0, trail.length - TRAIL);
   }
@@ -142,14 +151,14 @@ function mount(element, page, pieces) {
     clear();
     for (let i = count; i >= 0; --i) {
       const t = max(0, time - i * each);
-      trail.push([t, run.at(t).slice()]);
+      trail.push([t, ...states(t)]);
     }
   }
 
   function show(x, now) {
     for (const view of views) view.draw(x);
     clock.textContent = ["t =", mark(time.toFixed(digits), page), page.units.t].join(" ");
-    if (document.activeElement !== slider || playing) slider.value = time / page.t * 1000;
+    if (document.activeElement !== slider || playing) slider.value = time / until * 1000;
     slider.setAttribute("aria-valuetext", clock.textContent);
     if (now - told > 90 || !playing) {
       told = now;
@@ -162,7 +171,7 @@ function mount(element, page, pieces) {
           change.textContent = by === 0 ? "0" : mark(by.toExponential(0), page);
         }
       }
-      if (run.ended && time >= run.last) tell(pieces.flattened?.(page, x) ? words.flat : words.ended);
+      if (over()) tell(pieces.flattened?.(page, x) ? words.flat : words.ended);
     }
   }
 
@@ -182,7 +191,7 @@ function mount(element, page, pieces) {
   const toggle = button("▶", words.play, () => (playing ? pause() : play()));
   function play() {
     if (!run) return;
-    if (time >= page.t || run.ended && time >= run.last) restart();
+    if (time >= until || over()) restart();
     playing = true;
     wanted = null;
     before = NaN;
@@ -197,14 +206,14 @@ function mount(element, page, pieces) {
   }
   function seek(t) {
     pause();
-    wanted = max(0, min(page.t, t));
+    wanted = max(0, min(until, t));
     ask();
   }
   const stepped = (by) => seek((wanted ?? time) + by * speed / 30);
   const clock = make("span", { class: "clock" });
   const slider = make("input", {
     type: "range", min: 0, max: 1000, step: "any", value: 0, [aria]: words.time, class: "time",
-    input: () => seek(slider.value / 1000 * page.t),
+    input: () => seek(slider.value / 1000 * until),
   });
   const speeds = make("select", { [aria]: words.speed, title: words.speed, change: () => {
     speed = +speeds.value;
@@ -219,6 +228,12 @@ function mount(element, page, pieces) {
   }
   speed = +speeds.value;
 
+  /* how long it goes on, in doublings; a motion that runs runs on */
+  const lengths = make("select", { [aria]: words.length, title: words.length, change: () => {
+    until = +lengths.value;
+    if (time > until) seek(until);
+    ask();
+  } }, ...[1, 2, 4, 8, 16, 32].map((f) => make("option", { value: f * page.t }, [mark(String(+(f * page.t).toPrecision(6)), page), page.units.t].join(" "))));
   const within = words.within ? [make("label", { class: "within" }, make("input", { type: "checkbox", change: (e) => {
     scene.within = e.target.checked;
     ask();
@@ -333,13 +348,13 @@ function mount(element, page, pieces) {
   }
 
   if (side) side.element.className = side.shape;
-  if (graph) graph.element.className = "flat";
   const beside = side ? [make("figure", {}, side.element, make("figcaption", {}, side.element.getAttribute(aria)))] : [];
   const coarse = (v) => 10 ** floor(log10(abs(v) || 1)) / 100;
   const of_start = page.adjusted.map((s) => adjuster(page.names[s], ...about(page.names[s]), x0[s], coarse(x0[s] || fast), (v) => (x0[s] = v)));
   const still_ones = of_start.filter((_, i) => !page.x[page.adjusted[i]]);
   const numbers = (names, list) => names.map((name, i) => adjuster(name, ...about(name), list[i], list[i] ? 0 : 0.01, (v) => (list[i] = v)));
   const parameters = numbers(module.PARAMETERS, p), inputs = numbers(module.INPUTS, u);
+  const second = page.adjusted.length ? pieces.second?.(scene, page.second, adjuster, restart) : null;
   const settings = [
     ...of_start.filter((x) => !still_ones.includes(x)), ...parameters.splice(0, FIRST), ...inputs.splice(0, FIRST),
     ...group(words.start, "", still_ones),
@@ -357,13 +372,13 @@ function mount(element, page, pieces) {
     home,
     make("div", { class: "controls", role: "group", [aria]: words.controls },
       button("❘◂", words.again, () => seek(0)), button("◂", words.back, () => stepped(-1)), toggle,
-      button("▸", words.step, () => stepped(1)), slider, clock, make("label", {}, words.pace, " ", speeds), ...within),
-    make("div", { class: "beside" }, ...(graph ? [make("figure", { class: "graph" }, graph.list, graph.element), table, ...beside] : [...beside, table]), make("p", { class: "keys" }, words.keys)),
+      button("▸", words.step, () => stepped(1)), slider, clock, make("label", {}, words.until, " ", lengths), make("label", {}, words.pace, " ", speeds), ...within, ...(second ? [second.element] : [])),
+    make("div", { class: "beside" }, ...(graph ? [graph.figure, table, ...beside] : [...beside, table]), make("p", { class: "keys" }, words.keys)),
   );
   on(document, "keydown", (e) => {
     if (e.ctrlKey || e.metaKey || e.altKey || e.target.closest("input, select, summary, textarea, [role=slider]")) return;
     if (e.key === " " && e.target.closest("button")) return;
-    const does = { " ": () => (playing ? pause() : play()), ArrowLeft: () => stepped(-1), ArrowRight: () => stepped(1), Home: () => seek(0), End: () => seek(page.t) }[e.key];
+    const does = { " ": () => (playing ? pause() : play()), ArrowLeft: () => stepped(-1), ArrowRight: () => stepped(1), Home: () => seek(0), End: () => seek(until) }[e.key];
     if (does) {
       e.preventDefault();
       does();
@@ -386,5 +401,9 @@ function mount(element, page, pieces) {
     tabulate();
     ask();
   }
-  return { given: { x: x0, p, u, theta }, get trail() { return trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause, keep, scene, recolour };
+  return { given: { x: x0, p, u, theta }, get trail() { return trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, second, get until() { return until; }, set until(t) {
+    lengths.value = [...lengths.options].map((x) => +x.value).find((v) => v >= t) ?? lengths.options[lengths.length - 1].value;
+    until = +lengths.value;
+    ask();
+  }, seek, play, pause, keep, scene, recolour };
 }

@@ -1,11 +1,12 @@
-/* The run: marks on a grid of times, between them the motion is made again when asked for. */
+/* The run: marks on a grid of times, between them the motion is made again when asked for. It has no end: where there are
+ * more than GRID marks, every other one goes. */
 
-const GRID = 1500, CHUNK = 64;
+const GRID = 2048, CHUNK = 64; /* a power of two: the times of the marks are exact */
 
 function begun(page, p, u, x) {
   const { module } = page;
-  const k = module.constants(p), each = page.t / GRID;
-  const marks = [Float64Array.from(x)];
+  const k = module.constants(p);
+  let each = page.t / GRID, marks = [Float64Array.from(x)];
   const ahead = module.begin(0, x);
   let here = module.begin(0, x), from = 0, ended = false;
   const until = (m, t, late) => {
@@ -25,9 +26,12 @@ function begun(page, p, u, x) {
     get ended() { return ended; },
     /* are all times up to t known, or is it too late? */
     reach(t, late) {
-      while (!ended && run.last < t && marks.length <= GRID) {
-        const next = marks.length === GRID ? page.t : marks.length * each;
-        if (!until(ahead, next, late)) return false;
+      while (!ended && run.last < t) {
+        if (marks.length > GRID) {
+          marks = marks.filter((_, i) => i % 2 === 0);
+          each *= 2;
+        }
+        if (!until(ahead, marks.length * each, late)) return false;
         marks.push(ahead.x.slice());
       }
       return true;

@@ -30,6 +30,19 @@ function solid_stage(scene, pieces) {
     }
   };
 
+  /* the places of what leaves a trail in the states of an instant; is it of the ghost? */
+  const traces = (parts, [, ...states]) => states.flatMap((x, ghost) => parts.flatMap((part) => part.traced.map(moved(part, x)).map((r) => [r, ghost])));
+
+  /* a part where it is; or the ghost of it, where it is in the second motion */
+  const of_part = (pic, part, at, tones, ghost) => {
+    for (const f of part.faces) pic.face(f.v.map(at), tones[f.tone], ghost || f.clear, f.inside && at(f.inside));
+    for (const [a, b] of part.edges) pic.line(at(a), at(b), tones[0][10], 1.4);
+    for (const r of Object.values(part.points)) {
+      pic.dot(at(r.at), r.mass > 0 ? 6.5 * cbrt(max(r.mass / part.heavy, 0.1)) : 2.5, tones[0][6]);
+    }
+    for (const { at: c, on } of part.anchors) pieces.spring(stage, pic, at(part.points[on].at), c, ghost ? scene.colours.ghost : scene.colours.ink);
+  };
+
   return {
     element: stage.element,
     restart(x) {
@@ -39,11 +52,12 @@ function solid_stage(scene, pieces) {
     },
     draw(x) {
       const { parts } = drawn, gravity = falling(), { trail, colours } = scene;
-      const spots = parts.map((part) => moved(part, x));
+      const spots = parts.map((part) => moved(part, x)), y = scene.other?.at(scene.time);
+      const others = y ? parts.map((part) => moved(part, y)) : [];
       const free = parts.every((part) => !part.fixed && !part.centres.length && !part.anchors.length);
       const target = free || scene.within ? spots[0](parts[0].centre) : drawn.middle;
       eye.along = scene.within && ((v) => plus(spots[0](v), spots[0]([0, 0, 0]), -1));
-      const ends = parts.flatMap((part, i) => [...part.tips, ...Object.values(part.points).map((r) => r.at)].map((r) => size(plus(spots[i](r), target, -1))));
+      const ends = [spots, others].flatMap((places) => places.flatMap((at, i) => [...parts[i].tips, ...Object.values(parts[i].points).map((r) => r.at)].map((r) => size(plus(at(r), target, -1)))));
       const about = parts.flatMap((part) => [...part.centres, ...part.anchors].map((c) => min(size(plus(c.at, target, -1)), 4 * drawn.reach)));
       reached = max(reached, drawn.reach, ...ends, ...about);
       const scale = 0.42 * min(stage.width, stage.height) / reached * eye.zoom;
@@ -51,11 +65,8 @@ function solid_stage(scene, pieces) {
       ground(pic, target);
       parts.forEach((part, i) => {
         const at = spots[i], tones = colours.tones[i % 2];
-        for (const f of part.faces) pic.face(f.v.map(at), tones[f.tone], f.clear, f.inside && at(f.inside));
-        for (const [a, b] of part.edges) pic.line(at(a), at(b), tones[0][10], 1.4);
-        for (const r of Object.values(part.points)) {
-          pic.dot(at(r.at), r.mass > 0 ? 6.5 * cbrt(max(r.mass / part.heavy, 0.1)) : 2.5, tones[0][6]);
-        }
+        if (y) of_part(pic, part, others[i], colours.ghosts, true);
+        of_part(pic, part, at, tones);
         const o = at([0, 0, 0]);
         part.tips.forEach((tip, k) => pic.arrow(o, at(tip), colours[`e${k + 1}`], `e${low(String(k + 1))}`));
         if (part.fixed) pic.dot(o, 4, colours.ink, true);
@@ -64,17 +75,16 @@ function solid_stage(scene, pieces) {
           pic.dot(c, 6, colours.mark, true);
           pic.dot(plus(c, eye.towards, 1e-6), 2, colours.mark);
         }
-        for (const { at: c, on } of part.anchors) {
-          pieces.spring(stage, pic, at(part.points[on].at), c, colours.ink);
-          pic.dot(c, 4.5, colours.soft);
-        }
-        for (let k = 0; k + 1 < trail.length; ++k) {
-          const [, a] = trail[k], [, b] = trail[k + 1];
-          const age = (k + 1) / trail.length, from = moved(part, a), to = moved(part, b);
-          for (const r of part.traced) pic.line(from(r), to(r), colours.mark, 1.5, age * age);
-        }
+        for (const { at: c } of part.anchors) pic.dot(c, 4.5, colours.soft);
       });
-      for (const [i, a, j, b] of body.springs) pieces.spring(stage, pic, spots[i](parts[i].points[a].at), spots[j](parts[j].points[b].at), colours.ink);
+      const path = trail.map((e) => (e.places ??= traces(parts, e)).map(([r, ghost]) => [pic.to(r), ghost]));
+      for (let k = 0; k + 1 < path.length; ++k) {
+        const age = (k + 1) / path.length;
+        path[k].forEach(([p, ghost], i) => pic.drawn_line([p, path[k + 1][i][0]], ghost ? colours.ghost : colours.mark, 1.5, age * age));
+      }
+      for (const [i, a, j, b] of body.springs) {
+        for (const at of y ? [others, spots] : [spots]) pieces.spring(stage, pic, at[i](parts[i].points[a].at), at[j](parts[j].points[b].at), at === spots ? colours.ink : colours.ghost);
+      }
       vectors?.draw(pic, x, parts, spots);
       pic.done();
       const strength = size(gravity);
