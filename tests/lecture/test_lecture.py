@@ -217,9 +217,9 @@ def test_the_polhodes_are_levels_of_the_energy_on_the_sphere():
     for role, curve in curves:
         points = np.array(curve)
         assert np.allclose((points**2).sum(axis=1), 1, rtol=0, atol=1e-14)
-        energy = (points**2 / figures.MOMENTS).sum(axis=1)
+        energy = (points**2 / figures.RACKET.moments).sum(axis=1)
         assert np.ptp(energy) < 1e-14
-        least, middle, most = sorted(1 / np.array(figures.MOMENTS))
+        least, middle, most = sorted(1 / np.array(figures.RACKET.moments))
         level = energy.mean()
         assert {"first": middle < level < most, "third": least < level < middle}.get(
             role, abs(level - middle) < 1e-14
