@@ -14,6 +14,7 @@ from ..language.limits import Refused
 from ..lecture import document, lecture_text, trials
 from ..lecture.back_matter import Front
 from ..lecture.body_figures import BodyOfLecture
+from ..lecture.fresh_numbers import drawn
 from ..lecture.own_body import OwnBody, RacketStaysError, body_of
 from ..lecture.problem_chapter import Found, chapter_of
 from ..lecture.ran_figure import Ran
@@ -40,7 +41,9 @@ def command_lecture(args: argparse.Namespace) -> int:
     out = Path(args.out)
     if out.suffix not in ENDINGS:
         raise UsageError(f"--out {args.out}: the name must end in {', '.join(ENDINGS)}")
-    chapters = lecture_text.chapters()
+    chapters = lecture_text.chapters(fresh=args.seed is not None)
+    if args.seed is not None:
+        chapters = drawn(chapters, args.seed, document.claims_of(chapters))
     records = records_of(chapters)
     body: OwnBody | None = None
     for name in args.problem:
