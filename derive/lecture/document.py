@@ -31,7 +31,7 @@ from .sheets import AXES, Claims
 
 TITLE = "Where do the equations of motion of solids come from?"
 WORDS = (
-    *("Definition", "Lemma", "Proposition", "Theorem", "Remark", "Proof"),
+    *("Definition", "Lemma", "Proposition", "Theorem", "Remark", "Proof", "Calculation"),
     *("Exercise", "Solution", "Solutions", "Fig.", "Symbols", "Bibliography"),
 )
 """The words of the templates."""

@@ -20,7 +20,8 @@ whole number between; in its solution sentences, where a formula ends in ``= #``
 Formulas stand in `backquotes`, as ``derive walk`` shows them; `?Ũ = 0` is
 not tried: it is supposed, sought, or true under what the text alone supposes; emphasis in
 _underscores_; ``@label`` is the number of a block.  ``#`` begins a comment.  A figure begins with
-words that describe it to those who do not see it; its caption follows.
+words that describe it to those who do not see it; its caption follows.  A calculation is a line for
+each step, an equation and the identity by which it holds.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ PROVED = ("lemma", "proposition", "theorem")
 STATED = ("definition", *PROVED, "remark")
 """What is numbered in one row."""
 NUMBERED = (*STATED, "exercise")
-KINDS = ("text", "section", *NUMBERED, "proof", "solution", "figure")
+KINDS = ("text", "section", *NUMBERED, "proof", "calculation", "solution", "figure")
 """What a block may be; those of ``NUMBERED`` have a number of their own."""
 HEAD = re.compile(r'([a-z]+)(?: ([a-z_]+))?(?: "([^"]+)")?')
 NUMBERS = re.compile(r"\s*\((\d+(?:, \d+)*)\)$")

@@ -82,6 +82,17 @@ def test_every_statement_says_what_it_rests_on():
                 assert any(e.ties for e in block.entries), (chapter.name, block.line)
 
 
+def test_a_calculation_has_an_identity_for_each_of_a_few_lines():
+    found = [b for c in CHAPTERS for b in c.blocks if b.kind == "calculation"]
+    assert len(found) == 3
+    for block in found:
+        assert 3 <= len(block.entries) <= 6
+        for x in block.entries:
+            assert len(x.equations) == 1
+            assert x.labels
+            assert len(x.texts[0]) > 1
+
+
 HEAD = "chapter c\n  A chapter\n  Un chapitre\nrecords so3\n\n"
 
 
