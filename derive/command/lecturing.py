@@ -15,7 +15,7 @@ from ..lecture import document, lecture_text, trials
 from ..lecture.back_matter import Front
 from ..lecture.body_figures import BodyOfLecture
 from ..lecture.fresh_numbers import drawn
-from ..lecture.own_body import OwnBody, RacketStaysError, body_of
+from ..lecture.own_body import OwnBody, place_of
 from ..lecture.problem_chapter import Found, chapter_of
 from ..lecture.ran_figure import Ran
 from ..motion.simulate import run
@@ -111,17 +111,8 @@ def chapter_on(name: str, *, taken: bool = False) -> OnProblem:
         except Refused as error:
             found[search] = Found(refused=str(error))
     ran, speed = motion(problem, record)
-    try:
-        body = body_of(record, speed or 1.0)
-        place = phrase(TAKEN if taken else TAKES)
-    except RacketStaysError as stays:
-        body, place = None, phrase(STAYS, reason=stays.reason)
+    body, place = place_of(record, speed or 1.0, taken=taken)
     return OnProblem(chapter_of(record, found, tuple(records), place, ran), records, body)
-
-
-TAKES = "In the first chapter its body has the place of the racket."
-TAKEN = "In the first chapter another body has the place of the racket already."
-STAYS = "In the first chapter the racket stays: {reason}."
 
 
 def motion(problem: Problem, record: Derivation) -> tuple[Ran | Sentence, float]:

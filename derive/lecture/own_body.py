@@ -75,6 +75,20 @@ def body_of(d: Derivation, speed: float = 1.0) -> OwnBody:
     return OwnBody(titles, str(problem["group"]), (first, second, third), axes, speed, problem)
 
 
+def place_of(d: Derivation, speed: float, *, taken: bool) -> tuple[OwnBody | None, Sentence]:
+    """The body of a record, if it turns freely, and what its chapter says of that; ``taken``: has
+    another body the place of the racket?"""
+    try:
+        body = body_of(d, speed)
+    except RacketStaysError as stays:
+        return None, phrase("In the first chapter the racket stays: {reason}.", reason=stays.reason)
+    if taken:
+        return body, phrase(
+            "In the first chapter another body has the place of the racket already."
+        )
+    return body, phrase("In the first chapter its body has the place of the racket.")
+
+
 def _inertia(problem: Mapping[str, Any], value: ExpressionValues) -> Any:
     """The tensor of inertia about the point about which the body turns; ``RacketStaysError``."""
     kind = problem["body"]["kind"]

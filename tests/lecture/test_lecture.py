@@ -172,7 +172,7 @@ TITLES = ("Tops & co_1 {50 %} \\x #~^$", "A. Ünal", "M2, <spring>", "week 3")
 
 @needs("the TeX of the lecture")
 def test_what_the_user_gives_stands_at_the_head_as_it_is(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("derive.lecture.lecture_text.chapters", lambda: [])
+    monkeypatch.setattr("derive.lecture.lecture_text.chapters", lambda **_: [])
     given = [
         f"--{x}={y}" for x, y in zip(("title", "author", "course", "date"), TITLES, strict=True)
     ]
