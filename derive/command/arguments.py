@@ -377,6 +377,8 @@ def add_lecture_options(lecture: argparse.ArgumentParser, paper: argparse.Argume
         lecture.add_argument(f"--{name}", default="", metavar="TEXT", help=about)
     about = "of the exercises: at the end of each chapter, or left out (default: end)"
     lecture.add_argument("--solutions", choices=("end", "none"), default="end", help=about)
+    about = "numbers in the exercises that have some, other ones for each seed (default: none)"
+    lecture.add_argument("--seed", type=natural, metavar="N", help=about)
     about = "try every equation of the text anew, as derive check does those of a record"
     lecture.add_argument("--check", action="store_true", help=about)
     paper.add_argument("--format", choices=("text", "json"), default="text")

@@ -3,21 +3,32 @@
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
 
 from ..language.limits import Refused
 from ..lecture import document, lecture_text, trials
 from ..lecture.back_matter import Front
+from ..lecture.body_figures import BodyOfLecture
+from ..lecture.fresh_numbers import drawn
+from ..lecture.own_body import OwnBody, place_of
 from ..lecture.problem_chapter import Found, chapter_of
+from ..lecture.ran_figure import Ran
+from ..motion.simulate import run
+from ..motion.trajectory import Method
 from ..pipeline import discrete, walk
 from ..problem.problem import Problem
 from ..problem.toml import load
-from ..programs import trim
+from ..programs import motion_of, trim
 from ..record.record import Derivation
+from ..record.sentence import Sentence, phrase
 from ..search import FIRST
 from ..searches import equilibria, families, integrals, reduction, symmetries
-from ..views.language import language
+from ..views.language import LANGUAGES, language
 from .noting import pdf_of
 from .showing import UsageError, derive, load_problem
 from .writing import with_progress, write
@@ -30,14 +41,20 @@ def command_lecture(args: argparse.Namespace) -> int:
     out = Path(args.out)
     if out.suffix not in ENDINGS:
         raise UsageError(f"--out {args.out}: the name must end in {', '.join(ENDINGS)}")
-    chapters = lecture_text.chapters()
+    chapters = lecture_text.chapters(fresh=args.seed is not None)
+    if args.seed is not None:
+        chapters = drawn(chapters, args.seed, document.claims_of(chapters))
     records = records_of(chapters)
+    body: OwnBody | None = None
     for name in args.problem:
-        own, found = chapter_on(name)
+        own, found, its = chapter_on(name, taken=body is not None)
         if records.get(own.name, found[own.name]) != found[own.name]:
             raise UsageError(f"{name}: the lecture has another {own.name!r}: give it another name")
         chapters.append(own)
         records |= found
+        body = body or its
+    if body:
+        chapters = about(body, chapters)
     for chapter in chapters:
         trials.tied(chapter, named_by(chapter, records))
     if args.check:
@@ -58,20 +75,30 @@ SEARCHES: dict[str, Callable[[Problem, Derivation], Derivation]] = {
     "integrals": lambda problem, _: integrals(problem)[1],
     "reduction": lambda problem, record: reduction(problem, record).record,
     "equilibria": lambda problem, _: equilibria(problem, {})[1],
+    "families": lambda problem, _: families(problem)[1],
     "trim": lambda problem, _: trim(problem, {}, None, {})[1],
 }
 """Search → the record of what it finds of a problem, by the record of its walk."""
 
 
-RECORDS = SEARCHES | {
-    "families": lambda problem, _: families(problem)[1],
-    "discrete": lambda problem, _: discrete(problem),
-}
-"""And those of equilibria in letters and of the motion in steps."""
+RECORDS = SEARCHES | {"discrete": lambda problem, _: discrete(problem)}
+"""And that of the motion in steps."""
+CURVES = 3
+"""The most curves of the picture of a motion."""
 
 
-def chapter_on(name: str) -> tuple[lecture_text.Chapter, dict[str, Derivation]]:
-    """The chapter on a problem of the user's, and the records that its ties speak of."""
+class OnProblem(NamedTuple):
+    """The chapter on a problem of the user's, the records that its ties speak of, and its body,
+    where that may have the place of the racket."""
+
+    chapter: lecture_text.Chapter
+    records: dict[str, Derivation]
+    body: OwnBody | None
+
+
+def chapter_on(name: str, *, taken: bool = False) -> OnProblem:
+    """The chapter on a problem of the user's; ``taken``: has another body the place of the
+    racket?"""
     problem, record = derive(name)
     found, records = {}, {record.name: record}
     asked = {k: x for k, x in SEARCHES.items() if k != "trim" or problem.inputs}
@@ -83,7 +110,38 @@ def chapter_on(name: str) -> tuple[lecture_text.Chapter, dict[str, Derivation]]:
             found[search] = Found(made.since(begins) if there else ())
         except Refused as error:
             found[search] = Found(refused=str(error))
-    return chapter_of(record, found, tuple(records)), records
+    ran, speed = motion(problem, record)
+    body, place = place_of(record, speed or 1.0, taken=taken)
+    return OnProblem(chapter_of(record, found, tuple(records), place, ran), records, body)
+
+
+def motion(problem: Problem, record: Derivation) -> tuple[Ran | Sentence, float]:
+    """The motion of a problem from its start, or why there is none; how fast it turns at first."""
+    try:
+        made = run(
+            motion_of(problem, record), problem, Method(), None, 400, given={}, compiled=False
+        )
+    except Refused as error:
+        reason = str(error).removeprefix(f"{record.name}: ")
+        return phrase("This was not found: {reason}.", reason=reason), 0.0
+    state = made.of_kind("state")
+    rates = {x: y for x, y in state.items() if not x.startswith(("A_", "T_"))}
+    turning = {x: y for x, y in rates.items() if x.startswith("zeta_")} or rates or state
+    speed = math.hypot(*(float(y[0]) for y in turning.values()))
+    widest = sorted(turning, key=lambda x: -float(np.ptp(turning[x])))[:CURVES]
+    curves = [(x, y.tolist()) for x, y in turning.items() if x in widest]
+    energy = [y.tolist() for y in made.of_kind("energy").values()]
+    return Ran(made.t.tolist(), curves, energy[0] if energy else ()), speed
+
+
+def about(body: OwnBody, chapters: list[lecture_text.Chapter]) -> list[lecture_text.Chapter]:
+    """The chapters with a body in the place of the racket."""
+    own = BodyOfLecture(body, document.claims_of(chapters))
+    filled = [own.words(language(x)) for x in LANGUAGES]
+    return [
+        lecture_text.of_body(x, filled, own.figures) if x.file.endswith(".txt") else x
+        for x in chapters
+    ]
 
 
 def named_by(

@@ -24,14 +24,14 @@ from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal
 from ..views.text import formula as aligned
 from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, letters
-from .figures import FIGURES
-from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Words
+from .figures import FIGURES, Figure
+from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Given, Words
 from .lecture_text import tree as tree_of
 from .sheets import AXES, Claims
 
 TITLE = "Where do the equations of motion of solids come from?"
 WORDS = (
-    *("Definition", "Lemma", "Proposition", "Theorem", "Remark", "Proof"),
+    *("Definition", "Lemma", "Proposition", "Theorem", "Remark", "Proof", "Calculation"),
     *("Exercise", "Solution", "Solutions", "Fig.", "Symbols", "Bibliography"),
 )
 """The words of the templates."""
@@ -174,7 +174,8 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
     chapters, language, front = x.chapters, x.language, x.front
     numbers = numbers_of(chapters)
     labels = {b.label: numbers[id(b)] for c in chapters for b in c.blocks if id(b) in numbers}
-    setter = _Setter(language, medium, labels | NUMBERS, claims_of(chapters))
+    figures = {**FIGURES, **{label: y for c in chapters for label, y in c.figures.items()}}
+    setter = _Setter(language, medium, labels | NUMBERS, claims_of(chapters), figures)
     listed = letters(chapters, x.records, language)
     table = [setter.letter(letter, k) for k, letter in enumerate(listed)]
     return {
@@ -218,11 +219,18 @@ def claims_of(chapters: Sequence[Chapter]) -> Claims:
 
 class _Setter:
     """Entries in one language and one medium; ``numbers``: of the labels of blocks; ``claims``: the
-    equations displayed, by their steps."""
+    equations displayed, by their steps; ``figures``: by the labels of their blocks."""
 
-    def __init__(self, language: Language, medium: Medium, numbers: dict[str, int], claims: Claims):
+    def __init__(
+        self,
+        language: Language,
+        medium: Medium,
+        numbers: dict[str, int],
+        claims: Claims,
+        figures: Mapping[str, Figure],
+    ):
         self.language, self.medium, self.numbers = language, medium, numbers
-        self.claims = claims
+        self.claims, self.figures = claims, figures
         self.anchors: dict[int, list[str]] = {}
         self.at = LANGUAGES.index(language.name)
 
@@ -253,7 +261,7 @@ class _Setter:
 
     def scene(self, b: Block) -> Scene:
         """The picture of a figure, with its description and the decimal mark of the language."""
-        scene = FIGURES[b.label](self.claims)
+        scene = self.figures[b.label](self.claims)
         labels = (replace(x, base=self.language.numbers(x.base)) for x in scene.labels)
         (description,) = b.entries[0].texts[self.at]
         return replace(scene, labels=tuple(labels), title=str(description))
@@ -281,7 +289,9 @@ class _Setter:
     def words(self, text: Words) -> str:
         """A sentence, its formulas set."""
         return "".join(
-            self.medium.inline(formula(x.text)) if isinstance(x, Formula) else self.plain(x)
+            self.medium.inline(formula(x.text) + formula_of_value(x.value))
+            if isinstance(x, Formula)
+            else (self.medium.text if isinstance(x, Given) else self.plain)(x)
             for x in text
         )
 
@@ -315,6 +325,12 @@ def formula(text: str) -> typeset.Formula:
         among = sign in "∈↦"
         found += literal(f" {SYMBOLS.get(sign, sign)} ") + (spelt(side) if among else _side(side))
     return found
+
+
+def formula_of_value(value: str) -> typeset.Formula:
+    """What stands behind a formula: a relation and a value; nothing where there is none."""
+    sign, _, text = value.strip().partition(" ")
+    return literal(f" {SYMBOLS.get(sign, sign)} ") + _side(text) if value else literal("")
 
 
 def _side(text: str) -> typeset.Formula:

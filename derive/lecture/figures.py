@@ -4,34 +4,51 @@ are those of the equations that the text displays."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
-from .lecture_text import tree
 from .rolling_figure import poinsot
-from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, number, panel, solved
+from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, euler, panel, solved
 from .top_figures import tilts, top_paths
 from .volume_figures import ellipse, tetrahedron
 
-MOMENTS = (1.0, 2.0, 2.6)
-"""The principal moments of inertia of the body whose polhodes are drawn."""
 LEVELS = (0.1, 0.3, 0.55, 0.8)
-"""Where on the way from an axis to the separatrices its polhodes are."""
-START, END = (0.002, 0.5, 0.0), 130.0
-"""The angular velocity of the racket that flips, at first, and for how long it is followed."""
+"""Where on the way from an axis to the separatrices the polhodes are."""
 
 
-def polhodes(claims: Claims) -> Scene:
-    """The polhodes on their sphere, and the flip of the racket beside."""
-    return beside(_sphere(), _flip(claims), gap=3)
+@dataclass(frozen=True)
+class Spun:
+    """A body that turns near its middle axis: its principal moments, its angular velocity at first,
+    for how long it is followed and in how many steps, and the marks of the axes of its picture."""
+
+    moments: Vector = (1.0, 2.0, 2.6)
+    start: Vector = (0.002, 0.5, 0.0)
+    end: float = 130.0
+    steps: int = 1040
+    largest: float = 0.55
+    times: Mapping[float, str] = field(
+        default_factory=lambda: {t: f"{t:g}" for t in (0.0, 40.0, 80.0, 120.0)}
+    )
+    speeds: Mapping[float, str] = field(
+        default_factory=lambda: {0.5: "0.5", 0.0: "0", -0.5: "−0.5"}
+    )
 
 
-def _sphere() -> Scene:
+RACKET = Spun()
+
+
+def polhodes(claims: Claims, body: Spun = RACKET) -> Scene:
+    """The polhodes on their sphere, and the flip of the racket, or of another body, beside."""
+    return beside(_sphere(body), _flip(claims, body), gap=3)
+
+
+def _sphere(body: Spun) -> Scene:
     """The curves in which the sphere ‖ℓ‖ = 1 meets ellipsoids Σ ℓ_i²/λ_i = 2h, seen from outside;
     those behind are pale."""
     view = View((27.0, 25.0), 20.0, 42, 24)
     strokes = [view.outline()]
-    for role, curve in _curves():
+    for role, curve in _curves(body):
         strokes += view.on_sphere(curve, role)
     labels = []
     for k in range(3):
@@ -42,9 +59,9 @@ def _sphere() -> Scene:
     return panel((60, 57), strokes, labels)
 
 
-def _curves() -> Iterable[tuple[str, list[Vector]]]:
+def _curves(body: Spun = RACKET) -> Iterable[tuple[str, list[Vector]]]:
     """Polhodes about the ends of the first and third axis, and the separatrices."""
-    a, b, c = (1 / x for x in MOMENTS)
+    a, b, c = (1 / x for x in body.moments)
     turn = [(math.sin(x), math.cos(x)) for x in TURN]
     for sign in (1.0, -1.0):
         for level in LEVELS:
@@ -65,28 +82,17 @@ def _on_sphere(axis: int, sign: float, x: float, y: float) -> Vector:
     return (rest, x, y) if axis == 0 else (x, y, rest)
 
 
-def racket(claims: Claims) -> list[tuple[float, Vector]]:
+def racket(claims: Claims, body: Spun = RACKET) -> list[tuple[float, Vector]]:
     """The angular velocity in the body by Euler's equations, near the middle axis, over time."""
-    moments = {tree(f"λ{k}"): x for k, x in zip("₁₂₃", MOMENTS, strict=True)}
-    rates = [e.rhs for e in claims["free.principal"]]
-    letters = [tree(f"ζ{k}") for k in "₁₂₃"]
-
-    def rate(zeta: Vector) -> Vector:
-        values = moments | dict(zip(letters, zeta, strict=True))
-        return tuple(number(x, values) for x in rates)
-
-    return solved(rate, START, END, 1040, each=4)
+    return solved(euler(claims, body.moments), body.start, body.end, body.steps, each=4)
 
 
-def _flip(claims: Claims) -> Scene:
-    """The three components of the racket's angular velocity over time."""
-    frame = Frame((9.0, 6.0), (46.0, 36.0), (0.0, -0.55), (END, 0.55))
-    times = {t: f"{t:g}" for t in (0.0, 40.0, 80.0, 120.0)}
-    strokes, labels = frame.axes(
-        (Label("t"), Label("ζ", "i")), times, {0.5: "0.5", 0.0: "0", -0.5: "−0.5"}
-    )
-    strokes.append(frame.curve([(0, 0), (END, 0)], "axis", "thin"))
-    motion = racket(claims)
+def _flip(claims: Claims, body: Spun) -> Scene:
+    """The three components of the angular velocity over time."""
+    frame = Frame((9.0, 6.0), (46.0, 36.0), (0.0, -body.largest), (body.end, body.largest))
+    strokes, labels = frame.axes((Label("t"), Label("ζ", "i")), body.times, body.speeds)
+    strokes.append(frame.curve([(0, 0), (body.end, 0)], "axis", "thin"))
+    motion = racket(claims, body)
     for k in range(3):
         strokes.append(frame.curve(((t, zeta[k]) for t, zeta in motion), AXES[k]))
     return panel((63, 49), strokes, labels)
@@ -166,7 +172,8 @@ def theory(_: Claims) -> Scene:
     )
 
 
-FIGURES: dict[str, Callable[[Claims], Scene]] = {
+Figure = Callable[[Claims], Scene]
+FIGURES: dict[str, Figure] = {
     "theory": theory,
     "polhodes": polhodes,
     "rolling": poinsot,

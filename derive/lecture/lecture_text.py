@@ -9,17 +9,26 @@ same in both; then what it rests on::
     < said                       it says what letters mean, or what is supposed
     < open  English  |  French   proved here, and no step yet
 
+Where a reader's body has the place of the racket, the lines after a sentence that begin with ``~``
+stand for it, with that body's numbers in the places ``{m1}``.
+
+What begins with ``$`` is there for a seed alone (``fresh_numbers.py``): in an exercise ``$ = NAME =
+CHOICES,  …``, its letters, each with numbers or matrices apart by ``|``, in which ``1…4`` is any
+whole number between; in its solution sentences, where a formula ends in ``= #``, its value, or in
+``≈ #NAME``, the value of a motion.
+
 Formulas stand in `backquotes`, as ``derive walk`` shows them; `?Ũ = 0` is
 not tried: it is supposed, sought, or true under what the text alone supposes; emphasis in
 _underscores_; ``@label`` is the number of a block.  ``#`` begins a comment.  A figure begins with
-words that describe it to those who do not see it; its caption follows.
+words that describe it to those who do not see it; its caption follows.  A calculation is a line for
+each step, an equation and the identity by which it holds.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
@@ -28,6 +37,7 @@ from ..language.limits import Refused
 from ..language.read import FormulaError, read
 from ..language.tree import Tree
 from ..record.record import Equation
+from ..views.figure.drawing import Scene
 from ..views.language import LANGUAGES
 
 FOLDER = Path(__file__).with_name("chapters")
@@ -35,11 +45,13 @@ PROVED = ("lemma", "proposition", "theorem")
 STATED = ("definition", *PROVED, "remark")
 """What is numbered in one row."""
 NUMBERED = (*STATED, "exercise")
-KINDS = ("text", "section", *NUMBERED, "proof", "solution", "figure")
+KINDS = ("text", "section", *NUMBERED, "proof", "calculation", "solution", "figure")
 """What a block may be; those of ``NUMBERED`` have a number of their own."""
 HEAD = re.compile(r'([a-z]+)(?: ([a-z_]+))?(?: "([^"]+)")?')
 NUMBERS = re.compile(r"\s*\((\d+(?:, \d+)*)\)$")
 RELATION = re.compile(r" [=≠<>≤≥∈↦→] ")
+FRESH = "  $ "
+ASKED = re.compile(r" ([=≈]) #([a-z]*)$")
 SAID, OPEN = "said", "open"
 
 
@@ -50,11 +62,12 @@ class LectureError(Refused, ValueError):
 @dataclass(frozen=True)
 class Formula:
     """A formula among the words, as it is typed, or equations of a record; ``condition``: it is not
-    tried."""
+    tried; ``value``: what is printed behind it, a value asked for or found."""
 
     text: str
     condition: bool = False
     recorded: tuple[Equation, ...] = ()
+    value: str = ""
 
     @cached_property
     def equations(self) -> tuple[Equation, ...]:
@@ -82,6 +95,10 @@ def _unquoted(t: Tree) -> Tree:
     return (t[0], *map(_unquoted, t[1:]))
 
 
+class Given(str):
+    """Words of the user's, in which nothing is marked."""
+
+
 Words = tuple[str | Formula, ...]
 """A sentence: its words, with their emphasis, and its formulas."""
 
@@ -99,12 +116,16 @@ class Tie:
 
 @dataclass(frozen=True)
 class Entry:
-    """A sentence in each language, or a display that is the same in all, with its ties."""
+    """A sentence in each language, or a display that is the same in all, with its ties; ``own``:
+    what is said instead of a reader's body, its places not filled; ``fresh``: is it there for a
+    seed alone?"""
 
     texts: tuple[Words, ...]
     ties: tuple[Tie, ...]
     display: bool
     line: int
+    own: tuple[Words, ...] = ()
+    fresh: bool = False
 
     @property
     def formulas(self) -> tuple[Formula, ...]:
@@ -136,13 +157,15 @@ class Block:
 
 @dataclass(frozen=True)
 class Chapter:
-    """A chapter: its name, its title in each language, the problems of its ties, its blocks."""
+    """A chapter: its name, its title in each language, the problems of its ties, its blocks;
+    ``figures``: those that are its own, by their labels, each by the equations displayed."""
 
     name: str
     title: tuple[str, ...]
     problems: tuple[str, ...]
     blocks: tuple[Block, ...]
     file: str = field(default="", compare=False)
+    figures: Mapping[str, Callable[..., Scene]] = field(default_factory=dict, compare=False)
 
     @property
     def entries(self) -> Iterator[Entry]:
@@ -154,11 +177,14 @@ class Chapter:
 def words_of(text: str) -> Words:
     """A sentence from its line: words and, between backquotes, formulas."""
     parts = text.split("`")
-    return tuple(
-        Formula(x.removeprefix("?"), x.startswith("?")) if k % 2 else x
-        for k, x in enumerate(parts)
-        if x
-    )
+    return tuple(_formula(x) if k % 2 else x for k, x in enumerate(parts) if x)
+
+
+def _formula(text: str) -> Formula:
+    asked = ASKED.search(text)
+    whole = text[: asked.start()] if asked else text
+    value = asked[0] if asked else ""
+    return Formula(whole.removeprefix("?"), whole.startswith("?"), value=value)
 
 
 class _Lines:
@@ -217,17 +243,26 @@ def _block(lines: _Lines) -> Block:
 
 def _entry(lines: _Lines) -> Entry:
     line, first = lines.next()
+    fresh = first.startswith(FRESH)
+    first = first.replace(FRESH, "  ", 1) if fresh else first
     display = first.startswith("  = ")
     if display:
-        texts: Sequence[Words] = [words_of(f"`{first[4:].strip()}`")] * len(LANGUAGES)
+        mark = "?" if fresh else ""
+        texts: Sequence[Words] = [words_of(f"`{mark}{first[4:].strip()}`")] * len(LANGUAGES)
     else:
-        texts = [words_of(first.strip()), words_of(lines.next()[1].strip())]
-    ties = []
+        other = lines.next()[1]
+        texts = [words_of(first.strip()), words_of(other.removeprefix(FRESH).strip())]
+    own, ties = [], []
+    while lines.left and lines.left[0][1].startswith("  ~ "):
+        own.append(words_of(lines.next()[1][4:].strip()))
     while lines.left and lines.left[0][1].startswith("  < "):
         number, text = lines.next()
         ties.append(_tie(text[4:].strip(), number, lines))
-    found = Entry(tuple(texts), tuple(ties), display, line)
-    _agreeing(found, lines)
+    found = Entry(tuple(texts), tuple(ties), display, line, tuple(own), fresh)
+    if len(own) not in (0, len(texts)):
+        raise lines.wrong(line, "after ~ a sentence in each language")
+    for one in (found, replace(found, texts=found.own)) if own else (found,):
+        _agreeing(one, lines)
     return found
 
 
@@ -261,7 +296,50 @@ def _tie(text: str, line: int, lines: _Lines) -> Tie:
     return Tie(tuple(text.split()), numbers=of_note)
 
 
-def chapters() -> list[Chapter]:
-    """The chapters of the lecture, in the order of their files."""
+PLACE = re.compile(r"\{(\w+)\}")
+
+
+def with_places(words: Words, filled: Mapping[str, str]) -> Words:
+    """A sentence, its places filled."""
+    found: list[str | Formula] = []
+    for x in words:
+        if isinstance(x, Formula):
+            found.append(replace(x, text=PLACE.sub(lambda y: filled[y[1]], x.text)))
+        else:
+            parts = PLACE.split(x)
+            found += (filled[y] if k % 2 else y for k, y in enumerate(parts) if y)
+    return tuple(found)
+
+
+def of_body(
+    chapter: Chapter,
+    filled: Sequence[Mapping[str, str]],
+    figures: Mapping[str, Callable[..., Scene]],
+) -> Chapter:
+    """The chapter with a reader's body in the place of the racket, by the words and numbers of that
+    in each language, and its figures."""
+    blocks = []
+    for block in chapter.blocks:
+        entries = tuple(
+            replace(x, texts=tuple(map(with_places, x.own, filled))) if x.own else x
+            for x in block.entries
+        )
+        blocks.append(replace(block, entries=entries))
+    own = {b.label: figures[b.label] for b in blocks if b.label in figures}
+    return replace(chapter, blocks=tuple(blocks), figures=own)
+
+
+def chapters(*, fresh: bool = False) -> list[Chapter]:
+    """The chapters of the lecture, in the order of their files; ``fresh``: with what is there for a
+    seed alone."""
     files = sorted(FOLDER.glob("*.txt"))
-    return [parsed(x.read_text(encoding="utf-8"), x.name) for x in files]
+    found = [parsed(x.read_text(encoding="utf-8"), x.name) for x in files]
+    return found if fresh else [*map(without_fresh, found)]
+
+
+def without_fresh(chapter: Chapter) -> Chapter:
+    """The chapter without what is there for a seed alone."""
+    blocks = (
+        replace(b, entries=tuple(x for x in b.entries if not x.fresh)) for b in chapter.blocks
+    )
+    return replace(chapter, blocks=tuple(blocks))

@@ -1,5 +1,5 @@
 """A chapter on a problem of the reader's own, written from its records: what moves, its equations
-of motion, what the motion keeps, its reduction, its steady motions."""
+of motion, what the motion keeps, its reduction, its steady motions, a motion."""
 
 from __future__ import annotations
 
@@ -10,17 +10,20 @@ from itertools import groupby
 
 from ..language.show import show
 from ..record.record import Derivation, Equation, Step
+from ..record.sentence import Sentence
 from ..views.answer import definitions, equations_of_motion, steps_of_answer
 from ..views.language import LANGUAGES, Language, language
 from ..views.outline import system, title
 from ..views.printing.sentences import prose
-from .lecture_text import Block, Chapter, Entry, Formula, Tie, Words, words_of
+from .lecture_text import Block, Chapter, Entry, Formula, Given, Tie, Words, words_of
+from .ran_figure import DESCRIBED, Ran, label_of
 
 SEARCHES = {
     "symmetries": "What the motion keeps.",
     "integrals": "First integrals.",
     "reduction": "Reduction.",
     "equilibria": "Steady motions.",
+    "families": "Steady motions, in letters.",
     "trim": "At rest, by its inputs.",
 }
 """What is told of a problem after its equations, under which heading."""
@@ -29,12 +32,15 @@ TOLD = {
     "integrals": {"casimirs": True, "first_integrals": True},
     "reduction": {"momentum_": False, "locked": True, "effective": True, "quadrature": True},
     "equilibria": {"equilibrium_": False, "energy_casimir_": False},
+    "families": {"equilibrium_": False, "energy_casimir_": False},
     "trim": {"trim": False},
 }
 """Search → how the labels of the steps begin that a text for people tells, and whether with their
 equations; the record has all."""
 
-NONE = {"equilibria": "None was found among the points with one momentum that were tried."}
+NONE = dict.fromkeys(
+    ("equilibria", "families"), "None was found among the points with one momentum that were tried."
+)
 """Search → what is said where it found nothing and there may be more."""
 
 
@@ -46,11 +52,20 @@ class Found:
     refused: str = ""
 
 
-def chapter_of(d: Derivation, found: Mapping[str, Found], records: tuple[str, ...]) -> Chapter:
+def chapter_of(
+    d: Derivation,
+    found: Mapping[str, Found],
+    records: tuple[str, ...],
+    place: Sentence | None = None,
+    ran: Ran | Sentence | None = None,
+) -> Chapter:
     """The chapter of a problem, by its record and what searches found of it, those that were made;
-    ``records``: the names of those that its ties speak of.  Searches that were refused for one
-    reason stand together."""
+    ``records``: the names of those that its ties speak of; ``place``: whether its body has that of
+    the racket, or why not; ``ran``: its motion, or why there is none.  Searches that were refused
+    for one reason stand together."""
     blocks = [*_motion(d)]
+    if place:
+        blocks.append(Block("text", "", "", (_sentence(lambda x: x.sentence(place)),), 0))
     asked = (x for x in SEARCHES if x in found)
     for _, alike in groupby(asked, lambda x: found[x].refused or x):
         searches = (*alike,)
@@ -58,8 +73,12 @@ def chapter_of(d: Derivation, found: Mapping[str, Found], records: tuple[str, ..
             _section(*(SEARCHES[x] for x in searches)),
             _told(d.name, searches[0], found[searches[0]]),
         ]
-    titles = tuple(title(d, x) for x in _languages())
-    return Chapter(d.name, titles, records, tuple(blocks), f"the chapter of {d.name}")
+    if ran:
+        blocks += [_section("A motion."), *_pictured(d.name, ran)]
+    titles = tuple(Given(title(d, x)) for x in _languages())
+    figures = {label_of(d.name): ran.picture} if isinstance(ran, Ran) else {}
+    whole = f"the chapter of {d.name}"
+    return Chapter(d.name, titles, records, tuple(blocks), whole, figures)
 
 
 def _languages() -> tuple[Language, ...]:
@@ -122,6 +141,20 @@ def _told(problem: str, search: str, found: Found) -> Block:
     if not entries:
         entries = [_sentence(lambda x: x.word(NONE.get(search, "There is none.")))]
     return Block("text", "", "", tuple(entries), 0)
+
+
+def _pictured(problem: str, ran: Ran | Sentence) -> Iterator[Block]:
+    """The figure of a motion with what is said of it, or one sentence: why there is none."""
+    if isinstance(ran, Sentence):
+        yield Block("text", "", "", (_sentence(lambda x: x.sentence(ran)),), 0)
+        return
+    label = label_of(problem)
+    texts = tuple(
+        (*_words(ran.told(x)), f" ({x.word('Fig.').lower()} @{label})") for x in _languages()
+    )
+    yield Block("text", "", "", (Entry(texts, (), display=False, line=0),), 0)
+    described = _sentence(lambda x: x.word(DESCRIBED))
+    yield Block("figure", label, "", (described, _sentence(ran.caption)), 0)
 
 
 def _prose(step: Step, words: Language) -> str:

@@ -7,8 +7,7 @@ import math
 from collections.abc import Callable, Sequence
 
 from ..views.figure.drawing import Dot, Label, Scene, Stroke, arrow
-from .lecture_text import tree
-from .sheets import AXES, TURN, Claims, Vector, View, beside, number, panel, solved
+from .sheets import AXES, TURN, Claims, Vector, View, beside, euler, panel, solved
 
 MOMENTS = (1.0, 1.9, 2.6)
 """The principal moments of inertia; a triangle has such sides, so some body has them."""
@@ -16,6 +15,8 @@ START = (0.78, 0.42, 0.3)
 """The angular velocity in the body at first."""
 ROLLED, DRAWN = 14.0, 75.0
 """For how long it is followed on the left, and on the right."""
+LONGEST = 1.6
+"""An axis of the ellipsoid that is longer is drawn as long, and all else smaller with it."""
 SEEN = 75.0, 20.0
 """From where the left is seen, in degrees."""
 
@@ -35,50 +36,51 @@ def _unit(v: Sequence[float]) -> Vector:
     return tuple(x / length for x in v)
 
 
-def _momentum(zeta: Sequence[float]) -> Vector:
-    return tuple(x * y for x, y in zip(MOMENTS, zeta, strict=True))
+def _momentum(zeta: Sequence[float], moments: Vector) -> Vector:
+    return tuple(x * y for x, y in zip(moments, zeta, strict=True))
 
 
-def rolling(claims: Claims, end: float, steps: int) -> list[tuple[Vector, Vector]]:
+def rolling(
+    claims: Claims, end: float, steps: int, moments: Vector = MOMENTS
+) -> list[tuple[Vector, Vector]]:
     """The angular velocity in the body, and an axis of space there that is orthogonal to the
     angular momentum, over time: a row r of A, whose rate by Ȧ = A j(ζ) is r ∧ ζ."""
-    moments = {tree(f"λ{k}"): x for k, x in zip("₁₂₃", MOMENTS, strict=True)}
-    rates = [e.rhs for e in claims["free.principal"]]
-    letters = [tree(f"ζ{k}") for k in "₁₂₃"]
+    spun = euler(claims, moments)
 
     def rate(x: Vector) -> Vector:
-        values = moments | dict(zip(letters, x[:3], strict=True))
-        return (*(number(y, values) for y in rates), *cross(x[3:], x[:3]))
+        return (*spun(x[:3]), *cross(x[3:], x[:3]))
 
-    first = _unit(cross(_momentum(START), (0.0, 0.0, 1.0)))
+    first = _unit(cross(_momentum(START, moments), (0.0, 0.0, 1.0)))
     return [(x[:3], x[3:]) for _, x in solved(rate, (*START, *first), end, steps)]
 
 
-def in_space(zeta: Vector, row: Vector) -> Callable[[Sequence[float]], Vector]:
+def in_space(
+    zeta: Vector, row: Vector, moments: Vector = MOMENTS
+) -> Callable[[Sequence[float]], Vector]:
     """Where a vector of the body is in axes of space: two horizontal ones, and the third against
     the angular momentum, so that the plane is below."""
-    down = _unit(_momentum(zeta))
+    down = _unit(_momentum(zeta, moments))
     second = cross(row, down)
     return lambda v: (dot(v, row), dot(v, second), -dot(v, down))
 
 
-def herpolhode(claims: Claims, end: float, steps: int) -> list[Vector]:
+def herpolhode(claims: Claims, end: float, steps: int, moments: Vector = MOMENTS) -> list[Vector]:
     """The point of contact in its plane."""
-    return [in_space(*x)(x[0])[:2] for x in rolling(claims, end, steps)]
+    return [in_space(*x, moments)(x[0])[:2] for x in rolling(claims, end, steps, moments)]
 
 
-def poinsot(claims: Claims) -> Scene:
+def poinsot(claims: Claims, moments: Vector = MOMENTS) -> Scene:
     """The ellipsoid on its plane; the herpolhode beside."""
-    return beside(_ellipsoid(claims), _path(claims), gap=5)
+    return beside(_ellipsoid(claims, moments), _path(claims, moments), gap=5)
 
 
-def _ellipsoid(claims: Claims) -> Scene:
-    motion = rolling(claims, ROLLED, 900)
-    placed = in_space(*motion[0])
+def _ellipsoid(claims: Claims, moments: Vector) -> Scene:
+    motion = rolling(claims, ROLLED, 900, moments)
+    placed = in_space(*motion[0], moments)
     height = placed(START)[2]
-    view = View((32.0, 31.0), 16.0, *SEEN)
-    level = math.sqrt(dot(START, _momentum(START)))
-    axes = [level / math.sqrt(x) for x in MOMENTS]
+    level = math.sqrt(dot(START, _momentum(START, moments)))
+    axes = [level / math.sqrt(x) for x in moments]
+    view = View((32.0, 31.0), 16.0 * min(1.0, LONGEST / max(axes)), *SEEN)
 
     def image(u: Sequence[float]) -> Vector:
         """A point of the sphere of radius 1 on the ellipsoid, in space."""
@@ -94,7 +96,7 @@ def _ellipsoid(claims: Claims) -> Scene:
     corners = [(x * 1.5, y * 1.5, height) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     plane = Stroke(tuple(view.at(x) for x in corners), "support", "wash")
     edge = Stroke((*plane.points, plane.points[0]), "support", "thin")
-    path = [(x, y, height) for x, y in (in_space(*m)(m[0])[:2] for m in motion)]
+    path = [(x, y, height) for x, y in (in_space(*m, moments)(m[0])[:2] for m in motion)]
     strokes = [plane, edge, Stroke(tuple(map(view.at, path)), AXES[2])]
     strokes.append(_outline(view, image, eye))
     for k in range(3):
@@ -132,9 +134,9 @@ def _outline(view: View, image: Callable[[Vector], Vector], eye: Vector) -> Stro
     return Stroke(tuple(view.at(image(u)) for u in turned), "body", "thin")
 
 
-def _path(claims: Claims) -> Scene:
+def _path(claims: Claims, moments: Vector) -> Scene:
     """The herpolhode between the two circles that it touches."""
-    path = herpolhode(claims, DRAWN, 4500)
+    path = herpolhode(claims, DRAWN, 4500, moments)
     radii = [math.hypot(*p) for p in path]
     scale, centre = 20.0 / max(radii), (22.0, 22.0)
 

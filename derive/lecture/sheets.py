@@ -13,6 +13,7 @@ from ..language.tree import Tree
 from ..language.values import arithmetic
 from ..record.record import Equation
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
+from .lecture_text import tree
 
 AXES = ("first", "second", "third")
 """The role of what belongs to each axis of the body, in all figures."""
@@ -192,3 +193,16 @@ def solved(
         if step % each == 0:
             found.append((step * h, x))
     return found
+
+
+def euler(claims: Claims, moments: Sequence[float]) -> Callable[[Vector], Vector]:
+    """The rates of the angular velocity in principal axes, by the equations (35) of the text."""
+    known = {tree(f"λ{k}"): x for k, x in zip("₁₂₃", moments, strict=True)}
+    rates = [e.rhs for e in claims["free.principal"]]
+    letters = [tree(f"ζ{k}") for k in "₁₂₃"]
+
+    def rate(zeta: Vector) -> Vector:
+        values = known | dict(zip(letters, zeta, strict=True))
+        return tuple(number(x, values) for x in rates)
+
+    return rate

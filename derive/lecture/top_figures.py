@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from ..language.derivatives import derivative
@@ -24,15 +24,21 @@ TILT = tree("A₃₃")
 
 @dataclass(frozen=True)
 class Top:
-    """A top whose axis is at its upper tilt at first, and precesses at the rate ``precession``."""
+    """A top whose axis is at its ``upper`` tilt at first, by its cosine, and precesses at the rate
+    ``precession``; ``spin``: the momentum about the axis."""
 
     claims: Claims
     precession: float
+    parameters: Mapping[Tree, float] = field(
+        default_factory=lambda: {tree(x): y for x, y in PARAMETERS.items()}
+    )
+    spin: float = SPIN
+    upper: float = UPPER
 
     @cached_property
     def constants(self) -> dict[Tree, float]:
         """Its parameters and what its motion keeps, by their letters."""
-        found = {tree(x): y for x, y in PARAMETERS.items()} | {tree("𝒥₂"): SPIN, TILT: UPPER}
+        found = {**self.parameters, tree("𝒥₂"): self.spin, TILT: self.upper}
         # the rate of precession is of degree 1 in 𝒥₁
         slow, fast = (self._of("heavy.connection", found | {tree("𝒥₁"): x}) for x in (0.0, 1.0))
         found[tree("𝒥₁")] = (self.precession - slow) / (fast - slow)
@@ -49,7 +55,7 @@ class Top:
     @cached_property
     def lower(self) -> float:
         """The cosine of the lower tilt: the other root of the cubic in the well, by halving."""
-        below, above = -1.0, UPPER - 1e-6
+        below, above = -1.0, self.upper - 1e-6
         for _ in range(60):
             middle = (below + above) / 2
             if self._of("heavy.quadrature", self.constants | {TILT: middle}) > 0:
@@ -66,7 +72,7 @@ class Top:
             values = self.constants | {TILT: x[0]}
             return x[1], number(slope, values) / 2, self._of("heavy.connection", values)
 
-        return solved(rate, (UPPER, 0.0, 0.0), end, steps)
+        return solved(rate, (self.upper, 0.0, 0.0), end, steps)
 
     def path(self) -> list[Vector]:
         """The end of the axis, for about one turn about the vertical."""

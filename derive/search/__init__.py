@@ -4,6 +4,7 @@ FIRST = {
     "symmetries": "symmetries",
     "integrals": "poisson",
     "equilibria": "equilibrium_1",
+    "families": "equilibrium_1",
     "reduction": "momentum_1",
     "trim": "trim",
 }

@@ -82,6 +82,17 @@ def test_every_statement_says_what_it_rests_on():
                 assert any(e.ties for e in block.entries), (chapter.name, block.line)
 
 
+def test_a_calculation_has_an_identity_for_each_of_a_few_lines():
+    found = [b for c in CHAPTERS for b in c.blocks if b.kind == "calculation"]
+    assert len(found) == 3
+    for block in found:
+        assert 3 <= len(block.entries) <= 6
+        for x in block.entries:
+            assert len(x.equations) == 1
+            assert x.labels
+            assert len(x.texts[0]) > 1
+
+
 HEAD = "chapter c\n  A chapter\n  Un chapitre\nrecords so3\n\n"
 
 
@@ -161,7 +172,7 @@ TITLES = ("Tops & co_1 {50 %} \\x #~^$", "A. Ünal", "M2, <spring>", "week 3")
 
 @needs("the TeX of the lecture")
 def test_what_the_user_gives_stands_at_the_head_as_it_is(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("derive.lecture.lecture_text.chapters", lambda: [])
+    monkeypatch.setattr("derive.lecture.lecture_text.chapters", lambda **_: [])
     given = [
         f"--{x}={y}" for x, y in zip(("title", "author", "course", "date"), TITLES, strict=True)
     ]
@@ -217,9 +228,9 @@ def test_the_polhodes_are_levels_of_the_energy_on_the_sphere():
     for role, curve in curves:
         points = np.array(curve)
         assert np.allclose((points**2).sum(axis=1), 1, rtol=0, atol=1e-14)
-        energy = (points**2 / figures.MOMENTS).sum(axis=1)
+        energy = (points**2 / figures.RACKET.moments).sum(axis=1)
         assert np.ptp(energy) < 1e-14
-        least, middle, most = sorted(1 / np.array(figures.MOMENTS))
+        least, middle, most = sorted(1 / np.array(figures.RACKET.moments))
         level = energy.mean()
         assert {"first": middle < level < most, "third": least < level < middle}.get(
             role, abs(level - middle) < 1e-14

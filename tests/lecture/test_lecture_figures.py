@@ -87,15 +87,15 @@ def test_waves_cusps_and_loops():
 
 def test_the_racket_flips_as_the_emitted_code_says():
     code, motion = module_of("euler_top"), figures.racket(CLAIMS)
-    k = code.constants(list(figures.MOMENTS))
-    start = [*np.eye(3).ravel(), *figures.START]
+    k = code.constants(list(figures.RACKET.moments))
+    start = [*np.eye(3).ravel(), *figures.RACKET.start]
     times = [t for t, _ in motion]
     run = solve_ivp(
-        code.rhs, (0, figures.END), start, t_eval=times, args=(k,), rtol=1e-11, atol=1e-13
+        code.rhs, (0, figures.RACKET.end), start, t_eval=times, args=(k,), rtol=1e-11, atol=1e-13
     )
     zeta = np.array([x for _, x in motion])
     assert np.allclose(zeta, run.y[-3:].T, rtol=0, atol=1e-4)
-    moments = np.array(figures.MOMENTS)
+    moments = np.array(figures.RACKET.moments)
     for kept in (zeta**2 @ moments, zeta**2 @ moments**2):
         assert np.ptp(kept) < 1e-8
     assert (np.diff(np.sign(zeta[:, 1])) != 0).sum() == 2

@@ -126,7 +126,7 @@ def parts(problem: Mapping[str, Any], value: ExpressionValues) -> list[BodyPart]
         return found
     whole = found[0]
     whole.solids = [_solid(s, value) for s in body.get("solids", [])]
-    m, c, J = _moments(problem, value)
+    m, c, J = moments_of(problem, value)
     whole.size = len(c)
     whole.centre = scaled(1 / m, value.vector(c)) if m > 0 else None
     if not whole.solids and not whole.points:
@@ -143,7 +143,7 @@ def _centre(points: Iterable[tuple[float, Vector]]) -> Vector | None:
     return x, y, z
 
 
-def _moments(
+def moments_of(
     problem: Mapping[str, Any], value: ExpressionValues
 ) -> tuple[float, Sequence[Any], Any]:
     """The mass m as a number, c and J as expressions of the record."""

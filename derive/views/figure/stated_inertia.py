@@ -73,8 +73,8 @@ def _ellipsoid(
     energy: Tree, turning: Sequence[int], sliding: Sequence[int], value: ExpressionValues
 ) -> list[Vector] | None:
     """The rows of a map of the unit ball to the ellipsoid: L L̄ = 5 J/m, with J = ½ tr I − I."""
-    inertia = _quadratic(energy, turning, value)
-    masses = _quadratic(energy, sliding, value) if sliding and -1 not in sliding else None
+    inertia = quadratic(energy, turning, value)
+    masses = quadratic(energy, sliding, value) if sliding and -1 not in sliding else None
     if inertia is None or not 0 < (whole := sum(inertia[i][i] for i in range(3))) < LARGEST:
         return None
     m = sum(masses[i][i] for i in range(3)) / 3 if masses else 1.0
@@ -86,14 +86,14 @@ def _ellipsoid(
     return cholesky(J, THINNEST**2 * max(abs(J[i][i]) for i in range(3)))
 
 
-def _quadratic(
+def quadratic(
     energy: Tree, places: Sequence[int], value: ExpressionValues
 ) -> list[list[float]] | None:
     """The matrix of the terms of a Lagrangian that are quadratic in some coordinates of the
     velocity, by its values at the identity; ``None`` where it has none there."""
 
     def at(*w: tuple[int, int]) -> float:
-        moving = replaced(_with(energy, dict(w)), "t", 0)
+        moving = replaced(at_velocity(energy, dict(w)), "t", 0)
         found = approximate(moving, value.parameters)
         return float("nan") if found is None else found
 
@@ -107,10 +107,10 @@ def _quadratic(
     return rows if all(x == x for r in rows for x in r) else None
 
 
-def _with(t: Tree, velocity: Mapping[int, int]) -> Tree:
+def at_velocity(t: Tree, velocity: Mapping[int, int]) -> Tree:
     """A tree at the identity of the group, for some coordinates of the velocity, the others 0."""
     if not isinstance(t, tuple):
         return t
     if t[0] == "entry":
         return velocity.get(t[2] - 1, 0) if t[1] == "ζ" else int(len(t) == 4 and t[2] == t[3])
-    return (t[0], *(_with(part, velocity) for part in t[1:]))
+    return (t[0], *(at_velocity(part, velocity) for part in t[1:]))

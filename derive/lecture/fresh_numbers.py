@@ -1,0 +1,170 @@
+"""Fresh numbers in the exercises, by a seed: the letters of an exercise get numbers that are drawn,
+and the solution has the values of the formulas that stand in it, in exact arithmetic by the
+evaluator of the checker, or those of a motion by the equations that the text displays."""
+
+from __future__ import annotations
+
+import math
+import random
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+from ..check.values.arithmetic import is_matrix
+from ..check.values.evaluate import Environment, evaluate
+from ..language.show import show
+from ..language.tree import Tree
+from ..language.values import elementary
+from ..views.language import LANGUAGES, Language, language
+from .body_figures import turned
+from .lecture_text import ASKED, Block, Chapter, Entry, Formula, LectureError, Words, tree
+from .sheets import Claims, number
+from .top_figures import Top
+
+RANGE = re.compile(r"(−?\d+)…(−?\d+)")
+LEAD = "In numbers:"
+Known = dict[Tree, Tree]
+"""A letter, or what is read as one, as ζ₁ → its value, as a tree of numbers."""
+
+
+def drawn(chapters: Sequence[Chapter], seed: int, claims: Claims) -> list[Chapter]:
+    """The chapters with numbers in their exercises; ``LectureError`` where a value is none."""
+    return [replace(c, blocks=tuple(_blocks(c, seed, claims))) for c in chapters]
+
+
+def _blocks(chapter: Chapter, seed: int, claims: Claims) -> list[Block]:
+    """The blocks with their numbers; a solution knows those of the exercise before it."""
+    found, known = [], Known()
+    for block in chapter.blocks:
+        if block.kind == "exercise":
+            known = Known()
+        draws = random.Random(f"{seed} {chapter.name} {block.label}")
+        entries: list[Entry] = []
+        for entry in block.entries:
+            if not entry.fresh:
+                entries.append(entry)
+            elif entry.display:
+                entries.append(_given(entry, draws, known))
+            else:
+                try:
+                    entries.append(_answered(entry, known, claims))
+                except (ArithmeticError, ValueError) as error:
+                    where = f"{chapter.file}, line {entry.line}"
+                    raise LectureError(f"{where}: {error}") from error
+        found.append(replace(block, entries=tuple(entries)))
+    return found
+
+
+def _given(entry: Entry, draws: random.Random, known: Known) -> Entry:
+    """What the letters of an exercise are, drawn among their choices, which ``known`` has then."""
+    said = []
+    for part in re.split(r",\s\s+", entry.formulas[0].text):
+        name, _, choices = part.partition(" = ")
+        chosen = draws.choice(choices.split(" | "))
+        text = RANGE.sub(lambda x: _within(draws, x), chosen)
+        known[tree(name)] = tree(text)
+        said.append(Formula(name, condition=True, value=f" = {_shown(known[tree(name)])}"))
+    texts = tuple(_listed(said, language(x)) for x in LANGUAGES)
+    return replace(entry, texts=texts, display=False)
+
+
+def _within(draws: random.Random, limits: re.Match[str]) -> str:
+    low, high = (int(x.replace("−", "-")) for x in limits.groups())
+    return str(draws.randint(low, high)).replace("-", "−")
+
+
+def _listed(formulas: Sequence[Formula], words: Language) -> Words:
+    found: list[str | Formula] = [f"{words.word(LEAD)} "]
+    for y in formulas:
+        found += [y, ", "]
+    return (*found[:-1], ".")
+
+
+def _answered(entry: Entry, known: Known, claims: Claims) -> Entry:
+    """A sentence of a solution, with the values of its formulas, which ``known`` has then."""
+    values: dict[Formula, Any] = {}
+    for x in entry.formulas:
+        if asked := ASKED.search(x.value):
+            sides = [*map(tree, x.text.split(" = "))]
+            values[x] = MOTIONS[asked[2]](claims, known) if asked[2] else value(sides[-1], known)
+            known[sides[0]] = _literal(values[x])
+    texts = []
+    for text, lang in zip(entry.texts, LANGUAGES, strict=True):
+        words: list[str | Formula] = []
+        for part in text:
+            if isinstance(part, Formula) and part in values:
+                words.append(replace(part, value=_told(values[part], language(lang))))
+            else:
+                words.append(part)
+        texts.append(tuple(words))
+    return replace(entry, texts=tuple(texts))
+
+
+def value(t: Tree, known: Mapping[Tree, Tree]) -> Any:
+    """The value of a tree by those of its letters: a fraction or, of a root or a logarithm that is
+    none, a float; a matrix, or a vector of one column, by its rows."""
+    return evaluate(_with(t, known), Environment(size=3, names={}, elementary=_function))
+
+
+def _with(t: Tree, known: Mapping[Tree, Tree]) -> Tree:
+    if t in known:
+        return known[t]
+    return (t[0], *(_with(x, known) for x in t[1:])) if isinstance(t, tuple) else t
+
+
+def _function(name: str, x: Any) -> Any:
+    """A function of a number; the root of a square is exact."""
+    if name == "sqrt" and isinstance(x, Fraction) and x >= 0:
+        root = Fraction(math.isqrt(x.numerator), math.isqrt(x.denominator))
+        if root**2 == x:
+            return root
+    return elementary(name, float(x))
+
+
+def _literal(x: Any) -> Tree:
+    """A value as a tree."""
+    if is_matrix(x):
+        return ("matrix", *(("row", *map(_literal, row)) for row in x))
+    exact = Fraction(x)
+    return exact.numerator if exact.denominator == 1 else exact
+
+
+def _shown(t: Tree) -> str:
+    """A number, a matrix, or a vector as a row in brackets."""
+    if isinstance(t, tuple) and t[0] == "matrix" and all(len(row) == 2 for row in t[1:]):
+        return f"({', '.join(show(row[1]) for row in t[1:])})"
+    return show(t)
+
+
+def _told(x: Any, words: Language) -> str:
+    """A relation and a value, in a language: one that is not exact with three digits."""
+    if isinstance(x, float):
+        return f" ≈ {words.decimal(float(f'{x:.3g}'))}".replace("-", "−")
+    return f" = {_shown(_literal(x))}"
+
+
+# Motions, by the equations that the text displays.
+
+
+def _turned(claims: Claims, known: Mapping[Tree, Tree]) -> float:
+    """When a body has first turned over half, from ζ₁ = ε ω, ζ₂ = ω, ζ₃ = 0."""
+    first, second, third = (float(value(tree(f"λ{k}"), known)) for k in "₁₂₃")
+    speed, tilt = (float(value(tree(x), known)) for x in "ωε")
+    return turned(claims, (first, second, third), (tilt * speed, speed, 0.0))
+
+
+def _lower(claims: Claims, known: Mapping[Tree, Tree]) -> float:
+    """The cosine of the lower tilt of a top that is let go, its axis at rest."""
+    letters = [tree(x) for x in ("‘I_1’", "‘I_3’", "‘P’")]
+    parameters = {x: number(known[x], {}) for x in letters}
+    spin, upper = (number(known[tree(x)], {}) for x in ("𝒥₂", "A₃₃"))
+    return Top(claims, 0.0, parameters, spin, upper).lower
+
+
+MOTIONS: dict[str, Callable[[Claims, Mapping[Tree, Tree]], float]] = {
+    "turned": _turned,
+    "lower": _lower,
+}
+"""What a motion tells, by the name behind the sign # of the text."""

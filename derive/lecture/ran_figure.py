@@ -1,0 +1,89 @@
+"""The picture of a motion in the chapter on a reader's problem, as emitted code ran it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ..views.figure.drawing import Label, Scene
+from ..views.language import Language
+from .body_figures import marks
+from .sheets import AXES, Claims, Frame, panel
+
+DESCRIBED = (
+    "Curves over time: components of the velocity, from the start of the motion to the end of its "
+    "picture."
+)
+RUN = "It starts as the problem says, and is run by the code that is emitted of its equations."
+COLOURS = ("{name} (blue)", "{name} (black)", "{name} (red)")
+ROUNDING = 1e-10
+"""Less of a change, in the energy, is said no closer: it differs from machine to machine."""
+LOST = 1e-3
+"""More of a change, in the energy, is no error of steps."""
+LETTERS = {"zeta": "ζ", "Pi": "Π"}
+SPELT = str.maketrans("0123456789", "ghijklmnop")
+BELOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+def label_of(problem: str) -> str:
+    """The label of the figure of a problem, in small letters alone."""
+    return f"run_{re.sub('[^a-z]', lambda x: f'_{ord(x[0]):x}'.translate(SPELT), problem)}"
+
+
+@dataclass(frozen=True)
+class Ran:
+    """A motion: the times, one to three columns of numbers with their names in the code, and the
+    energy over time, empty where there is none."""
+
+    times: Sequence[float]
+    curves: Sequence[tuple[str, Sequence[float]]]
+    energy: Sequence[float] = ()
+
+    def caption(self, words: Language) -> str:
+        """Which curve is which."""
+        coloured = zip(COLOURS, self.curves, strict=False)
+        named = (words.word(colour, name=_letter(x)) for colour, (x, _) in coloured)
+        return words.word("The motion: {curves} over time.", curves=", ".join(named))
+
+    def told(self, words: Language) -> str:
+        """What made it, and what became of the energy."""
+        if not self.energy:
+            return words.word(RUN)
+        change = max(abs(x - self.energy[0]) for x in self.energy)
+        if change > LOST * max(map(abs, self.energy)):
+            ends = {x: f"{self.energy[k]:.4g}" for x, k in (("first", 0), ("last", -1))}
+            return (
+                f"{words.word(RUN)} {words.word('Its energy goes from {first} to {last}.', **ends)}"
+            )
+        bound = f"{10.0 ** _exponent(max(change, ROUNDING * abs(self.energy[0]))):g}"
+        kept = "Its energy, {energy} at first, changes by less than {change}."
+        energy = f"{self.energy[0]:.4g}"
+        return f"{words.word(RUN)} {words.word(kept, energy=energy, change=bound)}"
+
+    def picture(self, _claims: Claims) -> Scene:
+        """The curves, in the colours of the axes."""
+        low = min(0.0, *(min(values) for _, values in self.curves))
+        high = max(0.0, *(max(values) for _, values in self.curves))
+        ends = (1.1 * low, 1.1 * high) if low < high else (-1.0, 1.0)
+        frame = Frame((14.0, 6.0), (92.0, 36.0), (0.0, ends[0]), (self.times[-1], ends[1]))
+        strokes, labels = frame.axes(
+            (Label("t"), Label("")), marks(0.0, self.times[-1]), marks(*ends)
+        )
+        strokes.append(frame.curve([(0, 0), (self.times[-1], 0)], "axis", "thin"))
+        for role, (_, numbers) in zip(AXES, self.curves, strict=False):
+            strokes.append(frame.curve(zip(self.times, numbers, strict=True), role))
+        return panel((118, 48), strokes, [x for x in labels if x.base])
+
+
+def _exponent(x: float) -> int:
+    """The exponent of a power of ten above a number; −12 for 0."""
+    return int(f"{x:e}".partition("e")[2]) + 1 if x else -12
+
+
+def _letter(name: str) -> str:
+    """A name of the code as the letter of the equations, or in quotes."""
+    base, _, index = name.rpartition("_")
+    if index.isdigit() and (base in LETTERS or base == "w"):
+        return f"{LETTERS.get(base, base)}{index.translate(BELOW)}"
+    return f"‘{name}’"
