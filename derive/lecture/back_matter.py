@@ -117,15 +117,19 @@ PRINTED_BY = {
 def homes(chapters: Sequence[Chapter], records: Mapping[str, Derivation]) -> dict[str, list[str]]:
     """How the labels in the margins begin → the commands that print these steps; not of chapters on
     a reader's own problems, whose files have names of their own."""
-    found: dict[str, dict[str, None]] = {}
+    found: dict[str, list[str]] = {}
+    steps = {name: {s.label for s in d.steps} for name, d in records.items()}
     for chapter in (c for c in chapters if c.file.endswith(".txt")):
-        steps = {name: {s.label for s in records[name].steps} for name in chapter.problems}
         for label in (x for e in chapter.entries for x in e.labels):
-            begins = label.partition(".")[0]
-            home = next(name for name in chapter.problems if label in steps[name])
-            problem, _, search = home.partition(":")
-            found.setdefault(begins, {})[PRINTED_BY[search].format(problem)] = None
-    return {x: [*commands] for x, commands in sorted(found.items())}
+            places = found.setdefault(label.partition(".")[0], [])
+            if not any(label in steps[name] for name in places):
+                places.append(next(name for name in chapter.problems if label in steps[name]))
+    return {x: [*map(_printing, places)] for x, places in sorted(found.items())}
+
+
+def _printing(name: str) -> str:
+    problem, _, search = name.partition(":")
+    return PRINTED_BY[search].format(problem)
 
 
 @dataclass(frozen=True)
