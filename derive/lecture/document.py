@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import groupby
 
 from ..language.read import FormulaError
 from ..language.templating import environment
@@ -22,7 +23,7 @@ from ..views.printing.line_breaking import measure
 from ..views.printing.sentences import prose, spelt
 from ..views.printing.signs import NO_BREAK, SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
-from ..views.printing.typeset import literal
+from ..views.printing.typeset import literal, plain
 from ..views.text import formula as aligned
 from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, homes, letters
 from .figures import FIGURES
@@ -80,8 +81,22 @@ SHORT = 7.0
 
 def _inline(x: typeset.Formula) -> str:
     """A formula among words as LaTeX."""
-    tex = typeset.plain(x.tex)
+    tex = plain(x.tex)
     return f"${{{tex}}}$" if measure(tex) < SHORT else f"${tex}$"
+
+
+def _blocks(equations: Sequence[Equation]) -> str:
+    """Equations of a record as displays, which a page may part: short ones below one another, one
+    that is too wide in several lines."""
+    found: list[str] = []
+    for wide, run in groupby(equations, lambda e: measure(plain(_sides(e).tex)) > WIDTH):
+        alike = [*run]
+        found += [_lines(_sides(e)) for e in alike] if wide else [aligned(alike, ())]
+    return "\\]\n\\[".join(found)
+
+
+def _sides(e: Equation) -> typeset.Formula:
+    return of_tree(e.lhs) + literal(" = ") + of_tree(e.rhs)
 
 
 LATEX = Medium(
@@ -91,14 +106,13 @@ LATEX = Medium(
     _inline,
     _lines,
     lambda x: tikz(x, colours=frozenset(AXES)),
-    lambda equations: aligned(equations, ()),
+    _blocks,
 )
 
 
 def _one_by_one(equations: Sequence[Equation]) -> str:
     """Equations of a record as displays of a page, one below the other."""
-    sides = (of_tree(e.lhs) + literal(" = ") + of_tree(e.rhs) for e in equations)
-    return "\n".join(map(PAGE.display, sides))
+    return "\n".join(map(PAGE.display, map(_sides, equations)))
 
 
 PAGE = Medium(

@@ -92,7 +92,7 @@ def _placed(A: Any, t: float) -> Scene:
     """The points at a time, and what joins them; an edge is pale behind the two faces at it."""
     view = View((12.5, 17.5), 11.0, 25, 18)
     moved = [tuple(map(float, A @ r)) for r in PLACES]
-    eye = np.array([view.depth(x) for x in np.eye(3)])
+    eye = np.array([view.depth(x) for x in np.eye(3).tolist()])
     strokes = []
     for i, j in combinations(range(4), 2):
         ahead = any(_faces(eye, np.array(moved), k) for k in range(4) if k not in (i, j))
