@@ -45,6 +45,8 @@ def listing(problems: Mapping[str, Problem]) -> str:
 NEAR = 3
 """How many ready-made problems are named that are nearly called so."""
 READY = Path(__file__).resolve().parents[1] / "problems"
+LECTURE = READY.with_name("lecture") / "chapters"
+"""The problems that the lecture alone tells of."""
 
 
 class UsageError(Refused):
@@ -57,8 +59,9 @@ def ready_made() -> list[str]:
 
 
 def load_problem(name: str, **allowances: bool) -> Problem:
-    """A ready-made problem by name, or a TOML file by path; ``allowances``: what may be negative,
-    as in ``problem.toml.load``. ``ProblemError`` where there is neither."""
+    """A ready-made problem by name, or a TOML file by path, or a problem of the lecture by name;
+    ``allowances``: what may be negative, as in ``problem.toml.load``. ``ProblemError`` where there
+    is none of them."""
     from ..problem.toml import load
 
     if name in ready_made():
@@ -66,6 +69,8 @@ def load_problem(name: str, **allowances: bool) -> Problem:
     path = Path(name)
     if path.suffix == ".toml" or path.exists():
         return load(path, **allowances)
+    if path.name == name and (of_lecture := LECTURE / f"{name}.toml").is_file():
+        return load(of_lecture)
     if "\n" in name:
         raise ProblemError("a problem is a name or a .toml file, not its text: write it to a file")
     near = get_close_matches(name.lower()[:60], ready_made(), NEAR, 0.5)

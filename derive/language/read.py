@@ -47,10 +47,10 @@ NUMBERED = frozenset(
 
 _LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉½⅓¼⅔ᵢⱼₑₜ]"
 _VARIED = r"(?:δ′?|∂ₜ|d(?=ϖ|𝒜|U\u0303))?"
-_CALLED = "|".join(("det", "j", *DERIVATIVES))
+_CALLED = "|".join(("j", *DERIVATIVES))
 TOKEN = (
     r"(?P<quoted>‘[^’]*’)|(?P<opening>(?<= )‖)"
-    rf"|(?P<word>Tr(?=[ (\[])|Σ(?:[ᵢⱼₑ]|_[a-z𝐦𝐧])|∫|√|(?:{_CALLED})(?=\()"
+    rf"|(?P<word>Tr(?=[ (\[])|Σ(?:[ᵢⱼₑ]|_[a-z𝐦𝐧])|∫|√|det(?=\(| \w)|(?:{_CALLED})(?=\()"
     r"|(?:grad|div)(?![A-Za-z])|Δ(?![\u0300-\u036f])|∇_|∇|∂ₙ)"
     rf"|(?P<name>d/dt|∂_s|d?Θ[⁺⁻]|{'|'.join(sorted(NUMBERED))}|(?!dm(?![A-Za-z])){_VARIED}{_LETTER}[\u0300-\u036f]*′?(?:_(?:[abij][abij]|[A-Za-z]))?)"
     r"|(?P<index>[₀-₉ᵢⱼₑ]+(?:,[₀-₉ᵢⱼₑ]+)*)"
@@ -222,6 +222,8 @@ class _Reader:
         if text in FIELD_OPERATORS:
             inside = self.tokens[self.k][0] == "("
             return ("call", text, *(self.listed("(", ")", 1) if inside else [self.factor()]))
+        if text == "det" and self.tokens[self.k][0] != "(":
+            return ("det", self.factor())
         own = {"det": ("det",), "j": ("hat",), "√": ("fun", "sqrt")}.get(text, ("fun", text))
         return (*own, *self.listed("(", ")", 1))
 

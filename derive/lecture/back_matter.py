@@ -33,17 +33,29 @@ class Front:
 
 UNTITLED = Front()
 NOTE, AUDIN, NOTES = REFERENCES
+SECOND = "2nd ed."
 WORKS = (
     ON_FLUIDS[0],
     AUDIN,
-    ("Hol", "D. D. Holm", "Geometric Mechanics, Part II", "Imperial College Press, 2nd ed., 2011"),
+    (
+        "HLW",
+        "E. Hairer, C. Lubich, G. Wanner",
+        "Geometric Numerical Integration",
+        f"Springer, {SECOND}, 2006",
+    ),
+    (
+        "Hol",
+        "D. D. Holm",
+        "Geometric Mechanics, Part II",
+        f"Imperial College Press, {SECOND}, 2011",
+    ),
     (*NOTES[:3], f"{NOTES[3]}, http://hermes.univ-mrs.fr/~patrick/"),
     NOTE,
     (
         "MR",
         "J. E. Marsden, T. S. Ratiu",
         "Introduction to Mechanics and Symmetry",
-        "Springer, 2nd ed., 1999",
+        f"Springer, {SECOND}, 1999",
     ),
     *ON_STEPS_OF_TIME,
     (
@@ -57,6 +69,67 @@ WORKS = (
 """The works by their authors: key, author, title, where; ``@key``, in small letters, is the number
 of one in the text."""
 NUMBERS = {key.lower(): k for k, (key, *_) in enumerate(WORKS, 1)}
+
+
+OWN = {
+    ("fixed_point", "y"): "time, element of the group and velocity, together",
+    ("fixed_point", "O"): "the origin, a fixed point",
+    ("fixed_point", "m"): "masses of the points",
+    ("fixed_point", "μ"): "moment of the forces about the fixed point, in the body frame",
+    ("fixed_point", "σ"): "the rate at which a deviation grows",
+    ("fixed_point", "f"): "the force carried to the Lie algebra, j(φ)",
+    ("fixed_point", "⟨a, b⟩_I"): "the scalar product of the tensor of inertia, ⟨a, Ib⟩",
+    ("top", "e₃"): "third axis of the body; e₁ and e₂ are the two others",
+    ("top", "‘I_1’"): "moment of inertia across the axis",
+    ("top", "‘I_3’"): "moment of inertia about the axis",
+    ("top", "‘P’"): "weight times distance to the centre of mass",
+    ("top", "Π"): "momentum, derivative of L̃ with respect to Z",
+    ("top", "u₁"): "cosine of the lower tilt; u₂ is that of the upper one",
+    ("top", "ψ"): "angle of the precession",
+    ("top", "z"): "third root of the cubic of the upright top",
+    ("any_group", "G"): "the group, of matrices",
+    ("any_group", "𝔤"): "Lie algebra of the group",
+    ("any_group", "Π"): "momentum, derivative of L̃ with respect to Z",
+    ("any_group", "Φ"): "force, derivative of L̃ along the group at constant Z",
+    ("volume", "K"): "symmetric matrix of the springs: their energy is ½ Tr AKĀ",
+    ("volume", "‘rho’"): "density of the fluid",
+    ("volume", "‖r‖²_Q_r"): "⟨r, Q_r r⟩",
+    ("fluid", "g"): "diffeomorphism of the vessel that keeps volumes",
+    ("fluid", "ω"): "angular velocity, in space",
+    ("steps", "y₀"): "first place of a point; y₁ and y₂ are the next two",
+}
+"""Chapter and letter → what it means there, where no record says it, or with letters that the text
+does not have."""
+
+
+PRINTED_BY = {
+    "": "derive walk {}",
+    "symmetries": "derive symmetries {}",
+    "reduction": "derive reduction {}",
+    "integrals": "derive integrals {}",
+    "equilibria": "derive equilibria {}",
+    "families": "derive equilibria {} --letters",
+    "discrete": "derive walk {} --discrete",
+}
+"""What is found of a problem, as chapters name it → the command that prints it."""
+
+
+def homes(chapters: Sequence[Chapter], records: Mapping[str, Derivation]) -> dict[str, list[str]]:
+    """How the labels in the margins begin → the commands that print these steps; not of chapters on
+    a reader's own problems, whose files have names of their own."""
+    found: dict[str, list[str]] = {}
+    steps = {name: {s.label for s in d.steps} for name, d in records.items()}
+    for chapter in (c for c in chapters if c.file.endswith(".txt")):
+        for label in (x for e in chapter.entries for x in e.labels):
+            places = found.setdefault(label.partition(".")[0], [])
+            if not any(label in steps[name] for name in places):
+                places.append(next(name for name in chapter.problems if label in steps[name]))
+    return {x: [*map(_printing, places)] for x, places in sorted(found.items())}
+
+
+def _printing(name: str) -> str:
+    problem, _, search = name.partition(":")
+    return PRINTED_BY[search].format(problem)
 
 
 @dataclass(frozen=True)
@@ -73,8 +146,8 @@ class LetterUse:
 def letters(
     chapters: Sequence[Chapter], records: Mapping[str, Derivation], language: Language
 ) -> list[LetterUse]:
-    """The letters of the text that the records of its chapters declare, in alphabetical order; not
-    those of variations and rates, which are read off from their marks."""
+    """The letters of the text that the records of its chapters declare, or ``OWN``, in alphabetical
+    order; not those of variations and rates, which are read off from their marks."""
     found: dict[tuple[str, str], LetterUse] = {}
     for k, chapter in enumerate(chapters, 1):
         declared = {
@@ -82,6 +155,7 @@ def letters(
             for problem in reversed(chapter.problems)
             for s in records[problem].symbols
         }
+        declared |= {x: language.word(OWN[of, x]) for of, x in OWN if of == chapter.name}
         for entry in chapter.entries:
             for name in _names(entry):
                 if name in declared and not _marked(name):
@@ -91,9 +165,10 @@ def letters(
 
 
 def _names(entry: Entry) -> Iterator[str]:
-    """The names in the formulas of an entry that are expressions."""
+    """The names in the formulas of an entry that are expressions, and whole sides of formulas."""
     texts = (x.text for x in entry.texts[0] if isinstance(x, Formula))
     for side in (y for x in texts for part in re.split(r",\s\s+", x) for y in RELATION.split(part)):
+        yield side
         try:
             yield from names(tree(side))
         except FormulaError:
@@ -108,6 +183,6 @@ def _marked(name: str) -> bool:
 
 def _place(name: str) -> tuple[bool, str, str]:
     """Where a name is in the alphabet: signs last; script letters are with their plain ones."""
-    plain = unicodedata.normalize("NFKD", name)
+    plain = unicodedata.normalize("NFKD", name.strip("‘’"))
     bare = "".join(c for c in plain if c.isalnum())
     return not plain[0].isalpha(), bare.casefold(), name

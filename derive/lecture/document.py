@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import groupby
 
 from ..language.read import FormulaError
 from ..language.templating import environment
@@ -17,13 +18,14 @@ from ..views.language import typeset as typeset_french
 from ..views.latex import DELIMITERS
 from ..views.layout import broken, indented
 from ..views.printing import typeset
-from ..views.printing.letters import definitions
+from ..views.printing.letters import NAMES, definitions
+from ..views.printing.line_breaking import measure
 from ..views.printing.sentences import prose, spelt
-from ..views.printing.signs import SYMBOLS, Notation, tex_text
+from ..views.printing.signs import NO_BREAK, SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
-from ..views.printing.typeset import literal
+from ..views.printing.typeset import literal, plain
 from ..views.text import formula as aligned
-from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, letters
+from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, homes, letters
 from .figures import FIGURES, Figure
 from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Given, Words
 from .lecture_text import tree as tree_of
@@ -32,11 +34,17 @@ from .sheets import AXES, Claims
 TITLE = "Where do the equations of motion of solids come from?"
 WORDS = (
     *("Definition", "Lemma", "Proposition", "Theorem", "Remark", "Proof", "Calculation"),
-    *("Exercise", "Solution", "Solutions", "Fig.", "Symbols", "Bibliography"),
+    *("Exercise", "Solution", "Solutions", "Fig.", "Symbols", "Bibliography", "Steps"),
+    "A name at the right begins with one of these; the command beside it prints the steps.",
 )
 """The words of the templates."""
 MARKED = re.compile(r"_([^_]+)_|@([a-z_]+)")
 """What is marked among words: emphasis, and the number of a block."""
+LISTED = re.compile(r"(?<=\d\u202f;) (?=\d)")
+"""The space between two numbers of a list in French."""
+TIED = re.compile(r"(?<=\w|\.) $")
+"""The space between a word and a number, where no line breaks."""
+CAPITAL = re.compile("<mi>([Α-Ω])</mi>")
 CLOSED = re.compile(r"(<math>(?:(?!<math).)*</math>)([.,;:)]+)", re.S)
 """A formula of a page and the signs after it, between which no line breaks."""
 
@@ -67,21 +75,44 @@ def _lines(x: typeset.Formula) -> str:
     return "\n".join((r"\begin{aligned}", " \\\\\n".join(rows), r"\end{aligned}"))
 
 
+SHORT = 7.0
+"""The width, in em, below which a formula among words is not broken."""
+
+
+def _inline(x: typeset.Formula) -> str:
+    """A formula among words as LaTeX."""
+    tex = plain(x.tex)
+    return f"${{{tex}}}$" if measure(tex) < SHORT else f"${tex}$"
+
+
+def _blocks(equations: Sequence[Equation]) -> str:
+    """Equations of a record as displays, which a page may part: short ones below one another, one
+    that is too wide in several lines."""
+    found: list[str] = []
+    for wide, run in groupby(equations, lambda e: measure(plain(_sides(e).tex)) > WIDTH):
+        alike = [*run]
+        found += [_lines(_sides(e)) for e in alike] if wide else [aligned(alike, ())]
+    return "\\]\n\\[".join(found)
+
+
+def _sides(e: Equation) -> typeset.Formula:
+    return of_tree(e.lhs) + literal(" = ") + of_tree(e.rhs)
+
+
 LATEX = Medium(
     tex_text,
     r"\emph{{{}}}",
     r"\ref{{{label}}}",
-    lambda x: f"${typeset.plain(x.tex)}$",
+    _inline,
     _lines,
     lambda x: tikz(x, colours=frozenset(AXES)),
-    lambda equations: aligned(equations, ()),
+    _blocks,
 )
 
 
 def _one_by_one(equations: Sequence[Equation]) -> str:
     """Equations of a record as displays of a page, one below the other."""
-    sides = (of_tree(e.lhs) + literal(" = ") + of_tree(e.rhs) for e in equations)
-    return "\n".join(map(PAGE.display, sides))
+    return "\n".join(map(PAGE.display, map(_sides, equations)))
 
 
 PAGE = Medium(
@@ -166,6 +197,7 @@ def latex(lecture: Lecture) -> str:
 def page(lecture: Lecture) -> str:
     """The lecture as a page of HTML by itself, its formulas in MathML."""
     text = environment("html").get_template("lecture.html.jinja").render(**_whole(lecture, PAGE))
+    text = CAPITAL.sub(r'<mi mathvariant="normal">\1</mi>', text)  # as LaTeX has them
     return CLOSED.sub(r'<span class="close">\1\2</span>', text)
 
 
@@ -176,7 +208,7 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
     labels = {b.label: numbers[id(b)] for c in chapters for b in c.blocks if id(b) in numbers}
     figures = {**FIGURES, **{label: y for c in chapters for label, y in c.figures.items()}}
     setter = _Setter(language, medium, labels | NUMBERS, claims_of(chapters), figures)
-    listed = letters(chapters, x.records, language)
+    listed, placed = letters(chapters, x.records, language), partial(_placed, language)
     table = [setter.letter(letter, k) for k, letter in enumerate(listed)]
     return {
         "language": language.name,
@@ -187,8 +219,16 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
         "solutions": x.solutions,
         "chapters": [setter.chapter(c, numbers) for c in chapters],
         "letters": table,
-        "works": [(work[0].lower(), *map(medium.text, work[1:])) for work in WORKS],
+        "homes": homes(chapters, x.records),
+        "works": [
+            (key.lower(), *map(medium.text, (*by, placed(where)))) for key, *by, where in WORKS
+        ],
     }
+
+
+def _placed(language: Language, where: str) -> str:
+    """Where a work is to be found, its edition in the language."""
+    return ", ".join(map(language.word, where.split(", ")))
 
 
 def _word(language: Language, escape: Callable[[str], str], message: str) -> str:
@@ -299,7 +339,8 @@ class _Setter:
         """Words with their emphasis and their numbers of blocks; spaces at their ends stay."""
         found, at = [], 0
         for mark in MARKED.finditer(words):
-            found.append(self.spaced(words[at : mark.start()]))
+            before = words[at : mark.start()]
+            found.append(self.spaced(TIED.sub(NO_BREAK[0], before) if mark[2] else before))
             if mark[1]:
                 found.append(self.medium.emphasis.format(self.medium.text(mark[1])))
             else:
@@ -310,7 +351,8 @@ class _Setter:
 
     def spaced(self, words: str) -> str:
         """Words in the medium, with the spaces before and after."""
-        words = typeset_french(words) if self.language.name == "fr" else words
+        if self.language.name == "fr":
+            words = LISTED.sub(NO_BREAK[0], typeset_french(words))
         inside = words.strip(" ")
         before, _, after = words.partition(inside) if inside else (words[:1], "", "")
         return f"{before}{self.medium.text(inside)}{after}"
@@ -333,8 +375,12 @@ def formula_of_value(value: str) -> typeset.Formula:
     return literal(f" {SYMBOLS.get(sign, sign)} ") + _side(text) if value else literal("")
 
 
+LETTERS = NAMES | {"free rho": r"\rho"}
+"""Name → LaTeX; in the walks of the text ρ means nothing else: it is free for a parameter."""
+
+
 def _side(text: str) -> typeset.Formula:
     try:
-        return of_tree(tree_of(text))
+        return of_tree(tree_of(text), LETTERS)
     except FormulaError:
         return spelt(text)

@@ -149,9 +149,9 @@ def _told(x: Any, words: Language) -> str:
 
 
 def _turned(claims: Claims, known: Mapping[Tree, Tree]) -> float:
-    """When a body has first turned over half, from ζ₁ = ε ω, ζ₂ = ω, ζ₃ = 0."""
+    """When a body has first turned over half, from ζ₁ = ε ζ₂, ζ₃ = 0."""
     first, second, third = (float(value(tree(f"λ{k}"), known)) for k in "₁₂₃")
-    speed, tilt = (float(value(tree(x), known)) for x in "ωε")
+    speed, tilt = (float(value(tree(x), known)) for x in ("ζ₂", "ε"))
     return turned(claims, (first, second, third), (tilt * speed, speed, 0.0))
 
 

@@ -3,18 +3,21 @@ of motion, what the motion keeps, its reduction, its steady motions, a motion.""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import groupby
 
 from ..language.show import show
+from ..language.tree import names
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Sentence
 from ..views.answer import definitions, equations_of_motion, steps_of_answer
 from ..views.language import LANGUAGES, Language, language
 from ..views.outline import system, title
 from ..views.printing.sentences import prose
+from ..views.text import formula as aligned
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Tie, Words, words_of
 from .ran_figure import DESCRIBED, Ran, label_of
 
@@ -42,6 +45,19 @@ NONE = dict.fromkeys(
     ("equilibria", "families"), "None was found among the points with one momentum that were tried."
 )
 """Search → what is said where it found nothing and there may be more."""
+
+
+REASONS = (
+    "the Lagrangian couples {velocities} velocities by terms with {letters} letters in all: the "
+    "inverse of its metric is too long; give numbers, or --at-defaults",
+    "there is no symmetry of L but of the time",
+    "its symmetries move the time as well",
+    "its symmetries leave L alone only up to dF, or depend on the time",
+    "what acts depends on the time: nothing is steady",
+)
+"""Why a search is refused, with places, where the text says it in its language."""
+LONGEST = 6
+"""The most lines of an equation that is shown."""
 
 
 @dataclass(frozen=True)
@@ -127,7 +143,9 @@ def _told(problem: str, search: str, found: Found) -> Block:
     """The steps that a search tells, or one sentence: why it was refused, or that it found none."""
     if found.refused:
         reason = found.refused.removeprefix(f"{problem}: ")
-        refused = _sentence(lambda x: x.word("This was not found: {reason}.", reason=reason))
+        refused = _sentence(
+            lambda x: x.word("This was not found: {reason}.", reason=_reason(reason, x))
+        )
         return Block("text", "", "", (refused,), 0)
     entries: list[Entry] = []
     for step in found.steps:
@@ -137,7 +155,7 @@ def _told(problem: str, search: str, found: Found) -> Block:
                 labels = () if with_equations else (step.label,)
                 entries.append(_sentence(partial(_prose, step), labels))
                 if with_equations:
-                    entries.append(_display(step.equations, (step.label,)))
+                    entries += _displays(step)
     if not entries:
         entries = [_sentence(lambda x: x.word(NONE.get(search, "There is none.")))]
     return Block("text", "", "", tuple(entries), 0)
@@ -155,6 +173,37 @@ def _pictured(problem: str, ran: Ran | Sentence) -> Iterator[Block]:
     yield Block("text", "", "", (Entry(texts, (), display=False, line=0),), 0)
     described = _sentence(lambda x: x.word(DESCRIBED))
     yield Block("figure", label, "", (described, _sentence(ran.caption)), 0)
+
+
+def _displays(step: Step) -> Iterator[Entry]:
+    """What a step says, of a conservation what is kept alone; of what is too long, where it is."""
+    kept = [e for e in step.equations if e.rhs != 0 and {"ϖ", "dϖ"} & {*names(e.lhs)}]
+    told = kept if kept and step.label.rpartition(".")[2].startswith("conserved_") else None
+    for long, run in groupby(told or step.equations, lambda e: _rows(e) > LONGEST):
+        if not long:
+            yield _display((*run,), (step.label,))
+        else:
+            yield _sentence(partial(_left_out, [*run]), (step.label,))
+
+
+def _rows(e: Equation) -> int:
+    """Over how many lines an equation is set."""
+    return aligned([e], ()).count("\\\\\n") + 1
+
+
+def _left_out(equations: Sequence[Equation], words: Language) -> str:
+    what, rows = ", ".join(show(e.lhs) for e in equations), sum(map(_rows, equations))
+    message = "The step beside this has {what} in full; that takes {rows} lines."
+    return words.word(message, what=what, rows=str(rows))
+
+
+def _reason(told: str, words: Language) -> str:
+    """Why a search was refused, in a language, where ``REASONS`` has it."""
+    for reason in REASONS:
+        pattern = re.sub(r"\\{(\w+)\\}", r"(?P<\1>.+)", re.escape(reason))
+        if match := re.fullmatch(pattern, told):
+            return words.word(reason, **match.groupdict())
+    return told
 
 
 def _prose(step: Step, words: Language) -> str:

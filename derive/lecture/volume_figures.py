@@ -89,20 +89,26 @@ def tetrahedron(claims: Claims) -> Scene:
 
 
 def _placed(A: Any, t: float) -> Scene:
-    """The points at a time, and what joins them; the edges to the farthest are pale."""
+    """The points at a time, and what joins them; an edge is pale behind the two faces at it."""
     view = View((12.5, 17.5), 11.0, 25, 18)
     moved = [tuple(map(float, A @ r)) for r in PLACES]
-    far = min(range(4), key=lambda i: view.depth(moved[i]))
-    strokes = [
-        Stroke(
-            (view.at(moved[i]), view.at(moved[j])), AXES[0], "hidden" if far in (i, j) else "line"
-        )
-        for i, j in combinations(range(4), 2)
-    ]
+    eye = np.array([view.depth(x) for x in np.eye(3).tolist()])
+    strokes = []
+    for i, j in combinations(range(4), 2):
+        ahead = any(_faces(eye, np.array(moved), k) for k in range(4) if k not in (i, j))
+        ends = (view.at(moved[i]), view.at(moved[j]))
+        strokes.append(Stroke(ends, AXES[0], "line" if ahead else "hidden"))
     dots = [
         Dot(view.at(r), 0.55 * m ** (1 / 3), "body") for m, r in zip(MASSES, moved, strict=True)
     ]
     return panel((25, 36), strokes, [Label(f"t = {t:g}", at=(12.5, 2.0))], dots)
+
+
+def _faces(eye: Any, corners: Any, k: int) -> bool:
+    """Is the face of a tetrahedron that is opposite to a corner turned to the eye?"""
+    a, b, c = (corners[i] for i in range(4) if i != k)
+    normal = np.cross(b - a, c - a)
+    return bool(normal @ eye * (normal @ (corners[k] - a)) < 0)
 
 
 def _multiplier(curve: list[tuple[float, float]]) -> Scene:

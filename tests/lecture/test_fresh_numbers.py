@@ -71,7 +71,7 @@ def test_the_flip(exercises):
     given, (sigma, time, half) = exercises["flip"]
     moments = np.array([given[f"λ{k}"] for k in "₁₂₃"])
     assert moments[2] < moments[0] + moments[1]  # some body has them
-    w, tilt = given["ω"], given["ε"]
+    w, tilt = given["ζ₂"], given["ε"]
 
     def rate(_, z):
         return np.cross(moments * z, z) / moments
@@ -160,7 +160,7 @@ def test_steps_of_time(exercises):
     assert np.allclose(W @ after @ W.T, before)
     assert not np.allclose(W @ wrong @ W.T, before)
     given, (there,) = exercises["point_in_steps"]
-    step = (there - 2 * given["x₁"] + given["x₀"]) / given["h"] ** 2
+    step = (there - 2 * given["y₁"] + given["y₀"]) / given["h"] ** 2
     assert np.allclose(given["m"] * step, given["F"])
 
 

@@ -1,6 +1,7 @@
 """The lecture: every tie is a step, every equation holds, and none that is changed."""
 
 import re
+import shlex
 import subprocess
 import unicodedata
 from dataclasses import replace
@@ -10,11 +11,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from derive.command.cli import main
+from derive.command.arguments import parser
+from derive.command.cli import COMMANDS, main
 from derive.command.lecturing import named_by, records_of
+from derive.command.showing import load_problem
 from derive.language.show import show
 from derive.lecture import document, figures
-from derive.lecture.back_matter import NUMBERS, WORKS, letters
+from derive.lecture.back_matter import NUMBERS, OWN, WORKS, homes, letters
 from derive.lecture.lecture_text import PROVED, Formula, LectureError, chapters, parsed
 from derive.lecture.trials import tied, tried
 from derive.views.language import LANGUAGES, language
@@ -112,6 +115,48 @@ HEAD = "chapter c\n  A chapter\n  Un chapitre\nrecords so3\n\n"
 def test_a_text_that_is_none_is_refused_with_its_line(text, wrong):
     with pytest.raises(LectureError, match=re.escape(wrong)):
         parsed(text, "c.txt")
+
+
+COMMAND = re.compile("_(derive [^_]+ [^_]+)_")
+
+
+@pytest.mark.parametrize("at", range(len(LANGUAGES)), ids=LANGUAGES)
+def test_every_command_that_the_text_tells_is_one(at):
+    """The command line's own parser takes it; its problem is there."""
+    texts = (x for c in CHAPTERS for e in c.entries for x in e.texts[at] if isinstance(x, str))
+    told = [x for text in texts for x in COMMAND.findall(text)]
+    assert len(told) > 3
+    for command in told:
+        args = parser(COMMANDS, None).parse_args(shlex.split(command)[1:])
+        assert load_problem(one_of(args)).name == command.split()[2]
+
+
+def test_where_the_steps_of_the_margins_are(records, capsys):
+    """Each command is one, and prints steps of the label; every label has its command."""
+    found = homes(CHAPTERS, records)
+    assert {*found} == {x.partition(".")[0] for c in CHAPTERS for e in c.entries for x in e.labels}
+    for command in (x for commands in found.values() for x in commands):
+        args = parser(COMMANDS, None).parse_args(command.split()[1:])
+        assert load_problem(one_of(args)).name == command.split()[2]
+    for begins in ("free", "steps", "left"):
+        (command,) = found[begins]
+        assert main(command.split()[1:]) == 0
+        assert f"\n{begins}." in capsys.readouterr().out
+
+
+def one_of(args):
+    """The only problem of a command."""
+    return args.problem if isinstance(args.problem, str) else args.problem[0]
+
+
+def test_a_label_is_of_one_step(records):
+    """No label of the margins is that of two steps that say different things."""
+    said = {}
+    for chapter in CHAPTERS:
+        for record in named_by(chapter, records).values():
+            for step in (s for s in record.steps if s.label.partition(".")[0] == record.name):
+                said.setdefault(step.label, set()).add(step.rule)
+    assert [x for x, rules in said.items() if len(rules) > 1] == []
 
 
 def test_a_number_of_the_note_is_that_of_a_step(records):
@@ -215,9 +260,12 @@ def test_the_table_of_symbols_is_of_letters_that_stand_where_it_says(records):
         plain = str.maketrans("₀₁₂₃", "0123")
         for x in table:
             stands = " ".join(y.text for y in x.entry.formulas).translate(plain)
-            assert unicodedata.normalize("NFC", x.name.replace("_", "")) in unicodedata.normalize(
+            name = x.name.replace("_", "").translate(plain)
+            assert unicodedata.normalize("NFC", name) in unicodedata.normalize(
                 "NFC", stands.replace("_", "")
             )
+        listed = {(CHAPTERS[x.chapter - 1].name, x.name) for x in table}
+        assert {*OWN} - listed == {("any_group", "Π")}  # which means the same as before
         latin = [x.name for x in table if x.name.isascii() and len(x.name) == 1]
         assert latin == sorted(latin, key=str.casefold)
 

@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 from derive.command.lecturing import records_of
 from derive.lecture import document, figures, rolling_figure, top_figures, volume_figures
 from derive.lecture.lecture_text import LectureError, chapters, parsed
+from derive.lecture.sheets import View
 from derive.problem.toml import problem_of
 from derive.views.language import LANGUAGES, language
 from tests.support.library import module_of
@@ -154,6 +155,24 @@ def test_four_points_move_as_the_emitted_code_says():
     assert np.allclose(found, run.y[:9].T, rtol=0, atol=1e-6)
     assert np.allclose([np.linalg.det(A) for _, A, _ in motion], 1, rtol=0, atol=1e-8)
     assert min(y for *_, y in motion) > 0
+
+
+def test_an_edge_of_the_tetrahedron_is_pale_where_a_point_just_before_it_is_inside():
+    """A point of an edge is hidden if the way from it to the eye goes through the inside."""
+    points = volume_figures.PLACES
+    for A in (np.eye(3), np.diag([3, 1, 1 / 3]), np.array([[1, 2, 0], [0, 1, 0], [1, 0, 1]])):
+        scene = volume_figures._placed(A, 0.0)
+        view = View((12.5, 17.5), 11.0, 25, 18)
+        eye = np.array([view.depth(x) for x in np.eye(3)])
+        moved = points @ A.T
+        pens = []
+        for i in range(4):
+            for j in range(i + 1, 4):
+                near = (moved[i] + moved[j]) / 2 + 1e-6 * eye
+                weights = np.linalg.solve(np.vstack([moved.T, np.ones(4)]), [*near, 1])
+                pens.append("hidden" if min(weights) > 0 else "line")
+        assert [s.pen for s in scene.strokes] == pens
+        assert pens.count("hidden") in (0, 1, 3)
 
 
 def test_an_ellipse_of_fluid_keeps_its_area():

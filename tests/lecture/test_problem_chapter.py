@@ -9,9 +9,18 @@ import pytest
 
 from derive.command.cli import main
 from derive.command.lecturing import chapter_on
+from derive.language.show import show
 from derive.lecture import document
 from derive.lecture.lecture_text import LectureError
-from derive.lecture.problem_chapter import SEARCHES, Found, chapter_of
+from derive.lecture.problem_chapter import (
+    LONGEST,
+    REASONS,
+    SEARCHES,
+    Found,
+    _reason,
+    _rows,
+    chapter_of,
+)
 from derive.lecture.trials import tied, tried
 from derive.record.record import Equation
 from derive.views.answer import equations_of_motion
@@ -75,6 +84,24 @@ def test_a_search_that_is_refused_says_why():
     ]
     assert refused
     assert 0 < page.count("This was not found:") <= len(refused)  # one for one reason
+
+
+def test_of_what_is_kept_the_value_alone_is_shown_and_nothing_too_long(made):
+    _, chapter, _ = made
+    shown = [(e.labels[0], x) for e in chapter.entries if e.display for x in e.equations]
+    told = [x for label, x in shown if ".conserved_" in label]
+    assert all(show(x.lhs).startswith(("ϖ(δy)", "dϖ(δy, δ′y)")) and x.rhs != 0 for x in told)
+    assert all(_rows(x) <= LONGEST for label, x in shown if "motion" not in label)
+
+
+@pytest.mark.parametrize("reason", REASONS)
+def test_a_reason_is_told_in_french_with_its_numbers(reason):
+    told = reason.format(velocities=6, letters=27)
+    assert _reason(told, language("en")) == told
+    french = _reason(told, language("fr"))
+    assert french != told
+    assert re.findall("[0-9]+", french) == re.findall("[0-9]+", told)
+    assert _reason("no reason of these", language("fr")) == "no reason of these"
 
 
 def test_searches_refused_for_one_reason_stand_together(made):

@@ -92,7 +92,7 @@ TEXT_ACCENTS = {
 }  # fmt: skip
 TEXT = {
     "½": r"\textonehalf{}", "¼": r"\textonequarter{}", "¾": r"\textthreequarters{}",
-    "⅓": "1/3", "⅔": "2/3", "µ": r"\ensuremath{\mu}",
+    "⅓": "1/3", "⅔": "2/3", "ᵉ": r"\textsuperscript{e}", "µ": r"\ensuremath{\mu}",
     "⋅": r"\ensuremath{\cdot}", "∑": r"\ensuremath{\sum}",
     "∆": r"\ensuremath{\Delta}", "ħ": r"\ensuremath{\hbar}", "⊥": r"\ensuremath{\perp}",
     "⋉": r"\ensuremath{\ltimes}", "⊗": r"\ensuremath{\otimes}",
