@@ -50,9 +50,9 @@ NONE = dict.fromkeys(
 REASONS = (
     "the Lagrangian couples {velocities} velocities by terms with {letters} letters in all: the "
     "inverse of its metric is too long; give numbers, or --at-defaults",
-    "there is no symmetry of L but of the time",
-    "its symmetries move the time as well",
-    "its symmetries leave L alone only up to dF, or depend on the time",
+    "there is no symmetry of L but of the time, so that nothing is reduced",
+    "its symmetries move the time as well, so that nothing is reduced",
+    "its symmetries leave L alone only up to dF, or depend on the time, so that nothing is reduced",
     "what acts depends on the time: nothing is steady",
 )
 """Why a search is refused, with places, where the text says it in its language."""

@@ -138,7 +138,7 @@ def test_where_the_steps_of_the_margins_are(records, capsys):
     for command in (x for commands in found.values() for x in commands):
         args = parser(COMMANDS, None).parse_args(command.split()[1:])
         assert load_problem(one_of(args)).name == command.split()[2]
-    for begins in ("free", "steps", "left"):
+    for begins in ("free", "steps"):
         (command,) = found[begins]
         assert main(command.split()[1:]) == 0
         assert f"\n{begins}." in capsys.readouterr().out
