@@ -9,12 +9,12 @@ from types import ModuleType
 from ..code.naming import own_prefix
 from ..code.options import Options
 from ..code.program import Program
-from ..compare.comparison import STATES, comparison, reports
+from ..compare.comparison import MOST, STATES, comparison, reports
 from ..motion.emitted import python_of
 from ..pipeline import walk
 from ..problem.problem import Problem
 from ..programs import program
-from .showing import doubted
+from .showing import UsageError, doubted
 from .terminal import working
 from .writing import one_line
 
@@ -30,7 +30,9 @@ def command_compare(args: argparse.Namespace) -> int:
     """Hold a right-hand side of your own, in C or Python, against that of a problem."""
     problem = doubted(args.problem)
     table = None if args.table is None else Path(args.table)
-    states = STATES if args.states is None else max(1, args.states)
+    states = STATES if args.states is None else args.states
+    if not 1 <= states <= MOST:
+        raise UsageError(f"--states {states}: from 1 to {MOST}")
     seed = args.seed or 0
     with working(args.problem):
         held = comparison(problem, made, Path(args.file), args.function, table, seed, states)

@@ -24,7 +24,10 @@ from .users_code import Array, Call, CompareError, values
 
 AGREES = 1e-9
 """The largest difference, relative to the size of the numbers, of what agrees."""
-STATES = 24
+STATES, MOST = 24, 10_000
+"""At so many states, unless others are asked for; and the most."""
+SHOWN = 6
+"""So many changes are told at most."""
 
 
 @dataclass
@@ -43,7 +46,11 @@ class Comparison:
     @property
     def k(self) -> Array:
         """The constants of our code."""
-        found: Array = self.code.constants([self.parameters[x] for x in self.code.PARAMETERS])
+        try:
+            found: Array = self.code.constants([self.parameters[x] for x in self.code.PARAMETERS])
+        except ValueError as error:
+            given = ", ".join(f"{x} = {self.parameters[x]:.6g}" for x in self.table.parameters)
+            raise CompareError(f"no body has these parameters ({given}): {error}") from None
         return found
 
     @property
@@ -193,7 +200,9 @@ def reports(c: Comparison, make: Made) -> tuple[bool, list[str]]:
         return False, lines
     found = _explained(c, make, off, d)
     link = "and" if found.together else "or"
-    lines += [f"  {f'{link}: ' if i else ''}{x}" for i, x in enumerate(found.changes[:6])]
+    lines += [f"  {f'{link}: ' if i else ''}{x}" for i, x in enumerate(found.changes[:SHOWN])]
+    if more := len(found.changes) - SHOWN if found.together else 0:
+        lines += [f"  and: {more} more, without which these do not explain it"] * (more > 0)
     if not found.told_apart:
         lines.append("  these are not told apart by the numbers")
     if not found.changes:

@@ -92,6 +92,12 @@ def transposed(a: Sequence[Sequence[Any]]) -> Matrix:
     return tuple(zip(*a, strict=True))
 
 
+def symmetrised(a: Matrix) -> Matrix:
+    """A symmetric matrix whose entries below the diagonal are those above it, also as they are
+    written."""
+    return tuple(tuple(a[min(i, j)][max(i, j)] for j in range(len(row))) for i, row in enumerate(a))
+
+
 def times(a: Sequence[Sequence[Any]], b: Sequence[Sequence[Any]]) -> Matrix:
     """The product a b of matrices; numbers that have a way of their own to it, a static method
     ``product`` of rows and columns, are asked for it."""

@@ -33,7 +33,7 @@ class Front:
 
 UNTITLED = Front()
 NOTE, AUDIN, NOTES = REFERENCES
-SECOND = "2nd ed."
+SECOND = "second ed."
 WORKS = (
     ON_FLUIDS[0],
     AUDIN,

@@ -42,7 +42,8 @@ TOLD = {
 equations; the record has all."""
 
 NONE = dict.fromkeys(
-    ("equilibria", "families"), "None was found among the points with one momentum that were tried."
+    ("equilibria", "families"),
+    "Only points with one momentum were tried, and none was found; there may be others.",
 )
 """Search → what is said where it found nothing and there may be more."""
 

@@ -252,7 +252,7 @@ def read(given: str | Path | Mapping[str, Any], *, linear: bool = False) -> tupl
         return Signals.of(columns, "inputs", linear=linear), "inputs"
     where = str(given)
     try:
-        with Path(given).open(newline="", encoding="utf-8") as file:
+        with Path(given).open(newline="", encoding="utf-8-sig") as file:
             rows = [x for x in csv.reader(file) if x and not x[0].startswith("#")]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise MotionError(f"{where}: cannot be read: {error}") from None

@@ -24,7 +24,7 @@ from ..schema.table_reader import NAME
 from .entries_on_orbit import with_constant_entries
 from .fields import is_entry, known_in_lagrangian, meant, state_names
 from .force_reader import ForceReader, Vector
-from .moments import SolidError, first_moment, given_by, second_moment
+from .moments import SolidError, first_moment, given_by, require_symmetric, second_moment
 from .problem import ProblemError, points_of
 from .rotations import rotation, turn_in
 from .solids import fault_of_quadric, product_of
@@ -268,11 +268,12 @@ class FileReader(ForceReader):
             rows: Rows = ((half, 0), (0, half))
         else:
             rows = self.rows(slot.table[name], n, n, f"{where}, {name}")
+            require_symmetric(rows, f"{where}, {name}")
         turn, said = turn_in(slot.table, where)
         if turn:
             R = self.turned(said, n, f"{where}, {turn}" if turn == "rotation" else where)
             try:
-                rows = product_of(product_of(R, rows), q.transposed(R))
+                rows = q.symmetrised(product_of(product_of(R, rows), q.transposed(R)))
             except SolidError as error:
                 raise ProblemError(f"{where}, {turn}: {error}") from None
         return second_moment(name, rows, slot.found["m"], slot.found["c"], where)
@@ -292,8 +293,7 @@ class FileReader(ForceReader):
         """A matrix of the size of the space."""
         n, value = self.space(slot), self.value(slot)
         found = self.rows(value, n, n, slot.path)
-        if any(found[i][j] != found[j][i] for i in range(n) for j in range(i)):
-            raise ProblemError(f"{slot.path}: the matrix must be symmetric")
+        require_symmetric(found, slot.path)
         return found
 
     def quadric(self, slot: Slot) -> Rows:

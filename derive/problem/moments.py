@@ -44,11 +44,14 @@ def first_moment(mass: Tree, centre: Row) -> Row:
 def second_moment(name: str, rows: Rows, mass: Tree, first: Row, where: str) -> Rows:
     """J, from itself or from a tensor of inertia, I or I_centre; in the plane ½ I 1 stands for
     I."""
-    span = range(len(rows))
-    if any(rows[i][j] != rows[j][i] for i in span for j in range(i)):
-        raise ProblemError(f"{where}, {name}: the matrix must be symmetric")
     J = rows if name == "J" or len(rows) == 2 else _from_inertia(rows)
     return _from_centre(J, mass, first, where) if name == "I_centre" else J
+
+
+def require_symmetric(rows: Rows, where: str) -> None:
+    """``ProblemError`` where a matrix is not equal to its transpose."""
+    if any(rows[i][j] != rows[j][i] for i in range(len(rows)) for j in range(i)):
+        raise ProblemError(f"{where}: the matrix must be symmetric")
 
 
 def _from_inertia(tensor: Rows) -> Rows:

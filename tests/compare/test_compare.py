@@ -187,6 +187,7 @@ TABLES = {
     "arguments are t, x, k, u, p, dx": 'call = "f(y)"',
     "expected thrust, side in an order": 'inputs = ["thrust"]',
     "parameters: 'M' means nothing": "[parameters]\nM = 1",
+    "no body has these parameters (m = -1)": "[parameters]\nm = -1",
 }
 
 

@@ -120,7 +120,7 @@ def test_that_others_turn_as_well_is_refused():
     [
         (["A_11"], "turns from there, as eta_1, are found"),
         (["eta_9"], "did you mean 'eta_3'"),
-        (["eta_1", "f"], "no trim is found: .* for g, or free others"),
+        (["eta_1", "f"], "no trim is found: .* for f, g, or free others"),
     ],
 )
 def test_what_is_not_found_is_said(free, message):

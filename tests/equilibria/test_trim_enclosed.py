@@ -181,3 +181,44 @@ def test_what_turns_g_tells_its_entries():
     prose = tuple(x for x in step.prose if x.message != message("trim.near_turned"))
     silent = replace(step, claims=left, prose=prose)
     assert "the entries of g are not told" in ClaimChecker(found.record, SEED).fault(silent)
+
+
+# -- where it begins to look ----------------------------------------------------------------------
+
+ROTOR = {
+    "name": "rotor",
+    "group": "SE(2)",
+    "body": {"given": {"m": 2, "centre": [0, 0], "I": 1}},
+    "potential": [{"kind": "gravity", "g": [0, -10]}],
+    "input": [{"name": "n", "kind": "scalar"}],
+    "force": [{"at": [0, 0], "frame": "body", "force": [0, "n^2/20"]}],
+}
+"""A thrust n²/20 carries 20 where n is 20 or −20."""
+
+
+def test_an_input_whose_square_acts_is_found_on_either_side():
+    made = derive(problem_of(ROTOR))
+    with pytest.raises(ProblemError, match=r"several trims: n = 20; n = -20; say near which"):
+        made.trim()
+    for near, wanted in ((15, 20), (-15, -20)):
+        found = made.trim({"n": near}, ["n"])
+        assert is_near(found, "n", wanted)
+        assert holds(found)
+
+
+def test_numbers_at_which_rates_only_tend_to_0_are_no_trim():
+    """v₁² and v₁v₂ + 10 vanish together nowhere: small where v₁ tends to 0 and v₂ grows."""
+    falling = {
+        "name": "falling",
+        "group": "R(2)",
+        "point": [{"mass": 1, "at": [0, 0]}],
+        "potential": [{"kind": "gravity", "g": [0, -10]}],
+        "force": [{"at": [0, 0], "force": ["-v_1^2", "-v_1*v_2"]}],
+    }
+    with pytest.raises(ProblemError, match="no trim is found"):
+        derive(problem_of(falling)).trim({}, ["zeta_1", "zeta_2"])
+
+
+def test_what_is_free_is_named_once():
+    with pytest.raises(ProblemError, match="--free u: named more than once"):
+        derive(problem_of(PENDULUM)).trim(TURNED, ["u", "u"])

@@ -33,7 +33,7 @@ from .reduced_system import ClaimedRecord
 SIZE, BOUNDED_SIZE, TRIED, LARGEST = 2**16, 4, 3, 16
 """Numbers are drawn up to a size, smaller ones where their differences are within bounds; so many
 elements are tried; so many numbers are told at most."""
-REFINED, DIGITS = 4, 2**128
+DRAWN, REFINED, DIGITS = 20, 4, 2**128
 POINTS = ("trim.near_rest", "trim.near_steady")
 VERDICTS = {
     "negative": "trim.near_stable",
@@ -63,13 +63,17 @@ class EnclosedState:
         given = c.record.problem.get("parameters", {})
         numbers = {name: Fraction(str(data["default"])) for name, data in given.items()}
 
-        def model(*, bounded: bool) -> AnyModel:
-            at = Locus(driven=True)
+        def model(size: int, *, bounded: bool) -> AnyModel:
             chosen = {"given": numbers, "bounded": bounded}
-            size = BOUNDED_SIZE if bounded else SIZE
-            return model_at(c.record.problem, c.group, c.random, size, at, **chosen)
+            at = Locus(driven=True)
+            for _ in range(DRAWN):
+                # points that are drawn may leave no mass for the others
+                with suppress(ZeroDivisionError):
+                    return model_at(c.record.problem, c.group, c.random, size, at, **chosen)
+            raise RecordError("no points have these moments")
 
-        self.bounded, self.free = model(bounded=True), model(bounded=False)
+        self.bounded = model(BOUNDED_SIZE, bounded=True)
+        self.free = model(SIZE, bounded=False)
 
     def at(self, model: AnyModel, y: Numbers, t: Any = None) -> AnyModel:
         """The model where the numbers that are near have these values."""

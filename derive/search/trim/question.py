@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
@@ -51,21 +52,22 @@ class Question:
         wanted = free or [x for x in program.inputs if x not in at]
         self.free = tuple(x for x in wanted if x in program.inputs)
         self.sought = tuple(x for x in wanted if x not in program.inputs)
-        if given := [x for x in self.free if x in at]:
-            raise NoTrimError(f"{given[0]} is given by --at, and free: leave out one")
+        if twice := [x for x, n in Counter(wanted).items() if n > 1]:
+            raise NoTrimError(f"--free {twice[0]}: named more than once")
         if fixed := [x for x in self.sought if x not in (*velocity, *self.turns)]:
             raise NoTrimError(
                 f"--free {fixed[0]}: of g, which --at gives, as A_11=4/5 with all that change so; "
                 "inputs, velocities and turns from there, as eta_1, are found"
             )
         self.velocities = [x for x in self.sought if x in velocity]
-        self.near = [float(at[x]) for x in self.velocities if x in at]
-        if 0 < len(self.near) < len(self.velocities):
+        self.near = {x: float(at[x]) for x in (*self.velocities, *self.free) if x in at}
+        if 0 < sum(x in at for x in self.velocities) < len(self.velocities):
             raise NoTrimError("--at gives some of the velocities that are free: give all or none")
         one = q.identity(self.group.size)
         start = {x: one[i][j] for x, (i, j) in self.places.items()}
         self.x: list[Number] = [at.get(n, start.get(n, Fraction(0))) for n in program.state]
-        self.u: list[Number] = [at.get(n, Fraction(0)) for n in program.inputs]
+        held = {n: y for n, y in at.items() if n not in self.free}
+        self.u: list[Number] = [held.get(n, Fraction(0)) for n in program.inputs]
 
     @cached_property
     def k(self) -> list[Any]:
@@ -98,7 +100,8 @@ class Question:
         """ζ̇ as a function of the velocities, turns of g and inputs that are free."""
         turns = [x for x in self.sought if x in self.turns]
         names = (*self.velocities, *turns, *self.free)
-        return Rates(names, len(self.velocities), self._free_rates, self._free_slopes)
+        sizes = len(self.velocities), len(turns)
+        return Rates(names, *sizes, self._free_rates, self._free_slopes)
 
     def at(self, y: Sequence[Any]) -> tuple[list[Any], list[Any]]:
         """The state and the inputs with these velocities, turns of g and inputs in them."""

@@ -8,7 +8,7 @@ exact numbers in.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
@@ -26,8 +26,10 @@ STEPS, LAST = 60, 5
 STARTS = (1.0, 10.0)
 """The sizes of velocities from which it begins, with all signs where these are few."""
 SIGNED = 4
-SAME, SMALL = 1e-6, 1e-10
-"""Two solutions so near are one; a step of this part of a number is none."""
+INPUTS = (1.0, -1.0, 10.0)
+"""Those of inputs, where from 0 nothing is found, as their squares act."""
+SAME, SMALL, ROUNDING = 1e-6, 1e-10, 1e-12
+"""Two solutions so near are one; a step of this part of a number is none; sums are so exact."""
 LARGEST = 10**15
 """Of fractions and coefficients."""
 
@@ -47,12 +49,13 @@ class NoTrimError(Refused, ValueError):
 
 @dataclass(frozen=True)
 class Rates:
-    """Functions of what is unknown, ``names``, first the ``velocities``, then what begins at 0,
-    turns of g and inputs: ``values(y, numbers)``, all 0 where it is found, and ``slopes(y,
+    """Functions of what is unknown, ``names``, first the ``velocities``, then the ``turns`` of g,
+    which begin at 0, then inputs: ``values(y, numbers)``, all 0 where it is found, and ``slopes(y,
     numbers)``, a row of derivatives for each of them."""
 
     names: tuple[str, ...]
     velocities: int
+    turns: int
     values: Callable[[Sequence[Any], Arithmetic], list[Any]]
     slopes: Callable[[Sequence[Any], Arithmetic], list[list[Any]]]
 
@@ -61,32 +64,28 @@ class NotExactError(NoTrimError):
     """There are no exact numbers for it, or it is not known which."""
 
 
-def solutions(f: Rates, near: Sequence[float]) -> list[Fraction]:
+def solutions(f: Rates, near: Mapping[str, float]) -> list[Fraction]:
     """The one solution, as :func:`approximately` has it, to many digits."""
     return _in_fractions(f, approximately(f, near))
 
 
-def approximately(f: Rates, near: Sequence[float]) -> list[float]:
-    """The one solution ``near`` these velocities, or that to which some starts lead;
-    ``NoTrimError`` for none or several."""
-    m = f.velocities
-    signs = product((1.0, -1.0), repeat=m) if m <= SIGNED else [(1.0,) * m, (-1.0,) * m]
-    starts = [list(near)] if near else [[a * x for x in s] for s in signs for a in STARTS]
-    found: list[list[float]] = []
-    for start in starts:
-        y = _newton(f, [*start, *[0.0] * (len(f.names) - m)])
-        if y and all(max(abs(a - b) for a, b in zip(x, y, strict=True)) > SAME for x in found):
-            found.append(y)
+def approximately(f: Rates, near: Mapping[str, float]) -> list[float]:
+    """The one solution ``near`` some numbers, or that to which some starts lead; ``NoTrimError``
+    for none or several."""
+    found = _reached(f, near, inputs=(0.0,)) or _reached(f, near, inputs=INPUTS)
     isolated = [y for y in found if _rank(f, y) == len(y)]
     if found and not isolated:
+        free = len(found[0]) - _rank(f, found[0])
         raise NoTrimError(
-            f"many trims: near {describe(f, found[0])} there are others; free fewer of these"
+            f"many trims: near {describe(f, found[0])} there are others, to the first order a "
+            f"family of dimension {free}; free {free} fewer of these"
         )
     if not found:
-        what = f"for {', '.join(f.names[:m])}" if m else "for g, or free others"
+        started = [*f.names[: f.velocities], *f.names[f.velocities + f.turns :]]
+        what = ", ".join([*started, *["g"] * bool(f.turns)])
         raise NoTrimError(
             "no trim is found: from no start does Newton's method lead to one; give numbers near "
-            f"it by --at {what}"
+            f"it by --at for {what}, or free others"
         )
     if len(isolated) > 1:
         several = "; ".join(describe(f, y) for y in isolated)
@@ -94,9 +93,32 @@ def approximately(f: Rates, near: Sequence[float]) -> list[float]:
     return isolated[0]
 
 
+def _reached(f: Rates, near: Mapping[str, float], inputs: Sequence[float]) -> list[list[float]]:
+    """Solutions, each once, from the numbers that are given, else from velocities of some sizes and
+    signs, and inputs of these values."""
+    own, m = f.names[: f.velocities], f.velocities
+    signs = product((1.0, -1.0), repeat=m) if m <= SIGNED else [(1.0,) * m, (-1.0,) * m]
+    starts = [[a * x for x in s] for s in signs for a in STARTS]
+    if all(x in near for x in own):
+        starts = [[near[x] for x in own]]
+    found: list[list[float]] = []
+    for start, value in product(starts, inputs):
+        others = f.names[m + f.turns :]
+        y = _newton(f, [*start, *[0.0] * f.turns, *(near.get(x, value) for x in others)])
+        if y and not any(_same(x, y) for x in found):
+            found.append(y)
+    return found
+
+
+def _same(x: Sequence[float], y: Sequence[float]) -> bool:
+    return max(abs(a - b) for a, b in zip(x, y, strict=True)) <= SAME * (1 + max(map(abs, y)))
+
+
 def describe(f: Rates, y: Sequence[float]) -> str:
-    """Numbers by their names."""
-    return ", ".join(f"{x} = {v:.6g}" for x, v in zip(f.names, y, strict=True))
+    """Numbers by their names; what is small beside the others is 0."""
+    size = max(map(abs, y), default=0.0)
+    pairs = zip(f.names, (0.0 if abs(v) <= ROUNDING * size else v for v in y), strict=True)
+    return ", ".join(f"{x} = {v:.6g}" for x, v in pairs)
 
 
 def _of_float(name: str, x: float) -> float:
@@ -124,9 +146,17 @@ def _newton(f: Rates, y: list[float]) -> list[float] | None:
         if not all(abs(x) < LARGEST for x in y):
             return None
         if max(abs(step)) <= SMALL * (1 + max(map(abs, y))):
-            left = max(abs(x) for x in f.values(y, FLOATS))
-            return y if left <= SAME * (1 + max(map(abs, y))) else None
+            return y if _vanishes(f, y) else None
     return None
+
+
+def _vanishes(f: Rates, y: Sequence[float]) -> bool:
+    """Are all rates 0 beside what the numbers make of them?  A step is also small where one of
+    these tends to 0 and another grows."""
+    pairs = [*zip(f.values(y, FLOATS), f.slopes(y, FLOATS), strict=True)]
+    sizes = [sum(abs(a * b) for a, b in zip(row, y, strict=True)) for _, row in pairs]
+    least = ROUNDING * max(1.0, *sizes)
+    return all(abs(x) <= SMALL * s + least for (x, _), s in zip(pairs, sizes, strict=True))
 
 
 def _rank(f: Rates, y: Sequence[float]) -> int:

@@ -1,0 +1,31 @@
+"""Moments in axes of their own: the tensor is R I R̄, whatever angles R has."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import derive
+from derive.problem.toml import problem_of
+
+TENSOR = [[0.5, 0.02, 0], [0.02, 0.6, 0], [0, 0, 0.8]]
+TURNS = {
+    "rpy": ({"rpy": [0.3, -0.2, 0.7]}, Rotation.from_euler("xyz", [0.3, -0.2, 0.7])),
+    "yaw alone": ({"rpy": [0, 0, 0.5]}, Rotation.from_euler("z", 0.5)),
+    "an axis": (
+        {"rotation": {"axis": [0, 0, 1], "angle": 0.5}},
+        Rotation.from_rotvec([0, 0, 0.5]),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", TURNS)
+def test_a_tensor_in_axes_that_are_turned(name):
+    said, R = TURNS[name]
+    given = {"m": 2, "centre": [0, 0, 0], "I_centre": TENSOR, **said}
+    problem = problem_of({"name": "b", "group": "SE(3)", "body": {"given": given}})
+    f = derive.compile(derive.derive(problem))
+    zeta = np.array([1.0, 2.0, 3.0])
+    x = np.concatenate([np.eye(3).ravel(), np.zeros(3), zeta, np.zeros(3)])
+    inertia = R.as_matrix() @ TENSOR @ R.as_matrix().T
+    wanted = np.linalg.solve(inertia, np.cross(inertia @ zeta, zeta))
+    assert np.allclose(f.rhs(0.0, x)[12:15], wanted, rtol=0, atol=1e-14)
