@@ -35,7 +35,8 @@ def test_a_sensor_where_gravity_is_shaken():
     d = derived(SHAKEN)
     assert d.check()
     (report,) = EmittedFiles(d.emit(languages=("python",)), "shaken", Chart()).reports(d.record)
-    assert report.holds and "outputs" in report.text
+    assert report.holds
+    assert "outputs" in report.text
     f = derive.compile(d)
     t, turned, rate = 0.7, 0.4, 1.3
     c, s = np.cos(turned), np.sin(turned)
