@@ -260,12 +260,6 @@ def _without_points(
         **motion_fields(data, reader),
     )
     _declared(problem, data)
-    if problem.driven and problem.lagrangian and problem.lagrangian.held:
-        raise ProblemError(
-            f"{'input' if inputs else 'force'} 1: L has symmetries without kinetic energy, and "
-            "what pushes along them has no motion to answer; add their kinetic energy, or leave "
-            f"the {'input' if inputs else 'force'} out"
-        )
     return problem
 
 
