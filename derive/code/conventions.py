@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import textwrap
-import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -14,9 +13,7 @@ from ..algebra.groups import Group
 from ..algebra.relations import Relations, relations
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.reserved import SPELT
 from ..language.show import show
-from ..language.tree import Tree
 from ..record.as_json import decode
 from .languages import TargetLanguage, comment
 from .options import Options
@@ -24,6 +21,7 @@ from .program import Program
 from .reader import RecordReader
 from .slots import order, still_slots
 from .state import StateSpace
+from .typed_names import law, plain_text
 
 
 def conventions(
@@ -33,7 +31,7 @@ def conventions(
     inputs: Sequence[Mapping[str, Any]] = problem.get("inputs", [])
     if "advected" in problem:
         return _reduced(problem, inputs)
-    places = _places(problem)
+    places = _places(problem, several=len(group.places) > 1)
     written = "column by column" if options.layout == "col" else "row by row"
     charts = factor_charts(group.in_user_basis, options.attitude)
     lines = _factors(group, written, charts)
@@ -65,7 +63,7 @@ def conventions(
     return (
         *lines,
         *driving,
-        *_acting(problem, places),
+        *_acting(problem, places, group),
         *read,
         *_lengths(problem),
         *framed,
@@ -118,7 +116,7 @@ def _reduced(problem: Mapping[str, Any], inputs: Iterable[Mapping[str, Any]]) ->
         else f"Input {x['name']}: a covector of the Lie algebra; its power is <{x['name']}, zeta>."
         for x in inputs
     )
-    return (*textwrap.wrap(text, 92), *driven, *_acting(problem, {}))
+    return (*textwrap.wrap(text, 92), *driven, *_acting(problem, {}, None))
 
 
 def _lengths(problem: Mapping[str, Any]) -> list[str]:
@@ -248,21 +246,15 @@ def _factors(group: Group, written: str, charts: Mapping[int, FactorChart]) -> l
     return lines
 
 
-def _places(problem: Mapping[str, Any]) -> dict[int, str]:
+def _places(problem: Mapping[str, Any], *, several: bool) -> dict[int, str]:
     """Number of a point without mass → " at (x, y, z)" in the body, where that is plain ASCII."""
     masses = len(problem.get("body", {}).get("points", []))
     found = {}
     for k, place in enumerate(problem.get("places", []), masses + 1):
-        at = ", ".join(_ascii(show(decode(x, "place"))) for x in place["at"])
+        at = ", ".join(plain_text(show(decode(x, "place"))) for x in place["at"])
         found[k] = f" at ({at})" if at.isascii() else ""
+        found[k] += f" of block {place['block']}" if several else ""
     return found
-
-
-def _ascii(text: str) -> str:
-    """An expression as it may stand in an ASCII comment: 1/4 for the one letter, pi, ^2, v_1."""
-    text = re.sub("[₀-₉]+", r"_\g<0>", text)
-    spelt = str.maketrans(SPELT | {"\u2212": "-", "²": "^2", "³": "^3"})
-    return unicodedata.normalize("NFKD", text.translate(spelt)).replace("\u2044", "/")
 
 
 def _of_scalar(name: str) -> str:
@@ -279,7 +271,7 @@ def _input(group: Group, entry: Mapping[str, Any], places: Mapping[int, str]) ->
             what = f"a force on the body{where}" if where else f"a force on point {entry['on']}"
         elif len(group.factors) > 1:
             what = f"a torque on block {entry['block']}"
-        vectors = {x: _law(entry[x]) for x in ("direction", "moment") if x in entry}
+        vectors = {x: law(entry[x]) for x in ("direction", "moment") if x in entry}
         said = "".join(f", {name} times the {x}{told}" for x, told in vectors.items() if told)
         return textwrap.wrap(f"Input {name}: {what}{said}, in the {entry['frame']} frame.", 88)
     if group.turns_space and group.affine and not group.user_basis:
@@ -293,34 +285,16 @@ def _input(group: Group, entry: Mapping[str, Any], places: Mapping[int, str]) ->
     return [f"Input {name}: a covector of the Lie algebra; its power is <{name}, {pair}>."]
 
 
-LONGEST_LAW = 200
-"""Letters of the law of a force in a head; where it has more, the head says that there is one."""
-
-
-def _law(components: Sequence[Any]) -> str:
-    """The components of a vector, or of a force of the state, by the names of the problem file."""
-    text = ", ".join(_ascii(show(_named(decode(y, "law")))) for y in components)
-    return f" ({text})" if text.isascii() and len(text) <= LONGEST_LAW else ""
-
-
-def _named(t: Tree) -> Tree:
-    """Entries as names: those of the velocity of the place as v_1, of A as A_12."""
-    if not isinstance(t, tuple):
-        return t
-    if t[0] == "entry":
-        letter = t[1][1] if isinstance(t[1], tuple) else t[1]
-        return ("par", f"{_ascii(str(letter))}_{''.join(map(str, t[2:]))}")
-    return (t[0], *map(_named, t[1:]))
-
-
-def _acting(problem: Mapping[str, Any], places: Mapping[int, str]) -> Iterator[str]:
+def _acting(
+    problem: Mapping[str, Any], places: Mapping[int, str], group: Group | None
+) -> Iterator[str]:
     """The sentences about forces of the state, mass that flows and damping."""
 
     def place(on: int) -> str:
         return f"the body{places[on]}" if places.get(on) else f"point {on}"
 
     def sized(name: str, data: Any) -> str:
-        text = _ascii(show(decode(data, name)))
+        text = plain_text(show(decode(data, name)))
         return f", {name} = {text}" if text.isascii() else ""
 
     found = []
@@ -328,10 +302,11 @@ def _acting(problem: Mapping[str, Any], places: Mapping[int, str]) -> Iterator[s
         what = "a covector of the Lie algebra"
         if "covector" not in x:
             kinds = " and ".join(
-                f"a {key}{_law(x[key])}" for key in ("force", "moment") if x.get(key)
+                f"a {key}{law(x[key], group)}" for key in ("force", "moment") if x.get(key)
             )
             what = f"{kinds} on {place(x['on'])}, in the {x['frame']} frame"
             what += "; v is the velocity of the place in space" * bool(re.search(r"\bv_\d", kinds))
+            what += "; r is where it is" * bool(re.search(r"\br_\d", kinds))
         name = f" {x['name']}" if "name" in x else ""
         found.append(f"Force of the state{name}: {what}.")
     for x in problem.get("flows", ()):

@@ -119,8 +119,8 @@ class Lowering:
         """The value of an operator whose operands have the values ``a``."""
         g = self.graph
         if op == "add":
-            if isinstance(a[0], Node):
-                return g.sum(a)
+            if any(isinstance(x, Node) for x in a):
+                return g.sum(map(scalar, a))
             return tuple(
                 tuple(g.sum(entries) for entries in zip(*rows, strict=True))
                 for rows in zip(*a, strict=True)
@@ -134,7 +134,8 @@ class Lowering:
         if op == "one":
             return dense.numbers(g, q.identity(self.reader.n))
         if op == "inner":
-            return g.product(a) if isinstance(a[0], Node) else dense.dot(a[0], a[1])
+            plain = any(isinstance(x, Node) for x in a)
+            return g.product(map(scalar, a)) if plain else dense.dot(a[0], a[1])
         if op in ("wedge", "hat"):
             found: Matrix = wedge(*a) if op == "wedge" else hat(*a)
             return found

@@ -23,17 +23,17 @@ Value = Node | Matrix
 
 
 def scalar(value: Value) -> Node:
-    """The value if it is a number; ``LoweringError`` for a matrix."""
+    """The value if it is a number, or a matrix of one entry; ``LoweringError`` for another."""
+    if not isinstance(value, Node) and len(value) == 1 == len(value[0]):
+        value = value[0][0]
     if not isinstance(value, Node):
         raise LoweringError("a matrix stands where a number is wanted")
     return value
 
 
 def matrix(value: Value) -> Matrix:
-    """The value if it is a matrix; ``LoweringError`` for a number."""
-    if isinstance(value, Node):
-        raise LoweringError("a number stands where a matrix is wanted")
-    return value
+    """The value as a matrix; a number is one of one entry, as the vectors of a line are."""
+    return ((value,),) if isinstance(value, Node) else value
 
 
 DROPPED = Equation(("mul", ("T", "ξ"), "C", "Z"), ("mul", ("T", "ξ"), "Z"))

@@ -12,7 +12,7 @@ from ..language.reserved import by_letter, suffixed
 from ..language.tree import Tree, add, mul, neg, plain
 from ..schema.kind import SECTIONS, Advected
 from ..schema.table import nearest
-from .problem import ProblemError
+from .problem import Problem, ProblemError
 
 LIKE_A_PLACE = re.compile(r"[rv][0-9]+_\w+")
 
@@ -29,6 +29,18 @@ def tables(data: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
     return tables
 
 
+def one_body(group: Group) -> str:
+    """That mass flows in one body, and not in a group, in words."""
+    return (
+        "flow 1: mass flows in one body that turns in the plane or in R^3, as in SO(3) or SE(3), "
+        f"or shifts, as in R(3), and not in {group.name}; give a [lagrangian] of t, and a [[force]]"
+    )
+
+
+TOLD = ("name", "title", "kind", "unit", "meaning")
+"""Keys that have no expression."""
+
+
 def used_at(data: Mapping[str, Any], name: str, *but: str) -> str:
     """The first table and key, but some, in which a name stands, as other messages say it."""
     word = re.compile(rf"(?<![A-Za-z0-9_]){re.escape(name)}(?![A-Za-z0-9_])")
@@ -36,7 +48,7 @@ def used_at(data: Mapping[str, Any], name: str, *but: str) -> str:
         listed = isinstance(data.get(kind), list)
         for k, table in enumerate(data[kind] if listed else [data.get(kind, {})], 1):
             for key, value in table.items():
-                if key not in but and word.search(str(value)):
+                if key not in (*but, *TOLD) and word.search(str(value)):
                     return f"{kind} {k}, key {key!r}" if listed else f"{kind}, key {key!r}"
     return "file"
 
@@ -77,6 +89,20 @@ def undeclared(
         f"{where}: {name[:40]!r} is not declared; {other}add it to [parameters]; the state has "
         f"{entries(known)}"
     )
+
+
+def out_of_place(problem: Problem, name: str, where: str, of_state: Sequence[str]) -> str:
+    """What a name is that stands where it is not known, in words; "" for any other."""
+    if re.fullmatch("[rv]_[1-9][0-9]*", name) and where.startswith("output"):
+        return "is of a place; say of which: 'at', a place of the body, or 'on', a point"
+    if any(x.name == name for x in problem.outputs):
+        return "is another output; write its expression here"
+    if name in of_state and "relative_to" in where:
+        return (
+            "is of the state, and what moves in space depends on the place r_1, r_2, … in it, on t "
+            "and on parameters alone"
+        )
+    return ""
 
 
 def is_entry(t: Tree) -> bool:

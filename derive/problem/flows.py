@@ -18,6 +18,7 @@ from collections.abc import Mapping, Sequence
 from itertools import product as pairs
 from typing import Any
 
+from ..algebra.groups import Group
 from ..language.derivatives import derivative, product
 from ..language.expression import names
 from ..language.laurent import shortened
@@ -32,7 +33,7 @@ from ..schema.body_kinds import (
 )
 from ..schema.kind import Flow, Input, StatedForce
 from .entries_on_orbit import vanishes
-from .fields import angular_velocity, tables
+from .fields import angular_velocity, names_in_forces, one_body, tables
 from .file_reader import FileReader
 from .problem import ProblemError, points_of
 
@@ -64,23 +65,25 @@ def flow_forces(
             )
         return ()
     group = reader.moving()
-    if "orthogonal" not in group.relations or group.factors or group.n not in (2, 3):
-        raise ProblemError(
-            f"flow 1: mass flows in one body that turns in the plane or in R^3, as in SO(3) or "
-            f"SE(3), and not in {group.name}; give a [lagrangian] of t, and a [[force]]"
-        )
+    turns = "orthogonal" in group.relations and not group.factors and group.n in (2, 3)
+    if not turns and not _translates(group):
+        raise ProblemError(one_body(group))
     if not isinstance(body, PointBody | GivenBody):
         raise ProblemError(
             'flow 1: moments = "symbolic" do not say how they change; give them, of t, in [body] '
             "given = { m, c, J }, or masses of [[point]] tables"
         )
-    for x in flows:
+    for k, x in enumerate(flows, 1):
         given = [y.name for y in inputs if any(z.startswith(y.name) for z in names(x.rate))]
         if given:
             raise ProblemError(
-                f"flow 1, rate: {given[0]!r} is an input, and the masses must be known before the "
-                "motion is: give the rates, and the masses, as expressions of t; or keep these and "
-                "let the input scale the thrust, a [[force]]"
+                f"flow {k}, rate: {given[0]!r} is an input, and the masses must be known before "
+                "the motion is: give the rates, and the masses, as expressions of t; or keep "
+                "these and let the input scale the thrust, a [[force]]"
+            )
+        if of_state := [y for y in names(x.rate) if y in names_in_forces(group)]:
+            raise ProblemError(
+                f"flow {k}, key 'rate': {of_state[0]!r} is of the state, and a rate knows t alone"
             )
     moments = body.moments()
     rates = add(*(x.rate for x in flows))
@@ -100,6 +103,11 @@ def flow_forces(
     ]
     within = _within(flows, moments, reader)
     return (*(x for x in found if any(x.force)), *within)
+
+
+def _translates(group: Group) -> bool:
+    """Does a group shift one body, and turn nothing?"""
+    return len(group.factors) == 1 and not group.factors[0].linear_basis
 
 
 def _depends_on_time(body: Body) -> bool:
@@ -125,10 +133,13 @@ def _within(flows: Sequence[Flow], moments: Moments, reader: FileReader) -> tupl
         gone = (product(-1, rate, r[k], 1 if j is None else r[j]) for rate, r in rates)
         return _collected(add(derivative(moment, "t"), *gone))
 
-    p = [left(moments.c[k], k) if group.affine else 0 for k in span]
-    Q = {(i, j): left(moments.J[i][j], i, j) for i, j in pairs(span, span)}
+    shifts = _translates(group)
+    p = [left(moments.c[k], k) if group.affine or shifts else 0 for k in span]
+    Q = {(i, j): left(moments.J[i][j], i, j) for i, j in pairs(span, span) if not shifts}
     if not any(p) and not any(Q.values()):
         return ()
+    if shifts:
+        return (_at_origin(reader, tuple(neg(_collected(derivative(y, "t"))) for y in p)),)
     turning = angular_velocity(group, 1)
     trace = _collected(add(*(Q[i, i] for i in span)))
     if len(span) == 2:
@@ -147,12 +158,13 @@ def _within(flows: Sequence[Flow], moments: Moments, reader: FileReader) -> tupl
     force = tuple(
         add(mul(-2, x), neg(_collected(derivative(y, "t")))) for x, y in zip(across, p, strict=True)
     )
-    reader.places.append(Place(at=(0,) * len(span)))
-    on = len(reader.listed_places)
-    pulls = force if any(p) else ()
-    return (
-        StatedForce(on=on, frame="body", force=pulls, moment=moment if any(Q.values()) else ()),
-    )
+    return (_at_origin(reader, force if any(p) else (), moment if any(Q.values()) else ()),)
+
+
+def _at_origin(reader: FileReader, force: Row, moment: Row = ()) -> StatedForce:
+    """A force and a moment at the origin of the body, a place of its own."""
+    reader.places.append(Place(at=(0,) * reader.moving().places[0][1].n))
+    return StatedForce(on=len(reader.listed_places), frame="body", force=force, moment=moment)
 
 
 def _collected(t: Tree) -> Tree:

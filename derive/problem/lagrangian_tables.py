@@ -24,7 +24,7 @@ from ..language.derivatives import derivative
 from ..language.expression import names
 from ..language.limits import CARRIED, ROWS, TABLE
 from ..language.rational import Matrix
-from ..language.tree import Tree, add, mul, neg, nodes, plain
+from ..language.tree import add, mul, neg, nodes
 from ..schema.kind import (
     REPRESENTATIONS,
     SECTIONS,
@@ -38,8 +38,6 @@ from ..schema.kind import (
 )
 from ..schema.table import Slot
 from .entries_on_orbit import (
-    Direction,
-    EntriesOfElement,
     along,
     held,
     hessian,
@@ -53,6 +51,7 @@ from .file_reader import FileReader
 from .motion_tables import KEYS as MOTION
 from .motion_tables import motion_fields
 from .problem import Problem, ProblemError
+from .quotient import Quotient
 
 # The algebra of a problem file that moves no points: its brackets, and what it carries along.
 
@@ -288,6 +287,7 @@ def _with_null_directions(
             f"{where}: L is of first order in the velocities, which the kernel of dϖ leaves free; "
             "add a kinetic energy"
         )
+    quotient = Quotient(group, found.trivialisation, null)
     for direction in null:
         name = as_text({k: x for k, x in enumerate(direction) if x})
         if not vanishes(along([derivative(found.L, x) for x in zeta], direction)):
@@ -295,27 +295,11 @@ def _with_null_directions(
                 f"{where}: ∂²L/∂Z² is singular along {name}, and L is linear there, so that no "
                 "equation tells this acceleration; add its kinetic energy"
             )
-        if reader.advected is not None or not vanishes_on(group, varied(found, group, direction)):
+        if reader.advected is not None or not vanishes_on(
+            group, quotient.variation(found.L, direction)
+        ):
             raise ProblemError(
                 f"{where}: ∂²L/∂Z² is singular along {name}, and that is no symmetry of L: the "
                 "equations leave this velocity open; add its kinetic energy"
             )
     return replace(found, held=tuple(k + 1 for k in held(null)))
-
-
-def varied(found: Lagrangian, group: Group, direction: Direction) -> Tree:
-    """The derivative of ℓ where g goes on to g exp η, η constant, and Z to exp(−η) Z exp η; on the
-    right to exp η g, and exp η Z exp(−η)."""
-    span, table = range(group.dimension), group.structure_constants
-    moved = EntriesOfElement(group, found.trivialisation)
-    turned = along([moved.along(found.L, a) for a in span], direction)
-    times = 1 if found.trivialisation == "left" else -1
-    zeta = coordinates(group)
-    terms = [
-        mul(plain(times * x * table[b][a][k]), zeta[b], derivative(found.L, zeta[k]))
-        for a, x in enumerate(direction)
-        for b in span
-        for k in span
-        if x and table[b][a][k]
-    ]
-    return add(turned, *terms)

@@ -35,6 +35,7 @@ from .fields import (
     coordinates,
     known_in_lagrangian,
     names_in_forces,
+    out_of_place,
     tables,
     undeclared,
     used_at,
@@ -260,12 +261,6 @@ def _without_points(
         **motion_fields(data, reader),
     )
     _declared(problem, data)
-    if problem.driven and problem.lagrangian and problem.lagrangian.held:
-        raise ProblemError(
-            f"{'input' if inputs else 'force'} 1: L has symmetries without kinetic energy, and "
-            "what pushes along them has no motion to answer; add their kinetic energy, or leave "
-            f"the {'input' if inputs else 'force'} out"
-        )
     return problem
 
 
@@ -349,6 +344,8 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
                 raise ProblemError(undeclared(name, where, problem.parameters, problem.group, own))
             acts = where.startswith("force") and problem.group
             of_state = names_in_forces(acts) if acts else []
+            if fault := out_of_place(problem, shown, where, of_state):
+                raise ProblemError(f"{where}: {shown!r} {fault}")
             hint = nearest(shown, [*problem.parameters, *of_state]).removeprefix("; ")
             other = f"{hint} Else " if hint else ""
             raise ProblemError(f"{where}: {shown!r} is not declared; {other}add it to [parameters]")

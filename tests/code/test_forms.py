@@ -433,11 +433,26 @@ group = "SE(2)"
 inertia = { operator = [[2, 0, 0], [0, 1, 0], [0, 0, 1]] }
 force = [{ name = "loads", covector = ["-zeta_1", 0, 0] }, { at = [1, 2], force = ["-v_1", 0] }]
 """
+WINDY = """
+name = "test"
+group = "SE(2)"
+point = [{ mass = 1, at = [1, 0] }, { mass = 1, at = [0, 1] }]
+force = [{ on = 1, relative_to = [0, "r_1"], force = [0, "-v_2"] }]
+"""
+IN_BLOCKS = """
+name = "test"
+group = "SO(2) x R(2)"
+point = [{ mass = 1, at = [1, 0] }, { mass = 1, at = [0, 1], block = 2 }]
+force = [{ at = [0, 3], block = 2, force = ["-zeta_1*T2_1*v_2", "A1_12 + zeta_3"] }]
+"""
 
 
 @pytest.mark.parametrize(
     ("text", "told"),
     [
+        (WINDY, "a force (0, -(v_2 - r_1)) on point 1, in the space frame; v is the velocity"),
+        (WINDY, "; r is where it is."),
+        (IN_BLOCKS, "(-zeta_1*T2_1*v_2, A1_12 + zeta_3) on the body at (0, 3) of block 2, in the"),
         (ACTING, "A_31 v_3, 0, 0) and a moment (0, A_12 v_1 + A_22 v_2 + A_32 v_3, 0) on the body"),
         (ACTING, "Mass flows at (1, 0, 2), dm/dt = -1."),
         (ACTING, "Damping: the force -kappa v on point 1, point 4, kappa = 3b."),

@@ -27,7 +27,7 @@ from derive.language.values import approximate
 from derive.motion.emitted_code import Column
 from derive.motion.run import Run, written
 from derive.problem.problem import ProblemError, data
-from derive.problem.toml import doubts, load
+from derive.problem.toml import doubts, load, problem_of
 from derive.python.api import Table
 from derive.schema.table import nearest
 
@@ -354,3 +354,41 @@ def test_a_kinetic_energy_that_is_negative_somewhere(diagonal, told):
     found = [*doubts(Problem("b", "SO(3)", Inertia(rows), parameters=parameters), {})]
     words = "the kinetic energy is negative in some direction: its matrix has the eigenvalue -2"
     assert found == [words] * told
+
+
+BODY = {
+    "name": "out",
+    "group": "SE(2)",
+    "point": [{"mass": "3 - t", "at": [1, 0]}, {"mass": 2, "at": [0, 1]}],
+    "flow": [{"on": 1, "rate": -1, "velocity": [0, 1]}],
+}
+OUT_OF_PLACE = [
+    (
+        {"force": [{"on": 1, "force": ["-v_1", 0], "relative_to": ["zeta_1", 0]}]},
+        "force 1, key 'relative_to': 'zeta_1' is of the state, and what moves in space depends on",
+    ),
+    (
+        {"output": [{"kind": "expression", "name": "y", "y": ["r_1"]}]},
+        "output 1, key 'y': 'r_1' is of a place; say of which: 'at'",
+    ),
+    (
+        {
+            "output": [
+                {"kind": "expression", "name": "e", "y": ["zeta_1"]},
+                {"kind": "expression", "name": "f", "y": ["1 + e"]},
+            ]
+        },
+        "output 2, key 'y': 'e' is another output; write its expression here",
+    ),
+    (
+        {"flow": [{"on": 1, "rate": "-zeta_1", "velocity": [0, 1]}]},
+        "flow 1, key 'rate': 'zeta_1' is of the state, and a rate knows t alone",
+    ),
+]
+
+
+@pytest.mark.parametrize(("more", "message"), OUT_OF_PLACE)
+def test_a_name_that_is_known_elsewhere(more, message):
+    with pytest.raises(ProblemError) as error:
+        problem_of(BODY | more)
+    assert message in str(error.value)

@@ -252,6 +252,36 @@ def test_mass_that_moves_inside_keeps_the_angular_momentum():
     assert inertia[1] * run.y[-1, -1] == pytest.approx(inertia[0] * 2, rel=1e-9)
 
 
+@pytest.mark.parametrize("n", [1, 2, 3])
+def test_a_point_that_loses_mass_in_a_flat_space(n):
+    """m v̇ = F + ṁ u − ṗ, with p of what flows from the point to the place where it leaves."""
+    u, g, there = [-3.0, 0.5, 2.0][:n], [0.2, -9.0, 1.0][:n], [0.3, -0.2, 0.7][:n]
+    data = {
+        "name": "shot",
+        "group": f"R({n})",
+        "point": [{"mass": "8 - t - t^2/2", "at": [1, 2, 3][:n]}, {"mass": 2, "at": [1, 0, 1][:n]}],
+        "potential": [{"kind": "gravity", "g": g}],
+        "flow": [{"at": there, "rate": "-1 - t", "velocity": u}],
+    }
+    problem = problem_of(data)
+    assert all(v.holds for v in own_verdicts(derive.derive(problem).record))
+    m, t, x = module_of(problem), 0.7, np.random.default_rng(n).normal(size=2 * n)
+    found = np.asarray(m.rhs(t, x, m.constants([])))
+    # ċ = ṁ r of the point, p = ṁ (r − r′), and the rate of ṁ is −1
+    slack = np.array([1, 2, 3][:n]) - there
+    known = np.array(g) + (-(1 + t) * np.array(u) + slack) / (10 - t - t * t / 2)
+    assert np.allclose(found, [*x[n:], *known], rtol=0, atol=1e-13)
+
+
+def test_a_product_with_a_body_says_that_mass_flows_in_one():
+    data = {"name": "two", "group": "SE(3) x SE(3)", "body": {"moments": "symbolic"}}
+    data["flow"] = [{"at": [0, 0, 0], "rate": -1, "velocity": [0, 0, 1]}]
+    with pytest.raises(ProblemError, match="flow 1: mass flows in one body"):
+        problem_of(data)
+    with pytest.raises(ProblemError, match=r"body: R\(2\) moves \[\[point\]\] tables alone"):
+        problem_of({"name": "flat", "group": "R(2)", "body": {"moments": "symbolic"}})
+
+
 LINE = {"name": "b", "group": "SE(3)", "body": {"moments": "symbolic"}}
 BAD = [
     ({"flow": []}, "body: its masses depend on t, and no [[flow]] says where the mass leaves"),
@@ -266,6 +296,10 @@ BAD = [
     ({"flow": [{"at": [0, 0, 0], "rate": "-b"}]}, "flow 1: key 'velocity' is missing"),
     ({"group": "SL(3)"}, "flow 1: mass flows in one body that turns in the plane or in R^3"),
     ({"group": "SO(3) x SO(3)"}, "flow 1: mass flows in one body that turns"),
+    (
+        {"flow": [{"at": [0, 0, 0], "rate": "-zeta_1", "velocity": [0, 0, 0]}]},
+        "flow 1, key 'rate': 'zeta_1' is of the state, and a rate knows t alone",
+    ),
     ({"flow": [], "point": [{"mass": 1, "at": ["t", 0, 0]}]}, "point 1, at: t: a place"),
 ]
 

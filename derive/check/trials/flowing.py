@@ -36,13 +36,19 @@ def flowing(model: Body, Z: Matrix) -> Flowing:
         rate, place = _value(x["rate"], env), model.points[x["on"] - 1]
         push = q.plus(push, q.scaled(_earlier(rate), q.column(place)))
         second = q.minus(second, q.scaled(_earlier(rate), outer_sum([place], [place])))
-        u = q.column(tuple(_value(y, env) for y in x["velocity"]))
+        u = q.column(model.group.in_block(1, [_value(y, env) for y in x["velocity"]]))
         forces.append((x["on"], _part(q.scaled(rate, u), 0)))
     p, Q = q.scaled(Fraction(-1), _part(push, ETA)), _part(second, ETA)
     within = q.plus(q.scaled(Fraction(-2), q.times(Z, p)), _part(push, ETA | EPS))
     on = model.problem["flows"][0]["on"]  # carried from the origin to there
-    back = q.times(within, q.transposed(q.column(model.points[on - 1])))
+    origin = model.group.in_block(1, [0] * model.group.places[0][1].n, 1)
+    arm = tuple(x - y for x, y in zip(model.points[on - 1], origin, strict=True))
+    back = q.times(within, q.transposed(q.column(arm)))
     turning = q.scaled(Fraction(-1, 2), q.plus(q.times(Z, Q), q.times(Q, Z)))
+    if model.group.factors:  # of translations: nothing turns, and C is not 1
+        turning = q.scaled(Fraction(0), turning)
+        g: Matrix = model.g  # type: ignore[attr-defined]
+        back = q.times(q.times(q.transposed(g), g), back)
     return Flowing([*forces, (on, within)], q.minus(turning, back))
 
 

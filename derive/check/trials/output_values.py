@@ -10,6 +10,7 @@ from ...language import rational as q
 from ...language.reserved import numbers_of_output, one_or_more
 from ...record.as_json import decode
 from ...record.record import RecordError
+from ..values.draws import at_time
 from ..values.evaluate import evaluate
 from .point_masses import Vector, scaled_each
 
@@ -83,7 +84,8 @@ class Observed(Mapping[str, Any]):
     def _given(self, data: Data, trees: Any) -> Vector:
         """A vector that the problem states, among those of all blocks."""
         block, _ = self._acted_on(data)
-        given = [evaluate(decode(x, "vector"), self.model.expressions) for x in trees]
+        at = at_time(self.model.expressions, self.model.t)
+        given = [evaluate(decode(x, "vector"), at) for x in trees]
         found: Vector = self.model.group.in_block(block, given)
         return found
 

@@ -17,9 +17,9 @@ Value = Any
 
 SHOWN = 20
 """The most digits of an exponent that a message shows."""
-LARGEST_POWER, LARGEST_MATRIX = DEGREE + 1, 8
+LARGEST_POWER, LARGEST_MATRIX = DEGREE + 1, 12
 """The largest exponent: the derivative of 1/xⁿ has xⁿ⁺¹, and n is at most the degree of an
-expression; and the most rows of a matrix that has a determinant."""
+expression; and the most rows of a matrix that has a determinant, as of a group's elements."""
 
 
 class EvaluationError(ValueError):
@@ -169,20 +169,16 @@ def inverse(x: Value) -> Value:
 
 
 def determinant(x: Value) -> Value:
-    """det x, by expansion along the first row."""
+    """det x in any commutative ring: without a quotient (R. S. Bird, *Information Processing
+    Letters* 111 (2011) 1072)."""
     if not is_matrix(x) or any(len(row) != len(x) for row in x) or len(x) > LARGEST_MATRIX:
         raise EvaluationError(f"determinant of a square matrix of size up to {LARGEST_MATRIX} only")
-    return _cofactor_expansion(x)
-
-
-def _cofactor_expansion(x: Value) -> Value:
-    if len(x) == 1:
-        return x[0][0]
-    minors = (
-        (-1) ** j * x[0][j] * _cofactor_expansion(tuple(row[:j] + row[j + 1 :] for row in x[1:]))
-        for j in range(len(x))
-    )
-    return sum(minors, Fraction(0))
+    n, found = len(x), x
+    for _ in range(n - 1):
+        below = [-sum((found[j][j] for j in range(i + 1, n)), Fraction(0)) for i in range(n)]
+        upper = ((*[Fraction(0)] * i, below[i], *row[i + 1 :]) for i, row in enumerate(found))
+        found = times(tuple(upper), x)
+    return found[0][0] if n % 2 else -found[0][0]
 
 
 def power(x: Value, n: Value) -> Value:

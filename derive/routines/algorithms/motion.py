@@ -201,13 +201,13 @@ def fault_of(x: real[N_STATE], dx: real[N_STATE]) -> status:
 
 
 def first_of(x: real[N_STATE], dx: real[N_STATE]) -> real:
-    """A first step for a tolerance: a small turn of the state."""
+    """A first step for a tolerance: a small turn of the state; any where that is 0 or does not move."""
     speed: var[real] = 0.0
-    size: var[real] = 1e-300
+    size: var[real] = 0.0
     for i in range(N_STATE):
         speed = abs(dx[i]) if abs(dx[i]) > speed else speed
         size = abs(x[i]) if abs(x[i]) > size else size
-    return 0.1 * size / speed if speed > 0.0 else 1.0
+    return 0.1 * size / speed if speed > 0.0 and size > 0.0 else 1.0
 
 
 def fault_here(m: Motion, k: real[N_CONSTANTS], u: real[N_INPUTS]) -> status:

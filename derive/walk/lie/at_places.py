@@ -12,6 +12,7 @@ from ...language.reserved import UNNAMED_FORCE
 from ...language.tree import Tree, add, mul, neg, nodes, plain
 from ...problem.fields import coordinates, velocity_at_place
 from ...problem.problem import Problem, ProblemError
+from ...problem.quotient import quotient_of
 from ...record.record import Equation, Step
 from ...schema.kind import TorqueInput
 from ...schema.output_kinds import (
@@ -55,6 +56,12 @@ def named_forces(problem: Problem, group: Group) -> list[Equation]:
     return [Equation(("par", name), _with(t, known)) for name, t in named.items()]
 
 
+def with_numbers(problem: Problem, t: Tree) -> Tree:
+    """A tree with what the numbers of named forces are in the place of their names."""
+    known = Places(problem, problem.group).known if problem.group and problem.places else {}
+    return _with(t, {("par", x): _with(y, known) for x, y in problem.named_numbers.items()})
+
+
 def outputs(
     problem: Problem, group: Group, balance: Sequence[Step], power: Sequence[Step], c: Chapter
 ) -> tuple[Step, ...]:
@@ -63,11 +70,18 @@ def outputs(
     if not problem.outputs:
         return ()
     places, draft = Places(problem, group), c.draft("outputs", "output")
+    quotient = quotient_of(problem)
     given = []
     for x in problem.outputs:
         if isinstance(x, PowerOutput):
             draft.depends_on(*power)
         found = [read_off(power, x.of)] if isinstance(x, PowerOutput) else places.read(x)
+        if quotient and not all(quotient.keeps(with_numbers(problem, y)) for y in found):
+            raise ProblemError(
+                f"output {x.name!r}: it depends on the velocity along, or the place on, symmetries "
+                "of L without kinetic energy, which the motion leaves open; read what they keep, "
+                "in space, or add their kinetic energy"
+            )
         given.append(equation_of(problem, x, found))
     named = {t for e in given for t in nodes(e.rhs)}
     if not named.isdisjoint(places.rates):

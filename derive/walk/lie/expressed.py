@@ -16,11 +16,11 @@ from ...problem.entries_on_orbit import (
     OrbitEntries,
     along,
     hessian,
-    null_directions,
     vanishes_on,
 )
 from ...problem.fields import coordinates
-from ...problem.problem import Problem
+from ...problem.problem import Problem, ProblemError
+from ...problem.quotient import quotient_of
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
 from ...schema.kind import Lagrangian
@@ -28,7 +28,7 @@ from ..chapter import Chapter, enumerated, phrase, say
 from ..given.inputs import pushes
 from ..matrices.coordinates import basis_equations
 from .any_lagrangian import AnyLagrangian
-from .at_places import from_outside, named_forces
+from .at_places import from_outside, named_forces, with_numbers
 
 # The basis of 𝔤 in which a Lagrangian is expressed: coordinates, brackets, and how what it
 # depends on moves with the group.
@@ -278,7 +278,7 @@ def balance(
         [int(a == b) if {a, b} & held else x for b, x in enumerate(row)]
         for a, row in enumerate(stage.second)
     ]
-    null = _null(stage, coadjoint, coadjoint_step, c) if held else ()
+    null = _null(stage, problem, driven, coadjoint, coadjoint_step, c) if held else ()
     weighing.depends_on(*null)
     weighing.depends_on(coadjoint_step, basis.last)
     mass = weighing.step(
@@ -295,17 +295,36 @@ def balance(
 
 
 def _null(
-    stage: Expressed, coadjoint: Sequence[Tree], balance: Step, c: Chapter
+    stage: Expressed,
+    problem: Problem,
+    driven: Sequence[Sequence[Tree]],
+    coadjoint: Sequence[Tree],
+    balance: Step,
+    c: Chapter,
 ) -> tuple[Step, ...]:
-    """Along what has no kinetic energy: the momentum vanishes, and its equation says nothing."""
+    """Along what has no kinetic energy: the momentum vanishes, and its equation says nothing; what
+    acts from outside is of the quotient. ``ProblemError`` where it is not."""
     draft = c.draft("null", "restriction")
     draft.depends_on(balance)
-    directions, span = null_directions(stage.second) or (), range(len(stage.momenta))
+    quotient, span = quotient_of(problem), range(len(stage.momenta))
+    assert quotient is not None
     momenta = [member("Π", a) for a in span]
     pushes = [add(member("Φ", a), t) for a, t in enumerate(coadjoint)]
+    directions = quotient.directions
     told = [Equation(along(values, x), 0) for x in directions for values in (momenta, pushes)]
+    acting = [with_numbers(problem, add(*terms)) for terms in driven]
+    if not quotient.bears(acting):
+        what = "input" if problem.inputs else "force"
+        raise ProblemError(
+            f"{what} 1: L has symmetries without kinetic energy, and what pushes along them, or "
+            "depends on where a motion stands along them, has no motion to answer; add their "
+            f"kinetic energy, or leave the {what} out"
+        )
+    laws = [law for x in directions for law in quotient.laws(acting, x) if law[0] != law[1]]
+    told += [Equation(*law) for law in laws]
     size = str(1 + 2 * len(directions))
-    return (draft.step(told, say("null.symmetries", size=size)),)
+    prose = say("null.symmetries", size=size) + (say("null.driven") if problem.driven else ())
+    return (draft.step(told, prose),)
 
 
 def coadjoint_terms(group: Group, epsilon: int) -> list[Tree]:
