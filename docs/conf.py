@@ -32,6 +32,7 @@ CONTENTS = {
 
 html_theme = "furo"
 html_title = "derive"
+html_favicon = "../playground/src/icon.svg"
 html_copy_source = html_show_copyright = False
 myst_heading_anchors = 3
 autodoc_member_order = "bysource"

@@ -1,6 +1,6 @@
 """A folder on 127.0.0.1, for this machine alone: ``python -m playground.serve DIR [PORT]``."""
 
-import sys
+import argparse
 from contextlib import suppress
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -43,4 +43,7 @@ def main(folder: Path, port: int = 8000) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), *map(int, sys.argv[2:3]))
+    asked = argparse.ArgumentParser("python -m playground.serve", description=__doc__)
+    asked.add_argument("folder", metavar="DIR", type=Path)
+    asked.add_argument("port", metavar="PORT", type=int, nargs="?", default=8000)
+    main(**vars(asked.parse_args()))

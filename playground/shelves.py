@@ -19,12 +19,17 @@ LEFT_OUT = ("gravity", "force")
 
 def shelves() -> list[dict[str, Any]]:
     """Those of the file, in order: titles in both languages, things by the names of their problems
-    and their own."""
+    and their own; ``like``: the problem whose picture it has; ``group``, where it is called
+    otherwise than in the problem."""
     return [
-        {"en": shelf["en"], "fr": shelf["fr"],
-         "things": [{"name": x, "en": en, "fr": fr} for x, en, fr in shelf["things"]]}
+        {"en": shelf["en"], "fr": shelf["fr"], "things": [_thing(*x) for x in shelf["things"]]}
         for shelf in tomllib.loads(FILE.read_text(encoding="utf-8"))["shelf"]
-    ]  # fmt: skip
+    ]
+
+
+def _thing(name: str, en: str, fr: str, like: str = "", group: str = "") -> dict[str, str]:
+    called = {"group": group} if group else {}
+    return {"name": name, "en": en, "fr": fr, "like": like or name} | called
 
 
 def picture(record: Derivation) -> str:

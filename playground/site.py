@@ -3,6 +3,7 @@
 ``python -m playground.site``
 """
 
+import argparse
 import hashlib
 import subprocess
 import sys
@@ -45,4 +46,5 @@ def built() -> Path:
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser("python -m playground.site", description=__doc__).parse_args()
     built()

@@ -100,7 +100,7 @@ def problems() -> list[dict[str, str]]:
             words = language(lang)
             told[f"title_{lang}"] = title(record, words)
             told[f"about_{lang}"] = plain(system(record, words))
-        found.append(told | {"group": str(record.problem.get("group") or "")})
+        found.append(told | {"group": str(record.problem.get("group") or "").replace(" x ", " × ")})
     return found
 
 
@@ -123,7 +123,7 @@ def options() -> dict[str, object]:
 def schema() -> dict[str, object]:
     """The keys of a problem file: at the top, of its tables, of the kinds of some; what is a list;
     the values of keys that have few; groups with what they move, and how their velocity is
-    called."""
+    called; a small problem to begin with."""
     many = {*TABLES, "advected"}
     single = {"parameters", "body", "algebra", "group", "fluid", "initial", *SECTIONS}
     potentials, inputs = kinds(), dict(INPUTS)
@@ -141,6 +141,7 @@ def schema() -> dict[str, object]:
         "values": few | OTHERS,
         "named": [x for _, x in named_groups()],
         "groups": {x: moved(group(x), f.meaning) for f, x in named_groups()},
+        "scaffold": (HERE / "scaffold.toml").read_text(encoding="utf-8"),
     }
 
 
@@ -216,7 +217,7 @@ def gallery(moving: set[str]) -> list[dict[str, Any]]:
     """The shelves of things, each with its picture; does it move?"""
     found = shelves()
     for thing in (thing for shelf in found for thing in shelf["things"]):
-        record = derive.derive(thing["name"]).record
+        record = derive.derive(thing["like"]).record
         thing |= {"picture": picture(record), "moves": thing["name"] in moving}
     return found
 

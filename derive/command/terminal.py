@@ -54,10 +54,11 @@ def show(text: str) -> None:
 
 
 def filled(line: str, width: int) -> list[str]:
-    """A line at the width of a terminal, what is more below it, further in; elsewhere as it is."""
+    """A line at the width of a terminal, or of COLUMNS, what is more below it, further in; elsewhere
+    as it is."""
     from ..views.text import paragraph
 
-    if not sys.stdout.isatty():
+    if not (sys.stdout.isatty() or os.environ.get("COLUMNS")):
         return [line]
     together = line.replace(" = ", "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
     first, *rest = paragraph(together, 2 * line.startswith("  "), width)

@@ -246,21 +246,26 @@ def answer_markdown(x: Summary) -> str:
     return "\n\n".join(filter(None, (*parts, "\n".join(lines), markdown_text(x.source)))) + "\n"
 
 
-def answer_mathml(d: Derivation, marks: Mapping[Tree, str] | None = None) -> tuple[str, ...]:
-    """The equations of motion as MathML, one element each.
+def answer_mathml(
+    d: Derivation, marks: Mapping[Tree, str] | None = None
+) -> tuple[tuple[str, str], ...]:
+    """The equations of motion: of each the label of the step that tells it, and its MathML.
 
     ``marks``: tree → the ``data-arrow`` that it has where it stands; the equation of a vector whose
     entries are told stands among them, too, where a term of it is marked.
     """
     names, marked = latex_names(d), marks or {}
     typeset = partial(of_tree, names=names, notation=Notation(), marks=marked)
-    told, solved = equations_of_motion(d), steps_of_answer(d)[0].equations
+    told, steps = equations_of_motion(d), steps_of_answer(d)
 
     def marked_term(e: Equation) -> bool:
         return any(x in marked for x in nodes(e.rhs) if isinstance(x, tuple) and x[0] != "entry")
 
-    shown = (*(e for e in solved if e in told or marked_term(e)), *told)
+    shown = (*(e for e in steps[0].equations if e in told or marked_term(e)), *told)
     return tuple(
-        (typeset(e.lhs) + literal(" = ") + typeset(e.rhs)).plain().mathml()
+        (
+            next(s.label for s in reversed(steps) if e in s.equations),
+            (typeset(e.lhs) + literal(" = ") + typeset(e.rhs)).plain().mathml(),
+        )
         for e in dict.fromkeys(shown)
     )

@@ -104,7 +104,8 @@ class Play:
             self.read(text)
             told = {"steps": len(self.record.steps), "name": self.record.name}
             seen = arrows(self.record)
-            told["answer"] = answer_mathml(self.record, marks(seen))
+            shown = answer_mathml(self.record, marks(seen))
+            told["answer"] = [{"id": anchor(label), "shown": x} for label, x in shown]
             told["arrows"] = legend(self.record, seen, language(lang))
             told["road"] = [*road(self.record, anchor)]
             self.tell("derived", told)
@@ -199,6 +200,8 @@ class Play:
             source, page = self.moved(text, lang, sought=False)
             chosen = pieces(page["body"], read=bool(page.get("outputs")))
             chosen |= {"arrows": "arrows_of"} if page["arrows"] else {}
+            if chosen.get("side") == "velocities" and len(page["adjusted"]) == 1:
+                del chosen["side"]  # the graph has it
             self.tell("motion", {"source": source, "page": page, "pieces": chosen})
 
     def kept(self, text: str, lang: str) -> None:
@@ -217,7 +220,7 @@ class Play:
         from derive.motion.emitted_code import EmittedCode, base_units
         from derive.motion.first_numbers import first_numbers
         from derive.programs import moving_program
-        from derive.views.arrows import arrows, drawn, with_arrows
+        from derive.views.arrows import arrows, drawn, legend, with_arrows
         from derive.views.language import language
         from derive.views.page.motion_page import data
 
@@ -232,6 +235,7 @@ class Play:
         code = EmittedCode(replace(made, outputs=own), self.record, base_units(self.problem))
         page = data(code, self.problem, self.record, begin, language(lang))
         page["arrows"] = drawn(seen, len(own))
+        page["meanings"] = [x["meaning"] for x in legend(self.record, seen, language(lang))]
         page |= {"t": SECONDS, "tol": TOLERANCE}
         stated = [*page["x"]]
         page["x"] = moving(page, made)

@@ -4,24 +4,32 @@ import { make } from "./dom.js";
 export class Arrows {
   #held = 0;
 
-  /* place: of the answer; light(number): what is done when the arrow of a number, from 1, is pointed at, or 0: none is */
-  constructor(place, light) {
+  /* place: of the answer; light(number): what is done when the arrow of a number, from 1, is pointed at, or 0: none is; go(id): to
+   * the step of an equation */
+  constructor(place, light, go) {
     this.place = place;
     this.light = light;
     const number = (e) => Number(e.target.closest("[data-arrow]")?.getAttribute("data-arrow") ?? 0);
     for (const come of ["pointerover", "focusin"]) place.addEventListener(come, (e) => this.#point(number(e)));
     for (const go of ["pointerleave", "focusout"]) place.addEventListener(go, () => this.#point(0));
     place.addEventListener("click", (e) => {
-      const n = number(e);
+      const n = number(e), to = e.target.closest("[data-to]")?.dataset.to;
+      if (to && (e.ctrlKey || e.metaKey || e.shiftKey)) return; // elsewhere
+      e.preventDefault();
+      if (to && !n) go(to);
       if (n) this.#hold(n === this.#held ? 0 : n);
     });
   }
 
-  /* the answer, as MathML, and [{ shown, meaning }] of its vectors */
-  show(answer, arrows) {
+  /* the answer, [{ id, shown }], the step and the MathML of each equation, and [{ shown, meaning }] of its vectors; address: id → address */
+  show(answer, arrows, address) {
     this.arrows = arrows;
     this.#held = 0;
-    this.place.innerHTML = answer.map((x) => `<p>${x}</p>`).join("");
+    this.place.replaceChildren(...answer.map(({ id, shown }) => {
+      const link = make("a", { href: address(id), "data-to": id });
+      link.innerHTML = shown;
+      return make("p", {}, link);
+    }));
     if (!arrows.length) return;
     this.place.append(make("ul", { class: "legend" }, ...arrows.map(({ shown, meaning }, i) => {
       const button = make("button", { type: "button", "data-arrow": i + 1, "aria-pressed": "false" });

@@ -7,7 +7,7 @@ const MATHML = "http://www.w3.org/1998/Math/MathML";
 const STYLE = `
 :host { display: block; overflow-wrap: break-word; font: 1.0625rem/1.55 Charter, "Bitstream Charter", "Sitka Text", Cambria, Georgia, serif; }
 article { content-visibility: auto; contain-intrinsic-size: auto 9rem; }
-.tick { color: var(--right); font-size: .85rem; font-weight: 400; }
+.tick { color: var(--right); background: none; border: 0; padding: 0 .2rem; font: 400 .85rem/1 inherit; font-family: inherit; cursor: pointer; }
 .tick.wrong { color: var(--wrong); }
 article:focus { outline: 0; }
 .aimed > h3 { background: color-mix(in srgb, var(--mark) 12%, transparent); }
@@ -30,6 +30,7 @@ export class Equations {
   #words;
   #host;
   #bar;
+  #taken = null;
   /* what is wider than its box can be moved by keys */
   #seen = new IntersectionObserver((found) => {
     for (const { target } of found) {
@@ -37,11 +38,12 @@ export class Equations {
     }
   });
 
-  /* bar: what the walk moves under; go: what a link to a step does */
-  constructor(host, css, bar, go) {
+  /* bar: what the walk moves under; go: what a link to a step does; says: what a tick tells */
+  constructor(host, css, bar, go, says = () => {}) {
     this.#host = host;
     this.#bar = bar;
     this.wanted = go;
+    this.says = says;
     this.#root = host.attachShadow({ mode: "open" });
     const sheet = new CSSStyleSheet();
     sheet.replaceSync(css + STYLE);
@@ -103,7 +105,7 @@ export class Equations {
     if (!place) return;
     const text = holds ? `✓ < ${power(bound)}` : "✗";
     const title = holds ? this.#words.holds(power(bound)) : `${this.#words.fails}: ${reason}`;
-    place.after(" ", make("span", { class: holds ? "tick" : "tick wrong", title, role: "img", "aria-label": title }, text));
+    place.after(" ", make("button", { type: "button", class: holds ? "tick" : "tick wrong", title, "aria-label": title }, text));
   }
 
   #clicked(e) {
@@ -111,6 +113,8 @@ export class Equations {
     if (link && !e.ctrlKey && !e.metaKey && !e.shiftKey) {
       e.preventDefault();
       this.wanted(link.dataset.to);
+    } else if (button?.matches(".tick")) {
+      this.says(button.title);
     } else if (button?.dataset.tex) {
       copy(button.dataset.tex, button, "✓");
     } else if (button) {
@@ -118,10 +122,12 @@ export class Equations {
     }
   }
 
-  /* where the reader is: the step under the bar, and how far below it that begins; nothing where there is no step */
+  /* where the reader is: the step last gone to, until the walk is moved, else the one under the bar, and how far below it that
+   * begins; nothing where there is no step */
   at() {
     if (this.#open) return null;
-    const edge = this.#edge();
+    const edge = this.#edge(), taken = this.#taken;
+    if (taken?.place.isConnected && Math.abs(this.#below(taken.place) - taken.by) < 2) return { id: taken.place.id, by: taken.by };
     for (const step of this.#root.querySelectorAll("header, article")) {
       const { top, bottom } = step.getBoundingClientRect();
       if (bottom > edge + 1) return { id: step.id, by: Math.round(top - edge) };
@@ -134,7 +140,10 @@ export class Equations {
     if (!id && by === undefined) return this.#scrolls().scrollTo(0, 0);
     const place = id ? this.#root.getElementById(id) : this.#root.querySelector("header");
     if (!place) return;
-    const here = () => this.#scrolls().scrollBy(0, place.getBoundingClientRect().top - this.#edge() - by);
+    const here = () => {
+      this.#scrolls().scrollBy(0, this.#below(place) - by);
+      this.#taken = id ? { place, by: this.#below(place) } : null;
+    };
     place.scrollIntoView({ block: "start", behavior: "instant" });
     here();
     requestAnimationFrame(() => requestAnimationFrame(here));
@@ -151,6 +160,8 @@ export class Equations {
     place.focus({ preventScroll: true });
     return true;
   }
+
+  #below(place) { return Math.round(place.getBoundingClientRect().top - this.#edge()); }
 
   #edge() { return Math.max(0, this.#bar.getBoundingClientRect().bottom); }
 

@@ -7,37 +7,6 @@ import { entry, lineAt, put, raw, tables, uncommented, withTable, without } from
 import { velocity } from "./state.js";
 import { listed, numeral, shown, toml } from "./values.js";
 
-/* a small problem to begin with */
-export const SCAFFOLD = `name = "mine"
-title = "A pendulum"
-group = "SO(3)"
-
-[parameters]
-m = { default = 1, unit = "kg", meaning = "mass" }
-l = { default = 1, unit = "m", meaning = "length" }
-g = { default = 9.81, unit = "m/s^2", meaning = "gravity" }
-
-# a body of points; at least three that are not on one line
-[[point]]
-mass = "m"
-at = [0, 0, "-l"]
-
-[[point]]
-mass = "m/10"
-at = ["l/10", 0, 0]
-
-[[point]]
-mass = "m/10"
-at = [0, "l/10", 0]
-
-[[potential]]
-kind = "gravity"
-g = [0, 0, "-g"]
-
-[initial]
-zeta_1 = 1
-`;
-
 const BODY = ["point", "body", "solid"], FORCES = ["potential", "input", "damping"], MOST = 16;
 const OTHERS = ["lagrangian", "inertia", "algebra", "fluid"];
 const SHOWN = ["", ...BODY, ...FORCES, "parameters", "initial"];
@@ -63,7 +32,7 @@ export class Form {
     Object.assign(this, { words, text: text ?? "" });
     if (text && read) return this.draw();
     const afresh = make("button", { type: "button", click: () => {
-      if (!text?.trim() || confirm(words.sure)) this.write(SCAFFOLD);
+      if (!text?.trim() || confirm(words.sure)) this.write(this.schema.scaffold);
     } }, words.start);
     return this.place.replaceChildren(make("p", { role: "alert" }, words.unread), afresh);
   }

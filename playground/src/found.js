@@ -1,6 +1,7 @@
 /* What is searched of the equations, as the commands of these names print it: what is chosen is sought when the tab is shown. */
 import { make } from "./dom.js";
 import { Equations } from "./equations.js";
+import { option } from "./link.js";
 
 const SEARCHES = ["symmetries", "integrals", "equilibria", "reduction"];
 /* in numbers equilibria need NumPy, which the page has not */
@@ -34,7 +35,7 @@ export class Found {
     this.choice.setAttribute("aria-label", words.find);
     this.choice.replaceChildren(...buttons);
     const options = TOLD[what] ? [TOLD[what]] : [];
-    this.command.textContent = ["derive", what, file, ...options].join(" ");
+    this.command.textContent = ["derive", what, file, ...options].join(" ") + option(lang);
     if (this.#shown === key) return;
     this.#shown = key;
     this.equations.clear(make("p", {}, words.searching));

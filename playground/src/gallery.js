@@ -32,10 +32,10 @@ export class Gallery {
     (this.place.querySelector("[aria-current]") ?? this.place.querySelector("a"))?.focus();
   }
 
-  #thing({ name, picture, moves, ...called }, lang, current) {
-    const problem = this.ready(name), shown = make("span", { class: "picture" });
+  #thing({ name, picture, moves, group, ...called }, lang, current) {
+    const problem = this.ready(name), moved = group ?? problem.group, shown = make("span", { class: "picture" });
     if (picture) shown.innerHTML = picture; // made with the page
-    else shown.append(problem.group);
+    else shown.append(moved);
     return make("a", {
       href: placed(lang, name), title: problem[`title_${lang}`], "aria-current": current && "true",
       click: (e) => {
@@ -44,7 +44,7 @@ export class Gallery {
         this.dialog.close();
         this.choose(name, moves);
       },
-    }, shown, make("span", { class: "name" }, called[lang]), ...(picture ? [make("small", {}, problem.group)] : []));
+    }, shown, make("span", { class: "name" }, called[lang]), ...(picture ? [make("small", {}, moved)] : []));
   }
 
   /* the arrows go from thing to thing, up and down to the nearest of the next row */

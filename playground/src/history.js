@@ -5,6 +5,9 @@ export class Places {
   /* does the walk of the entry that is shown stand in the page? */
   stands = false;
 
+  /* the tab that it says */
+  tab = "walk";
+
   constructor(equations) {
     this.equations = equations;
     history.scrollRestoration = "manual";
@@ -32,11 +35,11 @@ export class Places {
     if (word === before && lang === spoken(location.search)) return;
     if (word !== before) this.stands = false;
     const changed = !name && !before.startsWith("p=");
-    this.#enter(anew || changed, placed(lang, word, word === before ? this.named : ""));
+    this.#enter(anew || changed, placed(lang, word, word === before ? this.named : "", { tab: this.tab }));
   }
 
   /* the entry of a step; `again`: in the place of another step's, which was passed; seen: see link.js */
-  step(lang, word, id, again, seen) {
+  step(lang, word, id, again, seen = { tab: this.tab }) {
     this.keep();
     this.#enter(!again, placed(lang, word, id, seen));
   }
@@ -49,7 +52,13 @@ export class Places {
 
   /* the same entry, which says what is seen */
   see(lang, word, step, seen) {
+    this.tab = seen.tab ?? "walk";
     history.replaceState(history.state, "", placed(lang, word, step, seen));
+  }
+
+  /* the same entry, in another tab */
+  shows(lang, word, tab) {
+    if (tab !== this.tab) this.see(lang, word, this.named, { tab });
   }
 
   #enter(anew, url) {

@@ -62,6 +62,9 @@ function plain(word) {
 /* the language that an address asks for, if any */
 export const spoken = (search) => new URLSearchParams(search).get("lang");
 
+/* and the option of a command for it */
+export const option = (lang) => (lang === "en" ? "" : ` --lang ${lang}`);
+
 /* the address of a problem, which is a name or a packed text, and of a step of it, in a language, and of what is seen of it */
 export const placed = (lang, word, step = "", seen = {}) => `?lang=${lang}#${word}${step && `/${encodeURIComponent(step)}`}${written(seen)}`;
 

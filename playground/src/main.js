@@ -4,7 +4,7 @@ import { copy, kept, make, the } from "./dom.js";
 import { editor } from "./editor.js";
 import { Engine } from "./engine.js";
 import { Equations, power } from "./equations.js";
-import { Form, SCAFFOLD } from "./form.js";
+import { Form } from "./form.js";
 import { Gallery } from "./gallery.js";
 import { Places } from "./history.js";
 import { Found } from "./found.js";
@@ -28,12 +28,12 @@ const [data, css] = await Promise.all([fetch("data.json").then((x) => x.json()),
 const names = data.problems.map((x) => x.name);
 const ready = (name) => data.problems.find((x) => x.name === name);
 
-const equations = new Equations(the("walk"), css, document.querySelector(".read .bar"), (id) => go(id));
+const equations = new Equations(the("walk"), css, document.querySelector(".read .bar"), (id) => go(id), (meaning) => say(meaning));
 const places = new Places(equations);
 const steps = new Steps(the("steps"), (id, again) => go(id, again));
 const engine = new Engine({ seconds: SECONDS, onstate, onbegin: () => say(words.loading), stored });
 const motion = new Motion(the("see"), { text: () => text, engine, say, ended, lit: (number) => arrows.lit(number), key: (key) => projector.key(key) });
-const arrows = new Arrows(the("answer").lastElementChild, (number) => motion.light(number));
+const arrows = new Arrows(the("answer").lastElementChild, (number) => motion.light(number), (id) => go(id));
 const text = editor(the("editor"), data.schema, words, edited);
 const faces = { form: Form, sentence: Sentence };
 for (const [x, Face] of Object.entries(faces)) faces[x] = new Face(the(x), data.schema, (made) => { text.text = made; });
@@ -72,6 +72,11 @@ const gallery = new Gallery(the("gallery"), {
 });
 const tabs = new Tabs(["walk", "see", "find", "take"], (name) => {
   the("steps").parentElement.hidden = name !== "walk";
+  const below = the(name).getBoundingClientRect().top - document.querySelector(".read .bar").getBoundingClientRect().bottom;
+  if (below < 0 && name === "walk" && places.left) equations.back(places.left);
+  else if (below < 0) scrollBy(0, below); // on a phone the page is moved
+  places.shows(lang, chosen() ?? places.word, name);
+  passed();
   if (name === "see") see();
   if (name === "find") find();
   if (name === "take") take.weigh();
@@ -104,6 +109,7 @@ let told = "";
 
 const problem_name = () => text.text.match(/^\s*name\s*=\s*"([A-Za-z]\w{0,60})"/m)?.[1] ?? "problem";
 const chosen = () => names.find((x) => ready(x).text === text.text);
+const address = (id) => `#${chosen() ?? places.word}/${encodeURIComponent(id)}`;
 
 /* ---- what is told */
 
@@ -140,13 +146,13 @@ function ended(how) {
 function answer(equations, vectors = []) {
   the("answer").hidden = !equations.length;
   if (!equations.length) road.show([]);
-  arrows.show(equations, vectors);
+  arrows.show(equations, vectors, address);
 }
 
 function athome(why) {
   answer([]);
   if (tabs.now !== "walk") tabs.show("walk");
-  equations.clear(make("p", {}, why), make("pre", {}, `pip install derive-mechanics\nderive walk ${chosen() ?? `${problem_name()}.toml`}`));
+  equations.clear(make("p", {}, why), make("pre", {}, `${words.install}\nderive walk ${chosen() ?? `${problem_name()}.toml`}`));
   say("");
 }
 
@@ -213,8 +219,8 @@ async function walk() {
 
 /* the walk of the address stands in the page: its steps are links, and listed, and the reader is taken to one of them */
 function stands() {
-  const word = chosen() ?? places.word, to = aim;
-  equations.linked((id) => `#${word}/${encodeURIComponent(id)}`);
+  const to = aim;
+  equations.linked(address);
   steps.fill(equations.root, words);
   places.stands = true;
   aim = null;
@@ -245,7 +251,7 @@ async function check() {
     if (news.holds) ++count;
     else ++wrong;
     if (Number(news.bound) > Number(bound || 0)) bound = news.bound;
-    say(`${words.checking} ${count + wrong}`);
+    say(`${words.checking} ${words.stepof(count + wrong, steps.order.length - 1)}`);
   });
   if (how === "superseded" || !ended(how)) return;
   say(refused || (wrong ? words.failed(wrong) : words.checked(count, power(bound))));
@@ -315,6 +321,7 @@ function go(id, again = false) {
   if (tabs.now !== "walk") tabs.show("walk");
   places.step(lang, chosen() ?? places.word, id, again);
   equations.go(id);
+  passed();
 }
 
 /* show what the address asks for, in a tab, at the place that it was left at, if it was */
@@ -329,18 +336,18 @@ async function visit(tab) {
   const now = found.text ?? ready(found.name).text;
   aim = { ...(places.left ?? (found.step && { step: found.step })), projected: found.seen.projected };
   if (!notice) places.settle(lang, found.name ?? places.word, found.step, found.seen);
-  tab ??= found.seen.tab;
+  tab ??= found.seen.tab ?? (found.first ? "see" : "walk");
   if (tab === "see") motion.restore(found.seen);
   if (now === walked?.text && now === text.text && lang === walked.lang && !notice) {
     later(null);
     stands();
-    if (tab) tabs.show(tab);
+    tabs.show(tab);
     return;
   }
   places.stands = false;
   if (now !== text.text) text.text = now;
   walked = null;
-  if (found.first || tab) tabs.show(tab ?? "see");
+  tabs.show(tab);
   later(null);
   motion.forget();
   about();
@@ -403,7 +410,7 @@ function widen(wide) {
   if (at?.id) equations.back(at);
 }
 
-the("ready").addEventListener("change", (e) => choose(e.target.value ? ready(e.target.value).text : SCAFFOLD));
+the("ready").addEventListener("change", (e) => choose(e.target.value ? ready(e.target.value).text : data.schema.scaffold));
 for (const button of document.querySelectorAll("[data-lang]")) {
   button.addEventListener("click", async () => {
     lang = button.dataset.lang;
@@ -444,11 +451,10 @@ addEventListener("popstate", () => visit());
 
 /* what is read now, a while after the reader stopped moving */
 function passed() {
-  const at = equations.at();
-  if (!places.stands || !at) return;
-  steps.show(at.id);
-  road.here(at.id, steps.order);
-  places.keep();
+  const at = places.stands && equations.at();
+  if (at) steps.show(at.id);
+  if (at) places.keep();
+  road.here(steps.select.value, steps.order, tabs.now === "take");
 }
 let resting = 0;
 addEventListener("scroll", () => {

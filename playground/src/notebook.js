@@ -51,7 +51,7 @@ export function notebook(name, text, title) {
     nbformat: 4, nbformat_minor: 5,
     metadata: { kernelspec: { display_name: "Python 3", language: "python", name: "python3" } },
     cells: [
-      told("about", `# ${shown(title)}\n\n\`pip install derive-mechanics\``),
+      told("about", `# ${shown(title)}\n\nIt needs derive, in a clone of its repository: \`pip install .\``),
       code("problem", PROBLEM(name, text)), code("walk", "d"), code("check", CHECK), code("motion", MOTION), code("code", CODE),
     ],
   }, null, 1);

@@ -2,7 +2,8 @@
 import { make } from "./dom.js";
 
 const LARGEST = 500_000;
-const OTHERS = { stl: "mesh", obj: "mesh", off: "mesh", json: "run", csv: "run", npz: "run" };
+/* what a file is by the end of its name, but for a record, which is told by what is in it */
+const OTHERS = { stl: "mesh", obj: "mesh", off: "mesh", csv: "run", npz: "run" };
 
 /* button: what asks for a file; open(text): of a problem file; say(line): why another is not; words(): of the language */
 export function opens(button, { open, say, words }) {
@@ -16,7 +17,8 @@ export function opens(button, { open, say, words }) {
   async function read(file) {
     if (!file) return;
     const kind = file.name.split(".").at(-1).toLowerCase();
-    if (kind !== "toml") return say(words().opened[OTHERS[kind] ?? "other"](file.name));
+    const is = kind === "json" && /"steps"\s*:/.test(await file.text()) ? "record" : OTHERS[kind] ?? "other";
+    if (kind !== "toml") return say(words().opened[is](file.name));
     if (file.size > LARGEST) return say(words().opened.large(file.name));
     try {
       open(new TextDecoder("utf-8", { fatal: true }).decode(await file.arrayBuffer()));

@@ -28,10 +28,10 @@ export class Road {
     this.place.replaceChildren(...this.#buttons.map((x) => make("li", {}, x)));
   }
 
-  /* the step that is read: the stations that are behind it, of all the steps in their order */
-  here(id, order) {
+  /* the step that is read: the stations that are behind it, of all the steps in their order; or is it the code? */
+  here(id, order, code) {
     const at = order.indexOf(id);
-    const last = this.#buttons.findLast((x) => x.dataset.to && order.indexOf(x.dataset.to) <= at);
+    const last = this.#buttons.findLast((x) => (code ? !x.dataset.to : x.dataset.to && order.indexOf(x.dataset.to) <= at));
     for (const x of this.#buttons) x.setAttribute("aria-current", x === last ? "step" : "false");
   }
 

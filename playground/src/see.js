@@ -81,9 +81,7 @@ export class Motion {
   }
 
   /* it is made again when it is asked for */
-  forget() {
-    this.moved = null;
-  }
+  forget() { this.moved = null; }
 
   show(words, lang, told) {
     this.words = words;
@@ -124,13 +122,10 @@ export class Motion {
     this.more = null;
   }
 
-  fail(text) {
-    this.frame = null;
-    this.place.replaceChildren(make("p", { class: "fault" }, text));
-  }
+  fail(text) { this.clear(make("p", { class: "fault" }, text)); }
 
-  clear() {
+  clear(...instead) {
     this.frame = null;
-    this.place.replaceChildren();
+    this.place.replaceChildren(...instead);
   }
 }

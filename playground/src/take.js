@@ -1,6 +1,7 @@
 /* What may be taken: the file, notes, record, notebook, code in any language with any option; and the command for each at home. */
 import { Code } from "./code.js";
 import { copy, make, save } from "./dom.js";
+import { option } from "./link.js";
 import { notebook } from "./notebook.js";
 import { Options } from "./options.js";
 import { unzipped } from "./zip.js";
@@ -19,7 +20,7 @@ export class Take {
   show(words, lang) {
     this.words = words;
     this.weighed = null;
-    const speaks = lang === "en" ? "" : ` --lang ${lang}`;
+    const speaks = option(lang);
     this.tells = [];
     this.place.replaceChildren(
       make("h2", {}, words.write),

@@ -58,22 +58,16 @@ async function answered(ask, does) {
   begin("rest");
 }
 
-const ASKED = {
-  walk: (play, m) => play.walk(m.text, m.lang),
-  plain: (play, m) => play.plain(m.text),
-  check: (play, m) => play.check(m.text),
-  motion: (play, m) => play.motion(m.text, m.lang),
-  refused: (play, m) => play.refused(m.text, m.words),
-  kept: (play, m) => play.kept(m.text, m.lang),
-  found: (play, m) => play.found(m.text, m.what, m.lang),
-  files: (play, m) => {
-    const made = play.files(m.text, m.words);
-    if (!made) return;
-    const bytes = made.toJs();
-    made.destroy();
-    tell("files", bytes.buffer, [bytes.buffer]);
-  },
-};
+/* what is asked, with what of the question behind its text; files are bytes */
+const ASKED = { walk: ["lang"], plain: [], check: [], motion: ["lang"], refused: ["words"], kept: ["lang"], found: ["what", "lang"], files: ["words"] };
+
+function asked(play, m) {
+  const made = play[m.ask](m.text, ...ASKED[m.ask].map((x) => m[x]));
+  if (!made) return;
+  const bytes = made.toJs();
+  made.destroy();
+  tell("files", bytes.buffer, [bytes.buffer]);
+}
 
 let line = Promise.resolve();
 addEventListener("message", ({ data }) => {
@@ -81,7 +75,7 @@ addEventListener("message", ({ data }) => {
     const play = await started;
     now = data.id;
     try {
-      await answered(data.ask, () => ASKED[data.ask](play, data));
+      await answered(data.ask, () => asked(play, data));
     } catch (e) {
       tell("error", { message: `derive: ${String(e).trim().split("\n").at(-1)}`, line: 1 });
     }

@@ -9,6 +9,7 @@ import time
 import pytest
 
 from derive.command import terminal
+from derive.command.cli import main
 from tests.support.terminals import read_to_end
 
 pty = pytest.importorskip("pty", reason="this system has no pty")
@@ -95,3 +96,14 @@ def test_short_work_says_nothing(monkeypatch):
     with terminal.working("top"):
         pass
     assert screen.text == ""
+
+
+def test_what_a_run_says_is_as_wide_as_what_shows_it(tmp_path, monkeypatch, capsys):
+    """Of a terminal, or of COLUMNS, also where another program reads; else lines are whole."""
+    words = ["simulate", "top", "--t", "0.01"]
+    for columns in ("", "72"):
+        monkeypatch.setenv("COLUMNS", columns)
+        assert main(words) == 0
+        widest = max(map(len, capsys.readouterr().out.splitlines()))
+        assert (widest <= 72) == bool(columns)
+    assert max(map(len, seen(*words, cwd=tmp_path).splitlines())) <= 80

@@ -20,7 +20,8 @@ INK = """() => [...document.querySelectorAll("canvas")].map((c) => {
 MOTION = 'document.getElementById("motion").motion'
 STATE = f"[...{MOTION}.state]"
 CHANGES = """() => [...document.querySelectorAll("tbody td:nth-child(3)")].map(
-    (cell) => Number(cell.textContent.replace("−", "-")))"""
+    (cell) => Number(cell.textContent.replace("·10", "e").replace(/[−⁻]/g, "-")
+        .replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (x) => "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(x))))"""
 
 
 def seek(shown, t):

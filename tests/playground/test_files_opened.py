@@ -37,16 +37,18 @@ def test_a_problem_file_is_dropped(page):
 
 
 @pytest.mark.parametrize(
-    ("name", "told"),
+    ("name", "text", "told"),
     [
-        ("cow.stl", 'solid = "mesh", file = "cow.stl"'),
-        ("run.json", "derive plot run.json"),
-        ("notes.txt", "ends in .toml"),
+        ("cow.stl", "solid", 'solid = "mesh", file = "cow.stl"'),
+        ("run.npz", "", "derive plot run.npz"),
+        ("so3.json", '{"problem": {}, "steps": []}', "derive check so3.json"),
+        ("other.json", "{}", "ends in .toml"),
+        ("notes.txt", "", "ends in .toml"),
     ],
 )
-def test_of_another_a_line_says_what_to_do(page, name, told):
+def test_of_another_a_line_says_what_to_do(page, name, text, told):
     before = text_in(page)
-    page.evaluate(DROP, [name, "solid"])
+    page.evaluate(DROP, [name, text])
     page.wait_for_function(
         "(x) => document.querySelector('#state').textContent.includes(x)", arg=told
     )

@@ -81,7 +81,7 @@ def test_a_copied_link_shows_another_reader_the_same(fresh, site):
         assert shown.evaluate(EYE) == pytest.approx(eye, rel=1e-6)
         # another problem leaves it behind
         chosen(other, "so3")
-        assert other.url == f"{site}?lang=fr#so3"
+        assert other.url == f"{site}?lang=fr#so3&tab=see"
 
 
 def test_an_address_of_a_step_on_the_whole_screen(fresh, site):
@@ -95,4 +95,53 @@ def test_an_address_of_a_step_on_the_whole_screen(fresh, site):
     walked(fresh)
     assert fresh.locator(".screen p math").count() == fresh.locator("#answer p math").count() > 0
     fresh.keyboard.press("Escape")
-    assert fresh.url == f"{site}?lang=en#so3"
+    assert fresh.url == f"{site}?lang=en#so3&tab=see"
+
+
+def test_the_address_is_the_tab_that_is_seen(fresh, site):
+    """Of the first visit, too; a page that is loaded again, and Back, show it."""
+    fresh.goto(f"{site}?lang=en")
+    walked(fresh, "top")
+    assert fresh.url == f"{site}?lang=en#top&tab=see"
+    fresh.reload()
+    walked(fresh, "top")
+    assert fresh.is_visible("#see")
+    for tab, end in (("find", "&tab=find"), ("walk", ""), ("see", "&tab=see")):
+        fresh.click(f"#tab-{tab}")
+        assert fresh.url == f"{site}?lang=en#top{end}"
+    fresh.select_option("#steps", index=2, force=True)
+    assert "&tab" not in fresh.url
+    fresh.go_back()
+    fresh.wait_for_function("() => !document.getElementById('see').hidden")
+    assert fresh.url.endswith("#top&tab=see")
+
+
+SEEN = f"""() => {{
+    const canvas = document.querySelector(".stage canvas");
+    return [{MOTION}.time, {MOTION}.trail.map(([t]) => t), {MOTION}.scene.page.body.parts.length,
+        canvas.width, canvas.toDataURL()];
+}}"""
+
+
+@pytest.mark.parametrize("name", ["hung_bar", "jelly", "top"])
+def test_what_is_played_looks_as_what_is_sought(fresh, site, name):
+    """The trail, the scale and so the picture of an instant are the same, whatever came before."""
+    visit(fresh, f"{site}#{name}", name)
+    frame = moving(fresh)
+    frame.evaluate(f"{MOTION}.seek(0)")
+    until(frame, f"{MOTION}.time === 0")
+    frame.evaluate(f"{MOTION}.play()")
+    until(frame, f"{MOTION}.time > 0.3")
+    frame.evaluate(f"{MOTION}.pause()")
+    fresh.wait_for_timeout(200)
+    played = frame.evaluate(SEEN)
+    fresh.reload()
+    walked(fresh, name)
+    frame = moving(fresh)
+    for t in (15, played[0]):
+        frame.evaluate(STATE, t)
+        until(frame, f"{MOTION}.time === {t}")
+    fresh.wait_for_timeout(200)
+    sought = frame.evaluate(SEEN)
+    assert len(played[1]) > 3
+    assert sought == played

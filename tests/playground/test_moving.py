@@ -45,7 +45,12 @@ def apart(x, y):
 
 def change(frame, name):
     """By how much a number has changed."""
-    return float(frame.inner_text(f"[data-name={name}] td + td").replace("−", "-"))
+    return number(frame.inner_text(f"[data-name={name}] td + td"))
+
+
+def number(shown):
+    """A number as a page shows it."""
+    return float(shown.replace("·10", "e").translate(str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789")))
 
 
 def shown_at(frame, t):

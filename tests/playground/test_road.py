@@ -83,6 +83,37 @@ def test_which_stations_a_road_has(played):
         assert number in listed(told[name]), name
 
 
+COUNTED = """() => {
+    const state = document.getElementById("state");
+    window.counts = [];
+    new MutationObserver(() => {
+        if (state.textContent.includes(" of ")) window.counts.push(state.textContent);
+    }).observe(state, { childList: true });
+}"""
+"""Keeps what is told of a check."""
+
+
+def test_a_line_of_the_answer_leads_to_its_step(fresh, site):
+    visit(fresh, f"{site}#top", "top")
+    fresh.click("#tab-see")
+    lines = fresh.locator("#answer p a")
+    assert lines.count() == fresh.locator("#answer p").count() > 3
+    assert lines.last.get_attribute("href").startswith("#top/top.")
+    lines.last.focus()
+    fresh.keyboard.press("Enter")
+    assert fresh.is_visible("#walk")
+    step = fresh.locator("#walk article:focus").get_attribute("id")
+    assert lines.last.get_attribute("href") == f"#top/{step}"
+    # a term that has an arrow is lit, as before
+    fresh.locator("#answer p [data-arrow='1']").first.click()
+    assert fresh.locator("#answer .legend [aria-pressed=true]").count() == 1
+    # what is a parameter has one face wherever it stands
+    faces = "[...document.querySelectorAll('#answer .parameter, #road .parameter')]"
+    assert fresh.evaluate(
+        f"{faces}.every((x) => getComputedStyle(x).fontFamily.endsWith('sans-serif'))"
+    )
+
+
 def test_a_station_leads_to_its_step_and_is_ticked(fresh, site):
     visit(fresh, f"{site}#so3")
     stations = fresh.locator("#road button")
@@ -92,11 +123,30 @@ def test_a_station_leads_to_its_step_and_is_ticked(fresh, site):
     fresh.wait_for_function("() => location.hash === '#so3/so3.kernel'")
     assert fresh.locator("#walk article:focus").get_attribute("id") == "so3.kernel"
     fresh.wait_for_selector("#road [data-to='so3.kernel'][aria-current=step]")
+    current = fresh.locator("#road [aria-current=step]")
+    # the last step of the walk, above which the walk cannot be moved, is the one that was gone to
+    stations.nth(5).click()
+    assert current.all_inner_texts()[0].startswith("6 ")
+    last = stations.nth(5).get_attribute("data-to")
+    assert fresh.input_value("#steps") == last
+    fresh.wait_for_timeout(400)
+    assert current.all_inner_texts()[0].startswith("6 ")
+    fresh.evaluate("document.getElementById('walk').scrollBy(0, -900)")
+    fresh.wait_for_function("(id) => document.getElementById('steps').value !== id", arg=last)
     stations.nth(6).click()
     assert fresh.is_visible("#take")
+    assert current.all_inner_texts()[0].startswith("7 ")
+    fresh.evaluate(COUNTED)
     fresh.click("#check")
     fresh.wait_for_selector("body[data-checked=holds]", timeout=90_000)
     assert fresh.locator("#road .tick:not(.wrong)").count() == 6
+    # how far it was, of how many; a tick tells what it means
+    counts = fresh.evaluate("window.counts")
+    articles = fresh.locator("#walk article").count()
+    assert counts[0].endswith(f"1 of {articles}")
+    assert counts[-1].endswith(f"{articles} of {articles}")
+    fresh.locator("#walk .tick").first.click()
+    assert "the probability that a false step passes" in fresh.inner_text("#state")
     chosen(fresh, "euler_top")
     assert fresh.locator("#road .tick").count() == 0
     assert stations.count() == 6

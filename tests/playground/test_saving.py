@@ -49,13 +49,18 @@ def test_a_picture_and_a_film_are_saved(fresh, site):
     name, picture = saved(fresh, frame, "Save PNG")
     assert name == "top.png"
     *found, ink, clear = fresh.evaluate(DRAWN, picture)
-    assert found == size
+    told = frame.evaluate(f"{MOTION}.scene.page.meanings")
+    assert len(told) == fresh.locator("#answer .legend li").count() > 0
+    assert found[0] == 2 * size[0]  # finer than the screen, and below it what the arrows mean
+    assert found[1] > 2 * (size[1] + 15 * len(told))
     assert 0.03 < ink < 0.9
     assert clear == 0
     name, film = saved(fresh, frame, "Film", "Stop and save")
     assert name == "top.webm"
     assert frame.evaluate(f"{MOTION}.time") > 0.5
     frame.wait_for_selector("button:has-text('Film')")
+    now = "(({ width, height }) => [width, height])(document.querySelector('canvas'))"
+    assert frame.evaluate(now) == size
     with opened(fresh.context.browser) as other:  # whose policy lets a film be shown
         *found, long = other.evaluate(LONG, film)
     assert found == size

@@ -3,6 +3,8 @@ completed, numbers and names of a text, the notebook."""
 
 import json
 import runpy
+import subprocess
+import sys
 import tomllib
 
 import pytest
@@ -267,3 +269,14 @@ def test_the_pages_of_the_site_have_its_addresses():
     read, own = in_node.told(imports, both, [conf["packed"](text), text])
     assert read == text
     assert len(conf["packed"](text)) <= len(own)
+
+
+@pytest.mark.parametrize("module", ["site", "serve"])
+def test_help_is_printed_and_nothing_done(module):
+    """By its module and by its file."""
+    for how in (["-m", f"playground.{module}"], [str(ROOT / "playground" / f"{module}.py")]):
+        done = subprocess.run(
+            [sys.executable, *how, "--help"], cwd=ROOT, capture_output=True, text=True, timeout=30
+        )
+        assert done.returncode == 0
+        assert done.stdout.startswith("usage:")

@@ -92,9 +92,9 @@ def test_the_ends_are_those_of_the_motions():
         assert np.array_equal(good.get_xdata(), e.varied[e.status == 0, k])
         assert np.array_equal(good.get_ydata(), e.states[e.status == 0, -1, 0])
         assert np.array_equal(lost.get_xdata(), e.varied[e.status != 0, k])
-    assert figure.get_suptitle() == "$t = 2$; 45/50 motions to the end"
+    assert figure.get_suptitle() == "$t = 2$ – 45/50 motions to the end"
     french = drawn("ends", e, word=language("fr").word)
-    assert french.get_suptitle() == "$t = 2$; 45/50 mouvements jusqu’à la fin"
+    assert french.get_suptitle() == "$t = 2$ – 45/50 mouvements jusqu’à la fin"
 
 
 def test_the_ends_at_events_are_those_of_the_events():
@@ -108,7 +108,7 @@ def test_the_ends_at_events_are_those_of_the_events():
     assert np.array_equal(at_event.get_xdata(), a)
     assert np.allclose(a + k * at_event.get_ydata(), 3.0)
     assert set(column.get_lines()[1].get_ydata()) == {3.0}
-    assert figure.get_suptitle() == "$t = 2$; 45/50 motions to the end, 5 to an event"
+    assert figure.get_suptitle() == "$t = 2$ – 45/50 motions to the end, 5 to an event"
 
 
 def test_of_very_many_motions_some_are_points():
@@ -145,7 +145,7 @@ def test_units_are_those_of_the_facts():
         "$x_{1}$ [m], varied",
         "$k$ [m/s], varied",
     ]
-    assert figure.get_suptitle() == "$t = 2$ s; 45/50 motions to the end"
+    assert figure.get_suptitle() == "$t = 2$ s – 45/50 motions to the end"
 
 
 def saved(folder, e, name="many.npz"):

@@ -9,11 +9,12 @@ import pytest
 from derive.command.cli import main
 from derive.motion.run import Run
 from derive.python.simulated import Simulated
+from derive.views.language import language
 from derive.views.plot.ensemble_pictures import of_runs, table
 from derive.views.plot.kind_descriptions import PRECISION
 from derive.views.plot.pictures import plot_energies
 from derive.views.plot.plot_sheet import PlotError, sheet
-from derive.views.plot.time_series import energies
+from derive.views.plot.time_series import energies, method_in_words
 from tests.support.drawn_runs import plain_run, simulated
 from tests.support.needs import needs
 from tests.support.pages import blocks, commands
@@ -57,8 +58,9 @@ def test_a_diagram_of_runs(tmp_path):
     for path in paths:
         derived("euler_top").simulate(5.0, points=1, dt=float(path.stem)).save(path)
     series = of_runs([Simulated.read(x) for x in paths])
-    assert list(series) == ["gauss, dt"]
-    (_, coarse), (_, fine) = series["gauss, dt"]
+    (called,) = series
+    assert called == "gauss, with steps of one size"
+    (_, coarse), (_, fine) = series[called]
     assert fine < coarse < 1e-4
     out = [tmp_path / "a.svg", tmp_path / "b.svg"]
     for x in out:
@@ -96,6 +98,54 @@ def test_a_diagram_of_a_table(tmp_path):
     out = tmp_path / "a.pdf"
     assert main(["plot", str(tmp_path / "a.csv"), "--kind", PRECISION, "--out", str(out)]) == 0
     assert len(out.read_bytes()) > 2000
+
+
+def test_steps_that_evaluate_no_rate_are_refused_and_drawn_is_nothing(tmp_path, capsys):
+    paths = [tmp_path / f"{dt}.npz" for dt in (0.002, 0.001)]
+    for path in paths:
+        derived("top").simulate(0.01, dt=float(path.stem), step="discrete", points=1).save(path)
+    out = tmp_path / "a.svg"
+    assert main(["plot", *map(str, paths), "--kind", PRECISION, "--out", str(out)]) == 2
+    assert "discrete steps evaluate no rate" in capsys.readouterr().err
+    assert not out.exists()
+
+
+def test_what_is_rounding_has_a_floor_and_the_axis_three_decades():
+    """Of errors of 1.2e-16, and 0 among them: a line without gaps; larger ones have none."""
+    E = 1.0 + np.array([0, 1, 0, 1, 0]) * 2.0**-52
+    small = plain_run(np.stack([np.arange(5.0), E], -1), energy="energy")
+    far = 1 + np.array([0, 1, 2, 3, 1]) * 1e-3
+    large = plain_run(np.stack([np.arange(5.0), far], -1), energy="energy")
+    for run, shown, word in (
+        (small, ["rounding"], str),
+        (large, [], str),
+        (small, ["x"], lambda x: "x"),
+    ):
+        figure = sheet(6.5, 3.4)
+        energies(figure, [("a", run)], word)
+        (panel,) = figure.get_axes()
+        bottom, top = panel.get_ylim()
+        assert top > 999 * bottom
+        assert [x.get_text() for x in panel.texts] == shown
+        line = panel.get_lines()[0].get_ydata()
+        assert np.isfinite(line).all() == bool(shown)
+
+
+def test_the_method_of_a_run_in_words():
+    run = plain_run(np.zeros((2, 2)), x_1="state")
+    french = language("fr").word
+    for told, english, en_francais in (
+        ("gauss, tol 1e-09", "gauss, tol $10^{-9}$", "gauss, tol $10^{-9}$"),
+        ("rk4, tol 2.5e-12", r"rk4, tol $2.5 \cdot 10^{-12}$", r"rk4, tol $2.5 \cdot 10^{-12}$"),
+        (
+            "discrete of order 2, dt 0.004",
+            "discrete of order 2, dt 0.004",
+            "discret d’ordre 2, dt 0.004",
+        ),
+    ):
+        run.facts["method"] = told
+        assert method_in_words(run, str) == english
+        assert method_in_words(run, french) == en_francais
 
 
 def test_runs_of_two_motions_are_not_compared():

@@ -111,7 +111,7 @@ def spread(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
     for panel in panels[-WIDE:]:
         panel.set_xlabel(named(e, TIME))
     told = word("median, and the bands of 50 % and 90 % of the motions")
-    figure.suptitle(f"{told}; {reached(e, word)}", fontsize=8)
+    figure.suptitle(f"{told} – {reached(e, word)}", fontsize=8)
 
 
 def quantiles(e: Ensemble, name: str, levels: Sequence[float]) -> Array:
@@ -178,7 +178,7 @@ def ends(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
         panel.set_xlabel(f"{named(e, name)}, {word('varied')}")
     unit = e.facts.get("units", {}).get(TIME, "")
     last = f"$t = {e.t[-1]:g}$ {unit}".strip()
-    figure.suptitle(f"{last}; {reached(e, word)}", fontsize=8)
+    figure.suptitle(f"{last} – {reached(e, word)}", fontsize=8)
 
 
 def _thinned(motions: Any) -> Any:
@@ -210,7 +210,7 @@ def plot_precision(paths: Sequence[Path], name: str, word: Any = str, mark: str 
     if len(paths) == 1:
         series, work = table(paths[0]), word("work")
     else:
-        series, work = of_runs([read(path) for path in paths]), word("evaluations")
+        series, work = of_runs([read(path) for path in paths], word), word("evaluations")
     with look():
         figure = sheet(5.0, 3.6)
         draw(figure, series, work, word)
@@ -230,7 +230,10 @@ def draw(figure: Any, series: Series, work: str, word: Any) -> None:
     panel.legend(loc="center left", bbox_to_anchor=(1, 0.5))
 
 
-def of_runs(runs: Sequence[Run]) -> Series:
+HOW = ("to a tolerance", "with steps of one size")
+
+
+def of_runs(runs: Sequence[Run], word: Any = str) -> Series:
     """Evaluations and error at the last instant by method, relative to the largest number of the
     state there; against the run of the least tolerance, or else of the shortest steps, which is
     left out."""
@@ -243,7 +246,7 @@ def of_runs(runs: Sequence[Run]) -> Series:
             away = np.abs(run.states[-1] - best.states[-1]).max() / np.abs(best.states[-1]).max()
             chosen, _ = _fineness(run)
             step = str(run.facts["method"]).partition(",")[0]
-            method = f"{step}, {('tol', 'dt')[chosen]}"
+            method = f"{word(step)}, {word(HOW[chosen])}"
             found.setdefault(method, []).append((_work(run), max(float(away), 1e-17)))
     return found
 
@@ -264,9 +267,15 @@ def _fineness(run: Run) -> tuple[int, float]:
 
 def _work(run: Run) -> float:
     try:
-        return float(run.facts["evaluations"])
+        count = float(run.facts["evaluations"])
     except (KeyError, TypeError, ValueError):
         raise PlotError("precision: a run without the number of its evaluations") from None
+    if not count > 0:
+        raise PlotError(
+            "precision: discrete steps evaluate no rate, so that their work is not counted: "
+            "leave their runs out, or give a table of method, work, error"
+        )
+    return count
 
 
 def table(path: Path) -> Series:

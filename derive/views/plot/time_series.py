@@ -136,14 +136,34 @@ def _style(k: int) -> dict[str, str]:
     return {"ls": ("-", "--", ":")[k // len(COLOURS) % 3], "c": COLOURS[k % len(COLOURS)]}
 
 
-def _curve(panel: Any, t: Array, away: Array, k: int, **more: Any) -> None:
+FLOOR, AT_ROUNDING, DECADES = 1e-16, 1e-13, 1e3
+"""Relative errors that are smaller are drawn as rounding, of a curve that is nowhere larger than
+the second; an axis is at least so long."""
+
+
+def _curve(panel: Any, t: Array, away: Array, k: int, *, relative: bool, **more: Any) -> None:
     """Curve k of what is away from its first value, where it is, in powers of ten; a point that
-    stands alone is a dot."""
+    stands alone is a dot.  What is rounding has a floor."""
+    if relative and away.max() < AT_ROUNDING:
+        away = np.maximum(away, FLOOR)
     away[away == 0] = np.nan
     there = np.isfinite([np.nan, *away, np.nan])
     alone = np.flatnonzero(there[1:-1] & ~there[:-2] & ~there[2:]).tolist()
     dots = {"marker": ".", "markevery": alone} if alone else {}
     panel.semilogy(t, away, **_style(k), **dots, **more)
+
+
+def _with_floor(panel: Any, word: Any) -> None:
+    """Mark where rounding is, if a curve comes near it; make the axis long enough."""
+    if not panel.get_lines():
+        return
+    bottom, top = panel.get_ylim()
+    if bottom <= AT_ROUNDING:
+        bottom = min(bottom, FLOOR / 3)
+        where = panel.get_yaxis_transform()
+        panel.hlines(FLOOR, 0, 1, transform=where, colors="#777777", lw=0.6, linestyles=":")
+        panel.text(1, FLOOR, word("rounding"), transform=where, ha="right", va="bottom", size=7)
+    panel.set_ylim(bottom, max(top, DECADES * bottom))
 
 
 def changes(run: Run) -> dict[str, tuple[Array, float]]:
@@ -173,7 +193,8 @@ def energy(figure: Any, run: Run, word: Any) -> None:
             exact.append(shown)
             continue
         shown += "" if scale else f" ({word('absolute')})"
-        _curve(panel, run.t, away, k, label=shown)
+        _curve(panel, run.t, away, k, relative=bool(scale), label=shown)
+    _with_floor(panel, word)
     panel.set_xlabel(time_label(run))
     vectors = any(abs(run[x][0]) < scale for x, (_, scale) in found.items())
     told = word("components relative to the length of their vector") if vectors else ""
@@ -189,17 +210,30 @@ def energies(figure: Any, runs: Sequence[tuple[str, Run]], word: Any) -> None:
     for k, (name, run) in enumerate(runs):
         y = run["energy"]
         away = np.abs(y - y[0]) / (abs(y[0]) or 1.0)
-        shown = f"{run.facts.get('method', '?')}\n{name}".replace("$", r"\$")
+        shown = method_in_words(run, word) + f"\n{name}".replace("$", r"\$")
         shown += "" if y[0] else f" ({word('absolute')})"
         if not away.any():
             exact.append(shown)
             continue
-        _curve(panel, run.t, away, k, lw=0.8, label=shown)
+        _curve(panel, run.t, away, k, relative=bool(y[0]), lw=0.8, label=shown)
+    _with_floor(panel, word)
     panel.set_xlabel(time_label(runs[0][1]))
     driven = any(run.facts.get("drives") for _, run in runs)
     change, error = "relative change of the energy", "relative error of the energy"
     panel.set_ylabel(word(change if driven else error))
     _legend(panel, runs[0][1], "\n".join(f"{word('exact:')} {shown}" for shown in exact))
+
+
+def method_in_words(run: Run, word: Any) -> str:
+    """The step of a run, with its tolerance as a power of ten, or the size of its steps."""
+    told = str(run.facts.get("method", "?")).replace("$", r"\$")
+    told = re.sub(r"^discrete of order(?= \d)", word("discrete of order"), told)
+    return re.sub(r"\b(?:(\d\.?\d*)e)(-?)0*(\d+)$", _power, told)
+
+
+def _power(found: re.Match[str]) -> str:
+    digits = "" if found[1] == "1" else rf"{found[1]} \cdot "
+    return f"${digits}10^{{{found[2]}{found[3]}}}$"
 
 
 def norms(run: Run) -> dict[str, float]:

@@ -7,7 +7,7 @@ const LENGTHS = { turning: 1.35, momentum: 1.15, sliding: 1, torque: 0.85, force
 
 function arrows_of(scene, view) {
   const { arrows, module, pointed, body: { planar } } = scene.page;
-  let most = {}, seen = null, hues = [], drawn = []; // of each line that is drawn the number of its arrow and its ends in the picture
+  let most = {}, seen = null, hues = [], written = [], drawn = []; // of each line that is drawn the number of its arrow and its ends in the picture
 
   /* the one that passes near a place of the picture: its number, else 0 */
   const near = (x, y) => {
@@ -29,11 +29,14 @@ function arrows_of(scene, view) {
   on(view.element, "pointerleave", () => point(0));
 
   /* a label, on one side of its place: what follows a _ is smaller, and lower */
-  const label = (pic, text, x, y, colour, side) => {
+  const label = (pic, text, x, beside, colour, side) => {
     const runs = text.split("_").flatMap((part, i) => (i ? [[part[0], 0.72], [part.slice(1), 1]] : [[part, 1]]));
     const font = (f) => (view.pen.font = `italic ${13 * f * (scene.large ?? 1)}px Georgia, serif`);
     const widths = runs.map(([part, f]) => font(f) && view.pen.measureText(part).width);
-    let from = x - side * widths.reduce((a, b) => a + b);
+    const wide = widths.reduce((a, b) => a + b);
+    let from = x - side * wide, y = beside;
+    while (written.some(([a, b, w]) => abs(b - y) < 14 && a < from + wide && from < a + w)) y += 14; // below those that are there
+    written.push([from, y, wide]);
     runs.forEach(([part, f], i) => {
       pic.text(part, from, f < 1 ? y + 4 : y, colour, "left", 13 * f);
       from += widths[i];
@@ -72,6 +75,7 @@ function arrows_of(scene, view) {
       }));
       for (const { scale, long } of all) most[scale] = max(most[scale] ?? 0, long);
       drawn = scene.drawn = [];
+      written = [];
       for (const { number, from, v, long, scale, label: name, part: k, matrix, first } of all) {
         if (!(long > 0.01 * most[scale])) continue;
         const { reach } = parts[k], far = (0.3 + 0.11 * number) * reach;

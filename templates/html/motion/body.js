@@ -80,7 +80,8 @@ function built(scene, x, pieces) {
     const traced = part.deforms ? matter.slice(0, 4).map((x) => x.at) : [pole];
     const centres = part.attractions.map((a) => ({ at: vector(a.centre), on: a.on }));
     const anchors = part.anchors.map((a) => ({ on: a.on, at: vector(a.at) }));
-    return { ...part, points, faces, edges, centre, reach, tips, heavy, traced, centres, anchors };
+    const ends = [...tips, ...Object.values(points).map((x) => x.at)];
+    return { ...part, points, faces, edges, centre, reach, tips, ends, heavy, traced, centres, anchors };
   });
   return { parts, reach: max(...parts.map((x) => x.reach)) };
 }

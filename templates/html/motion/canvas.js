@@ -14,15 +14,22 @@ function canvas(scene, label) {
     pen.stroke();
   };
   const sized = { element: shown, pen, path, stroke, width: 1, height: 1 };
-  new ResizeObserver(() => {
-    const sharp = min(devicePixelRatio || 1, 2.5);
+  let times = 1;
+  const fit = () => {
+    const sharp = times * min(devicePixelRatio || 1, 2.5);
     sized.width = shown.clientWidth;
     sized.height = shown.clientHeight;
     shown.width = round(sized.width * sharp);
     shown.height = round(sized.height * sharp);
     pen.setTransform(sharp, 0, 0, sharp, 0, 0);
     scene.redraw(); // the new size has wiped it
-  }).observe(shown);
+  };
+  new ResizeObserver(fit).observe(shown);
+  /* so many times as sharp as the screen, for a picture */
+  shown.finer = (by) => {
+    times = by;
+    fit();
+  };
   return sized;
 }
 

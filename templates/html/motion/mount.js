@@ -29,8 +29,8 @@ function mount(element, page, pieces) {
 
   const energy = module.energy ?? (module.CONSERVED?.includes("energy")
     && ((t, x, k) => module.conserved(t, x, k)[module.CONSERVED.indexOf("energy")]));
-  const scene = { page, p, u, velocity, energy, ask, run: null, other: null, trail: [], get time() { return time; }, redraw: () => scene.run && show(scene.run.at(time), before) };
-  let run, time = 0, until = page.t, wanted = null, playing = false, trail = [], first = {}, told = 0;
+  const scene = { page, p, u, velocity, energy, ask, run: null, other: null, trail: [], states, get time() { return time; }, redraw: () => scene.run && show(scene.run.at(time).slice(), before) };
+  let run, time = 0, until = page.t, wanted = null, playing = false, cells = [], each = 0, first = {}, told = 0;
   let keeping = module, k = null;  // what gives the numbers that are kept, and its constants
   let moved;  // what gravity moves
 
@@ -54,11 +54,12 @@ function mount(element, page, pieces) {
     element.classList.toggle("none", !run);
     if (!run) return;
     tell("");
+    time = 0;
     for (const x of views) x.restart?.(run.at(0));
-    clear();
+    cells = [];
+    each = min(normal / 60, TURN / rate(0, run.at(0), run.k));
     begin_to_keep();
     tabulate();
-    time = 0;
     wanted = null;
     told = 0;
     ask();
@@ -97,7 +98,9 @@ function mount(element, page, pieces) {
   const last = () => min(...runs().map((x) => x.last));
   const over = () => runs().some((x) => x.ended) && time >= last();
   const reach = (t, late) => runs().map((x) => x.reach(t, late)).every(Boolean);
-  const states = (t) => runs().map((x) => x.at(t).slice());
+  function states(t) {
+    return runs().map((x) => x.at(t).slice());
+  }
 
   function frame(now) {
     asked = 0;
@@ -109,50 +112,46 @@ function mount(element, page, pieces) {
       reach(next, late);
       time = min(next, last() >= next ? next : max(time, last()));
       if (time >= until || over()) pause();
-      push();
     } else if (wanted !== null) {
       const ready = reach(wanted, late);
       time = min(wanted, last());
-      if (ready || over()) {
-        wanted = null;
-        fill();
-      }
-    } else if (!trail.length) {
-      fill();
+      if (ready || over()) wanted = null;
     }
+    if (wanted === null) follow();
     before = now;
-    show(run.at(time), now);
+    show(run.at(time).slice(), now);
     if (playing || wanted !== null) ask();
   }
 
-  /* the trail has a point in every frame, and one for every TURN of what turns fast */
-  const TRAIL = 480, TURN = 0.15;
+  /* The trail is the same however its last instant was reached: its instants are in cells of one length, up to FINE in one
+   * where it turns fast, one for every TURN; it has the last cells in which there are no more than TRAIL, and now. */
+  const TRAIL = 480, TURN = 0.15, FINE = 8;
   const places = element_at.length ? element_at : velocity;
   const large = (list) => max(...list.map(abs), 1e-12);
-  const rate = (x, k) => {
-    const rates = module.rhs(time, x, k, u);
+  const rate = (t, x, k) => {
+    const rates = module.rhs(t, x, k, u);
     return large(places.map((s) => rates[s])) / large(places.map((s) => x[s]));
   };
-  const spacing = (x) => min(speed / 60, TURN / rate(x, run.k));
-  function push() {
-    if (!trail.length) return fill();
-    const [from, x] = trail.at(-1), count = min(TRAIL, ceil((time - from) / spacing(x)));
-    for (let i = 1; i <= count; ++i) {
-      const t = from + (time - from) * i / count;
-      trail.push([t, ...states(t)]);
-    }
-    trail.splice(0, trail.length - TRAIL);
+  /* cell k, and in it what is past */
+  const cell = (k) => grown({ k, count: max(1, min(FINE, ceil(each * rate(k * each, run.at(k * each), run.k) / TURN))), past: [] });
+  function grown(of) {
+    for (let i = of.past.length, t; i < of.count && (t = (of.k + i / of.count) * each) <= time; ++i) of.past.push([t, ...states(t)]);
+    return of;
   }
-  const clear = () => (trail = scene.trail = []);
-
-  /* the trail before a time that was not played up to */
-  function fill() {
-    const each = spacing(run.at(time)), count = min(TRAIL, floor(time / each));
-    clear();
-    for (let i = count; i >= 0; --i) {
-      const t = max(0, time - i * each);
-      trail.push([t, ...states(t)]);
+  function follow() {
+    const now = floor(time / each), from = cells.at(-1)?.k ?? Infinity;
+    let size = 0;
+    if (now < from || now - from > TRAIL) {
+      cells = [];
+      for (let k = now; k >= 0 && size <= TRAIL; --k) size += cells[cells.push(cell(k)) - 1].past.length;
+      cells.reverse();
+    } else {
+      grown(cells.at(-1));
+      for (let k = from + 1; k <= now; ++k) cells.push(cell(k));
+      size = cells.reduce((sum, x) => sum + x.past.length, 0);
     }
+    while (size > TRAIL) size -= cells.shift().past.length;
+    scene.trail = [...cells.flatMap((x) => x.past), [time, ...states(time)]];
   }
 
   function show(x, now) {
@@ -183,8 +182,9 @@ function mount(element, page, pieces) {
   };
   let speed = 1;
   try {
-    speed = nice(max(1e-6, min(max(1, page.t / 60), 16 / max(rate(start(), module.constants(p)), 1e-9))));
+    speed = nice(max(1e-6, min(max(1, page.t / 60), 16 / max(rate(0, start(), module.constants(p)), 1e-9))));
   } catch (e) { /* told by restart */ }
+  const normal = speed;
   const digits = max(2, min(6, ceil(2 - log10(speed))));
 
   const button = (glyph, label, does) => make("button", { type: "button", [aria]: label, title: label, click: does }, glyph);
@@ -217,7 +217,6 @@ function mount(element, page, pieces) {
   });
   const speeds = make("select", { [aria]: words.speed, title: words.speed, change: () => {
     speed = +speeds.value;
-    clear();
     ask();
   } });
   for (let e = floor(log10(speed)) - 1; e < log10(speed) + 2; ++e) {
@@ -239,8 +238,8 @@ function mount(element, page, pieces) {
     ask();
   } }), " ", words.within)] : [];
 
-  /* a number that is dragged sideways, moved by the arrow keys, or typed after Enter: by a step for a pixel where there is
-   * one, else by a part of itself, so that it keeps its sign */
+  /* a number that is dragged sideways, moved by the arrow keys, or typed, after a click, Enter or at once: by a step for a
+   * pixel where there is one, else by a part of itself, so that it keeps its sign */
   const adjusters = [];
   function adjuster(name, title, unit, initial, step, put) {
     const label = `${called(name)} ${title}`;
@@ -251,7 +250,8 @@ function mount(element, page, pieces) {
     let value;
     const write = (v) => {
       value = v;
-      exact.value = drag.textContent = mark(String(+v.toPrecision(6)), page);
+      drag.textContent = mark(String(+v.toPrecision(6)), page);
+      exact.value = drag.textContent.includes("·") ? v : drag.textContent; // as it can be typed
       drag.setAttribute("aria-valuenow", v);
       drag.setAttribute("aria-valuetext", `${exact.value} ${unit}`);
       wrong(false);
@@ -280,17 +280,22 @@ function mount(element, page, pieces) {
       if (!held || !(held[2] ||= abs(e.clientX - held[0]) > 2)) return;
       by(round(e.clientX - held[0]), held[1]);
     });
-    for (const over of ["pointerup", "pointercancel"]) on(drag, over, () => (held = null));
-    const type = () => {
+    const type = (begun) => {
       typing(true);
-      exact.select();
+      if (begun) exact.value = begun;
+      begun ? exact.focus() : exact.select();
     };
-    on(drag, "dblclick", type);
+    on(drag, "pointercancel", () => (held = null));
+    on(drag, "pointerup", () => {
+      if (held && !held[2]) type();
+      held = null;
+    });
     on(drag, "keydown", (e) => {
       const count = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[e.key];
       if (count) by(count * (step ? 1 : 5));
       else if (e.key === "Home") take(initial);
       else if (e.key === "Enter") type();
+      else if ("0123456789.,-−".includes(e.key)) type(e.key);
       else return;
       e.preventDefault();
       e.stopPropagation();
@@ -401,7 +406,7 @@ function mount(element, page, pieces) {
     tabulate();
     ask();
   }
-  return { given: { x: x0, p, u, theta }, get trail() { return trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, second, get until() { return until; }, set until(t) {
+  return { given: { x: x0, p, u, theta }, get trail() { return scene.trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, second, get until() { return until; }, set until(t) {
     lengths.value = [...lengths.options].map((x) => +x.value).find((v) => v >= t) ?? lengths.options[lengths.length - 1].value;
     until = +lengths.value;
     ask();

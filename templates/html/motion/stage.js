@@ -1,11 +1,12 @@
 /* The body on the stage, with gravity and the ground; pieces: see built. A plane is seen as it is. */
+const PIECES = 480; // of all trails: what a frame has time for
 function solid_stage(scene, pieces) {
   const { page } = scene, { body } = page;
   const stage = canvas(scene, page.words.stage);
   const falling = () => valued(page.module, scene.p).vector(body.gravity);
   const eye = scene.eye = camera(scene, stage, ...(body.planar ? [[0, 0, 1], -PI / 2, PI / 2] : [scaled(-1, falling()), 0.55, 0.33]));
   const vectors = pieces.arrows?.(scene, stage);
-  let drawn, reached = 0;
+  let drawn, reached = 0, furthest = [], seen_within;
 
   /* a faint net below the body, or where it stands; it goes with a body that flies, line by line */
   const ground = (pic, target) => {
@@ -33,6 +34,27 @@ function solid_stage(scene, pieces) {
   /* the places of what leaves a trail in the states of an instant; is it of the ghost? */
   const traces = (parts, [, ...states]) => states.flatMap((x, ghost) => parts.flatMap((part) => part.traced.map(moved(part, x)).map((r) => [r, ghost])));
 
+  const placed_at = (states) => states.map((x) => drawn.parts.map((part) => moved(part, x)));
+  /* what stands in the middle of the picture */
+  const middle = (spots) => {
+    const { parts } = drawn, free = parts.every((part) => !part.fixed && !part.centres.length && !part.anchors.length);
+    return free || scene.within ? spots[0](parts[0].centre) : drawn.middle;
+  };
+  /* how far from it what is seen reaches, and so far has reached: at instants that do not depend on what was played */
+  const extent = (all) => {
+    const { parts } = drawn, from = middle(all[0]);
+    const ends = all.flatMap((places) => places.flatMap((at, i) => parts[i].ends.map((r) => size(plus(at(r), from, -1)))));
+    const about = parts.flatMap((part) => [...part.centres, ...part.anchors].map((c) => min(size(plus(c.at, from, -1)), 4 * drawn.reach)));
+    return max(drawn.reach, ...ends, ...about);
+  };
+  const so_far = () => {
+    const each = page.t / 1024;
+    if (seen_within !== scene.within) furthest = [];
+    seen_within = scene.within;
+    while (furthest.length * each <= scene.time) furthest.push(max(furthest.at(-1) ?? 0, extent(placed_at(scene.states(furthest.length * each)))));
+    return furthest[floor(scene.time / each)] ?? furthest.at(-1);
+  };
+
   /* a part where it is; or the ghost of it, where it is in the second motion */
   const of_part = (pic, part, at, tones, ghost) => {
     for (const f of part.faces) pic.face(f.v.map(at), tones[f.tone], ghost || f.clear, f.inside && at(f.inside));
@@ -47,19 +69,15 @@ function solid_stage(scene, pieces) {
     element: stage.element,
     restart(x) {
       drawn = placed(built(scene, x, pieces), x, eye.above);
-      reached = 0;
+      furthest = [];
       vectors?.restart();
     },
     draw(x) {
       const { parts } = drawn, gravity = falling(), { trail, colours } = scene;
-      const spots = parts.map((part) => moved(part, x)), y = scene.other?.at(scene.time);
-      const others = y ? parts.map((part) => moved(part, y)) : [];
-      const free = parts.every((part) => !part.fixed && !part.centres.length && !part.anchors.length);
-      const target = free || scene.within ? spots[0](parts[0].centre) : drawn.middle;
+      const y = scene.other?.at(scene.time).slice(), [spots, others = []] = placed_at([x, ...(y ? [y] : [])]);
+      const target = middle(spots);
       eye.along = scene.within && ((v) => plus(spots[0](v), spots[0]([0, 0, 0]), -1));
-      const ends = [spots, others].flatMap((places) => places.flatMap((at, i) => [...parts[i].tips, ...Object.values(parts[i].points).map((r) => r.at)].map((r) => size(plus(at(r), target, -1)))));
-      const about = parts.flatMap((part) => [...part.centres, ...part.anchors].map((c) => min(size(plus(c.at, target, -1)), 4 * drawn.reach)));
-      reached = max(reached, drawn.reach, ...ends, ...about);
+      reached = max(so_far(), extent([spots, others]));
       const scale = 0.42 * min(stage.width, stage.height) / reached * eye.zoom;
       const pic = picture(scene, stage, eye, target, scale);
       ground(pic, target);
@@ -77,10 +95,12 @@ function solid_stage(scene, pieces) {
         }
         for (const { at: c } of part.anchors) pic.dot(c, 4.5, colours.soft);
       });
-      const path = trail.map((e) => (e.places ??= traces(parts, e)).map(([r, ghost]) => [pic.to(r), ghost]));
-      for (let k = 0; k + 1 < path.length; ++k) {
-        const age = (k + 1) / path.length;
-        path[k].forEach(([p, ghost], i) => pic.drawn_line([p, path[k + 1][i][0]], ghost ? colours.ghost : colours.mark, 1.5, age * age));
+      const path = trail.map((e) => (e.places ??= traces(parts, e)));
+      const joined = max(3, ceil(path.length * (path[0]?.length ?? 0) / PIECES));
+      for (let k = 0; k + 1 < path.length; k += joined) {
+        const piece = path.slice(k, k + joined + 1), age = (k + piece.length - 1) / path.length;
+        const coarse = piece.filter((_, n) => n % 2 === 0 || n === piece.length - 1);
+        piece[0].forEach(([, ghost], i) => pic.drawn_line((ghost ? coarse : piece).map((x) => pic.to(x[i][0])), ghost ? colours.ghost : colours.mark, 1.5, age * age));
       }
       for (const [i, a, j, b] of body.springs) {
         for (const at of y ? [others, spots] : [spots]) pieces.spring(stage, pic, at[i](parts[i].points[a].at), at[j](parts[j].points[b].at), at === spots ? colours.ink : colours.ghost);

@@ -10,9 +10,12 @@ const called = (name) => {
   return short ? short + low(end.replaceAll("_", ",")) : name.replaceAll("_", " ");
 };
 
-/* a number as it is shown: mark(text, page) with its decimal sign, shown(v, page, digits, like) with the
+/* a number as it is shown: mark(text, page) with its decimal sign and power of ten, shown(v, page, digits, like) with the
  * decimals that another of the same row has: it keeps its width while it moves */
-const mark = (text, page) => (page.comma ? text.replace(".", ",") : text).replace("-", "−");
+const mark = (text, page) => {
+  const [digits, power] = (page.comma ? text.replace(".", ",") : text).replace("-", "−").split("e");
+  return power ? `${digits}·10${[...power].map((x) => ({ "−": "⁻", "-": "⁻", "+": "" }[x] ?? "⁰¹²³⁴⁵⁶⁷⁸⁹"[x])).join("")}` : digits;
+};
 const shown = (v, page, digits, like) => {
   const size = abs(like);
   if (v === 0 || digits > 2 && abs(v) < 1e-14) return "0";
