@@ -78,3 +78,16 @@ def tension(t: Tree) -> tuple[tuple[Tree, ...], Tree, Tree, Tree] | None:
                     case ("add", a, ("mul", -1, ("par", _) as length)) if a == s:
                         return (*factors[:k], *factors[k + 1 :]), s, q, length
     return None
+
+
+UNSEEN = {"double": Fraction(1, 10**300), "float": Fraction(1, 10**37)}
+"""What is added to the y of an atan2(y, x) on its half line: less than any y that is meant."""
+
+
+def half_angle(t: Tree) -> Tree | None:
+    """The r + x of the half of an atan2(y, x), as a file's expression is read: 0/0 where it is 0;
+    ``None`` for any other tree."""
+    match t:
+        case ("div", ("mul", 2, r, y), ("add", ("pow", ("add", s, _) as found, 2), ("pow", z, 2))):
+            return found if s == r and z == y else None
+    return None

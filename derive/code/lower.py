@@ -19,7 +19,7 @@ from ..language.tree import Tree, mul
 from ..language.values import hat, wedge
 from ..record.record import Derivation, step_of
 from . import dense
-from .ellipsoid import PLACES, SLACK, integral, tension
+from .ellipsoid import PLACES, SLACK, UNSEEN, half_angle, integral, tension
 from .graph import PARAMETER, Graph, Node
 from .inverses import SMALL, Inverses
 from .naming import name_of
@@ -71,7 +71,7 @@ class Lowering:
         """The value of an operator tree; ``LoweringError`` for an operator without code."""
         op = t[0]
         if op == "fun":
-            found = self.graph.function(t[1], self._number(t[2]))
+            found = self.graph.function(t[1], self._argument(t[2]))
             return self.graph.value(found, name_of(t), self.reader.label)
         if op == "par":  # a number of a force that has a name, or a parameter
             told = self.reader.record.definition(t)
@@ -102,6 +102,15 @@ class Lowering:
             entry: Node = self._matrix(t[1])[t[2] - 1][t[3] - 1 if len(t) == 4 else 0]
             return entry
         return self._simple(op, [self.tree(x) for x in t[1:] if op != "pow" or x != t[2]], t)
+
+    def _argument(self, t: Tree) -> Node:
+        """That of a function; of atan2 on its half line not 0/0 but infinite."""
+        half = half_angle(t)
+        if half is None or not isinstance(t, tuple):
+            return self._number(t)
+        g = self.graph
+        unseen = g.linear([(UNSEEN[self.reader.options.real], g.none(self._number(half)))])
+        return g.product((self._number(t[1]) + unseen, g.recip(self._number(t[2]))))
 
     def _tension(
         self, factors: tuple[Tree, ...], distance: Tree, square: Tree, length: Tree

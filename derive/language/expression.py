@@ -240,8 +240,11 @@ def hypot(*parts: Tree) -> Tree:
 
 
 def _angle(y: Tree, x: Tree) -> Tree:
-    """The angle of (x, y) by the tangent of its half, y / (√(x² + y²) + x)."""
-    return mul(2, ("fun", "atan", ("div", y, add(hypot(x, y), x))))
+    """The angle of (x, y) by the tangent of its half, y/s with s = √(x² + y²) + x, which is
+    2ry/(s² + y²), as 2rs = s² + y²: that has no difference where x < 0."""
+    r = hypot(x, y)
+    squares = add(_powered(add(r, x), 2), _powered(y, 2))
+    return mul(2, ("fun", "atan", ("div", mul(2, r, y), squares)))
 
 
 WRITTEN_OUT: dict[str, tuple[int, Callable[..., Tree]]] = {

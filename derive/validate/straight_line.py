@@ -22,6 +22,8 @@ REFUSED = (1, 2)
 finite."""
 SIGNED = "from_matrix"
 """The function that may ask for signs: it is tried with each choice of them."""
+SLACK = Fraction(1, 10**20)
+"""The largest number that may be added where something of the state is 0."""
 UNSMOOTH = ("abs", "gt", "lt", "le", "eq", "not")
 
 
@@ -52,7 +54,7 @@ def tested_parameters(f: CodeFunction) -> set[int]:
     separately.
 
     ``CodeError`` where it tests anything else, but for a divisor, x + (x == 0), which stands for x
-    wherever x divides.
+    wherever x divides, and for a slack.
     """
     if f.name == SIGNED:
         return set()
@@ -63,6 +65,8 @@ def tested_parameters(f: CodeFunction) -> set[int]:
         if isinstance(e, tuple) and e:
             if e[0] == "div" and _kept_off_zero(e[2]):
                 visit(e[1])
+                return
+            if e[0] == "mul" and _is_slack(e, places):
                 return
             if e[0] == "none":
                 if e[1][0] != "var" or e[1][1] not in places:
@@ -83,6 +87,13 @@ def tested_parameters(f: CodeFunction) -> set[int]:
 def _kept_off_zero(e: Any) -> bool:
     """Is it x + (x == 0), of a name?"""
     return isinstance(e, tuple) and e[0] == "add" and e[1][0] == "var" and e[2] == ("none", e[1])
+
+
+def _is_slack(e: tuple[Any, ...], parameters: Mapping[str, int]) -> bool:
+    """Is it less than any rounding where something, and no parameter, is 0, and 0 elsewhere?"""
+    small = any(x[0] == "lit" and Fraction(x[1]) <= SLACK for x in e[1:])
+    asked = [x[1] for x in e[1:] if x[0] == "none"]
+    return small and bool(asked) and all(x[0] != "var" or x[1] not in parameters for x in asked)
 
 
 def with_roots(f: CodeFunction) -> CodeFunction:
