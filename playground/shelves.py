@@ -11,6 +11,8 @@ from derive.views.figure.drawing import Scene, svg
 from derive.views.figure.scene import scene
 
 FILE = Path(__file__).with_name("gallery.toml")
+THING = ("name", "en", "fr", "like", "group")
+"""What is said of a thing, the last two of few."""
 MARGIN = 1.0
 """Around a picture, in millimetres."""
 LEFT_OUT = ("gravity", "force")
@@ -21,15 +23,10 @@ def shelves() -> list[dict[str, Any]]:
     """Those of the file, in order: titles in both languages, things by the names of their problems
     and their own; ``like``: the problem whose picture it has; ``group``, where it is called
     otherwise than in the problem."""
+    shelf_of = tomllib.loads(FILE.read_text(encoding="utf-8"))["shelf"]
     return [
-        {"en": shelf["en"], "fr": shelf["fr"], "things": [_thing(*x) for x in shelf["things"]]}
-        for shelf in tomllib.loads(FILE.read_text(encoding="utf-8"))["shelf"]
+        x | {"things": [dict(zip(THING, y, strict=False)) for y in x["things"]]} for x in shelf_of
     ]
-
-
-def _thing(name: str, en: str, fr: str, like: str = "", group: str = "") -> dict[str, str]:
-    called = {"group": group} if group else {}
-    return {"name": name, "en": en, "fr": fr, "like": like or name} | called
 
 
 def picture(record: Derivation) -> str:

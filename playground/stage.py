@@ -217,7 +217,7 @@ def gallery(moving: set[str]) -> list[dict[str, Any]]:
     """The shelves of things, each with its picture; does it move?"""
     found = shelves()
     for thing in (thing for shelf in found for thing in shelf["things"]):
-        record = derive.derive(thing["like"]).record
+        record = derive.derive(thing.get("like", thing["name"])).record
         thing |= {"picture": picture(record), "moves": thing["name"] in moving}
     return found
 

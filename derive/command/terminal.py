@@ -54,8 +54,8 @@ def show(text: str) -> None:
 
 
 def filled(line: str, width: int) -> list[str]:
-    """A line at the width of a terminal, or of COLUMNS, what is more below it, further in; as it is
-    elsewhere."""
+    """A line at the width of a terminal, or of COLUMNS, what is more below it, further in; else as
+    it is."""
     from ..views.text import paragraph
 
     if not (sys.stdout.isatty() or os.environ.get("COLUMNS")):

@@ -7,9 +7,7 @@ export class Code {
     this.place = make("div", { class: "code", "aria-live": "polite" });
   }
 
-  clear() {
-    this.place.replaceChildren();
-  }
+  clear() { this.place.replaceChildren(); }
 
   /* files: name → bytes */
   async show(files, words) {

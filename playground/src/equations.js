@@ -69,9 +69,7 @@ export class Equations {
     this.#open = loading;
   }
 
-  write(piece) {
-    this.#open.write(piece);
-  }
+  write(piece) { this.#open.write(piece); }
 
   end() {
     this.#open.write("</div>");
@@ -96,9 +94,7 @@ export class Equations {
     this.#root.replaceChildren(...inside);
   }
 
-  unticked() {
-    for (const tick of this.#root.querySelectorAll(".tick")) tick.remove();
-  }
+  unticked() { for (const tick of this.#root.querySelectorAll(".tick")) tick.remove(); }
 
   tick({ id, holds, bound, reason }) {
     const place = this.#root.getElementById(id)?.querySelector("h3 .rule");

@@ -45,9 +45,7 @@ export class Form {
   }
 
   /* another text that an edit of a field made */
-  edit(text) {
-    this.write(declared(this.text, text, this.forgotten));
-  }
+  edit(text) { this.write(declared(this.text, text, this.forgotten)); }
 
   get group() {
     const name = shown(raw(this.text, tables(this.text)[0], "group"));
@@ -199,9 +197,7 @@ export class Form {
 
   /* ---- what is wrong */
 
-  at(mark) {
-    return this.place.querySelector(`[data-mark="${CSS.escape(mark)}"]`);
-  }
+  at(mark) { return this.place.querySelector(`[data-mark="${CSS.escape(mark)}"]`); }
 
   /* the field, or the row, that a line of the text is of */
   where(line) {

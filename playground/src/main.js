@@ -318,8 +318,8 @@ function about() {
 
 /* go to a step, which gets an entry of its own in the history; `again`: in the place of the last one's */
 function go(id, again = false) {
-  if (tabs.now !== "walk") tabs.show("walk");
   places.step(lang, chosen() ?? places.word, id, again);
+  if (tabs.now !== "walk") tabs.show("walk");
   equations.go(id);
   passed();
 }

@@ -53,9 +53,7 @@ export class Options {
     for (const { name, reason, values } of alike.values()) this.places[name].append(make("li", {}, make("b", {}, values.join(", ")), ` – ${reason}`));
   }
 
-  #why(name) {
-    return this.places[name] = make("ul", { class: "why", id: `why-${name}` });
-  }
+  #why(name) { return this.places[name] = make("ul", { class: "why", id: `why-${name}` }); }
 
   #select(name, [first, ...others], called, standard) {
     const select = make("select", { "aria-describedby": `about-${name} why-${name}`, change: () => {

@@ -35,9 +35,7 @@ export class Road {
     for (const x of this.#buttons) x.setAttribute("aria-current", x === last ? "step" : "false");
   }
 
-  unticked() {
-    for (const tick of this.place.querySelectorAll(".tick")) tick.remove();
-  }
+  unticked() { for (const tick of this.place.querySelectorAll(".tick")) tick.remove(); }
 
   tick({ id, holds, bound, reason }) {
     const title = holds ? this.words.holds(power(bound)) : `${this.words.fails}: ${reason}`;

@@ -11,9 +11,7 @@ const FORCES = ["potential", "input", "damping"], SAID = ["", "lagrangian", "bod
 const WORDLESS = ["name", "kind", "solid", "on", "between", "block", "frame", "direction"];
 
 export class Sentence extends Form {
-  get phrases() {
-    return this.words.phrases;
-  }
+  get phrases() { return this.words.phrases; }
 
   /* a number: written(x) is the text with another one */
   drag(label, mark, value, written, unit = "") {

@@ -151,6 +151,11 @@ OF_THE_CORPUS = [
     *("torus 3", "fluid well"),
 ]
 """Records that together have all sentences with the ready-made ones and these:"""
+QUOTIENT = {
+    "group": "SO(3)",
+    "lagrangian": {"L": "(zeta_1^2 + zeta_2^2)/2 - A_33"},
+    "force": [{"covector": ["-zeta_1", "-zeta_2", 0]}],
+}
 WHOLE = {"group": "SL(3)", "body": {"solid": "ellipsoid", "density": 1, "semi_axes": [3, 2, 1]}}
 WEIGHT = {"kind": "gravity", "g": [0, 0, "-9.81"]}
 
@@ -181,6 +186,7 @@ OWN = [
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT, "input": [{"name": "u", "kind": "torque"}]},
     {"algebra": {"of": "SO(3)"}, "advected": [{"name": "x"}], "lagrangian": ON_THE_RIGHT},
     {"group": "SO(3) x SE(2)", "lagrangian": {"L": TWO}},
+    QUOTIENT,
     WHOLE | {"potential": [WEIGHT]},
     WHOLE | {"potential": [WEIGHT, {"kind": "self_gravity", "G": 1}]},
     WHOLE | {"body": WHOLE["body"] | {"density": "2 - s"}},

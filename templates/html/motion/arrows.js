@@ -7,7 +7,7 @@ const LENGTHS = { turning: 1.35, momentum: 1.15, sliding: 1, torque: 0.85, force
 
 function arrows_of(scene, view) {
   const { arrows, module, pointed, body: { planar } } = scene.page;
-  let most = {}, seen = null, hues = [], written = [], drawn = []; // of each line that is drawn the number of its arrow and its ends in the picture
+  let seen = null, hues = [], written = [], drawn = []; // of each line that is drawn the number of its arrow and its ends in the picture
 
   /* the one that passes near a place of the picture: its number, else 0 */
   const near = (x, y) => {
@@ -60,20 +60,26 @@ function arrows_of(scene, view) {
     return Array.from({ length: 17 }, (_, k) => plus(from, [cos(v[2] * long / far * k / 16), sin(v[2] * long / far * k / 16), 0], far));
   };
 
+  const sized = (t, x, parts, spots) => {
+    const read = module.outputs(t, x, scene.run.k, scene.u);
+    return arrows.flatMap((a) => vectors(a, parts[a.part], read).map(([from, v], k) => {
+      const at = spots[a.part]; // a body that stretches takes its vectors along
+      return { ...a, from, v, long: size(plus(at(plus(from, v)), at(from), -1)) || 0, first: k === 0 };
+    }));
+  };
+
   return {
-    restart() {
-      most = {};
+    /* the longest of each scale, of others and at an instant */
+    longest(most, ...instant) {
+      const found = { ...most };
+      for (const { scale, long } of sized(...instant)) found[scale] = max(found[scale] ?? 0, long);
+      return found;
     },
-    draw(pic, x, parts, spots) {
-      const { colours, lit, run, u, time } = scene;
+    draw(pic, x, parts, spots, so_far) {
+      const { colours, lit, time } = scene, most = this.longest(so_far, time, x, parts, spots);
       if (seen !== colours) hues = Object.fromEntries(arrows.map(({ number }) => [number, colours.read(`arrow-${number}`)]));
       seen = colours;
-      const read = module.outputs(time, x, run.k, u);
-      const all = arrows.flatMap((a) => vectors(a, parts[a.part], read).map(([from, v], k) => {
-        const at = spots[a.part]; // a body that stretches takes its vectors along
-        return { ...a, from, v, long: size(plus(at(plus(from, v)), at(from), -1)) || 0, first: k === 0 };
-      }));
-      for (const { scale, long } of all) most[scale] = max(most[scale] ?? 0, long);
+      const all = sized(time, x, parts, spots);
       drawn = scene.drawn = [];
       written = [];
       for (const { number, from, v, long, scale, label: name, part: k, matrix, first } of all) {

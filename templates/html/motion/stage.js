@@ -51,7 +51,10 @@ function solid_stage(scene, pieces) {
     const each = page.t / 1024;
     if (seen_within !== scene.within) furthest = [];
     seen_within = scene.within;
-    while (furthest.length * each <= scene.time) furthest.push(max(furthest.at(-1) ?? 0, extent(placed_at(scene.states(furthest.length * each)))));
+    while (furthest.length * each <= scene.time) {
+      const t = furthest.length * each, [far, longest] = furthest.at(-1) ?? [0, {}], states = scene.states(t), all = placed_at(states);
+      furthest.push([max(far, extent(all)), vectors?.longest(longest, t, states[0], drawn.parts, all[0])]);
+    }
     return furthest[floor(scene.time / each)] ?? furthest.at(-1);
   };
 
@@ -70,14 +73,14 @@ function solid_stage(scene, pieces) {
     restart(x) {
       drawn = placed(built(scene, x, pieces), x, eye.above);
       furthest = [];
-      vectors?.restart();
     },
     draw(x) {
       const { parts } = drawn, gravity = falling(), { trail, colours } = scene;
       const y = scene.other?.at(scene.time).slice(), [spots, others = []] = placed_at([x, ...(y ? [y] : [])]);
       const target = middle(spots);
       eye.along = scene.within && ((v) => plus(spots[0](v), spots[0]([0, 0, 0]), -1));
-      reached = max(so_far(), extent([spots, others]));
+      const [far, longest] = so_far();
+      reached = max(far, extent([spots, others]));
       const scale = 0.42 * min(stage.width, stage.height) / reached * eye.zoom;
       const pic = picture(scene, stage, eye, target, scale);
       ground(pic, target);
@@ -105,7 +108,7 @@ function solid_stage(scene, pieces) {
       for (const [i, a, j, b] of body.springs) {
         for (const at of y ? [others, spots] : [spots]) pieces.spring(stage, pic, at[i](parts[i].points[a].at), at[j](parts[j].points[b].at), at === spots ? colours.ink : colours.ghost);
       }
-      vectors?.draw(pic, x, parts, spots);
+      vectors?.draw(pic, x, parts, spots, longest);
       pic.done();
       const strength = size(gravity);
       if (strength) {
