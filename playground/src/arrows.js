@@ -28,6 +28,7 @@ export class Arrows {
     this.place.replaceChildren(...answer.map(({ id, shown }) => {
       const link = make("a", { href: address(id), "data-to": id });
       link.innerHTML = shown;
+      link.setAttribute("aria-label", `${id}: ${link.textContent}`);
       return make("p", {}, link);
     }));
     if (!arrows.length) return;

@@ -7,12 +7,15 @@ import pytest
 import derive
 from derive.command.cli import main
 from derive.command.showing import ready_made
+from derive.language.templating import folder
+from derive.views.page.motion_page import DEFINED, SCRIPTS, plain
 from tests.support.motion_pages import BAD, FAST, page, told
 from tests.support.walks import derived
 
-MOST = 75_600  # 41 600 when names were shortened: 20 and 17 thousand bytes as a server packs them;
+MOST = 79_800  # 41 600 when names were shortened: 20 and 17 thousand bytes as a server packs them;
 # 400 more since a body is seen from itself; 1 600 more since numbers are dragged, or moved by keys;
-# 1 200 more since a quantity has its graph; 400 more since a motion goes on: the longest has 75 494
+# 1 200 more since a quantity has its graph; 400 more since a motion goes on; 4 200 more
+# since its picture has a legend, labels make room and trails are joined: the longest has 79 668
 LONGEST = "riemann_ellipsoid"
 PAGELESS = ("affine", "linear", "ideal_fluid", "inhomogeneous_fluid", "stratified_fluid")
 PAGELESS += ("imu",)
@@ -149,3 +152,14 @@ def test_notes_link_to_the_page_of_each_problem_in_each_language(tmp_path, capsy
     for name, text in zip(names, told_in_french, strict=True):
         assert told(text)["comma"]
         assert text == derived(name).motion_page(5.0, language="fr")
+
+
+def test_every_definition_of_the_drawing_is_found_by_its_name():
+    """A page has those that it needs, by their names: one that is not found is in none."""
+    source = "".join(
+        (folder("html") / "motion" / f"{x}.js").read_text(encoding="utf-8") for x in SCRIPTS
+    )
+    begun = re.findall(r"^(?:async )?(?:function|const|let) (\w+)", source, re.MULTILINE)
+    found = [m[1] or m[2] for m in DEFINED.finditer(plain(source))]
+    assert [x for x in begun if x not in found] == []
+    assert not re.findall(r"^const \w+ = [^;({\[`]*, \w+ = ", source, re.MULTILINE)

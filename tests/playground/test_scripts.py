@@ -184,7 +184,7 @@ def book():
 def test_a_notebook_derives_its_problem_and_writes_over_no_file(book, tmp_path, monkeypatch):
     title, problem, *_ = ("".join(x["source"]) for x in json.loads(book)["cells"])
     assert title.startswith("# A body, \\*fixed\\*\n")
-    assert "pip install derive-mechanics" in title
+    assert "in a clone of its repository: `pip install .`" in title
     monkeypatch.chdir(tmp_path)
     ran = {}
     exec(problem, ran)

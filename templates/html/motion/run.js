@@ -1,7 +1,9 @@
 /* The run: marks on a grid of times, between them the motion is made again when asked for. It has no end: where there are
  * more than GRID marks, every other one goes. */
 
-const GRID = 2048, CHUNK = 64; /* a power of two: the times of the marks are exact */
+/* a power of two: the times of the marks are exact */
+const GRID = 2048;
+const CHUNK = 64;
 
 function begun(page, p, u, x) {
   const { module } = page;

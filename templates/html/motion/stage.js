@@ -1,5 +1,6 @@
 /* The body on the stage, with gravity and the ground; pieces: see built. A plane is seen as it is. */
-const PIECES = 480; // of all trails: what a frame has time for
+/* of all trails: what a frame has time for */
+const PIECES = 480;
 function solid_stage(scene, pieces) {
   const { page } = scene, { body } = page;
   const stage = canvas(scene, page.words.stage);
