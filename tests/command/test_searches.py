@@ -26,7 +26,7 @@ SEARCHES = {
     ),
     "trim --at A_11=-1 --at A_22=-1": (
         *("pendulum", "trim", "trim"),
-        *("The velocity stays 0 where", "La vitesse reste nulle où"),
+        *("The velocity stays 0 with", "La vitesse reste 0 avec"),
     ),
     "equilibria --near Pi_2=1": (
         *("euler_top", "enclosure_1", "enclosure_1"),
