@@ -19,6 +19,8 @@ BITS = 320
 ONE = 1 << BITS
 KNOWN = (int, Fraction, Quadratic)
 """Numbers that are exact; the bounds of an interval are about those that are no such multiples."""
+DIGITS = 2**128
+"""Inverses of derivatives are known so well."""
 GUARD = 40
 """Bits by which values of functions are computed more precisely than is claimed of them."""
 
@@ -165,6 +167,28 @@ def _value(name: str, n: int, over: int = 1) -> Interval:
         y = f(mpmath.mpf(n) / (over * ONE)) * ONE
         found, off = int(mpmath.floor(y)), abs(y) / 2 ** (BITS + GUARD)
         return Interval(found - int(off) - 1, found + int(off) + 2)
+
+
+def krawczyk(
+    box: Sequence[Interval], at_middle: Sequence[Any], slopes: Sequence[Sequence[Any]]
+) -> list[Interval] | None:
+    """Krawczyk's operator c − CF(c) + (1 − CF′)(y − c) of a box y, by F at its middle c and the
+    derivatives F′ in the box, C about the inverse of F′; ``None`` where that has none.  Where it
+    leads to inside of the box, one zero of F is there, and no other."""
+    about = q.inverse(q.matrix([[_short(Interval.of(x).middle) for x in row] for row in slopes]))
+    if about is None:
+        return None
+    middle = [x.middle for x in box]
+    C = q.matrix([[_short(x) for x in row] for row in about])
+    away = q.column(x - c for x, c in zip(box, middle, strict=True))
+    left = q.minus(q.identity(len(box)), q.times(C, slopes))
+    step = q.minus(q.times(left, away), q.times(C, q.column(at_middle)))
+    return [Interval.of(c + x) for c, (x,) in zip(middle, step, strict=True)]
+
+
+def _short(x: Fraction) -> Fraction:
+    """A number with fewer digits."""
+    return Fraction(round(x * DIGITS), DIGITS)
 
 
 def characteristic(a: Sequence[Sequence[Any]]) -> list[Interval]:

@@ -16,7 +16,13 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 from ...language import rational as q
-from ...language.intervals import Interval, UnknownSignError, characteristic, signs_of_real_parts
+from ...language.intervals import (
+    Interval,
+    UnknownSignError,
+    characteristic,
+    krawczyk,
+    signs_of_real_parts,
+)
 from ...language.rational import Matrix
 from ...language.univariate import value_of
 from ...record.record import RecordError, Step
@@ -33,7 +39,7 @@ from .reduced_system import ClaimedRecord
 SIZE, BOUNDED_SIZE, TRIED, LARGEST = 2**16, 4, 3, 16
 """Numbers are drawn up to a size, smaller ones where their differences are within bounds; so many
 elements are tried; so many numbers are told at most."""
-DRAWN, REFINED, DIGITS = 20, 4, 2**128
+DRAWN, REFINED = 20, 4
 POINTS = ("trim.near_rest", "trim.near_steady")
 VERDICTS = {
     "negative": "trim.near_stable",
@@ -132,21 +138,13 @@ class EnclosedState:
         return found
 
     def newton_step(self, box: Sequence[Interval]) -> list[Interval] | None:
-        """Krawczyk's operator: c − CF(c) + (1 − CF′)(y − c) for the middle c of the box."""
-        m, middle = len(box), [x.middle for x in box]
-        units = q.identity(m)
-        varied = [Varying(x, unit) for x, unit in zip(box, units, strict=True)]
+        """Krawczyk's operator for the loads."""
+        m = len(box)
+        varied = [Varying(x, unit) for x, unit in zip(box, q.identity(m), strict=True)]
         loads = [*self.at(self.bounded, varied).load]
-        slopes = q.matrix([slopes_of(loads[i], m) for i in self.rows])
-        about = q.inverse(tuple(tuple(map(_middle, row)) for row in slopes))
-        if about is None:
-            return None
-        C = tuple(tuple(_short(x) for x in row) for row in about)
-        there = [*self.at(self.bounded, [*map(Interval.of, middle)]).load]
-        at = q.column(there[i] for i in self.rows)
-        away = q.column(x - c for x, c in zip(box, middle, strict=True))
-        step = q.minus(q.times(q.minus(units, q.times(C, slopes)), away), q.times(C, at))
-        return [Interval.of(c + x) for c, (x,) in zip(middle, step, strict=True)]
+        there = [*self.at(self.bounded, [Interval.of(x.middle) for x in box]).load]
+        slopes = [[*map(value, slopes_of(loads[i], m))] for i in self.rows]
+        return krawczyk(box, [there[i] for i in self.rows], slopes)
 
     # -- it goes on, and what its neighbours do ----------------------------------------------------
 
@@ -214,15 +212,6 @@ def cayley(x: Matrix) -> Matrix:
     """(1 − ½x)⁻¹(1 + ½x)."""
     one, half = q.identity(len(x)), q.scaled(Fraction(1, 2), x)
     return q.times(q.inverted(q.minus(one, half)), q.plus(one, half))
-
-
-def _middle(x: Any) -> Fraction:
-    return _short(Interval.of(value(x)).middle)
-
-
-def _short(x: Fraction) -> Fraction:
-    """A number with fewer digits."""
-    return Fraction(round(x * DIGITS), DIGITS)
 
 
 def _all_bounded(a: Matrix) -> Matrix:

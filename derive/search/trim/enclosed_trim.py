@@ -13,9 +13,7 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
-from ...language import rational as q
-from ...language.intervals import Interval, UnknownSignError, function
-from ...language.rational import Matrix
+from ...language.intervals import Interval, UnknownSignError, function, krawczyk
 from .question import Question
 from .steady_velocity import FLOATS, Arithmetic, NoTrimError, Rates, approximately, describe
 from .trim import EnclosedTrim
@@ -119,24 +117,13 @@ class EnclosedQuestion(Question):
 
 
 def _newton_step(f: Rates, box: Box, rows: Sequence[int]) -> Box:
-    """Krawczyk's operator: c − CF(c) + (1 − CF′)(y − c), c the middle of the box, C about the
-    inverse of F′ there."""
-    middle = [x.middle for x in box]
-    slopes = q.matrix([f.slopes(box, INTERVALS)[i] for i in rows])
-    about = q.inverse(q.matrix([[_short(Interval.of(x).middle) for x in row] for row in slopes]))
-    if about is None:
+    """Krawczyk's operator for some of the rates."""
+    there = f.values([x.middle for x in box], INTERVALS)
+    slopes = f.slopes(box, INTERVALS)
+    found = krawczyk(box, [there[i] for i in rows], [slopes[i] for i in rows])
+    if found is None:
         raise NoTrimError("many trims: others may be near this one; free fewer")
-    C = q.matrix([[_short(x) for x in row] for row in about])
-    at: Matrix = q.column(f.values(middle, INTERVALS)[i] for i in rows)
-    away = q.column(x - c for x, c in zip(box, middle, strict=True))
-    left = q.minus(q.identity(len(box)), q.times(C, slopes))
-    step = q.minus(q.times(left, away), q.times(C, at))
-    return [Interval.of(c + x) for c, (x,) in zip(middle, step, strict=True)]
-
-
-def _short(x: Fraction) -> Fraction:
-    """A number with fewer digits."""
-    return Fraction(round(x * 2**128), 2**128)
+    return found
 
 
 def _radius(y: Sequence[float]) -> Fraction:
