@@ -21,6 +21,7 @@ from tests.support.trims import (
     PENDULUM,
     TURNED,
     cubed,
+    leaning,
     nearly_upside_down,
     spun,
     turned_in_space,
@@ -172,6 +173,17 @@ def found_near(found):
 def test_an_entry_is_no_displacement():
     near = ("matrix", *found_near(cubed()), ("row", ("entry", "A", 3, 3), 1))
     assert "are told to be near" in changed(cubed(), "trim.near_rest", near=near)
+
+
+def test_a_displacement_is_told_within_bounds_alone():
+    displaced = ("row", ("entry", "ξ", 1), 1)
+    claim = dict(cubed().record.steps[-1].claims[0].values)
+    point = ("matrix", *claim["point"][1:], displaced)
+    assert "as an exact number" in changed(cubed(), "trim.near_rest", point=point)
+    found = leaning()
+    (told,) = (x for x in found.record.steps[-1].claims if x.kind == "trim.rest")
+    point = ("matrix", *dict(told.values)["point"][1:], displaced)
+    assert "and no bounds of it" in changed(found, "trim.rest", point=point)
 
 
 def test_what_turns_g_tells_its_entries():

@@ -35,6 +35,7 @@ from ..values.varying import value_of as value
 from .entries_checked import decided
 from .equilibrium_claims import Coordinates, coordinates, silent
 from .reduced_system import ClaimedRecord
+from .trim_claims import placed
 
 SIZE, BOUNDED_SIZE, TRIED, LARGEST = 2**16, 4, 3, 16
 """Numbers are drawn up to a size, smaller ones where their differences are within bounds; so many
@@ -61,6 +62,8 @@ class EnclosedState:
         inputs = (x for x, _ in near if x not in known)
         if not all(isinstance(x, tuple) and x[0] == "par" for x in inputs):
             raise RecordError("velocities, displacements and inputs are told to be near")
+        if any(placed(c.group, exact)[3]):
+            raise RecordError("a displacement of g is told as an exact number")
         if not all(isinstance(y, Fraction) for _, y in near):
             raise RecordError("what is told to be near is a fraction")
         self.c, self.group, self.exact = c, c.group, exact
@@ -84,22 +87,12 @@ class EnclosedState:
     def at(self, model: AnyModel, y: Numbers, t: Any = None) -> AnyModel:
         """The model where the numbers that are near have these values."""
         basis = self.group.in_user_basis
-        held: dict[str, Any] = {}
-        g: list[list[Any]] = [[*row] for row in q.identity(self.group.size)]
-        zeta, xi = ([Fraction(0)] * basis.dimension for _ in range(2))
-        for x, number in (*self.exact, *zip(self.names, y, strict=True)):
-            assert isinstance(x, tuple)
-            if x[0] == "par":
-                held[x[1]] = number
-            elif x[1] in ("A", "T"):
-                g[x[2] - 1][x[3] - 1 if x[1] == "A" else self.group.n] = number
-            else:
-                after = basis.dimension - basis.n if x[1] == "w" else 0
-                (xi if x[1] == "ξ" else zeta)[after + x[2] - 1] = number
+        pairs = (*self.exact, *zip(self.names, y, strict=True))
+        held, g, zeta, xi = placed(self.group, pairs)
         found = copy(model)
         found.parameters = {**model.parameters}
         vars(found).pop("expressions", None)  # that of the other parameters
-        found.g, found.Z = q.matrix(g), basis.hat(zeta)
+        found.g, found.Z = g, basis.hat(zeta)
         if any(x[1] == "ξ" for x in self.names if isinstance(x, tuple)):
             found.g = model.ordered(found.g, cayley(basis.hat(xi)))
         found.t = model.t if t is None else t

@@ -9,15 +9,17 @@ modulo p², of either sign, as the conjugates of an algebraic function vanish to
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from copy import copy
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any
 
+from ...algebra.groups import Group
 from ...language import rational as q
 from ...language.rational import Matrix
+from ...language.tree import Tree
 from ...language.univariate import Number, Quadratic, coefficients_of, root, value_of
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
@@ -97,6 +99,27 @@ class TrueRoots:
         raise RecordError("a root is met that is none in the state")
 
 
+def placed(
+    group: Group, point: Iterable[tuple[Tree, Any]]
+) -> tuple[dict[str, Any], Matrix, list[Any], list[Any]]:
+    """What a point tells: inputs by name, g, and the coordinates of ζ and of ξ in the problem's
+    basis; the others are those of g = 1, and 0."""
+    basis = group.in_user_basis
+    held: dict[str, Any] = {}
+    g: list[list[Any]] = [[*row] for row in q.identity(group.size)]
+    zeta, xi = ([Fraction(0)] * basis.dimension for _ in range(2))
+    for x, value in point:
+        assert isinstance(x, tuple)
+        if x[0] == "par":
+            held[x[1]] = value
+        elif x[1] in ("A", "T"):
+            g[x[2] - 1][x[3] - 1 if x[1] == "A" else group.n] = value
+        else:
+            after = basis.dimension - basis.n if x[1] == "w" else 0
+            (xi if x[1] == "ξ" else zeta)[after + x[2] - 1] = value
+    return held, q.matrix(g), zeta, xi
+
+
 class ClaimedTrim:
     """A state with its inputs, by the numbers that a step tells; the others are those of g = 1,
     and 0.  ``here``: the model there, exactly; others are modulo p²."""
@@ -108,21 +131,11 @@ class ClaimedTrim:
         numbers = {name: Fraction(str(data["default"])) for name, data in given.items()}
         problem, at = c.record.problem, Locus(driven=True)
         self.model: AnyModel = model_at(problem, c.group, c.random, SIZE, at, given=numbers)
-        held: dict[str, Any] = {}
-        g: list[list[Any]] = [[*row] for row in q.identity(self.group.size)]
-        basis = self.group.in_user_basis
-        zeta: list[Any] = [Fraction(0)] * basis.dimension
-        for x, value in point:
-            assert isinstance(x, tuple)
-            if x[0] == "par":
-                held[x[1]] = value
-            elif x[1] in ("A", "T"):
-                g[x[2] - 1][x[3] - 1 if x[1] == "A" else self.group.n] = value
-            else:
-                after = basis.dimension - basis.n if x[1] == "w" else 0
-                zeta[after + x[2] - 1] = value
-        self.exact = q.matrix(g)
-        elementary, Z = self.model.elementary, basis.hat(zeta)
+        held, g, zeta, xi = placed(self.group, point)
+        if any(xi):
+            raise RecordError("a displacement of g is told, and no bounds of it")
+        self.exact = g
+        elementary, Z = self.model.elementary, self.group.in_user_basis.hat(zeta)
         elementary.true_root = self.roots.exact
         self.here = self.at(self.exact, Z, held)
         self.load, self.moving = [*self.here.load], any(map(any, Z))
