@@ -396,7 +396,7 @@ def test_by_keys_and_nothing_is_asked_of_others(fresh, site):
     visit(fresh, f"{site}#so3")
     fresh.evaluate("document.activeElement.blur()")
     reached = []
-    for _ in range(20):
+    for _ in range(32):  # each word of the sentence is one
         fresh.keyboard.press("Tab")
         focus = "document.activeElement.id || document.activeElement.className"
         reached.append(fresh.evaluate(focus))

@@ -84,7 +84,7 @@ function mount(element, page, pieces) {
     return found;
   }
 
-  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element), side = pieces.side?.(scene), graph = pieces.graph?.(scene, page.in_time, page.apart), views = [stage, ...(side ? [side] : []), ...(graph ? [graph] : [])];
+  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element), side = pieces.side?.(scene), graph = pieces.graph?.(scene, page.in_time, page.apart), views = [stage, side, graph].filter(Boolean);
 
   /* ---- the frame */
 
@@ -233,10 +233,10 @@ function mount(element, page, pieces) {
     if (time > until) seek(until);
     ask();
   } }, ...[1, 2, 4, 8, 16, 32].map((f) => make("option", { value: f * page.t }, [mark(String(+(f * page.t).toPrecision(6)), page), page.units.t].join(" "))));
-  const within = words.within ? [make("label", { class: "within" }, make("input", { type: "checkbox", change: (e) => {
+  const within = words.within ? make("label", { class: "within" }, make("input", { type: "checkbox", change: (e) => {
     scene.within = e.target.checked;
     ask();
-  } }), " ", words.within)] : [];
+  } }), " ", words.within) : "";
 
   /* a number that is dragged sideways, moved by the arrow keys, or typed, after a click, Enter or at once: by a step for a
    * pixel where there is one, else by a part of itself, so that it keeps its sign */
@@ -320,7 +320,7 @@ function mount(element, page, pieces) {
     });
     write(initial);
     const whole = make("span", { class: "adjuster", "data-name": name, title },
-      make("span", { class: "name" }, called(name)), ...(title ? [make("small", {}, title)] : []), drag, exact, measured(unit));
+      make("span", { class: "name" }, called(name)), title && make("small", {}, title), drag, exact, measured(unit));
     return whole;
   }
   const about = (name) => page.labels[name] ?? ["", ""];
@@ -333,7 +333,7 @@ function mount(element, page, pieces) {
   const rows = {};
   const table = make("table", {}, make("thead", {}, make("tr", {}, make("th", {}, words.kept), make("td", {}), make("th", {}, words.change))));
   const lines = make("tbody"), others = make("tbody");
-  table.append(lines, ...(words.others ? [others] : []));
+  table.append(lines, words.others ? others : "");
   function tabulate() {
     lines.replaceChildren();
     others.replaceChildren(make("tr", { class: "unit" }, make("th", { colspan: 3 }, words.others)));
@@ -377,7 +377,7 @@ function mount(element, page, pieces) {
     home,
     make("div", { class: "controls", role: "group", [aria]: words.controls },
       button("❘◂", words.again, () => seek(0)), button("◂", words.back, () => stepped(-1)), toggle,
-      button("▸", words.step, () => stepped(1)), slider, clock, make("label", {}, words.until, " ", lengths), make("label", {}, words.pace, " ", speeds), ...within, ...(second ? [second.element] : [])),
+      button("▸", words.step, () => stepped(1)), slider, clock, make("label", {}, words.until, " ", lengths), make("label", {}, words.pace, " ", speeds), within, second?.element ?? ""),
     make("div", { class: "beside" }, ...(graph ? [graph.figure, table, ...beside] : [...beside, table]), make("p", { class: "keys" }, words.keys)),
   );
   on(document, "keydown", (e) => {
