@@ -172,7 +172,7 @@ def test_the_trail_follows_the_speed_that_is_set(opened):
     shown.wait_for_function(f"{MOTION}.time > 1.2")
     shown.get_by_role("button", name="pause").click()
     trail = shown.evaluate(f"{MOTION}.trail.map(([t]) => t)")
-    assert len(trail) == 480
+    assert 480 - 8 < len(trail) <= 480 + 1  # whole cells of at most 8 instants, and now
     assert np.diff(trail).min() > 0
     assert np.diff(trail).max() < 0.2 / 50
 
