@@ -11,6 +11,7 @@ import ctypes
 import importlib.util
 import json
 import sys
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -89,19 +90,37 @@ def in_python(path: str, call: Mapping[str, Any]) -> Callable[[Sequence[Any]], A
     def evaluated(arguments: Sequence[Any]) -> Any:
         out = np.full(size, UNTOUCHED)
         try:
-            made = function(*(out if a is None else a[()] for a in arguments))
-            found = np.asarray(made if call["returns"] else out, dtype=float)
+            with warnings.catch_warnings():
+                if not call["returns"]:  # what is written into dx loses its imaginary part
+                    warnings.simplefilter("error", np.exceptions.ComplexWarning)
+                made = function(*(out if a is None else a[()] for a in arguments))
+            found = _numbers(made if call["returns"] else out)
         except (Exception, SystemExit) as error:
             why = f"{name} fails: {type(error).__name__}: {error}"
+            if "complex" in str(error):
+                why = f"{name} gives complex numbers, and rates are real: give their real part"
+                raise FaultError(why) from None
             if isinstance(error, TypeError):
                 listed = ", ".join(call["arguments"])
                 why += f"; it is called as {name}({listed}): 'call' in a table for --as says how"
             raise FaultError(why) from None
         if found.size != size:
-            raise FaultError(f"{name} gives {found.size} numbers, not {size}")
+            shape = f", an array {' × '.join(map(str, found.shape))}" * (found.ndim > 1)
+            raise FaultError(f"{name} gives {found.size} numbers, not {size}{shape}")
         return _written(found.reshape(size), name)
 
     return evaluated
+
+
+def _numbers(made: Any) -> Any:
+    """What was made as one array: a column too, and numbers beside arrays of one."""
+    try:
+        found = np.asarray(made)
+    except ValueError:
+        found = np.concatenate([np.ravel(x) for x in made])
+    if np.iscomplexobj(found):
+        raise TypeError("complex")
+    return found.astype(float)
 
 
 def in_c(path: str, call: Mapping[str, Any]) -> Callable[[Sequence[Any]], Any]:

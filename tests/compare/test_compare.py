@@ -148,6 +148,8 @@ BAD = {
     "importing it fails: SyntaxError": "def f(x, u:",
     "it has no function f": "g = 1",
     "ends with exit code 3": "import os\nos._exit(3)",
+    "f gives complex numbers, and rates are real": "def f(x, u):\n    return x + 0j",
+    "gives 324 numbers, not 18, an array 18 × 18": "def f(x, u):\n    return x + x[:, None]",
     "f fails: MemoryError": "def f(x, u):\n    return bytearray(1 << 40)",
 }
 
@@ -160,6 +162,27 @@ def test_bad_code_is_one_line(words, capsys, tmp_path, monkeypatch):
     assert (code, told.out) == (2, "")
     assert words in told.err
     assert told.err.count("\n") == 1
+
+
+SHAPES = {
+    "a column": "np.concatenate([(A @ hat(w)).ravel(), A @ v, dw, dv])[:, None]",
+    "a row": "np.concatenate([(A @ hat(w)).ravel(), A @ v, dw, dv])[None]",
+    "arrays of one": "[*(A @ hat(w)).ravel(), *(A @ v), *dw[:, None], *dv[:, None]]",
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_shape_of_what_is_returned(shape, capsys, tmp_path):
+    change = SHAPES["a column"].removesuffix("[:, None]"), SHAPES[shape]
+    code, told = compared(capsys, tmp_path, "drone", change)
+    assert (code, told.err) == (0, "")
+
+
+def test_what_is_written_is_real(capsys, tmp_path):
+    change = ("    dx[4:] = np", "    dx[4:] = (1 + 0j) * np")
+    code, told = compared(capsys, tmp_path, "wheel", change)
+    assert (code, told.out) == (2, "")
+    assert "f gives complex numbers" in told.err
 
 
 LOOP = "void top(double *x, double *dx) { for (int i = 0; i < N; ++i) dx[i] = x[0]; }"
