@@ -73,6 +73,53 @@ def bias(x):
     return np.concatenate([moment, np.cross(w, p[3:])])
 """
 
+HULL = """
+name = "hull"
+group = "SE(3)"
+[inertia]
+operator = [
+  [0.6, 0, -0.1, 0, -0.6, 0], [0, 7, 0, 0.6, 0, -4.7], [-0.1, 0, 7.7, 0, 4.5, 0],
+  [0, 0.6, 0, 32, 0, 0], [-0.6, 0, 4.5, 0, 55, 0], [0, -4.7, 0, 0, 0, 66],
+]
+[[input]]
+name = "push"
+kind = "force"
+at = [-1, 0.5, 0.1]
+frame = "body"
+direction = [1, 0, 0]
+"""
+
+HULL_CODE = """
+import numpy as np
+
+
+def S(v):
+    return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+m, rg = 30, np.array([0.1, 0, 0.02])
+I0 = np.array([[0.5, 0, -0.1], [0, 4, 0], [-0.1, 0, 4.5]])
+M_RB = np.block([[m * np.eye(3), -m * S(rg)], [m * S(rg), I0]])
+M_A = np.diag([2, 25, 36, 0.1, 3, 3.2])
+M_A[1, 5] = M_A[5, 1] = 1.5
+M_A[2, 4] = M_A[4, 2] = -1.7
+
+
+def coriolis(M, nu):
+    linear, angular = np.split(M @ nu, 2)
+    return np.block([[np.zeros((3, 3)), -S(linear)], [-S(linear), -S(angular)]])
+
+
+def f(x, u):
+    R, nu = x[3:12].reshape(3, 3), x[12:]
+    force = np.array([u[0], 0, 0])
+    tau = np.concatenate([force, np.cross([-1, 0.5, 0.1], force)])
+    C_RB, C_A = coriolis(M_RB, nu), coriolis(M_A, nu)
+    dnu = np.linalg.solve(M_RB + M_A, tau - C_RB @ nu - C_A @ nu)
+    return np.concatenate([R @ nu[:3], (R @ S(nu[3:])).ravel(), dnu])
+"""
+"""In the form of Fossen's book, velocities before angular ones."""
+
 TOP = """
 name = "heavy"
 group = "SO(3)"

@@ -1,12 +1,15 @@
-"""Our equations in another's conventions, by formulas that share nothing with derive's: a module
-whose ``f(x, u)`` takes and gives what ``CHOICES`` says."""
+"""Our equations, in any of our languages, in another's conventions, by formulas that share nothing
+with derive's: a module whose ``f(t, x, u)`` takes and gives what ``CHOICES`` says."""
 
 import numpy as np
-import ours
+from choices import BUILD, CHOICES, DEFAULTS, PROBLEM
 from scipy.spatial.transform import Rotation
 
-CHOICES = None
-K = ours.constants(ours.DEFAULTS)
+from tests.support.library import library
+
+OURS = library(BUILD, PROBLEM, **CHOICES["options"])
+_, K = OURS.constants(DEFAULTS)
+ATTITUDES = ("quaternion", "euler", "matrix")
 
 
 def rotation(name, numbers):
@@ -46,22 +49,44 @@ def rates(name, numbers, R, w):
     return np.linalg.solve(np.stack(columns, axis=1), w)
 
 
-def f(x, u):
+def f(t, x, u):
     """dx/dt of the state that CHOICES says."""
     given, first = {}, 0
     for name, size in CHOICES["state"]:
         given[name] = x[first : first + size] / CHOICES["units"].get(name, 1.0)
         first += size
-    turned = next(x for x in given if x in ("quaternion", "euler", "matrix"))
+    u = np.array([u[CHOICES["inputs"].index(i)] for i in range(len(u))])
+    made = in_blocks if {*given} & {*ATTITUDES} and not CHOICES["options"] else in_names
+    found = made(t, given, u)
+    return np.concatenate([found[x] * CHOICES["units"].get(x, 1.0) for x, _ in CHOICES["state"]])
+
+
+def rhs(t, x, u):
+    return OURS.said("rhs", x, t, k=K, u=u, p=DEFAULTS)[: len(x)]
+
+
+def in_names(t, given, u):
+    """Of our own names, in another order."""
+    names = CHOICES["names"]
+    dx = rhs(t, np.concatenate([given[x] for x in names]), u)
+    places = np.cumsum([len(given[x]) for x in names])[:-1]
+    return dict(zip(names, np.split(dx, places), strict=True))
+
+
+def in_blocks(t, given, u):
+    """Of an attitude, a place and velocities."""
+    turned = next(x for x in given if x in ATTITUDES)
     R = rotation(turned, given[turned])
-    frames = {name: CHOICES["said"][name]["frame"] for name in ("omega", "velocity")}
-    w, v = (given[x] if frames[x] == "body" else R.T @ given[x] for x in frames)
-    dx = ours.rhs(0.0, np.concatenate([R.ravel(), given["position"], w, v]), K, np.asarray(u))
-    dw, dv = dx[12:15], dx[15:]
-    made = {
-        turned: rates(turned, given[turned], R, w),
-        "position": dx[9:12],
-        "omega": dw if frames["omega"] == "body" else R @ dw,
-        "velocity": dv if frames["velocity"] == "body" else R @ (dv + np.cross(w, v)),
-    }
-    return np.concatenate([made[x] * CHOICES["units"].get(x, 1.0) for x, _ in CHOICES["state"]])
+    vectors = [x for x in ("omega", "velocity") if x in given]
+    frames = {name: CHOICES["said"][name]["frame"] for name in vectors}
+    w, *v = (given[x] if frames[x] == "body" else R.T @ given[x] for x in vectors)
+    place = [given["position"]] if v else []
+    dx = rhs(t, np.concatenate([R.ravel(), *place, w, *v]), u)
+    dw = dx[-3 * len(vectors) :][:3]
+    found = {turned: rates(turned, given[turned], R, w)}
+    found["omega"] = dw if frames["omega"] == "body" else R @ dw
+    if v:
+        found["position"], dv = dx[9:12], dx[15:]
+        moved = frames["velocity"] == "body"
+        found["velocity"] = dv if moved else R @ (dv + np.cross(w, v[0]))
+    return found

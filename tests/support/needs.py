@@ -65,6 +65,7 @@ ELSEWHERE = {
         "ipykernel": "ipykernel",
         "jax": "jax",
         "marimo": "marimo",
+        "mujoco": "mujoco",
         "nbclient": "nbclient",
         "nbformat": "nbformat",
         "pinocchio": "pin",
