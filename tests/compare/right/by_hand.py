@@ -19,22 +19,22 @@ def gyrostat(x):
     """In space: x is a quaternion (x, y, z, w) and the angular velocity along axes of space."""
     q, w = x[:4], x[4:]
     R = turned(q)
-    I, h = np.diag([1.0, 1.6, 2.2]), np.array([0.3, 0, 0.8])
-    L = R @ (I @ R.T @ w + h)
+    tensor, h = np.diag([1.0, 1.6, 2.2]), np.array([0.3, 0, 0.8])
+    L = R @ (tensor @ R.T @ w + h)
     moment = np.cross(R @ E3, -1.5 * E3)
-    dw = np.linalg.solve(R @ I @ R.T, moment - np.cross(w, L))
+    dw = np.linalg.solve(R @ tensor @ R.T, moment - np.cross(w, L))
     dq = np.array([*(q[3] * w + np.cross(w, q[:3])), -q[:3] @ w]) / 2
     return np.concatenate([dq, dw])
 
 
 def charged(x):
-    """Larmor's: x is A by columns and the angular velocity; momenta p = I w + b K g / 2."""
+    """Larmor's: x is A by columns and the angular velocity; momenta p = Iw + b K g / 2."""
     A, w = x[:9].reshape(3, 3).T, x[9:]
-    I, K, b = np.diag([1, 1.4, 1.9]), np.diag([0.5, 0.2, 0.6]), 0.7
+    tensor, K, b = np.diag([1, 1.4, 1.9]), np.diag([0.5, 0.2, 0.6]), 0.7
     g = A.T @ E3
-    p = I @ w + b / 2 * K @ g
+    p = tensor @ w + b / 2 * K @ g
     dp = np.cross(p, w) + np.cross(b / 2 * K @ w, g)
-    dw = np.linalg.solve(I, dp - b / 2 * K @ np.cross(g, w))
+    dw = np.linalg.solve(tensor, dp - b / 2 * K @ np.cross(g, w))
     return np.concatenate([(A @ hat(w)).T.ravel(), dw])
 
 
@@ -49,7 +49,7 @@ def kovalevskaya(x):
 
 
 def lagrange(t, x, dx):
-    """Heavy and of revolution: matrix from space to body, by rows, and angular velocity in space."""
+    """Heavy, of revolution: matrix from space to body by rows, angular velocity in space."""
     R, w = x[:9].reshape(3, 3).T, x[9:]
     e, I1, I3, mgl = R @ E3, 1.0, 0.4, 1.5
     spin = I3 * (w @ e)
@@ -66,9 +66,9 @@ def comet(x):
     places = T + arms
     forces = -places / np.linalg.norm(places, axis=1)[:, None] ** 3
     s = arms.mean(axis=0)
-    I = sum(np.eye(3) * (r @ r) - np.outer(r, r) for r in arms - s)
+    tensor = sum(np.eye(3) * (r @ r) - np.outer(r, r) for r in arms - s)
     moment = np.cross(arms - s, forces).sum(axis=0)
-    dw = np.linalg.solve(I, moment - np.cross(w, I @ w))
+    dw = np.linalg.solve(tensor, moment - np.cross(w, tensor @ w))
     dv = forces.sum(axis=0) / 3 - np.cross(dw, s) - np.cross(w, np.cross(w, s))
     return np.concatenate([v, (hat(w) @ R).ravel(), dv, dw])
 

@@ -11,7 +11,7 @@ def model(text):
 
 def accelerations(both, q, v, u=(), more=None):
     """Of the joints, by what is applied to them ``more``."""
-    made, data = both
+    data = both[1]
     data.qpos[:], data.qvel[:], data.ctrl[:] = q, v, u
     data.qfrc_applied[:] = 0
     if more:
@@ -64,7 +64,7 @@ def drone_mass(x):
 
 
 def drone_bias(x, u):
-    made, data = DRONE
+    data = DRONE[1]
     accelerations(DRONE, x[:7], x[7:], u, dragged)
     return data.qfrc_bias - data.qfrc_applied - data.qfrc_actuator
 
@@ -84,11 +84,11 @@ def solid(*points):
     """What says the inertia of points: (mass, place), …; none may be 0."""
     m = sum(x for x, _ in points)
     c = sum(x * np.array(r) for x, r in points) / m
-    I = 1e-13 * np.eye(3)
+    tensor = 1e-13 * np.eye(3)
     for x, r in points:
         s = np.array(r) - c
-        I += x * (s @ s * np.eye(3) - np.outer(s, s))
-    told = [I[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+        tensor += x * (s @ s * np.eye(3) - np.outer(s, s))
+    told = [tensor[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
     listed = [" ".join(map(repr, map(float, x))) for x in (c, told)]
     return f'<inertial pos="{listed[0]}" mass="{m}" fullinertia="{listed[1]}"/>'
 

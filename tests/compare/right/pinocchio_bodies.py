@@ -1,4 +1,4 @@
-"""Right-hand sides by Pinocchio: bodies on its joints, what acts on them as forces of the joints."""
+"""Right-hand sides by Pinocchio: bodies on its joints, and what acts on them as joint forces."""
 
 import numpy as np
 import pinocchio as pin
