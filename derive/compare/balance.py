@@ -15,11 +15,13 @@ from ..code.program import Program
 from ..language.limits import Refused
 from ..language.values import approximate
 from ..problem.problem import Problem
-from .opened import Opened, called
+from .opened import Opened, Slot, called
 from .users_code import Array
 
 Made = Callable[[Problem, bool], tuple[Program, ModuleType]]
 """The program of a problem, with its dynamics or without, and its Python."""
+Part = Callable[[Mapping[str, float]], Array]
+"""A part of M a + b for all parameters by name."""
 EXACT = 1e-9
 """What is left of an explained difference, relative to the largest term."""
 
@@ -27,13 +29,17 @@ EXACT = 1e-9
 @dataclass(frozen=True)
 class Term:
     """A term of M a = Σ terms at each state, (N, d), in words of its rows; ``part``: is it only one
-    of another term?  ``at``: the same at other states, where the attitude stands in it."""
+    of another term?  ``at``: the same at other states, where the attitude stands in it; ``arm``:
+    where its force acts, along the axes of the body; ``of``: less the same for any parameters."""
 
     values: Array
     name: Callable[[str], str]
     centre: Array | None = None
     part: bool = False
     at: Callable[[Array], Array] | None = None
+    arm: Array | None = None
+    is_input: bool = False
+    of: Part | None = None
 
 
 @dataclass
@@ -91,9 +97,8 @@ class Balance:
     ) -> Array:
         """M a + b, (N, d), 0 where these parameters make our equations the user's, M by those
         ``of_mass`` where they are others; ``ValueError`` where no body has them."""
-        M = self.code.mass_matrix(self.t, self.x, self.k(of_mass or values))
         b = self.code.bias(self.t, self.x, self.k(values), self.u)
-        found: Array = np.einsum("...ij,...j->...i", M, self.a) + b + self.more
+        found: Array = self.of_mass(of_mass or values) + b + self.more
         return found
 
     def checked(self, left: Array, of_mass: Mapping[str, float]) -> Array:
@@ -104,17 +109,21 @@ class Balance:
         found: Array = (M @ np.linalg.solve(own, left[:, :, None]))[:, :, 0]
         return found
 
-    def about_centre(self) -> Array | None:
-        """What takes M a = Σ terms of a body in space to moments about its centre of mass, (6, 6);
-        ``None`` where these are the same."""
+    def centre(self) -> Array | None:
+        """The centre of mass of a body that moves in space or in the plane."""
         body = self.opened.problem.body
-        if body is None or [len(x) for x in self.rows.values()] != [3, 3]:
+        if body is None or "force" not in self.rows:
             return None
         own, known = body.moments(), self.values()
         m, *c = (approximate(x, known, float) for x in (own.m, *own.c))
-        if not m or None in c or not any(c):
+        return None if not m or None in c else np.array(c, float) / m
+
+    def about_centre(self) -> Array | None:
+        """What takes M a = Σ terms of a body in space to moments about its centre of mass, (6, 6);
+        ``None`` where these are the same."""
+        r = self.centre()
+        if r is None or not r.any() or len(r) != 3 or self.a.shape[1] != 6:
             return None
-        r = np.array(c, float) / m
         found = np.eye(6)
         found[:3, 3:] = np.cross(np.eye(3), r).T  # less r × force
         return found
@@ -125,6 +134,44 @@ class Balance:
         n = math.isqrt(len(entries))
         found: Array = self.x[:, entries].reshape(len(self.x), n, n)
         return found
+
+    def velocities(self) -> tuple[Array, Array]:
+        """ω and v of a body at each state."""
+        w, v = np.split(self.x[:, -self.a.shape[1] :], [len(self.rows["moment"])], axis=1)
+        return w, v
+
+    def with_velocities(self, w: Array, v: Array) -> Array:
+        """The states with others."""
+        return np.hstack([self.x[:, : -self.a.shape[1]], w, v])
+
+    def kind(self, rows: list[int]) -> str:
+        """Of which set some rows are, where there are two."""
+        kinds = self.rows.items() if len(self.rows) > 1 else ()
+        return next((x for x, own in kinds if {*rows} <= {*own}), "")
+
+    @cached_property
+    def named(self) -> dict[str, float]:
+        """The numbers of the problem by what they are called, but for 0 and ±1."""
+        slots = {x.words: self.values()[x.name] for x in self.opened.slots}
+        every = {**self.parameters, **slots}
+        return {name: x for name, x in every.items() if abs(x) not in (0, 1)}
+
+    def alike(self, slot: Slot) -> Mapping[str, float]:
+        """The numbers of one key with a number, in words."""
+        same = (x for x in self.opened.slots if x.key == slot.key)
+        return {x.words: self.values()[x.name] for x in same}
+
+    def arm(self, table: Any) -> Array | None:
+        """Where a force acts, along the axes of the body; none where it is not at one place."""
+        if table in self.opened.problem.potentials:
+            return self.centre() if table.kind == "gravity" else None
+        on = getattr(table, "on", ())
+        ends = on if isinstance(on, tuple) else (on,)
+        listed = (*self.opened.problem.points, *self.opened.problem.places)
+        if len(ends) != 1 or "force" not in self.rows:
+            return None
+        at = [approximate(x, self.values(), float) for x in listed[ends[0] - 1].at]
+        return None if None in at else np.array(at, float)
 
     def transposed(self) -> Array | None:
         """The states with the transpose of A; none where there is no A."""
@@ -165,7 +212,9 @@ class Balance:
             def pushed(x: Array, u: Array = u) -> Array:
                 return self.bias(x, u) - self.bias(x, self.u)
 
-            yield Term(pushed(self.x), _of(f"the input {name}"), at=pushed)
+            table = next((x for x in problem.inputs if name in problem.numbers_of(x)), None)
+            word, arm = _of(f"the input {name}"), self.arm(table)
+            yield Term(pushed(self.x), word, at=pushed, arm=arm, is_input=True)
         bare = self.u * 0
         for key in ("forces", "damping", "potentials"):
             listed: tuple[Any, ...] = getattr(problem, key)
@@ -179,7 +228,9 @@ class Balance:
                 def acting(x: Array, code: ModuleType = code) -> Array:
                     return self.bias(x, self.u, code) - self.bias(x, self.u)
 
-                yield Term(acting(self.x), _of(name), self._centre(table), at=acting)
+                about, arm = self._centre(table), self.arm(table)
+                part = self._acting(code)
+                yield Term(acting(self.x), _of(name), about, at=acting, arm=arm, of=part)
                 if key != "potentials":
                     yield from self._by_velocities(code, name)
         rest = self._without({"forces": (), "damping": (), "potentials": ()}, "all")
@@ -209,6 +260,29 @@ class Balance:
         if turning == 3:
             yield from self._of_momenta()
 
+    def _acting(self, without: ModuleType) -> Part:
+        """What a force adds to b, by the code that lacks it."""
+
+        def part(values: Mapping[str, float]) -> Array:
+            k, less = self.k(values), self.k(values, without)
+            bare: Array = without.bias(self.t, self.x, less, self.u)
+            return np.asarray(self.code.bias(self.t, self.x, k, self.u) - bare)
+
+        return part
+
+    def of_mass(self, values: Mapping[str, float]) -> Array:
+        """M a."""
+        M = self.code.mass_matrix(self.t, self.x, self.k(values))
+        found: Array = np.einsum("...ij,...j->...i", M, self.a)
+        return found
+
+    def of_momentum(self) -> Part | None:
+        """What is left of b without inputs, forces and potentials."""
+        rest = self._without({"forces": (), "damping": (), "potentials": ()}, "all")
+        if rest is None:
+            return None
+        return lambda values: rest.bias(self.t, self.x, self.k(values, rest), 0 * self.u)
+
     def _without(self, fewer: Any, key: str) -> ModuleType | None:
         """The code of the problem that lacks something, made once; none where it has no walk."""
         if key not in self.codes:
@@ -222,7 +296,10 @@ class Balance:
         """All inputs as one term, where there are several."""
         if self.u.shape[1] > 1:
             u = self.u
-            yield Term(self.bias(self.x, 0 * u) - self.bias(self.x, u), _of("all inputs"))
+            yield Term(
+                self.bias(self.x, 0 * u) - self.bias(self.x, u),
+                lambda row: f"the {row or 'load'} of all inputs",
+            )
 
     def _of_momenta(self) -> Iterator[Term]:
         """The same by Kirchhoff's equations: −ω × π − v × p about the origin, −ω × p."""

@@ -16,9 +16,10 @@ from ..language.limits import Refused
 from ..motion.first_numbers import first_numbers
 from ..problem.problem import Problem
 from .balance import Balance, Made
-from .faults import NEAR, Explanation, explained, told
+from .faults import Explanation, explained
 from .opened import Opened, opened
 from .pairs import of_two
+from .told import NEAR, told
 from .user_states import RATES, WORDS, Item, Table, drawn, ours, own_blocks, rates, read
 from .users_code import Array, Call, CompareError, values
 

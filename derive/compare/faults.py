@@ -4,43 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from itertools import combinations
+from itertools import chain, combinations, product
 
 import numpy as np
 
-from .balance import Balance, Term, exact
+from .added_mass import of_added_mass
+from .balance import Balance, Part, Term, exact
+from .told import ABOUT, NEAR, Changed, Hypothesis, changed, possible, told
 from .users_code import Array
+from .wrenches import of_axes, of_wrenches
 
-SIMPLE = {-1.0: "has the other sign", 0.0: "is missing"}
-SIMPLE |= {x: f"has the factor {words}" for x, words in ((2.0, "2"), (0.5, "1/2"), (4.0, "4"))}
-SIMPLE |= {-2.0: "has the factor −2", -0.5: "has the factor −1/2", 0.25: "has the factor 1/4"}
-"""Factors that say what happened."""
-NEAR = 1e-7
-"""How near a number is to one that has a name."""
-ABOUT = " about the centre of mass"
 NEARER = 0.5
 """What a change leaves of the difference at most, to be told as the nearest."""
 TURNS = 12
 """The most steps of Newton's method."""
-
-
-@dataclass(frozen=True)
-class Hypothesis:
-    """What may be otherwise in the user's code, in ``words``; how far it is from saying what
-    happened (``rank``, the least first); what it leaves, (N, d)."""
-
-    words: str
-    rank: int
-    left: Array
-
-
-@dataclass(frozen=True)
-class Changed:
-    """Our equations with one change, in words, and how far it is from saying what happened."""
-
-    words: str
-    rank: int
-    balance: Balance
 
 
 def hypotheses(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
@@ -56,11 +33,10 @@ def hypotheses(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
 
 def of_terms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     """All that may be otherwise in the terms by themselves."""
-    yield from of_attitude(b, terms)
+    yield from of_wrenches(b, terms)
     for view in views(b):
         for term in (*terms, *b.together()):
             yield from of_axes(b, term, view)
-        for term in terms:
             yield from of_term(b, term, view)
 
 
@@ -87,8 +63,15 @@ class Explanation:
 def explained(b: Balance, terms: list[Term]) -> Explanation:
     """What explains the whole difference, the most telling first; else what leaves the least."""
     size = b.size()
-    tried = [x for x in hypotheses(b, terms) if np.isfinite(x.left).all()]
-    good = sorted((x for x in tried if exact(x.left, size)), key=lambda x: x.rank)
+
+    def stage(generated: Iterator[Hypothesis]) -> list[Hypothesis]:
+        tried.extend(x for x in generated if np.isfinite(x.left).all())
+        return sorted((x for x in tried if exact(x.left, size)), key=lambda x: x.rank)
+
+    tried: list[Hypothesis] = []
+    good = stage(hypotheses(b, terms))
+    if not good or good[0].rank > 2:
+        good = stage(chain(of_parts(b, terms), of_added_mass(b)))
     if good:
         least = [x.words for x in good if x.rank <= max(1, good[0].rank)]
         first = [x for x in least if ABOUT not in x or x.replace(ABOUT, "") not in least]
@@ -106,20 +89,6 @@ def explained(b: Balance, terms: list[Term]) -> Explanation:
     return Explanation(nearest=near if part < NEARER else "")
 
 
-def told(name: str, old: float, new: float, others: Mapping[str, float]) -> tuple[str, int]:
-    """What became of a number, in words, and how telling this is."""
-    if old:
-        for factor, words in SIMPLE.items():
-            if abs(new - factor * old) <= NEAR * abs(old):
-                return (f"{name} {words}" if factor else f"{name} is 0, not {old:.6g}"), 0
-        if abs(new * old - 1) <= NEAR:
-            return f"{name} stands as its reciprocal", 0
-    for other, value in others.items():
-        if other != name and value and abs(abs(new) - abs(value)) <= NEAR * abs(value):
-            return f"{name} is {'−' * (new * value < 0)}{other}", 1
-    return f"{name} is {new:.6g}, not {old:.6g}", 4
-
-
 Values = Mapping[str, float]
 
 
@@ -132,6 +101,16 @@ def fitted(
     def left(number: float) -> Array:
         of_bias, of_mass = values(number)
         return b.left(of_bias, of_mass=of_mass)
+
+    found = newton(left, start)
+    try:
+        return found and (found[0], b.checked(found[1], values(found[0])[1]))
+    except (ValueError, np.linalg.LinAlgError):  # no body has this number
+        return None
+
+
+def newton(left: Callable[[float], Array], start: float) -> tuple[float, Array] | None:
+    """The number for which the least is left, and that; none where it stands in nothing."""
 
     try:
         value, here = start, left(start)
@@ -146,8 +125,8 @@ def fitted(
             if not np.abs(there).sum() < np.abs(here).sum():
                 break
             value, here = further, there
-        return value, b.checked(here, values(value)[1])
-    except (ValueError, np.linalg.LinAlgError):  # no body has this number
+        return value, here
+    except ValueError:  # no body has this number
         return None
 
 
@@ -163,9 +142,32 @@ def of_numbers(b: Balance) -> Iterator[Hypothesis]:
         old = base[slot.name]
         found = fitted(b, lambda v, name=slot.name: ({**base, name: v},) * 2, old)  # type: ignore[misc]
         if found:
-            same = {x.words: base[x.name] for x in b.opened.slots if x.key == slot.key}
-            words, rank = told(slot.words, old, found[0], same)
+            words, rank = told(slot.words, old, found[0], b.alike(slot))
             yield Hypothesis(words, rank + 1, found[1])
+
+
+def of_parts(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
+    """A number is another in the mass matrix alone, in the momentum alone, or in one term alone."""
+    base = b.values()
+    parts = {f"in {x.name('')} alone": x.of for x in terms if x.of and not x.is_input}
+    parts["in the mass matrix alone"] = b.of_mass
+    if momentum := b.of_momentum():
+        parts["in the momentum alone"] = momentum
+    numbers: dict[str, tuple[str, Values]] = {x: (x, b.parameters) for x in b.parameters}
+    for slot in b.opened.slots:
+        numbers[slot.name] = (slot.words, b.alike(slot))
+    for (where, part), (name, (words, same)) in product(parts.items(), numbers.items()):
+        own = part(base)
+
+        def left(v: float, part: Part = part, own: Array = own, name: str = name) -> Array:
+            values = {**base, name: v} if name not in b.parameters else b.values({name: v})
+            return b.unexplained + part(values) - own
+
+        if found := newton(left, base[name]):
+            said, rank = told(f"{words} {where}", base[name], found[0], same)
+            if abs(found[0] - 1) <= NEAR:
+                said, rank = f"{words} is left out {where}: it is 1, not {base[name]:.6g}", 1
+            yield Hypothesis(said, rank + 1, found[1])
 
 
 def of_exchanges(b: Balance) -> Iterator[Changed]:
@@ -214,7 +216,7 @@ def of_vectors(b: Balance) -> Iterator[Hypothesis]:
         # a wind stands under a root: from 1 alone Newton's method may end elsewhere
         several = [fitted(b, scaled, x) for x in (1.0, -1.0, 0.0)]
         if found := min(filter(None, several), key=lambda x: np.abs(x[1]).sum(), default=None):
-            words, rank = changed(name, found[0])
+            words, rank = changed(name, found[0], b.named)
             yield Hypothesis(words, rank, found[1])
 
 
@@ -244,31 +246,6 @@ def of_the_point(b: Balance) -> Iterator[Hypothesis]:
             yield Hypothesis(words.replace("-", "−"), 0 if simple else 4, found[1])
 
 
-def of_axes(b: Balance, term: Term, view: tuple[str, Array]) -> Iterator[Hypothesis]:
-    """The numbers of a force or a moment are taken along the axes of the other frame."""
-    (about, to), A = view, b.turns()
-    here, values, back = b.unexplained @ to.T, term.values @ to.T, np.linalg.inv(to).T
-    for rows in b.rows.values():
-        if len(rows) != A.shape[1]:
-            continue
-        own, kind = values[:, rows], _kind(b, rows)
-        called = term.name(kind) + about * (kind == "moment")
-        for frame, R in (("space", A.transpose(0, 2, 1)), ("the body", A)):
-            left = here.copy()
-            left[:, rows] -= np.einsum("nij,nj->ni", R, own) - own
-            words = f"{called} has its numbers along the axes of {frame} instead"
-            yield Hypothesis(words, 0, left @ back)
-
-
-def of_attitude(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
-    """A vector of space is turned by A, not by its transpose, in a force or an input."""
-    here, there = b.unexplained, b.transposed()
-    for term in terms:
-        if there is not None and term.at is not None:
-            words = f"{term.name('')} is turned by A and not by Ā, the transpose of the attitude"
-            yield Hypothesis(words, 0, here - (term.at(there) - term.values))
-
-
 def of_term(
     b: Balance, term: Term, view: tuple[str, Array], factors: tuple[float, ...] = ()
 ) -> Iterator[Hypothesis]:
@@ -287,28 +264,14 @@ def of_term(
             continue
         # M a = Σ terms with f times this one: what is left is (f − 1) times it
         own = factors or (1 + float((part * here).sum()) / square,)
-        kind = _kind(b, rows)
+        kind = b.kind(rows)
         called = f"{term.name(kind)}{about}" + (f" in {name}" if name in single else "")
         for factor in own:
-            words, rank = changed(called, factor)
+            words, rank = changed(called, factor, b.named)
             yield Hypothesis(words, rank + (name in single), (here - (factor - 1) * part) @ back)
         if name in sets and not factors:
             for x in _powers(b, term, called, part, here):
                 yield replace(x, left=x.left @ back)
-
-
-def _kind(b: Balance, rows: list[int]) -> str:
-    """Of which set some rows are, where there are two."""
-    kinds = b.rows.items() if len(b.rows) > 1 else ()
-    return next((x for x, own in kinds if {*rows} <= {*own}), "")
-
-
-def changed(name: str, factor: float) -> tuple[str, int]:
-    """What is said of a term that has a factor, and how telling this is."""
-    if abs(factor) <= NEAR:
-        return f"{name} is missing", 0
-    words, rank = told(name, 1.0, factor, {})
-    return (words, 0) if rank == 0 else (f"{name} has the factor {factor:.6g}", 4)
 
 
 def _powers(b: Balance, term: Term, name: str, part: Array, here: Array) -> Iterator[Hypothesis]:
@@ -354,7 +317,7 @@ def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> Told:
     said: Told = []
     for row in range(here.shape[1]):
         columns = [(x, y[:, row]) for x, y in whole if np.abs(y[:, row]).max() > 1e-12 * size[row]]
-        kind = _kind(b, [row])
+        kind = b.kind([row])
         if not columns:
             if not exact(here[:, row], size[row]):
                 return []
@@ -375,9 +338,9 @@ def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> Told:
     for name, rows in found.items():
         values = [*rows.values()]
         if max(values) - min(values) <= NEAR:
-            said.append(changed(name, values[0]))
+            said.append(changed(name, values[0], b.named))
         else:
-            said += [(changed(f"{name} in row {i + 1}", x)[0], 1) for i, x in rows.items()]
+            said += [(changed(f"{name} in row {i + 1}", x, b.named)[0], 1) for i, x in rows.items()]
     return said
 
 
@@ -412,11 +375,3 @@ def of_tables(b: Balance) -> Told:
                 every = {words[x]: base[x] for x in own}
                 return [told(words[x], base[x], values[x], every) for x in changed]
     return []
-
-
-def possible(b: Balance, values: Mapping[str, float] | None = None) -> Array | None:
-    """What is left at some numbers, or at those of the balance; none where no body has them."""
-    try:
-        return b.unexplained if values is None else b.left(values)
-    except ValueError:
-        return None

@@ -35,6 +35,10 @@ class Opened:
     slots: tuple[Slot, ...]
     central: bool = False
 
+    def entries(self, key: str) -> list[str]:
+        """The parameters that stand for the entries of a key."""
+        return [x.name for x in self.slots if x.key == key]
+
     def values(self, parameters: Mapping[str, float]) -> dict[str, float]:
         """All parameters by name, for those of the problem that was opened; ``ValueError`` where
         a number has no value."""

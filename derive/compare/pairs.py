@@ -8,24 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from .balance import Balance, Term, exact
-from .faults import (
-    ABOUT,
-    NEAR,
-    NEARER,
-    Changed,
-    Explanation,
-    Hypothesis,
-    changed,
-    named_vector,
-    of_attitude,
-    of_axes,
-    of_exchanges,
-    of_term,
-    of_terms,
-    possible,
-    told,
-    views,
-)
+from .faults import NEARER, Explanation, named_vector, of_exchanges, of_term, of_terms, views
+from .told import ABOUT, NEAR, Changed, Hypothesis, changed, possible, told
+from .wrenches import of_attitude, of_axes
 
 FACTORS = (-1.0, 0.0, 2.0, 0.5)
 """What something is multiplied by, of the first of two changes: the second is fitted."""
@@ -140,7 +125,7 @@ def of_numbers(b: Balance) -> Iterator[Changed]:
         for key in dict.fromkeys(x.key for x in b.opened.slots):
             own = [x.name for x in b.opened.slots if x.key == key and base[x.name]]
             if len(own) > 1:
-                words, rank = changed(named_vector(key), factor)
+                words, rank = changed(named_vector(key), factor, {})
                 yield Changed(words, rank, replace(b, changed={x: factor * base[x] for x in own}))
 
 

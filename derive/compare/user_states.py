@@ -6,6 +6,7 @@ part: ``rates(f, x, dx)`` is Df(x) dx to rounding.
 
 from __future__ import annotations
 
+import math
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -36,6 +37,9 @@ WORDS: dict[str, dict[str, tuple[str, ...]]] = {
 }
 """A block of a state → what may be said of it; the first is meant where nothing is."""
 SIZES = {"quaternion": 4, "matrix": 9}
+UNITS = {"degrees": math.degrees(1), "turns": 1 / math.tau, "a minute": 60.0}
+UNITS |= {"milli": 1000.0, "kilo": 0.001}
+"""A unit in words → how many of it one of ours is."""
 RATES = ("omega", "velocity")
 AXES = {"X": 0, "Y": 1, "Z": 2}
 TINY = 1e-200
@@ -57,11 +61,13 @@ class Item:
         return SIZES.get(self.name, 3) if self.name in WORDS else 1
 
     def others(self) -> Iterator[tuple[str, Item]]:
-        """The same by other words, one of them changed: in words."""
+        """The same by other words, one of them changed, or in another unit: in words."""
         for key, choices in WORDS.get(self.name, {}).items():
             for x in choices:
                 if x != self.said[key]:
                     yield f"{key} {x!r}", replace(self, said={**self.said, key: x})
+        for words, unit in UNITS.items() if self.name not in SIZES else ():
+            yield f"the unit {unit:.17g}, {words}", replace(self, unit=unit * self.unit)
 
 
 @dataclass(frozen=True)

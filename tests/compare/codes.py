@@ -1,5 +1,11 @@
 """Right-hand sides as people write them, and the faults of such code."""
 
+import tomllib
+from pathlib import Path
+
+LISTED = tomllib.loads(Path(__file__).with_name("right_codes.toml").read_text(encoding="utf-8"))
+"""What is right, and how it is called."""
+
 SATELLITE = """
 name = "satellite"
 group = "SE(3)"
@@ -87,6 +93,10 @@ kind = "force"
 at = [-1, 0.5, 0.1]
 frame = "body"
 direction = [1, 0, 0]
+[[force]]
+at = [0.2, 0, 0.1]
+frame = "body"
+force = ["-12*v_1", "-90*v_2", "-110*v_3"]
 """
 
 HULL_CODE = """
@@ -103,6 +113,7 @@ M_RB = np.block([[m * np.eye(3), -m * S(rg)], [m * S(rg), I0]])
 M_A = np.diag([2, 25, 36, 0.1, 3, 3.2])
 M_A[1, 5] = M_A[5, 1] = 1.5
 M_A[2, 4] = M_A[4, 2] = -1.7
+D = np.diag([12, 90, 110])
 
 
 def coriolis(M, nu):
@@ -113,7 +124,10 @@ def coriolis(M, nu):
 def f(x, u):
     R, nu = x[3:12].reshape(3, 3), x[12:]
     force = np.array([u[0], 0, 0])
-    tau = np.concatenate([force, np.cross([-1, 0.5, 0.1], force)])
+    through = nu[:3] + np.cross(nu[3:], [0.2, 0, 0.1])
+    drag = -D @ through
+    moment = np.cross([-1, 0.5, 0.1], force) + np.cross([0.2, 0, 0.1], drag)
+    tau = np.concatenate([force + drag, moment])
     C_RB, C_A = coriolis(M_RB, nu), coriolis(M_A, nu)
     dnu = np.linalg.solve(M_RB + M_A, tau - C_RB @ nu - C_A @ nu)
     return np.concatenate([R @ nu[:3], (R @ S(nu[3:])).ravel(), dnu])
@@ -250,8 +264,8 @@ def f(x, u):
     force = m * A.T @ [0, 0, -g]
     moment = np.cross(c, force)
     for name, number in zip(ARM, u):
-        force = force + number * DIRECTION[name]
-        moment = moment + np.cross(ARM[name], number * DIRECTION[name])
+        push = number * DIRECTION[name]
+        force, moment = force + push, moment + np.cross(ARM[name], push)
     drag = -kappa * (v + np.cross(w, DAMPED))
     force, moment = force + drag, moment + np.cross(DAMPED, drag)
     moment = moment - np.cross(c, force)

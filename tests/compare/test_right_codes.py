@@ -2,7 +2,6 @@
 ``right_codes.toml``), and a wrong convention is told."""
 
 import os
-import tomllib
 from functools import cache
 from pathlib import Path
 
@@ -13,11 +12,11 @@ from derive.command.showing import load_problem
 from derive.compare.comparison import comparison, reports
 from derive.compare.user_states import WORDS
 from tests.compare import codes, conventions
+from tests.compare.codes import LISTED
 from tests.support.library import module_of
 from tests.support.needs import need
 
 HERE = Path(__file__).parent
-LISTED = tomllib.loads((HERE / "right_codes.toml").read_text(encoding="utf-8"))
 OURS = [
     (name, language, seed)
     for name, languages in LISTED["ours"].items()

@@ -1,0 +1,182 @@
+"""What may be otherwise in a force with its moment: the axes of its numbers, its arm, the velocity
+that it is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from .balance import EXACT, Balance, Term
+from .told import Hypothesis, possible
+from .users_code import Array
+
+View = tuple[str, Array]
+
+
+def of_wrenches(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
+    """All of these, of the terms by themselves and of all inputs together."""
+    yield from of_attitude(b, terms)
+    yield from of_arms(b)
+    if b.turns().shape[1] == len(b.rows.get("force", ())):
+        inputs = [x for x in terms if x.is_input]
+        for term in terms:
+            yield from of_frames(b, [term], term.name)
+            yield from of_speeds(b, term)
+        for both in b.together():
+            yield from of_frames(b, inputs, both.name)
+
+
+def of_axes(b: Balance, term: Term, view: View) -> Iterator[Hypothesis]:
+    """The numbers of a force or a moment are taken along the axes of the other frame."""
+    (about, to), A = view, b.turns()
+    here, values, back = b.unexplained @ to.T, term.values @ to.T, np.linalg.inv(to).T
+    for rows in b.rows.values():
+        if len(rows) != A.shape[1]:
+            continue
+        own, kind = values[:, rows], b.kind(rows)
+        called = term.name(kind) + about * (kind == "moment")
+        for frame, R in (("space", A.transpose(0, 2, 1)), ("the body", A)):
+            left = here.copy()
+            left[:, rows] -= np.einsum("nij,nj->ni", R, own) - own
+            words = f"{called} has its numbers along the axes of {frame} instead"
+            yield Hypothesis(words, 0, left @ back)
+
+
+def of_attitude(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
+    """A vector of space is turned by A, not by its transpose, in a force or an input."""
+    here, there = b.unexplained, b.transposed()
+    for term in terms:
+        if there is not None and term.at is not None:
+            words = f"{term.name('')} is turned by A and not by Ā, the transpose of the attitude"
+            yield Hypothesis(words, 0, here - (term.at(there) - term.values))
+
+
+def cross(a: Array, b: Array) -> Array:
+    """a × b of vectors of space; in the plane the number of it, (…, 1)."""
+    if b.shape[-1] == 3:
+        found: Array = np.cross(a, b)
+        return found
+    return np.asarray(a[..., :1] * b[..., 1:] - a[..., 1:] * b[..., :1])
+
+
+def changed_force(values: Array, arm: Array, to: Callable[[Array], Array]) -> Array:
+    """A force with its moment, (N, d), whose force at an arm is another and whose couple, which
+    no arm makes, is turned with it in space."""
+    n = len(arm)
+    force, moment = values[:, -n:], values[:, :-n]
+    couple = moment - cross(arm, force)
+    other = to(force)
+    couple = to(couple) if n == 3 else couple
+    return np.hstack([couple + cross(arm, other), other])
+
+
+def turned(R: Array) -> Callable[[Array], Array]:
+    """What turns vectors at each state."""
+    return lambda vectors: np.einsum("nij,nj->ni", R, vectors)
+
+
+def of_frames(b: Balance, terms: list[Term], name: Callable[[str], str]) -> Iterator[Hypothesis]:
+    """The numbers of a force, its velocity or both are along the axes of the other frame, its
+    moment by its arm with them."""
+    A = b.turns()
+    back = A.transpose(0, 2, 1)
+    placed = [(x, x.at, x.arm) for x in terms if x.at is not None and x.arm is not None]
+    if len(placed) < len(terms):
+        return
+    own = np.stack([x.values for x in terms])
+    for frame, R, out in (("space", A, back), ("the body", back, A)):
+        taken = np.stack([at(moving(b, arm, R)) for _, at, arm in placed])
+        made: dict[str, tuple[Array, Array | None]] = {
+            f"{name('force')}, with its moment by the arm, has its numbers": (own, out)
+        }
+        if np.abs(taken - own).max() > EXACT * np.abs(own).max():
+            made[f"the velocity in {name('')} is"] = (taken, None)
+            made[f"the velocity and the numbers of {name('')} are"] = (taken, out)
+        for words, (values, to) in made.items():
+            if to is not None:
+                both = zip(values, placed, strict=True)
+                turn = turned(to)
+                values = np.stack([changed_force(x, arm, turn) for x, (_, _, arm) in both])
+            left = b.unexplained - (values - own).sum(axis=0)
+            yield Hypothesis(f"{words} along the axes of {frame} instead", 0, left)
+
+
+def moving(b: Balance, arm: Array, R: Array) -> Array:
+    """The states in which the velocities of a place, and of turning, are turned by R."""
+    w, v = b.velocities()
+    n = len(arm)
+    of_place = turned(R)(v + turning(w, arm))
+    w = turned(R)(w) if n == 3 else w
+    return b.with_velocities(w, of_place - turning(w, arm))
+
+
+def turning(w: Array, arm: Array) -> Array:
+    """ω × r."""
+    if len(arm) == 3:
+        return np.asarray(np.cross(w, arm))
+    return np.asarray(w * np.array([-arm[1], arm[0]]))
+
+
+def of_speeds(b: Balance, term: Term) -> Iterator[Hypothesis]:
+    """A force of the velocity of the body's origin, or of its centre of mass; one by the speed
+    along each axis for one by the whole speed, or the other way round."""
+    if term.arm is None or term.at is None or term.is_input:
+        return
+    (w, v), name, r = b.velocities(), term.name(""), b.centre()
+    taken = {"the body's origin": v}
+    if r is not None and r.any():
+        taken["the centre of mass"] = v + turning(w, r)
+    for place, velocity in taken.items():
+        values = term.at(b.with_velocities(0 * w, velocity))
+        words = f"{name} is made of the velocity of {place}, not of its place"
+        yield Hypothesis(words, 0, b.unexplained - (values - term.values))
+    n = len(term.arm)
+    couple = term.values[:, :-n] - cross(term.arm, term.values[:, -n:])
+    if np.abs(couple).max() > 1e-9 * np.abs(term.values).max():
+        return
+    axes = {"the body": np.broadcast_to(np.eye(n), b.turns().shape), "space": b.turns()}
+    for (frame, A), (words, to) in product(axes.items(), BY_AXES.items()):
+        along = turned(A)(term.values[:, -n:])
+        other = turned(A.transpose(0, 2, 1))(to(along))
+        values = changed_force(term.values, term.arm, lambda _, other=other: other)  # type: ignore[misc]
+        said = f"{name} has {words}, in the axes of {frame}"
+        yield Hypothesis(said, 1, b.unexplained - (values - term.values))
+
+
+def _apart(force: Array) -> Array:
+    return np.asarray(force * np.abs(force) / np.linalg.norm(force, axis=1)[:, None])
+
+
+def _whole(force: Array) -> Array:
+    roots = np.sqrt(np.abs(force))
+    return np.asarray(np.sign(force) * roots * np.linalg.norm(roots, axis=1)[:, None])
+
+
+BY_AXES = {
+    "|vᵢ| vᵢ along each axis where ‖v‖ v is meant": _apart,
+    "‖v‖ v where |vᵢ| vᵢ along each axis is meant": _whole,
+}
+
+
+def of_arms(b: Balance) -> Iterator[Hypothesis]:
+    """An arm, or all arms, are taken from the centre of mass; or moments are about it."""
+    r, base = b.centre(), b.values()
+    if r is None or not r.any():
+        return
+    arms = {x.key: b.opened.entries(x.key) for x in b.opened.slots if x.key.startswith("at of")}
+    known = {key: own for key, own in arms.items() if len(own) == len(r)}
+    listed = [(f"the lever arm ({key}) is", own) for key, own in known.items()]
+    of_inputs = [key for key in known if key.startswith("at of the input")]
+    for words, keys in (("all lever arms", [*known]), ("the lever arms of all inputs", of_inputs)):
+        if len(keys) > 1:
+            listed.append((f"{words} are", [x for key in keys for x in known[key]]))
+    for words, own in listed:
+        for sign, told in ((1, "taken from"), (-1, "of moments about")):
+            shifted = {x: base[x] + sign * r[i % len(r)] for i, x in enumerate(own)}
+            other = possible(replace(b, changed={**b.changed, **shifted}))
+            if other is not None:
+                said = f"{words} {told} the centre of mass instead of the body's origin"
+                yield Hypothesis(said, 0, other)
