@@ -27,6 +27,8 @@ AGREES = 1e-9
 """The largest difference, relative to the size of the numbers, of what agrees."""
 STATES, MOST = 24, 10_000
 """At so many states, unless others are asked for; and the most."""
+TRIES = 20
+"""So often states are drawn anew in place of those at which our equations have no value."""
 SHOWN = 6
 """So many changes are told at most."""
 
@@ -107,20 +109,23 @@ def comparison(
             "table for --as"
         )
     parameters = {name: float(x) for name, x in known.items() if x is not None}
-    random = np.random.default_rng(seed)
-    own = []
-    for _ in range(n):
-        exponent = random.normal(size=program.dimension if program.blocks else 0).tolist()
-        # where a group moves matrices, exp says where they are
-        kept = program.state[-program.dimension :] if program.blocks else program.state
-        moving = dict(zip(kept, random.normal(size=len(kept)).tolist(), strict=True))
-        moving |= {x[0]: parameters[x[0]] for x in program.parameters}
-        own.append(first_numbers(program, problem, moving, exponent).x)
     made = Comparison(problem, program, code, table, blocks, parameters, {}, np.zeros(0))
+    random = np.random.default_rng(seed)
+    k, own = made.k, np.zeros((0, len(program.state)))
+    for _ in range(TRIES):
+        drawn_too = np.array([_state(made, random) for _ in range(n - len(own))])
+        with np.errstate(all="ignore"):
+            known = code.rhs(0.0, drawn_too, k, np.zeros(len(program.inputs)))
+        # a state may be one that no motion has, as a volume below 0
+        own = np.concatenate([own, drawn_too[np.isfinite(known).all(axis=1)]])
+        if len(own) == n:
+            break
+    else:
+        raise CompareError(f"{problem.name}: its equations have no value at states at random")
     arguments = {a for x in table.calls for a in x.arguments}
-    k, sizes = made.k, (n, len(program.inputs))
+    sizes = (n, len(program.inputs))
     made.given = {
-        "x": drawn(table, np.array(own), program.state, blocks, seed),
+        "x": drawn(table, own, program.state, blocks, seed),
         "t": random.uniform(size=n) if "t" in arguments else np.zeros(n),
         "u": random.normal(size=sizes) if "u" in arguments else np.zeros(sizes),
         "k": np.broadcast_to(k, (n, len(k))),
@@ -130,6 +135,17 @@ def comparison(
     }
     made.dx = _rates_of(made, path)
     return made
+
+
+def _state(c: Comparison, random: np.random.Generator) -> Array:
+    """One of our states at random."""
+    program = c.program
+    exponent = random.normal(size=program.dimension if program.blocks else 0).tolist()
+    # where a group moves matrices, exp says where they are
+    kept = program.state[-program.dimension :] if program.blocks else program.state
+    moving = dict(zip(kept, random.normal(size=len(kept)).tolist(), strict=True))
+    moving |= {x[0]: c.parameters[x[0]] for x in program.parameters}
+    return np.asarray(first_numbers(program, c.problem, moving, exponent).x)
 
 
 def _default(problem: Problem, program: Program, path: Path, function: str) -> Table:

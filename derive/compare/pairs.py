@@ -10,7 +10,7 @@ import numpy as np
 from .balance import Balance, Term, exact
 from .faults import NEARER, Explanation, named_vector, of_exchanges, of_term, of_terms, views
 from .told import ABOUT, NEAR, Changed, Hypothesis, changed, possible, told
-from .wrenches import of_attitude, of_axes
+from .wrenches import of_attitude, of_axes, of_wrenches
 
 FACTORS = (-1.0, 0.0, 2.0, 0.5)
 """What something is multiplied by, of the first of two changes: the second is fitted."""
@@ -67,7 +67,7 @@ class Reach:
     def __init__(self, b: Balance, terms: list[Term]):
         values, d = np.stack([x.values for x in terms]), b.a.shape[1]
         rows = [[*range(d)], *b.rows.values(), *([i] for i in range(d))]
-        along, turned = [], [*of_attitude(b, terms)]
+        along, turned = [], [*of_wrenches(b, terms)]
         for view in views(b):
             to = view[1]
             masks = [np.isin(range(d), own) for own in rows]
