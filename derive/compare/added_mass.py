@@ -7,19 +7,16 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from .balance import Balance
-from .told import SIMPLE, Hypothesis
+from .balance import Balance, turning
+from .told import FACTORS, SIMPLE, Hypothesis
 from .users_code import Array
-from .wrenches import cross, turning
-
-FACTORS = (0.0, -1.0, 2.0, 0.5)
 
 
 def of_added_mass(b: Balance) -> Iterator[Hypothesis]:
     """Of an operator that is the same in every state: what a factor s of the added mass adds is
     (s − 1) (P(M) − P(R)), P linear in the operator; the R of a rigid body is fitted."""
     problem = b.opened.problem
-    if problem.lagrangian is None or "force" not in b.rows:
+    if problem.lagrangian is None or not b.is_frame:
         return
     operators = b.code.mass_matrix(b.t, b.x, b.k(b.values()))
     M = operators[0]
@@ -60,35 +57,14 @@ def rigid_bodies(n: int) -> Array:
 
 def parts(b: Balance) -> dict[str, Callable[[Array], Array]]:
     """What an operator makes in M a + b, in words."""
-    w, v = b.velocities()
-    ζ = np.hstack([w, v])
-    none = np.zeros_like(b.a)
-    turns = w.shape[1]
-
-    def around(p: Array) -> Array:
-        if turns == 3:
-            return np.asarray(np.cross(w, p))
-        return np.asarray(w * np.stack([-p[:, 1], p[:, 0]], axis=1))
-
-    def rows(moment: Array | float, force: Array | float) -> Array:
-        found = none.copy()
-        found[:, :turns], found[:, turns:] = moment, force
-        return found
-
-    def of_v(K: Array) -> Array:
-        return rows(cross(v, (ζ @ K)[:, turns:]), 0)
-
-    def of_w(K: Array) -> Array:
-        return rows(
-            np.cross(w, (ζ @ K)[:, :turns]) if turns == 3 else 0, around((ζ @ K)[:, turns:])
-        )
+    ζ = np.hstack(b.velocities())
 
     def coriolis(K: Array) -> Array:
-        return of_v(K) + of_w(K)
+        return np.asarray(sum(b.coadjoint(ζ @ K).values()))
 
     return {
         "C_A(ν)ν, of the added mass,": coriolis,
-        "v × p of the added mass": of_v,
+        "v × p of the added mass": lambda K: b.coadjoint(ζ @ K)["v × p"],
         "the added mass in the mass matrix": lambda K: b.a @ K,
         "the added mass": lambda K: b.a @ K + coriolis(K),
     }

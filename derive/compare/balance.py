@@ -90,15 +90,11 @@ class Balance:
         """What is left by its own numbers."""
         return self.left(self.values())
 
-    def left(
-        self,
-        values: Mapping[str, float],
-        of_mass: Mapping[str, float] | None = None,
-    ) -> Array:
-        """M a + b, (N, d), 0 where these parameters make our equations the user's, M by those
-        ``of_mass`` where they are others; ``ValueError`` where no body has them."""
+    def left(self, values: Mapping[str, float]) -> Array:
+        """M a + b, (N, d), 0 where these parameters make our equations the user's; ``ValueError``
+        where no body has them."""
         b = self.code.bias(self.t, self.x, self.k(values), self.u)
-        found: Array = self.of_mass(of_mass or values) + b + self.more
+        found: Array = self.of_mass(values) + b + self.more
         return found
 
     def checked(self, left: Array, of_mass: Mapping[str, float]) -> Array:
@@ -109,10 +105,15 @@ class Balance:
         found: Array = (M @ np.linalg.solve(own, left[:, :, None]))[:, :, 0]
         return found
 
+    @property
+    def is_frame(self) -> bool:
+        """Is the velocity ω, then v, of a body that moves in space or in the plane?"""
+        return [*self.rows.values()] in ([[0, 1, 2], [3, 4, 5]], [[0], [1, 2]])
+
     def centre(self) -> Array | None:
         """The centre of mass of a body that moves in space or in the plane."""
         body = self.opened.problem.body
-        if body is None or "force" not in self.rows:
+        if body is None or not self.is_frame:
             return None
         own, known = body.moments(), self.values()
         m, *c = (approximate(x, known, float) for x in (own.m, *own.c))
@@ -122,7 +123,7 @@ class Balance:
         """What takes M a = Σ terms of a body in space to moments about its centre of mass, (6, 6);
         ``None`` where these are the same."""
         r = self.centre()
-        if r is None or not r.any() or len(r) != 3 or self.a.shape[1] != 6:
+        if r is None or not r.any() or len(r) != 3:
             return None
         found = np.eye(6)
         found[:3, 3:] = np.cross(np.eye(3), r).T  # less r × force
@@ -168,7 +169,7 @@ class Balance:
         on = getattr(table, "on", ())
         ends = on if isinstance(on, tuple) else (on,)
         listed = (*self.opened.problem.points, *self.opened.problem.places)
-        if len(ends) != 1 or "force" not in self.rows:
+        if len(ends) != 1 or not self.is_frame:
             return None
         at = [approximate(x, self.values(), float) for x in listed[ends[0] - 1].at]
         return None if None in at else np.array(at, float)
@@ -257,7 +258,7 @@ class Balance:
         yield Term(of_v, _of(f"{SQUARES} v"))
         crossed = square(every) - of_w - of_v
         yield Term(crossed, lambda row: "ω × Mv" if row == "force" else "the product of ω and v")
-        if turning == 3:
+        if self.is_frame and turning == 3:
             yield from self._of_momenta()
 
     def _acting(self, without: ModuleType) -> Part:
@@ -301,17 +302,23 @@ class Balance:
                 lambda row: f"the {row or 'load'} of all inputs",
             )
 
+    def coadjoint(self, momenta: Array) -> dict[str, Array]:
+        """What momenta π, p (N, d) make in b by Kirchhoff's equations, about the origin."""
+        (w, v), turns = self.velocities(), len(self.rows["moment"])
+        p, none = momenta[:, turns:], np.zeros_like(self.a)
+        spun = np.cross(w, momenta[:, :turns]) if turns == 3 else none[:, :turns]
+        return {
+            "ω × π": np.hstack([spun, none[:, turns:]]),
+            "v × p": np.hstack([cross(v, p), none[:, turns:]]),
+            "ω × p": np.hstack([none[:, :turns], turning(w, p)]),
+        }
+
     def _of_momenta(self) -> Iterator[Term]:
-        """The same by Kirchhoff's equations: −ω × π − v × p about the origin, −ω × p."""
-        velocity = self.x[:, -6:]
+        """Two of these by the momenta that there are."""
         M = self.code.mass_matrix(self.t, self.x, self.k(self.values()))
-        momenta = np.split(np.einsum("...ij,...j->...i", M, velocity), 2, axis=1)
-        for letters, momentum, vector in zip(
-            ("ω × π", "v × p"), momenta, np.split(velocity, 2, axis=1), strict=True
-        ):
-            moment = -np.cross(vector, momentum)
-            name = f"{letters} of the momenta π = ∂ℓ/∂ω, p = ∂ℓ/∂v"
-            yield Term(np.hstack([moment, 0 * moment]), _of(name), part=True)
+        momenta = np.einsum("...ij,...j->...i", M, self.x[:, -6:])
+        for letters, values in [*self.coadjoint(momenta).items()][:2]:
+            yield Term(-values, _of(f"{letters} of the momenta π = ∂ℓ/∂ω, p = ∂ℓ/∂v"), part=True)
 
     def _moving(self, part: slice, sign: float = 1.0) -> Array:
         """The states with some of the velocity alone."""
@@ -338,6 +345,20 @@ class Balance:
         known = self.values()
         places = [known.get(x[1]) if x[0] == "par" else None for x in getattr(table, "centre", ())]
         return T - np.array(places, float) if places and None not in places else T
+
+
+def cross(a: Array, b: Array) -> Array:
+    """a × b of vectors of space; in the plane the number of it, (…, 1)."""
+    if b.shape[-1] == 3:
+        return np.asarray(np.cross(a, b))
+    return np.asarray(a[..., :1] * b[..., 1:] - a[..., 1:] * b[..., :1])
+
+
+def turning(w: Array, r: Array) -> Array:
+    """ω × r, in the plane of the number ω, (…, 1)."""
+    if r.shape[-1] == 3:
+        return np.asarray(np.cross(w, r))
+    return np.asarray(w * np.stack([-r[..., 1], r[..., 0]], axis=-1))
 
 
 SQUARES = "what is quadratic in"

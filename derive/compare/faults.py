@@ -22,7 +22,7 @@ TURNS = 12
 
 def hypotheses(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     """All that are generated from the numbers and the terms of a problem."""
-    yield from of_numbers(b)
+    yield from of_numbers(b, {"": b.left})
     for x in of_exchanges(b):
         if (left := possible(x.balance)) is not None:
             yield Hypothesis(x.words, x.rank, left)
@@ -31,13 +31,15 @@ def hypotheses(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     yield from of_terms(b, terms)
 
 
-def of_terms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
-    """All that may be otherwise in the terms by themselves."""
+def of_terms(
+    b: Balance, terms: list[Term], factors: tuple[float, ...] = ()
+) -> Iterator[Hypothesis]:
+    """All that may be otherwise in the terms by themselves; by ``factors`` alone, if there are."""
     yield from of_wrenches(b, terms)
     for view in views(b):
         for term in (*terms, *b.together()):
             yield from of_axes(b, term, view)
-            yield from of_term(b, term, view)
+            yield from of_term(b, term, view, factors)
 
 
 def views(b: Balance) -> list[tuple[str, Array]]:
@@ -71,7 +73,7 @@ def explained(b: Balance, terms: list[Term]) -> Explanation:
     tried: list[Hypothesis] = []
     good = stage(hypotheses(b, terms))
     if not good or good[0].rank > 2:
-        good = stage(chain(of_parts(b, terms), of_added_mass(b)))
+        good = stage(chain(of_numbers(b, parts_of(b, terms)), of_added_mass(b)))
     if good:
         least = [x.words for x in good if x.rank <= max(1, good[0].rank)]
         first = [x for x in least if ABOUT not in x or x.replace(ABOUT, "") not in least]
@@ -93,81 +95,63 @@ Values = Mapping[str, float]
 
 
 def fitted(
-    b: Balance, values: Callable[[float], tuple[Values, Values]], start: float
+    b: Balance, values: Callable[[float], Values], start: float, part: Part
 ) -> tuple[float, Array] | None:
-    """The number for which the least is left, by Newton's method, and what is left then;
-    ``values``: of it, those of b and those of M."""
-
-    def left(number: float) -> Array:
-        of_bias, of_mass = values(number)
-        return b.left(of_bias, of_mass=of_mass)
-
-    found = newton(left, start)
+    """The number for which the least is left, by Newton's method, and what is left then; where it
+    is another in a ``part`` of M a + b, or in the whole, ``b.left``."""
+    own = part(b.values())
     try:
-        return found and (found[0], b.checked(found[1], values(found[0])[1]))
+        found = newton(lambda x: b.unexplained + part(values(x)) - own, start)
+        if found and part in (b.left, b.of_mass):
+            return found[0], b.checked(found[1], values(found[0]))
+        return found
     except (ValueError, np.linalg.LinAlgError):  # no body has this number
         return None
 
 
 def newton(left: Callable[[float], Array], start: float) -> tuple[float, Array] | None:
     """The number for which the least is left, and that; none where it stands in nothing."""
-
-    try:
-        value, here = start, left(start)
-        for _ in range(TURNS):
-            step = 1e-6 * max(abs(value), 1e-3)
-            slope = (left(value + step) - left(value - step)) / (2 * step)
-            square = float((slope * slope).sum())
-            if not square:
-                return None
-            further = value - float((slope * here).sum()) / square
-            there = left(further)
-            if not np.abs(there).sum() < np.abs(here).sum():
-                break
-            value, here = further, there
-        return value, here
-    except ValueError:  # no body has this number
-        return None
+    value, here = start, left(start)
+    for _ in range(TURNS):
+        step = 1e-6 * max(abs(value), 1e-3)
+        slope = (left(value + step) - left(value - step)) / (2 * step)
+        square = float((slope * slope).sum())
+        if not square:
+            return None
+        further = value - float((slope * here).sum()) / square
+        there = left(further)
+        if not np.abs(there).sum() < np.abs(here).sum():
+            break
+        value, here = further, there
+    return value, here
 
 
-def of_numbers(b: Balance) -> Iterator[Hypothesis]:
-    """A parameter of the problem, or one of its numbers, is another."""
+def of_numbers(b: Balance, parts: Mapping[str, Part]) -> Iterator[Hypothesis]:
+    """A parameter of the problem, or one of its numbers, is another in a part."""
     base = b.values()
-    for name, old in b.parameters.items():
-        found = fitted(b, lambda v, name=name: (b.values({name: v}),) * 2, old)  # type: ignore[misc]
-        if found:
-            words, rank = told(name, old, found[0], b.parameters)
-            yield Hypothesis(words, rank, found[1])
-    for slot in b.opened.slots:
-        old = base[slot.name]
-        found = fitted(b, lambda v, name=slot.name: ({**base, name: v},) * 2, old)  # type: ignore[misc]
-        if found:
-            words, rank = told(slot.words, old, found[0], b.alike(slot))
-            yield Hypothesis(words, rank + 1, found[1])
-
-
-def of_parts(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
-    """A number is another in the mass matrix alone, in the momentum alone, or in one term alone."""
-    base = b.values()
-    parts = {f"in {x.name('')} alone": x.of for x in terms if x.of and not x.is_input}
-    parts["in the mass matrix alone"] = b.of_mass
-    if momentum := b.of_momentum():
-        parts["in the momentum alone"] = momentum
     numbers: dict[str, tuple[str, Values]] = {x: (x, b.parameters) for x in b.parameters}
-    for slot in b.opened.slots:
-        numbers[slot.name] = (slot.words, b.alike(slot))
+    numbers |= {x.name: (x.words, b.alike(x)) for x in b.opened.slots}
     for (where, part), (name, (words, same)) in product(parts.items(), numbers.items()):
-        own = part(base)
+        own = name in b.parameters
 
-        def left(v: float, part: Part = part, own: Array = own, name: str = name) -> Array:
-            values = {**base, name: v} if name not in b.parameters else b.values({name: v})
-            return b.unexplained + part(values) - own
+        def values(v: float, name: str = name, own: bool = own) -> Values:
+            return b.values({name: v}) if own else {**base, name: v}
 
-        if found := newton(left, base[name]):
-            said, rank = told(f"{words} {where}", base[name], found[0], same)
-            if abs(found[0] - 1) <= NEAR:
-                said, rank = f"{words} is left out {where}: it is 1, not {base[name]:.6g}", 1
-            yield Hypothesis(said, rank + 1, found[1])
+        if found := fitted(b, values, base[name], part):
+            said, rank = told(words + where, base[name], found[0], same)
+            if where and abs(found[0] - 1) <= NEAR:
+                said, rank = f"{words} is left out{where}: it is 1, not {base[name]:.6g}", 1
+            yield Hypothesis(said, rank + (not own) + bool(where), found[1])
+
+
+def parts_of(b: Balance, terms: list[Term]) -> dict[str, Part]:
+    """In which part alone a number may be another, in words."""
+    found = {f" in {x.name('')} alone": x.of for x in terms if x.of}
+    momentum = b.of_momentum()
+    return {**found, IN_MASS: b.of_mass, **({IN_MOMENTUM: momentum} if momentum else {})}
+
+
+IN_MASS, IN_MOMENTUM = " in the mass matrix alone", " in the momentum alone"
 
 
 def of_exchanges(b: Balance) -> Iterator[Changed]:
@@ -210,11 +194,11 @@ def of_vectors(b: Balance) -> Iterator[Hypothesis]:
             continue
         name = named_vector(key)
 
-        def scaled(s: float, own: list[str] = own) -> tuple[Values, Values]:
-            return ({**base, **{x: s * base[x] for x in own}},) * 2
+        def scaled(s: float, own: list[str] = own) -> Values:
+            return {**base, **{x: s * base[x] for x in own}}
 
         # a wind stands under a root: from 1 alone Newton's method may end elsewhere
-        several = [fitted(b, scaled, x) for x in (1.0, -1.0, 0.0)]
+        several = [fitted(b, scaled, x, b.left) for x in (1.0, -1.0, 0.0)]
         if found := min(filter(None, several), key=lambda x: np.abs(x[1]).sum(), default=None):
             words, rank = changed(name, found[0], b.named)
             yield Hypothesis(words, rank, found[1])
@@ -233,13 +217,12 @@ def of_the_point(b: Balance) -> Iterator[Hypothesis]:
     shift = mass * (r @ r * np.eye(3) - np.outer(r, r))
     upper = [(i, j, named[f"{letter}_{i + 1}{j + 1}"]) for i in range(3) for j in range(i, 3)]
 
-    for where in ("", " in the mass matrix alone", " in ω × Iω alone"):
+    def shifted(s: float) -> Values:
+        return {**base, **{name: base[name] + s * shift[i, j] for i, j, name in upper}}
 
-        def shifted(s: float, where: str = where) -> tuple[Values, Values]:
-            other = {**base, **{name: base[name] + s * shift[i, j] for i, j, name in upper}}
-            return base if "mass" in where else other, base if "ω" in where else other
-
-        if r.any() and (found := fitted(b, shifted, 0.0)):
+    parts = {"": b.left, IN_MASS: b.of_mass, " in ω × Iω alone": b.of_momentum()}
+    for where, part in parts.items():
+        if part and r.any() and (found := fitted(b, shifted, 0.0, part)):
             simple = min(abs(abs(found[0]) - x) for x in (1, 2)) <= NEAR
             words = f"the tensor of inertia{where} is about another point: it is ours with "
             words += f"{found[0]:+.6g} times the term of parallel axes, m(r²1 − r r̄)"

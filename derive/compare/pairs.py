@@ -8,12 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from .balance import Balance, Term, exact
-from .faults import NEARER, Explanation, named_vector, of_exchanges, of_term, of_terms, views
-from .told import ABOUT, NEAR, Changed, Hypothesis, changed, possible, told
-from .wrenches import of_attitude, of_axes, of_wrenches
-
-FACTORS = (-1.0, 0.0, 2.0, 0.5)
-"""What something is multiplied by, of the first of two changes: the second is fitted."""
+from .faults import NEARER, Explanation, named_vector, of_exchanges, of_terms, views
+from .told import ABOUT, FACTORS, NEAR, Changed, changed, possible, told
+from .wrenches import of_axes, of_wrenches
 
 
 def of_two(b: Balance, terms: list[Term]) -> Explanation | None:
@@ -131,14 +128,5 @@ def of_numbers(b: Balance) -> Iterator[Changed]:
 
 def of_wholes(b: Balance, terms: list[Term]) -> Iterator[Changed]:
     """A term, or all its rows of a kind, times one of the factors, or turned otherwise."""
-    plain = b.unexplained
-
-    def of(x: Hypothesis) -> Changed:
-        return Changed(x.words, x.rank, replace(b, more=x.left - plain))
-
-    yield from map(of, of_attitude(b, terms))
-    for view in views(b):
-        for term in (*terms, *b.together()):
-            yield from map(of, of_axes(b, term, view))
-        for term in terms:
-            yield from map(of, of_term(b, term, view, FACTORS[:2]))
+    for x in of_terms(b, terms, FACTORS[:2]):
+        yield Changed(x.words, x.rank, replace(b, more=x.left - b.unexplained))

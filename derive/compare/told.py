@@ -23,6 +23,8 @@ UNITS = {
 """Factors between units, in words."""
 SIMPLE |= {x: f"has the factor {words}" for words, x in UNITS.items()}
 SIMPLE |= {1 / x: f"is divided by {words}" for words, x in UNITS.items()}
+FACTORS = (-1.0, 0.0, 2.0, 0.5)
+"""What something is multiplied by that is not fitted."""
 STANDARD_GRAVITY = 9.80665
 NEAR = 1e-7
 """How near a number is to one that has a name."""

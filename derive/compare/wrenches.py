@@ -9,7 +9,7 @@ from itertools import product
 
 import numpy as np
 
-from .balance import EXACT, Balance, Term
+from .balance import EXACT, Balance, Term, cross, turning
 from .told import Hypothesis, possible
 from .users_code import Array
 
@@ -20,7 +20,7 @@ def of_wrenches(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     """All of these, of the terms by themselves and of all inputs together."""
     yield from of_attitude(b, terms)
     yield from of_arms(b)
-    if b.turns().shape[1] == len(b.rows.get("force", ())):
+    if b.is_frame:
         inputs = [x for x in terms if x.is_input]
         for term in terms:
             yield from of_frames(b, [term], term.name)
@@ -52,14 +52,6 @@ def of_attitude(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
         if there is not None and term.at is not None:
             words = f"{term.name('')} is turned by A and not by Ā, the transpose of the attitude"
             yield Hypothesis(words, 0, here - (term.at(there) - term.values))
-
-
-def cross(a: Array, b: Array) -> Array:
-    """a × b of vectors of space; in the plane the number of it, (…, 1)."""
-    if b.shape[-1] == 3:
-        found: Array = np.cross(a, b)
-        return found
-    return np.asarray(a[..., :1] * b[..., 1:] - a[..., 1:] * b[..., :1])
 
 
 def changed_force(values: Array, arm: Array, to: Callable[[Array], Array]) -> Array:
@@ -111,13 +103,6 @@ def moving(b: Balance, arm: Array, R: Array) -> Array:
     of_place = turned(R)(v + turning(w, arm))
     w = turned(R)(w) if n == 3 else w
     return b.with_velocities(w, of_place - turning(w, arm))
-
-
-def turning(w: Array, arm: Array) -> Array:
-    """ω × r."""
-    if len(arm) == 3:
-        return np.asarray(np.cross(w, arm))
-    return np.asarray(w * np.array([-arm[1], arm[0]]))
 
 
 def of_speeds(b: Balance, term: Term) -> Iterator[Hypothesis]:
