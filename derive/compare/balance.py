@@ -22,6 +22,8 @@ Made = Callable[[Problem, bool], tuple[Program, ModuleType]]
 """The program of a problem, with its dynamics or without, and its Python."""
 Part = Callable[[Mapping[str, float]], Array]
 """A part of M a + b for all parameters by name."""
+FLAT = 1e-8
+"""With a singular value so much less than those of ours, a mass matrix is that of no body."""
 EXACT = 1e-9
 """What is left of an explained difference, relative to the largest term."""
 
@@ -98,10 +100,14 @@ class Balance:
         return found
 
     def checked(self, left: Array, of_mass: Mapping[str, float]) -> Array:
-        """What is left, by the rates that it stands for: a mass near 0 explains nothing."""
+        """What is left, by the rates that it stands for; ∞ for a mass that is near 0, which
+        explains nothing."""
         M, own = (
             self.code.mass_matrix(self.t, self.x, self.k(x)) for x in (self.values(), of_mass)
         )
+        least, known = (np.linalg.svd(x, compute_uv=False).min() for x in (own, M))
+        if not least > FLAT * known:
+            return np.full_like(left, np.inf)
         found: Array = (M @ np.linalg.solve(own, left[:, :, None]))[:, :, 0]
         return found
 

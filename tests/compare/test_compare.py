@@ -1,5 +1,7 @@
 """``derive compare`` names what is wrong in someone's code, and nothing in right code."""
 
+from pathlib import Path
+
 import pytest
 
 from derive.command.cli import main
@@ -303,6 +305,18 @@ def test_several_faults_are_named_together(capsys, tmp_path):
     assert "ω × Iω about the centre of mass is missing" in told.out
     assert "the force of gravity about the centre of mass has the factor 2" in told.out
     assert "and: " in told.out
+
+
+def test_a_body_without_mass_explains_nothing(capsys, tmp_path):
+    """Nothing is left of equations 0 = 0."""
+    text = Path(__file__).with_name("right").joinpath("by_hand.py").read_text(encoding="utf-8")
+    (tmp_path / "users.py").write_text(text.replace("-9.81 / 0.8", "-1.3 * 9.81 / 0.8"))
+    (tmp_path / "as.toml").write_text('call = "pendulum(x) -> dx"')
+    words = ["compare", "pendulum", "--with", str(tmp_path / "users.py")]
+    assert main([*words, "--as", str(tmp_path / "as.toml")]) == 1
+    told = capsys.readouterr().out
+    assert "gravity has the factor 1.3\n" in told
+    assert "missing" not in told
 
 
 PLANTED = {
