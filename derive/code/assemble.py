@@ -18,7 +18,7 @@ from .emitted_outputs import output_names, outputs
 from .factor import factored
 from .graph import Node, reachable
 from .group_functions import GroupFunctions
-from .inverse_dynamics import dynamics
+from .inverse_dynamics import dynamics, wanted_rates
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
@@ -217,6 +217,8 @@ def _functions(
     of_step = {**moving}
     for array, read_by_it in (stepped.leaves if stepped else {}).items():
         of_step |= _leaf_places(names, read_by_it, array)
+    if options.dynamics:
+        moving |= _leaf_places(names, wanted_rates(lowering), "dzeta")
     for name, nodes in wanted.items():
         own = by_momenta if name in OF_Y else moving
         own = of_step if name.startswith(STEPPING) else own

@@ -152,7 +152,7 @@ def _fields(
     prefix, real = asked.prefix, asked.options.real
     explicit_alone = {*asked.options.step} <= {*METHODS}  # what devices have
     printer = language.printer(real)
-    sizes = {"x": len(p.state), "k": len(p.constants), "u": len(p.inputs)}
+    sizes = {"x": len(p.state), "k": len(p.constants), "u": len(p.inputs), "dzeta": p.dimension}
     sizes |= {"p": len(p.parameters), "y": len(p.momenta), "z": len(p.matrix_state)}
     if p.framing:
         sizes["axes"] = sum(n + n * n for n, _ in p.framing.matrices)

@@ -1,8 +1,9 @@
 """The functions of the group, in a file of their own: exponential, logarithm, their derivatives,
-and steps from state to state, on groups whose factors turn a plane or space and shift it.
+and steps from state to state; in closed form on groups whose factors turn a plane or space and
+shift it, by series and roots of matrices on all others.
 
-A factor is a block [[R, S], [0, 1]]: R turns its first rows, 2 or 3, or is 1; S has any number of
-columns.  So are SO(2), SO(3), SE(2), SE(3), Rⁿ, their products, SE_2(3) as a group of one's own
+Such a factor is a block [[R, S], [0, 1]]: R turns its first rows, 2 or 3, or is 1; S has any number
+of columns.  So are SO(2), SO(3), SE(2), SE(3), Rⁿ, their products, SE_2(3) as a group of one's own
 basis, and groups inside of these.
 """
 
@@ -44,6 +45,16 @@ OF_FILTER: dict[str, tuple[tuple[str, ...], str]] = {
 }
 """The same where the state is an estimate with the covariance of its error."""
 
+FLOATS = ("float", "f32", "Float32")
+"""What single numbers are called, but in JavaScript, where this work is of doubles."""
+
+GENERAL = (
+    " exp is a chart about 1 of those eta whose eigenvalues, as a matrix, have imaginary parts "
+    "between -pi and pi; log, log_jacobian and local are of what it gives, and are not a number "
+    "where an eigenvalue of g, or of the step from x to y, is negative or 0."
+)
+"""What is said where there are no factors."""
+
 TERMS = 14
 """Terms of a series in −t²: for t² < 4 the next one is below 1e-18 of the first."""
 
@@ -68,7 +79,8 @@ class GroupFunctions:
     identity, with what never varies; ``read``: of each coordinate the terms (coefficient, row,
     column) that it is read by; ``brackets``: the coordinates of [E_a, E_b]; ``right``: is a
     variation δg = η g, and Z = ġ g⁻¹? ``covariance``: is an element followed in the state by the
-    upper triangle of a covariance, not by a velocity?
+    upper triangle of a covariance, not by a velocity?  There are no ``factors`` where one does
+    something else than turn and shift.
     """
 
     entries: tuple[tuple[int, int], ...]
@@ -81,7 +93,7 @@ class GroupFunctions:
 
     @classmethod
     def of(cls, space: StateSpace) -> GroupFunctions:
-        """Those of a state, on a group that :func:`refuse` does not refuse."""
+        """Those of a state that :func:`refuse` does not refuse."""
         return cls.of_group(space.group, space.slots, space.still, right=space.right)
 
     @classmethod
@@ -108,7 +120,7 @@ class GroupFunctions:
             tuple(map(tuple, origin)),
             tuple(tuple(group.coordinate_terms(a)) for a in range(group.dimension)),
             group.structure_constants,
-            tuple(_factors(group) or ()),
+            tuple(_factors(group)),
             right,
             covariance,
         )
@@ -134,26 +146,21 @@ class GroupFunctions:
         }[argument]
 
 
-def refuse(d: Derivation, group: Group, chosen: Options) -> None:
-    """``LoweringError`` for a group or a state for which these functions are not written."""
+def refuse(d: Derivation, chosen: Options) -> None:
+    """``LoweringError`` for a state for which these functions are not written."""
     reduced = "advected" in d.problem or bool(d.problem.get("lagrangian", {}).get("held"))
     for on, what in (
         (chosen.attitude != "matrix", f"not written with --attitude {chosen.attitude}"),
         (chosen.velocity == "tangent", "not written with --velocity tangent"),
         (reduced, "not written for a state without all of g and Z"),
-        (
-            _factors(group.in_user_basis) is None,
-            "for SO(2), SO(3), SE(2), SE(3), translations, groups inside of these and products, "
-            f"not for {group.name}",
-        ),
     ):
         if on:
             raise LoweringError(f"{d.name}: --exponential is {what}: leave it out")
 
 
-def _factors(group: Group) -> list[Factor] | None:
-    """The factors, or ``None`` where one does something else than turn and shift, or an element of
-    the basis is in several."""
+def _factors(group: Group) -> list[Factor]:
+    """The factors; none where one does something else than turn and shift, or an element of the
+    basis is in several."""
     found, members = list[Factor](), list[int]()
     for start, factor in group.places:
         span = range(start, start + factor.size)
@@ -164,10 +171,10 @@ def _factors(group: Group) -> list[Factor] | None:
         pairs = [(e[i][j], e[j][i]) for e in inside for i in turning for j in turning]
         turns = len(turning) if any(x for x, _ in pairs) else 0
         if any(x != -y for x, y in pairs) or turns not in (0, 2, 3):
-            return None
+            return []
         found.append(Factor(start, len(turning), span.stop, turns, tuple(own)))
         members += own
-    return found if sorted(members) == [*range(group.dimension)] else None
+    return found if sorted(members) == [*range(group.dimension)] else []
 
 
 def _series() -> list[list[float]]:
@@ -204,6 +211,8 @@ def known(p: Program) -> dict[str, Any]:
     terms = ((a, x) for a, found in enumerate(f.read) for x in found)
     return {
         "SIZE": len(f.origin),
+        "WIDE": max(len(f.origin), d),
+        "MOST": 40,
         "N_ELEMENT": element,
         "N_ALGEBRA": d,
         "N_STATE": f.count("exp", "x"),
@@ -231,6 +240,7 @@ def known(p: Program) -> dict[str, Any]:
         "SIGN": 1.0 if f.right else -1.0,
         "BACK": -0.5 if f.right else 0.5,
         "JACOBIAN": f"exp(eta + d) = {'exp(J d) exp(eta)' if f.right else 'exp(eta) exp(J d)'}",
+        "DOMAIN": "turning by at most pi" if f.factors else "of eigenvalues a + bi with |b| < pi",
         "INVERSE": f"{'exp(d) g' if f.right else 'g exp(d)'} = exp(log(g) + J d)",
         "PRODUCT": "exp(eta) g" if f.right else "g exp(eta)",
     }
@@ -254,6 +264,8 @@ def _conventions(p: Program) -> list[str]:
             "velocity: the coordinates of the linearised equations, of variations delta g = "
             f"{p.variation} and delta zeta."
         )
+    if not f.factors:
+        text += GENERAL
     if any(x.turns for x in f.factors):
         turning = "log turns" if f.covariance else "log and local turn"
         text += (
@@ -273,6 +285,7 @@ def printed_group(language: str, p: Program, fields: Mapping[str, Any]) -> dict[
     given = known(p) | {
         "prefix": fields["prefix"],
         "real": real_of_work(language, fields["real"]),
+        "SMALL": 1e-7 if fields["real"] in FLOATS else 1e-16,
         "inline": "static inline",
         "public": {*f.functions} if language == "rust" else (),
         "generic": True,
@@ -283,7 +296,8 @@ def printed_group(language: str, p: Program, fields: Mapping[str, Any]) -> dict[
         **({name: f"{name}_into" for name in f.functions} if language == "javascript" else {}),
     }
     source = Source()
-    source.read(text_of("group_maps"), given)
+    for part in ("group_elements", "group_turns" if f.factors else "group_series", "group_maps"):
+        source.read(text_of(part), given)
     if f.covariance:
         source.read(text_of("invariant_update"), given)
     printer = PRINTERS.get(language, Python)(source, given)

@@ -1,14 +1,12 @@
 """The mass matrix M, and the bias b: for rates a of the velocity, M a + b is the covector that must
-be added to what already acts."""
+be added to what already acts; without inputs, that which they must supply."""
 
 from __future__ import annotations
-
-from fractions import Fraction
 
 from ..language.reserved import suffixed
 from ..record.record import Derivation
 from .factor import factored
-from .graph import Node
+from .graph import Node, reachable, remade, rewritten
 from .lower import Lowering
 from .program import LoweringError
 from .schedule import of_velocity
@@ -24,9 +22,16 @@ def refuse(d: Derivation) -> None:
         )
 
 
+def wanted_rates(lowering: Lowering) -> list[Node]:
+    """What ``inverse`` takes: the rates that the velocity is to have, in the basis of the state."""
+    span = range(1, lowering.reader.group.dimension + 1)
+    return [lowering.graph.leaf(suffixed("dzeta", a), "state") for a in span]
+
+
 def dynamics(lowering: Lowering) -> dict[str, list[Node]]:
-    """The functions ``mass_matrix``, ∂Π_a/∂ζ_b by rows, and ``bias``, −M ζ̇ of the motion, in the
-    basis of the state."""
+    """The functions ``mass_matrix``, ∂Π_a/∂ζ_b by rows, ``bias``, −M ζ̇ of the motion, and
+    ``inverse``, M (a − ζ̇) by rates a and the motion without inputs, where there is such a motion;
+    in the basis of the state."""
     reader, graph = lowering.reader, lowering.graph
     count = reader.group.dimension
     momenta = EmittedQuantities(lowering).momenta
@@ -38,7 +43,22 @@ def dynamics(lowering: Lowering) -> dict[str, list[Node]]:
     }
     rows = [[upper[min(a, b), max(a, b)] for b in range(count)] for a in range(count)]
     rates = reader.space.velocity(reader.component)
-    forces = [graph.sum([graph.product(x) for x in zip(row, rates, strict=True)]) for row in rows]
-    bias = [graph.linear([(Fraction(-1), x)]) for x in forces]
-    found = {"mass_matrix": [x for row in rows for x in row], "bias": bias}
-    return {name: factored(graph, nodes) for name, nodes in found.items()}
+    found = {
+        "mass_matrix": [x for row in rows for x in row],
+        "bias": [-Node.dot(row, rates) for row in rows],
+        "inverse": _supplied(lowering, rows, rates),
+    }
+    return {name: factored(graph, nodes) for name, nodes in found.items() if nodes}
+
+
+def _supplied(lowering: Lowering, rows: list[list[Node]], rates: list[Node]) -> list[Node]:
+    """M on what the rates without inputs lack; none where an input is divided by."""
+    reader, graph = lowering.reader, lowering.graph
+    still = {reader.leaf(x, "input"): graph.num(0) for x in reader.inputs}
+    try:
+        unforced = rewritten(rates, reachable(rates), remade, still)
+    except ZeroDivisionError:
+        return []
+    pairs = enumerate(zip(wanted_rates(lowering), unforced, strict=True), 1)
+    lacking = [graph.value(a - x, suffixed("lacking", i), "") for i, (a, x) in pairs]
+    return [Node.dot(row, lacking) for row in rows]

@@ -28,7 +28,7 @@ CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
 
 ADDED: dict[str, str] = {
     "momenta": "also the motion in momenta: to them and back, rates, Poisson tensor",
-    "dynamics": "add the mass matrix M and the bias b: inputs must supply M a + b for rates a",
+    "dynamics": "add the mass matrix, the bias and the inverse: what inputs must supply",
     "exponential": "add exp, log, their Jacobians, retract and local, in a file NAME_group",
     "multiplier": "add the multiplier of the volume, the integral of the pressure in a fluid",
     "conserved": "add what the motion keeps, as derive symmetries finds it",

@@ -206,7 +206,7 @@ class Program:
     """All that is emitted for one problem, without a word of any language.
 
     ``functions``: constants, rhs, energy; inertia for a body turned in space; outputs where there
-    are some; and what is asked for of conserved, multiplier, mass_matrix, bias, events; of
+    are some; and what is asked for of conserved, multiplier, mass_matrix, bias, inverse, events; of
     jacobian, jacobian_inputs, jacobian_parameters; momentum, velocity, momentum_rhs and poisson;
     into_frame, out_of_frame, inputs_into_frame; to_matrix and from_matrix of a state with
     quaternions, to_matrix of one with angles.

@@ -2,10 +2,11 @@
 
 Every language loops over them.  Arrays are x, the state; k, the constants; p, the parameters; u,
 the inputs; y, the state with momenta in place of the velocity; z, that with matrices in place of
-quaternions and angles; dx and dy, the rates; D, a matrix by rows: 2N × 2N, or with a column for
-each input or parameter, N the dimension of the group; out, of the size of what is taken, or as its
-function says; of a discrete step q, h times its momentum, then h, v, its unknowns, b, what is
-computed before these, and s, coordinates of what it turns by.
+quaternions and angles; dx and dy, the rates; dzeta, rates of the velocity, and Q, a covector, of N
+numbers each; D, a matrix by rows: 2N × 2N, or with a column for each input or parameter, N the
+dimension of the group; out, of the size of what is taken, or as its function says; of a discrete
+step q, h times its momentum, then h, v, its unknowns, b, what is computed before these, and s,
+coordinates of what it turns by.
 """
 
 from __future__ import annotations
@@ -54,6 +55,7 @@ ARRAYS = {"q": "LOADED", "b": "BEGUN", "v": "UNKNOWNS", "s": "TURNS"}
 """The arrays of a discrete step and their sizes."""
 SIZES = {"t": (), "n": (), "x": ("STATE",), "dx": ("STATE",), "y": ("STATE",), "dy": ("STATE",)}
 SIZES |= {"k": ("CONSTANTS",), "p": ("PARAMETERS",), "u": ("INPUTS",), "z": ("MATRIX",)}
+SIZES |= {"dzeta": ("ALGEBRA",), "Q": ("ALGEBRA",)}
 SIZES |= {name: (size,) for name, size in ARRAYS.items()}
 """The sizes of the arguments that have the same in all functions."""
 GIVEN, PRINCIPAL = "the frame of the parameters", "the principal frame that k holds"
@@ -97,6 +99,8 @@ jacobian_outputs_raw(t, x, k, u) -> D[OUTPUTS STATE]: the derivative of the outp
 mass_matrix(t, x, k) -> D[ALGEBRA ALGEBRA]: the mass matrix M, by rows
 bias(t, x, k, u) -> out[ALGEBRA]: b: M a + b is the covector to be added to what acts, so that the
     velocity has the rates a
+inverse(t, x, k, dzeta) -> Q: the covector Q that the inputs must supply for the velocity to have
+    the rates dzeta
 error_generator(t, x, k, u) -> D[ALGEBRA ALGEBRA]: the matrix A of d xi/dt = A xi, of the logarithm
     xi of the error, by rows
 error_noise(t, x, k, u) -> D[ALGEBRA INPUTS]: the matrix G by which noise on the inputs adds to d
@@ -153,9 +157,9 @@ SIGNATURES = tuple(map(_signature, re.split(r"\n(?! )", TABLE.strip())))
 def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
     """Name → signature and statements, of the functions that a program has in a language.
 
-    ``reads``: the letters of what it takes; ``counts``: how many numbers each array that is written
-    has; ``rows``: those of D; ``stores``: the array, the index (from 0), the text and the title of
-    each number.
+    ``reads``: the letters of what it takes; ``given``, ``counts``: how many numbers each array has
+    that is read, or written; ``rows``: those of D; ``stores``: the array, the index (from 0), the
+    text and the title of each number.
     """
     sizes = {
         "STATE": len(p.state),
@@ -194,6 +198,7 @@ def _function(s: Signature, body: Mapping[str, Any], sizes: Mapping[str, int]) -
         **body,
         "rows": rows,
         "reads": "".join(a.name for a in s.takes),
+        "given": {a.name: prod(sizes[x] for x in a.sizes) for a in s.takes if a.sizes},
         "counts": counts,
         "stores": [{"array": a, "index": i, "text": x, "title": t} for (a, i), x, t in texts],
     }

@@ -380,13 +380,12 @@ class Compiled(InMomenta, OnTheGroup):
         self._call_at("mass_matrix", None, t, x, self._in_use().k, M)
         return M
 
-    def inverse(self, t: float, x: Any, rates: Any, u: Any = None) -> Array:
-        """The covector, (d,), that must be added to what acts for the velocity to have these
-        rates, (d,): M rates + bias; needs ``dynamics=True``."""
-        bias = np.zeros(self._names.algebra)
-        self._call_at("bias", None, t, x, self._in_use().k, self._inputs(u), bias)
-        found: Array = self.mass_matrix(t, x) @ _array(rates, len(bias)) + bias
-        return found
+    def inverse(self, t: float, x: Any, rates: Any) -> Array:
+        """The covector Q, (d,), that the inputs must supply for the velocity to have these rates,
+        (d,); needs ``dynamics=True``."""
+        Q = np.zeros(d := self._names.algebra)
+        self._call_at("inverse", None, t, x, self._in_use().k, _array(rates, d), Q)
+        return Q
 
     def jacobian_outputs(self, t: float, x: Any, u: Any = None) -> tuple[Array, Array]:
         """C and D: the derivatives of the outputs, (len(OUTPUTS), 2d) by (η, δζ), and
@@ -487,7 +486,9 @@ class Compiled(InMomenta, OnTheGroup):
         function = getattr(self._library, f"{self._source.name}_{what}", None)
         if function is None and what.endswith("_frame"):
             raise ValueError("not compiled: ask for it by compile(..., frame='principal')")
-        if function is None and what in ("mass_matrix", "bias"):
+        if function is None and what == "inverse" and self._has("bias"):
+            raise ValueError("an input is divided by: there are no rates without it to start from")
+        if function is None and what in ("mass_matrix", "inverse"):
             raise ValueError("not compiled: ask for it by compile(..., dynamics=True)")
         if function is None and "outputs" in what and not self.OUTPUTS:
             raise ValueError(

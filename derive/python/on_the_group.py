@@ -35,7 +35,9 @@ class OnTheGroup:
         return self._on_the_group("exp", eta)
 
     def log(self, g: Any) -> Array:
-        """The η, (d,), with exp η = g that turns by at most π; at π one of two."""
+        """The η, (d,), with exp η = g that turns by at most π; at π one of two. On groups that do
+        more than turn and shift that of eigenvalues a + bi, |b| < π; nan where one of g is negative
+        or 0."""
         return self._on_the_group("log", g)
 
     def exp_jacobian(self, eta: Any) -> Array:
@@ -52,7 +54,7 @@ class OnTheGroup:
         return self._on_the_group("retract", x, eta)
 
     def local(self, x: Any, y: Any) -> Array:
-        """The (η, δζ), (2d,), that :meth:`retract` takes x to y by, turning by at most π."""
+        """The (η, δζ), (2d,), that :meth:`retract` takes x to y by, η as :meth:`log` has it."""
         return self._on_the_group("local", x, y)
 
     def update_left(self, x: Any, o: Any, Y: Any, N: Any) -> Array:

@@ -387,8 +387,9 @@ class Comparison:
         own = self._call, self.plain, self._require_equal, self._draw, self.point, self.claims.state
         return MomentumFunctions(*own).compare(arguments)
 
-    def _dynamics(self, arguments: Mapping[str, Any]) -> tuple[str, str]:
-        """Compare the mass matrix with the checker's metric, and the bias with −M ζ̇."""
+    def _dynamics(self, arguments: Mapping[str, Any]) -> tuple[str, ...]:
+        """Compare the mass matrix with the checker's metric, the bias with −M ζ̇, and the inverse
+        with M a + b, b the bias of the module where no input acts."""
         group, point = self.claims.state.group, self.point
         model = getattr(point.named.names, "model", None)
         assert isinstance(model, (Model, LagrangianModel))
@@ -400,7 +401,18 @@ class Comparison:
         rates = q.times(M, q.column(self._accelerations))
         bias = self._call("bias", arguments, out=len(M))["out"]
         self._require_equal("bias", names[: len(M)], bias, [-x for (x,) in rates])
-        return "mass_matrix", "bias"
+        if "inverse" not in self.module.functions:  # where an input is divided by
+            return "mass_matrix", "bias"
+        none = [Fraction(0) for _ in self.claims.inputs]
+        unforced = {**arguments, "u": self._array(none, "u", (0, 0))}
+        wanted = [self._draw() for _ in M]
+        given = {**arguments, "dzeta": self._array(wanted, "dzeta", (1, 0))}
+        left = self._call("bias", unforced, out=len(M))["out"]
+        pushed = q.flatten(q.times(M, q.column(wanted)))
+        found = self._call("inverse", given, Q=len(M))["Q"]
+        sums = [x + getattr(y, "value", y) for x, y in zip(pushed, left, strict=True)]
+        self._require_equal("inverse", names[: len(M)], found, sums)
+        return "mass_matrix", "bias", "inverse"
 
     @property
     def _accelerations(self) -> Sequence[Any]:

@@ -34,6 +34,7 @@ CONTRACT = {
     "step_end": ("x k q v", "out"),
     "mass_matrix": ("t x k", "D"),
     "bias": ("t x k u", "out"),
+    "inverse": ("t x k dzeta", "Q"),
     "project": ("x", "out"),
     "defect": ("x", ""),
     "to_matrix": ("x", "out"),
@@ -112,7 +113,8 @@ def _python_heads(f: str, prefix: str, takes: list[str], writes: list[str]) -> l
     del prefix, writes
     if "t" in takes or takes == ["x"]:
         state = [x for x in takes if x in "xy"]
-        takes = ["t", *state, "p" if "p" in takes else "k", "u"]
+        last = "dzeta" if "dzeta" in takes else "u"
+        takes = ["t", *state, "p" if "p" in takes else "k", last]
     if f == "step_force":
         takes = [*"txku"]
     return [f"def _{f} ( {' , '.join(['xp', *takes])} )"]

@@ -24,6 +24,8 @@ from tests.support.read_julia import Module, Numbers
 DIGITS = 50
 ANGLES = (0.0, 1e-12, 1e-8, 1e-4, 1.0, 1.99, 2.01, np.pi - 1e-4, np.pi - 1e-8)
 """The largest angle of a factor; at 2 the series end."""
+SIZES = (0.0, 1e-8, 1.0, 3.0)
+"""The size of the largest eigenvalue elsewhere."""
 
 
 def unit(n, i, j):
@@ -70,7 +72,19 @@ PROBLEMS = {
     "line": lambda: of_basis(LINE),
     "right": lambda: lagrangian(squares(1, 2, 3, 1, 2, 3), "SE(3)", side="right"),
 }
-OPTIONS = {"SE(3)": {"layout": "col"}, "SE(2)": {"state": "moving"}}
+GENERAL = {
+    **{
+        f"{x}({n})": lambda x=x, n=n: of_points(f"{x}({n})", n)
+        for x, n in (("SL", 3), ("GL", 2), ("Aff", 2), ("SAff", 2), ("Sp", 4), ("Sim", 3))
+    },
+    **{f"{x}(4)": lambda x=x: of_points(f"{x}(4)", 4) for x in ("SO", "SE")},
+    "SU(2)": lambda: of_points("SU(2)", 4),
+    "UT(3)": lambda: of_basis([unit(3, 0, 1), unit(3, 1, 2), unit(3, 0, 2)]),
+    "SO(3) x SL(2)": lambda: lagrangian(squares(1, 2, 3, 1, 2, 3), "SO(3) x SL(2)"),
+    "right SL(2)": lambda: lagrangian(squares(1, 2, 3), "SL(2)", side="right"),
+}
+"""Groups that do more than turn and shift."""
+OPTIONS = {"SE(3)": {"layout": "col"}, "SE(2)": {"state": "moving"}, "SL(3)": {"layout": "col"}}
 
 
 @cache
@@ -78,7 +92,7 @@ def case(name):
     """What is compiled of a problem, the basis, and where the numbers of an element are."""
     need("cc")
     chosen = OPTIONS.get(name, {})
-    problem = PROBLEMS[name]()
+    problem = {**PROBLEMS, **GENERAL}[name]()
     f = derive.compile(problem, exponential=True, jacobian="state", **chosen)
     group = problem.group
     d, basis = group.dimension, group.in_user_basis.basis
@@ -134,12 +148,12 @@ def coordinates(E, M):
 
 def turned(E, angle, rng):
     """Coordinates of the largest angle that is asked for; those of shifts alone are of size 1."""
-    turns = [any(e[i, j] * e[j, i] for i in range(e.rows) for j in range(i)) for e in E]
+    turns = [any(abs(sum((d * e)[i, i] for i in range(e.rows))) > 0 for d in E) for e in E]
     eta = rng.normal(size=len(E))
     if not any(turns):
         return eta
     M = hat(E, eta * turns)
-    largest = max(abs(z.imag) for z in np.linalg.eigvals(np.array(M.tolist(), dtype=float)))
+    largest = max(abs(z) for z in np.linalg.eigvals(np.array(M.tolist(), dtype=float)))
     return np.where(turns, eta * angle / largest, eta)
 
 
@@ -148,7 +162,8 @@ def drawn(name, angle):
     return f, E, places, turned(E, angle, np.random.default_rng([7, int(angle * 1e3)]))
 
 
-CASES = pytest.mark.parametrize("angle", ANGLES, ids=lambda x: f"{x:.3g}")
+PAIRS = [(x, a) for x in PROBLEMS for a in ANGLES] + [(x, a) for x in GENERAL for a in SIZES]
+CASES = pytest.mark.parametrize(("name", "angle"), PAIRS, ids=[f"{x} {a:.3g}" for x, a in PAIRS])
 NAMES = pytest.mark.parametrize("name", PROBLEMS)
 
 
@@ -158,15 +173,20 @@ def far(found, wanted):
     return np.max(np.abs(found - wanted)) / max(1, np.max(np.abs(wanted)))
 
 
+def back(name):
+    """What an error of what leads back to the algebra is below: by roots it has the condition of
+    matrices, here of up to 500."""
+    return 1e-15 if name in PROBLEMS else 3e-14
+
+
 @CASES
-@NAMES
 def test_exp_and_log_have_all_digits(name, angle):
-    """Of numbers of size 1; the largest error of these is 4e-16."""
+    """Of numbers of size 1; the largest error of these is 6e-16, by roots 8e-15."""
     with mpmath.workdps(DIGITS):
         f, E, places, eta = drawn(name, angle)
         g = entries(exp(hat(E, eta)), places)
         assert far(f.exp(eta), g) < 1e-15
-        assert far(f.log(g), eta) < 1e-15
+        assert far(f.log(g), eta) < back(name)
 
 
 @pytest.mark.parametrize("angle", [3.5, 50.0])
@@ -179,21 +199,21 @@ def test_exp_beyond_half_a_turn(name, angle):
 
 
 @CASES
-@NAMES
 def test_jacobians_are_those_of_differences(name, angle):
-    """The largest error of these is 5e-16; differences of 50 digits are right to 1e-30."""
+    """The largest error of these is 7e-16, by roots 2e-14; differences of 50 digits are right to
+    1e-30."""
     with mpmath.workdps(DIGITS):
         f, E, places, eta = drawn(name, angle)
         h, X = mpmath.mpf(10) ** -18, hat(E, eta)
         columns = []
         for e in E:
             change = (exp(X + h * e) - exp(X - h * e)) / (2 * h)
-            change = change * exp(-X) if name == "right" else exp(-X) * change
+            change = change * exp(-X) if "right" in name else exp(-X) * change
             columns.append(coordinates(E, change))
         J = mpmath.matrix(columns).T
-        back = np.array((J**-1).tolist(), dtype=float)
+        inverse = np.array((J**-1).tolist(), dtype=float)
         assert far(f.exp_jacobian(eta), J.tolist()) < 1e-15
-        assert far(f.log_jacobian(entries(exp(X), places)), back) < 1e-15
+        assert far(f.log_jacobian(entries(exp(X), places)), inverse) < back(name)
 
 
 @pytest.mark.parametrize("angle", [1e-12, 1e-8])
@@ -202,6 +222,25 @@ def test_small_turns_have_all_their_digits(angle):
     f = case("SO(3)")[0]
     eta = angle * np.array([1.0, -2.0, 0.5])
     np.testing.assert_allclose(f.log(f.exp(eta)), eta, rtol=4e-16, atol=0)
+
+
+@pytest.mark.parametrize(
+    ("name", "g"),
+    [
+        ("right SL(2)", [-1, 0, 0, -1]),
+        ("right SL(2)", [-2, 0, 0, -0.5]),
+        ("GL(2)", [1, 1, 1, 1]),
+        ("SO(4)", np.diag([-1, -1, 1, 1])),
+    ],
+)
+def test_what_has_no_logarithm_is_no_number(name, g):
+    """An eigenvalue that is negative, or 0."""
+    f, g = case(name)[0], np.ravel(g)
+    d = len(f.log(g))
+    x = np.concatenate([case(name)[0].exp(np.zeros(d)), np.zeros(d)])
+    assert np.isnan(f.log(g)).all()
+    assert np.isnan(f.log_jacobian(g)).all()
+    assert np.isnan(f.local(x, [*g, *np.zeros(d)])[:d]).all()
 
 
 def test_half_a_turn_has_one_of_two_signs():
@@ -215,9 +254,8 @@ def test_half_a_turn_has_one_of_two_signs():
 
 
 @CASES
-@NAMES
 def test_local_is_the_inverse_of_retract(name, angle):
-    """The largest error of these is 5e-16."""
+    """The largest error of these is 5e-16, by roots 6e-14."""
     with mpmath.workdps(DIGITS):
         f, E, places, eta = drawn(name, angle)
         d, size, rng = len(E), E[0].rows, np.random.default_rng(5)
@@ -225,13 +263,13 @@ def test_local_is_the_inverse_of_retract(name, angle):
         moved = np.concatenate([eta, rng.normal(size=d)])
         y, X = f.retract(x, moved), element(x[:-d], places, size)
         by = exp(hat(E, eta))
-        wanted = by * X if name == "right" else X * by
+        wanted = by * X if "right" in name else X * by
         assert far(y[:-d], entries(wanted, places)) < 2e-15
         np.testing.assert_array_equal(y[-d:], x[-d:] + moved[d:])
-        assert far(f.local(x, y), moved) < 2e-15
+        assert far(f.local(x, y), moved) < 2 * back(name)
 
 
-@NAMES
+@pytest.mark.parametrize("name", [*PROBLEMS, "SL(3)", "right SL(2)"])
 def test_its_coordinates_are_those_of_the_linearised_equations(name):
     """D of --jacobian by differences of the rates along retract, seen by local: to 3e-8."""
     f, E, _ = case(name)
@@ -308,8 +346,10 @@ RUN = {
 }
 
 
-COMPARED = [(name, x, "double") for name in ("SO(3) x SE(3)", "SE(2)", "right") for x in RUN]
+ALIKE = ("SO(3) x SE(3)", "SE(2)", "right", "SAff(2)")
+COMPARED = [(name, x, "double") for name in ALIKE for x in RUN]
 COMPARED += [("SE(2)", x, "float") for x in RUN if x != "python"]  # where it is of doubles
+COMPARED += [("right SL(2)", x, "float") for x in RUN if x != "python"]
 
 
 @pytest.mark.parametrize(("name", "language", "real"), COMPARED)
@@ -318,9 +358,9 @@ def test_every_language_says_what_c_says(name, language, real, tmp_path):
     f, E, _ = case(name)
     d, rng = len(E), np.random.default_rng(8)
     chosen = {"exponential": True, "real": real, **OPTIONS.get(name, {})}
-    prefix, texts = emission(PROBLEMS[name](), (language,), **chosen)
+    prefix, texts = emission({**PROBLEMS, **GENERAL}[name](), (language,), **chosen)
     calls = []
-    for angle in ANGLES:
+    for angle in ANGLES if name in PROBLEMS else SIZES:
         eta = turned(E, angle, rng)
         g = f.exp(eta)
         x, moved = (np.concatenate([a, rng.normal(size=d)]) for a in (g, eta))
@@ -333,7 +373,7 @@ def test_every_language_says_what_c_says(name, language, real, tmp_path):
     found = run(prefix, texts[f"{prefix}_group{ending}"], calls, *folder)
     for (function, given, _), there in zip(calls, found, strict=True):
         error = far(there, getattr(f, function)(*given).ravel())
-        assert error < (2e-15 if real == "double" else 2e-6), function
+        assert error < 2 * back(name) * (1 if real == "double" else 1e9), function
 
 
 COMPILERS = ("gcc -std=c99", "clang -std=c99", "g++ -xc++ -std=c++11", "clang++ -xc++")
@@ -341,10 +381,11 @@ COMPILERS = ("gcc -std=c99", "clang -std=c99", "g++ -xc++ -std=c++11", "clang++ 
 
 @pytest.mark.parametrize("real", ["double", "float"])
 @pytest.mark.parametrize("compiler", COMPILERS)
-def test_every_compiler_takes_the_header(compiler, real, tmp_path):
+@pytest.mark.parametrize("name", ["SO(3) x SE(3)", "SO(3) x SL(2)"])
+def test_every_compiler_takes_the_header(name, compiler, real, tmp_path):
     words = compiler.split()
     need(words[0])
-    prefix, texts = emission(PROBLEMS["SO(3) x SE(3)"](), ("c",), exponential=True, real=real)
+    prefix, texts = emission({**PROBLEMS, **GENERAL}[name](), ("c",), exponential=True, real=real)
     header = f"{prefix}_group.h"
     (tmp_path / header).write_text(texts[header], encoding="utf-8")
     source = f'#include "{header}"\nint main(void) {{ return 0; }}\n'
@@ -367,9 +408,6 @@ def test_what_is_not_read_back_is_told(tmp_path, capsys):
 # -- what is refused ------------------------------------------------------------------------------
 
 REFUSED = {
-    "sl3": ({}, r"--exponential is for SO\(2\), SO\(3\), SE\(2\), SE\(3\), .*, not for SL\(3\)"),
-    "manakov": ({}, r"not for SO\(4\): leave it out"),
-    "heisenberg": ({}, r"not for UT\(3\)"),
     "so3": ({"attitude": "quaternion"}, "not written with --attitude quaternion"),
     "se3": ({"velocity": "tangent"}, "not written with --velocity tangent"),
     "spherical_pendulum": ({}, "without all of g and Z"),

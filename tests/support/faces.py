@@ -59,14 +59,14 @@ int face(const char *word, double a, double b, const double *P, const double *K,
 {
     real p[@name@_N_PARAMETERS + 1], k[@name@_N_CONSTANTS + 1], u[@name@_N_INPUTS + 1];
     real x[@name@_N_STATE], z[@name@_N_STATE + @more@];
-    const real t = (real)a, *y = x;
+    const real t = (real)a, *y = x, *dzeta = z;
     int status = 0;
     taken(p, P, @name@_N_PARAMETERS);
     taken(k, K, @name@_N_CONSTANTS);
     taken(u, U, @name@_N_INPUTS);
     taken(x, X, @name@_N_STATE);
     taken(z, Z, @name@_N_STATE + @more@);
-    (void)t, (void)y, (void)b, (void)p, (void)u, (void)z;
+    (void)t, (void)y, (void)dzeta, (void)b, (void)p, (void)u, (void)z;
     if (!strcmp(word, "constants")) {
         status = @name@_constants(p, k);
         given(out, k, @name@_N_CONSTANTS);
@@ -294,7 +294,7 @@ def in_spans(call):
     """The same call on spans, from C++20 on, beside what the first has written."""
     if call.kind == "int":
         return ""
-    words = {a: f"std::span({a})" for a in "xykpu"} | {"t": "t"}
+    words = {a: f"std::span({a})" for a in (*"xykpu", "dzeta")} | {"t": "t"}
     words["z"] = "m::In<m::n_matrix>(z)"
     written = [*offsets(call)]
     given = ", ".join([*(words[a] for a in call.takes), *(f"to_{a}" for a, *_ in written)])
@@ -317,6 +317,7 @@ def in_cpp(name, real, calls, steps, *, watched, driven, more):
     made = []
     for call in calls:
         own = "const auto z = taken<m::MatrixState>(Z);" if "z" in call.takes else ""
+        own = "const auto dzeta = taken<m::Rates>(Z);" if "dzeta" in call.takes else own
         for end, u in call.ends():
             given = ", ".join(a for a in call.takes if a != "u" or u)
             fields = {"word": call.name, "unforced": end, "made": own, "given": given}
@@ -413,7 +414,7 @@ def in_rust(name, real, calls, steps, *, watched, driven, more):
     """The function ``face`` of Rust."""
     made = []
     for call in calls:
-        words = {"t": "t", "y": "x", "z": "&taken(z)"} | {a: a for a in "xkpu"}
+        words = {"y": "x", "z": "&taken(z)", "dzeta": "&taken(z)"} | {a: a for a in "txkpu"}
         given = [words[a] for a in call.takes]
         arrays, shown = "", ""
         if not call.writes:

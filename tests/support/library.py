@@ -131,7 +131,7 @@ ARGUMENT = re.compile(
     r"(?P<kept>const )?(?:double|float) (?P<array>\*(?:\w*_RESTRICT )?)?(?P<name>\w+)"
 )
 LENGTHS = {"x": "STATE", "k": "CONSTANTS", "p": "PARAMETERS", "u": "INPUTS", "dx": "STATE"}
-LENGTHS |= {"y": "STATE", "dy": "STATE"}
+LENGTHS |= {"y": "STATE", "dy": "STATE", "Q": "ALGEBRA"}
 COLUMNS = {"jacobian_inputs": "INPUTS", "jacobian_parameters": "PARAMETERS"}
 COLUMNS |= {"jacobian_outputs_inputs": "INPUTS", "jacobian_outputs_raw": "STATE"}
 COLUMNS |= {"mass_matrix": "ALGEBRA", "jacobian_raw_inputs": "INPUTS"}
@@ -250,9 +250,10 @@ class Library:
 
     def values(self, **values):
         """The arrays p, k, u, x by their letters, with y, which is x, and z, which is x and then
-        its first numbers again, as for a matrix."""
+        its first numbers again, as for a matrix; dzeta are its first numbers."""
         x = np.asarray(values["x"], float)
-        return values | {"y": x, "z": np.resize(x, len(x) + self.more)}
+        z = np.resize(values.get("dzeta", x), len(x) + self.more)
+        return values | {"y": x, "z": z, "dzeta": z[: self.sizes["ALGEBRA"]]}
 
     @property
     def more(self):
@@ -268,9 +269,9 @@ class Library:
         raise NotImplementedError
 
     def said(self, name, x, t=0.0, **arrays):
-        """What one function says: t, x, and k, p, u by their letters."""
+        """What one function says: t, x, and k, p, u, dzeta by their letters."""
         (call,) = (c for c in self.calls if c.name == name)
-        values = self.values(x=x, t=t, k=arrays.get("k"), p=arrays.get("p"), u=arrays.get("u"))
+        values = self.values(x=x, t=t, **dict.fromkeys("kpu") | arrays)
         return self.shown(call, values, values["u"] is not None)[0]
 
     def rhs(self, t, x, k, u=None):
@@ -560,7 +561,7 @@ class Read(Library):
     def shown(self, call, values, u):
         """First what it writes, then x and k or p, then t; and rhs by a function of inputs."""
         m, t = self.module, self.number(values["t"])
-        arrays = {a: self.vector(x) for a, x in values.items() if a != "t"}
+        arrays = {a: self.vector(x) for a, x in values.items() if a != "t" and x is not None}
         given = [arrays[a] for a in call.takes if a not in "tu"]
         time, inputs = [t] * ("t" in call.takes), {}
         if u and "u" in call.takes:

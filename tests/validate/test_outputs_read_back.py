@@ -18,6 +18,7 @@ from tests.problems import PROBLEMS
 NAME = "SO(2) outputs"
 FUNCTIONS = (
     *("outputs", "jacobian_outputs", "jacobian_outputs_raw", "mass_matrix", "bias"),
+    "inverse",
     "jacobian_outputs_inputs",
 )
 PUSHED = '[[input]]\nname = "push"\nkind = "force"\non = 2\ndirection = [1, 0]\n'

@@ -8,12 +8,6 @@ and W = P H^T L^-T gives the gain W L^-1 and the covariance P - W W^T.
 observed: table[index, N_OBSERVED] = OBSERVED
 
 
-def inverse_of(G: real[SIZE, SIZE], N: out[real[SIZE, SIZE]]):
-    """The inverse of the matrix of an element."""
-    for i in unrolled(N_FACTORS):
-        factor_inverse(G, STARTS[i], ROWS[i], ENDS[i], N)
-
-
 def applied(A: real[SIZE, SIZE], o: real[SIZE], z: out[real[SIZE]]):
     """z = A o."""
     for row in range(SIZE):
