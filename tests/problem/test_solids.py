@@ -27,7 +27,7 @@ from tests.support.needs import needs
 needs_trimesh = needs("the module trimesh")
 PLACED = {"density", "rotation", "shift"}
 PLAIN = [kind for kind in SOLIDS if kind != "mesh"]
-RHO, A, B, H, M, PHI = (("par", x) for x in ("rho", "a", "b", "h", "m", "phi"))
+RHO, A, B, H, PHI = (("par", x) for x in ("rho", "a", "b", "h", "phi"))
 COS, SIN = ("fun", "cos", PHI), ("fun", "sin", PHI)
 
 
@@ -167,35 +167,6 @@ def test_textbook():
     assert found == diagonal(m * 29 / 5, m * 34 / 5, m * 13 / 5)
 
 
-def test_trees_are_tidy():
-    ball = unit_moments(made("ball", 1, {"radius": A}))
-    assert ball.m == ("mul", Fraction(4, 3), "π", ("pow", A, 3))
-    assert ball.J[0][0] == ("mul", Fraction(4, 15), "π", ("pow", A, 5))
-    assert ball.J[0][1] == 0 == ball.c[2]
-    assert moments(made("ball", RHO, {"radius": A})).m == (
-        "mul",
-        Fraction(4, 3),
-        "π",
-        RHO,
-        ("pow", A, 3),
-    )
-    known_mass = moments(made("ball", ("div", M, ball.m), {"radius": A}))
-    assert known_mass.m == M
-    assert known_mass.J[2][2] == ("mul", Fraction(1, 5), M, ("pow", A, 2))
-    assert unit_moments(made("cone", 1, {"radius": 1, "height": 6})).m == ("mul", 2, "π")
-    sum_of_two = unit_moments(made("ball", 1, {"radius": ("add", A, B)}))
-    assert sum_of_two.m == ("mul", Fraction(4, 3), "π", ("pow", ("add", A, B), 3))
-
-
-def test_a_turned_ball_is_the_ball():
-    still = moments(made("ball", RHO, {"radius": A}))
-    for axis in ((0, 0, 1), (1, 1, 1), (1, -2, Fraction(1, 3))):
-        assert moments(made("ball", RHO, {"radius": A}, rotation_about(axis, PHI))) == still
-    shifted = moments(made("ball", RHO, {"radius": A}, rotation_about((1, 1, 1), PHI), (H, 0, 0)))
-    assert shifted.c == (("mul", Fraction(4, 3), "π", H, RHO, ("pow", A, 3)), 0, 0)
-    assert shifted.J[1:] == still.J[1:]
-
-
 def test_rotation():
     turn = {COS: Fraction(3, 5), SIN: Fraction(4, 5)}
     for axis in ((1, 2, 2), (0, -3, 0), (Fraction(2, 7), Fraction(3, 7), Fraction(6, 7))):
@@ -249,14 +220,6 @@ def test_turned_without_relations(kind):
     _, f, S = slice_moments(kind, sizes, names["π"])
     assert found[1] == [x for (x,) in q.times(R, [(x,) for x in f])]
     assert found[2] == [list(row) for row in q.times(q.times(R, S), q.transposed(R))]
-
-
-def test_huygens_steiner():
-    """I about an axis at a distance d from the centre is I_c + m d²."""
-    solid = made("cylinder", RHO, {"radius": A, "height": H}, None, (3, 4, 0))
-    names = {RHO: Fraction(2), A: Fraction(3), H: Fraction(5), "π": Fraction(3)}
-    found, m = inertia(moments(solid), names), value(moments(solid).m, names)
-    assert found[8] == m * 9 / 2 + m * 25
 
 
 def test_mixtures():
@@ -375,17 +338,6 @@ def test_triangles_with_two_equal_vertices_are_left_out(tmp_path):
     again = [*CUBE, CUBE[0]]
     faces = [*split(QUADS), (0, 8, 1), (1, 0, 8), (8, 1, 0), (2, 2, 2)]
     assert len(read(written(tmp_path, off(again, faces)))[1]) == 12
-
-
-@needs_trimesh
-def test_octahedron(tmp_path):
-    vertices, faces = read(written(tmp_path, off(OCTAHEDRON, OCTANTS)))
-    found = mesh_moments(vertices, faces)
-    assert (found.m, found.c) == (Fraction(4, 3), (0, 0, 0))
-    assert (
-        tuple(tuple(Fraction(2, 15) if i == j else 0 for j in range(3)) for i in range(3))
-        == found.J
-    )
 
 
 @pytest.mark.parametrize("seed", range(3))
