@@ -259,3 +259,13 @@ def test_what_is_nested_is_printed_once(operator, monkeypatch):
 
 def budget(shown):
     assert len(shown) < 30 * 20, "printed again and again"
+
+
+def test_three_numbers_of_the_paper_are_a_run_and_two_are_not():
+    step = Step("a.b", "definition", (), (), (), ())
+    for paper, shown in {
+        (11, 12, 13): "(11)–(13)",
+        (11, 12): "(11), (12)",
+        (11, 13): "(11), (13)",
+    }.items():
+        assert printed(replace(step, paper=paper)) == shown
