@@ -161,3 +161,11 @@ def test_all_that_leave_the_potential_alone(name, group):
 @pytest.mark.parametrize("name", OSCILLATORS)
 def test_harmonic_forces(name):
     agrees("SL(3)", OSCILLATORS[name])
+
+
+@pytest.mark.parametrize("group", ["SO(3)", "SE(3)", "UT(3)"])
+def test_without_weight_nothing_is_across_it(group):
+    body = Points(*zip(GIVEN, PLACES, strict=True))
+    record = derive.derive(Problem("b", group, body, [], parameters=VALUES)).record
+    (said,) = (s.prose for s in record.steps if s.label == "b.conserved")
+    assert "the momentum p across gravity" not in english(said)

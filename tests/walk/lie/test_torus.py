@@ -11,7 +11,6 @@ import pytest
 from derive.algebra.structure import TorusLattice
 from derive.algebra.words import Letter, trace, word
 from derive.check.checker import Checker, check
-from derive.language.show import show
 from derive.language.tree import add, mul
 from derive.record.record import ANY_GROUP, Equation
 from derive.walk.spine.alphabet import Alphabet
@@ -19,6 +18,7 @@ from derive.walk.torus import vorticity
 from derive.walk.torus.lattice import Coefficient, Unit, paired, traced
 from tests.support import corpus
 from tests.support.walks import SEED
+from tests.walk.test_power_apart import value
 
 
 def record(N):
@@ -36,25 +36,8 @@ def own(N):
 
 def rates(N, values):
     """dω̂/dt by mode, of the step that writes the sums out, in numbers."""
-    found = {}
-    for e in record(N)["modes"].equations:
-        n = e.lhs[2][2:]
-        text = show(e.rhs)
-        assert "∑" not in text
-        found[n] = number(e.rhs, values)
-    return found
-
-
-def number(t, values):
-    """A tree in numbers; ω̂ by its places."""
-    if not isinstance(t, tuple):
-        return {"π": np.pi}.get(t, t) if isinstance(t, str) else float(t)
-    if t[:2] == ("call", "ω̂"):
-        return values[t[2:]]
-    if t[0] == "fun":
-        return getattr(np, t[1])(number(t[2], values))
-    parts = [number(x, values) for x in t[1:]]
-    return {"add": sum, "mul": np.prod, "div": lambda p: p[0] / p[1]}[t[0]](parts)
+    known = {"π": np.pi} | {("call", "ω̂", *n): x for n, x in values.items()}
+    return {e.lhs[2][2:]: value(e.rhs, known) for e in record(N)["modes"].equations}
 
 
 @pytest.mark.parametrize("N", [3, 5])
@@ -101,8 +84,8 @@ def test_an_equation_that_is_true_at_half_of_the_places_is_refused(seed, true):
 
 def test_a_record_of_another_group_is_refused():
     d = record(5)
-    for key, value in (("group", "SU(7)"), ("n", 7), ("torus", {"N": 7})):
-        wrong = replace(d, problem={**d.problem, key: value})
+    for key, other in (("group", "SU(7)"), ("n", 7), ("torus", {"N": 7})):
+        wrong = replace(d, problem={**d.problem, key: other})
         assert not all(v.holds for v in check(wrong, SEED))
 
 
