@@ -3,7 +3,6 @@
 import ast
 import re
 import tomllib
-from collections import Counter
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -33,8 +32,6 @@ from derive.views.language import (
     language,
 )
 from derive.views.paper.printed import PAPER
-from derive.views.printing.sentences import prose
-from derive.views.printing.signs import markdown_text, tex_text
 from derive.views.text import markdown, text
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
@@ -250,15 +247,6 @@ def test_the_english_of_an_entry_stands_once():
     assert all(set(x) == set(LANGUAGES) and all(x.values()) for x in ENTRIES)
 
 
-def test_both_sides_have_the_same_places():
-    for entry in ENTRIES:
-        if "\\" in entry["en"]:
-            continue  # formulas with braces of their own
-        here, there = (Counter(PLACE.findall(entry[name])) for name in LANGUAGES)
-        assert here == there, entry
-        assert set(here.values()) <= {1}, entry
-
-
 def test_every_sentence_is_in_the_catalogue(records):
     used = set().union(*map(said, records))
     assert used <= set(FRENCH.messages)
@@ -356,21 +344,6 @@ def test_the_two_sides_begin_and_end_alike():
         if ends[0] == ".":
             first = [x[0] for x in (english_text, french)]
             assert first[0].isupper() == first[1].isupper(), french
-
-
-def formulas(words, escape):
-    """The formulas that a view finds, piece by piece, with decimal points."""
-    found = re.findall(r"\$([^$]*)\$", prose(words, escape).replace("{,}", "."))
-    return Counter(x for formula in found for x in formula.split())
-
-
-@pytest.mark.parametrize("escape", [tex_text, markdown_text])
-def test_french_has_the_formulas_of_the_english(records, escape):
-    told = {s for d in records for step in d.steps for s in step.prose}
-    told |= {s for d in records for symbol in d.symbols for s in symbol.meaning}
-    for sentence in sorted(told, key=str):
-        found = formulas(FRENCH.sentence(sentence), escape)
-        assert found == formulas(str(sentence), escape), sentence
 
 
 def test_what_the_user_said_stays():

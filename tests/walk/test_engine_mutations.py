@@ -3,22 +3,16 @@
 `make mutants` tries all of them.
 """
 
-from dataclasses import replace
-
 import pytest
 
 from derive.problem.toml import problem_of
-from derive.record.as_json import to_json
-from derive.record.record import Equation
 from tests.project.test_layers import ROOT
-from tests.support.engine_mutations.engine import Output
 from tests.support.engine_mutations.jobs import JOBS
-from tests.support.engine_mutations.judge import CAUGHT, equations, numbers
+from tests.support.engine_mutations.judge import CAUGHT, numbers
 from tests.support.engine_mutations.operators import mutants
 from tests.support.engine_mutations.run import LEFT, MODULES, ROOMS, Survey, chosen, results
 from tests.support.engine_mutations.table import counted, table, wrong
 from tests.support.library import emission
-from tests.support.walks import record
 
 pytestmark = pytest.mark.no_cover
 SAMPLE, SEED = 15, 7
@@ -56,17 +50,6 @@ RULES = [  # module, change, which of FIRST is tried
     ("walk/matrices/solution.py", "factor: ('inv', x.name)  →  x.name", 2),
     ("code/lower.py", "comparison: i == j  →  i != j", 3),
 ]
-
-
-@pytest.mark.parametrize(("factor", "outcome"), [(2, "equations"), (3, "checker")])
-def test_a_fluid_is_judged_by_its_own_checker(factor, outcome):
-    """The one for matrices refuses true equations of fluids as well."""
-    d = record("ideal_fluid")
-    step = d["energy_kept"]
-    other = Equation(("mul", factor, "h̃"), ("norm2", "u"))
-    changed = replace(step, equations=(other, *step.equations[1:]))
-    new = replace(d, steps=tuple(changed if x is step else x for x in d.steps))
-    assert equations(*(Output(to_json(x)) for x in (new, d))).outcome == outcome
 
 
 @pytest.mark.parametrize(("module", "change", "job"), RULES)
