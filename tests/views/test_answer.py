@@ -151,3 +151,17 @@ def test_python_has_it():
     assert str(d.answer) == answer_text(summary(d.record))
     assert d._repr_markdown_().startswith(d.answer.markdown())
     assert "<details>" in d._repr_markdown_()
+
+
+def test_its_latex_is_typeset_and_its_page_is_well_formed(tmp_path):
+    record = walk_of("two_tops")
+    page = render(record, "html", answer=True)
+    assert page.startswith("<!DOCTYPE html>")
+    assert page.count("<math>") == page.count("</math>") > 20
+    assert page.rstrip().endswith("</html>")
+    piece = render(record, "html", answer=True, fragment=True)
+    assert "<html" not in piece
+    assert piece.lstrip().startswith("<header")
+    body = render(record, "latex", answer=True, fragment=True)
+    assert r"\documentclass" not in body
+    assert r"\label{two_tops.answer}" in body

@@ -120,6 +120,7 @@ def test_nothing_of_a_stranger_is_markup(bad):
 
 def test_other_notations():
     top = Notation("top", "wedge")
+    assert '<mi mathvariant="normal">d</mi><mi>ϖ</mi>' in formula("dϖ").mathml()
     assert "⊤" in formula(("T", "A"), None, top).mathml()
     assert "⊤" in formula(("T", ("mul", "A", "Z")), None, top).mathml()
     assert "<mo>∧</mo></msup>" in formula(("hat", "ζ"), None, top).mathml()

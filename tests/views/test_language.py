@@ -32,7 +32,7 @@ from derive.views.language import (
     language,
 )
 from derive.views.paper.printed import PAPER
-from derive.views.text import markdown, text
+from derive.views.text import markdown, step_markdown, step_text, text
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
 from tests.support.kinds import examples
@@ -365,3 +365,11 @@ def test_no_english_is_left(name):
 def test_records_read_back_say_the_same(records):
     for d in records:
         assert text(from_json(to_json(d)), language=FRENCH) == text(d, language=FRENCH)
+
+
+def test_a_step_alone_in_french():
+    d = walks.record("so3")
+    assert "D’après so3.momenta, so3.coadjoint." in step_text(d["kernel"], language=FRENCH)
+    assert "(d’après `so3.momenta`, `so3.coadjoint`)" in step_markdown(
+        d["kernel"], d.symbols, language=FRENCH
+    )

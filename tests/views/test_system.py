@@ -6,7 +6,7 @@ from derive.views.html import html
 from derive.views.language import language
 from derive.views.latex import latex
 from derive.views.outline import system
-from tests.support import walks
+from tests.support import corpus, walks
 
 POINTS = "of the points is pulled back"
 STATED = ("lagrange_top", "gyrostat", "charged_body", "kirchhoff", "spherical_pendulum", "manakov")
@@ -23,3 +23,14 @@ def test_a_given_lagrangian_moves_no_body(name):
         told = system(d, language(tongue))
         assert "{" not in told
         assert not any(x in told for x in ("moves", "déplace", "Rien n’agit", "Nothing acts"))
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("ready dirichlet", "moves a homogeneous ellipsoid."),
+        ("lagrangian Heisenberg on the right dual False", "carries along and on the time"),
+    ],
+)
+def test_what_it_moves_or_depends_on(name, words):
+    assert words in system(corpus.record(name), language("en"))
