@@ -41,7 +41,7 @@ text: $(STAMP)   ## lint, sentences in both languages, links, layers: what is so
 
 TEXT := tests/prose tests/project/test_docs.py tests/project/test_faults.py tests/project/test_layers.py \
   tests/record/test_keys.py tests/record/test_uses.py tests/views/test_language.py \
-  tests/views/test_claimed_formulas.py tests/views/test_claims.py
+  tests/views/test_both_languages.py
 
 rest: $(ALL)     ## what make test has just left out here, and an eighth of what it always leaves out
 	$(BIN)/python -m pytest --share=8 $(ON) --without=$(PASSED)

@@ -1,4 +1,4 @@
-"""The degree of a bound is of what is computed; indices range over all the points of a problem."""
+"""The degree of a bound is of what is computed."""
 
 import tomllib
 from dataclasses import replace
@@ -94,46 +94,3 @@ def test_the_degree_of_a_body_in_principal_axes_counts(monkeypatch):
     assert [*exceeding(d, given=given)] == []
     monkeypatch.setattr(Graded, "__mul__", forgetful)
     assert ("at", "m", "i") in [*exceeding(d, given=given)]
-
-
-# -- the coefficients of damping ------------------------------------------------------------------
-
-SOME = SOLID + '[[damping]]\ncoefficient = "a"\non = [2, 3]\n'
-PLACE = """
-[body]
-moments = "symbolic"
-[[damping]]
-coefficient = "a"
-at = [1, 2, 3]
-"""
-A, KAPPA = ("par", "a"), ("at", "κ", "i")
-TRUE = {
-    "points without damping": (SOME, ("at", "κ", 1), 0),
-    "sums over all points": (SOME, ("sum", "i", ("mul", ("at", "m", "i"), KAPPA)), ("mul", 2, A)),
-    "a place": (PLACE, ("at", "κ", 1), A),
-}
-FALSE = {
-    "that all are damped": (SOME, KAPPA, A, "the sides differ"),
-    "of the points of a body": (PLACE, ("at", "κ", 2), 0, "lists no point 2"),
-    "of the entries of a vector": (SOME, ("mul", KAPPA, ("entry", "ζ", "i")), 0, "same members"),
-}
-
-
-def told(text, lhs, rhs):
-    """The verdict on one equation about the damping of a problem."""
-    d = walked(text, "SO(3)")
-    step = next(s for s in d.steps if s.driven)
-    return Checker(d.problem).check(replace(step, equations=(Equation(lhs, rhs),)))
-
-
-@pytest.mark.parametrize("case", TRUE)
-def test_damping_is_of_every_point(case):
-    assert told(*TRUE[case]).holds, told(*TRUE[case]).reason
-
-
-@pytest.mark.parametrize("case", FALSE)
-def test_what_is_said_of_some_points_is_not_said_of_all(case):
-    *claim, reason = FALSE[case]
-    verdict = told(*claim)
-    assert not verdict.holds
-    assert reason in verdict.reason

@@ -427,11 +427,6 @@ def test_how_much_slopes_change():
         assert has_rank(forms, [Fraction(0), Fraction(0), value * tenth], tenth, rank) == expected
 
 
-def test_a_claim_is_rendered():
-    values = (("eigenvalues", ("matrix", ("row", Fraction(1, 4), Fraction(1, 2)), ("row", 0, 0))),)
-    assert "about ±0.25 ±0.5i, 0." in str(rendered(Claim("equilibrium.eigenvalues", values)))
-
-
 SENSELESS = (1, "x", ("matrix", 1), ("matrix", ("row", 1)), ("row", "x"), ("par", "x"))
 SENSELESS += (("pow", ("pow", ("pow", 10, 64), 64), 64), ("div", 1, 0), ("matrix", ("row", 1, "x")))
 

@@ -49,12 +49,6 @@ def test_a_name_that_nothing_introduces_is_refused(k):
     assert first.reason.startswith(f"{name} is used, and neither this step nor one before it says")
 
 
-def test_an_unknown_name_is_refused():
-    step = record("so3")["so3.exterior"]
-    wrong = replace(step, equations=(Equation("Q", "Z"),))
-    assert "no value" in checker("so3").check(wrong).reason
-
-
 # -- wrong rules in the engine ------------------------------------------------------------------
 
 

@@ -81,22 +81,6 @@ def test_a_text_is_as_wide_as_what_shows_it(words, capsys, tmp_path, monkeypatch
     assert len({x.replace("\n", " ").replace(" ", "") for x in said.values()}) == 1
 
 
-def test_a_text_is_as_wide_as_the_terminal():
-    import pty
-    import termios
-
-    ours, theirs = pty.openpty()
-    termios.tcsetwinsize(theirs, (24, 64))
-    own = {x: y for x, y in os.environ.items() if x != "COLUMNS"}
-    command = [sys.executable, "-m", "derive", "walk", "so3", "so3.kernel"]
-    done = subprocess.run(command, stdout=theirs, env=own, timeout=60)
-    assert done.returncode == 0  # else there may be nothing to read, for which read waits
-    said = os.read(ours, 10_000).decode()
-    os.close(ours)
-    os.close(theirs)
-    assert 40 < widest(said.replace("\r", "")) <= 64
-
-
 def test_check_a_problem_and_a_file(capsys, tmp_path):
     path = tmp_path / "linear.json"  # whose steps are of any group, each tried once
     path.write_text(to_json(record("linear")), encoding="utf-8")

@@ -3,7 +3,6 @@
 import pytest
 
 from derive import derive
-from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 from derive.command.cli import main
 from derive.command.emitting import further, refused
@@ -55,13 +54,6 @@ def test_what_is_not_refused_is_made(choice, tmp_path, capsys):
     status = main(["emit", "so3", *words(*CHOICES_OF_SO3[choice]), "--out", str(tmp_path / "out")])
     assert status == (2 if why else 0)
     assert (why or "") in capsys.readouterr().err
-
-
-def test_every_option_is_offered_once():
-    found = [x for x, _ in further((), Options())]
-    several = CHOICES | DEPENDENT | REPEATED
-    count = len(LANGUAGES) + len(ADDED) + sum(len(x) for x, _ in several.values())
-    assert len(found) == len({*found}) == count - len(CHOICES)
 
 
 def test_what_is_refused_itself_is_told_alone():

@@ -10,6 +10,7 @@ import pytest
 
 from derive.command import terminal
 from derive.command.cli import main
+from derive.views.printing.line_breaking import display_width
 from tests.support.terminals import read_to_end
 
 pty = pytest.importorskip("pty", reason="this system has no pty")
@@ -46,6 +47,7 @@ def test_weight_where_there_is_a_terminal(tmp_path):
     plain = seen("walk", "top", "kernel", cwd=tmp_path, NO_COLOR="1")
     assert ESCAPES.sub("", shown) == plain
     assert "\x1b" not in plain
+    assert 40 < max(map(display_width, plain.splitlines())) <= 80
     assert "top.kernel  ·" in plain
     assert "\x1b" not in seen("walk", "top", "kernel", cwd=tmp_path, TERM="dumb")
 

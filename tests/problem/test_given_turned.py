@@ -11,6 +11,7 @@ TENSOR = [[0.5, 0.02, 0], [0.02, 0.6, 0], [0, 0, 0.8]]
 TURNS = {
     "rpy": ({"rpy": [0.3, -0.2, 0.7]}, Rotation.from_euler("xyz", [0.3, -0.2, 0.7])),
     "yaw alone": ({"rpy": [0, 0, 0.5]}, Rotation.from_euler("z", 0.5)),
+    "a quaternion": ({"quaternion": [1, 2, 3, 4]}, Rotation.from_quat([2, 3, 4, 1])),
     "an axis": (
         {"rotation": {"axis": [0, 0, 1], "angle": 0.5}},
         Rotation.from_rotvec([0, 0, 0.5]),

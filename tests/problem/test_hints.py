@@ -11,25 +11,19 @@ import pytest
 from derive import (
     SE,
     SL,
-    Force,
     Inertia,
     Lagrangian,
     Moments,
-    MotionError,
     Points,
     Problem,
-    Solid,
-    derive,
 )
 from derive.command.cli import COMMANDS, main
-from derive.language.reserved import near_name
 from derive.language.values import approximate
 from derive.motion.emitted_code import Column
 from derive.motion.run import Run, written
 from derive.problem.problem import ProblemError, data
 from derive.problem.toml import doubts, load, problem_of
 from derive.python.api import Table
-from derive.schema.table import nearest
 
 HEAD = 'name = "good"\ngroup = "SO(3)"\n'
 POINTS = "".join(f"[[point]]\nmass = 1\nat = {[int(i == j) for j in range(3)]}\n" for i in range(3))
@@ -142,13 +136,6 @@ def test_numbers_of_a_drawing_program(tmp_path, capsys):
         assert ("then write centre and I_centre" in told) == warned
 
 
-def test_no_word_on_moments_that_are_impossible_in_both_ways():
-    with pytest.raises(ProblemError) as caught:
-        Problem("b", SE(3), Moments(m=2, c=FAR, I=np.diag([1, 1, 5])))
-    assert "no masses have these moments" in str(caught.value)
-    assert "I_centre" not in str(caught.value)
-
-
 def plate(seed, digits):
     """m, the centre and I about it, of points in a plane, with so many digits."""
     rng = np.random.default_rng(seed)
@@ -180,17 +167,6 @@ def test_flat_bodies_in_few_digits_are_bodies(digits, symbolic):
         assert not [*doubts(Problem("plate", SE(3), body, parameters=values), {})]
 
 
-def test_moments_in_axes_of_their_own():
-    """I becomes R I R̄, R from these axes to those of the body; the centre stays where it is."""
-    own = np.array([[300, 10, 20], [10, 200, 30], [20, 30, 400]])
-    R = np.array([[-10, 2, 11], [10, -5, 10], [5, 14, 2]])  # 15 times that of (1, 2, 3, 4)
-    turned = Moments(m=2, centre=[1, 2, 3], I_centre=own.tolist(), quaternion=[1, 2, 3, 4])
-    plain = Moments(m=2, centre=[1, 2, 3], I_centre=(R @ own @ R.T / 225).tolist())
-    one, other = (Problem("body", SE(3), x).body.given for x in (turned, plain))
-    assert one.c == other.c
-    assert np.array(one.J, float) == pytest.approx(np.array(other.J, float), abs=1e-12)
-
-
 @pytest.mark.parametrize("n", [2, 4])
 def test_moments_are_turned_in_every_dimension(n):
     """By an exchange of the first two axes, one of them with the other sign."""
@@ -215,19 +191,6 @@ def test_a_start_by_angles(yaw, tmp_path, capsys):
     path.write_text(f"{HEAD}{POINTS}[initial]\nyaw = {yaw}\n")
     assert main(["walk", str(path)]) == (2 if isinstance(yaw, list) else 0)
     assert "a motion starts turned by 'rpy', 'quaternion' or 'exp' in" in capsys.readouterr().err
-
-
-def test_of_names_as_near_one_that_begins_so_is_meant():
-    """The component that begins so, and all of them where there are some."""
-    assert near_name("f1", ["f4_1", "f1_1", "f2_1"]) == "f1_1"
-    assert near_name("zeta_9", ["zeta_1", "zeta_2"]) == "zeta_2"
-    assert "zeta_1" in nearest("w_1", ["T_1", "zeta_1"])  # of translations alone
-    assert "w_1" in nearest("w_4", ["T_1", "zeta_1", "w_1"])
-    forces = [Force(f"f{k}", 1) for k in range(1, 5)]
-    problem = Problem("b", "SO(2)", Points((1, [1, 0])), forces)
-    with pytest.raises(MotionError) as caught:
-        derive(problem).simulate(1, start={"f1": 1.0})
-    assert "has no 'f1'; give its components f1_1, f1_2; its numbers" in str(caught.value)
 
 
 IMPOSSIBLE = "no masses have these moments: J − c c̄/m must be positive"
@@ -299,22 +262,6 @@ def test_a_centre_that_is_too_long(tmp_path):
     path.write_text(text)
     with pytest.raises(ProblemError, match="body, given: centre or I_centre is too long"):
         load(path)
-
-
-@pytest.mark.parametrize("where", [[Solid("sphere", 1, radius=1)], [Table("body", solid="sphere")]])
-def test_a_sphere_is_a_ball(where):
-    with pytest.raises(ProblemError, match="did you mean 'ball'") as caught:
-        Problem("b", "SO(3)", where)
-    key = "solid" if str(caught.value).startswith("body") else "kind"
-    assert f"key {key!r}" in str(caught.value)
-
-
-def test_without_points_a_place_is_asked_for_alone():
-    spring = Table("potential", kind="spring", stiffness=1)
-    for force in (Force("f", on=1), Table("input", kind="force", name="f"), spring):
-        with pytest.raises(ProblemError, match="'at'") as caught:
-            Problem("b", "SE(3)", Moments(), [force])
-        assert "'on' or" not in str(caught.value)
 
 
 def test_one_point_or_a_list_of_them():

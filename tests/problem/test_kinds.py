@@ -1,22 +1,17 @@
 """Each kind of potential, by the problems of its page in docs/potentials: walked, checked, read."""
 
-import inspect
 import json
 import tomllib
-import unicodedata
 
 import pytest
 
 from derive import derive
-from derive.code.naming import ascii_name
 from derive.pipeline import walk
-from derive.problem.file_reader import FileReader
 from derive.problem.principal import frame_of, principal
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.python import api
 from derive.python.api import SE, Moments, Problem, Table
-from derive.record import shape
 from derive.record.as_json import from_json, to_data
 from derive.record.record import RecordError
 from derive.record.vocabulary import (
@@ -27,10 +22,8 @@ from derive.record.vocabulary import (
     VOCABULARY,
     add_letters,
 )
-from derive.schema.kind import INPUTS, Damping
 from derive.schema.kinds import kinds
 from derive.schema.python_words import words
-from derive.schema.table import NEEDS
 from derive.views.language import language
 from derive.views.outline import system
 from tests.support.kinds import PAGES, examples, pages
@@ -123,29 +116,6 @@ def test_the_keys_of_a_file_are_keywords_of_a_word(word):
         getattr(api, word)(*range(20), **{words()[word].names()[0]: 1})
 
 
-@pytest.mark.parametrize("word", words())
-def test_a_word_says_what_it_builds(word):
-    """Its docstring and arguments are those of the table."""
-    built = getattr(api, word)
-    assert built.__doc__
-    assert built.__name__ == word
-    own = words()[word]
-    stated = inspect.signature(built)
-    assert (
-        stated == inspect.signature(own.word)
-        if own.word
-        else [*stated.parameters] == [*own.names()]
-    )
-
-
-@pytest.mark.parametrize(
-    "own", [*kinds().values(), *INPUTS.values(), Damping], ids=lambda x: x.__name__
-)
-def test_files_and_records_read_every_type_of_a_key(own):
-    for key in own.keys().values():
-        assert all(callable(getattr(x, key.type)) for x in (FileReader, shape._RecordReader))
-
-
 LETTERS = [x for kind in kinds() for x in OF_POTENTIALS.get(kind, ())]
 
 
@@ -161,19 +131,3 @@ def test_no_kind_takes_a_letter_that_has_a_meaning():
         add_letters(known, {"Q_A": own})
     assert {*OF_POTENTIALS} <= {*kinds()}
     assert not {*LETTERS} & {*ROTATIONS, *DISPLACEMENTS, *PRODUCTS}
-
-
-@pytest.mark.parametrize("letter", LETTERS)
-def test_a_letter_of_a_kind_has_a_name_in_code(letter):
-    """A sign that has none would be dropped there, and two letters might share a name."""
-    signs = unicodedata.normalize("NFD", letter)
-    assert [x for x in signs if not ascii_name(x) and x != "_"] == []
-
-
-def test_the_names_of_letters_in_code_are_different():
-    assert len({ascii_name(x) for x in VOCABULARY if x in LETTERS}) == len(LETTERS)
-
-
-def test_what_a_kind_needs_is_known():
-    """Else nothing would refuse a problem for it."""
-    assert {need for kind in kinds().values() for need in kind.needs} == {*NEEDS}

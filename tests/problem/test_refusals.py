@@ -3,32 +3,18 @@
 import json
 import re
 from dataclasses import replace
-from fractions import Fraction
 from functools import cache
 
-import numpy as np
 import pytest
 
-from derive import SO, Points, Problem, derive
 from derive.check.checker import Checker
 from derive.code.emit import emit
-from derive.code.options import Options
-from derive.problem.problem import ProblemError
 from derive.programs import program
 from derive.record.as_json import from_json, to_json
 from derive.record.record import Equation, RecordError
 from derive.validate.read_file import read
 from derive.validate.terms import CodeError
 from tests.support.walks import SEED, problem, record
-
-
-def test_options_are_refused():
-    with pytest.raises(ValueError, match="layout must be one of"):
-        Options(layout="diagonal")
-    with pytest.raises(ValueError, match="jacobian must be among"):
-        Options(jacobian="time")
-    assert Options(jacobian="state").jacobian == ("state",)
-
 
 SIDES = [
     ("J", 2, "do not add"),
@@ -156,12 +142,3 @@ def test_a_function_of_c_that_stands_twice():
     start = text.index("double so3_energy(")
     with pytest.raises(CodeError, match="defined twice"):
         read("so3.c", {**so3(), "so3.c": text + text[start:]}, "so3")
-
-
-def test_tables_from_python():
-    """Arrays, fractions and tuples are what a file has."""
-    places = np.array([[Fraction(1, 2), 0, 1], [0, 1, 0], [1, 1, 1]], dtype=object)
-    body = Points(*((Fraction(k, 2), tuple(r)) for k, r in enumerate(places, 1)))
-    assert derive(Problem("own", SO(3), body)).record["body"].equations
-    with pytest.raises(ProblemError, match="expected Points"):
-        Problem("own", SO(3), 5)

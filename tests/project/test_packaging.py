@@ -57,13 +57,6 @@ def test_nothing_lies_about():
             assert file.read(4) != b"\x7fELF", path
 
 
-def test_the_command_is_in_the_package():
-    points = metadata.distribution(PROJECT["name"]).entry_points
-    (command,) = [x for x in points if x.group == "console_scripts"]
-    assert command.name == "derive"
-    assert callable(command.load())
-
-
 def test_what_one_is_told_to_install_is_this():
     """On the package index `derive` is a program of others, which would replace this one."""
     assert PROJECT["name"] == "derive-mechanics"

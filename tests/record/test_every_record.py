@@ -14,7 +14,7 @@ from derive.record.as_json import from_json, to_json
 from derive.record.record import ANY_GROUP
 from derive.record.rules import RULES
 from derive.record.uses import position_of
-from tests.support.corpus import NAMED, READY, checker, record
+from tests.support.corpus import NAMED, checker, record
 from tests.support.walks import SEED
 
 
@@ -82,9 +82,3 @@ def test_its_data_are_of_one_form(name):
         if position_of(use.type) == "function" and name in HEADS and "torus" not in d.problem:
             shift = name in ("p̃", "dŨ") and not affine
             assert len(use.type) - 2 == len(HEADS[name]) - shift
-
-
-def test_the_ready_made_ones_are_here():
-    assert {*READY} <= {
-        x.partition(" ")[2] for x in NAMED if x.startswith(("ready", "fluid", "star"))
-    }

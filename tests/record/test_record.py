@@ -7,14 +7,13 @@ from dataclasses import replace
 import pytest
 
 from derive.check.checker import check
-from derive.language.show import show
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.as_json import from_json, to_data, to_json
 from derive.record.record import COMMENTARY, RecordError
 from derive.record.rules import RULES
 from tests.support import steps
-from tests.support.engine_mutations.jobs import BOTH, MIXED
+from tests.support.engine_mutations.jobs import MIXED
 from tests.support.walks import own_verdicts, record
 
 
@@ -189,21 +188,3 @@ def test_commentary_is_as_it_is_said_to_be():
     assert to_data(record("so3"))["commentary"] == [*COMMENTARY]
     with pytest.raises(RecordError, match="key 'commentary' must be"):
         from_json(damaged(lambda data: data.update(commentary=["equations"])))
-
-
-@pytest.mark.parametrize("name", ["SO(3)", "SE(3)"])
-def test_the_tensor_of_solids_and_points_together(name):
-    """A ball of density ½ and radius b, and a mass b at ⅛ e₃, each counted once."""
-    d = walk(problem_of(tomllib.loads(BOTH.replace("SE(3)", name))))
-    assert all(v.holds for v in check(d))
-    entries = {show(e.lhs): show(e.rhs) for e in d["test.tensor"].equations}
-    centred = "I_c" if name == "SE(3)" else "I"
-    assert entries[f"{centred}₃₃"] == "4/15 π b⁵"
-    assert entries[f"{centred}₁₁"].startswith("4/15 π b⁵ + 1/64 b")
-
-
-def test_a_label_cannot_forge_a_line():
-    data = json.loads(json.dumps(to_data(record("so3"))))
-    data["steps"][0]["label"] = "a\nholds  b"
-    with pytest.raises(RecordError, match="label"):
-        from_json(json.dumps(data))

@@ -7,16 +7,10 @@ import pytest
 from derive.language.limits import SENTENCE
 from derive.record.as_json import from_json, to_data, to_json
 from derive.record.record import RecordError
-from derive.record.sentence import english, listed, phrase, say
+from derive.record.sentence import english, say
 from derive.views.language import language
 from derive.views.text import text
 from tests.support import walks
-
-
-def test_many_as_one():
-    many = listed("{first}, {second}", [phrase(str(k)) for k in range(1000)])
-    assert str(many) == ", ".join(map(str, range(1000)))
-    assert str(listed("{first}, {second}", [])) == ""
 
 
 def data():
@@ -95,10 +89,3 @@ def test_braces_without_places_are_letters():
     read = from_json(json.dumps(record))
     assert english(read.steps[0].prose) == "{a.b} {c!r:>99}"
     assert from_json(to_json(read)) == read
-
-
-@pytest.mark.parametrize("name", ["so3", "se3", "sl3"])
-def test_noether_is_said_of_symmetries_of_the_lagrangian(name):
-    """A boost of a free point, δr = tb, keeps dϖ and not L̃: ϖ on it is t⟨p, b⟩."""
-    told = next(s for s in walks.record(name).steps if s.label.endswith(".conserved"))
-    assert "on an infinitesimal symmetry of L̃, is constant" in english(told.prose)

@@ -16,50 +16,11 @@ from derive.record.names import (
     letter,
     tables,
     type_of,
-    with_derivatives,
 )
 from derive.record.record import RecordError
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
 from tests.support.refusals import data, read
 from tests.support.walks import SEED
-
-
-def test_a_few_symbols():
-    """By hand, from the text of the walk."""
-    found = {s["name"]: s for s in data("ready so3")["symbols"]}
-    of = {
-        "A": (["matrix", "n", "n"], "letter", None),
-        "Z": (["algebra"], "definition", "linear.trivialisation.1"),
-        "ζ": (["vector", 3], "definition", "so3.hat.1"),
-        "I": (["matrix", 3, 3], "definition", "so3.inertia.1"),
-        "m": ("scalar", "definition", "linear.moments.1"),
-        "ζ̇": (["vector", 3], "value on X", "so3.euler.1"),
-        "λ": (["vector", 3], "letter", None),
-        "dϖ": (["function", "variation", "variation", "scalar"], "function", "linear.exterior.1"),
-    }
-    for name, (kind, role, key) in of.items():
-        said = tuple(found[name].get(x) for x in ("type", "role", "defined"))
-        assert said == (kind, role, key), name
-    assert found["m"]["also"] == [{"type": ["family", "points", "scalar"], "role": "letter"}]
-    multiplier = next(s for s in data("ready sl3")["symbols"] if s["name"] == "θ")
-    assert (multiplier["type"], multiplier["role"]) == ("scalar", "unknown")
-
-
-def test_names_of_derivatives_by_hand():
-    own = Name("the way", "le chemin", r"\delta p_b", (letter(VECTOR),))
-    table = {
-        "p_b": Name("momentum", "impulsion", "p_b", (defined(VECTOR), defined(SQUARE))),
-        "τ": Name("velocity", "vitesse", r"\tau", (letter(VECTOR),)),
-        "δp_b": own,
-    }
-    prime = "variation δ′ of p_b", "variation δ′ de p_b", r"\delta' p_b"
-    dotted = "dp_b/dt along the motion", "dp_b/dt le long du mouvement", r"\dot p_b"
-    assert with_derivatives(table, varied="p_b τ", moving="p_b") == table | {
-        "δ′p_b": Name(*prime, (letter(VECTOR),)),
-        "ṗ_b": Name(*dotted, (Use(VECTOR, "value on X"), Use(SQUARE, "value on X"))),
-        "δτ": Name("variation of τ", "variation de τ", r"\delta\tau", (letter(VECTOR),)),
-        "δ′τ": Name("variation δ′ of τ", "variation δ′ de τ", r"\delta'\tau", (letter(VECTOR),)),
-    }
 
 
 def test_what_a_label_says_of_a_name(tmp_path):

@@ -8,8 +8,6 @@ import derive
 from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.language.tree import nodes
-from derive.pipeline import walk
-from derive.problem.toml import load
 from derive.views.answer import (
     answer_text,
     definitions,
@@ -121,37 +119,6 @@ def test_a_letter_is_defined_where_it_is_used_alone():
         assert unused not in defined_in(name)
 
 
-NAMED = """
-name = "named"
-group = "SE(3)"
-[parameters]
-m = 0.4
-[body]
-solid = "ball"
-density = "m/(4*pi/3*0.11^3)"
-radius = 0.11
-[[force]]
-name = "law"
-at = [0, 0, 0.1]
-force = ["-tanh(T_3)", 0, 0]
-"""
-
-
-def test_a_named_force_has_its_own_line(tmp_path):
-    (tmp_path / "named.toml").write_text(NAMED, encoding="utf-8")
-    _, (_, where) = summary(walk(load(tmp_path / "named.toml"))).blocks
-    assert ("par", "law_1") in {e.lhs for e in where.equations}
-
-
-def test_inputs_and_rates_are_told():
-    told = answer_text(summary(walk_of("ellipsoid")))
-    assert "thrust input: a force at r_2, in the body frame" in told
-    assert "w₁    input\n" in answer_text(summary(walk_of("imu")))
-    assert "dζ/dt along the motion, by its equation above" in answer_text(
-        summary(walk_of("hammer"))
-    )
-
-
 @pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("form", ["text", "markdown", "latex", "html"])
 def test_every_format_has_the_same(form, lang, capsys):
@@ -167,46 +134,10 @@ def test_every_format_has_the_same(form, lang, capsys):
     assert "pendulum.cartan" not in shown
 
 
-def test_its_latex_is_typeset_and_its_page_is_well_formed(tmp_path):
-    record = walk_of("two_tops")
-    page = render(record, "html", answer=True)
-    assert page.startswith("<!DOCTYPE html>")
-    assert page.count("<math>") == page.count("</math>") > 20
-    assert page.rstrip().endswith("</html>")
-    piece = render(record, "html", answer=True, fragment=True)
-    assert "<html" not in piece
-    assert piece.lstrip().startswith("<header")
-    body = render(record, "latex", answer=True, fragment=True)
-    assert r"\documentclass" not in body
-    assert r"\label{two_tops.answer}" in body
-
-
 @needs("pdflatex")
 def test_pdflatex_takes_it():
     for lang in LANGUAGES:
         assert pdf(render(walk_of("hung_bar"), "latex", lang, answer=True)).startswith(b"%PDF")
-
-
-def test_rows_of_a_matrix_stay_whole():
-    """At 80 columns each line of Z begins with a row."""
-    told = answer_text(summary(walk_of("two_tops")), 80).split("\n")
-    first = next(k for k, line in enumerate(told) if line.startswith("         Z = ["))
-    assert told[first].endswith(";")
-    assert told[first + 1].endswith("0]")
-
-
-def test_entries_stand_for_their_vector():
-    motion = equations_of_motion(walk_of("kirchhoff"))
-    rates = {x for e in motion for x in nodes(e.lhs) if isinstance(x, tuple) and x[0] == "entry"}
-    assert {("entry", "ζ̇", k) for k in range(1, 7)} == rates
-    assert "ζ̇" not in {e.lhs for e in motion}
-
-
-def test_a_moment_of_inertia_is_told_where_it_stands():
-    """I₁₁ of the top by its own line, not by the tensor it is an entry of."""
-    record = walk_of("top")
-    defined = {e.lhs: e for e in definitions(record, equations_of_motion(record))}
-    assert {("entry", "I", 1, 1), ("entry", "I", 3, 3), "m"} == {*defined}
 
 
 def test_python_has_it():
@@ -222,18 +153,15 @@ def test_python_has_it():
     assert "<details>" in d._repr_markdown_()
 
 
-def test_the_step_answer_is_the_answer(capsys):
-    assert main(["walk", "pendulum", "answer"]) == 0
-    assert capsys.readouterr().out == PENDULUM
-
-
-@pytest.mark.parametrize("more", [["kernel"], ["answer", "kernel"], ["--trivialisation", "both"]])
-def test_it_stands_alone(capsys, more):
-    assert main(["walk", "top", "--answer", *more]) == 2
-    assert "--answer shows its own steps" in capsys.readouterr().err
-
-
-def test_it_stands_alone_as_a_word(capsys):
-    assert main(["walk", "top", "kernel", "answer"]) == 2
-    told = "derive: answer shows its own steps: leave out kernel"
-    assert told in capsys.readouterr().err
+def test_its_latex_is_typeset_and_its_page_is_well_formed(tmp_path):
+    record = walk_of("two_tops")
+    page = render(record, "html", answer=True)
+    assert page.startswith("<!DOCTYPE html>")
+    assert page.count("<math>") == page.count("</math>") > 20
+    assert page.rstrip().endswith("</html>")
+    piece = render(record, "html", answer=True, fragment=True)
+    assert "<html" not in piece
+    assert piece.lstrip().startswith("<header")
+    body = render(record, "latex", answer=True, fragment=True)
+    assert r"\documentclass" not in body
+    assert r"\label{two_tops.answer}" in body

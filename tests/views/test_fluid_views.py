@@ -8,7 +8,7 @@ from derive.views.language import catalogue_entries
 from derive.views.outline import assumed, moving
 from derive.views.printing.sentences import prose
 from derive.views.printing.signs import markdown_text
-from derive.views.rendering import FORMATS, notes, render
+from derive.views.rendering import FORMATS, render
 from tests.support.walks import FLUIDS, record
 
 ON_MOTIONS = {"energy_kept": 1, "circulation": 1, "kelvin": 2}
@@ -57,38 +57,3 @@ def test_no_index_is_left_outside_a_formula(escape, lang):
         prose(x[lang], *filter(None, [escape])) for x in catalogue_entries() if "$" not in x["en"]
     ]
     assert [x for x in shown if r"\_" in x] == []
-
-
-@pytest.mark.parametrize(
-    ("words", "shown"),
-    [
-        ("So (G, ∇_η) is", r"So $(G, \nabla_{\eta})$ is"),
-        ("∇_η and ∇_η′ for ξ", r"$\nabla_{\eta}$ and $\nabla_{\eta'}$ for $\xi$"),
-        ("of ⟨a, b⟩ along η", r"of $\langle a, b\rangle$ along $\eta$"),
-        ("of div u, 0", r"of $\operatorname{div} u$, 0"),
-        ("and Ric(u, u) is", r"and $\operatorname{Ric}(u, u)$ is"),
-        ("as κ > 0 is", r"as $\kappa > 0$ is"),
-        ("to g(r), and", r"to $g(r)$, and"),
-        ("the words grad and div.", "the words grad and div."),
-        ("the point(s) of it", "the point(s) of it"),
-    ],
-)
-def test_formulas_of_sentences(words, shown):
-    assert prose(words) == shown
-
-
-def test_a_page_parts_no_formula_from_what_stands_beside_it():
-    page = notes([record("ideal_fluid")], ".html")
-    math = "<math>(?:(?!</math>).)*</math>"
-    sentence = re.search("which contributes (.*?) By the", page)[1]
-    assert re.fullmatch(f'<span class="kept">{math}[.]</span>', sentence)
-
-
-@pytest.mark.parametrize("ending", [".tex", ".html"])
-def test_notes_of_fluids_alone_have_no_matrices(ending):
-    found = notes([record(x) for x in FLUIDS], ending, "fr")
-    assert "Topological Methods in Hydrodynamics" in found
-    assert "pmatrix" not in found
-    assert "F̃" not in found
-    assert r"\xi = g^{-1}" not in found
-    assert "Topological" not in notes([record("so3")], ending)

@@ -2,7 +2,6 @@
 
 import re
 from dataclasses import replace
-from fractions import Fraction
 from html.parser import HTMLParser
 
 import pytest
@@ -11,7 +10,7 @@ from derive.record.record import AMENDED
 from derive.views.html import html
 from derive.views.language import language
 from derive.views.paper.findings import amendments
-from derive.views.printing.sentences import inline, spelt
+from derive.views.printing.sentences import spelt
 from derive.views.printing.signs import Notation
 from derive.views.printing.tex import formula
 from tests.support.needs import need
@@ -119,33 +118,9 @@ def test_nothing_of_a_stranger_is_markup(bad):
     ).tags <= clean | {"mtext"}
 
 
-@pytest.mark.parametrize(
-    ("tree", "expected"),
-    [
-        (("T", "A"), '<mrow class="overline"><mi>A</mi></mrow>'),
-        (("T", ("mul", "A", "Z")), '<mrow class="overline"><mi>A</mi><mi>Z</mi></mrow>'),
-        ("dϖ", '<mi mathvariant="normal">d</mi><mi>ϖ</mi>'),
-        (Fraction(1, 24), "<mfrac><mrow><mn>1</mn></mrow><mrow><mn>24</mn></mrow></mfrac>"),
-        (("wedge", ("mul", -1, "w"), "c"), '<mo form="prefix">−</mo><mi>w</mi>'),
-        (("hat", "ζ"), '<mi>j</mi><mo stretchy="false">(</mo><mi>ζ</mi>'),
-        (("pow", "J_c", 2), "<msubsup><mi>J</mi><mrow><mi>c</mi></mrow><mrow><mn>2</mn></mrow>"),
-    ],
-)
-def test_formulas(tree, expected):
-    assert expected in formula(tree).mathml()
-
-
-def test_formulas_of_sentences():
-    assert spelt("ξ′").mathml() == formula("ξ′").mathml()
-    assert (
-        spelt("½ Tr αJᾱ").mathml()
-        == formula(("mul", Fraction(1, 2), ("tr", ("mul", "α", "J", ("T", "α"))))).mathml()
-    )
-    assert inline("j(ζ)", Notation()).mathml() == formula(("hat", "ζ")).mathml()
-
-
 def test_other_notations():
     top = Notation("top", "wedge")
+    assert '<mi mathvariant="normal">d</mi><mi>ϖ</mi>' in formula("dϖ").mathml()
     assert "⊤" in formula(("T", "A"), None, top).mathml()
     assert "⊤" in formula(("T", ("mul", "A", "Z")), None, top).mathml()
     assert "<mo>∧</mo></msup>" in formula(("hat", "ζ"), None, top).mathml()

@@ -3,15 +3,12 @@
 import ast
 import re
 import tomllib
-from collections import Counter
 from functools import cache
-from importlib import resources
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
 
-from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.pipeline import walk
 from derive.problem.toml import load, problem_of
@@ -20,26 +17,21 @@ from derive.record import prose as texts
 from derive.record import rules
 from derive.record.as_json import from_json, to_json
 from derive.record.rules import RULES
-from derive.record.sentence import PLACE, english, phrase, say
+from derive.record.sentence import PLACE
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, meanings
 from derive.schema.body_kinds import SOLIDS, MomentBody
 from derive.schema.kinds import kinds
 from derive.searches import families, symmetries
 from derive.views import outline
-from derive.views.html import html
 from derive.views.language import (
-    ENGLISH,
     LANGUAGES,
     THIN,
     WIDE,
-    Language,
     catalogue_entries,
     labelled,
     language,
 )
 from derive.views.paper.printed import PAPER
-from derive.views.printing.sentences import prose
-from derive.views.printing.signs import markdown_text, tex_text
 from derive.views.text import markdown, step_markdown, step_text, text
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
@@ -255,15 +247,6 @@ def test_the_english_of_an_entry_stands_once():
     assert all(set(x) == set(LANGUAGES) and all(x.values()) for x in ENTRIES)
 
 
-def test_both_sides_have_the_same_places():
-    for entry in ENTRIES:
-        if "\\" in entry["en"]:
-            continue  # formulas with braces of their own
-        here, there = (Counter(PLACE.findall(entry[name])) for name in LANGUAGES)
-        assert here == there, entry
-        assert set(here.values()) <= {1}, entry
-
-
 def test_every_sentence_is_in_the_catalogue(records):
     used = set().union(*map(said, records))
     assert used <= set(FRENCH.messages)
@@ -363,62 +346,11 @@ def test_the_two_sides_begin_and_end_alike():
             assert first[0].isupper() == first[1].isupper(), french
 
 
-def formulas(words, escape):
-    """The formulas that a view finds, piece by piece, with decimal points."""
-    found = re.findall(r"\$([^$]*)\$", prose(words, escape).replace("{,}", "."))
-    return Counter(x for formula in found for x in formula.split())
-
-
-@pytest.mark.parametrize("escape", [tex_text, markdown_text])
-def test_french_has_the_formulas_of_the_english(records, escape):
-    told = {s for d in records for step in d.steps for s in step.prose}
-    told |= {s for d in records for symbol in d.symbols for s in symbol.meaning}
-    for sentence in sorted(told, key=str):
-        found = formulas(FRENCH.sentence(sentence), escape)
-        assert found == formulas(str(sentence), escape), sentence
-
-
-def test_french_words_are_no_formulas():
-    assert prose("À l’indice e, même où l’on a tout, d’ĀA à lui, côté : δt\u202f;") == (
-        r"\`{A} l'indice $e$, m\^{e}me o\`{u} l'on a tout, d'$\bar{A}A$ \`{a} lui, "
-        r"c\^{o}t\'{e} : $\delta t$\,;"
-    )
-    assert tex_text(f"ici{WIDE}: «{WIDE}là{WIDE}»{THIN}!") == r"ici~: \opened{}~l\`{a}~\closed{}\,!"
-    assert markdown_text(f"ici{WIDE}:  là") == f"ici{WIDE}: là"
-
-
-def test_sentences_in_a_language():
-    small = Language("fr", {"{a} and {b}": "{b} et {a}", "x": "y"})
-    told = say("{a} and {b}", a=phrase("x"), b="x") + say("no such {place}")
-    assert small.of(told) == "x et y no such {place}"
-    assert ENGLISH.of(told) == english(told) == "x and x no such {place}"
-
-
-def test_numbers_have_the_mark_of_the_language():
-    told = phrase("The eigenvalues are about {eigenvalues}.", eigenvalues="±0.0962 ±12.5i, 3")
-    assert FRENCH.sentence(told) == "Les valeurs propres sont environ ±0,0962 ±12,5i\u202f; 3."
-    assert r"$\pm0{,}0962 \pm12{,}5i$" in prose(FRENCH.sentence(told))
-    assert "±0.0962 ±12.5i" in ENGLISH.sentence(told)
-
-
-def test_the_title_of_a_figure_is_french():
-    page = html([walks.record("so3")], language=FRENCH)
-    assert page.count("<title>Le solide autour d’un point fixe</title>") == 2
-
-
 def test_what_the_user_said_stays():
     d = walk(Problem("kernel", "SO(3)", GIVEN, title="{x} Ma toupie"))
     assert text(d, language=FRENCH).startswith("{x} Ma toupie — SO(3)\n")
     d = walk(Problem("kernel", "SO(3)", GIVEN))
     assert text(d, language=FRENCH).startswith("kernel — SO(3)\n")
-
-
-def test_a_step_alone_in_french():
-    d = walks.record("so3")
-    assert "D’après so3.momenta, so3.coadjoint." in step_text(d["kernel"], language=FRENCH)
-    assert "(d’après `so3.momenta`, `so3.coadjoint`)" in step_markdown(
-        d["kernel"], d.symbols, language=FRENCH
-    )
 
 
 @pytest.mark.parametrize("name", ready_made())
@@ -430,27 +362,14 @@ def test_no_english_is_left(name):
         assert found == [], view
 
 
-def test_the_command_line_speaks_french(capsys):
-    assert main(["walk", "so3", "--lang", "fr"]) == 0
-    assert "équations d’Euler" in capsys.readouterr().out
-
-
-def test_the_catalogue_is_in_the_package():
-    assert (resources.files("derive.views") / "catalogue.txt").is_file()
-
-
 def test_records_read_back_say_the_same(records):
     for d in records:
         assert text(from_json(to_json(d)), language=FRENCH) == text(d, language=FRENCH)
 
 
-@pytest.mark.parametrize(
-    ("plain", "typeset"),
-    [
-        ("a measure of mass dm, density", r"a measure of mass $\mathrm{d}m$, density"),
-        ("that ⟨Π, [Z, E_a]⟩ is", r"that $\langle\Pi, [Z, E_{a}]\rangle$ is"),
-        ("their velocities V are V = JS with", "their velocities $V$ are $V = JS$ with"),
-    ],
-)
-def test_a_formula_is_typeset_whole(plain, typeset):
-    assert prose(plain, tex_text) == typeset
+def test_a_step_alone_in_french():
+    d = walks.record("so3")
+    assert "D’après so3.momenta, so3.coadjoint." in step_text(d["kernel"], language=FRENCH)
+    assert "(d’après `so3.momenta`, `so3.coadjoint`)" in step_markdown(
+        d["kernel"], d.symbols, language=FRENCH
+    )

@@ -82,21 +82,6 @@ def test_letters_of_titles_and_units(said, tmp_path):
         compiled((tmp_path / "notes.tex").read_text(encoding="utf-8"), tmp_path)
 
 
-def test_corrections_are_told(said, tmp_path):
-    said("notes", "so3", "--out", tmp_path / "notes.tex")
-    source = (tmp_path / "notes.tex").read_text()
-    for number in (25, 26, 29, 32, 35):
-        assert f"The paper prints in ({number})" in source
-    assert source.count("the printed right side") == source.count(r"\footnote{")
-
-
-def test_the_page_tells_them_as_well(said, tmp_path):
-    said("notes", *GROUPS, "--out", tmp_path / "notes.html")
-    page = (tmp_path / "notes.html").read_text(encoding="utf-8")
-    for number in (20, 25, 26, 29, 31, 32, 35):
-        assert f"The paper prints in ({number})" in page
-
-
 def test_a_fragment_stands_in_a_lecturers_text(said, tmp_path):
     """Under the macros of a preamble of their own, with references to its labels."""
     fragment = said("walk", "so3", "--format", "latex", "--fragment").out
@@ -123,15 +108,6 @@ def test_every_symbol_goes_through_a_macro(said):
     assert not re.findall(raw, fragment)
     used = set(re.findall(r"\\([A-Za-z]+)", fragment))
     assert set(DEFINED) - {"Liealgebra"} <= used
-
-
-def test_steps_of_time_refer_to_moser_and_veselov(said, tmp_path):
-    for ending in ("tex", "html"):
-        plain, in_steps = tmp_path / f"plain.{ending}", tmp_path / f"steps.{ending}"
-        said("notes", "so3", "--out", plain)
-        said("notes", "so3", "--discrete", "--out", in_steps)
-        assert "Discrete versions of some classical" not in plain.read_text(encoding="utf-8")
-        assert "Discrete versions of some classical" in in_steps.read_text(encoding="utf-8")
 
 
 def test_a_greek_letter_that_the_walk_does_not_have_is_a_parameters(said, tmp_path):

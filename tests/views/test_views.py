@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -18,10 +17,9 @@ from derive.record.sentence import say
 from derive.views.language import language
 from derive.views.latex import anchor, breakable, labels, latex
 from derive.views.outline import printed
-from derive.views.printing.letters import names_of, parameter, transposed
+from derive.views.printing.letters import names_of
 from derive.views.printing.line_breaking import Piece, display_width, fill
-from derive.views.printing.sentences import prose
-from derive.views.printing.signs import Notation, markdown_text, tex_text, unknown_to_tex
+from derive.views.printing.signs import tex_text
 from derive.views.printing.tex import FormulaPrinter, latex_tree
 from derive.views.rendering import FORMATS, NOTES, RenderError, notes, render
 from derive.views.text import markdown, text
@@ -111,13 +109,6 @@ def test_an_equation_is_found_by_its_key_and_the_first_by_its_step(
     assert not re.search(r"undefined|multiply defined|may have changed", log)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_steps_of_any_group_stand_before_those_of_the_group(name: str) -> None:
-    headings = re.findall(r"^For (.*)\n-+$", text(record(name)), re.M)
-    special = [] if name in ("linear", "affine") else [str(record(name).problem["group"])]
-    assert headings == ["any group of matrices", *special]
-
-
 @pytest.mark.parametrize("lang", ["en", "fr"])
 @pytest.mark.parametrize("name", [*NAMES, "saff3", "two_tops", "ellipsoid", "jelly"])
 def test_latex_compiles_within_its_margins(name: str, lang: str, tmp_path: Path) -> None:
@@ -127,11 +118,6 @@ def test_latex_compiles_within_its_margins(name: str, lang: str, tmp_path: Path)
     assert "Overfull" not in log
     assert "undefined" not in log
     assert "multiply defined" not in log
-
-
-@pytest.mark.parametrize("view", [text, latex, markdown])
-def test_views_are_functions_of_the_record(view) -> None:  # type: ignore[no-untyped-def]
-    assert view(record("se3")) == view(walk(load(PROBLEMS / "se3.toml")))
 
 
 @pytest.mark.parametrize("title", HOSTILE)
@@ -174,69 +160,6 @@ def test_a_record_may_not_bring_its_own_commands() -> None:
     assert names["C"] == "C"
 
 
-def test_escaping() -> None:
-    assert tex_text("50% of $x_1$") == r"50\% of \$x\_1\$"
-    assert tex_text(r"\{~^}") == r"\textbackslash{}\{\textasciitilde{}\textasciicircum{}\}"
-    assert tex_text("élève") == r"\'{e}l\`{e}ve"
-    assert markdown_text("a_b <x> $y$ `z`") == r"a\_b &lt;x&gt; \$y\$ \`z\`"
-
-
-def test_prose_has_its_formulas_between_dollars() -> None:
-    assert prose("For isometries ĀA = 1, so C drops out.") == (
-        r"For isometries $\bar{A}A = 1$, so $C$ drops out."
-    )
-    assert prose("The forces F_i = −∂U/∂r_i act.") == (
-        r"The forces $F_{i} = -\partial U/\partial r_{i}$ act."
-    )
-    assert prose("dϖ(X, δ′y) vanishes") == r"$\mathrm{d}\varpi(X, \delta' y)$ vanishes"
-    assert prose("A sentence, a vector on ℝ³.") == r"A sentence, a vector on $\mathbb{R}^{3}$."
-
-
-def test_parameters_keep_their_own_names() -> None:
-    assert parameter("J_11").tex == r"\mathsf{J}_{\mathsf{11}}"
-    assert parameter("k12").tex == r"\mathsf{k}_{\mathsf{12}}"
-    assert parameter("mass_of_rod").tex == r"\mathsf{mass\_of\_rod}"
-
-
-def test_bars_stand_over_the_letter() -> None:
-    assert transposed(r"\xi'", Notation()).tex == r"\bar{\xi}'"
-    assert transposed(r"\delta' A", Notation()).tex == r"\delta' \bar{A}"
-    assert transposed("N_b", Notation()).tex == r"\bar{N}_b"
-    assert transposed(r"\dot\alpha", Notation()).tex == r"\overline{\dot\alpha}"
-
-
-@pytest.mark.parametrize(
-    ("tree", "expected"),
-    [
-        (("metric", "J", "α", "δA"), r"\langle \alpha, \delta A\rangle_{J}"),
-        (("norm2", "I", "ζ"), r"\lVert \zeta\rVert_{I}^{2}"),
-        (("mul", Fraction(1, 2), ("tr", ("mul", "α", "J", ("T", "α")))),
-         r"\tfrac12 \operatorname{Tr} \alpha J \bar{\alpha}"),
-        (("mul", ("tr", ("mul", "N", ("T", "δA"))), "δ′t"),
-         r"(\operatorname{Tr} N\,\delta \bar{A})\,\delta' t"),
-        (("tr", ("add", "J", ("mul", -1, "C"))), r"\operatorname{Tr}(J - C)"),
-        (("mul", "A", "δZ"), r"A\,\delta Z"),
-        (("T", ("at", "r", "i")), r"\bar{r}_{i}"),
-        (("call", "δ", ("call", ("at", "r", "i"), "t")), r"\delta r_{i}(t)"),
-        (("mul", ("inv", "I_c"), ("wedge", "c", "w")), r"I_c^{-1}\,(c \wedge w)"),
-        (("wedge", "c", ("wedge", "Ω′", "Ω")), r"c \wedge (\Omega' \wedge \Omega)"),
-        (("entry", "Ż", 1, 2), r"\dot Z_{12}"),
-        (("pow", ("inv", "A"), 2), r"(A^{-1})^{2}"),
-        (("pow", ("div", "m", 2), 2), r"(\frac{m}{2})^{2}"),
-        (("sum", "e", ("mul", ("at", "k", "e"), "s")), r"\sum_{e} k_{e} s"),
-        (("matrix", ("row", ("par", "c_1"), 0), ("row", -1, 2)),
-         r"\begin{pmatrix} \mathsf{c}_{\mathsf{1}} & 0 \\ {}-1 & 2 \end{pmatrix}"),
-    ],
-)  # fmt: skip
-def test_trees_in_latex(tree: tuple[object, ...], expected: str) -> None:
-    assert latex_tree(tree) == expected
-
-
-def test_products_in_text() -> None:
-    assert show(("T", ("at", "r", "i"))) == "r̄ᵢ"
-    assert show(("mul", ("wedge", "c", "w"), "δt")) == "(c ∧ w) δt"
-
-
 def test_a_name_of_several_letters_is_read_as_no_product() -> None:
     """mgl² would be m g l²."""
     weight, moment, axis = ("par", "mgl"), ("par", "I"), ("entry", "A", 3, 3)
@@ -247,40 +170,6 @@ def test_a_name_of_several_letters_is_read_as_no_product() -> None:
     assert show(("mul", ("par", "rho"), ("add", axis, 1))) == "rho·(A₃₃ + 1)"
     assert show(("div", ("par", "thrust_3"), "m")) == "thrust₃/m"
     assert show(("mul", ("pow", ("par", "I1"), 2), axis)) == "I1² A₃₃"
-
-
-def test_a_relation_keeps_its_stroke() -> None:
-    assert prose("where A ≠ 0") == r"where $A \neq 0$"
-    assert tex_text("x≠0 ∉ S") == r"x\ensuremath{\neq}0 ? S"
-    assert unknown_to_tex("x ∉ S") == "∉"
-
-
-def test_trivialised_exterior_derivative_of_so3() -> None:
-    equation = record("so3")["exterior"].equations[0]
-    assert latex_tree(equation.lhs) == r"\mathrm{d}\varpi(\delta y, \delta' y)"
-    assert latex_tree(equation.rhs) == (
-        r"\operatorname{Tr}\,(\xi' - Z\,\delta' t)\,J\,\overline{\delta Z - f\,\delta t}"
-        r" + \operatorname{Tr}\,[\xi', \xi]\,J \bar{Z}"
-        r" - \operatorname{Tr}\,(\xi - Z\,\delta t)\,J\,\overline{\delta' Z - f\,\delta' t}"
-    )
-    assert (
-        "dϖ(δy, δ′y) = Tr (ξ′ − Z δ′t) J(δZ − f δt)‾ + Tr [ξ′, ξ] JZ̄"
-        " − Tr (ξ − Z δt) J(δ′Z − f δ′t)‾\n"
-    ) in text(record("so3"))
-
-
-def test_euler_in_every_view() -> None:
-    d = record("so3")
-    assert "ζ̇ = φ + I⁻¹(Iζ ∧ ζ)\n" in text(d)
-    formula = r"\dot\zeta &= \varphi + I^{-1}\,(I \zeta \wedge \zeta)"
-    assert formula.replace(r"\dot", r"\rate") in latex(d)
-    assert formula in markdown(d)
-
-
-def test_clauses_name_their_variables() -> None:
-    d = record("linear")
-    assert "Tr ξ′J(Z² + Ż)‾ C = −dŨ(Aξ′)  for every ξ′ ∈ 𝔤\n" in text(d)
-    assert r"\quad \text{for every } \xi'" in latex(d)
 
 
 def test_long_formulas_break_at_shallow_operators_first() -> None:
@@ -317,19 +206,6 @@ def test_long_formulas_keep_inside_the_margins(tmp_path: Path) -> None:
     equations += (Equation("U", pages),)
     d = Derivation({"name": "n"}, (), (Step("n.long", "definition", (), equations, say("Long.")),))
     assert "Overfull" not in compiled(latex(d), tmp_path)
-
-
-def test_what_is_raised_or_divides_is_in_brackets():
-    assert show(("pow", Fraction(3, 2), 2)) == "(3/2)²"
-    assert show(("div", "m", Fraction(3, 2))) == "m/(3/2)"
-    assert show(("norm2", ("add", "m", "J"), "ζ")) == "‖ζ‖²_(m + J)"
-    assert show(("metric", ("add", "m", "J"), "ζ", "ζ")) == "⟨ζ, ζ⟩_(m + J)"
-
-
-def test_a_factor_stands_apart_from_a_denominator():
-    """∂L̃/∂t δt is a product, in sentences as well."""
-    assert r"/\partial t\,\delta t" in prose("of ∂L̃/∂t δt; the")
-    assert r"\," not in prose("of δL̃ = ⟨Π, δZ⟩ + ⟨Φ, ξ⟩; the")
 
 
 @pytest.mark.parametrize(

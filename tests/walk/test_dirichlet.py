@@ -55,6 +55,11 @@ def volume(Q):
     return math.pi ** (n / 2) / math.gamma(n / 2 + 1) / math.sqrt(np.linalg.det(Q))
 
 
+def about_z(angle):
+    s, q = math.sin(angle), math.cos(angle)
+    return np.array([[q, -s, 0], [s, q, 0], [0, 0, 1]])
+
+
 def start(n, rng):
     A, Z = np.eye(n) + 0.3 * rng.normal(size=(n, n)), rng.normal(size=(n, n))
     return A / abs(np.linalg.det(A)) ** (1 / n), Z - np.trace(Z) / n * np.eye(n)
@@ -90,10 +95,6 @@ def test_steady_ellipsoids(c, share):
     W = np.diag([w2, w2, w3**2])
     m, k = emitted(ellipsoid(3, np.eye(3), W))
 
-    def about_z(angle):
-        s, q = math.sin(angle), math.cos(angle)
-        return np.array([[q, -s, 0], [s, q, 0], [0, 0, 1]])
-
     spin = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 0]])
     D = np.diag([a, b, c])
     Z = np.linalg.inv(D) @ (turning * spin @ D + inner * D @ spin)
@@ -114,10 +115,7 @@ def test_in_a_plane():
     for turning, inner in ((1.0, -0.5), (0.5, 1.0), (math.sqrt(1.25), 0.0)):
         Z = np.linalg.inv(D) @ (turning * spin @ D + inner * D @ spin)
         for t, x in zip((0, 1, 2), flight(m, k, D, Z, [0, 1, 2]), strict=True):
-            left, right = (
-                np.array([[math.cos(y), -math.sin(y)], [math.sin(y), math.cos(y)]])
-                for y in (turning * t, inner * t)
-            )
+            left, right = (about_z(y)[:2, :2] for y in (turning * t, inner * t))
             assert x[:4].reshape(2, 2) == pytest.approx(left @ D @ right, abs=1e-9)
             assert m.multiplier(t, x, k) == pytest.approx(-2 * turning * inner * j, abs=1e-9)
 

@@ -1,7 +1,6 @@
 """The answer: equations in coordinates with a problem's own numbers, beside other roads."""
 
 import tomllib
-from fractions import Fraction
 from random import Random
 
 import numpy as np
@@ -15,6 +14,7 @@ from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from tests.support.corpus import record
 from tests.support.walks import record as ready
+from tests.walk.test_power_apart import value
 
 TRANSLATIONS = """
 name = "shifted"
@@ -91,20 +91,6 @@ def test_springs_on_translations_are_linear():
     assert "linear" in said(d)
 
 
-@pytest.mark.parametrize("name", ["gyrostat", "heisenberg", "rod", "hammer", "charged_body"])
-def test_others_are_not_said_to_be(name):
-    assert "linear" not in said(ready(name))
-    assert "constant" not in said(ready(name))
-
-
-def test_the_top_has_m_g_l():
-    """The centre of a cone on its apex is at three quarters of its height."""
-    d = ready("top")
-    shown = [show(e.rhs) for e in d["top.components"].equations]
-    assert shown[0] == "3/4 m A₃₂ gh/I₁₁ + (I₁₁ − I₃₃)/I₁₁ ζ₂ ζ₃"
-    assert shown[2] == "0"
-
-
 def test_a_body_without_a_first_moment_feels_no_gravity():
     d = walked(BALANCED + points((1, 0, 0), (0, 1, 1), (-1, -1, -1)))
     assert "cannot act" in said(d)
@@ -126,28 +112,8 @@ def test_a_solid_with_products_of_inertia_is_solved():
     known = {("par", "m"): m, ("par", "g"): g}
     known |= {("entry", "A", i + 1, j + 1): A[i, j] for i in range(3) for j in range(3)}
     known |= {("entry", "ζ", i + 1): zeta[i] for i in range(3)}
-    found = [number(e.rhs, known) for e in answer(d).equations]
+    found = [value(e.rhs, known) for e in answer(d).equations]
     assert np.allclose(found, expected, rtol=1e-12)
-
-
-def number(t, known):
-    """The value of a tree of sums, products, quotients and powers."""
-    if isinstance(t, (int, Fraction)):
-        return float(t)
-    if t in known:
-        return known[t]
-    op, *parts = t
-    if op == "pow":
-        return number(parts[0], known) ** parts[1]
-    values = [number(x, known) for x in parts]
-    if op == "div":
-        return values[0] / values[1]
-    return sum(values) if op == "add" else np.prod(values)
-
-
-def test_what_is_long_is_left_out():
-    labels = {s.label for name in ("coupled", "two_tops", "so3", "se3") for s in ready(name).steps}
-    assert not any(x.endswith(".explicit") for x in labels)
 
 
 def test_no_answer_names_what_it_solves_for():

@@ -22,8 +22,6 @@ from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from tests.problems import PROBLEMS, TRANSLATIONS, flat
 
-EVERYWHERE = ("translations", "screw", "SE(3) x SO(3)", "SE(3) x SE(3)", "shears")
-FORMS = ("cartan", "exterior", "kernel", "mass", "motion", "energy")
 GRAVITY = '[[potential]]\nkind = "gravity"\ng = [0, 0, "-9.81"]\n'
 PLACES = ([1, 0, 0.5], [0, 1, 0], [0, 0.3, 1], [-1, 0.2, -0.4])
 
@@ -51,23 +49,6 @@ def operations(problem):
 
 
 # -- the record ----------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("name", EVERYWHERE)
-def test_the_forms_lose_C(name):
-    found = record(name)
-    assert [x for x in FORMS if "C" in said(found, x)] == []
-    relation = step_of(found, "relation").equations[-1]
-    assert (relation.lhs, relation.rhs) == (
-        ("mul", ("T", "ξ"), "C", "Z"),
-        ("mul", ("T", "ξ"), "Z"),
-    )
-
-
-@pytest.mark.parametrize("name", ["SL(3) x SE(3)", "weighted", "a solid body", "heisenberg"])
-def test_elsewhere_it_stays(name):
-    found = record(name)
-    assert {"C"} <= said(found, "cartan") & said(found, "kernel") & said(found, "mass")
 
 
 def test_for_some_bodies_it_stays_in_the_potential_alone():

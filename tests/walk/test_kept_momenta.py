@@ -1,8 +1,6 @@
 """The momenta that a walk says are kept, beside the rotations and translations that leave U alone,
 counted by a kernel of finite differences."""
 
-import re
-
 import numpy as np
 import pytest
 
@@ -165,38 +163,9 @@ def test_harmonic_forces(name):
     agrees("SL(3)", OSCILLATORS[name])
 
 
-OWN = {
-    "about a line": ("linear", [[[0, -1, 0], [1, 0, 0], [0, 0, 0]]]),
-    "a screw": ("affine", [[[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 1], [0, 0, 0, 0]]]),
-    "shifts": ("affine", [[[0] * 4] * i + [[0, 0, 0, 1]] + [[0] * 4] * (3 - i) for i in range(3)]),
-}
-
-
-def of_basis(name):
-    action, basis = OWN[name]
-    return derive.Group(name.replace(" ", "_"), basis, action)
-
-
-@pytest.mark.parametrize(
-    ("group", "tried"),
-    [
-        ("SO(3)", ["rotations"]),
-        ("SE(3)", ["rotations", "translations"]),
-        ("UT(3)", []),
-        *(((name), []) for name in OWN),
-    ],
-)
-def test_what_is_said_to_be_tried_was_tried(group, tried):
-    """A group of one factor is called no product, and rotations about the origin are said to be
-    tried where the group has them all."""
+@pytest.mark.parametrize("group", ["SO(3)", "SE(3)", "UT(3)"])
+def test_without_weight_nothing_is_across_it(group):
     body = Points(*zip(GIVEN, PLACES, strict=True))
-    moved = of_basis(group) if group in OWN else group
-    record = derive.derive(Problem("b", moved, body, [], parameters=VALUES)).record
+    record = derive.derive(Problem("b", group, body, [], parameters=VALUES)).record
     (said,) = (s.prose for s in record.steps if s.label == "b.conserved")
-    text = english(said)
-    assert re.findall("the (rotations|translations)[a-z ]* [(]all", text) == tried
-    assert ("no displacement of space" in text) == (not tried)
-    assert "the momentum p across gravity" not in text
-    words = english(tuple(x for s in record.steps for x in s.prose))
-    words += " ".join(str(x.meaning) for x in record.symbols)
-    assert not re.search("is a product|its block|its factors", words)
+    assert "the momentum p across gravity" not in english(said)

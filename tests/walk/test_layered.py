@@ -15,12 +15,11 @@ from derive.check.checker import Checker
 from derive.language.values import approximate
 from derive.record.as_json import from_json, to_json
 from derive.record.record import RecordError
-from derive.record.sentence import english
 from tests.oracles import ellipsoids
 from tests.support.corpus import FULL, LAYERS, RHO, SLOPE, WELL
 from tests.support.library import arrange, module_of
 from tests.support.walks import SEED
-from tests.walk.test_dirichlet import flight, labels, start, unpacked, volume
+from tests.walk.test_dirichlet import flight, start, unpacked, volume
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)
 NODES, WEIGHTS = (NODES + 1) / 2, WEIGHTS / 2
@@ -169,21 +168,6 @@ def test_a_level_that_cancels():
     uniform = numbers(layered("rho", {"rho": RHO}))
     for found, wanted in zip(numbers(layered("rho*(1 + s) - rho*s", {"rho": RHO})), uniform):  # noqa: B905
         assert np.max(np.abs(found - wanted)) < 1e-14
-
-
-def test_what_is_claimed_of_turned_and_shifted_ones():
-    told = {"quadric", "pressure", "total", "virial"}
-    axes = {"semi_axes": [1, 2, 3], "rotation": {"axis": [1, 2, 2], "angle": 0.7}}
-    for density in (2, "2 - s"):
-        turned = Solid("ellipsoid", density, **axes)
-        assert told & {*labels(Problem("b", "SL(3)", turned))} == told - {"virial"}
-        still = Solid("ellipsoid", density, **axes, shift=[0, 0, 0])
-        assert told & {*labels(Problem("b", "SL(3)", still))} == told - {"virial"}
-        moved = Solid("ellipsoid", density, **axes, shift=[0, 0, 1])
-        record = derive.derive(Problem("b", "SL(3)", moved)).record
-        assert told & {s.label.split(".")[1] for s in record.steps} == {"virial"}
-        (virial,) = (s for s in record.steps if s.label == "b.virial")
-        assert "whose centre is the fixed point" in english(virial.prose)
 
 
 def test_another_density_in_the_record_is_refused():

@@ -17,38 +17,6 @@ from derive.views.rendering import render
 from derive.views.text import text
 from tests.support.library import emission
 
-CARRIED = """
-name = "carried"
-[algebra]
-of = "SL(2)"
-[[advected]]
-name = "v"
-[[advected]]
-name = "w"
-representation = "dual"
-[lagrangian]
-L = "(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 - v_1*w_1"
-"""
-ALONE = """
-name = "alone"
-[algebra]
-of = "SO(3)"
-[lagrangian]
-L = "(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2"
-"""
-PRODUCT = """
-name = "product"
-group = "SO(3) x SE(2)"
-[lagrangian]
-L = "(zeta_1^2 + zeta_2^2 + zeta_3^2 + zeta_4^2 + zeta_5^2 + zeta_6^2)/2 - A1_33*T2_1"
-"""
-AFFINE = """
-name = "affine_one"
-group = "SE(3)"
-[lagrangian]
-L = "(zeta_1^2 + zeta_2^2 + zeta_3^2 + zeta_4^2 + zeta_5^2 + zeta_6^2)/2 - T_3"
-"""
-
 
 def walked(text):
     return walk(problem_of(tomllib.loads(text)))
@@ -60,58 +28,6 @@ def told(d, label):
 
 def meaning(d, name):
     return english(next(s.meaning for s in d.symbols if s.name == name))
-
-
-def test_what_is_carried_is_named_in_order():
-    d = walked(CARRIED)
-    assert "‘v_1’, ‘v_2’, ‘w_1’, ‘w_2’, in this order" in told(d, "advected")
-    assert ("entry", "Γ", 3) in d["carried.lagrangian"].equations[0].rhs[-1]  # w_1
-    assert "the entries of Γ" in told(d, "lagrangian")
-    assert "semidirect" in told(d, "poisson_tensor")
-    assert meaning(d, "𝕁").endswith("of the momenta and of Γ")
-
-
-def test_many_of_one_name_are_shortened():
-    text = (
-        CARRIED.replace("SL(2)", "UT(7)")
-        .replace('[[advected]]\nname = "w"\n', "")
-        .replace('representation = "dual"\n', "")
-    )
-    squares = " + ".join(f"zeta_{k}^2" for k in range(1, 22))
-    text = text.partition("L =")[0] + f'L = "{squares} - v_1"'
-    assert "are ‘v_1’, ‘v_2’, …, ‘v_7’, in" in told(walked(text), "advected")
-
-
-def test_an_algebra_alone_has_neither_g_nor_the_advected():
-    d = walked(ALONE)
-    for label in ("lagrangian", "poisson_tensor"):
-        assert "Γ" not in told(d, label)
-        assert "entries of g" not in told(d, label)
-    assert "Lie–Poisson equations on 𝔤*." in told(d, "poisson_tensor")
-    assert "semidirect" not in told(d, "poisson_tensor")
-    assert "Γ" not in meaning(d, "𝕁")
-
-
-@pytest.mark.parametrize(
-    ("text", "names"),
-    [
-        (PRODUCT, "A1 from row 1 on; A2 from row 4 on, with the column T2 beside it."),
-        (AFFINE, "T is the last column of A."),
-    ],
-)
-def test_where_the_entries_of_g_are(text, names):
-    d = walked(text)
-    assert told(d, "coordinates").endswith(names)
-    assert "Γ" not in meaning(d, "𝕁")
-    assert "entries of g" in told(d, "lagrangian")
-
-
-def test_the_velocity_as_matrices():
-    d = walked(ALONE)
-    assert english(d["left.trivialisation"].prose).endswith("As matrices, g is A and ν is α.")
-    french = language("fr").of(d["left.energy"].prose)
-    assert "moment Π" in french
-    assert "impulsion" not in french
 
 
 MASS = """
@@ -185,14 +101,6 @@ def test_the_numbers_of_inputs_have_the_names_of_the_file(road, group):
     named = {x[1] for x in parts if isinstance(x, tuple) and x[0] == "par"}
     assert named
     assert named <= given | {"P_thrust", "P_F"}  # the powers
-
-
-def test_where_a_force_acts_is_told_where_it_enters():
-    d = walk(driven('group = "SE(3)"'))
-    (step,) = (s for s in d.steps if s.label == "driven.input")
-    assert english(step.prose).endswith("Inputs: ‘thrust’, a force at r_1, in the body frame.")
-    (wrench,) = (english(s.meaning) for s in d.symbols if s.name == "f_u")
-    assert wrench.endswith("in the body frame, ‘F₄’, ‘F₅’, ‘F₆’")
 
 
 def test_text_and_code_call_an_input_alike():

@@ -222,10 +222,3 @@ def test_a_monatomic_gas_grows_as_a_quadratic(gas):
 
 
 # -- what is refused ------------------------------------------------------------------------------
-
-
-def corners(n, *blocks):
-    """Points on the axes, and one at the origin where there are no blocks."""
-    axes = np.eye(n).tolist()
-    listed = [(1, e, k) for k in blocks for e in axes] if blocks else [(1, e) for e in axes]
-    return Points(*listed, *([] if blocks else [(1, [0] * n)]))

@@ -6,20 +6,18 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 
-from derive.check.checker import Checker
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.pipeline import walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.record.as_json import from_json, to_json
-from derive.record.record import ANY_GROUP
 from tests.oracles import solids
 from tests.support.gauss import agrees
 from tests.support.library import loaded, module
 from tests.support.needs import present
 from tests.support.random_problems import of_both, of_points, of_solids
-from tests.support.walks import SEED
+from tests.support.walks import own_verdicts
 
 pytestmark = pytest.mark.no_cover
 EXAMPLES = int(os.environ.get("EXAMPLES", "16"))
@@ -47,8 +45,7 @@ def derived(data):
     record = walk(problem)
     again = from_json(to_json(record))
     assert again == record
-    checker = Checker(again.problem, SEED)
-    verdicts = [checker.check(step) for step in again.steps if step.scope != ANY_GROUP]
+    verdicts = own_verdicts(again)
     assert [f"{v.label}: {v.reason}" for v in verdicts if not v.holds] == []
     assert max(v.bound for v in verdicts) < 1e-30
     return problem, record

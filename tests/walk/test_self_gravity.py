@@ -22,6 +22,7 @@ from tests.support.gauss import agrees
 from tests.support.library import arrange, emission, library, module_of
 from tests.support.needs import CC, need, present
 from tests.support.walks import SEED, problem, record
+from tests.walk.test_dirichlet import about_z, state
 
 NAME, RAW = "riemann_ellipsoid", {"jacobian": ("raw",)}
 BALL = {"rho": 1.0, "a": 1.0, "b": 1.0, "c": 1.0, "G": 1.0}
@@ -138,17 +139,6 @@ def hat(x):
     return np.array([[0, -x[2], x[1]], [x[2], 0, -x[0]], [-x[1], x[0], 0]])
 
 
-def rotation(angle):
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-
-
-def state(m, A, Z):
-    basis = np.array([[[float(x) for x in row] for row in e] for e in m.BASIS])
-    zeta = np.linalg.lstsq(basis.reshape(len(basis), -1).T, Z.ravel(), rcond=None)[0]
-    return np.concatenate([A.ravel(), zeta])
-
-
 def follows(axes, square, moved):
     """The emitted motion beside ``moved(t)`` = A, where A = D at t = 0, over two turns."""
     need("cc")
@@ -172,12 +162,12 @@ def follows(axes, square, moved):
 def rigid(D, rate, t):
     """Turning as a whole: A = R(Ωt) D."""
     spin = rate * hat([0, 0, 1])
-    return rotation(rate * t) @ D, np.linalg.inv(D) @ spin @ D
+    return about_z(rate * t) @ D, np.linalg.inv(D) @ spin @ D
 
 
 def circulating(D, rate, t):
     """Dedekind's: at rest in space, with the liquid inside turning: A = D R(Ωt)."""
-    return D @ rotation(rate * t), rate * hat([0, 0, 1])
+    return D @ about_z(rate * t), rate * hat([0, 0, 1])
 
 
 @pytest.mark.parametrize("e", [0.2, 0.6, 0.8])

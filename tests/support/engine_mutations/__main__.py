@@ -4,27 +4,24 @@ import argparse
 import os
 import sys
 import time
-from collections import Counter
 from pathlib import Path
 
-from tests.support.engine_mutations import ledger
 from tests.support.engine_mutations.jobs import JOBS
 from tests.support.engine_mutations.judge import Verdict
 from tests.support.engine_mutations.operators import Mutant
 from tests.support.engine_mutations.run import MODULES, Survey, chosen, results
-from tests.support.engine_mutations.table import counted, line, table
+from tests.support.engine_mutations.table import counted, line, remark, table
 from tests.support.engine_mutations.table import told as judged_before
 
 
 def main() -> int:
-    """0 when all are caught but those that are explained."""
+    """0 when all are caught."""
     parser = argparse.ArgumentParser(
         prog="python -m tests.support.engine_mutations", description=__doc__
     )
     parser.add_argument("modules", nargs="*", metavar="MODULE", help="like walk/spine/cartan.py")
     parser.add_argument("--sample", type=int, help="so many mutants, in place of all")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--again", action="store_true", help="modules too that are in figures.json")
     parser.add_argument("--processes", type=int, default=os.cpu_count())
     parser.add_argument(
         "--out",
@@ -36,18 +33,15 @@ def main() -> int:
     if unknown := {*modules} - {*MODULES}:
         parser.error(f"not among the modules: {', '.join(sorted(unknown))}")
     start = time.monotonic()
-    kept = {} if args.again or args.sample else ledger.load()
-    modules = [x for x in modules if x not in kept]
-    found = run(modules, args, start) if modules else []
-    print(table({name: row.outcomes for name, row in kept.items()} | counted(found)))
-    told = [x for row in kept.values() for x in row.told]
-    told += filter(None, (ledger.remark(*x) for x in found))
+    found = run(modules, args, start)
+    print(table(counted(found)))
+    told = [*filter(None, (remark(*x) for x in found))]
     print("\n".join(told))
     return int(any(x.startswith("survived") for x in told))
 
 
 def run(modules: list[str], args: argparse.Namespace, start: float) -> list[tuple[Mutant, Verdict]]:
-    """All mutants of some modules; those judged whole go into the ledger at once."""
+    """All mutants of some modules, each with its verdict."""
     survey = Survey(modules, JOBS)
     mutants = chosen(modules, args.sample, args.seed)
     before = args.out.read_text(encoding="utf-8") if args.out and args.out.exists() else ""
@@ -55,15 +49,8 @@ def run(modules: list[str], args: argparse.Namespace, start: float) -> list[tupl
     print(
         f"{len(survey.jobs)} problems surveyed, {time.monotonic() - start:.0f} s", file=sys.stderr
     )
-    left = Counter(m.module for m in mutants)
-    for module in modules if not args.sample else ():
-        if not left[module]:
-            ledger.save(module, found)
     for k, result in enumerate(results(mutants, survey, args.processes), 1):
         found.append(result)
-        left[result[0].module] -= 1
-        if not (left[result[0].module] or args.sample):
-            ledger.save(result[0].module, found)
         if args.out:
             with args.out.open("a", encoding="utf-8") as out:
                 print(line(*result), file=out)

@@ -108,7 +108,7 @@ def attempted(job: Job) -> Output:
         name = f"{kind.__module__}.{kind.__qualname__}"
         meant = name.startswith(REFUSALS) and "values to unpack" not in str(error)
         trouble = "refused" if meant else "crashed"
-        return Output(trouble=trouble, why=f"{name}: {error}"[:200])
+        return Output(trouble=trouble, why=f"{name}: {error}"[:400])
 
 
 # -- the mutant in place of its module ----------------------------------------------------------
@@ -214,7 +214,7 @@ def serve(mutant: Mutant, graph: dict[str, set[str]], connection: Any) -> None:
         install(mutant, graph)
         importlib.import_module("derive.programs")
     except BaseException as error:  # it cannot even be imported
-        broken = Output(trouble="crashed", why=f"{type(error).__name__}: {error}"[:200])
+        broken = Output(trouble="crashed", why=f"{type(error).__name__}: {error}"[:400])
     while True:
         job, labels = connection.recv()
         if labels is None:

@@ -66,3 +66,9 @@ def told(
         else:
             left.append(m)
     return found, left
+
+
+def remark(m: Mutant, v: Verdict) -> str:
+    """What a reader of the figures should see: what survived, or leaves something out."""
+    heads = {"less": "says less", "survived": "survived"}
+    return f"{heads[v.outcome]}: {m}: {v.why}" if v.outcome in heads else ""

@@ -26,20 +26,6 @@ def holds(d):
     return {*verdicts}
 
 
-@pytest.mark.parametrize("side", SIDES)
-def test_it_is_an_equation_with_its_rate(side):
-    d = derive(lagrangian(squares(1, 2, 3), "SL(2)", side=side))
-    assert {f"{side}.moment_map", "x.conserved"} <= holds(d)
-    step = next(s for s in d.record.steps if s.label == f"{side}.moment_map")
-    shown = [(show(e.lhs), show(e.rhs)) for e in step.equations]
-    assert shown == [
-        ("⟨Π_o, ξ′⟩", SIDES[side]),
-        ("⟨Π̇_o, ξ′⟩", SIDES[side].replace("Π", "Φ")),
-        ("ḣ", "−∂ₜL̃"),
-    ]
-    assert laws(d) == {"ḣ", "Π̇_o"}
-
-
 def test_what_depends_on_more_keeps_less():
     free = squares(1, 2, 3)
     assert laws(derive(lagrangian(f"({free})*(2 + cos(t))"))) == {"Π̇_o"}

@@ -9,15 +9,13 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from derive.check.checker import Checker
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.pipeline import walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.record.as_json import from_json, to_json
-from derive.record.record import ANY_GROUP
-from tests.support.walks import SEED
+from tests.support.walks import own_verdicts
 from tests.walk.lie.test_expressed import held, states
 
 pytestmark = pytest.mark.no_cover
@@ -102,8 +100,7 @@ def test_holds_and_agrees(data):
     record = walk(problem)
     again = from_json(to_json(record))
     assert again == record
-    checker = Checker(again.problem, SEED)
-    verdicts = [checker.check(step) for step in again.steps if step.scope != ANY_GROUP]
+    verdicts = own_verdicts(again)
     assert [f"{v.label}: {v.reason}" for v in verdicts if not v.holds] == []
     assert max(v.bound for v in verdicts) < 1e-30
     space = {}
