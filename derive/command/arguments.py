@@ -375,8 +375,9 @@ def add_lecture_options(lecture: argparse.ArgumentParser, paper: argparse.Argume
     for name in ("title", "author", "course", "date"):
         about = f"the {name} of the lecture, printed as it is given"
         lecture.add_argument(f"--{name}", default="", metavar="TEXT", help=about)
-    about = "of the exercises: at the end of each chapter, or left out (default: end)"
-    lecture.add_argument("--solutions", choices=("end", "none"), default="end", help=about)
+    about = "of the exercises: at the end of each chapter, or of the whole, or left out"
+    places = ("chapter", "end", "none")
+    lecture.add_argument("--solutions", choices=places, default="chapter", help=about)
     about = "numbers in the exercises that have some, other ones for each seed (default: none)"
     lecture.add_argument("--seed", type=natural, metavar="N", help=about)
     about = "try every equation of the text anew, as derive check does those of a record"

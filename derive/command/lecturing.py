@@ -62,8 +62,7 @@ def command_lecture(args: argparse.Namespace) -> int:
         print(f"{sum(with_progress(tried, len(chapters), 'chapters'))} equations hold")
     shown = document.page if out.suffix == ".html" else document.latex
     front = Front(args.title, args.author, args.course, args.date)
-    solutions = args.solutions == "end"
-    text = shown(document.Lecture(chapters, language(args.lang), records, front, solutions))
+    text = shown(document.Lecture(chapters, language(args.lang), records, front, args.solutions))
     content = pdf_of(text, out, {}) if out.suffix == ".pdf" else text
     for path in write({out.name: content}, out.parent, links=True):
         print(path)

@@ -53,7 +53,7 @@ REASONS = (
     "inverse of its metric is too long; give numbers, or --at-defaults",
     "there is no symmetry of L but of the time, so that nothing is reduced",
     "its symmetries move the time as well, so that nothing is reduced",
-    "its symmetries leave L alone only up to dF, or depend on the time, so that nothing is reduced",
+    "its symmetries change L by dF/dt, or depend on the time, so that nothing is reduced",
     "what acts depends on the time: nothing is steady",
 )
 """Why a search is refused, with places, where the text says it in its language."""

@@ -155,7 +155,7 @@ def parameter(name: str, names: Mapping[str, str] = NAMES) -> Formula:
     )
     if match:
         return lowered(_base(match[1], names), sans(match[2], match[2]))
-    if name in GREEK:
+    if name in (*GREEK, "ell"):
         return _base(name, names)
     if re.fullmatch(r"[A-Za-z0-9_]+", name):
         return sans(name.replace("_", r"\_"), name)
@@ -164,7 +164,9 @@ def parameter(name: str, names: Mapping[str, str] = NAMES) -> Formula:
 
 def _base(word: str, names: Mapping[str, str]) -> Formula:
     """A word sans serif; a Greek letter as itself, where the record, or no walk at all, gives it no
-    meaning."""
+    meaning; the momentum ell of a family of equilibria as ℓ."""
+    if word == "ell":
+        return sans(r"\ell", "ℓ")
     free = word in GREEK and (GREEK[word] not in VOCABULARY or f"free {word}" in names)
     return literal(rf"\{word}") if free else sans(word, word)
 
