@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import shlex
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -111,7 +112,9 @@ def chapter_on(name: str, *, taken: bool = False) -> OnProblem:
             found[search] = Found(refused=str(error))
     ran, speed = motion(problem, record)
     body, place = place_of(record, speed or 1.0, taken=taken)
-    return OnProblem(chapter_of(record, found, tuple(records), place, ran), records, body)
+    command = f"derive simulate {shlex.quote(name)} --html {record.name}.html"
+    chapter = chapter_of(record, found, tuple(records), place, ran, command)
+    return OnProblem(chapter, records, body)
 
 
 def motion(problem: Problem, record: Derivation) -> tuple[Ran | Sentence, float]:

@@ -179,8 +179,8 @@ class SetChapter:
 @dataclass(frozen=True)
 class Lecture:
     """Chapters in a language; ``records``: those of the chapters, by the names that these give
-    them; ``solutions``: where those of the exercises stand, at the end of each ``chapter``, in one of
-    their own at the ``end``, or nowhere (``none``)."""
+    them; ``solutions``: where those of the exercises stand, at the end of each ``chapter``, in
+    one of their own at the ``end``, or nowhere (``none``)."""
 
     chapters: Sequence[Chapter]
     language: Language

@@ -124,11 +124,15 @@ HARMLESS = re.compile(
 SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 
 
+def named_so(shown: str) -> str:
+    """The name of a parameter as text shows it between quotes: x₁ is x_1."""
+    return re.sub("[₀-₉]+$", lambda index: "_" + index[0].translate(SUBSCRIPTS), shown)
+
+
 def quoted(shown: str, names: Mapping[str, str]) -> Formula:
-    """The formula of a parameter as text shows it between quotes: x₁ is x_1; of words, the
-    words."""
-    name = re.sub("[₀-₉]+$", lambda index: "_" + index[0].translate(SUBSCRIPTS), shown)
-    return sans(shown.replace(" ", r"\ "), shown) if " " in shown else parameter(name, names)
+    """The formula of a parameter as text shows it between quotes; of words, the words."""
+    found = " " in shown
+    return sans(shown.replace(" ", r"\ "), shown) if found else parameter(named_so(shown), names)
 
 
 def names_of(symbols: Iterable[Symbol], parameters: Collection[str] = ()) -> dict[str, str]:
