@@ -51,7 +51,9 @@ NONE = dict.fromkeys(
 """Search → what is said where it found nothing and there may be more."""
 
 
+OVER = "it takes more than {seconds} s (--seconds)"
 REASONS = (
+    OVER,
     "the Lagrangian couples {velocities} velocities by terms with {letters} letters in all: the "
     "inverse of its metric is too long; give numbers, or --at-defaults",
     "there is no symmetry of L but of the time, so that nothing is reduced",

@@ -2,6 +2,7 @@
 nothing, or is refused, is a sentence."""
 
 import re
+import unicodedata
 from dataclasses import replace
 from pathlib import Path
 
@@ -86,6 +87,14 @@ def test_a_search_that_is_refused_says_why():
     assert 0 < page.count("This was not found:") <= len(refused)  # one for one reason
 
 
+def test_a_search_that_takes_too_long_is_a_sentence():
+    """Each search has its own seconds, and the lecture goes on."""
+    chapter, records, _ = chapter_on("lagrange_top", 0.01)
+    page = document.page(document.Lecture([chapter], language("fr"), records))
+    assert "il y faut plus de 0.01 s (--seconds)" in unicodedata.normalize("NFKC", page)
+    assert "Ses équations du mouvement sont" in page
+
+
 def test_of_what_is_kept_the_value_alone_is_shown_and_nothing_too_long(made):
     _, chapter, _ = made
     told = [e for b in chapter.blocks if b.kind != "solution" for e in b.entries if e.display]
@@ -97,7 +106,7 @@ def test_of_what_is_kept_the_value_alone_is_shown_and_nothing_too_long(made):
 
 def test_two_exercises_at_least_whose_copies_are_wrong(made):
     """The copy of an equation with a mistake does not hold where the solution does."""
-    name, chapter, records = made
+    _, chapter, records = made
     asked = [b for b in chapter.blocks if b.kind == "exercise"]
     solved = [b for b in chapter.blocks if b.kind == "solution"]
     assert len(asked) == len(solved) >= 2
@@ -130,7 +139,7 @@ def test_parameters_have_a_table_and_the_body_a_figure():
 
 @pytest.mark.parametrize("reason", REASONS)
 def test_a_reason_is_told_in_french_with_its_numbers(reason):
-    told = reason.format(velocities=6, letters=27)
+    told = reason.format(velocities=6, letters=27, seconds=9)
     assert _reason(told, language("en")) == told
     french = _reason(told, language("fr"))
     assert french != told
