@@ -13,11 +13,11 @@ from .lecture_text import Block, Entry, Given, words_of
 from .ran_figure import Ran, letter_of
 from .recorded_text import SPOKEN, display, in_each, sentence, words
 
-KEPT = "_By hand._ Show that this is constant along every motion:"
+HAND, MISTAKE, WATCH = "By hand.", "Find the mistake.", "Predict, then watch."
+KEPT = "Show that this is constant along every motion:"
 NOETHER = "It is what a symmetry of the Lagrangian leaves (Noether):"
-SIGN = "_Find the mistake._ This equation of motion was copied with one sign changed. Which?"
+SIGN = "This equation of motion was copied with one sign changed. Which?"
 LAST = "That of the last term:"
-WATCH = "_Predict, then watch._"
 ASKED = "Between which values does {letter} stay, from the start of the problem to the time {time}?"
 BETWEEN = "Between {low} and {high}."
 
@@ -45,8 +45,10 @@ def _of(asked: Sequence[Entry], solved: Sequence[Entry]) -> list[Block]:
     return [Block("exercise", "", "", (*asked,), 0), Block("solution", "", "", (*solved,), 0)]
 
 
-def _said(message: str) -> Entry:
-    return in_each(*(words_of(x.word(message)) for x in SPOKEN))
+def _said(message: str, kind: str = "") -> Entry:
+    """A sentence, after the kind of the exercise."""
+    kinds = (f"_{x.word(kind)}_ " if kind else "" for x in SPOKEN)
+    return in_each(*(words_of(y + x.word(message)) for x, y in zip(SPOKEN, kinds, strict=True)))
 
 
 def _on_kept(step: Step, short: Callable[[Equation], bool]) -> list[Block]:
@@ -55,7 +57,7 @@ def _on_kept(step: Step, short: Callable[[Equation], bool]) -> list[Block]:
     rate = [e for e in step.equations if e.rhs == 0 and "d/dt" in names(e.lhs)]
     if not value or not rate or not all(map(short, (*value, *rate))):
         return []
-    asked = [_said(KEPT), display(value, condition=True)]
+    asked = [_said(KEPT, HAND), display(value, condition=True)]
     return _of(asked, [_said(NOETHER), display(rate, (step.label,))])
 
 
@@ -71,7 +73,7 @@ def _on_sign(e: Equation, label: str) -> list[Block]:
     """An equation with the sign of its last term changed."""
     *others, last = _terms(e.rhs)
     copied = Equation(e.lhs, ("add", *others, neg(last)))
-    asked = [_said(SIGN), display([copied], condition=True)]
+    asked = [_said(SIGN, MISTAKE), display([copied], condition=True)]
     return _of(asked, [_said(LAST), display([e], (label,))])
 
 
@@ -82,7 +84,13 @@ def _on_motion(ran: Ran, command: str) -> list[Block]:
     ends = {"low": min(curve), "high": max(curve)}
     told = {k: f"{y:.3g}".replace("-", "−") for k, y in ends.items()}
     asked = (
-        (*words_of(f"{x.word(WATCH)} "), *words(x.word(ASKED, **places)), " ", Given(command), ".")
+        (
+            *words_of(f"_{x.word(WATCH)}_ "),
+            *words(x.word(ASKED, **places)),
+            " ",
+            Given(command),
+            ".",
+        )
         for x in SPOKEN
     )
     return _of([in_each(*asked)], [sentence(partial(_between, told))])
