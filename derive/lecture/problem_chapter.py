@@ -51,7 +51,7 @@ NONE = dict.fromkeys(
 """Search → what is said where it found nothing and there may be more."""
 
 
-OVER = "it takes more than {seconds} s (--seconds)"
+OVER = "it takes more than {seconds} seconds (--seconds)"
 REASONS = (
     OVER,
     "the Lagrangian couples {velocities} velocities by terms with {letters} letters in all: the "

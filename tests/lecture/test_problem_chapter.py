@@ -91,7 +91,7 @@ def test_a_search_that_takes_too_long_is_a_sentence():
     """Each search has its own seconds, and the lecture goes on."""
     chapter, records, _ = chapter_on("lagrange_top", 0.01)
     page = document.page(document.Lecture([chapter], language("fr"), records))
-    assert "il y faut plus de 0.01 s (--seconds)" in unicodedata.normalize("NFKC", page)
+    assert "la recherche dépasse 0,01 secondes (--seconds)" in unicodedata.normalize("NFKC", page)
     assert "Ses équations du mouvement sont" in page
 
 
