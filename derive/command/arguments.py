@@ -154,18 +154,20 @@ def add_trim_options(held: argparse.ArgumentParser) -> None:
     held.add_argument("--given", action="append", type=number, metavar="NAME=NUMBER", help=about)
 
 
+STOP = "stop after so many seconds of processor time"
+
+
 def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
     """The parser of all commands: name → function, whose docstring is its help."""
     top = Parser(prog="derive", description=about, epilog=BEGIN)
     top.add_argument("--version", action="version", version=f"derive {__version__}")
     subcommands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    def command(name: str) -> argparse.ArgumentParser:
+    def command(name: str, stop: str = STOP, limit: str = "seconds") -> argparse.ArgumentParser:
         run = commands[name]
         made = subcommands.add_parser(name, help=run.__doc__, description=run.__doc__)
         made.set_defaults(run=run)
-        stop = "stop after so many seconds of processor time"
-        made.add_argument("--seconds", type=positive, metavar="N", help=stop)
+        made.add_argument("--seconds", type=positive, metavar="N", help=stop, dest=limit)
         return made
 
     command("list")
@@ -205,7 +207,8 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
             one.add_argument(f"--allow-negative-{name}", action="store_true", help=about)
     add_picture_options(command("plot"))
     add_comparison_options(command("compare"))
-    add_lecture_options(command("lecture"), command("paper"))
+    each = "end each search on a problem after so many seconds of processor time"
+    add_lecture_options(command("lecture", each, "search_seconds"), command("paper"))
     build = command("build")
     build.add_argument("--out", type=named_file, metavar="DIR", default="generated")
     build.add_argument("--print", action="store_true", help="print the walks as well")
@@ -375,8 +378,9 @@ def add_lecture_options(lecture: argparse.ArgumentParser, paper: argparse.Argume
     for name in ("title", "author", "course", "date"):
         about = f"the {name} of the lecture, printed as it is given"
         lecture.add_argument(f"--{name}", default="", metavar="TEXT", help=about)
-    about = "of the exercises: at the end of each chapter, or left out (default: end)"
-    lecture.add_argument("--solutions", choices=("end", "none"), default="end", help=about)
+    about = "of the exercises: at the end of each chapter, or of the whole, or left out"
+    places = ("chapter", "end", "none")
+    lecture.add_argument("--solutions", choices=places, default="chapter", help=about)
     about = "numbers in the exercises that have some, other ones for each seed (default: none)"
     lecture.add_argument("--seed", type=natural, metavar="N", help=about)
     about = "try every equation of the text anew, as derive check does those of a record"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import shlex
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -16,7 +17,7 @@ from ..lecture.back_matter import Front
 from ..lecture.body_figures import BodyOfLecture
 from ..lecture.fresh_numbers import drawn
 from ..lecture.own_body import OwnBody, place_of
-from ..lecture.problem_chapter import Found, chapter_of
+from ..lecture.problem_chapter import OVER, Found, chapter_of
 from ..lecture.ran_figure import Ran
 from ..motion.simulate import run
 from ..motion.trajectory import Method
@@ -31,7 +32,7 @@ from ..searches import equilibria, families, integrals, reduction, symmetries
 from ..views.language import LANGUAGES, language
 from .noting import pdf_of
 from .showing import UsageError, derive, load_problem
-from .writing import with_progress, write
+from .writing import StoppedError, time_limit, with_progress, write
 
 ENDINGS = (".tex", ".pdf", ".html")
 
@@ -47,7 +48,7 @@ def command_lecture(args: argparse.Namespace) -> int:
     records = records_of(chapters)
     body: OwnBody | None = None
     for name in args.problem:
-        own, found, its = chapter_on(name, taken=body is not None)
+        own, found, its = chapter_on(name, args.search_seconds, taken=body is not None)
         if records.get(own.name, found[own.name]) != found[own.name]:
             raise UsageError(f"{name}: the lecture has another {own.name!r}: give it another name")
         chapters.append(own)
@@ -62,8 +63,7 @@ def command_lecture(args: argparse.Namespace) -> int:
         print(f"{sum(with_progress(tried, len(chapters), 'chapters'))} equations hold")
     shown = document.page if out.suffix == ".html" else document.latex
     front = Front(args.title, args.author, args.course, args.date)
-    solutions = args.solutions == "end"
-    text = shown(document.Lecture(chapters, language(args.lang), records, front, solutions))
+    text = shown(document.Lecture(chapters, language(args.lang), records, front, args.solutions))
     content = pdf_of(text, out, {}) if out.suffix == ".pdf" else text
     for path in write({out.name: content}, out.parent, links=True):
         print(path)
@@ -96,23 +96,29 @@ class OnProblem(NamedTuple):
     body: OwnBody | None
 
 
-def chapter_on(name: str, *, taken: bool = False) -> OnProblem:
-    """The chapter on a problem of the user's; ``taken``: has another body the place of the
-    racket?"""
+def chapter_on(name: str, seconds: float | None = None, *, taken: bool = False) -> OnProblem:
+    """The chapter on a problem of the user's, each search for at most so many ``seconds`` of
+    processor time; ``taken``: has another body the place of the racket?"""
     problem, record = derive(name)
     found, records = {}, {record.name: record}
     asked = {k: x for k, x in SEARCHES.items() if k != "trim" or problem.inputs}
     for search, does in with_progress(asked.items(), len(asked), record.name):
         try:
-            made = records[f"{record.name}:{search}"] = does(problem, record)
+            with time_limit(seconds):
+                made = does(problem, record)
+            records[f"{record.name}:{search}"] = made
             begins = f"{record.name}.{FIRST[search]}"
             there = any(x.label == begins for x in made.steps)
             found[search] = Found(made.since(begins) if there else ())
+        except StoppedError:
+            found[search] = Found(refused=OVER.format(seconds=f"{seconds:g}"))
         except Refused as error:
             found[search] = Found(refused=str(error))
     ran, speed = motion(problem, record)
     body, place = place_of(record, speed or 1.0, taken=taken)
-    return OnProblem(chapter_of(record, found, tuple(records), place, ran), records, body)
+    command = f"derive simulate {shlex.quote(name)} --html {record.name}.html"
+    chapter = chapter_of(record, found, tuple(records), place, ran, command)
+    return OnProblem(chapter, records, body)
 
 
 def motion(problem: Problem, record: Derivation) -> tuple[Ran | Sentence, float]:

@@ -10,6 +10,7 @@ from .derivatives import DERIVATIVES
 from .tree import Tree, coefficient, mul, neg, nodes, sized
 
 SUBSCRIPTS = str.maketrans("0123456789ije", "₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ")
+SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 FRACTIONS = {Fraction(1, 2): "½"}
 """The one fraction that has a sign of its own; others are 1/3, 4/15."""
 TAKEN = ("Tr", "det", "dm", "dt", "j", "G")
@@ -288,7 +289,7 @@ def _atomic(op: object, a: tuple[Tree, ...]) -> str:
         return "1"
     if op == "pow":
         base = f"({show(a[0])})" if _spelt_out(a[0]) else _base(a[0])
-        return base + str(a[1]).translate(str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"))
+        return base + str(a[1]).translate(SUPERSCRIPTS)
     if op == "inner":
         return f"⟨{show(a[0])}, {show(a[1])}⟩"
     if op == "metric":

@@ -33,7 +33,8 @@ class Front:
 
 UNTITLED = Front()
 NOTE, AUDIN, NOTES = REFERENCES
-SECOND = "second ed."
+SECOND, UNPUBLISHED = "second ed.", "unpublished note"
+UNDATED = "without a date (2000 or later)"
 WORKS = (
     ON_FLUIDS[0],
     AUDIN,
@@ -50,7 +51,7 @@ WORKS = (
         f"Imperial College Press, {SECOND}, 2011",
     ),
     (*NOTES[:3], f"{NOTES[3]}, http://hermes.univ-mrs.fr/~patrick/"),
-    NOTE,
+    (*NOTE[:3], f"{UNPUBLISHED}, {UNDATED}"),
     (
         "MR",
         "J. E. Marsden, T. S. Ratiu",
@@ -82,7 +83,7 @@ OWN = {
     ("top", "e₃"): "third axis of the body; e₁ and e₂ are the two others",
     ("top", "‘I_1’"): "moment of inertia across the axis",
     ("top", "‘I_3’"): "moment of inertia about the axis",
-    ("top", "‘P’"): "weight times distance to the centre of mass",
+    ("top", "‘mgl’"): "weight times distance to the centre of mass",
     ("top", "Π"): "momentum, derivative of L̃ with respect to Z",
     ("top", "u₁"): "cosine of the lower tilt; u₂ is that of the upper one",
     ("top", "ψ"): "angle of the precession",

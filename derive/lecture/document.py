@@ -179,13 +179,14 @@ class SetChapter:
 @dataclass(frozen=True)
 class Lecture:
     """Chapters in a language; ``records``: those of the chapters, by the names that these give
-    them; ``solutions``: are those of the exercises printed?"""
+    them; ``solutions``: where those of the exercises stand, at the end of each ``chapter``, in
+    one of their own at the ``end``, or nowhere (``none``)."""
 
     chapters: Sequence[Chapter]
     language: Language
     records: Mapping[str, Derivation]
     front: Front = UNTITLED
-    solutions: bool = True
+    solutions: str = "chapter"
 
 
 def latex(lecture: Lecture) -> str:
@@ -208,6 +209,8 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
     labels = {b.label: numbers[id(b)] for c in chapters for b in c.blocks if id(b) in numbers}
     figures = {**FIGURES, **{label: y for c in chapters for label, y in c.figures.items()}}
     setter = _Setter(language, medium, labels | NUMBERS, claims_of(chapters), figures)
+    if x.solutions == "none":
+        chapters = [replace(c, blocks=(*filter(_asked, c.blocks),)) for c in chapters]
     listed, placed = letters(chapters, x.records, language), partial(_placed, language)
     table = [setter.letter(letter, k) for k, letter in enumerate(listed)]
     return {
@@ -224,6 +227,10 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
             (key.lower(), *map(medium.text, (*by, placed(where)))) for key, *by, where in WORKS
         ],
     }
+
+
+def _asked(block: Block) -> bool:
+    return block.kind != "solution"
 
 
 def _placed(language: Language, where: str) -> str:

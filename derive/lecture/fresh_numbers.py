@@ -157,7 +157,7 @@ def _turned(claims: Claims, known: Mapping[Tree, Tree]) -> float:
 
 def _lower(claims: Claims, known: Mapping[Tree, Tree]) -> float:
     """The cosine of the lower tilt of a top that is let go, its axis at rest."""
-    letters = [tree(x) for x in ("‘I_1’", "‘I_3’", "‘P’")]
+    letters = [tree(x) for x in ("‘I_1’", "‘I_3’", "‘mgl’")]
     parameters = {x: number(known[x], {}) for x in letters}
     spin, upper = (number(known[tree(x)], {}) for x in ("𝒥₂", "A₃₃"))
     return Top(claims, 0.0, parameters, spin, upper).lower

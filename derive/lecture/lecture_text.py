@@ -39,6 +39,7 @@ from ..language.tree import Tree
 from ..record.record import Equation
 from ..views.figure.drawing import Scene
 from ..views.language import LANGUAGES
+from ..views.printing.letters import named_so
 
 FOLDER = Path(__file__).with_name("chapters")
 PROVED = ("lemma", "proposition", "theorem")
@@ -73,7 +74,7 @@ class Formula:
     def equations(self) -> tuple[Equation, ...]:
         """What it claims: of ``a = b = c`` that a = b and b = c; no other relation is tried."""
         if self.recorded:
-            return self.recorded
+            return () if self.condition else self.recorded
         found: list[Equation] = []
         for part in () if self.condition else re.split(r",\s\s+", self.text):
             if " = " in part and {*RELATION.findall(part)} == {" = "}:
@@ -91,7 +92,7 @@ def _unquoted(t: Tree) -> Tree:
     if not isinstance(t, tuple):
         return t
     if t[0] == "par":
-        return ("par", str(t[1]).strip("‘’"))
+        return ("par", named_so(str(t[1]).strip("‘’")))
     return (t[0], *map(_unquoted, t[1:]))
 
 

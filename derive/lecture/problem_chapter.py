@@ -4,22 +4,25 @@ of motion, what the motion keeps, its reduction, its steady motions, a motion.""
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import groupby
 
-from ..language.show import show
+from ..language.show import SUPERSCRIPTS, show
 from ..language.tree import names
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Sentence
+from ..record.sentence import Prose, Sentence
 from ..views.answer import definitions, equations_of_motion, steps_of_answer
-from ..views.language import LANGUAGES, Language, language
-from ..views.outline import system, title
-from ..views.printing.sentences import prose
+from ..views.figure.scene import scene
+from ..views.language import Language, language
+from ..views.outline import declared, system, title
 from ..views.text import formula as aligned
-from .lecture_text import Block, Chapter, Entry, Formula, Given, Tie, Words, words_of
+from .figures import Figure
+from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
+from .problem_exercises import exercises
 from .ran_figure import DESCRIBED, Ran, label_of
+from .recorded_text import SPOKEN, display, in_each, sentence, words
 
 SEARCHES = {
     "symmetries": "What the motion keeps.",
@@ -48,17 +51,25 @@ NONE = dict.fromkeys(
 """Search → what is said where it found nothing and there may be more."""
 
 
+OVER = "it takes more than {seconds} seconds (--seconds)"
 REASONS = (
+    OVER,
     "the Lagrangian couples {velocities} velocities by terms with {letters} letters in all: the "
     "inverse of its metric is too long; give numbers, or --at-defaults",
     "there is no symmetry of L but of the time, so that nothing is reduced",
     "its symmetries move the time as well, so that nothing is reduced",
-    "its symmetries leave L alone only up to dF, or depend on the time, so that nothing is reduced",
+    "its symmetries change L by dF/dt, or depend on the time, so that nothing is reduced",
     "what acts depends on the time: nothing is steady",
+    "equilibria are told for numbers, and π is none: of a density that is a mass over a volume, it "
+    "cancels",
 )
 """Why a search is refused, with places, where the text says it in its language."""
-LONGEST = 6
-"""The most lines of an equation that is shown."""
+TITLE = "{title}: equations, what is kept, steady motions"
+BODY = "The body of the problem, with the axes of its frame."
+LISTED = {"en": ", ", "fr": "\u202f; "}
+"""What is between two parameters with their numbers."""
+LONGEST, SHORT = 6, 2
+"""The most lines of an equation that is shown, and of one in an exercise."""
 
 
 @dataclass(frozen=True)
@@ -75,14 +86,15 @@ def chapter_of(
     records: tuple[str, ...],
     place: Sentence | None = None,
     ran: Ran | Sentence | None = None,
+    command: str = "",
 ) -> Chapter:
     """The chapter of a problem, by its record and what searches found of it, those that were made;
     ``records``: the names of those that its ties speak of; ``place``: whether its body has that of
-    the racket, or why not; ``ran``: its motion, or why there is none.  Searches that were refused
-    for one reason stand together."""
-    blocks = [*_motion(d)]
+    the racket, or why not; ``ran``: its motion, or why there is none, which ``command`` shows.
+    Searches that were refused for one reason stand together."""
+    blocks = [*_motion(d), *_body(d), *_parameters(d)]
     if place:
-        blocks.append(Block("text", "", "", (_sentence(lambda x: x.sentence(place)),), 0))
+        blocks.append(Block("text", "", "", (sentence(lambda x: x.sentence(place)),), 0))
     asked = (x for x in SEARCHES if x in found)
     for _, alike in groupby(asked, lambda x: found[x].refused or x):
         searches = (*alike,)
@@ -92,99 +104,128 @@ def chapter_of(
         ]
     if ran:
         blocks += [_section("A motion."), *_pictured(d.name, ran)]
-    titles = tuple(Given(title(d, x)) for x in _languages())
-    figures = {label_of(d.name): ran.picture} if isinstance(ran, Ran) else {}
+    home = {e: step.label for step in d.steps for e in step.equations}
+    kept = [x for x in found.get("symmetries", Found()).steps if ".conserved_" in x.label]
+    blocks += exercises(
+        [(e, home[e]) for e in equations_of_motion(d)],
+        kept,
+        ran if isinstance(ran, Ran) else None,
+        command,
+        lambda e: _rows(e) <= SHORT,
+    )
+    titles = tuple(Given(x.word(TITLE, title=title(d, x))) for x in SPOKEN)
+    figures: dict[str, Figure] = {}
+    if isinstance(ran, Ran):
+        figures[label_of(d.name)] = ran.picture
+    if drawn := scene(d):
+        figures[label_of(d.name, "body")] = lambda _: drawn
     whole = f"the chapter of {d.name}"
     return Chapter(d.name, titles, records, tuple(blocks), whole, figures)
 
 
-def _languages() -> tuple[Language, ...]:
-    return tuple(map(language, LANGUAGES))
-
-
-def _sentence(said: Callable[[Language], str], labels: Sequence[str] = ()) -> Entry:
-    """A sentence in each language, whose formulas are as true as the sentence of its step."""
-    texts = tuple(_words(said(x)) for x in _languages())
-    return Entry(texts, (Tie(tuple(labels)),) if labels else (), display=False, line=0)
-
-
-def _words(text: str) -> Words:
-    return tuple(
-        Formula(x.text, condition=True) if isinstance(x, Formula) else x
-        for x in words_of(prose(text, escape=str, formula="`{}`".format))
-    )
-
-
-def _display(equations: Sequence[Equation], labels: Sequence[str]) -> Entry:
-    """Equations of steps, one below the other."""
-    text = ",  ".join(f"{show(e.lhs)} = {show(e.rhs)}" for e in equations)
-    formula: Words = (Formula(text, recorded=tuple(equations)),)
-    return Entry((formula,) * len(LANGUAGES), (Tie(tuple(labels)),), display=True, line=0)
-
-
 def _section(*headings: str) -> Block:
-    heading = _sentence(lambda x: " ".join(map(x.word, headings)))
+    heading = sentence(lambda x: " ".join(map(x.word, headings)))
     return Block("section", "", "", (heading,), 0)
 
 
 def _motion(d: Derivation) -> Iterator[Block]:
     """What moves, and by which equations; each letter in them that the problem defines."""
     home = {e: step.label for step in d.steps for e in step.equations}
-    entries = [_sentence(lambda x: system(d, x))] if system(d, language("en")) else []
+    entries = [sentence(lambda x: system(d, x))] if system(d, language("en")) else []
     motion = equations_of_motion(d)
-    entries.append(_sentence(lambda x: x.word("Its equations of motion are")))
-    entries.append(_display(motion, [s.label for s in steps_of_answer(d)]))
+    entries.append(sentence(lambda x: x.word("Its equations of motion are")))
+    entries.append(display(motion, [s.label for s in steps_of_answer(d)]))
     if defined := definitions(d, motion):
-        entries.append(_sentence(lambda x: x.word("where")))
-        entries.append(_display(defined, [*dict.fromkeys(home[e] for e in defined)]))
+        entries.append(sentence(lambda x: x.word("where")))
+        entries.append(display(defined, [*dict.fromkeys(home[e] for e in defined)]))
     yield Block("text", "", "", tuple(entries), 0)
+
+
+def _body(d: Derivation) -> Iterator[Block]:
+    """The figure of its body, where it has one."""
+    if drawn := scene(d):
+        described = sentence(lambda x: x.word(BODY))
+        caption = sentence(lambda x: x.of(drawn.caption))
+        yield Block("figure", label_of(d.name, "body"), "", (described, caption), 0)
+
+
+def _parameters(d: Derivation) -> Iterator[Block]:
+    """The table of its parameters, three cells a row: those of one meaning and unit with their
+    numbers, the unit, the meaning."""
+    cells: list[Entry] = []
+    told = [*zip(*(declared(d, x) for x in SPOKEN), strict=True)]
+    for (unit, *_), run in groupby(told, lambda row: (row[0][2], *(x[1] for x in row))):
+        rows = [*run]
+        valued = (_valued([row[k] for row in rows], x) for k, x in enumerate(SPOKEN))
+        meanings = ((Given(x[1]),) for x in rows[0])
+        shown = re.sub(r"\^(-?\d+)", lambda x: x[1].translate(SUPERSCRIPTS), unit)
+        cells += [in_each(*valued), in_each(*((Given(shown),) for _ in SPOKEN))]
+        cells.append(in_each(*meanings))
+    if cells:
+        yield Block("table", "", "", tuple(cells), 0)
+
+
+def _valued(rows: Sequence[tuple[str, str, str, str]], spoken: Language) -> Words:
+    """Parameters with their numbers, where they have one."""
+    found: list[str | Formula] = []
+    for name, _, _, default in rows:
+        value = f" = {default.replace('-', '−')}" if default else ""
+        found += [Formula(f"‘{name}’", condition=True, value=value), LISTED[spoken.name]]
+    return tuple(found[:-1])
 
 
 def _told(problem: str, search: str, found: Found) -> Block:
     """The steps that a search tells, or one sentence: why it was refused, or that it found none."""
     if found.refused:
         reason = found.refused.removeprefix(f"{problem}: ")
-        refused = _sentence(
+        refused = sentence(
             lambda x: x.word("This was not found: {reason}.", reason=_reason(reason, x))
         )
         return Block("text", "", "", (refused,), 0)
     entries: list[Entry] = []
-    for step in found.steps:
-        name = step.label.removeprefix(f"{problem}.")
-        for begin, with_equations in TOLD[search].items():
-            if name.startswith(begin):
-                labels = () if with_equations else (step.label,)
-                entries.append(_sentence(partial(_prose, step), labels))
-                if with_equations:
-                    entries += _displays(step)
+    begins = {x: f"{problem}.{x}" for x in TOLD[search]}
+    told = [(s, x) for s in found.steps for x, y in begins.items() if s.label.startswith(y)]
+    for (prose, begin), run in groupby(told, lambda x: (x[0].prose, x[1])):
+        steps = [step for step, _ in run]
+        with_equations = TOLD[search][begin]
+        labels = () if with_equations else [x.label for x in steps]
+        entries.append(sentence(partial(_prose, prose), labels))
+        if with_equations:
+            entries += _displays(steps)
     if not entries:
-        entries = [_sentence(lambda x: x.word(NONE.get(search, "There is none.")))]
+        entries = [sentence(lambda x: x.word(NONE.get(search, "There is none.")))]
     return Block("text", "", "", tuple(entries), 0)
 
 
 def _pictured(problem: str, ran: Ran | Sentence) -> Iterator[Block]:
     """The figure of a motion with what is said of it, or one sentence: why there is none."""
     if isinstance(ran, Sentence):
-        yield Block("text", "", "", (_sentence(lambda x: x.sentence(ran)),), 0)
+        yield Block("text", "", "", (sentence(lambda x: x.sentence(ran)),), 0)
         return
     label = label_of(problem)
-    texts = tuple(
-        (*_words(ran.told(x)), f" ({x.word('Fig.').lower()} @{label})") for x in _languages()
+    texts = (
+        (*words(ran.told(x).removesuffix(".")), f" ({x.word('Fig.').lower()} @{label}).")
+        for x in SPOKEN
     )
-    yield Block("text", "", "", (Entry(texts, (), display=False, line=0),), 0)
-    described = _sentence(lambda x: x.word(DESCRIBED))
-    yield Block("figure", label, "", (described, _sentence(ran.caption)), 0)
+    yield Block("text", "", "", (in_each(*texts),), 0)
+    described = sentence(lambda x: x.word(DESCRIBED))
+    yield Block("figure", label, "", (described, sentence(ran.caption)), 0)
 
 
-def _displays(step: Step) -> Iterator[Entry]:
-    """What a step says, of a conservation what is kept alone; of what is too long, where it is."""
-    kept = [e for e in step.equations if e.rhs != 0 and {"ϖ", "dϖ"} & {*names(e.lhs)}]
-    told = kept if kept and step.label.rpartition(".")[2].startswith("conserved_") else None
-    for long, run in groupby(told or step.equations, lambda e: _rows(e) > LONGEST):
+def _displays(steps: Sequence[Step]) -> Iterator[Entry]:
+    """What steps say, of a conservation what is kept alone; of what is too long, where it is."""
+    told: list[tuple[Equation, str]] = []
+    for step in steps:
+        kept = [e for e in step.equations if e.rhs != 0 and {"ϖ", "dϖ"} & {*names(e.lhs)}]
+        alone = kept and step.label.rpartition(".")[2].startswith("conserved_")
+        told += [(e, step.label) for e in (kept if alone else step.equations)]
+    for long, run in groupby(told, lambda x: _rows(x[0]) > LONGEST):
+        equations, labels = zip(*run, strict=True)
+        places = [*dict.fromkeys(labels)]
         if not long:
-            yield _display((*run,), (step.label,))
+            yield display(equations, places)
         else:
-            yield _sentence(partial(_left_out, [*run]), (step.label,))
+            yield sentence(partial(_left_out, equations), places)
 
 
 def _rows(e: Equation) -> int:
@@ -207,5 +248,5 @@ def _reason(told: str, words: Language) -> str:
     return told
 
 
-def _prose(step: Step, words: Language) -> str:
-    return words.of(step.prose)
+def _prose(told: Prose, words: Language) -> str:
+    return words.of(told)

@@ -6,6 +6,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from ..language.reserved import GREEK
+from ..language.show import SUBSCRIPTS, SUPERSCRIPTS
 from ..views.figure.drawing import Label, Scene
 from ..views.language import Language
 from .body_figures import marks
@@ -21,14 +23,12 @@ ROUNDING = 1e-10
 """Less of a change, in the energy, is said no closer: it differs from machine to machine."""
 LOST = 1e-3
 """More of a change, in the energy, is no error of steps."""
-LETTERS = {"zeta": "ζ", "Pi": "Π"}
 SPELT = str.maketrans("0123456789", "ghijklmnop")
-BELOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
-def label_of(problem: str) -> str:
-    """The label of the figure of a problem, in small letters alone."""
-    return f"run_{re.sub('[^a-z]', lambda x: f'_{ord(x[0]):x}'.translate(SPELT), problem)}"
+def label_of(problem: str, kind: str = "run") -> str:
+    """The label of a figure of a problem, in small letters alone."""
+    return f"{kind}_{re.sub('[^a-z]', lambda x: f'_{ord(x[0]):x}'.translate(SPELT), problem)}"
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Ran:
     def caption(self, words: Language) -> str:
         """Which curve is which."""
         coloured = zip(COLOURS, self.curves, strict=False)
-        named = (words.word(colour, name=_letter(x)) for colour, (x, _) in coloured)
+        named = (words.word(colour, name=letter_of(x)) for colour, (x, _) in coloured)
         return words.word("The motion: {curves} over time.", curves=", ".join(named))
 
     def told(self, words: Language) -> str:
@@ -56,7 +56,8 @@ class Ran:
             return (
                 f"{words.word(RUN)} {words.word('Its energy goes from {first} to {last}.', **ends)}"
             )
-        bound = f"{10.0 ** _exponent(max(change, ROUNDING * abs(self.energy[0]))):g}"
+        exponent = _exponent(max(change, ROUNDING * abs(self.energy[0])))
+        bound = f"10{str(exponent).translate(SUPERSCRIPTS)}" if exponent < 0 else f"{10**exponent}"
         kept = "Its energy, {energy} at first, changes by less than {change}."
         energy = f"{self.energy[0]:.4g}"
         return f"{words.word(RUN)} {words.word(kept, energy=energy, change=bound)}"
@@ -81,9 +82,9 @@ def _exponent(x: float) -> int:
     return int(f"{x:e}".partition("e")[2]) + 1 if x else -12
 
 
-def _letter(name: str) -> str:
+def letter_of(name: str) -> str:
     """A name of the code as the letter of the equations, or in quotes."""
     base, _, index = name.rpartition("_")
-    if index.isdigit() and (base in LETTERS or base == "w"):
-        return f"{LETTERS.get(base, base)}{index.translate(BELOW)}"
+    if index.isdigit() and (base in GREEK or base == "w"):
+        return f"{GREEK.get(base, base)}{index.translate(SUBSCRIPTS)}"
     return f"‘{name}’"

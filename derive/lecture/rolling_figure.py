@@ -19,6 +19,8 @@ LONGEST = 1.6
 """An axis of the ellipsoid that is longer is drawn as long, and all else smaller with it."""
 SEEN = 75.0, 20.0
 """From where the left is seen, in degrees."""
+BESIDE_IT = -1.3, 0.35
+"""Where the angular momentum stands on the plane, clear of the ellipsoid."""
 
 
 def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
@@ -105,13 +107,13 @@ def _ellipsoid(claims: Claims, moments: Vector) -> Scene:
         strokes += view.on_surface(circle, image, front, AXES[k], "thin")
     polhode = [tuple(x / a for x, a in zip(m[0], axes, strict=True)) for m in motion]
     strokes += view.on_surface(polhode, image, front, "body")
-    foot = view.at((0.0, 0.0, height))
-    strokes += [*arrow(view.at((0.0, 0.0, 0.0)), view.at(placed(START)), "axis")]
-    strokes += [*arrow(view.at((0.0, 0.0, 0.0)), foot, "axis")]
-    contact = view.at(placed(START))
+    centre, contact = view.at((0.0, 0.0, 0.0)), view.at(placed(START))
+    head, foot = (view.at((*BESIDE_IT, x)) for x in (height / 5, height))
+    strokes.append(Stroke((centre, view.at((0.0, 0.0, height))), "axis", "hidden"))
+    strokes += [*arrow(centre, contact, "axis"), *arrow(head, foot, "axis")]
     labels = [
-        Label("ℓ", at=(foot[0] + 2.4, (foot[1] + view.centre[1]) / 2)),
-        Label("Aζ", at=(contact[0] - 4.4, contact[1] - 1.4)),
+        Label("ℓ", at=(head[0] + 2.2, (head[1] + foot[1]) / 2)),
+        Label("Aζ", at=(contact[0] - 3.8, contact[1] - 4.0)),
         Label("O", at=(view.centre[0] - 2.6, view.centre[1] + 1.4)),
     ]
     return panel((66, 54), strokes, labels, [Dot(view.centre, 0.6, "body")])

@@ -14,7 +14,7 @@ from ..views.figure.drawing import Label, Scene, Stroke, arrow
 from .lecture_text import tree
 from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, number, panel, solved
 
-PARAMETERS = {"‘I_1’": 1.0, "‘I_3’": 0.4, "‘P’": 1.5}
+PARAMETERS = {"‘I_1’": 1.0, "‘I_3’": 0.4, "‘mgl’": 1.5}
 SPIN, UPPER = 3.0, 0.6
 """The momentum about the axis; the cosine of the upper tilt, where the axis is at first."""
 PRECESSIONS = {"waves": 0.27, "cusps": 0.0, "loops": -0.6}

@@ -30,7 +30,7 @@ def number(f):
 
 
 def test_a_polygon():
-    """∮ f ds and ∮ ⟨c, dγ⟩ of exponentials, between corners that are places."""
+    """∮ f ds and ∮ ⟨c, dχ⟩ of exponentials, between corners that are places."""
     draw = drawing()
     space = FlatTorus(K)
     polygon = curve(space, space.of_points(), draw, level=False)

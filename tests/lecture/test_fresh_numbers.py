@@ -108,12 +108,12 @@ def test_inertia_and_energy(exercises):
 def test_tops(exercises):
     """Precession by roots of the momentum law; the fall by the law of the angular momentum."""
     given, found = exercises["steady"]
-    across, weight, u, spin = (given[x] for x in ("‘I_1’", "‘P’", "A₃₃", "𝒥₂"))
+    across, weight, u, spin = (given[x] for x in ("‘I_1’", "‘mgl’", "A₃₃", "𝒥₂"))
     assert found == pytest.approx(sorted(np.roots([across * u, -spin, weight])), rel=6e-3)
     given, (rate,) = exercises["horizontal"]
-    assert rate == pytest.approx(given["‘P’"] / given["𝒥₂"])
+    assert rate == pytest.approx(given["‘mgl’"] / given["𝒥₂"])
     given, (lower,) = exercises["cusps"]
-    across, weight, u, spin = (given[x] for x in ("‘I_1’", "‘P’", "A₃₃", "𝒥₂"))
+    across, weight, u, spin = (given[x] for x in ("‘I_1’", "‘mgl’", "A₃₃", "𝒥₂"))
     n, up = np.array([math.sqrt(1 - u * u), 0, u]), np.array([0, 0, 1])
 
     def moved(_, x):

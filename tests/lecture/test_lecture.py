@@ -191,7 +191,26 @@ def test_without_solutions(lang, records):
         (document.latex, "Solutions"),
     ):
         assert mark in shown(document.Lecture(CHAPTERS, words, records))
-        assert mark not in shown(document.Lecture(CHAPTERS, words, records, solutions=False))
+        none = shown(document.Lecture(CHAPTERS, words, records, solutions="none"))
+        assert mark not in none
+        named = {*re.findall(r'(?:id="|label\{)([^"}]+)', none)}
+        assert {*re.findall(r'(?:href="#|pageref\{|letterrow.*\{)(letter-\d+)', none)} <= named
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_solutions_in_a_chapter_at_the_end(lang, records):
+    """The very last one, behind the bibliography, with all of them, by the chapters' titles."""
+    made = document.Lecture(CHAPTERS, language(lang), records, solutions="end")
+    page = document.page(made)
+    before, _, behind = page.partition('<section id="solutions">')
+    assert '<details class="solution">' not in before
+    assert before.rfind("bibliography") > 0
+    exercises = sum(b.kind == "exercise" for c in CHAPTERS for b in c.blocks)
+    numbers = re.findall(r"<summary>Solution (\d+)</summary>", behind)
+    assert [*map(int, numbers)] == [*range(1, exercises + 1)]
+    tex = document.latex(made)
+    assert tex.count(r"\lecturesection{\ref{") == len(CHAPTERS)
+    assert tex.rfind(r"\behind{Solutions}") > tex.rfind(r"\behind{Bibliograph")
 
 
 @needs("the TeX of the lecture")

@@ -2,6 +2,7 @@
 nothing, or is refused, is a sentence."""
 
 import re
+import unicodedata
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,7 +12,7 @@ from derive.command.cli import main
 from derive.command.lecturing import chapter_on
 from derive.language.show import show
 from derive.lecture import document
-from derive.lecture.lecture_text import LectureError
+from derive.lecture.lecture_text import Formula, LectureError
 from derive.lecture.problem_chapter import (
     LONGEST,
     REASONS,
@@ -86,17 +87,59 @@ def test_a_search_that_is_refused_says_why():
     assert 0 < page.count("This was not found:") <= len(refused)  # one for one reason
 
 
+def test_a_search_that_takes_too_long_is_a_sentence():
+    """Each search has its own seconds, and the lecture goes on."""
+    chapter, records, _ = chapter_on("lagrange_top", 0.01)
+    page = document.page(document.Lecture([chapter], language("fr"), records))
+    assert "la recherche dépasse 0,01 secondes (--seconds)" in unicodedata.normalize("NFKC", page)
+    assert "Ses équations du mouvement sont" in page
+
+
 def test_of_what_is_kept_the_value_alone_is_shown_and_nothing_too_long(made):
     _, chapter, _ = made
-    shown = [(e.labels[0], x) for e in chapter.entries if e.display for x in e.equations]
+    told = [e for b in chapter.blocks if b.kind != "solution" for e in b.entries if e.display]
+    shown = [(e.labels[0], x) for e in told for x in e.equations]
     told = [x for label, x in shown if ".conserved_" in label]
     assert all(show(x.lhs).startswith(("ϖ(δy)", "dϖ(δy, δ′y)")) and x.rhs != 0 for x in told)
     assert all(_rows(x) <= LONGEST for label, x in shown if "motion" not in label)
 
 
+def test_two_exercises_at_least_whose_copies_are_wrong(made):
+    """The copy of an equation with a mistake does not hold where the solution does."""
+    _, chapter, records = made
+    asked = [b for b in chapter.blocks if b.kind == "exercise"]
+    solved = [b for b in chapter.blocks if b.kind == "solution"]
+    assert len(asked) == len(solved) >= 2
+    copies = [
+        (a, s)
+        for a, s in zip(asked, solved, strict=True)
+        if "mistake" in str(a.entries[0].texts[0])
+    ]
+    assert copies
+    for exercise, solution in copies:
+        (copied,) = exercise.entries[1].formulas[0].recorded
+        right = solution.entries[1]
+        assert copied.lhs == right.equations[0].lhs
+        wrong = replace(right, texts=((Formula("", recorded=(copied,)),),) * len(LANGUAGES))
+        changed = replace(chapter, blocks=(replace(solution, entries=(wrong,)),))
+        with pytest.raises(LectureError, match="does not hold"):
+            list(tried(changed, records, SEED))
+
+
+def test_parameters_have_a_table_and_the_body_a_figure():
+    chapter, records, _ = chapter_on("lagrange_top")
+    (table,) = [b for b in chapter.blocks if b.kind == "table"]
+    given = records["lagrange_top"].problem["parameters"]
+    assert len(table.entries) == 3 * len(given)
+    page = document.page(document.Lecture([chapter], language("fr"), records))
+    for about in given.values():
+        assert language("fr").word(about["meaning"]) in page
+    assert len(chapter.figures) == page.count("<svg") == 2
+
+
 @pytest.mark.parametrize("reason", REASONS)
 def test_a_reason_is_told_in_french_with_its_numbers(reason):
-    told = reason.format(velocities=6, letters=27)
+    told = reason.format(velocities=6, letters=27, seconds=9)
     assert _reason(told, language("en")) == told
     french = _reason(told, language("fr"))
     assert french != told

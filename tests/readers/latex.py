@@ -141,7 +141,8 @@ class _Lexer:
             word = self.words()
             return [("word", {"arctan": "atan"}.get(word, word))]
         if token in (r"\mathsf", r"\parameter"):
-            return [("par", self.words())]
+            word = self.words()
+            return [("par", "ell" if word == r"\ell" else word)]
         if token in (r"\unitmatrix", r"\mathbf"):
             bold = self.words() if token == r"\mathbf" else "1"
             return [("tree", ("one",)) if bold == "1" else ("name", {"m": "𝐦", "n": "𝐧"}[bold])]

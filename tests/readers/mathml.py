@@ -42,7 +42,7 @@ def tokens(node, known):
 
 def _letter(text, kind, upright):
     if kind == "parameter":
-        return [("par", text)]
+        return [("par", "ell" if text == "ℓ" else text)]
     if upright:
         return [("word", text)]
     several = len(text) > 1 and text.isascii()

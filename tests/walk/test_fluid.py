@@ -153,9 +153,9 @@ def on_curve(tree, names, start):
         return sympy.sympify(f).subs(dict(zip(PLACE, place, strict=True)), simultaneous=True)
 
     def value(tree):
-        if tree in ("γ_s", "γ̇", "κ", 0, -1):
+        if tree in ("χ_s", "χ̇", "κ", 0, -1):
             density = along(names.get("ρ", 1))
-            known = {"γ_s": place.diff(s), "γ̇": place.diff(t), "κ": density}
+            known = {"χ_s": place.diff(s), "χ̇": place.diff(t), "κ": density}
             return known.get(tree, tree)
         op, *parts = tree
         if op == "call":
@@ -296,7 +296,7 @@ def test_a_wrong_structure_equation_leads_nowhere(name, monkeypatch):
 
 
 def test_a_pair_along_a_curve_is_read_either_way():
-    """What ⟨Γ grad p, γ_s⟩ becomes is what its transpose does, transposed."""
+    """What ⟨Γ grad p, χ_s⟩ becomes is what its transpose does, transposed."""
     pushed = word(circulation.CURVE) * word(GRADIENT)
     rule = circulation.along_curve(GRADIENT)
     assert reduce(pushed, rule) not in (pushed, pushed.bar)

@@ -220,7 +220,7 @@ class FluidValues:
             return self.model.rate_of_energy
         if t == ("call", "ϖ", "δy") and self.model.at.lift:
             return self.model.cartan_varied(EPS_PRIME)
-        if t in (ALONG_CURVE, "γ_s"):
+        if t in (ALONG_CURVE, "χ_s"):
             return self._rate(t)
         if not isinstance(t, tuple) or t[0] not in ("inner", "metric"):
             raise EvaluationError("d/dt is of a scalar product")
@@ -236,15 +236,15 @@ class FluidValues:
         return total
 
     def _rate(self, t: Tree) -> Value:
-        """The rate of u, ϑ, Γu or γ_s."""
+        """The rate of u, ϑ, Γu or χ_s."""
         model = self.model
         if t == ALONG_CURVE:
             rest = zip(model.acceleration, model.u, strict=True)
             return tuple(model.curve.of_space(x) + model.rate_on_curve(y) for x, y in rest)
-        if t == "γ_s":
+        if t == "χ_s":
             return tuple(x.d(0) for x in model.velocity_of_curve)
         if t not in ("u", "ϑ"):
-            raise EvaluationError("the rates of u and ϑ, of Γu and γ_s are known")
+            raise EvaluationError("the rates of u and ϑ, of Γu and χ_s are known")
         return self.named({"u": "u̇", "ϑ": "ϑ̇"}[str(t)])
 
     def of_level(self, f: Function) -> Function:
@@ -395,8 +395,8 @@ NAMES: dict[str, Callable[[Any], Value]] = {
     "Γ_0": lambda v: componentwise(v.model.curve.of_points),
     "Γ̇": lambda v: componentwise(v.model.rate_on_curve),
     "∂_s": lambda v: componentwise(v.along_curve, on_curve=True),
-    "γ_s": lambda v: v.model.curve.tangent,
-    "γ̇": lambda v: v.model.velocity_of_curve,
+    "χ_s": lambda v: v.model.curve.tangent,
+    "χ̇": lambda v: v.model.velocity_of_curve,
     "κ": lambda v: v.of_level(v.model.curve.of_space(v.model.density)),
     "κ̇": lambda v: v.of_level(v.model.rate_of_level),
 }

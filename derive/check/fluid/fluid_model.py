@@ -294,7 +294,7 @@ class FluidModel:
 
     @cached_property
     def velocity_of_curve(self) -> Fields:
-        """∂γ/∂t, ν along the curve of the points."""
+        """∂χ/∂t, ν along the curve of the points."""
         return tuple(self.curve.of_points(part(x, 0)) for x in self.nu)
 
     @property

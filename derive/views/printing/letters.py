@@ -124,11 +124,15 @@ HARMLESS = re.compile(
 SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 
 
+def named_so(shown: str) -> str:
+    """The name of a parameter as text shows it between quotes: x₁ is x_1."""
+    return re.sub("[₀-₉]+$", lambda index: "_" + index[0].translate(SUBSCRIPTS), shown)
+
+
 def quoted(shown: str, names: Mapping[str, str]) -> Formula:
-    """The formula of a parameter as text shows it between quotes: x₁ is x_1; of words, the
-    words."""
-    name = re.sub("[₀-₉]+$", lambda index: "_" + index[0].translate(SUBSCRIPTS), shown)
-    return sans(shown.replace(" ", r"\ "), shown) if " " in shown else parameter(name, names)
+    """The formula of a parameter as text shows it between quotes; of words, the words."""
+    found = " " in shown
+    return sans(shown.replace(" ", r"\ "), shown) if found else parameter(named_so(shown), names)
 
 
 def names_of(symbols: Iterable[Symbol], parameters: Collection[str] = ()) -> dict[str, str]:
@@ -155,7 +159,7 @@ def parameter(name: str, names: Mapping[str, str] = NAMES) -> Formula:
     )
     if match:
         return lowered(_base(match[1], names), sans(match[2], match[2]))
-    if name in GREEK:
+    if name in (*GREEK, "ell"):
         return _base(name, names)
     if re.fullmatch(r"[A-Za-z0-9_]+", name):
         return sans(name.replace("_", r"\_"), name)
@@ -164,7 +168,9 @@ def parameter(name: str, names: Mapping[str, str] = NAMES) -> Formula:
 
 def _base(word: str, names: Mapping[str, str]) -> Formula:
     """A word sans serif; a Greek letter as itself, where the record, or no walk at all, gives it no
-    meaning."""
+    meaning; the momentum ell of a family of equilibria as ℓ."""
+    if word == "ell":
+        return sans(r"\ell", "ℓ")
     free = word in GREEK and (GREEK[word] not in VOCABULARY or f"free {word}" in names)
     return literal(rf"\{word}") if free else sans(word, word)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TypeVar
 
@@ -61,6 +61,8 @@ WIDTH = 100
 """The columns of a text, where nothing else is said."""
 
 MARK = re.compile("[\u0300-\u036f]")
+SIGN = re.compile(r"(?:\s|\{\})*[+−=-]")
+"""What begins a term, not a factor."""
 
 
 @dataclass(frozen=True)
@@ -98,6 +100,11 @@ def fill(
     current = ""
     for group in groups(pieces):
         text = "".join(p.text for p in group)
+        if lines and not current and lines[-1].inside and not SIGN.match(text):
+            closed = lines[-1].text + text.rstrip()  # a factor behind a bracket, as δt
+            if measure(closed) <= room - indent * lines[-1].inside:
+                lines[-1] = replace(lines[-1], text=closed)
+                continue
         if measure((current + text).strip()) <= room:
             current += text
             continue

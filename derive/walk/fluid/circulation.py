@@ -202,18 +202,18 @@ def skew_part(e: Expr, a: FluidAlphabet) -> Expr:
     return reduce(e, lambda x, y: product if {x[0], y[0]} == both else None)
 
 
-# Kelvin's theorem: the circulation along a closed curve γ = g ∘ γ₀ that the fluid carries along.
+# Kelvin's theorem: the circulation along a closed curve χ = g ∘ χ₀ that the fluid carries along.
 #
-# Γ = Γ₀G,  d/dt⟨Γu, γ_s⟩ = ⟨Γ(u̇ + ∇_u u), γ_s⟩ + ⟨Γu, ∂_sΓu⟩ = 0
+# Γ = Γ₀G,  d/dt⟨Γu, χ_s⟩ = ⟨Γ(u̇ + ∇_u u), χ_s⟩ + ⟨Γu, ∂_sΓu⟩ = 0
 #
-# Γ is the composition with γ and ∂_s the derivative along it, skew as γ is closed: so the last
+# Γ is the composition with χ and ∂_s the derivative along it, skew as χ is closed: so the last
 # term vanishes, and so does the first, where Γ(u̇ + ∇_u u) is that of gradients. With a density
 # it is where Γρ = κΓ.
 
 INITIAL_CURVE, CURVE = Letter("Γ_0", "curve", "n"), Letter("Γ", "curve", "n")
-"""The composition with γ₀, of fields over the points, and with γ, of fields in space."""
+"""The composition with χ₀, of fields over the points, and with χ, of fields in space."""
 ALONG = Letter("∂_s", "curve", "curve", symmetry=-1)
-TANGENT, LEVEL, CHANGE = Letter("γ_s", "curve"), Letter("κ"), Letter("κ̇")
+TANGENT, LEVEL, CHANGE = Letter("χ_s", "curve"), Letter("κ"), Letter("κ̇")
 
 
 def kelvin(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) -> tuple[Step, ...]:
@@ -223,7 +223,7 @@ def kelvin(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) -> 
 
 
 def _advected(a: FluidAlphabet, c: Chapter) -> Step:
-    """Γ = Γ₀G, and the rates of γ and Γ by those of g and G."""
+    """Γ = Γ₀G, and the rates of χ and Γ by those of g and G."""
     draft = c.draft("curve", "variation")
     G = a.A.position
     whole = pair_rule((INITIAL_CURVE, False), (G, False), word(CURVE))
@@ -233,8 +233,8 @@ def _advected(a: FluidAlphabet, c: Chapter) -> Step:
     turning = derivation(word(INITIAL_CURVE) * word(G), {G: turned}.get)
     return draft.step(
         (
-            *stated("Γ = Γ₀G,  γ̇ = Γ₀ν"),
-            Equation("γ̇", draft.tree(reduce(moving, whole))),
+            *stated("Γ = Γ₀G,  χ̇ = Γ₀ν"),
+            Equation("χ̇", draft.tree(reduce(moving, whole))),
             Equation("Γ̇", draft.tree(reduce(turning, whole))),
         ),
         say("curve.carried"),
@@ -249,7 +249,7 @@ def _closed(a: FluidAlphabet, c: Chapter) -> Step:
     return draft.step(
         (
             Equation(("T", ALONG.name), draft.tree(word(ALONG).bar)),
-            *stated("∂_sΓ = ∇_γ_s"),
+            *stated("∂_sΓ = ∇_χ_s"),
             Equation(draft.tree(pushed, SHOWN), draft.tree(reduce(pushed, along_curve(GRADIENT)))),
             Equation(read("⟨Γu, ∂_sΓu⟩"), draft.tree(inner(moved, word(ALONG) * moved))),
         ),
@@ -258,7 +258,7 @@ def _closed(a: FluidAlphabet, c: Chapter) -> Step:
 
 
 def along_curve(slope: Letter) -> PairRule:
-    """⟨Γ grad p, γ_s⟩ = ⟨1, ∇_γ_s p⟩ = ⟨1, ∂_sΓp⟩ over the curve, and ∂_s1 = 0: as rules."""
+    """⟨Γ grad p, χ_s⟩ = ⟨1, ∇_χ_s p⟩ = ⟨1, ∂_sΓp⟩ over the curve, and ∂_s1 = 0: as rules."""
     values, unit, pushed = Letter("Γp", "values"), Letter("1", "values"), Letter("Γ grad", "curve")
     down = Letter("∂_s", "values", "values", symmetry=-1)
 
@@ -301,7 +301,7 @@ def on_level(a: FluidAlphabet) -> PairRule:
 
 
 def _conserved(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) -> Step:
-    """The rate of ⟨Γu, γ_s⟩, which is 0 by the equation of motion."""
+    """The rate of ⟨Γu, χ_s⟩, which is 0 by the equation of motion."""
     draft = c.draft("kelvin", "conservation")
     u, rate, curve = a.w.velocity, a.w.acceleration, word(CURVE)
     images = {

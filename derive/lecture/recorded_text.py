@@ -1,0 +1,41 @@
+"""Entries of a chapter that are made of records: sentences in each language, equations of steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from ..language.show import show
+from ..record.record import Equation
+from ..views.language import LANGUAGES, Language, language
+from ..views.printing.sentences import prose
+from .lecture_text import Entry, Formula, Tie, Words, words_of
+
+SPOKEN: tuple[Language, ...] = tuple(map(language, LANGUAGES))
+
+
+def words(text: str) -> Words:
+    """A sentence of a record, whose formulas are as true as it."""
+    return tuple(
+        Formula(x.text, condition=True) if isinstance(x, Formula) else x
+        for x in words_of(prose(text, escape=str, formula="`{}`".format))
+    )
+
+
+def in_each(*texts: Words, labels: Sequence[str] = ()) -> Entry:
+    """An entry of a text in each language."""
+    return Entry(texts, (Tie(tuple(labels)),) if labels else (), display=False, line=0)
+
+
+def sentence(said: Callable[[Language], str], labels: Sequence[str] = ()) -> Entry:
+    """A sentence in each language, by what it is in one."""
+    return in_each(*(words(said(x)) for x in SPOKEN), labels=labels)
+
+
+def display(
+    equations: Sequence[Equation], labels: Sequence[str] = (), *, condition: bool = False
+) -> Entry:
+    """Equations of steps, one below the other; ``condition``: they are not tried."""
+    text = ",  ".join(f"{show(e.lhs)} = {show(e.rhs)}" for e in equations)
+    formula: Words = (Formula(text, condition, tuple(equations)),)
+    ties = (Tie(tuple(labels)),) if labels else ()
+    return Entry((formula,) * len(LANGUAGES), ties, display=True, line=0)
