@@ -19,6 +19,7 @@ from .factor import factored
 from .graph import Node, reachable
 from .group_functions import GroupFunctions
 from .inverse_dynamics import dynamics
+from .kinks import kinks
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
@@ -122,6 +123,7 @@ def _further(d: Derivation, space: StateSpace, chosen: Options) -> dict[str, Any
     return {
         "outputs": output_names(d),
         "state_by_block": by_block if by_block != names else (),
+        "kinks": kinks(d.problem, space.group) if chosen.jacobian else {},
         "blocks": matrices(space),
         "matrix_state": door.names if door else (),
         "matrix_blocks": matrices(plain) if door else (),

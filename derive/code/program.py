@@ -262,6 +262,8 @@ class Program:
     """State, parameters and inputs at the start, where a language asks for these."""
     state_by_block: tuple[str, ...] = ()
     """The names of the state, where several blocks move those of the velocity by their blocks."""
+    kinks: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """What comments say of where rates and outputs have no derivative."""
     group_functions: Any = None
     """What the functions of the group know (``group_functions.GroupFunctions``), if asked for."""
 
