@@ -176,7 +176,9 @@ def _by_charts(program: Program, problem: Problem, found: Mapping[str, float]) -
             told = _quaternion(tuple(tuple(g[i][j] for j in own) for i in own))
             numbers |= dict(zip(chart.names, told, strict=True))
         for block in chart.blocks:
-            if not block.turn:
+            if block.growth:
+                told = [math.log(block.scaled(g)) / float(block.growth)]
+            elif not block.turn:
                 told = [*block.logarithm(g)]
             else:
                 shift, cosine, sine = block.turned(g)
