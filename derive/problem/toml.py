@@ -227,13 +227,8 @@ def _without_points(
     for key in ("point", "solid", "body", "potential", "flow", "kinematics"):
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
-    acting = {f"force {k}": x for k, x in enumerate(tables(data, "force"), 1)}
-    acting |= {f"input {k}": x for k, x in enumerate(tables(data, "input"), 1)}
-    acting |= {f"damping {k}": x for k, x in enumerate(tables(data, "damping"), 1)}
-    for key, x in acting.items() if advected is not None else ():
-        if "covector" not in x and x.get("kind") not in ("covector", "scalar"):
-            other = "[[force]] covector" if key.startswith("damping") else "a covector"
-            raise ProblemError(f"{key}: an algebra moves no places: give {other}")
+    if advected is not None:
+        _require_covectors(data)
     group = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
     reader = FileReader()
     reader.moves(group)
@@ -272,6 +267,17 @@ def _without_points(
     )
     _declared(problem, data)
     return problem
+
+
+def _require_covectors(data: Mapping[str, Any]) -> None:
+    """``ProblemError`` where something acts at a place, which an algebra does not move."""
+    acting = {f"force {k}": x for k, x in enumerate(tables(data, "force"), 1)}
+    acting |= {f"input {k}": x for k, x in enumerate(tables(data, "input"), 1)}
+    acting |= {f"damping {k}": x for k, x in enumerate(tables(data, "damping"), 1)}
+    for key, x in acting.items():
+        if "covector" not in x and x.get("kind") not in ("covector", "scalar"):
+            other = "[[force]] covector" if key.startswith("damping") else "a covector"
+            raise ProblemError(f"{key}: an algebra moves no places: give {other}")
 
 
 def _positive(where: str | None, what: str) -> None:
