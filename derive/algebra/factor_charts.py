@@ -2,8 +2,9 @@
 
 A factor that turns R³ has a unit quaternion for its rotation.  A block in which the group acts by
 exp(Σ x_a E_a) has the coordinates x_a: one parameter, E nilpotent or with E⁴ = −w²E² (a turn, a
-screw), or several whose products E_a E_b vanish.  What an affine factor translates by, T, is beside
-the chart of its linear part.  What has no chart is told by its entries.
+screw), or diagonal with rational eigenvalues (a scaling, a boost), or several whose products
+E_a E_b vanish.  What an affine factor translates by, T, is beside the chart of its linear part.
+What has no chart is told by its entries.
 """
 
 from __future__ import annotations
@@ -12,13 +13,14 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import isqrt
+from math import gcd, isqrt
 from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.reserved import suffixed
 from .groups import Group
+from .samplers import one_parameter
 
 QUATERNION, COORDINATES = "quaternion", "coordinates"
 
@@ -35,12 +37,14 @@ KINDS: dict[str, tuple[str, ...]] = {
 class CoordinateBlock:
     """A block exp(Σ x_a E_a) of the group's matrices, in some ``rows`` from 0: ``basis``, the E_a
     in these rows; ``members``, the numbers a from 1; ``turn``: w where E⁴ = −w²E², 0 where
-    products of the E_a vanish from some power on."""
+    products of the E_a vanish from some power on; ``growth``: l where the eigenvalues of E, which
+    is diagonal in some basis, are integers times l, ±1 among these, else 0."""
 
     rows: tuple[int, ...]
     basis: tuple[Matrix, ...]
     members: tuple[int, ...]
     turn: Fraction
+    growth: Fraction = Fraction(0)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -96,6 +100,20 @@ class CoordinateBlock:
         if not any(map(any, slide)):
             return (None, *_spanned(circle).nearest(found))
         return _spanned([slide, *circle]).nearest(found)
+
+    @cached_property
+    def scalings(self) -> tuple[tuple[int, Matrix], ...]:
+        """The n and projections P with exp xE = Σ eⁿˡˣ P, l the growth."""
+        known = one_parameter(self.basis[0])
+        assert known is not None
+        shared = gcd(*(n for n, _ in known.powers))
+        return tuple((n // shared, P) for n, P in known.powers)
+
+    def scaled(self, g: Matrix) -> Any:
+        """The eˡˣ of a block that is scaled, over any field."""
+        found = _spanned([P for _, P in self.scalings]).nearest(self.inside(g))
+        n, y = next((n, y) for (n, _), y in zip(self.scalings, found, strict=True) if n**2 == 1)
+        return y if n == 1 else 1 / y
 
 
 @dataclass(frozen=True)
@@ -186,7 +204,29 @@ def _block(rows: Sequence[int], members: Sequence[tuple[int, Matrix]]) -> Coordi
         flat = flat and q.rank(tuple(map(q.flatten, basis))) == len(basis)
         return CoordinateBlock(tuple(rows), basis, numbers, Fraction(0)) if flat else None
     turn = _turn(basis[0])
-    return None if turn is None else CoordinateBlock(tuple(rows), basis, numbers, turn)
+    growth = Fraction(0) if turn is not None else _growth(basis[0])
+    known = turn is not None or growth
+    return (
+        CoordinateBlock(tuple(rows), basis, numbers, turn or Fraction(0), growth) if known else None
+    )
+
+
+def _growth(e: Matrix) -> Fraction:
+    """The l of which eigenvalues of E are integer multiples, ±1 among these; 0 for none, or where E
+    is not diagonal in a basis over Q."""
+    known = one_parameter(e)
+    if known is None or any(map(any, (*known.plane, *known.nilpotent))):
+        return Fraction(0)
+    values = [x for n, P in known.powers for x in [_eigenvalue(e, P)] if n]
+    least = min(map(abs, values))
+    return least if all((x / least).denominator == 1 for x in values) else Fraction(0)
+
+
+def _eigenvalue(e: Matrix, projection: Matrix) -> Fraction:
+    """That of E on the image of a projection."""
+    image = q.times(e, projection)
+    i, j = next((i, j) for i, row in enumerate(projection) for j, x in enumerate(row) if x)
+    return Fraction(image[i][j] / projection[i][j])
 
 
 def _turn(e: Matrix) -> Fraction | None:

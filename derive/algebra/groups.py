@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 from ..language import rational as q
 from ..language.rational import Matrix
+from ..language.reserved import suffixed
 from .samplers import Sampler, Source, inner_sampler
 from .structure import combined, commutator, sparse
 
@@ -274,6 +275,19 @@ class Group:
         if self._inner_sampler is None:
             raise ValueError(f"{self.name}: no exact elements are known")
         return self._inner_sampler(random, size)
+
+
+def names_by_block(group: Group) -> dict[str, str]:
+    """The coordinates of the velocity of a product, each by the name that it has where its block is
+    alone, with the number of the block: ``zeta_4`` → ``zeta2_1``, ``zeta_7`` → ``w2_1``; none
+    without several blocks."""
+    own = []
+    for k, (_, factor) in enumerate(group.places, 1):
+        turns = factor.dimension - factor.n * factor.free_translations
+        own += [suffixed(f"zeta{k}", i + 1) for i in range(turns)]
+        own += [suffixed(f"w{k}", i + 1) for i in range(factor.dimension - turns)]
+    several = len(group.places) > 1
+    return {suffixed("zeta", a): x for a, x in enumerate(own, 1)} if several else {}
 
 
 # The entries of an element of a group, by those that tell them: the affine hull of the group.

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from ..algebra.groups import Group
+from ..algebra.groups import Group, names_by_block
 from ..language.limits import SLOPES
 from ..language.reserved import suffixed
 from ..language.show import show
@@ -19,6 +19,7 @@ from .factor import factored
 from .graph import Node, reachable
 from .group_functions import GroupFunctions
 from .inverse_dynamics import dynamics, wanted_rates
+from .kinks import kinks
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
@@ -117,8 +118,12 @@ def _further(d: Derivation, space: StateSpace, chosen: Options) -> dict[str, Any
     group."""
     door = matrix_state(space)
     plain = state_of(d.problem, space.graph, space.standard, replace(chosen, attitude="matrix"))
+    names, known = tuple(space.names), names_by_block(space.group)
+    by_block = tuple(known.get(x, x) for x in names)
     return {
         "outputs": output_names(d),
+        "state_by_block": by_block if by_block != names else (),
+        "kinks": kinks(d.problem, space.group) if chosen.jacobian else {},
         "blocks": matrices(space),
         "matrix_state": door.names if door else (),
         "matrix_blocks": matrices(plain) if door else (),

@@ -76,6 +76,10 @@ def _exponential(g: Graph, block: CoordinateBlock, x: Sequence[Node]) -> Matrix:
         cosine = g.value(g.function("cos", angle), f"cos_{name}")
         sine = g.value(g.function("sin", angle), f"sin_{name}")
         terms = [*zip(block.parts_of_turn, (g.num(1), x[0], cosine, sine), strict=True)]
+    elif rate := block.growth:
+        scale = g.value(g.function("exp", x[0] * rate), f"exp_{block.names[0]}")
+        back = g.recip(scale)
+        terms = [(P, g.product([scale if n > 0 else back] * abs(n))) for n, P in block.scalings]
     else:
         powers = [g.num(1)]
         while len(powers) < len(block.powers):

@@ -367,12 +367,14 @@ def heading(
     if p.on_torus:
         return [*p.conventions, "", *_costs(language, cost)]
     none = "" if p.parameters else " none, every number is in the code."
+    by_block = [*p.by_block]
     return [
         *p.conventions,
         "",
         BASIS,
         *listed("  x = (", p.state, ")", 88),
         *(listed("  y = (", p.momenta, ")", 88) if p.momenta else ()),
+        *(listed("  zeta by the blocks = (", by_block, ")", 88) if by_block else ()),
         *(f"  {line}" for line in basis_lines(p)),
         "",
         f"Parameters p:{none}",

@@ -8,6 +8,7 @@ from itertools import combinations, combinations_with_replacement
 from operator import mul
 from random import Random
 
+from ..algebra.factor_charts import COORDINATES
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.reserved import suffixed
@@ -186,6 +187,9 @@ class Inverses:
             for j, x in enumerate(row)
             if x.op in ("leaf", "value")
         }
+        for chart in self.reader.space.charts.values():  # a scaling has sums of exponentials
+            if chart.kind == COORDINATES:
+                images |= dict.fromkeys(self.reader.space.numbers[chart], self.graph.num(0))
         return tuple(tuple(replaced(x, images) for x in row) for row in m)
 
     def _by_adjugate(self, t: Tree, value: Matrix, name: str) -> Matrix:

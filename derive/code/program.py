@@ -260,8 +260,18 @@ class Program:
     """The names of what ``outputs`` gives, what is read off a motion."""
     start: tuple[tuple[float, ...], ...] = ((), (), ())
     """State, parameters and inputs at the start, where a language asks for these."""
+    state_by_block: tuple[str, ...] = ()
+    """The names of the state, where several blocks move those of the velocity by their blocks."""
+    kinks: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """What comments say of where rates and outputs have no derivative."""
     group_functions: Any = None
     """What the functions of the group know (``group_functions.GroupFunctions``), if asked for."""
+
+    @property
+    def by_block(self) -> dict[str, str]:
+        """Names by blocks → those of the state that are others."""
+        pairs = zip(self.state_by_block, self.state, strict=False)
+        return {own: name for own, name in pairs if own != name}
 
     @property
     def momentum_range(self) -> tuple[int, int]:

@@ -180,8 +180,17 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
     found = {s: bodies.get(s.of or s.name) for s in SIGNATURES}
     own = ("", written.language.name)
     told = {"doc": "kinetic energy, its mean over the torus"} if p.on_torus else {}
+
+    def kinks(name: str) -> tuple[str, ...]:
+        """What the comment of a Jacobian says of them."""
+        kind = "outputs" if "outputs" in name else "rates"
+        varied = name.startswith("jacobian") and name != "jacobian_project"
+        return p.kinks.get(kind, ()) if varied else ()
+
     return {
-        s.name: _function(s, f, sizes) | (told if s.name == "energy" else {})
+        s.name: _function(s, f, sizes)
+        | {"kinks": kinks(s.name)}
+        | (told if s.name == "energy" else {})
         for s, f in found.items()
         if f and s.only in own
     }

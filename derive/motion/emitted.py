@@ -90,6 +90,8 @@ class Emitted(EmittedCode):
             "unsought": unsought,
             "filled": isinstance(problem.body, GivenBody) and bool(problem.body.solids),
         }
+        if program.state_by_block:
+            facts["by_block"] = program.by_block
         base, events, stated = base_units(problem), problem.events, problem.lagrangian
         return cls(program, record, base, step, facts, events, left, order, stated, problem.body)
 

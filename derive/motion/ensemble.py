@@ -16,7 +16,7 @@ from ..problem.problem import Problem
 from .emitted import Emitted
 from .first_numbers import MotionError
 from .native import AT_EVENT, CompileError, Integers, constants, ensemble
-from .run import Array
+from .run import Array, called
 from .simulate import require_mass, require_values
 from .start import OFF_THE_GROUP, Start, start
 from .trajectory import TOLERANCE, Method, instants, reflection, taken_to_group, why_unreached
@@ -115,7 +115,7 @@ class Ensemble:
     def __getitem__(self, name: str) -> Array:
         """What is varied by its name, (motions,), or a column of the states, (motions, instants);
         ``KeyError`` says which there are. A name that is both is that of the states."""
-        if name in self.names:
+        if (name := called(self.facts, name)) in self.names:
             return self.states[..., self.names.index(name)]
         if name in self.varied_names:
             return self.varied[:, self.varied_names.index(name)]

@@ -48,6 +48,7 @@ def first_numbers(
     ``MotionError`` for a name that means nothing, a parameter without a number, a number that is
     none.
     """
+    given = {program.by_block.get(name, name): x for name, x in given.items()}
     emitted = {name: default for name, default, _, _ in program.parameters}
     apart = {name for name in named(problem) if name in problem.parameters}
     defaults = emitted | {x: problem.parameters[x].default for x in sorted(apart - {*emitted})}
@@ -175,7 +176,9 @@ def _by_charts(program: Program, problem: Problem, found: Mapping[str, float]) -
             told = _quaternion(tuple(tuple(g[i][j] for j in own) for i in own))
             numbers |= dict(zip(chart.names, told, strict=True))
         for block in chart.blocks:
-            if not block.turn:
+            if block.growth:
+                told = [math.log(block.scaled(g)) / float(block.growth)]
+            elif not block.turn:
                 told = [*block.logarithm(g)]
             else:
                 shift, cosine, sine = block.turned(g)

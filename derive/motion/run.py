@@ -59,7 +59,8 @@ class Run:
         return tuple(x.name for x in self.columns)
 
     def __getitem__(self, name: str) -> Array:
-        """A column by its name; ``KeyError`` says which there are."""
+        """A column by its name, or by that of a block; ``KeyError`` says which there are."""
+        name = called(self.facts, name)
         if name not in self.names:
             raise KeyError(f"no column {name!r:.60}; there are {', '.join(self.names)}")
         return self.table[:, self.names.index(name)]
@@ -93,6 +94,11 @@ class Run:
         name, rows = self.facts.get("problem", "?"), len(self.table)
         span = f", t = {self.t[0]:g} … {self.t[-1]:g}" if rows else ""
         return f"<run of {name}: {rows} instant{'s' * (rows != 1)}{span}>"
+
+
+def called(facts: Mapping[str, Any], name: str) -> str:
+    """The name of the column that a block of a product calls so; of others their own."""
+    return str(facts.get("by_block", {}).get(name, name))
 
 
 # Runs as files: ``.npz`` of NumPy, ``.csv`` with its facts in a comment below the names of the

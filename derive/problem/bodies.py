@@ -220,29 +220,36 @@ def outputs(
 def as_forces(
     damping: Sequence[AnyDamping], reader: FileReader
 ) -> tuple[tuple[Damping, ...], tuple[StatedForce, ...]]:
-    """The damping that is linear, and the other, and what has a name, as forces of the state; a
-    moment is at a place of its own, the origin of the body."""
-    found: list[StatedForce] = []
+    """The damping that is linear, and the other, what has a name, and beside a Lagrangian all, as
+    forces of the state, in the frame of ζ; a moment is at a place of its own, the origin of the
+    body."""
+    on_the_left = reader.pointless and not reader.on_the_right
+    found, kept = list[StatedForce](), list[Damping]()
     for k, d in enumerate(damping, 1):
-        if isinstance(d, QuadraticDamping) or (isinstance(d, Damping) and d.name):
+        if isinstance(d, Damping) and not (d.name or reader.pointless):
+            kept.append(d)
+        elif isinstance(d, QuadraticDamping | Damping):
             if d.name and len(d.on) > 1:
                 raise ProblemError(
                     f"damping {k}, name: it acts on {len(d.on)} points; give each a table"
                 )
             for i in d.on:
-                first, n = reader.of_place(i)
-                v = velocity_at_place(n, first, i, (0,) * n, turned=False).values()
+                first, factor = reader.factor_of(i)
+                turned = on_the_left and "orthogonal" in factor.relations
+                still = (0,) * factor.n
+                v = velocity_at_place(factor.n, first, i, still, turned=turned).values()
                 size = (hypot(*v),) if isinstance(d, QuadraticDamping) else ()
                 force = tuple(neg(mul(d.coefficient, *size, x)) for x in v)
-                found.append(StatedForce(name=d.name, on=i, force=force))
+                frame = "body" if turned else "space"
+                found.append(StatedForce(name=d.name, on=i, frame=frame, force=force))
         elif isinstance(d, RotationalDamping):
             _, factor = reader.moving().places[d.block - 1]
             reader.places.append(Place(at=(0,) * factor.n, block=d.block))
-            turning = angular_velocity(reader.moving(), d.block)
+            frame = "space" if reader.on_the_right else "body"
+            turning = angular_velocity(reader.moving(), d.block, reader.pointless)
             moment = tuple(neg(mul(d.coefficient, x)) for x in turning)
             on = len(reader.listed_places)
-            found.append(StatedForce(name=d.name, on=on, frame="body", moment=moment))
-    kept = (d for d in damping if isinstance(d, Damping) and not d.name)
+            found.append(StatedForce(name=d.name, on=on, frame=frame, moment=moment))
     return tuple(kept), tuple(found)
 
 

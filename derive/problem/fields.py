@@ -176,13 +176,20 @@ def _in_record(group: Group, a: int) -> Tree:
     )
 
 
-def angular_velocity(group: Group, block: int) -> list[Tree]:
-    """The components in the body of that of a block that turns: three, or one in the plane."""
-    if group.turns_space:
+def angular_velocity(group: Group, block: int, by_coordinates: bool = False) -> list[Tree]:
+    """The components in the body of that of a block that turns, three, or one in the plane; or by
+    the coordinates of Z, of which it is the one in space where Z is ġg⁻¹."""
+    if group.turns_space and not by_coordinates:
         return [("entry", "ζ", k) for k in (1, 2, 3)]
     first, factor = group.places[block - 1]
     planes = [(2, 1)] if factor.n == 2 else [(3, 2), (1, 3), (2, 1)]
-    return [("entry", "Z", first + i, first + j) for i, j in planes]
+    if not by_coordinates:
+        return [("entry", "Z", first + i, first + j) for i, j in planes]
+    pairs = [*zip(group.basis, coordinates(group), strict=True)]
+    return [
+        add(*(mul(plain(x), z) for e, z in pairs if (x := e[first + i - 1][first + j - 1])))
+        for i, j in planes
+    ]
 
 
 def names_at_place(n: int, first: int, i: int) -> dict[str, Tree]:

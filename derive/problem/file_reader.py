@@ -9,7 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from ..algebra.groups import Group
+from ..algebra.groups import Group, names_by_block
 from ..language import rational as q
 from ..language.expression import ExpressionError, parse
 from ..language.laurent import LEVEL, WRITTEN, degree_in_level, is_layered
@@ -36,18 +36,22 @@ CHAPTERS = ("linear", "affine", "discrete", "discrete_affine", *SIDES)
 class FileReader(ForceReader):
     """Reads the tables of a file in a folder; ``heavy``: the body has mass outside its points;
     ``fills_ellipsoid``: it is a homogeneous one; ``in_layers``: the density of a solid depends on
-    the level; ``advected``: what an algebra without g carries along."""
+    the level; ``advected``: what an algebra without g carries along; ``by_block``: names of the
+    velocity by the blocks of a product → those of the state."""
 
     def __init__(self, folder: Path = Path()) -> None:
         self.folder, self.group = folder, None
         self.parameters, self.point_masses, self.places = {}, (), []
         self.heavy = self.fills_ellipsoid = self.in_layers = False
         self.advected: tuple[Advected, ...] | None = None
+        self.by_block: dict[str, str] = {}
 
     def moves(self, group: Group | None) -> None:
         """From here on the group is known,"""
         self.group = group
         self.blocks = len(group.places) if group else 1
+        running = names_by_block(group) if group else {}
+        self.by_block = {own: name for name, own in running.items()}
 
     def carries(self, body: Body | None, parameters: Mapping[str, Any]) -> None:
         """and from here on the body."""
@@ -178,6 +182,8 @@ class FileReader(ForceReader):
             found = parse(value if isinstance(value, str) else repr(value))
         except ExpressionError as error:
             raise ProblemError(f"{where}: {error}") from None
+        own = {x: ("par", y) for x, y in self.by_block.items() if x not in self.parameters}
+        found = meant(found, own) if own else found
         return replaced(found, ("par", "t"), "t") if self.timed else found
 
     def layered(self, slot: Slot) -> Tree:

@@ -77,9 +77,10 @@ def flow_forces(
         given = [y.name for y in inputs if any(z.startswith(y.name) for z in names(x.rate))]
         if given:
             raise ProblemError(
-                f"flow {k}, rate: {given[0]!r} is an input, and the masses must be known before "
-                "the motion is: give the rates, and the masses, as expressions of t; or keep "
-                "these and let the input scale the thrust, a [[force]]"
+                f"flow {k}, rate: {given[0]!r} is an input: the mass that is left would be a "
+                "number of the state, dm/dt its rate, and a state has g and its velocity alone; "
+                "give rates and masses as expressions of t, or let the input scale the thrust, a "
+                "[[force]]"
             )
         if of_state := [y for y in names(x.rate) if y in names_in_forces(group)]:
             raise ProblemError(

@@ -34,7 +34,8 @@ class ForceReader(TableReader):
 
     ``potentials``: those that the problem has; ``observing``: is what is read off motions being
     read, whose places may be those of forces?  ``acts``: the names of what acts.  ``pointless``: no
-    points give the Lagrangian, where an algebra carries along what is ``advected``."""
+    points give the Lagrangian, where an algebra carries along what is ``advected``;
+    ``on_the_right``: and Z is ġg⁻¹."""
 
     error = ProblemError
     numbered = "[[point]] tables"
@@ -44,7 +45,7 @@ class ForceReader(TableReader):
     places: list[Place]
     potentials: tuple[Potential, ...] = ()
     advected: tuple[Advected, ...] | None = None
-    observing = pointless = False
+    observing = pointless = on_the_right = False
     acts: Collection[str] = ()
 
     # -- where it acts -------------------------------------------------------------------------
@@ -59,7 +60,7 @@ class ForceReader(TableReader):
 
     def of_place(self, i: int) -> tuple[int, int]:
         """The first row, and how many, of the coordinates of point i in space."""
-        first, factor = self._factor_of(i)
+        first, factor = self.factor_of(i)
         return first, factor.n
 
     @property
@@ -123,7 +124,8 @@ class ForceReader(TableReader):
         if "at" in slot.table:
             return (self.end(slot),)
         if not self.point_masses:
-            raise ProblemError(f"{where}: give a place of the body under 'at', or [[point]] tables")
+            other = "" if self.pointless else ", or [[point]] tables"
+            raise ProblemError(f"{where}: give a place of the body under 'at'{other}")
         listed = slot.table.get(key, [*range(1, self.last + 1)])
         if not listed and isinstance(listed, list):
             raise ProblemError(f"{where}: key {key!r} must be a point or a list of points")
@@ -164,7 +166,7 @@ class ForceReader(TableReader):
     def couple(self, slot: Slot) -> Vector:
         """The moment that goes with a force: a vector of R³, or a list of one number in the
         plane."""
-        _, factor = self._factor_of(slot.found["on"])
+        _, factor = self.factor_of(slot.found["on"])
         self._turned(factor, slot.where)
         return self.listed(self.value(slot), 3 if factor.n == 3 else 1, slot.path)
 
@@ -182,7 +184,7 @@ class ForceReader(TableReader):
 
     def stated_couple(self, slot: Slot) -> Vector:
         """Three of them in R³, one in the plane."""
-        _, factor = self._factor_of(slot.found["on"])
+        _, factor = self.factor_of(slot.found["on"])
         self._turned(factor, slot.where)
         return self._of_state(slot, 3 if factor.n == 3 else 1)
 
@@ -229,7 +231,7 @@ class ForceReader(TableReader):
         listed = self.listed(self.value(slot), count, slot.path, self.in_time)
         return tuple(meant(t, named) for t in listed)
 
-    def _factor_of(self, on: int) -> tuple[int, Group]:
+    def factor_of(self, on: int) -> tuple[int, Group]:
         """The first row, and the factor that moves a point or place."""
         return self.moving().places[self.listed_places[on - 1].block - 1]
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ..algebra.factor_charts import chart_names
-from ..algebra.groups import Group
+from ..algebra.groups import Group, names_by_block
 from ..language.expression import names
 from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
@@ -90,7 +90,10 @@ def _initial(table: Any, reader: FileReader) -> Initial:
             lists = f"exp, {', '.join(rotations.KEYS)}"
             known = f"one number each, {first}, {second}; lists are {lists}{hint(name, ())}"
             raise ProblemError(f"{where}: {known}")
-        found[reader.identifier(name, where)] = _number(value, where, reader)
+        called = str(reader.by_block.get(name, name))
+        if called != name and called in table:
+            raise ProblemError(f"{where}: the same number as {called}; leave out one")
+        found[reader.identifier(called, where)] = _number(value, where, reader)
     where, exp = "initial, exp", table.get("exp", [])
     if not isinstance(exp, list):
         raise ProblemError(f"{where}: expected a list, the coordinates in the basis of 𝔤")
@@ -202,7 +205,7 @@ def named_twice(problem: Problem) -> str:
     words; "" where none is."""
     if problem.group is None:
         return ""
-    state = {*numbers_of_state(problem, problem.group)}
+    state = {*numbers_of_state(problem, problem.group), *names_by_block(problem.group).values()}
     if clash := next(filter(state.__contains__, problem.parameters), ""):
         return f"parameter {clash!r}: a number of the state; choose another name"
     for k, x in enumerate(problem.inputs, 1):

@@ -37,7 +37,11 @@ def turn_in(table: Mapping[str, Any], where: str) -> tuple[str, Any]:
 def rotation(value: Any, n: int, where: str, reader: TableReader) -> Rows:
     """{ axis, angle }, { rpy } or { quaternion } in R³, or a matrix of numbers that is a rotation
     of Rⁿ."""
-    if isinstance(value, dict) and n == 3:
+    if isinstance(value, dict):
+        if n != 3:
+            name = next((x for x in TURNS if x in value), "axis")
+            told = "[[c, -s], [s, c]] with numbers" if n == 2 else f"{n} rows of {n} numbers"
+            raise ProblemError(f"{where}: {name!r} is of R^3; give rotation = {told}")
         try:
             return _in_words(value, where, reader)
         except SolidError as error:

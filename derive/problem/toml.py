@@ -134,7 +134,7 @@ def problem_of(
     name = reader.name_of(data, of_its_own=moved is not None)
     parameters = _parameters(data.get("parameters", {}), reader)
     if "kinematics" in data or any(key in data for key in SECTIONS):
-        return _without_points(data, moved)
+        return _without_points(data, moved, negative_stiffness=negative_stiffness)
     reader.parameters = parameters
     its_body = body(data, reader)
     if moved and its_body is None:
@@ -209,7 +209,10 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
 
 
 def _without_points(
-    data: Mapping[str, Any], moved: Group | None, advected: tuple[Advected, ...] | None = None
+    data: Mapping[str, Any],
+    moved: Group | None,
+    advected: tuple[Advected, ...] | None = None,
+    negative_stiffness: bool = False,
 ) -> Problem:
     """A problem that says all of its Lagrangian; its group acts by matrices on (r, 1), or, with
     something ``advected`` or nothing, is known by its algebra alone."""
@@ -221,22 +224,24 @@ def _without_points(
         raise ProblemError("an algebra moves no points: give a [lagrangian] or an [inertia]")
     if moved is None:
         raise ProblemError(f"key {where!r}: a text about any group has no Lagrangian of its own")
-    for key in ("point", "solid", "body", "potential", "damping", "flow", "kinematics"):
+    for key in ("point", "solid", "body", "potential", "flow", "kinematics"):
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
-    acting = {f"force {k}": x for k, x in enumerate(tables(data, "force"), 1)}
-    acting |= {f"input {k}": x for k, x in enumerate(tables(data, "input"), 1)}
-    for key, x in acting.items() if advected is not None else ():
-        if "covector" not in x and x.get("kind") not in ("covector", "scalar"):
-            raise ProblemError(f"{key}: an algebra moves no places: give a covector")
+    if advected is not None:
+        _require_covectors(data)
     group = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
     reader = FileReader()
     reader.moves(group)
     reader.advected, reader.pointless = advected, True
+    said = data[where]
+    reader.on_the_right = isinstance(said, dict) and said.get("trivialisation") == "right"
     name = reader.name_of(data, of_its_own=moved is not None)
     parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)
-    _, inputs, _, stated = forces(data, reader)
+    _, inputs, damping, of_state = forces(data, reader)
+    if not negative_stiffness:
+        _positive(negative_stiffness_of((), damping, parameters), "stiffness")
+    stated = (*of_state, *as_forces(damping, reader)[1])
     others = [x for x in OUTPUTS if x not in (*OF_MASSES, ExpressionOutput.kind)]
     for k, x in enumerate(tables(data, "output"), 1):
         placed = "y" not in x or {*ATTACHED} & {*x}
@@ -262,6 +267,17 @@ def _without_points(
     )
     _declared(problem, data)
     return problem
+
+
+def _require_covectors(data: Mapping[str, Any]) -> None:
+    """``ProblemError`` where something acts at a place, which an algebra does not move."""
+    acting = {f"force {k}": x for k, x in enumerate(tables(data, "force"), 1)}
+    acting |= {f"input {k}": x for k, x in enumerate(tables(data, "input"), 1)}
+    acting |= {f"damping {k}": x for k, x in enumerate(tables(data, "damping"), 1)}
+    for key, x in acting.items():
+        if "covector" not in x and x.get("kind") not in ("covector", "scalar"):
+            other = "[[force]] covector" if key.startswith("damping") else "a covector"
+            raise ProblemError(f"{key}: an algebra moves no places: give {other}")
 
 
 def _positive(where: str | None, what: str) -> None:

@@ -232,17 +232,17 @@ def _block(chart: FactorChart, x: Matrix) -> Matrix:
 
 
 def coordinates(block: CoordinateBlock, g: Matrix) -> Numbers:
-    """Those of a block of g; where it turns, a number drawn for it in the place of the angle, to
-    which :func:`circles` gives its cosine and sine."""
-    if not block.turn:
+    """Those of a block of g; where it turns or is scaled, a number drawn for it in the place of the
+    angle, to which :func:`circles` gives its cosine and sine, or its exponential."""
+    if not block.turn and not block.growth:
         return block.logarithm(g)
-    shift = block.turned(g)[0]
+    shift = block.turned(g)[0] if block.turn else None
     drawn = Random(str(block.inside(g))).randint(1, ANGLES)
     return (Fraction(drawn) if shift is None else shift,)
 
 
 def circles(charts: Iterable[FactorChart], g: Matrix) -> dict[tuple[str, Fraction], Any]:
-    """(cos or sin, argument) → the value that it has in the state of g."""
+    """(cos, sin or exp, argument) → the value that it has in the state of g."""
     found: dict[tuple[str, Fraction], Any] = {}
     for chart in charts:
         for block in chart.blocks:
@@ -250,6 +250,8 @@ def circles(charts: Iterable[FactorChart], g: Matrix) -> dict[tuple[str, Fractio
                 _, cosine, sine = block.turned(g)
                 at = block.turn * coordinates(block, g)[0]
                 found |= {("cos", at): cosine, ("sin", at): sine}
+            if block.growth:
+                found["exp", block.growth * coordinates(block, g)[0]] = block.scaled(g)
     return found
 
 

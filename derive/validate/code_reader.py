@@ -15,7 +15,7 @@ from .code_expressions import CLOSE, NAME, OPEN, ExpressionReader
 from .syntax import CONTRACT, END, Token
 from .terms import CodeError, CodeFunction, Expression, Module, Statement, apply_operation
 
-LISTS = ("STATE", "PARAMETERS", "INPUTS", "CONSTANTS", "CONSERVED", "OUTPUTS")
+LISTS = ("STATE", "PARAMETERS", "INPUTS", "CONSTANTS", "CONSERVED", "OUTPUTS", "STATE_BY_BLOCK")
 DATA = (*LISTS, "BASIS", "DEFAULTS")
 SIZES = (*LISTS, "ALGEBRA", "REDUCED", "MATRIX", "EVENTS")
 DEFINING = ("def", "class", "as", "import", "function", "const")
@@ -143,8 +143,8 @@ class Reader(ExpressionReader):
         if not isinstance(defaults, (dict, type(None))):
             raise CodeError("DEFAULTS are no numbers by their names")
         state, parameters, inputs = (lists[x] for x in LISTS[:3])
-        read = lists.get("OUTPUTS")
-        return Module(state, parameters, inputs, self.functions, sizes, defaults, basis, read)
+        further = lists.get("OUTPUTS"), lists.get("STATE_BY_BLOCK")
+        return Module(state, parameters, inputs, self.functions, sizes, defaults, basis, *further)
 
     # -- functions ---------------------------------------------------------------------------
 

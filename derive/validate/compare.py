@@ -14,6 +14,7 @@ from functools import partial
 from random import Random
 from typing import Any
 
+from ..algebra.groups import names_by_block
 from ..check.lagrangian.lagrangian_model import LagrangianModel
 from ..check.trials.model import Model
 from ..check.values.arithmetic import EPS, part
@@ -45,7 +46,13 @@ from .terms import Array, CodeError, DiffersError, Literals, Machine, Module, ru
 
 def compare_names(m: Module, claims: Claims) -> None:
     """``DiffersError`` where one of the lists is not what record and chart make it."""
-    own = ("state", claims.state.names), ("inputs", claims.inputs), ("outputs", claims.outputs)
+    called = names_by_block(claims.group)
+    own = (
+        ("state", claims.state.names),
+        ("state_by_block", tuple(called.get(x, x) for x in claims.state.names)),
+        ("inputs", claims.inputs),
+        ("outputs", claims.outputs),
+    )
     for what, names in own:
         if (getattr(m, what) or names) != names:
             raise DiffersError(f"the names of {what} are not {', '.join(names) or 'none'}")

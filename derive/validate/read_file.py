@@ -132,7 +132,7 @@ def read_c(name: str, files: Mapping[str, str], prefix: str) -> tuple[Module, Se
             )
     # one header has no list of names beside
     own: dict[str, Any] = dict(zip(PLACES.values(), placed, strict=True))
-    return replace(found, **own), reader.events
+    return replace(found, **own, state_by_block=reader.by_block), reader.events
 
 
 def calls_of_cpp(name: str, text: str, prefix: str) -> tuple[str, ...]:
@@ -192,6 +192,7 @@ class CReader(Reader):
         super().__init__(*given)
         self.events: list[Token] = []
         self.places: dict[str, tuple[str, ...]] = {}
+        self.by_block: tuple[str, ...] | None = None
 
     def module(self) -> Module:
         """All functions and lists of the file; ``CodeError`` for any other definition."""
@@ -258,9 +259,11 @@ class CReader(Reader):
     def _places(self) -> bool:
         """Read the places of the numbers of x, p, u or y by their names, where they stand here."""
         letter = self.near(2).removeprefix(f"{self.prefix}_")[:2].removesuffix("_")
+        head, found = f"{self.prefix}_{letter}_", list[str]()
+        if letter == "X" and letter in self.places and self.took("enum {"):
+            return self._by_block(head)
         if letter not in PLACES or letter in self.places or not self.took("enum {"):
             return False
-        head, found = f"{self.prefix}_{letter}_", list[str]()
         while self.word.startswith(head):
             found.append(self.next().removeprefix(head))
             self.take(f"= {len(found) - 1}")
@@ -268,6 +271,19 @@ class CReader(Reader):
                 break
         self.places[letter] = tuple(found)
         self.take("} ;")
+        return True
+
+    def _by_block(self, head: str) -> bool:
+        """Read the names of numbers of x by their blocks, each equal to another of its place."""
+        own: dict[str, str] = {}
+        while self.word.startswith(head):
+            name = self.next().removeprefix(head)
+            self.take("=")
+            own[self.next().removeprefix(head)] = name
+            if not self.took(","):
+                break
+        self.take("} ;")
+        self.by_block = tuple(own.get(x, x) for x in self.places["X"])
         return True
 
     def _enumerators(self) -> dict[str, int]:

@@ -224,7 +224,7 @@ class Module:
     no such list, and its functions.
 
     ``sizes``: STATE, ALGEBRA, PARAMETERS, CONSTANTS, INPUTS. ``defaults`` and ``basis`` where the
-    file has them.
+    file has them; ``state_by_block``: the state with the velocity named by the blocks of a product.
     """
 
     state: Names
@@ -235,6 +235,7 @@ class Module:
     defaults: Mapping[str, Any] | None = None
     basis: Any = field(default=None)
     outputs: Names = None
+    state_by_block: Names = None
 
 
 @dataclass(frozen=True)

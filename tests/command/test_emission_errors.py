@@ -10,6 +10,7 @@ import pytest
 
 from derive import compile as compiled
 from derive.command.cli import main
+from derive.language import templating
 from tests.support.library import module_of
 from tests.support.needs import CC, needs
 from tests.support.unmeasured import environment
@@ -143,6 +144,7 @@ LIMITED = """\
 import resource, signal, sys
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 from derive.command.cli import main
+from derive.language import templating
 from derive.pipeline import walk
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]),) * 2)
 sys.exit(main(sys.argv[2:]))
@@ -231,3 +233,15 @@ def test_a_build_on_a_disk_that_fills_up(tmp_path):
         assert sorted(map(str, written)) == sorted(lines[:-1])
     finally:
         subprocess.run(["umount", "-l", str(disk)], check=True)
+
+
+@pytest.mark.parametrize("missing", ["c", "c/sizes.jinja"])
+def test_a_template_that_is_missing_is_named(refused, tmp_path, monkeypatch, missing):
+    shutil.copytree(templating.folder("c"), tmp_path / "templates" / "c")
+    place = tmp_path / "templates" / missing
+    shutil.rmtree(place) if place.is_dir() else place.unlink()
+    monkeypatch.setattr(templating, "__file__", str(tmp_path / "language" / "templating.py"))
+    templating.environment.cache_clear()
+    told = f"templates/{missing} is missing beside the package; install derive again"
+    assert refused("so3", "--lang", "c", "--out", tmp_path / "code") == f"derive: {told}\n"
+    templating.environment.cache_clear()

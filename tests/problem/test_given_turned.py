@@ -5,6 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import derive
+from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 
 TENSOR = [[0.5, 0.02, 0], [0.02, 0.6, 0], [0, 0, 0.8]]
@@ -30,3 +31,11 @@ def test_a_tensor_in_axes_that_are_turned(name):
     inertia = R.as_matrix() @ TENSOR @ R.as_matrix().T
     wanted = np.linalg.solve(inertia, np.cross(inertia @ zeta, zeta))
     assert np.allclose(f.rhs(0.0, x)[12:15], wanted, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("said", [{"rpy": [0, 0, 1]}, {"rotation": {"axis": [0, 0, 1]}}])
+def test_in_the_plane_a_rotation_is_rows(said):
+    given = {"m": 1, "centre": [0, 0], "J": [[1, 0], [0, 2]], **said}
+    told = r"'(rpy|axis)' is of R\^3; give rotation = \[\[c, -s\], \[s, c\]\] with numbers"
+    with pytest.raises(ProblemError, match=told):
+        problem_of({"name": "b", "group": "SE(2)", "body": {"given": given}})

@@ -47,8 +47,11 @@ class Question:
         self.require()
         velocity = program.state[-self.d :]
         self.turns = {x.replace("zeta", "eta"): a for a, x in enumerate(velocity) if "zeta" in x}
+        own = program.by_block
+        at = {own.get(x, x): y for x, y in at.items()}
+        free = [own.get(x, x) for x in free or ()]
         self.require_names(at, ())
-        self.require_names(free or (), self.turns)
+        self.require_names(free, self.turns)
         wanted = free or [x for x in program.inputs if x not in at]
         self.free = tuple(x for x in wanted if x in program.inputs)
         self.sought = tuple(x for x in wanted if x not in program.inputs)

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...language.reserved import did_you_mean, near_name
 from ...motion.ensemble import Ensemble
-from ...motion.run import MARK, Array, Run, read
+from ...motion.run import MARK, Array, Run, called, read
 from .body_pictures import ATTITUDE
 from .plot_sheet import COLOURS, PlotError, ending, label, look, sheet, written
 from .time_series import with_unit
@@ -49,6 +49,7 @@ def differing(e: Ensemble, chosen: Sequence[str], most: int) -> list[str]:
     """The columns that are drawn: those chosen, or the first of the state that differ from motion
     to motion at the end, of a turn of R³ its last column alone; ``PlotError`` for names that it has
     not."""
+    chosen = [called(e.facts, name) for name in chosen]
     for name in chosen:
         if name not in e.names:
             near = did_you_mean(near_name(name, e.names), after=" ")

@@ -1,0 +1,101 @@
+"""What the comment of a Jacobian says of kinks: there one-sided differences of the emitted rate
+differ, or are no numbers; elsewhere both are D."""
+
+import re
+
+import numpy as np
+import pytest
+
+import derive
+from derive.code.emit import emit
+from derive.code.options import Options
+from derive.problem.toml import problem_of
+from derive.programs import program
+from tests.support.library import module
+
+CASES = {
+    "abs(zeta_1 - 1)*zeta_2": ("zeta_1 - 1 = 0 (abs)", [1, 0.5]),
+    "zeta_1*sign(zeta_2)": ("zeta_2 = 0 (sign)", [0.5, 0]),
+    "min(zeta_1, 2*zeta_2)": ("zeta_1 - 2 zeta_2 = 0 (min or max)", [1, 0.5]),
+    "max(zeta_1, 3)": ("zeta_1 - 3 = 0 (min or max)", [3, 0.5]),
+    "hypot(zeta_1, zeta_2)": ("zeta_1 = 0 and zeta_2 = 0 (hypot)", [0, 0]),
+    "atan2(zeta_2, zeta_1 - 1)": ("zeta_2 = 0 and zeta_1 - 1 <= 0 (atan2)", [0.5, 0]),
+    "sqrt(zeta_1)": ("zeta_1 = 0 (sqrt)", [0, 0.5]),
+    "abs(T_1)": ("T_1 = 0 (abs)", [0.3, 0.2]),
+    "sqrt(1 + zeta_1^2)": ("", [0, 0]),
+    "zeta_1^3": ("", [0, 0]),
+}
+LANGUAGES = ("c", "cpp", "python", "rust", "julia", "javascript")
+
+
+def emitted(data, *jacobians):
+    problem = problem_of({"name": "test", **data})
+    record = derive.derive(problem).record
+    options = Options(jacobian=jacobians)
+    compiled = program(problem, record, options)
+    return emit(compiled, record, LANGUAGES, "test", options)
+
+
+def told(text):
+    """The comment on kinks in a file, as one line."""
+    found = re.findall(
+        r"Kinks, where derivatives are one-sided or none: (.*?)\.(?: \*/)?\n", text, re.S
+    )
+    return [re.sub(r"\s*\n\s*(\*|///|#|)\s*", " ", x) for x in found]
+
+
+@pytest.mark.parametrize("law", CASES)
+def test_at_kinks_and_elsewhere(law):
+    locus, velocity = CASES[law]
+    L = {"lagrangian": {"L": "(zeta_1^2 + zeta_2^2)/2"}}
+    files = emitted({"group": "R(2)", **L, "force": [{"covector": [law, 0]}]}, "state")
+    for end in (".h", ".hpp", ".py", ".rs", ".jl", ".mjs"):
+        assert told(files[f"test{end}"]) == ([f"in force 1 {locus}"] if locus else []), end
+    m = module("test", files["test.py"])
+    k, h = m.constants([]), 1e-6
+
+    def sided(x, s):
+        rows = [m.rhs(0.0, x + s * h * e, k)[2] - m.rhs(0.0, x, k)[2] for e in np.eye(4)]
+        return np.array(rows) / (s * h)
+
+    with np.errstate(all="ignore"):
+        at = np.array([0.0, 0, *velocity])
+        jump = np.abs(sided(at, 1) - sided(at, -1)).max()
+        assert (not jump < 0.1) == bool(locus)
+        rng = np.random.default_rng(1)
+        for _ in range(5):
+            x = rng.uniform(0.2, 2, size=4)
+            D = m.jacobian(0.0, x, k)[1][2]
+            for s in (1, -1):
+                assert np.abs(sided(x, s) - D).max() < 1e-4
+
+
+def test_the_names_are_those_of_the_file():
+    """A velocity along the axes of the body is v_1; what is carried along, and points, have their
+    own; outputs that have all that acts have its kinks, and others not."""
+    force = {"name": "drag", "at": [0, 0], "frame": "body", "force": ["-abs(v_1)*v_1", 0]}
+    data = {
+        "group": "SE(2)",
+        "point": [{"mass": 1, "at": [1, 0]}, {"mass": 1, "at": [0, 1]}],
+        "force": [force],
+        "potential": [{"kind": "expression", "U": "abs(r2_y)^3"}],
+        "output": [{"name": "y", "y": ["max(zeta_1, w_1)"]}],
+    }
+    acting = "in potential 1 r2_2 = 0 (abs); in force drag v_1 = 0 (abs)"
+    own = "in output y zeta_1 - w_1 = 0 (min or max)"
+    assert told(emitted(data, "state", "outputs")["test.h"]) == [acting, own]
+    felt = {"name": "f", "kind": "specific_force", "at": [0, 0]}
+    files = emitted(data | {"output": [*data["output"], felt]}, "outputs")
+    assert told(files["test.h"]) == [f"{acting}; {own}"]
+    spun = {
+        "algebra": {"of": "SO(3)"},
+        "advected": [{"name": "up", "representation": "coadjoint"}],
+        "lagrangian": {"L": "(zeta_1^2 + zeta_2^2 + zeta_3^2)/2"},
+        "force": [{"covector": ["abs(up_2)", 0, 0]}],
+    }
+    assert told(emitted(spun, "raw")["test.h"]) == ["in force 1 up_2 = 0 (abs)"]
+
+
+def test_none_are_told_where_no_derivative_is_asked_for():
+    L = {"lagrangian": {"L": "zeta_1^2/2"}, "force": [{"covector": ["abs(zeta_1)"]}]}
+    assert all("Kinks" not in x for x in emitted({"group": "R(1)", **L}).values())
