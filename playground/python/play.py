@@ -234,7 +234,7 @@ class Play:
         own = made.outputs[: len(made.outputs) - sum(len(x.entries) for x in seen)]
         code = EmittedCode(replace(made, outputs=own), self.record, base_units(self.problem))
         page = data(code, self.problem, self.record, begin, language(lang))
-        page["arrows"] = drawn(seen, len(own))
+        page["arrows"] = drawn(self.record, seen, len(own))
         page["meanings"] = [x["meaning"] for x in legend(self.record, seen, language(lang))]
         page |= {"t": SECONDS, "tol": TOLERANCE}
         stated = [*page["x"]]
