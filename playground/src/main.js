@@ -25,6 +25,9 @@ const WAIT = 500, MOVED = 150, SECONDS = 60;
 let lang = spoken(location.search) ?? kept("lang") ?? (navigator.language?.startsWith("fr") ? "fr" : "en");
 let words = WORDS[lang] ?? WORDS[lang = "en"];
 const [data, css] = await Promise.all([fetch("data.json").then((x) => x.json()), fetch("page.css").then((x) => x.text())]);
+const formulas = new CSSStyleSheet(); // those beside the walk are set as those in it
+formulas.replaceSync(css.match(/^(math|mover|mtable|\.(overline|kept|bold|parameter))\b.*$/gm).join(""));
+document.adoptedStyleSheets = [formulas];
 const names = data.problems.map((x) => x.name);
 const ready = (name) => data.problems.find((x) => x.name === name);
 
