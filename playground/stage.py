@@ -91,22 +91,24 @@ def library(name: str, out: Path) -> None:
 
 
 def problems() -> list[dict[str, str]]:
-    """The ready-made problems: name, group, text; title and sentence in both languages."""
-    found = []
+    """The ready-made problems: name, text; group, title and sentence in both languages."""
+    found, things = [], {x["name"]: x for shelf in shelves() for x in shelf["things"]}
     for name in ready_made():
         record = derive.derive(name).record
         told = {"name": name, "text": (READY / f"{name}.toml").read_text(encoding="utf-8")}
         for lang in SPOKEN:
             words = language(lang)
-            told[f"title_{lang}"] = title(record, words)
+            told[f"title_{lang}"] = plain(title(record, words))
             told[f"about_{lang}"] = plain(system(record, words))
-        found.append(told | {"group": str(record.problem.get("group") or "").replace(" x ", " × ")})
+        own = str(record.problem.get("group") or "").replace(" x ", " × ")
+        told["group_en"] = things[name].get("group", own)
+        found.append(told | {"group_fr": things[name].get("group_fr", told["group_en"])})
     return found
 
 
 def plain(text: str) -> str:
     """A sentence without the marks of its formulas."""
-    return text.replace("$", "").replace("`", "")
+    return text.replace("$", "").replace("`", "").replace("^2", "²")
 
 
 def options() -> dict[str, object]:

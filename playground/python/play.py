@@ -130,18 +130,9 @@ class Play:
                 self.tell("verdict", told | tried | {"groups": v.tried[1], "reason": v.reason})
             self.tell("checked", {})
 
-    def plain(self, text: str) -> None:
-        """The text of a problem file, for the form, and whether it is TOML."""
-        try:
-            tomllib.loads(text)
-        except (RecursionError, ValueError):
-            self.tell("plain", {"text": text, "read": False})
-        else:
-            self.tell("plain", {"text": text, "read": True})
-
     def files(self, text: str, words: str) -> bytes | None:
-        """The files that a command writes, as a zip; ``words``: the command after its name, in
-        which FILE stands for the problem file."""
+        """The files that a command writes, which are texts, and a zip of them; ``words``: the
+        command after its name, in which FILE stands for the problem file."""
         written: dict[str, bytes] = {}
         with self.refusals():
             self.read(text)
@@ -152,7 +143,10 @@ class Play:
             if self.run(command) is None:
                 return None
             written = {x.name: x.read_bytes() for x in sorted(out.iterdir())}
-        return zipped(written) if written else None
+        if not written:
+            return None
+        self.tell("files", {x: y.decode() for x, y in written.items()})
+        return zipped(written)
 
     def found(self, text: str, what: str, lang: str) -> None:
         """What a command, with its options, searches of the equations, as its HTML for a page."""

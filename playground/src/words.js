@@ -32,11 +32,11 @@ export const WORDS = {
     read: "What is derived", equations: "Equations", motion: "Motion", find: "Find", take: "Take", check: "Check",
     searches: { symmetries: "Symmetries", integrals: "First integrals", equilibria: "Equilibria", reduction: "Reduction" },
     opened: {
-      mesh: (x) => `${x}: a mesh is read beside a problem file that names it, at home: [body] solid = "mesh", file = "${x}".`,
+      mesh: (x) => `${x}: its triangles do not close up to a solid, with the same side outwards: fill the holes, orient the faces, and export it again.`,
       run: (x) => `${x}: a run is drawn at home: derive plot ${x}. This page moves the problem itself.`,
       record: (x) => `${x}: a record is checked at home: derive check ${x}. Open its problem, which ends in .toml.`,
       other: (x) => `${x}: a problem is a text file that ends in .toml.`, unread: (x) => `${x} is no text in UTF-8.`,
-      large: (x) => `${x} is longer than a problem may be.`,
+      large: (x) => `${x} is larger than such a file may be.`,
     },
     searching: "Searching …", unfound: "The search was stopped.",
     stop: "Stop", progress: "Progress", editor: "The problem file, TOML",
@@ -81,7 +81,6 @@ export const WORDS = {
     languages: "Languages", save: (x) => `Save ${x}`, command: "The same at home", copy: "Copy",
     page: "the web page", body: "Body", points: "points", moments: "moments as letters", group: "Group", name: "Name",
     mass: "mass", at: "at", add: "Add", remove: "Remove", potentials: "Forces", solid: "solid", parameters: "Parameters",
-    formonly: "This problem has tables that the form does not show: it would leave them out. Edit its text.",
     value: "default", start: "Start afresh", steps: "Steps", kind: "kind", point: "point", density: "density",
     keys: {
       far_centre: "far centre", self_gravity: "self-gravity", covector: "input: covector", force: "input: force", torque: "input: torque", hollow_ball: "hollow ball", semi_axes: "semi-axes",
@@ -124,11 +123,11 @@ export const WORDS = {
     read: "Ce qui est déduit", equations: "Équations", motion: "Mouvement", find: "Chercher", take: "Emporter", check: "Vérifier",
     searches: { symmetries: "Symétries", integrals: "Intégrales premières", equilibria: "Équilibres", reduction: "Réduction" },
     opened: {
-      mesh: (x) => `${x} : un maillage se lit à côté d’un fichier de problème qui le nomme, chez vous : [body] solid = "mesh", file = "${x}".`,
+      mesh: (x) => `${x} : ses triangles ne ferment pas un solide, la même face au-dehors : bouchez les trous, orientez les faces, et exportez-le de nouveau.`,
       run: (x) => `${x} : un mouvement calculé se dessine chez vous : derive plot ${x}. Cette page meut le problème lui-même.`,
       record: (x) => `${x} : une archive se vérifie chez vous : derive check ${x}. Ouvrez son problème, qui finit en .toml.`,
       other: (x) => `${x} : un problème est un fichier de texte qui finit en .toml.`, unread: (x) => `${x} n’est pas un texte en UTF-8.`,
-      large: (x) => `${x} est plus long qu’un problème ne peut l’être.`,
+      large: (x) => `${x} est plus grand qu’un tel fichier ne peut l’être.`,
     },
     searching: "Recherche …", unfound: "La recherche a été arrêtée.",
     stop: "Arrêter", progress: "Progression", editor: "Le fichier du problème, TOML",
@@ -189,7 +188,6 @@ export const WORDS = {
     languages: "Langages", save: (x) => `Enregistrer ${x}`, command: "La même chose chez vous", copy: "Copier",
     page: "la page web", body: "Corps", points: "points", moments: "moments en lettres", group: "Groupe", name: "Nom",
     mass: "masse", at: "en", add: "Ajouter", remove: "Enlever", potentials: "Forces", solid: "solide", parameters: "Paramètres",
-    formonly: "Ce problème a des tables que le formulaire ne montre pas : il les omettrait. Modifiez son texte.",
     value: "défaut", start: "Recommencer", steps: "Étapes", kind: "genre", point: "point", density: "densité",
     keys: {
       gravity: "pesanteur", spring: "ressort", torsion: "ressort de torsion", attraction: "attraction", far_centre: "centre lointain", self_gravity: "pesanteur propre", field: "champ",
