@@ -30,7 +30,7 @@ export const WORDS = {
       },
     }, open: "Open …", link: "Copy link", linked: "Link copied",
     read: "What is derived", equations: "Equations", motion: "Motion", find: "Find", take: "Take", check: "Check",
-    searches: { symmetries: "Symmetries", integrals: "First integrals", equilibria: "Equilibria", reduction: "Reduction" },
+    searches: { symmetries: "Symmetries", integrals: "First integrals", equilibria: "Equilibria", letters: "Equilibria in letters", reduction: "Reduction" },
     opened: {
       mesh: (x) => `${x}: its triangles do not close up to a solid, with the same side outwards: fill the holes, orient the faces, and export it again.`,
       run: (x) => `${x}: a run is drawn at home: derive plot ${x}. This page moves the problem itself.`,
@@ -121,7 +121,7 @@ export const WORDS = {
       },
     }, open: "Ouvrir …", link: "Copier le lien", linked: "Lien copié",
     read: "Ce qui est déduit", equations: "Équations", motion: "Mouvement", find: "Chercher", take: "Emporter", check: "Vérifier",
-    searches: { symmetries: "Symétries", integrals: "Intégrales premières", equilibria: "Équilibres", reduction: "Réduction" },
+    searches: { symmetries: "Symétries", integrals: "Intégrales premières", equilibria: "Équilibres", letters: "Équilibres en lettres", reduction: "Réduction" },
     opened: {
       mesh: (x) => `${x} : ses triangles ne ferment pas un solide, la même face au-dehors : bouchez les trous, orientez les faces, et exportez-le de nouveau.`,
       run: (x) => `${x} : un mouvement calculé se dessine chez vous : derive plot ${x}. Cette page meut le problème lui-même.`,
