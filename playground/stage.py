@@ -1,4 +1,4 @@
-"""What the playground is built of, from the checkout and its environment: the wheel unpacked, the
+"""What the playground is built of, from the checkout and its environment: the package, the
 libraries in pure Python that it needs, ``data.json``: ready-made problems, keys, options, and
 ``gallery.json``: their pictures.
 
@@ -11,9 +11,7 @@ import json
 import pickle
 import re
 import shutil
-import subprocess
 import sys
-import zipfile
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from itertools import repeat
@@ -64,21 +62,15 @@ UNUSED = {
 """Folders of a library that its other modules import for tasks alone that nobody has here."""
 
 
-WITH_PROCESSES = ("derive/compare/", "derive/command/comparing.py")
+WITH_PROCESSES = ("compare", "comparing.py")
 """What starts processes, which a page has not."""
 
 
-def wheel(out: Path) -> None:
-    """The wheel of the checkout, unpacked as an installer would, without what a page cannot do."""
-    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
-    made = out.with_name("wheel")
-    shutil.rmtree(made, ignore_errors=True)
-    subprocess.run([*pip, "wheel", "--no-deps", "-w", str(made), str(HERE.parent)], check=True)
-    (file,) = made.glob("*.whl")
-    with zipfile.ZipFile(file) as archive:
-        own = (x for x in archive.namelist() if x.startswith("derive/"))
-        names = [x for x in own if not x.startswith(WITH_PROCESSES)]
-        archive.extractall(out, names)
+def package(out: Path) -> None:
+    """The package as its wheel has it, without what a page cannot do."""
+    skip = shutil.ignore_patterns("__pycache__", *WITH_PROCESSES)
+    shutil.copytree(HERE.parent / "derive", out / "derive", ignore=skip)
+    shutil.copytree(HERE.parent / "templates", out / "derive" / "templates")
 
 
 def library(name: str, out: Path) -> None:
@@ -251,7 +243,7 @@ def main(out: Path) -> None:
     first, later = out / "first", out / "later"
     first.mkdir(parents=True)
     later.mkdir()
-    wheel(first)
+    package(first)
     for name in LIBRARIES:
         library(name, first)
     for name in LATER:

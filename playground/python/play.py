@@ -17,7 +17,7 @@ import sys
 import tomllib
 import zipfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from contextlib import chdir, contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -86,7 +86,7 @@ class Play:
         FOLDER.mkdir()
         self.path = FOLDER / f"{name_of(text)}.toml"
         self.path.write_text(text, encoding="utf-8")
-        with inside(FOLDER):
+        with chdir(FOLDER):
             # names that the state has not are told with each walk, at their line
             self.problem, self.record = derive(self.path.name, followed=True)
 
@@ -160,7 +160,7 @@ class Play:
     def run(self, command: list[str]) -> str | None:
         """What a command prints; nothing where it is refused, which is told."""
         said, printed = io.StringIO(), io.StringIO()
-        with inside(FOLDER), redirect_stderr(said), redirect_stdout(printed):
+        with chdir(FOLDER), redirect_stderr(said), redirect_stdout(printed):
             try:
                 status = main(command)
             except SystemExit as ended:
@@ -287,19 +287,6 @@ def name_of(text: str) -> str:
     except (tomllib.TOMLDecodeError, RecursionError, ValueError):
         return "problem"
     return name if isinstance(name, str) and NAME.fullmatch(name) else "problem"
-
-
-@contextmanager
-def inside(folder: Path) -> Iterator[None]:
-    """A context in a folder."""
-    import os
-
-    before = Path.cwd()
-    os.chdir(folder)
-    try:
-        yield
-    finally:
-        os.chdir(before)
 
 
 def zipped(files: dict[str, bytes]) -> bytes:

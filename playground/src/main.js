@@ -340,7 +340,8 @@ async function visit(tab) {
   }
   const now = found.text ?? ready(found.name).text;
   aim = { ...(places.left ?? (found.step && { step: found.step })), projected: found.seen.projected };
-  if (!notice) places.settle(lang, found.name ?? places.word, found.step, found.seen);
+  places.stands &&= Boolean(notice);
+  if (!notice) places.see(lang, found.name ?? places.word, found.step, found.seen);
   tab ??= found.seen.tab ?? (found.first ? "see" : "walk");
   if (tab === "see") motion.restore(found.seen);
   if (now === walked?.text && now === text.text && lang === walked.lang && !notice) {

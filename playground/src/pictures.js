@@ -4,10 +4,10 @@ import { make, save } from "./dom.js";
 const RATE = 30, LONGEST = 60_000, FINER = 2, LINE = 18;
 const short = (x) => Number(x.toFixed(2));
 
-/* what stands on a canvas that lets the page through, on one that does not, and is so much higher */
-function painted(canvas, on, more = 0) {
+/* what stands on a canvas that lets the page through, on one that does not */
+function painted(canvas, on) {
   if (on.width !== canvas.width) on.width = canvas.width;
-  if (on.height !== canvas.height + more) on.height = canvas.height + more;
+  if (on.height !== canvas.height) on.height = canvas.height;
   const pen = on.getContext("2d");
   pen.fillStyle = getComputedStyle(document.body).backgroundColor;
   pen.fillRect(0, 0, on.width, on.height);
@@ -19,21 +19,7 @@ function painted(canvas, on, more = 0) {
 const meant = ({ page: { arrows = [], meanings = [] }, colours }) => meanings.map((meaning, i) =>
   [colours.read(`arrow-${i + 1}`), `${arrows.find((x) => x.number === i + 1)?.label.replaceAll("_", "")}  ${meaning}`]);
 
-/* what stands there, finer than on the screen, and below it what its arrows mean */
-function pictured(canvas, scene) {
-  canvas.finer(FINER);
-  const sharp = canvas.width / canvas.clientWidth, line = LINE * sharp, told = meant(scene);
-  const on = painted(canvas, document.createElement("canvas"), (told.length + 0.5) * line), pen = on.getContext("2d");
-  pen.font = `${13 * sharp}px Georgia, serif`;
-  told.forEach(([colour, text], i) => {
-    pen.fillStyle = colour;
-    pen.fillText(text, line, canvas.height + (i + 0.8) * line);
-  });
-  canvas.finer(1);
-  return on;
-}
-
-/* the same as SVG: what the pen does while it is drawn once more */
+/* the picture as SVG: what the pen does while it is drawn once more, and below it what its arrows mean */
 function vectors(canvas, scene) {
   const pen = canvas.getContext("2d"), made = [], told = meant(scene);
   const width = canvas.clientWidth, high = canvas.clientHeight, height = high + (told.length + 0.5) * LINE;
@@ -62,6 +48,17 @@ function vectors(canvas, scene) {
 <svg width="${width}" height="${high}" stroke-linejoin="round" stroke-linecap="round">\n${drawn}\n</svg>\n${made.join("\n")}\n</svg>\n`;
 }
 
+/* the same as a canvas, finer than on the screen */
+async function pictured(canvas, scene) {
+  const image = new Image(), on = document.createElement("canvas");
+  image.src = `data:image/svg+xml,${encodeURIComponent(vectors(canvas, scene))}`;
+  await image.decode();
+  on.width = FINER * canvas.width;
+  on.height = on.width * image.height / image.width;
+  on.getContext("2d").drawImage(image, 0, 0, on.width, on.height);
+  return on;
+}
+
 /* a film of what is seen from now on, { stop }; done(its bytes) when it is stopped, or long enough */
 function filmed(canvas, done) {
   const on = painted(canvas, document.createElement("canvas")), parts = [];
@@ -85,7 +82,7 @@ export function saving(home, name, words) {
   const canvas = home.querySelector(".stage canvas");
   const button = (text, click) => make("button", { type: "button", click }, text);
   const pictures = [
-    button(words.picture, () => pictured(canvas, home.motion.scene).toBlob((blob) => save(`${name}.png`, blob, "image/png"))),
+    button(words.picture, async () => (await pictured(canvas, home.motion.scene)).toBlob((blob) => save(`${name}.png`, blob, "image/png"))),
     button("SVG", () => save(`${name}.svg`, vectors(canvas, home.motion.scene), "image/svg+xml")),
   ];
   if (!globalThis.MediaRecorder?.isTypeSupported("video/webm")) return make("div", { class: "saves" }, ...pictures, make("small", {}, words.none));

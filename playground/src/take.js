@@ -86,23 +86,15 @@ export class Take {
     this.weigh();
   }
 
-  /* options that would be refused cannot be chosen; asked again until they are those of what is chosen now */
+  /* options that would be refused beside those that are chosen now cannot be chosen; asked again when the worker is free */
   async weigh() {
-    this.again = this.weighing;
-    if (this.weighing) return;
-    this.weighing = true;
-    for (;;) {
-      const { text } = this.file(), { command } = this.options, old = this.weighed;
-      if (old?.text === text && old.command === command) break;
-      if (old && old.text !== text) this.options.refuse({});
-      this.weighed = null;
-      const found = await this.reasons(command);
-      if (!found && !this.again) break;
-      this.again = false;
-      if (!found) continue;
-      this.options.refuse(found);
-      this.weighed = { text, command };
-    }
-    this.weighing = false;
+    const { text } = this.file(), { command } = this.options, now = `${command} ${text}`;
+    if (this.weighed === now) return;
+    if (this.text !== text) this.options.refuse({});
+    Object.assign(this, { text, weighed: now });
+    const found = await this.reasons(command);
+    if (this.weighed !== now) return;
+    if (found) this.options.refuse(found);
+    else this.weighed = null;
   }
 }
