@@ -6,6 +6,7 @@ from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
+
 class Handler(SimpleHTTPRequestHandler):
     """Files, without a line for each on the terminal."""
 
