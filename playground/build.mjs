@@ -47,7 +47,8 @@ await build({
 for (const file of ["index.html", "moving.html", "play.css", "arrows.css", "icon.svg", "play.webmanifest"]) {
   copyFileSync(join(here, "src", file), join(out, file));
 }
-for (const file of ["page.css", "motion.css"]) copyFileSync(join(html, file), join(out, file));
+copyFileSync(join(html, "motion.css"), join(out, "motion.css"));
+writeFileSync(join(out, "page.css"), readFileSync(join(html, "page.css"), "utf8") + readFileSync(join(here, "src", "walk.css"), "utf8"));
 for (const file of ["data.json", "gallery.json", "motion.js"]) copyFileSync(join(stage, file), join(out, file));
 cpSync(join(stage, "ready"), join(out, "ready"), { recursive: true });
 

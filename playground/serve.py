@@ -6,20 +6,9 @@ from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
-TYPES = {
-    ".mjs": "text/javascript",
-    ".js": "text/javascript",
-    ".wasm": "application/wasm",
-    ".webmanifest": "application/manifest+json",
-    ".gz": "application/gzip",
-}
-"""What a machine may not know."""
-
 
 class Handler(SimpleHTTPRequestHandler):
-    """Files by their types, without a line for each on the terminal."""
-
-    extensions_map = {**SimpleHTTPRequestHandler.extensions_map, **TYPES}  # noqa: RUF012
+    """Files, without a line for each on the terminal."""
 
     def log_message(self, format: str, *args: object) -> None:
         """Say nothing."""

@@ -11,8 +11,8 @@ from derive.views.figure.drawing import Scene, svg
 from derive.views.figure.scene import scene
 
 FILE = Path(__file__).with_name("gallery.toml")
-THING = ("name", "en", "fr", "like", "group")
-"""What is said of a thing, the last two of few."""
+THING = ("name", "en", "fr", "like", "group", "group_fr")
+"""What is said of a thing, the last three of few."""
 MARGIN = 1.0
 """Around a picture, in millimetres."""
 LEFT_OUT = ("gravity", "force")
@@ -22,7 +22,7 @@ LEFT_OUT = ("gravity", "force")
 def shelves() -> list[dict[str, Any]]:
     """Those of the file, in order: titles in both languages, things by the names of their problems
     and their own; ``like``: the problem whose picture it has; ``group``, where it is called
-    otherwise than in the problem."""
+    otherwise than in the problem, and in French otherwise still."""
     shelf_of = tomllib.loads(FILE.read_text(encoding="utf-8"))["shelf"]
     return [
         x | {"things": [dict(zip(THING, y, strict=False)) for y in x["things"]]} for x in shelf_of

@@ -1,4 +1,4 @@
-"""What the playground is built of, from the checkout and its environment: the wheel unpacked, the
+"""What the playground is built of, from the checkout and its environment: the package, the
 libraries in pure Python that it needs, ``data.json``: ready-made problems, keys, options, and
 ``gallery.json``: their pictures.
 
@@ -11,9 +11,7 @@ import json
 import pickle
 import re
 import shutil
-import subprocess
 import sys
-import zipfile
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from itertools import repeat
@@ -64,21 +62,15 @@ UNUSED = {
 """Folders of a library that its other modules import for tasks alone that nobody has here."""
 
 
-WITH_PROCESSES = ("derive/compare/", "derive/command/comparing.py")
+WITH_PROCESSES = ("compare", "comparing.py")
 """What starts processes, which a page has not."""
 
 
-def wheel(out: Path) -> None:
-    """The wheel of the checkout, unpacked as an installer would, without what a page cannot do."""
-    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
-    made = out.with_name("wheel")
-    shutil.rmtree(made, ignore_errors=True)
-    subprocess.run([*pip, "wheel", "--no-deps", "-w", str(made), str(HERE.parent)], check=True)
-    (file,) = made.glob("*.whl")
-    with zipfile.ZipFile(file) as archive:
-        own = (x for x in archive.namelist() if x.startswith("derive/"))
-        names = [x for x in own if not x.startswith(WITH_PROCESSES)]
-        archive.extractall(out, names)
+def package(out: Path) -> None:
+    """The package as its wheel has it, without what a page cannot do."""
+    skip = shutil.ignore_patterns("__pycache__", *WITH_PROCESSES)
+    shutil.copytree(HERE.parent / "derive", out / "derive", ignore=skip)
+    shutil.copytree(HERE.parent / "templates", out / "derive" / "templates")
 
 
 def library(name: str, out: Path) -> None:
@@ -91,22 +83,24 @@ def library(name: str, out: Path) -> None:
 
 
 def problems() -> list[dict[str, str]]:
-    """The ready-made problems: name, group, text; title and sentence in both languages."""
-    found = []
+    """The ready-made problems: name, text; group, title and sentence in both languages."""
+    found, things = [], {x["name"]: x for shelf in shelves() for x in shelf["things"]}
     for name in ready_made():
         record = derive.derive(name).record
         told = {"name": name, "text": (READY / f"{name}.toml").read_text(encoding="utf-8")}
         for lang in SPOKEN:
             words = language(lang)
-            told[f"title_{lang}"] = title(record, words)
+            told[f"title_{lang}"] = plain(title(record, words))
             told[f"about_{lang}"] = plain(system(record, words))
-        found.append(told | {"group": str(record.problem.get("group") or "").replace(" x ", " × ")})
+        own = str(record.problem.get("group") or "").replace(" x ", " × ")
+        told["group_en"] = things[name].get("group", own)
+        found.append(told | {"group_fr": things[name].get("group_fr", told["group_en"])})
     return found
 
 
 def plain(text: str) -> str:
     """A sentence without the marks of its formulas."""
-    return text.replace("$", "").replace("`", "")
+    return text.replace("$", "").replace("`", "").replace("^2", "²")
 
 
 def options() -> dict[str, object]:
@@ -249,7 +243,7 @@ def main(out: Path) -> None:
     first, later = out / "first", out / "later"
     first.mkdir(parents=True)
     later.mkdir()
-    wheel(first)
+    package(first)
     for name in LIBRARIES:
         library(name, first)
     for name in LATER:

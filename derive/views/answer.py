@@ -8,7 +8,7 @@ from functools import partial
 from unicodedata import normalize
 
 from ..language.show import in_quotes, show
-from ..language.tree import Tree, names, nodes
+from ..language.tree import Tree, add, coefficient, mul, names, neg, nodes
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence
 from .book import RATE
@@ -246,26 +246,67 @@ def answer_markdown(x: Summary) -> str:
     return "\n\n".join(filter(None, (*parts, "\n".join(lines), markdown_text(x.source)))) + "\n"
 
 
+PLANE = {"SO(2)", "SE(2)"}
+"""The groups in which A turns a plane."""
+ANGLE = {"θ": r"\theta", "θ̇": r"\dot{\theta}"}
+COSINE, SINE = ("fun", "cos", "θ"), ("fun", "sin", "θ")
+TURN = ((COSINE, neg(SINE)), (SINE, COSINE))
+"""A by its angle."""
+
+
+def by_angle(d: Derivation) -> Callable[[Tree], Tree]:
+    """What writes the entries of A in a tree by its angle, where A turns a plane."""
+    entries = {("entry", "A", i + 1, j + 1): x for i, y in enumerate(TURN) for j, x in enumerate(y)}
+
+    def written(t: Tree) -> Tree:
+        if t in entries or not isinstance(t, tuple) or t[0] == "par":
+            return entries.get(t, t) if isinstance(t, tuple) else t
+        parts = [*map(written, t[1:])]
+        if t[0] in ("add", "mul"):
+            return (add if t[0] == "add" else mul)(*parts)
+        if t[0] == "div" and coefficient(parts[0])[0] < 0:
+            return neg(("div", neg(parts[0]), parts[1]))
+        return (t[0], *parts)
+
+    return written if d.problem.get("group") in PLANE else lambda t: t
+
+
+def _of_angle(d: Derivation) -> Iterator[Equation]:
+    """What stands for the rate of A, where that turns a plane by its angle."""
+    for k, E in enumerate(d.problem["basis"], 1):
+        if [[int(x) for x in row[:2]] for row in E[:2]] == [[0, -1], [1, 0]]:
+            yield Equation("A", ("matrix", *(("row", *row) for row in TURN)))
+            yield Equation("θ̇", ("entry", "ζ", k))
+
+
 def answer_mathml(
     d: Derivation, marks: Mapping[Tree, str] | None = None
 ) -> tuple[tuple[str, str], ...]:
     """The equations of motion: of each the label of the step that tells it, and its MathML.
 
     ``marks``: tree → the ``data-arrow`` that it has where it stands; the equation of a vector whose
-    entries are told stands among them, too, where a term of it is marked.
+    entries are told stands among them, too, where a term of it is marked. In the plane A is told by
+    its angle.
     """
-    names, marked = latex_names(d), marks or {}
+    turned = by_angle(d)
+    names, marked = latex_names(d) | ANGLE, {turned(t): x for t, x in (marks or {}).items()}
+    marked |= {neg(t): x for t, x in marked.items() if coefficient(t)[0] < 0}
     typeset = partial(of_tree, names=names, notation=Notation(), marks=marked)
     told, steps = equations_of_motion(d), steps_of_answer(d)
 
     def marked_term(e: Equation) -> bool:
-        return any(x in marked for x in nodes(e.rhs) if isinstance(x, tuple) and x[0] != "entry")
+        inside = nodes(turned(e.rhs))
+        return any(x in marked for x in inside if isinstance(x, tuple) and x[0] != "entry")
 
-    shown = (*(e for e in steps[0].equations if e in told or marked_term(e)), *told)
+    def shown(e: Equation) -> Iterator[str]:
+        planar = d.problem.get("group") in PLANE and e.lhs == "Ȧ"
+        for x in ([*_of_angle(d)] if planar else []) or [e]:
+            sides = typeset(turned(x.lhs)) + literal(" = ") + typeset(turned(x.rhs))
+            yield sides.plain().mathml()
+
+    listed = (*(e for e in steps[0].equations if e in told or marked_term(e)), *told)
     return tuple(
-        (
-            next(s.label for s in reversed(steps) if e in s.equations),
-            (typeset(e.lhs) + literal(" = ") + typeset(e.rhs)).plain().mathml(),
-        )
-        for e in dict.fromkeys(shown)
+        (next(s.label for s in reversed(steps) if e in s.equations), x)
+        for e in dict.fromkeys(listed)
+        for x in shown(e)
     )

@@ -15,7 +15,7 @@ from typing import Any
 from ..language.show import show, signed
 from ..language.tree import Tree, names, neg, nodes
 from ..record.record import Derivation, Equation, Step
-from .answer import equations_of_motion, steps_of_answer
+from .answer import ANGLE, by_angle, equations_of_motion, steps_of_answer
 from .figure.stated_inertia import SIZES, along, shifts, turns
 from .language import Language
 from .outline import latex_names
@@ -110,7 +110,10 @@ def _in_letters(d: Derivation, letter: str, meaning: str, scale: str) -> Iterato
     if turning and ("w" in {s.name for s in d.symbols} or "SE" not in d.problem["group"]):
         column = "ζ" if letter == "Z" else letter
         entries = (("entry", column, k + 1) if k >= 0 else 0 for at in turning for k in at)
-        yield Arrow((letter,), meaning, "", (*entries,), scale, (*range(len(turning)),))
+        told: tuple[Tree, ...] = (letter,)
+        if letter == "Z" and d.problem["group"] in PLANAR:
+            told = (("entry", "ζ", turning[0][2] + 1), letter)  # the rate of the angle
+        yield Arrow(told, meaning, "", (*entries,), scale, (*range(len(turning)),))
     elif letter == "Z" and not turning and _moves_points(d):
         yield _matrix(("Z",), POINTS, "sliding", d.problem["n"])
 
@@ -240,24 +243,27 @@ def marks(found: Sequence[Arrow]) -> dict[Tree, str]:
 
 def legend(d: Derivation, found: Sequence[Arrow], language: Language) -> list[dict[str, str]]:
     """Of each arrow the letter or term that it is, as MathML, and what that means."""
-    typeset = latex_names(d)
+    typeset, turned = latex_names(d) | ANGLE, by_angle(d)
     meanings = {s.name: language.of(s.meaning).partition(", ‘")[0] for s in d.symbols}
     return [
         {
-            "shown": joined([formula(t, typeset) for t in x.shown], COMMA_SPACE).plain().mathml(),
+            "shown": joined([formula(turned(t), typeset) for t in x.shown], COMMA_SPACE)
+            .plain()
+            .mathml(),
             "meaning": meanings[x.of] if x.of else language.word(x.meaning),
         }
         for x in found
     ]
 
 
-def drawn(found: Sequence[Arrow], after: int) -> list[dict[str, Any]]:
+def drawn(d: Derivation, found: Sequence[Arrow], after: int) -> list[dict[str, Any]]:
     """What draws the arrows, as JSON has it; their numbers stand ``after`` so many others."""
+    turned = by_angle(d)
     return [
         {
             "number": i,
             "at": after + sum(len(y.entries) for y in found[: i - 1]) + 3 * k,
-            "label": ", ".join(map(show, x.shown)),
+            "label": ", ".join(show(turned(t)) for t in x.shown),
             "part": part,
             "scale": x.scale,
             **({"centre": True} if x.centre else {}),

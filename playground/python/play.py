@@ -17,7 +17,7 @@ import sys
 import tomllib
 import zipfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from contextlib import chdir, contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -86,7 +86,7 @@ class Play:
         FOLDER.mkdir()
         self.path = FOLDER / f"{name_of(text)}.toml"
         self.path.write_text(text, encoding="utf-8")
-        with inside(FOLDER):
+        with chdir(FOLDER):
             # names that the state has not are told with each walk, at their line
             self.problem, self.record = derive(self.path.name, followed=True)
 
@@ -130,18 +130,9 @@ class Play:
                 self.tell("verdict", told | tried | {"groups": v.tried[1], "reason": v.reason})
             self.tell("checked", {})
 
-    def plain(self, text: str) -> None:
-        """The text of a problem file, for the form, and whether it is TOML."""
-        try:
-            tomllib.loads(text)
-        except (RecursionError, ValueError):
-            self.tell("plain", {"text": text, "read": False})
-        else:
-            self.tell("plain", {"text": text, "read": True})
-
     def files(self, text: str, words: str) -> bytes | None:
-        """The files that a command writes, as a zip; ``words``: the command after its name, in
-        which FILE stands for the problem file."""
+        """The files that a command writes, which are texts, and a zip of them; ``words``: the
+        command after its name, in which FILE stands for the problem file."""
         written: dict[str, bytes] = {}
         with self.refusals():
             self.read(text)
@@ -152,7 +143,10 @@ class Play:
             if self.run(command) is None:
                 return None
             written = {x.name: x.read_bytes() for x in sorted(out.iterdir())}
-        return zipped(written) if written else None
+        if not written:
+            return None
+        self.tell("files", {x: y.decode() for x, y in written.items()})
+        return zipped(written)
 
     def found(self, text: str, what: str, lang: str) -> None:
         """What a command, with its options, searches of the equations, as its HTML for a page."""
@@ -166,7 +160,7 @@ class Play:
     def run(self, command: list[str]) -> str | None:
         """What a command prints; nothing where it is refused, which is told."""
         said, printed = io.StringIO(), io.StringIO()
-        with inside(FOLDER), redirect_stderr(said), redirect_stdout(printed):
+        with chdir(FOLDER), redirect_stderr(said), redirect_stdout(printed):
             try:
                 status = main(command)
             except SystemExit as ended:
@@ -234,7 +228,7 @@ class Play:
         own = made.outputs[: len(made.outputs) - sum(len(x.entries) for x in seen)]
         code = EmittedCode(replace(made, outputs=own), self.record, base_units(self.problem))
         page = data(code, self.problem, self.record, begin, language(lang))
-        page["arrows"] = drawn(seen, len(own))
+        page["arrows"] = drawn(self.record, seen, len(own))
         page["meanings"] = [x["meaning"] for x in legend(self.record, seen, language(lang))]
         page |= {"t": SECONDS, "tol": TOLERANCE}
         stated = [*page["x"]]
@@ -293,19 +287,6 @@ def name_of(text: str) -> str:
     except (tomllib.TOMLDecodeError, RecursionError, ValueError):
         return "problem"
     return name if isinstance(name, str) and NAME.fullmatch(name) else "problem"
-
-
-@contextmanager
-def inside(folder: Path) -> Iterator[None]:
-    """A context in a folder."""
-    import os
-
-    before = Path.cwd()
-    os.chdir(folder)
-    try:
-        yield
-    finally:
-        os.chdir(before)
 
 
 def zipped(files: dict[str, bytes]) -> bytes:

@@ -9,10 +9,9 @@ export class Code {
 
   clear() { this.place.replaceChildren(); }
 
-  /* files: name → bytes */
-  async show(files, words) {
-    const texts = new Map();
-    for (const [name, bytes] of files) texts.set(name, await bytes.text());
+  /* files: { name: text } */
+  show(files, words) {
+    const texts = new Map(Object.entries(files));
     for (const [name, text] of snippets(texts)) texts.set(name, text);
     const shown = make("pre", { tabindex: "0", translate: "no" }), lines = make("span", { class: "told" });
     const select = make("select", { "aria-label": words.file, change: () => {
@@ -24,7 +23,7 @@ export class Code {
       lines.textContent = [words.lines(text.split("\n").length - 1, kB), about(text).operations || about(header).operations].filter(Boolean).join("; ");
     } }, ...[...texts.keys()].map((x) => make("option", { value: x }, x)));
     const copies = make("button", { type: "button", click: () => copy(shown.textContent, copies, "✓") }, words.copy);
-    const saves = make("button", { type: "button", click: () => save(select.value, files.get(select.value) ?? texts.get(select.value)) }, words.savefile);
+    const saves = make("button", { type: "button", click: () => save(select.value, texts.get(select.value)) }, words.savefile);
     this.place.replaceChildren(make("div", { class: "row" }, make("label", {}, `${words.file} `, select), copies, saves, lines), shown);
     shown.setAttribute("role", "region");
     select.dispatchEvent(new Event("change"));

@@ -1,24 +1,12 @@
 /* What may stand at a place of a problem file, from the tables of the package. */
 import { velocity } from "./state.js";
 
-const KIND = /^\s*(?:kind|solid)\s*=\s*"(\w+)"/;
+const KIND = /^\s*(?:kind|solid)\s*=\s*"(\w+)"/m, NEXT = /^\s*\[/m;
 
-/* the table that a line stands in: its name and kind */
-function table(doc, number) {
-  let name = "", kind = "", n = number;
-  for (; n >= 1; --n) {
-    const header = doc.line(n).text.match(/^\s*\[+\s*([\w.]+)/);
-    if (header) {
-      [name] = header[1].split(".");
-      break;
-    }
-  }
-  for (let k = n + 1; k <= doc.lines; ++k) {
-    const { text } = doc.line(k);
-    if (/^\s*\[/.test(text)) break;
-    kind ||= text.match(KIND)?.[1] ?? "";
-  }
-  return { name, kind };
+/* the table that a place stands in: its name and kind */
+function table(text, at) {
+  const before = text.slice(0, at).split(NEXT), own = before.at(-1) + text.slice(at).split(NEXT)[0];
+  return { name: before.length > 1 ? own.match(/^\[?\s*(\w*)/)[1] : "", kind: own.match(KIND)?.[1] ?? "" };
 }
 
 function keys(schema, { name, kind }, whole) {
@@ -56,7 +44,7 @@ function headers(schema, line, before, pos) {
 
 export const completions = (schema) => (context) => {
   const { doc } = context.state, line = doc.lineAt(context.pos), before = line.text.slice(0, context.pos - line.from);
-  const here = () => table(doc, line.number);
+  const here = () => table(doc.toString(), context.pos);
   if (/^\s*\[{1,2}\w*$/.test(before)) return headers(schema, line, before, context.pos);
   const value = before.match(/^\s*(\w+)\s*=\s*("?)([^"]*)$/);
   if (value) {

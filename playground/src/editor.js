@@ -42,7 +42,6 @@ export function editor(parent, schema, words, changed) {
     set text(text) {
       if (text !== whole()) view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text } });
     },
-    focus: () => view.focus(),
     inWords: (w) => view.dispatch({ effects: label.reconfigure(about(w)) }),
     /* faults: [{ line, message, severity }] */
     show(faults) {

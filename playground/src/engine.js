@@ -42,8 +42,6 @@ export class Engine {
 
   get busy() { return this.#asked !== null; }
 
-  get ready() { return this.#ready; }
-
   /* Ask, and hear every answer; resolves at the end: "end", "stopped", "late", "broken", or "superseded" by a later
    * question. One that waits for another long is not kept waiting. */
   async ask(question, heard) {

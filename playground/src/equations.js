@@ -4,26 +4,6 @@ import { copy, make } from "./dom.js";
 
 const MATHML = "http://www.w3.org/1998/Math/MathML";
 
-const STYLE = `
-:host { display: block; overflow-wrap: break-word; font: 1.0625rem/1.55 Charter, "Bitstream Charter", "Sitka Text", Cambria, Georgia, serif; }
-article { content-visibility: auto; contain-intrinsic-size: auto 9rem; }
-.tick { color: var(--right); background: none; border: 0; padding: 0 .2rem; font: 400 .85rem/1 inherit; font-family: inherit; cursor: pointer; }
-.tick.wrong { color: var(--wrong); }
-article:focus { outline: 0; }
-.aimed > h3 { background: color-mix(in srgb, var(--mark) 12%, transparent); }
-button { opacity: 1; min-height: 24px; min-width: 24px; }
-h1:first-child { margin-top: 0; }
-a { text-decoration: underline; text-underline-offset: .15em; text-decoration-thickness: from-font; }
-a:focus-visible, button:focus-visible, summary:focus-visible { outline: 2px solid var(--mark); outline-offset: 1px; }
-@media (min-width: 68rem) { .printed { position: static; width: auto; } .printed > span { display: inline; } }
-@media (max-width: 40rem) {
-  .equation { padding-right: 0; }
-  .right { flex: 1 1 55%; }
-  .number { position: static; flex: 1 0 100%; }
-  .number button { display: inline-block; }
-}
-`;
-
 export class Equations {
   #root;
   #open = null;
@@ -46,7 +26,7 @@ export class Equations {
     this.says = says;
     this.#root = host.attachShadow({ mode: "open" });
     const sheet = new CSSStyleSheet();
-    sheet.replaceSync(css + STYLE);
+    sheet.replaceSync(css);
     this.#root.adoptedStyleSheets = [sheet];
     this.#root.addEventListener("click", (e) => this.#clicked(e));
     this.#root.addEventListener("keydown", (e) => { if (moved(this.#root, e.target.closest("button"), e.key)) e.preventDefault(); });

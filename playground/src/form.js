@@ -2,13 +2,12 @@
  * all others and comments as they are. */
 import { about, declared, parameters, withDefault, withoutParameter } from "./declared.js";
 import { make } from "./dom.js";
-import { bodies, bodyOf, fitted, force } from "./made.js";
+import { BODY, OTHERS, bodies, bodyOf, fitted, force, withBody } from "./made.js";
 import { entry, lineAt, put, raw, tables, uncommented, withTable, without } from "./source.js";
 import { velocity } from "./state.js";
 import { listed, numeral, shown, toml } from "./values.js";
 
-const BODY = ["point", "body", "solid"], FORCES = ["potential", "input", "damping"], MOST = 16;
-const OTHERS = ["lagrangian", "inertia", "algebra", "fluid"];
+const FORCES = ["potential", "input", "damping"], MOST = 16;
 const SHOWN = ["", ...BODY, ...FORCES, "parameters", "initial"];
 
 export class Form {
@@ -17,7 +16,9 @@ export class Form {
     place.addEventListener("submit", (e) => e.preventDefault());
     document.addEventListener("faults", (e) => {
       this.faults = e.detail;
-      if (!place.hidden) this.mark();
+      if (place.hidden) return;
+      if (this.unreadable !== this.broken) this.show(this.words);
+      else this.mark();
     });
     document.addEventListener("text", (e) => { this.latest = e.detail; });
     document.addEventListener("go", (e) => {
@@ -25,14 +26,16 @@ export class Form {
     });
   }
 
-  /* `plain`: a text, and whether it is TOML; nothing where the worker had no time to say so */
-  show(plain, words) {
-    const { text, read } = plain ?? { text: this.latest, read: true };
+  get broken() { return this.faults.some((x) => x.message.includes(": not TOML: ")); }
+
+  /* the text as it is now; a button alone where its last derivation found that it is no TOML */
+  show(words) {
+    const text = this.latest ?? "";
     if (text !== this.text) for (const x of [this.forgotten, this.bodies, this.unread]) x.clear();
-    Object.assign(this, { words, text: text ?? "" });
-    if (text && read) return this.draw();
+    Object.assign(this, { words, text, unreadable: this.broken });
+    if (text && !this.broken) return this.draw();
     const afresh = make("button", { type: "button", click: () => {
-      if (!text?.trim() || confirm(words.sure)) this.write(this.schema.scaffold);
+      if (!text.trim() || confirm(words.sure)) this.write(this.schema.scaffold);
     } }, words.start);
     return this.place.replaceChildren(make("p", { role: "alert" }, words.unread), afresh);
   }
@@ -110,9 +113,7 @@ export class Form {
     if (all.some((x) => OTHERS.includes(x.name)) || all[0].entries.some((x) => BODY.includes(x.key))) return [];
     const change = (x) => {
       this.bodies.set(kind, all.filter((y) => BODY.includes(y.name)).map((y) => uncommented(this.text.slice(y.from, y.to))).join("\n"));
-      let text = this.text;
-      for (let k = all.length - 1; k > 0; --k) if (BODY.includes(all[k].name)) text = without(text, k);
-      this.edit(withTable(text, this.bodies.get(x) || made[x], ["", "parameters"]));
+      this.edit(withBody(this.text, this.bodies.get(x) || made[x]));
     };
     const count = { point: 0, solid: 0 };
     const rows = all.flatMap((x, k) => {

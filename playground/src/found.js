@@ -3,12 +3,10 @@ import { make } from "./dom.js";
 import { Equations } from "./equations.js";
 import { option } from "./link.js";
 
-const SEARCHES = ["symmetries", "integrals", "equilibria", "reduction"];
-/* in numbers equilibria need NumPy, which the page has not */
-const TOLD = { equilibria: "--letters" };
+const SEARCHES = { symmetries: "symmetries", integrals: "integrals", equilibria: "equilibria", letters: "equilibria --letters", reduction: "reduction" };
 
 export class Found {
-  #now = SEARCHES[0];
+  #now = "symmetries";
   #shown = "";
 
   /* ask(what, heard): how the search of a problem ended; go: what a link to a step of the walk does */
@@ -24,7 +22,7 @@ export class Found {
   /* what is chosen, of a walk { text, lang }, unless it stands there; file: the name of its file */
   async of({ text, lang }, words, file) {
     const key = `${this.#now} ${lang} ${text}`, what = this.#now;
-    const buttons = SEARCHES.map((x) => make("button", {
+    const buttons = Object.keys(SEARCHES).map((x) => make("button", {
       type: "button", "data-search": x, "aria-pressed": String(x === what),
       click: () => {
         this.#now = x;
@@ -34,13 +32,13 @@ export class Found {
     }, words.searches[x]));
     this.choice.setAttribute("aria-label", words.find);
     this.choice.replaceChildren(...buttons);
-    const options = TOLD[what] ? [TOLD[what]] : [];
-    this.command.textContent = ["derive", what, file, ...options].join(" ") + option(lang);
+    const [command, ...options] = SEARCHES[what].split(" ");
+    this.command.textContent = ["derive", command, file, ...options].join(" ") + option(lang);
     if (this.#shown === key) return;
     this.#shown = key;
     this.equations.clear(make("p", {}, words.searching));
     let refused = "", page = "";
-    const how = await this.ask([what, ...options].join(" "), { text, lang }, (kind, news) => {
+    const how = await this.ask(SEARCHES[what], { text, lang }, (kind, news) => {
       if (kind === "error") refused = news.message;
       if (kind === "found") page = news;
     });

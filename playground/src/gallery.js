@@ -32,8 +32,8 @@ export class Gallery {
     (this.place.querySelector("[aria-current]") ?? this.place.querySelector("a"))?.focus();
   }
 
-  #thing({ name, picture, moves, group, ...called }, lang, current) {
-    const problem = this.ready(name), moved = group ?? problem.group, shown = make("span", { class: "picture" });
+  #thing({ name, picture, moves, ...called }, lang, current) {
+    const problem = this.ready(name), moved = problem[`group_${lang}`], shown = make("span", { class: "picture" });
     if (picture) shown.innerHTML = picture; // made with the page
     else shown.append(moved);
     return make("a", {

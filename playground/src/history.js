@@ -44,12 +44,6 @@ export class Places {
     this.#enter(!again, placed(lang, word, id, seen));
   }
 
-  /* the entry that is shown, written in full */
-  settle(lang, word, step, seen) {
-    this.stands = false;
-    this.see(lang, word, step, seen);
-  }
-
   /* the same entry, which says what is seen */
   see(lang, word, step, seen) {
     this.tab = seen.tab ?? "walk";

@@ -1,6 +1,10 @@
 /* What the form writes for a new body and a new force, and lists of another length where the group is another. */
-import { entry, put, raw, tables } from "./source.js";
+import { declared } from "./declared.js";
+import { entry, put, raw, tables, withTable, without } from "./source.js";
 import { listed, shown, toml } from "./values.js";
+
+/* what a body is stated by that is none of points */
+export const OTHERS = ["lagrangian", "inertia", "algebra", "fluid"];
 
 const zeros = (n) => Array(n).fill("0");
 const list = (x) => toml(x.join(", "), true);
@@ -11,6 +15,22 @@ export const bodies = (n) => ({
   moments: '[body]\nmoments = "symbolic"',
   solid: '[body]\nsolid = "box"\ndensity = "rho"\nsides = ["a", "b", "c"]',
 });
+
+export const BODY = ["point", "body", "solid"];
+
+/* a text with other tables of its body; its springs and forces on points stay, and are told where they fit no longer */
+export function withBody(text, made) {
+  for (let k = tables(text).length - 1; k > 0; --k) if (BODY.includes(tables(text)[k].name)) text = without(text, k);
+  return withTable(text, made, ["", "parameters"]);
+}
+
+/* a problem whose body has the moments of a mesh of some density; a new one where it has none in space */
+export function meshed(text, { m, c, J }, schema) {
+  const group = shown(raw(text, tables(text)[0], "group")), stated = tables(text).some((x) => OTHERS.includes(x.name));
+  const before = schema.groups[group]?.n === 3 && !stated ? text : schema.scaffold, of = (x) => (x ? `"${x}*rho"` : "0");
+  const given = `[body]\ngiven = { m = ${of(m)}, c = [${c.map(of).join(", ")}], J = [${J.map((row) => `[${row.map(of).join(", ")}]`).join(", ")}] }`;
+  return declared(before, withBody(before, given), new Map([["rho", '{ default = 1000, unit = "kg/m^3", meaning = "density" }']]));
+}
 
 /* what the body of a text is: a kind of these, or "given" */
 export function bodyOf(text) {

@@ -9,6 +9,7 @@ import { Gallery } from "./gallery.js";
 import { Places } from "./history.js";
 import { Found } from "./found.js";
 import { asked, spoken } from "./link.js";
+import { meshed } from "./made.js";
 import { menu } from "./menu.js";
 import { opens } from "./opened.js";
 import { Motion } from "./see.js";
@@ -25,6 +26,9 @@ const WAIT = 500, MOVED = 150, SECONDS = 60;
 let lang = spoken(location.search) ?? kept("lang") ?? (navigator.language?.startsWith("fr") ? "fr" : "en");
 let words = WORDS[lang] ?? WORDS[lang = "en"];
 const [data, css] = await Promise.all([fetch("data.json").then((x) => x.json()), fetch("page.css").then((x) => x.text())]);
+const formulas = new CSSStyleSheet(); // those beside the walk are set as those in it
+formulas.replaceSync(css.match(/^(math|mover|mtable|\.(overline|kept|bold|parameter))\b.*$/gm).join(""));
+document.adoptedStyleSheets = [formulas];
 const names = data.problems.map((x) => x.name);
 const ready = (name) => data.problems.find((x) => x.name === name);
 
@@ -266,18 +270,19 @@ async function find() {
   if (walked && !running && !timer) await searches.of(walked, words, chosen() ?? `${problem_name()}.toml`);
 }
 
-/* the files of a command as { zip }, or what it { refused }; a walk that runs is waited for */
+/* the files of a command, { files: name → text, zip }, or what it { refused }; a walk that runs is waited for */
 async function files(command) {
-  let found = null, refused = "";
+  let refused = "";
+  const found = {};
   await running;
   say(words.emitting);
   const how = await engine.ask({ ask: "files", text: text.text, words: command }, (kind, news) => {
-    if (kind === "files") found = news;
-    else if (kind === "error") refused = news.message;
+    if (kind === "error") refused = news.message;
+    else if (["files", "zip"].includes(kind)) found[kind] = news;
   });
   if (ended(how)) say("");
   else refused = how === "superseded" ? words.overtaken : told;
-  return found ? { zip: found } : { refused };
+  return found.zip ? found : { refused };
 }
 
 /* why options of the code cannot be added to others; null while something else is asked, or is to be derived */
@@ -335,7 +340,8 @@ async function visit(tab) {
   }
   const now = found.text ?? ready(found.name).text;
   aim = { ...(places.left ?? (found.step && { step: found.step })), projected: found.seen.projected };
-  if (!notice) places.settle(lang, found.name ?? places.word, found.step, found.seen);
+  places.stands &&= Boolean(notice);
+  if (!notice) places.see(lang, found.name ?? places.word, found.step, found.seen);
   tab ??= found.seen.tab ?? (found.first ? "see" : "walk");
   if (tab === "see") motion.restore(found.seen);
   if (now === walked?.text && now === text.text && lang === walked.lang && !notice) {
@@ -352,7 +358,7 @@ async function visit(tab) {
   motion.forget();
   about();
   take.told();
-  if (face()) await filled();
+  faces[face()]?.show(words);
   await derive();
 }
 
@@ -376,30 +382,12 @@ function speak() {
   for (const button of document.querySelectorAll("[data-lang]")) button.setAttribute("aria-pressed", String(button.dataset.lang === lang));
 }
 
-async function filled(as = face()) {
-  if (await plain(() => true, as) === "superseded") unread();
-}
-
-/* a walk overtook the question whether the text is TOML: it is asked again behind it */
-async function unread() {
-  await running;
-  if (face() && await plain((found) => found && !found.read) === "superseded" && running) unread();
-}
-
-/* show a face of the text where `fit` says so of what Python says of it; how the question ended */
-async function plain(fit, as = face()) {
-  let found = null;
-  const how = await engine.ask({ ask: "plain", text: text.text }, (kind, news) => { if (kind === "plain") found = news; });
-  if (fit(found)) faces[as].show(found, words);
-  return how;
-}
-
-async function write(as) {
-  const all = ["text", ...Object.keys(faces)];
-  for (const x of all) the(`as-${x}`).setAttribute("aria-pressed", String(x === as));
-  if (as !== "text") await filled(as);
-  if (the(`as-${as}`).getAttribute("aria-pressed") !== "true") return; // asked for another meanwhile
-  for (const x of all) the(x === "text" ? "editor" : x).hidden = x !== as;
+function write(as) {
+  for (const x of ["text", ...Object.keys(faces)]) {
+    the(`as-${x}`).setAttribute("aria-pressed", String(x === as));
+    the(x === "text" ? "editor" : x).hidden = x !== as;
+  }
+  faces[as]?.show(words);
 }
 
 function widen(wide) {
@@ -418,7 +406,7 @@ for (const button of document.querySelectorAll("[data-lang]")) {
     speak();
     motion.forget();
     await places.problem(lang, chosen(), text.text);
-    if (face()) filled();
+    faces[face()]?.show(words);
     derive();
   });
 }
@@ -435,7 +423,7 @@ the("link").addEventListener("click", async (e) => {
   places.see(lang, places.word, places.named, { tab: tabs.now, ...seen });
   await copy(location.href, e.target, words.linked);
 });
-opens(the("open"), { open: (now) => choose(now), say: (line) => say(line), words: () => words });
+opens(the("open"), { open: (now) => choose(now), body: (moments) => choose(meshed(text.text, moments, data.schema)), say: (line) => say(line), words: () => words });
 the("wide").addEventListener("click", () => widen(!document.body.classList.contains("wide")));
 const project = () => places.stands && projector.enter(tabs.now === "walk" ? equations.at()?.id : places.named);
 the("project").addEventListener("click", project);

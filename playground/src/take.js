@@ -4,12 +4,11 @@ import { copy, make, save } from "./dom.js";
 import { option } from "./link.js";
 import { notebook } from "./notebook.js";
 import { Options } from "./options.js";
-import { unzipped } from "./zip.js";
 
 const TYPES = { ".tex": "text/x-tex", ".json": "application/json", ".html": "text/html", ".ipynb": "application/x-ipynb+json", ".toml": "application/toml" };
 
 export class Take {
-  /* ask: (words of a command) → { zip } or { refused }; reasons: (options of an emission) → why others cannot be added, or null while
+  /* ask: (words of a command) → { files, zip } or { refused }; reasons: (options of an emission) → why others cannot be added, or null while
    * that cannot be known; file: () → { name, text, title, ready } */
   constructor(place, data, { ask, reasons, file }) {
     Object.assign(this, { place, ask, reasons, file });
@@ -31,8 +30,8 @@ export class Take {
       this.row(() => "walk FILE --format json --out out/NAME.json", this.saves(words.record, ".json")),
       make("div", { class: "row" }, this.own(() => `${words.notebook} .ipynb`, ".ipynb", (x) => notebook(x.name, x.text, x.title)), make("span", { class: "told" }, words.runs)),
       make("h2", {}, words.code), this.options.show(words),
-      this.row(() => `emit FILE ${this.options.command} --out out`, [words.show, (zip) => this.read(zip)],
-        [words.save(".zip"), (zip) => save(`${this.file().name}.zip`, zip, "application/zip")]),
+      this.row(() => `emit FILE ${this.options.command} --out out`, [words.show, ({ files }) => this.code.show(files, words)],
+        [words.save(".zip"), ({ zip }) => save(`${this.file().name}.zip`, zip, "application/zip")]),
       this.code.place,
     );
     this.told();
@@ -50,14 +49,7 @@ export class Take {
 
   /* a button that saves the only file of a command */
   saves(title, end) {
-    return [this.words.save(`${title} ${end}`), async (zip) => {
-      const [bytes] = (await unzipped(zip)).values();
-      save(`${this.file().name}${end}`, bytes, TYPES[end]);
-    }];
-  }
-
-  async read(zip) {
-    await this.code.show(await unzipped(zip), this.words);
+    return [this.words.save(`${title} ${end}`), ({ files }) => save(`${this.file().name}${end}`, Object.values(files)[0], TYPES[end])];
   }
 
   /* buttons that do something with the files of a command, the command itself, and what it refuses */
@@ -71,10 +63,10 @@ export class Take {
       const button = make("button", { type: "button", click: async () => {
         fault.textContent = "";
         button.disabled = true;
-        const { zip, refused } = await this.ask(command().replaceAll("NAME", this.file().name));
+        const found = await this.ask(command().replaceAll("NAME", this.file().name));
         button.disabled = false;
-        if (zip) await does(zip);
-        else fault.textContent = refused;
+        if (found.zip) does(found);
+        else fault.textContent = found.refused;
       } }, text);
       return button;
     });
@@ -94,23 +86,15 @@ export class Take {
     this.weigh();
   }
 
-  /* options that would be refused cannot be chosen; asked again until they are those of what is chosen now */
+  /* options that would be refused beside those that are chosen now cannot be chosen; asked again when the worker is free */
   async weigh() {
-    this.again = this.weighing;
-    if (this.weighing) return;
-    this.weighing = true;
-    for (;;) {
-      const { text } = this.file(), { command } = this.options, old = this.weighed;
-      if (old?.text === text && old.command === command) break;
-      if (old && old.text !== text) this.options.refuse({});
-      this.weighed = null;
-      const found = await this.reasons(command);
-      if (!found && !this.again) break;
-      this.again = false;
-      if (!found) continue;
-      this.options.refuse(found);
-      this.weighed = { text, command };
-    }
-    this.weighing = false;
+    const { text } = this.file(), { command } = this.options, now = `${command} ${text}`;
+    if (this.weighed === now) return;
+    if (this.text !== text) this.options.refuse({});
+    Object.assign(this, { text, weighed: now });
+    const found = await this.reasons(command);
+    if (this.weighed !== now) return;
+    if (found) this.options.refuse(found);
+    else this.weighed = null;
   }
 }

@@ -58,15 +58,15 @@ async function answered(ask, does) {
   begin("rest");
 }
 
-/* what is asked, with what of the question behind its text; files are bytes */
-const ASKED = { walk: ["lang"], plain: [], check: [], motion: ["lang"], refused: ["words"], kept: ["lang"], found: ["what", "lang"], files: ["words"] };
+/* what is asked, with what of the question behind its text; a zip is bytes */
+const ASKED = { walk: ["lang"], check: [], motion: ["lang"], refused: ["words"], kept: ["lang"], found: ["what", "lang"], files: ["words"] };
 
 function asked(play, m) {
   const made = play[m.ask](m.text, ...ASKED[m.ask].map((x) => m[x]));
   if (!made) return;
   const bytes = made.toJs();
   made.destroy();
-  tell("files", bytes.buffer, [bytes.buffer]);
+  tell("zip", bytes.buffer, [bytes.buffer]);
 }
 
 let line = Promise.resolve();

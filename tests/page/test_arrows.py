@@ -89,8 +89,8 @@ def test_two_tops_have_each_its_own():
     assert np.allclose(told["angular velocity in the body"], [w, v])
     assert np.allclose(told["whole torque"], torques)
     d = derived("two_tops")
-    assert [x["part"] for x in drawn(arrows(d.record), 0)] == [0, 1, 0, 1]
-    assert [x["at"] for x in drawn(arrows(d.record), 5)] == [5, 8, 11, 14]
+    assert [x["part"] for x in drawn(d.record, arrows(d.record), 0)] == [0, 1, 0, 1]
+    assert [x["at"] for x in drawn(d.record, arrows(d.record), 5)] == [5, 8, 11, 14]
 
 
 @pytest.mark.parametrize("name", ["sl3", "gl3", "gas_cloud", "jelly", "saff3"])

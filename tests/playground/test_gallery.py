@@ -99,6 +99,10 @@ def test_the_gallery_on_a_phone_by_night_in_french(browser, site):
         page.wait_for_selector(".shelves a")
         assert page.inner_text("#gallery h2") == "Qu’est-ce qui bouge ?"
         assert page.locator(".shelves .name").first.inner_text() == "Pendule"
+        labels = "[...document.querySelectorAll('#ready optgroup')].map((x) => x.label)"
+        groups = {*page.evaluate(labels), *page.locator(".shelves small").all_inner_texts()}
+        assert {"SO(3)", "SE₂(3)", "Vissages", "tout groupe"} <= groups
+        assert not {"SE_2_3", "G", "Screw", "any group"} & groups
         assert not violations(page)
         assert page.evaluate("document.querySelector('#gallery').scrollWidth") <= 390
 

@@ -101,8 +101,8 @@ def test_a_ready_made_problem_is_checked(played, name):
 def test_files_are_those_of_the_command(played, capsys, tmp_path, text, words):
     file, out = tmp_path / "mine.toml", tmp_path / "out"
     file.write_text(text_of(text), encoding="utf-8")
-    ((kind, files),) = played.asked("files", text=text_of(text), words=words)
-    assert kind == "files"
+    (_, told), (_, files) = played.asked("files", text=text_of(text), words=words)
+    assert {x: y.encode() for x, y in told.items()} == files
     out.mkdir()
     place = words.replace("FILE", str(file)).rpartition(" out")
     said(capsys, *f"{place[0]} {out}{place[2]}".split())
@@ -180,7 +180,7 @@ def test_the_browser_is_told_the_same(page, played, ask, more):
     """By another Python, on another machine, without NumPy and with SymPy when it is asked for."""
     how, heard = asked(page, ask, **more)
     assert how == "end"
-    heard = [(kind, unzipped(x) if kind == "files" else x) for kind, x in heard]
+    heard = [(kind, unzipped(x) if kind == "zip" else x) for kind, x in heard]
     assert heard == played.asked(ask, **more)
 
 

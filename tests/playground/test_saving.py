@@ -1,5 +1,9 @@
 """What moves is saved as a picture and as a film."""
 
+import base64
+import re
+from xml.etree import ElementTree
+
 from tests.playground.test_moving import MOTION, shown_at
 from tests.support.playground_site import moving, opened, visit
 
@@ -65,6 +69,35 @@ def test_a_picture_and_a_film_are_saved(fresh, site):
         *found, long = other.evaluate(LONG, film)
     assert found == size
     assert 0.5 < long < 5
+
+
+def test_the_same_picture_as_svg(fresh, site):
+    """As many strokes and faces as the canvas is drawn with, its letters, and what they mean."""
+    visit(fresh, f"{site}#top", "top")
+    frame = moving(fresh)
+    shown_at(frame, 0.5)
+    name, picture = saved(fresh, frame, "SVG")
+    assert name == "top.svg"
+    root = ElementTree.fromstring(bytes(picture))
+    parts = [x for x in root.iter() if x.tag.endswith("path")]
+    texts = {x.text for x in root.iter() if x.tag.endswith("text")}
+    assert len(parts) > 100
+    assert {"ζ", "Iζ", "e₁", "e₃", "g"} <= texts
+    told = frame.evaluate(f"{MOTION}.scene.page.meanings")
+    assert len([x for x in texts if any(x.endswith(y) for y in told)]) == len(told)
+    width, height = map(float, root.get("viewBox").split()[2:])
+    for part in parts:
+        numbers = [float(x) for x in re.findall(r"[ML](-?[\d.]+)", part.get("d"))]
+        assert all(-width < x < 2 * width for x in numbers)
+    with opened(fresh.context.browser) as other:
+        shown = f'<img src="data:image/svg+xml;base64,{base64.b64encode(bytes(picture)).decode()}">'
+        other.set_content(shown)
+        size = "(({ naturalWidth, naturalHeight }) => naturalHeight / naturalWidth)"
+        ratio = other.evaluate(f"{size}(document.querySelector('img'))")
+    assert abs(ratio - height / width) < 0.02
+    assert frame.evaluate(
+        "!Object.hasOwn(document.querySelector('canvas').getContext('2d'), 'fill')"
+    )
 
 
 def test_without_a_recorder_a_line_says_so(fresh, site):

@@ -1,14 +1,17 @@
 """Programs that the page writes for the emitted code: each runs, and all say the same rates."""
 
 import math
+import re
 import subprocess
 import sys
 
 import pytest
+from tree_sitter import Parser
 
 from derive.command.cli import main
 from tests.support import in_node
 from tests.support.needs import CC, needs, present
+from tests.support.read_julia import LANGUAGE, Module
 
 IMPORTS = """
 import { about, snippets } from "./src/snippets.js";
@@ -49,6 +52,20 @@ def rates(folder, program, problem):
     return {name: float(x) for name, x in map(str.split, done.stdout.splitlines())}
 
 
+def by_julia(folder, problem):
+    """What main.jl prints, by the tests' own reader of Julia: its statements as a function of the
+    module, and the loop that prints as it stands."""
+    program, emitted = ((folder / x).read_text() for x in ("main.jl", f"{problem}.jl"))
+    assert not Parser(LANGUAGE).parse(program.encode()).root_node.has_error
+    head, statements, printed = re.split(r"(?<=\.jl\"\)\n)|^(?=for )", program, flags=re.MULTILINE)
+    assert head == f'# julia main.jl\ninclude("{problem}.jl")\n'
+    each = f"for (name, rate) in zip({problem}.STATE, dx)"
+    assert printed == f'{each}\n    println(name, " ", rate)\nend\n'
+    main = f"function main()\n{statements.replace(f'{problem}.', '')}return dx\nend\n"
+    module = Module(emitted.replace("end # module", f"{main}end # module"))
+    return dict(zip(module.names["STATE"], map(float, module.call("main").whole()), strict=True))
+
+
 @needs("cc", "node")
 @pytest.mark.parametrize(
     "problem", ["so3", "se3", "top", "comet", "two_tops", "heisenberg", "kirchhoff"]
@@ -65,7 +82,7 @@ def test_a_program_of_each_language_runs_and_says_the_same(problem, tmp_path, ca
     names, about = written(tmp_path, problem, *(y for x in languages for y in ("--lang", x)))
     assert {*names} == {*tried, "main.jl"}
     assert "rhs" in about[f"{problem}.h"]["operations"]
-    found = [rates(tmp_path, x, problem) for x in tried]
+    found = [*(rates(tmp_path, x, problem) for x in tried), by_julia(tmp_path, problem)]
     first = found[0]
     assert [*first] == about[f"{problem}.py"]["state"] == about[f"{problem}.jl"]["state"]
     assert any(first.values())

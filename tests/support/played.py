@@ -72,11 +72,10 @@ class Played:
         self.play = module().Play(lambda kind, news: self.heard.append((kind, json.loads(news))))
 
     def asked(self, ask, **more):
-        """What is told of a question, in its order; of ``files`` the bytes as well."""
+        """What is told of a question, in its order; of files the zip as well."""
         self.heard.clear()
         made = getattr(self.play, ask)(**more)
-        files = [("files", unzipped(made))] if made else []
-        return [*self.heard, *files]
+        return [*self.heard, *([("zip", unzipped(made))] if made else [])]
 
 
 def unzipped(packed):

@@ -47,7 +47,7 @@ ASK = """([ask, more]) => new Promise(async (resolve) => {
     const heard = [];
     const plain = (bytes) => btoa(Array.from(bytes, (x) => String.fromCharCode(x)).join(""));
     const how = await play.engine.ask({ ask, ...more }, (kind, news) => {
-        heard.push([kind, kind === "files" ? plain(new Uint8Array(news)) : news]);
+        heard.push([kind, kind === "zip" ? plain(new Uint8Array(news)) : news]);
     });
     resolve([how, heard]);
 })"""

@@ -245,6 +245,8 @@ def viewed(x, *places):
 
 
 def zeros(kind, *sizes):
+    if type(kind) is int:
+        kind, sizes = np.float64, (kind, *sizes)
     return Numbers(*sizes, values=[kind(0)] * prod(sizes), kind=kind)
 
 

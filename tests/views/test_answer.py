@@ -1,5 +1,7 @@
 """The answer of a record: its equations of motion alone, with what their letters are."""
 
+import re
+
 import numpy as np
 import pytest
 import sympy
@@ -9,7 +11,9 @@ from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.language.tree import nodes
 from derive.views.answer import (
+    answer_mathml,
     answer_text,
+    by_angle,
     definitions,
     equations_of_motion,
     steps_of_answer,
@@ -62,6 +66,15 @@ def test_it_is_of_the_record_and_as_wide_as_is_asked_for(name):
         assert all(display_width(line) <= 72 for line in shown.split("\n"))
         assert words.word("where") in shown or not defined
         assert steps_of_answer(record)[0].label in shown
+
+
+def test_in_the_plane_the_page_tells_the_angle():
+    """As books do: θ'' = −(g/l) sin θ."""
+    shown = [re.sub(r"<[^>]*>", "", x) for _, x in answer_mathml(walk_of("pendulum"))]
+    assert shown == ["A=(cos(θ)−sin(θ)sin(θ)cos(θ))", "θ˙=ζ1", "ζ˙1=−gsin(θ)l"]
+    _, rate, *_ = (x for _, x in answer_mathml(walk_of("hung_bar")))
+    assert re.sub(r"<[^>]*>", "", rate) == "θ˙=ζ1"
+    assert by_angle(walk_of("so4"))(("entry", "A", 1, 2)) == ("entry", "A", 1, 2)
 
 
 CONSTANTS = {"π", "d/dt"}

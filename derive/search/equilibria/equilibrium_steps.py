@@ -250,11 +250,14 @@ def _about(values: Iterable[complex]) -> Tree:
 def nearly(characteristic: Sequence[Number]) -> Tree:
     """The eigenvalues as decimals that differ, each once but for its opposite and conjugate: roots
     of q(λ²), q without multiple roots."""
-    import numpy as np
+    from mpmath import polyroots, sqrt, workdps
 
-    found = np.sqrt(np.roots([*map(float, square_free(tuple(characteristic[::-2]))[::-1])]) + 0j)
+    q = [*map(float, square_free(tuple(characteristic[::-2]))[::-1])]
+    with workdps(30):
+        found = [sqrt(x) for x in polyroots(q, maxsteps=200, extraprec=100)]
     pairs = [
-        [0.0 if abs(y) < NOTHING * abs(x) else abs(y) for y in (x.real, x.imag)] for x in found
+        [0.0 if abs(y) < NOTHING * abs(x) else abs(float(y)) for y in (x.real, x.imag)]
+        for x in found
     ]
 
     def rounded(digits: int) -> set[tuple[Fraction, ...]]:

@@ -48,7 +48,6 @@ class Equilibrium:
     linear: Matrix
     characteristic: tuple[Number, ...]
     squares: RealRoots
-    eigenvalues: tuple[complex, ...]
     signature: tuple[int, int]
     regular: bool
     compact: bool
@@ -97,6 +96,11 @@ class Equilibrium:
             return "unstable" if self._grows else "unstable_beyond"
         return "open" if self.leaf.free else "point"
 
+    @cached_property
+    def eigenvalues(self) -> tuple[complex, ...]:
+        """About those of M."""
+        return eigenvalues(self.linear)
+
     @property
     def growth(self) -> float:
         """About the largest real part of an eigenvalue."""
@@ -135,7 +139,7 @@ def judged(whole: IntegralsFound, about: About, elements: Elements) -> Equilibri
     squares = found.squares if found else diagonalised(along_the_orbit(about, on))
     return Equilibrium(
         *(about, on, found, linear, characteristic, roots_of_squares(characteristic)),
-        *(eigenvalues(linear), signs(squares)),
+        signs(squares),
         regular=regular,
         compact=not regular and has_compact_stabilisers(whole.system),
         attained=attained(about, elements),

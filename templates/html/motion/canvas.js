@@ -14,9 +14,8 @@ function canvas(scene, label) {
     pen.stroke();
   };
   const sized = { element: shown, pen, path, stroke, width: 1, height: 1 };
-  let times = 1;
   const fit = () => {
-    const sharp = times * min(devicePixelRatio || 1, 2.5);
+    const sharp = min(devicePixelRatio || 1, 2.5);
     sized.width = shown.clientWidth;
     sized.height = shown.clientHeight;
     shown.width = round(sized.width * sharp);
@@ -25,11 +24,6 @@ function canvas(scene, label) {
     scene.redraw(); // the new size has wiped it
   };
   new ResizeObserver(fit).observe(shown);
-  /* so many times as sharp as the screen, for a picture */
-  shown.finer = (by) => {
-    times = by;
-    fit();
-  };
   return sized;
 }
 
