@@ -177,8 +177,7 @@ class _EntryReader:
         _, chosen, moved = lines[not left]
         constant = [self._polynomial(self._combined(row, 0)) for row in self.linear]
         if relations.form:
-            metric = q.inverse(relations.form) if left else relations.form
-            assert metric is not None
+            metric = q.inverted(relations.form) if left else relations.form
             constant += self._products(moved, chosen, metric)
         full = len(rows) == n
         if full and relations.determinant and not relations.complex_basis:
