@@ -18,7 +18,7 @@ from ...language.univariate import value_of
 from ...record.record import Equation, RecordError, Step
 from ...record.sentence import Claim
 from .entries_checked import Entries, invertible
-from .equilibrium_claims import coordinates, not_from, silent
+from .equilibrium_claims import coordinates, not_from, others_squared, silent
 from .exact_spectra import DIGITS as PRECISION
 from .exact_spectra import (
     all_roots,
@@ -255,10 +255,7 @@ def _squares(system: ReducedSystem, step: Step) -> tuple[int, int]:
 
 
 def _signs(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    found = _squares(system, step)
-    if found == (claim["positive"], claim["negative"]):
-        return ""
-    return f"it has {found[0]} positive and {found[1]} negative squares"
+    return others_squared(_squares(system, step), claim)
 
 
 NEAR_0 = Fraction(1, 1000)

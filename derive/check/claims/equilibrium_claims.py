@@ -27,7 +27,7 @@ from .exact_spectra import (
     roots_near,
     signature,
 )
-from .integral_claims import Judge
+from .integral_claims import Judge, listed
 from .modular_values import about, expansion, gradient, second_derivatives, value_there
 from .reduced_system import ReducedSystem, ResiduePoint
 
@@ -36,9 +36,10 @@ POINTS = ("equilibrium.at", "equilibrium.origin")
 """The claims that say a point."""
 
 
-def coordinates(claim: Claim) -> Coordinates:
-    """The coordinates that a claim tells, rows of a matrix; none where it tells none."""
-    rows = dict(claim.values).get("point", ("matrix",))
+def coordinates(claim: Claim, name: str = "point") -> Coordinates:
+    """The coordinates that a claim tells under a name, rows of a matrix; none where it tells none;
+    ``RecordError`` where one is told twice."""
+    rows = dict(claim.values).get(name, ("matrix",))
     assert isinstance(rows, tuple)
     found = [(x, value_of(y)) for _, x, y in rows[1:]]
     if len(dict(found)) < len(found):
@@ -141,8 +142,8 @@ def _form(system: ReducedSystem, step: Step, claim: Claim) -> str:
     if fault := silent(step, PROVED, point.verdict(form)):
         return fault
     found = point.squares(form)
-    if found != (claim["positive"], claim["negative"]):
-        return f"it has {found[0]} positive and {found[1]} negative squares"
+    if reason := others_squared(found, claim):
+        return reason
     signs = [_square(point, point.expansion(t)) for t in terms(step.equations[0].rhs)]
     written = signs.count(1), signs.count(-1)
     return "" if written == found else f"{written[0]} and {written[1]} are written"
@@ -162,10 +163,21 @@ def _square(point: ClaimedEquilibrium, term: Any) -> int:
     return 1 if q.trace(on_the_leaf) > 0 else -1
 
 
+def others_squared(found: tuple[int, int], claim: Claim) -> str:
+    """That there are not as many squares of each sign as a claim says; "" where there are."""
+    if found == (claim["positive"], claim["negative"]):
+        return ""
+    return f"it has {found[0]} positive and {found[1]} negative squares"
+
+
 def _none(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    """The derivative of the energy is no combination of those of what is kept."""
-    point = point_of(system, step)
-    known = (*system.casimirs, *system.integrals[1:])
+    return has_multiples(point_of(system, step))
+
+
+def has_multiples(point: ClaimedEquilibrium) -> str:
+    """That the derivative of the energy is a combination of those of what is kept; "" where it is
+    none."""
+    known = (*point.system.casimirs, *point.system.integrals[1:])
     rows = [gradient(point.expansion(f), point.n) for f in known]
     extended = [*rows, gradient(point.energy, point.n)]
     more, fewer = (q.rank(q.matrix(x)) if x else 0 for x in (extended, rows))
@@ -173,10 +185,7 @@ def _none(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 
 def _orbit(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    found = point_of(system, step).squares(None)
-    if found == (claim["positive"], claim["negative"]):
-        return ""
-    return f"it has {found[0]} positive and {found[1]} negative squares"
+    return others_squared(point_of(system, step).squares(None), claim)
 
 
 # -- verdicts -------------------------------------------------------------------------------------
@@ -195,14 +204,10 @@ def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
     return ""
 
 
-def _listed(t: Tree) -> tuple[Tree, ...]:
-    return t[1:] if isinstance(t, tuple) and t[0] == "row" else (t,)
-
-
 def _exact_squares(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """They are all roots of q, for the characteristic polynomial q(λ²)."""
     f = point_of(system, step).characteristic[::2]
-    claimed = [_complex(t) for t in _listed(claim["squares"])]
+    claimed = [_complex(t) for t in listed(claim["squares"])]
     if any(any(at_complex(f, s)) for s in claimed):
         return "one is no square of an eigenvalue"
     each_once = len({*claimed}) == len(claimed) == distinct_roots(f)

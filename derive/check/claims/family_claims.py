@@ -14,7 +14,7 @@ from ...language.tree import Tree, nodes
 from ...language.univariate import Number, coefficients_of, value_of
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
-from .equilibrium_claims import ClaimedEquilibrium, kept
+from .equilibrium_claims import ClaimedEquilibrium, has_multiples, kept
 from .exact_spectra import signature
 from .integral_claims import Judge, listed
 from .modular_values import gradient, second_derivatives, value_there
@@ -244,13 +244,8 @@ def _definite(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 
 def _orbit(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    """The derivative of the energy is no combination of those of what is kept."""
     family = ClaimedFamily(system, step)
-    point = family.at(family.drawn()).point
-    known = (*point.system.casimirs, *point.system.integrals[1:])
-    rows = [gradient(point.expansion(f), point.n) for f in known]
-    more = q.rank(q.matrix([*rows, gradient(point.energy, point.n)]))
-    return "" if more > (q.rank(q.matrix(rows)) if rows else 0) else "there are such multiples"
+    return has_multiples(family.at(family.drawn()).point)
 
 
 def _form(system: ReducedSystem, step: Step, claim: Claim) -> str:
