@@ -286,13 +286,13 @@ class ResidueVector(RingElement):
 
 
 def residue_of(x: Any, p: int) -> int:
-    """A rational number modulo p; ``ZeroDivisionError`` where p divides its denominator."""
+    """A rational number, or a residue of one, modulo p, as an integer; ``ZeroDivisionError`` where
+    p divides its denominator."""
     if isinstance(x, int):
         return x % p
-    assert isinstance(x, Fraction)
     if x.denominator % p == 0:
         raise ZeroDivisionError(f"{x} modulo {p}")
-    return x.numerator * pow(x.denominator, -1, p) % p
+    return int(x.numerator * pow(x.denominator, -1, p) % p)
 
 
 class ResidueVectorSource:

@@ -173,8 +173,7 @@ class Group:
         """The d × s² rows that read ζ off the entries of Z: a left inverse of the basis."""
         columns = q.transposed(tuple(q.flatten(e) for e in self.basis))
         _, pivots = q.echelon(q.transposed(columns))
-        square = q.inverse(tuple(columns[p] for p in pivots))
-        assert square is not None
+        square = q.inverted(tuple(columns[p] for p in pivots))
         rows = [[Fraction(0)] * (self.size**2) for _ in self.basis]
         for a, row in enumerate(square):
             for k, p in enumerate(pivots):

@@ -159,8 +159,7 @@ def _dual(rows: Matrix) -> Matrix:
     independent rows b."""
     if not rows:
         return ()
-    inverse = q.inverse(q.times(rows, q.transposed(rows)))
-    assert inverse is not None
+    inverse = q.inverted(q.times(rows, q.transposed(rows)))
     return q.times(inverse, rows)
 
 

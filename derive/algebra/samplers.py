@@ -38,8 +38,7 @@ def combination(random: Source, size: int, basis: Sequence[Matrix]) -> Matrix:
 def cayley(skew: Matrix) -> Matrix:
     """The rotation (1 − S)(1 + S)⁻¹ of a skew S, for which 1 + S is invertible."""
     one = q.identity(len(skew))
-    inverse = q.inverse(q.plus(one, skew))
-    assert inverse is not None
+    inverse = q.inverted(q.plus(one, skew))
     return q.times(q.minus(one, skew), inverse)
 
 
@@ -240,8 +239,7 @@ def _semisimple(e: Matrix, f: Polynomial) -> Matrix:
     """The semisimple part of a matrix, the root of f near it, by Newton's iteration."""
     S, slope = e, derivative(f)
     while any(map(any, _at(f, S))):
-        back = q.inverse(_at(slope, S))
-        assert back is not None
+        back = q.inverted(_at(slope, S))
         S = q.minus(S, q.times(_at(f, S), back))
     return S
 

@@ -212,17 +212,14 @@ class Checker(TrialPoints):
 
     def symbols(self, d: Derivation) -> Verdict:
         """The verdict on the symbols of a record: types, roles, defining equations, no others."""
-        label = f"{d.name}.symbols"
-        try:
-            groups = {g.name: g for s in d.steps for g in self.groups(s.scope, driven=s.driven)}
-            reason = symbols.first_fault(d, self.environments)
-        except (EvaluationError, RecordError) as error:
-            reason = str(error)
-        except IMPOSSIBLE as error:
-            reason = no_sense(error)
-        if reason:
-            return Verdict(label, False, reason, 1.0, of="symbol")
-        return Verdict(label, True, "", 0.0, (len(d.symbols), tuple(groups)), "symbol")
+        groups: dict[str, Group] = {}
+
+        def fault() -> str:
+            for s in d.steps:
+                groups.update((g.name, g) for g in self.groups(s.scope, driven=s.driven))
+            return symbols.first_fault(d, self.environments)
+
+        return symbols.verdict(d, fault, groups)
 
     def example(self, g: Group, step: Step, equation: Equation) -> str:
         """How an equation fails at a point of small integers, as a readable counterexample; "" if

@@ -224,8 +224,7 @@ class _Block:
 
     def _inverse(self, m: Matrix) -> Matrix:
         """The inverse of a rational matrix, as nodes."""
-        found = q.inverse(m)
-        assert found is not None
+        found = q.inverted(m)
         return self._numbers(found)
 
     def _numbers(self, m: Matrix) -> Matrix:

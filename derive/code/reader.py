@@ -10,7 +10,7 @@ from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.reserved import numbers_of_input, suffixed
-from ..language.tree import Tree, subtrees
+from ..language.tree import Tree, nodes
 from ..record.record import Derivation, Equation, Step
 from . import dense
 from .graph import Graph, Node
@@ -247,12 +247,10 @@ class RecordReader:
 
     def members(self, body: Tree, index: str) -> list[int]:
         """The values of an index of a sum: the members that the record defines, from 1."""
-        if any(x[1] == "E" for _, x in subtrees(body) if isinstance(x, tuple) and x[0] == "at"):
+        if any(x[1] == "E" for x in nodes(body) if isinstance(x, tuple) and x[0] == "at"):
             return [*range(1, len(self.group.linear_basis) + 1)]
         families = {
-            x[1]
-            for _, x in subtrees(body)
-            if isinstance(x, tuple) and x[0] == "at" and index in x[2:]
+            x[1] for x in nodes(body) if isinstance(x, tuple) and x[0] == "at" and index in x[2:]
         }
         found = {
             (e.lhs[1], e.lhs[2])

@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import isqrt
+from operator import attrgetter
 from typing import Any, Literal
 
 from . import rational as q
 from .rings import FieldElement
-from .univariate import Quadratic
+from .univariate import Quadratic, routh
 
 BITS = 320
 ONE = 1 << BITS
@@ -207,10 +208,11 @@ def signs_of_real_parts(f: Sequence[Interval]) -> Literal["negative", "positive"
     """Are the real parts of all roots of a polynomial, from the highest power, "negative", or is
     one "positive"?  By Routh's scheme, also of f(x + s) for some s > 0, as of f itself nothing is
     proved where a root is 0."""
-    if _routh(f) > 0:
+    sign = attrgetter("sign")
+    if routh(f, sign) > 0:
         return "negative"
     shifts = (Fraction(0), *(Fraction(2) ** k for k in SHIFTS))
-    grows = any(_routh(_shifted(f, s)) < 0 for s in shifts)
+    grows = any(routh(_shifted(f, s), sign) < 0 for s in shifts)
     return "positive" if grows else "unknown"
 
 
@@ -226,19 +228,3 @@ def _shifted(f: Sequence[Interval], s: Fraction) -> list[Interval]:
             left[k] = left[k] + left[k - 1] * s
         found.append(left.pop())
     return found[::-1]
-
-
-def _routh(f: Sequence[Interval]) -> int:
-    """1: all roots have negative real parts; −1: some have not even such that are 0; 0: unknown.
-
-    Each first number of the scheme is one of Hurwitz's determinants over that before, and none of
-    these is negative where no real part is positive.
-    """
-    first, second = [*f[::2]], [*f[1::2]]
-    while second:
-        if second[0].sign <= 0:
-            return second[0].sign
-        ratio, after = first[0] / second[0], [*second[1:], Interval.of(0)]
-        both = zip(first[1:], after, strict=False)
-        first, second = second, [x - ratio * y for x, y in both]
-    return 1

@@ -132,20 +132,3 @@ def replaced(t: Tree, old: Tree, new: Tree) -> Tree:
     if t == old:
         return new
     return (t[0], *(replaced(part, old, new) for part in t[1:])) if isinstance(t, tuple) else t
-
-
-def subtrees(t: Tree, path: tuple[int, ...] = ()) -> Iterator[tuple[tuple[int, ...], Tree]]:
-    """Every subtree with the path that leads to it."""
-    yield path, t
-    if isinstance(t, tuple):
-        for k, part in enumerate(t[1:], 1):
-            yield from subtrees(part, (*path, k))
-
-
-def replace_at(t: Tree, path: tuple[int, ...], change: Callable[[Tree], Tree]) -> Tree:
-    """The tree with change(subtree) for the subtree at ``path``."""
-    if not path:
-        return change(t)
-    assert isinstance(t, tuple)
-    k = path[0]
-    return (*t[:k], replace_at(t[k], path[1:], change), *t[k + 1 :])

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import total_ordering
 from itertools import pairwise
 from math import isqrt, sqrt
-from typing import Any
+from typing import Any, Literal
 
 from .derivatives import power
 from .rings import FieldElement
@@ -143,16 +143,17 @@ def _root_in_its_field(x: Quadratic) -> Number:
     raise RootError("a root of a root is in no quadratic field")
 
 
+def exact_function(name: str, x: Any) -> Number:
+    """√x of a number; ``RootError`` for another function, and where it is in no quadratic field."""
+    if name != "sqrt":
+        raise RootError(f"{name} of a number; square roots alone are exact")
+    return root(x)
+
+
 def value_of(t: Tree) -> Number:
     """The value of an expression of numbers and square roots; ``RootError`` where it is in no
     quadratic field."""
-
-    def elementary(name: str, x: Any) -> Number:
-        if name != "sqrt":
-            raise RootError(f"{name} of a number; square roots alone are exact")
-        return root(x)
-
-    found = value(t, {}, {}, elementary)
+    found = value(t, {}, {}, exact_function)
     return Fraction(found) if isinstance(found, int) else found
 
 
@@ -215,7 +216,7 @@ def real_roots(f: Sequence[Any]) -> RealRoots:
     simple = square_free(trimmed(f[at_zero:]))
     chain = sturm(simple)
     far = [p[-1] * (-1) ** (len(p) - 1) for p in chain]
-    negative = _changes(far) - _changes(p[0] for p in chain)
+    negative = changes(far) - changes(p[0] for p in chain)
     return RealRoots(at_zero, negative, len(simple) - 1)
 
 
@@ -229,7 +230,7 @@ def sturm(f: Coefficients) -> list[Coefficients]:
     return chain
 
 
-def _changes(values: Iterable[Any]) -> int:
+def changes(values: Iterable[Any]) -> int:
     """How often the sign changes along some numbers, those that are 0 left out."""
     signs = [x > 0 for x in values if x != 0]
     return sum(x != y for x, y in pairwise(signs))
@@ -247,19 +248,26 @@ def grows(f: Sequence[Any]) -> bool:
     both = common_divisor(own, opposite)
     at_zero = next(k for k, x in enumerate(both) if x != 0)
     squares = real_roots(both[at_zero::2])
-    return squares.negative < squares.distinct or not routh(division(own, both)[0][::-1])
+    return squares.negative < squares.distinct or routh(division(own, both)[0][::-1]) < 1
 
 
-def routh(f: Coefficients) -> bool:
-    """Have all roots of a polynomial, given from the highest power, negative real parts?"""
+def routh(
+    f: Sequence[Any], sign: Callable[[Any], int] = lambda x: (x > 0) - (x < 0)
+) -> Literal[1, 0, -1]:
+    """1: all roots of a polynomial, given from the highest power, have negative real parts; −1:
+    some have not even such that are 0; 0: unknown.
+
+    Each first number of the scheme is one of Hurwitz's determinants over that before, and none of
+    these is negative where no real part is positive.
+    """
     first, second = [*f[::2]], [*f[1::2]]
     while second:
-        if second[0] * f[0] <= 0:
-            return False
+        if (found := sign(second[0] * f[0])) <= 0:
+            return -1 if found else 0
         ratio, after = first[0] / second[0], [*second[1:], 0 * f[0]]
         both = zip(first[1:], after, strict=False)
         first, second = second, [x - ratio * y for x, y in both]
-    return True
+    return 1
 
 
 def square_free(f: Coefficients) -> Coefficients:
@@ -291,7 +299,7 @@ def division(f: Coefficients, g: Coefficients) -> tuple[Coefficients, Coefficien
     return trimmed(found), trimmed(rest)
 
 
-def polynomial_value(f: Coefficients, x: Any) -> Any:
+def polynomial_value(f: Sequence[Any], x: Any) -> Any:
     """A polynomial at a number."""
     total = 0 * f[0]
     for c in reversed(f):

@@ -22,7 +22,16 @@ import numpy as np
 
 from .ensemble import Ensemble, Part
 from .native import AT_EVENT, Integers
-from .run import COMMENT, FORMATS, Array, Run, RunFileError, commented, pyarrow
+from .run import (
+    COMMENT,
+    FORMATS,
+    Array,
+    Run,
+    RunFileError,
+    commented,
+    parquet_table,
+    pyarrow,
+)
 from .run import read as read_run
 
 MARK = "derive ensemble"
@@ -174,7 +183,8 @@ def read(path: Path) -> Ensemble:
         if path.suffix == ".csv":
             return _from_csv(path)
         if path.suffix == ".parquet":
-            return _from_parquet(path)
+            head, rows = parquet_table(path, MARK)
+            return _of_rows(_header(head), rows)
     except RunFileError:
         raise
     except OSError as error:
@@ -238,16 +248,6 @@ def _from_csv(path: Path) -> Ensemble:
     with path.open(encoding="utf-8") as file:
         told = _header(commented(file.readline(), file.readline()))
         return _of_rows(told, np.loadtxt(file, delimiter=",", ndmin=2))
-
-
-def _from_parquet(path: Path) -> Ensemble:
-    arrow, parquet = pyarrow()
-    try:
-        found = parquet.read_table(path)
-    except arrow.ArrowInvalid as error:
-        raise ValueError(str(error)) from None
-    told = _header((found.schema.metadata or {})[MARK.encode()].decode())
-    return _of_rows(told, np.column_stack([x.to_numpy() for x in found.columns]))
 
 
 def _of_rows(told: dict[str, Any], rows: Array) -> Ensemble:

@@ -212,13 +212,18 @@ def _to_parquet(run: Run) -> bytes:
 
 
 def _from_parquet(data: bytes) -> Run:
+    return _run(*parquet_table(io.BytesIO(data), MARK))
+
+
+def parquet_table(file: Path | io.BytesIO, mark: str) -> tuple[str, Array]:
+    """What a table of Arrow says under a mark, and its numbers; ``ValueError``, ``KeyError``."""
     arrow, parquet = pyarrow()
     try:
-        found = parquet.read_table(io.BytesIO(data))
+        found = parquet.read_table(file)
     except arrow.ArrowInvalid as error:
         raise ValueError(str(error)) from None
-    head = (found.schema.metadata or {})[MARK.encode()].decode()
-    return _run(head, np.column_stack([x.to_numpy() for x in found.columns]))
+    head = (found.schema.metadata or {})[mark.encode()].decode()
+    return head, np.column_stack([x.to_numpy() for x in found.columns])
 
 
 def pyarrow() -> tuple[Any, Any]:

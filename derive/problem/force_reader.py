@@ -8,7 +8,7 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..language.reserved import PLACE, acting_names
-from ..language.tree import Tree, replaced, subtrees
+from ..language.tree import Tree, nodes, replaced
 from ..language.values import approximate
 from ..schema.body_kinds import Place, Point
 from ..schema.kind import Acting, Advected, Damping, Input, Potential
@@ -244,7 +244,7 @@ class ForceReader(TableReader):
     def energy(self, slot: Slot) -> Tree:
         """An expression of places in space, with one at least."""
         U = self._placed(self.scalar(slot), slot.where)
-        if not any(x[0] == "at" for _, x in subtrees(U) if isinstance(x, tuple)):
+        if not any(x[0] == "at" for x in nodes(U) if isinstance(x, tuple)):
             raise ProblemError(
                 f"{slot.path}: no place of a point, as r1_x, so no force; leave it out"
             )
@@ -253,7 +253,7 @@ class ForceReader(TableReader):
     def of_volume(self, slot: Slot) -> Tree:
         """An expression of ``det_A``, which must be in it, and the time."""
         found = replaced(self.scalar(slot), ("par", "det_A"), DETERMINANT)
-        if not any(x == DETERMINANT for _, x in subtrees(found)):
+        if DETERMINANT not in nodes(found):
             raise ProblemError(f"{slot.path}: no det_A, the volume, so no force; leave it out")
         return found
 

@@ -221,15 +221,10 @@ class C(Printer):
     # -- records, tables ---------------------------------------------------------------------------
     def record(self, name: str, more: str = "") -> Lines:
         """The type of a record; ``more``: fields that no algorithm reads."""
-        self.types, self.arguments = {}, {}
-        node = self.source.records[name]
-        yield from self.comment(self.with_numbers(ast.get_docstring(node) or ""))
+        yield from self.comment(self.doc_of(name))
         yield "typedef struct {"
-        for x in node.body:
-            if isinstance(x, ast.AnnAssign):
-                told = self.with_numbers(" ".join(self.source.comments.get(x, ())))
-                field = self.declared(ast.unparse(x.target), Type.of(x.annotation), None)
-                yield f"    {field};" + f" /* {told} */" * bool(told)
+        for field, t, told in self.fields(name):
+            yield f"    {self.declared(field, t, None)};" + f" /* {told} */" * bool(told)
         yield from more.splitlines()
         yield f"}} {self.kind(Type(name))};"
 

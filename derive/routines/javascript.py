@@ -187,16 +187,11 @@ class JavaScript(Printer):
     # -- records, tables ---------------------------------------------------------------------------
     def record(self, name: str, more: str = "") -> Lines:
         """A function that makes a record; ``more``: fields that no algorithm reads."""
-        self.types, self.arguments = {}, {}
-        node = self.source.records[name]
-        yield from self.comment(self.with_numbers(ast.get_docstring(node) or ""))
+        yield from self.comment(self.doc_of(name))
         yield f"function {name}() {{"
         yield "    return {"
-        for x in node.body:
-            if isinstance(x, ast.AnnAssign):
-                told = self.with_numbers(" ".join(self.source.comments.get(x, ())))
-                made = self.made(Type.of(x.annotation))
-                yield f"        {ast.unparse(x.target)}: {made}," + f" // {told}" * bool(told)
+        for field, t, told in self.fields(name):
+            yield f"        {field}: {self.made(t)}," + f" // {told}" * bool(told)
         yield from more.splitlines()
         yield "    };"
         yield "}"

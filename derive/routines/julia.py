@@ -267,17 +267,13 @@ class Julia(Printer):
     # -- records, tables, lines --------------------------------------------------------------------
     def record(self, name: str, more: str = "") -> Lines:
         """The type of a record, and what one is before it is computed."""
-        self.types, self.arguments = {}, {}
-        node = self.source.records[name]
-        yield from self.comment(self.with_numbers(ast.get_docstring(node) or ""))
+        yield from self.comment(self.doc_of(name))
         yield f"Base.@kwdef mutable struct {name}"
-        for x in node.body:
-            if isinstance(x, ast.AnnAssign):
-                field, t = self.field(ast.unparse(x.target)), Type.of(x.annotation)
-                told = self.with_numbers(" ".join(self.source.comments.get(x, ())))
-                # inputs that are held may be a function
-                kind = "Any" if field == "u" and self.given["INPUTS"] else self.kind(t)
-                yield f"    {field}::{kind} = {self.made(t)}" + f" # {told}" * bool(told)
+        for x, t, told in self.fields(name):
+            field = self.field(x)
+            # inputs that are held may be a function
+            kind = "Any" if field == "u" and self.given["INPUTS"] else self.kind(t)
+            yield f"    {field}::{kind} = {self.made(t)}" + f" # {told}" * bool(told)
         yield "end"
 
     def tables(self) -> Lines:

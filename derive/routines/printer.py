@@ -104,6 +104,18 @@ class Printer(ABC):
     def head(self, f: ast.FunctionDef, returns: Type | None) -> Lines:
         """The lines that begin a routine."""
 
+    def fields(self, name: str) -> Iterator[tuple[str, Type, str]]:
+        """The fields of a record, each with its type and what is told of it."""
+        self.types, self.arguments = {}, {}
+        for x in self.source.records[name].body:
+            if isinstance(x, ast.AnnAssign):
+                told = self.with_numbers(" ".join(self.source.comments.get(x, ())))
+                yield ast.unparse(x.target), Type.of(x.annotation), told
+
+    def doc_of(self, name: str) -> str:
+        """What is said of a record."""
+        return self.with_numbers(ast.get_docstring(self.source.records[name]) or "")
+
     @abstractmethod
     def record(self, name: str, more: str = "") -> Lines:
         """The type of a record, or what makes one; ``more``: fields that no algorithm reads."""

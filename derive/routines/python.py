@@ -317,17 +317,12 @@ class Python(Printer):
     # -- records, tables, lines --------------------------------------------------------------------
     def record(self, name: str, more: str = "") -> Lines:
         """The class of a record; ``more``: fields that no algorithm reads."""
-        self.types, self.arguments = {}, {}
-        node = self.source.records[name]
         yield f"class {'_' * (name != 'Motion')}{name}:"
-        yield from self.docstring(self.with_numbers(ast.get_docstring(node) or ""), "    ")
+        yield from self.docstring(self.doc_of(name), "    ")
         yield ""
         yield "    def __init__(self):"
-        for x in node.body:
-            if isinstance(x, ast.AnnAssign):
-                told = self.with_numbers(" ".join(self.source.comments.get(x, ())))
-                made = self.made(Type.of(x.annotation))
-                yield f"        self.{ast.unparse(x.target)} = {made}" + f"  # {told}" * bool(told)
+        for field, t, told in self.fields(name):
+            yield f"        self.{field} = {self.made(t)}" + f"  # {told}" * bool(told)
         yield from more.splitlines()
 
     def tables(self) -> Lines:

@@ -155,30 +155,20 @@ class Rust(Printer):
     # -- records, tables ---------------------------------------------------------------------------
     def record(self, name: str, more: str = "") -> Lines:
         """The type of a record, and one that is nothing yet."""
-        self.types, self.arguments = {}, {}
-        node = self.source.records[name]
-        fields = self.source.fields(name)
         public = "pub " * (name == "Motion")
-        yield from [
-            x
-            for x in self.comment(self.with_numbers(ast.get_docstring(node) or ""))
-            if x.startswith("///")
-        ]
+        yield from (x for x in self.comment(self.doc_of(name)) if x.startswith("///"))
         yield "#[allow(dead_code, non_snake_case)]"
         yield "#[derive(Clone, Debug)]"
         yield f"{public}struct {name} {{"
-        for x in node.body:
-            if isinstance(x, ast.AnnAssign):
-                field, told = ast.unparse(x.target), " ".join(self.source.comments.get(x, ()))
-                said = f" // {self.with_numbers(told)}" * bool(told)
-                seen = "pub " * (field in self.given["public"])
-                yield f"    {seen}{field}: {self.kind(fields[field])},{said}"
+        for field, t, told in self.fields(name):
+            seen = "pub " * (field in self.given["public"])
+            yield f"    {seen}{field}: {self.kind(t)}," + f" // {told}" * bool(told)
         yield "}"
         yield ""
         yield f"impl {name} {{"
         yield "    fn new() -> Self {"
         yield "        Self {"
-        for field, t in fields.items():
+        for field, t, _ in self.fields(name):
             yield f"            {field}: {self.zero(t)},"
         yield from ("        }", "    }", "}")
 

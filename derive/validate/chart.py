@@ -141,8 +141,7 @@ class StateChart:
 
     def tangent(self, g: Matrix, Z: Matrix, change: Sequence[Any]) -> bool:
         """Is a change of the numbers of the state (g, Z) tangent to the group's states?"""
-        back = q.inverse(g)
-        assert back is not None
+        back = q.inverted(g)
         count, of_entries, start = len(self.entries), list[Any](), 0
         for x in self.held_of_g:
             size = len(x.names) if isinstance(x, FactorChart) else 1

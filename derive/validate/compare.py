@@ -7,7 +7,7 @@ degree / size (Schwartz–Zippel); points are added until all of them at once ar
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
@@ -17,21 +17,23 @@ from typing import Any
 from ..algebra.groups import names_by_block
 from ..check.lagrangian.lagrangian_model import LagrangianModel
 from ..check.trials.model import Model
-from ..check.values.arithmetic import EPS, part
 from ..language import rational as q
 from ..record.as_json import to_json
-from .chart import EPSILON, ReducedChart, StateChart
+from .chart import ReducedChart
 from .discrete_functions import DiscreteFunctions
 from .exact_points import Claims, Point, WithIntegrals
 from .functions_of_state import (
     ExactJacobians,
+    Given,
     MomentumFunctions,
     compare_attitude,
     compare_conserved,
     compare_drift,
+    each_moved,
     exact_root,
     is_named,
     plain,
+    slopes,
 )
 from .straight_line import (
     Measured,
@@ -118,7 +120,7 @@ def compare(
     exact: Iterable[Fraction] = (),
     text: str = "",
     bound: float = BOUND,
-    kind: Callable[..., Comparison] | None = None,
+    kind: type[Comparison] | None = None,
 ) -> Agreement:
     """The verdict on a module whose functions equal the record; ``CodeError`` where it cannot be
     read, or differs.
@@ -158,7 +160,7 @@ def _tested_sets(module: Module) -> list[tuple[str, ...]]:
 
 
 def _compare_at_zero(
-    kind: Callable[..., Comparison],
+    kind: type[Comparison],
     module: Module,
     claims: Claims,
     literal: Literals,
@@ -213,17 +215,14 @@ class Comparison:
         ``CodeError`` else."""
         self.require_straight()
         arguments, point, found = self._arguments(), self.point, ["constants", "rhs", "energy"]
-        rates = self._call("rhs", arguments, dx=len(point.rates))["dx"]
-        self._require_equal("rhs", self._rates, rates, point.rates)
-        energy = self._call("energy", arguments, value=1)["value"]
-        self._require_equal("energy", ("the energy",), energy, (point.energy,))
+        self._compared("rhs", arguments, "dx", self._rates, point.rates)
+        self._compared("energy", arguments, "value", ("the energy",), (point.energy,))
         if "rhs_batch" in self.module.functions:
             self._batches(arguments)
             found.append("rhs_batch")
         if "inertia" in self.module.functions:
             names = tuple(f"I_{i}{j}" for i in range(1, 4) for j in range(i, 4))
-            tensor = self._call("inertia", arguments, value=6)["value"]
-            self._require_equal("inertia", names, tensor, point.inertia)
+            self._compared("inertia", arguments, "value", names, point.inertia)
             found.append("inertia")
         if "project" in self.module.functions:
             drift = partial(self._drift_numbers, arguments)
@@ -234,16 +233,15 @@ class Comparison:
             own = self._attitude, self._require_equal, self.claims.state
             found += compare_attitude(*own, point)
         if "multiplier" in self.module.functions:
-            theta = self._call("multiplier", arguments, value=1)["value"]
-            self._require_equal("multiplier", ("theta",), theta, (point.named.names["θ"],))
+            theta = (point.named.names["θ"],)
+            self._compared("multiplier", arguments, "value", ("theta",), theta)
             found.append("multiplier")
         if "conserved" in self.module.functions:
             found.append(self._conserved(arguments))
         if "outputs" in self.module.functions:
             names = self.claims.outputs
-            read = self._call("outputs", arguments, out=len(names))["out"]
             wanted = [point.named.parameters[name] for name in names]
-            self._require_equal("outputs", names, read, wanted)
+            self._compared("outputs", arguments, "out", names, wanted)
             found.append("outputs")
         if "bias" in self.module.functions:
             found += self._dynamics(arguments)
@@ -289,6 +287,18 @@ class Comparison:
             self.read |= arguments["k"].read
         self._measure([x for values in found.values() for x in values])
         return found
+
+    def _compared(
+        self,
+        name: str,
+        arguments: Mapping[str, Any],
+        array: str,
+        names: Sequence[str],
+        wanted: Sequence[Any],
+    ) -> None:
+        """``DiffersError`` where an array that a function writes is not the one that is wanted."""
+        found = self._call(name, arguments, **{array: len(wanted)})[array]
+        self._require_equal(name, names, found, wanted)
 
     def _measure(self, values: Iterable[Any]) -> None:
         """Take the degrees of these values into account."""
@@ -343,15 +353,12 @@ class Comparison:
         """Compare ``jacobian_project`` with the derivative of ``project`` at a state off the
         group, from where a step is taken there."""
         x = [self._draw() for _ in self.point.rates]
-        columns = []
-        for j in range(len(x)):
-            beside = [y + EPSILON * Fraction(i == j) for i, y in enumerate(x)]
-            moved = self._drift_numbers(arguments, "project", beside)
-            columns.append([part(y, EPS) for y in moved])
+        moved = (self._drift_numbers(arguments, "project", y) for y in each_moved(x))
+        columns = [*map(slopes, moved)]
         there = {**arguments, "x": self._array(x, "x", self.claims.entry_degree)}
         D = [y for row in zip(*columns, strict=True) for y in row]
-        found = self._call("jacobian_project", there, D=len(D))["D"]
-        self._require_equal("jacobian_project", [f"entry {i}" for i in range(len(D))], found, D)
+        names = [f"entry {i}" for i in range(len(D))]
+        self._compared("jacobian_project", there, "D", names, D)
         return "jacobian_project"
 
     def _attitude(self, name: str, x: Sequence[Any], size: int) -> Sequence[Any]:
@@ -377,8 +384,13 @@ class Comparison:
         """Compare what ``conserved`` gives at the point with what it gives a moment later."""
         count = self.module.sizes.get("CONSERVED", -1)
         self._call("conserved", arguments, out=count)
-        k = [getattr(x, "value", x) for x in arguments["k"].values]
-        return compare_conserved(self.plain, self.point, self._inside(), k, self._draw, count)
+        given = self._given(arguments)
+        return compare_conserved(self.plain, given, self._inside(), self._draw, count)
+
+    def _given(self, arguments: Mapping[str, Any]) -> Given:
+        """The arguments as numbers without degrees."""
+        arrays = {a: [getattr(x, "value", x) for x in arguments[a].values] for a in ("p", "k")}
+        return {**self.point.arguments, **arrays}
 
     def _inside(self) -> Sequence[Any]:
         """The state of the point; where its g is any matrix, one with an element of the group."""
@@ -391,8 +403,12 @@ class Comparison:
         """The names of the functions in momenta, where there are some, each found right."""
         if "momentum" not in self.module.functions:
             return ()
-        own = self._call, self.plain, self._require_equal, self._draw, self.point, self.claims.state
-        return MomentumFunctions(*own).compare(arguments)
+        return MomentumFunctions(*self._own(arguments)).compare(arguments)
+
+    def _own(self, arguments: Mapping[str, Any]) -> tuple[Any, Any, Any, Any, Any, Any, Any]:
+        """What :class:`FunctionsCalled` are made of."""
+        called = self._call, self.plain, self._given(arguments), self._require_equal
+        return (*called, self._draw, self.point, self.claims.state)
 
     def _dynamics(self, arguments: Mapping[str, Any]) -> tuple[str, ...]:
         """Compare the mass matrix with the checker's metric, the bias with −M ζ̇, and the inverse
@@ -403,11 +419,9 @@ class Comparison:
         columns = q.transposed(tuple(map(model.group.nearest, group.basis)))
         M = q.times(q.transposed(columns), q.times(model.metric, columns))
         names = [f"entry {i}" for i in range(len(M) ** 2)]
-        found = self._call("mass_matrix", arguments, D=len(names))["D"]
-        self._require_equal("mass_matrix", names, found, q.flatten(M))
+        self._compared("mass_matrix", arguments, "D", names, q.flatten(M))
         rates = q.times(M, q.column(self._accelerations))
-        bias = self._call("bias", arguments, out=len(M))["out"]
-        self._require_equal("bias", names[: len(M)], bias, [-x for (x,) in rates])
+        self._compared("bias", arguments, "out", names[: len(M)], [-x for (x,) in rates])
         if "inverse" not in self.module.functions:  # where an input is divided by
             return "mass_matrix", "bias"
         none = [Fraction(0) for _ in self.claims.inputs]
@@ -416,9 +430,8 @@ class Comparison:
         given = {**arguments, "dzeta": self._array(wanted, "dzeta", (1, 0))}
         left = self._call("bias", unforced, out=len(M))["out"]
         pushed = q.flatten(q.times(M, q.column(wanted)))
-        found = self._call("inverse", given, Q=len(M))["Q"]
         sums = [x + getattr(y, "value", y) for x, y in zip(pushed, left, strict=True)]
-        self._require_equal("inverse", names[: len(M)], found, sums)
+        self._compared("inverse", given, "Q", names[: len(M)], sums)
         return "mass_matrix", "bias", "inverse"
 
     @property
@@ -427,30 +440,24 @@ class Comparison:
         state, point = self.claims.state, self.point
         if isinstance(state, ReducedChart):
             return point.rates[: state.group.dimension]
-        back = q.inverse(point.g)
-        assert back is not None
-        return state.acceleration(point.Z, back, point.rates)
+        return state.acceleration(point.Z, q.inverted(point.g), point.rates)
 
     def _discrete(self, arguments: Mapping[str, Any]) -> tuple[str, ...]:
         """The names of the functions of a discrete step, where there is one, each found right."""
         if "step_momentum" not in self.module.functions:
             return ()
-        state = self.claims.state
-        assert isinstance(state, StateChart)
         moments, entry = self.claims.moment_degree, self.claims.entry_degree
         most = DERIVATIVE_DEGREE * self.claims.group.size**2 * (sum(moments) + sum(entry))
 
         def measured(values: Sequence[Any], name: str) -> Array:
             return self._array(values, name, (most, most))
 
-        own = self._call, measured, self.plain, self._require_equal, self._draw, self.point
-        return DiscreteFunctions(*own, state).compare(arguments)
+        return DiscreteFunctions(*self._own(arguments), measured).compare(arguments)
 
     def _jacobians(self, arguments: Mapping[str, Any]) -> list[str]:
         """The names of the module's Jacobians, each found equal to exact derivatives of ``rhs``."""
-        p, k = ([getattr(x, "value", x) for x in arguments[a].values] for a in ("p", "k"))
-        own = self.plain, self.claims.state, self.point, p, k, len(self.claims.outputs)
-        columns = ExactJacobians(*own).columns
+        own = self.plain, self.claims.state, self.point, self._given(arguments)
+        columns = ExactJacobians(*own, len(self.claims.outputs)).columns
         found = [name for name in columns if name in self.module.functions]
         for name in found:
             D = [x for row in zip(*columns[name], strict=True) for x in row]

@@ -18,36 +18,23 @@ from typing import Any
 
 from ..check.trials.model import Model
 from ..check.trials.point_masses import damping_members
-from ..check.values.arithmetic import EPS, part
+from ..check.values.arithmetic import EPS, hat, part
 from ..language import rational as q
 from ..language.rational import Matrix
-from .chart import EPSILON, StateChart, axis
-from .exact_points import Point
-from .terms import Array, Machine
+from .chart import EPSILON, axis
+from .functions_of_state import FunctionsCalled, slopes
+from .terms import Array
 
-Call = Callable[..., dict[str, list[Any]]]
-Require = Callable[[str, Sequence[str], Sequence[Any], Sequence[Any]], None]
 ORDER = 12
 """The powers of X in the exponential of a turn."""
 HALF = Fraction(1, 2)
 
 
 @dataclass(frozen=True)
-class DiscreteFunctions:
-    """The comparison at one point.
+class DiscreteFunctions(FunctionsCalled):
+    """The comparison at one point; ``measured``: makes the numbers of an array of arguments."""
 
-    ``call``: runs a function of the module with arguments, whose numbers ``measured`` makes;
-    ``plain``: the machine for other numbers; ``require``: refuses numbers that differ; ``draw``: a
-    random number.
-    """
-
-    call: Call
     measured: Callable[[Sequence[Any], str], Array]
-    plain: Machine
-    require: Require
-    draw: Callable[[], Any]
-    point: Point
-    chart: StateChart
 
     def compare(self, arguments: Mapping[str, Any]) -> tuple[str, ...]:
         """The names of the functions, each found right."""
@@ -97,13 +84,13 @@ class DiscreteFunctions:
         turns = self.chart.group.dimension if self._on_basis else 3
         *change, det = self._run("step_newton", given, turns + 1)
         self._same("step_newton", change, [0] * turns)
-        slopes = []
+        rows = []
         for b in range(turns):
             varied = self._varied_step(z, b)
-            *moved, _ = self._plainly("step_newton", arguments, q=[*load, h], v=varied, b=())
-            self._same("step_newton", [part(x, EPS) for x in moved], [a == b for a in range(turns)])
-            slopes.append([part(x, EPS) for x in self._load(h, self._turned(varied))])
-        self._same("step_newton", [det], [q.determinant(tuple(map(tuple, slopes)))])
+            *moved, _ = self._plainly("step_newton", turns + 1, q=[*load, h], v=varied, b=())
+            self._same("step_newton", slopes(moved), [a == b for a in range(turns)])
+            rows.append(slopes(self._load(h, self._turned(varied))))
+        self._same("step_newton", [det], [q.determinant(q.matrix(rows))])
         return ("step_newton", *self._end(arguments, h, load, z, W))
 
     def _volume(self, arguments: Mapping[str, Any], h: Any) -> tuple[str, ...]:
@@ -157,9 +144,7 @@ class DiscreteFunctions:
                 total = q.plus(total, power)
         else:
             half = q.scaled(HALF, X)
-            back = q.inverse(q.minus(one, half))
-            assert back is not None
-            total = q.times(back, q.plus(one, half))
+            total = q.times(q.inverted(q.minus(one, half)), q.plus(one, half))
         after = q.minus(q.times(self._turned(z), total), one)
         given = {"v": self.measured(z, "v"), "s": self.measured(s, "s")}
         wanted = [after[i][j] for i, j in self.places]
@@ -207,7 +192,7 @@ class DiscreteFunctions:
             span = range(size)
             return tuple(tuple(entries.get((i, j), 0) + (i == j) for j in span) for i in span)
         real = self.plain.elementary("sqrt", 1 - sum(x * x for x in z))
-        j = hat(z)
+        j = hat(q.column(z))
         turn = q.plus(q.scaled(2 * real, j), q.scaled(2, q.times(j, j)))
         return q.plus(q.identity(size), self._in_one_matrix(turn))
 
@@ -254,11 +239,7 @@ class DiscreteFunctions:
         """The basis; or the turns about the three axes through the centre of mass."""
         if self._on_basis:
             return [*self.chart.group.basis]
-        found = []
-        for i in range(3):
-            j = hat([Fraction(i == a) for a in range(3)])
-            found.append(self._about_centre(j))
-        return found
+        return [self._about_centre(hat(q.column(e))) for e in q.identity(3)]
 
     def _about_centre(self, turn: Matrix) -> Matrix:
         if not self.chart.group.affine:
@@ -316,16 +297,15 @@ class DiscreteFunctions:
         m, c, J = self._model.moments
         if self.chart.group.affine:
             J = q.minus(J, q.scaled(1 / m, q.times(c, q.transposed(c))))
-        back, inverse = q.inverse(self._linear(self.point.g)), q.inverse(J)
-        assert back is not None
-        assert inverse is not None
+        back, inverse = q.inverted(self._linear(self.point.g)), q.inverted(J)
         return q.times(q.transposed(back), inverse)
 
     def _along(self, m: Matrix, theta: Any) -> Matrix:
         return q.plus(m, q.scaled(theta, self._dual))
 
     def _linear(self, m: Matrix) -> Matrix:
-        return self.chart.group.linear_part(m)
+        found: Matrix = self.chart.group.linear_part(m)
+        return found
 
     def _in_one_matrix(self, linear: Matrix) -> Matrix:
         if not self.chart.group.affine:
@@ -358,20 +338,6 @@ class DiscreteFunctions:
     def _run(self, name: str, arguments: Mapping[str, Any], size: int) -> list[Any]:
         return self.call(name, arguments, out=size)["out"]
 
-    def _plainly(self, name: str, arguments: Mapping[str, Any], **given: Any) -> list[Any]:
+    def _plainly(self, name: str, size: int, **changed: Any) -> list[Any]:
         """What a function writes, without counting degrees."""
-        k = [getattr(x, "value", x) for x in arguments["k"].values]
-        whole = {**self.point.arguments, "k": k, **given}
-        arrays = {a: x if a == "t" else Array(x, a) for a, x in whole.items()}
-        turns = self.chart.group.dimension if self._on_basis else 3
-        return self.plain.call(name, arrays, out=turns + 1)["out"]
-
-    def _same(self, name: str, found: Sequence[Any], wanted: Sequence[Any]) -> None:
-        names = [f"number {i}" for i in range(len(wanted))]
-        self.require(name, names, found, wanted)
-
-
-def hat(x: Sequence[Any]) -> Matrix:
-    """The matrix that turns about the axis x."""
-    a, b, c = x
-    return ((a * 0, -c, b), (c, a * 0, -a), (-b, a, a * 0))
+        return self.plain.numbers(name, {**self.given, **changed}, size)

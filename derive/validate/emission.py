@@ -13,7 +13,7 @@ from typing import Any
 
 from ..record.record import Derivation
 from .chart import Chart
-from .compare import SIZE, Agreement, compare
+from .compare import SIZE, Agreement, Comparison, compare
 from .exact_points import NAME as INTEGRALS
 from .exact_points import Claims
 from .filter_functions import FilterClaims, FilterComparison
@@ -77,15 +77,14 @@ class EmittedFiles:
     def reports(self, d: Derivation) -> list[Report]:
         """The results, one for each file, or for a header with its source."""
         whole = "".join(self.files.values())  # all of one emission are tried at the same points
-        torus = "torus" in d.problem
         if "kinematics" in d.problem:
-            judge: Judge = partial(self._of_filter, FilterClaims(d, SIZE), whole)
-        elif torus:
+            judge: Judge = partial(self._compared, FilterComparison, FilterClaims(d, SIZE), whole)
+        elif "torus" in d.problem:
             on_torus = cache(lambda: TorusClaims(d, whole, self.numbers))
             judge = partial(self._on_torus, on_torus)
         else:
-            judge = partial(self._compared, Claims(d, self.chart, SIZE), whole)
-        return [self._report(names, judge, torus=torus) for names in self._groups()]
+            judge = partial(self._compared, Comparison, Claims(d, self.chart, SIZE), whole)
+        return [self._report(names, judge) for names in self._groups()]
 
     def _groups(self) -> Iterator[tuple[str, ...]]:
         """The names of files read together: a header with its source, others one by one."""
@@ -96,7 +95,7 @@ class EmittedFiles:
             elif name != source or header not in self.files:
                 yield (name,)
 
-    def _report(self, names: tuple[str, ...], judge: Judge, *, torus: bool) -> Report:
+    def _report(self, names: tuple[str, ...], judge: Judge) -> Report:
         ending = names[-1].removeprefix(self.prefix)
         language = LANGUAGES.get(ending)
         unread = {"_steps.h": UNSTEPPED}.get(ending, "" if language else UNREAD)
@@ -133,11 +132,10 @@ class EmittedFiles:
             require_same(*(words_of(x[name]) for x in (self.files, self.fresh)))
         return found
 
-    def _compared(self, claims: Claims, whole: str, names: tuple[str, ...]) -> Agreement:
-        return compare(self._module(names), claims, self.numbers, whole)
-
-    def _of_filter(self, claims: Any, whole: str, names: tuple[str, ...]) -> Agreement:
-        return compare(self._module(names), claims, self.numbers, whole, kind=FilterComparison)
+    def _compared(
+        self, kind: type[Comparison], claims: Any, whole: str, names: tuple[str, ...]
+    ) -> Agreement:
+        return compare(self._module(names), claims, self.numbers, whole, kind=kind)
 
     def _on_torus(self, claims: Callable[[], TorusClaims], names: tuple[str, ...]) -> Agreement:
         """The verdict on a file with loops; Python is run, and so must be what is emitted."""

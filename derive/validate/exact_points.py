@@ -193,14 +193,14 @@ class Claims:
     def entry_degree(self) -> tuple[int, int]:
         """The degrees of numerator and denominator of a number of the state, also of its product
         with one that is drawn."""
-        num, den = _largest(degrees(q.flatten(self._graded_model.g)))
+        num, den = largest(degrees(q.flatten(self._graded_model.g)))
         return num + 1, den
 
     @property
     def moment_degree(self) -> tuple[int, int]:
         """The degrees of numerator and denominator of a parameter: of sums of m, m r and m r r̄,
         where these are the parameters."""
-        return _largest(degrees(self._graded_model.parameters.values()))
+        return largest(degrees(self._graded_model.parameters.values()))
 
     def _value(self, name: str, env: Environment) -> Any:
         e = self.equations.get(name)
@@ -227,7 +227,7 @@ class Claims:
         return q.bordered(linear, column, Fraction(0))
 
 
-def _largest(found: Iterable[Degree]) -> tuple[int, int]:
+def largest(found: Iterable[Degree]) -> tuple[int, int]:
     """The largest degree of the numerators, and of the denominators."""
     pairs = [(x.numerator.degree, x.denominator.degree) for x in found]
     return max((x for x, _ in pairs), default=1), max((x for _, x in pairs), default=0)

@@ -28,6 +28,7 @@ from ..record.as_json import decode
 from ..record.record import Derivation
 from .chart import Chart, Numbers, StateChart
 from .compare import Comparison
+from .exact_points import largest
 
 
 @dataclass(frozen=True)
@@ -133,11 +134,7 @@ class FilterClaims:
     @property
     def entry_degree(self) -> tuple[int, int]:
         """The degrees of numerator and denominator of a number of the state."""
-        found = [*degrees(self._graded.arguments["x"])]
-        return tuple(  # type: ignore[return-value]
-            max((x.degree for x in side), default=1)
-            for side in ([x.numerator for x in found], [x.denominator for x in found])
-        )
+        return largest(degrees(self._graded.arguments["x"]))
 
     moment_degree = (1, 0)
     """Those of a parameter."""
@@ -153,14 +150,12 @@ class FilterComparison(Comparison):
         """The names of the functions, once each has been found equal; ``CodeError`` else."""
         self.require_straight()
         arguments, point, found = self._arguments(), self.point, ["constants", "rhs"]
-        rates = self._call("rhs", arguments, dx=len(point.rates))["dx"]
-        self._require_equal("rhs", self._rates, rates, point.rates)
+        self._compared("rhs", arguments, "dx", self._rates, point.rates)
         if "rhs_batch" in self.module.functions:
             self._batches(arguments)
             found.append("rhs_batch")
         for name, wanted in (("error_generator", point.generator), ("error_noise", point.noise)):
-            got = self._call(name, arguments, D=len(wanted))["D"]
             told = [f"number {k} of D" for k, _ in enumerate(wanted)]
-            self._require_equal(name, told, got, wanted)
+            self._compared(name, arguments, "D", told, wanted)
             found.append(name)
         return (*found,)

@@ -24,7 +24,7 @@ it is right, and its derivative by the velocity vanishes there.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
@@ -34,9 +34,9 @@ from typing import Any
 from ..algebra.factor_charts import QUATERNION, FactorChart
 from ..algebra.families import group
 from ..algebra.groups import Group
+from ..check.claims.modular_values import residues
 from ..check.trials.phase_point import PhasePoint
 from ..check.values.arithmetic import EPS, part
-from ..check.values.residue import Residue
 from ..language import rational as q
 from ..language.rational import Matrix
 from .chart import EPSILON, ReducedChart, StateChart
@@ -68,15 +68,17 @@ def compare_drift(run: Run, draw: Callable[[], Fraction], state: StateChart, poi
     if not named:
         return "project, defect (at the unit of the group)"
     moved = run("project", [a + EPSILON * draw() for a in x])
-    if not state.tangent(g, point.Z, [part(y, EPS) for y in moved]):
+    if not state.tangent(g, point.Z, slopes(moved)):
         raise DiffersError("project: a change that leaves the group is not taken back")
-    slopes = []
-    for i in range(len(x)):
-        beside = [a + EPSILON * Fraction(i == j) for j, a in enumerate(x)]
-        slopes.append([part(y, EPS) for y in run("defect", beside)])
-    if rank(slopes) != len(x) - 2 * state.group.dimension + len(state.held):
+    seen = [slopes(run("defect", y)) for y in each_moved(x)]
+    if q.rank(residues(seen, PRIME)) != len(x) - 2 * state.group.dimension + len(state.held):
         raise DiffersError("defect: it does not see all that leaves the group")
     return "project, defect"
+
+
+def slopes(numbers: Iterable[Any]) -> list[Any]:
+    """The derivatives of nilpotent numbers."""
+    return [part(y, EPS) for y in numbers]
 
 
 def is_named(g: Group) -> bool:
@@ -87,10 +89,10 @@ def is_named(g: Group) -> bool:
         return False
 
 
-def rank(rows: Sequence[Sequence[Fraction]]) -> int:
-    """The rank of a matrix modulo the prime."""
-    one = Residue(1, PRIME)
-    return q.rank(tuple(tuple(one * x for x in row) for row in rows))
+def each_moved(x: Sequence[Any]) -> Iterator[list[Any]]:
+    """Numbers of which each in turn is moved, by a nilpotent one."""
+    for i in range(len(x)):
+        yield [y + EPSILON if i == j else y for j, y in enumerate(x)]
 
 
 Require = Callable[[str, Sequence[str], Sequence[Any], Sequence[Any]], None]
@@ -147,36 +149,25 @@ def exact_root(name: str, x: Any) -> Any:
 
 
 Numbers = Sequence[Any]
+Given = Mapping[str, Any]
+"""What functions are given at a point: t, and the numbers of x, u, p and k."""
 
 
 def compare_conserved(
-    machine: Machine,
-    point: Point,
-    x: Numbers,
-    k: Numbers,
-    draw: Callable[[], Fraction],
-    count: int,
+    machine: Machine, given: Given, x: Numbers, draw: Callable[[], Fraction], count: int
 ) -> str:
     """The name of the function that was found right at a state x; ``DiffersError`` where one of its
     ``count`` numbers is not kept, or is none."""
-    at = {**point.arguments, "x": x}
-
-    def run(name: str, changed: Mapping[str, Any], **size: int) -> list[Any]:
-        arrays: dict[str, Any] = {"x": x, "k": k, "u": [Fraction(0)] * len(at["u"]), **changed}
-        t = arrays.pop("t", at["t"])
-        arguments = {x: Array(values, x) for x, values in arrays.items()}
-        return [
-            y for found in machine.call(name, {"t": t, **arguments}, **size).values() for y in found
-        ]
-
-    rates = run("rhs", {}, dx=len(x))
-    later = {"x": [y + EPSILON * v for y, v in zip(x, rates, strict=True)]}
-    kept = run("conserved", later | {"t": at["t"] + EPSILON}, out=count)
-    beside = run("conserved", {"x": [y + EPSILON * draw() for y in x]}, out=count)
-    for i, (along, off) in enumerate(zip(kept, beside, strict=True)):
-        if part(along, EPS):
+    at = {**given, "x": x, "u": [Fraction(0)] * len(given["u"])}
+    rates = machine.numbers("rhs", at, len(x), "dx")
+    ahead = [y + EPSILON * v for y, v in zip(x, rates, strict=True)]
+    later = {**at, "x": ahead, "t": at["t"] + EPSILON}
+    beside = {**at, "x": [y + EPSILON * draw() for y in x]}
+    kept, other = (slopes(machine.numbers("conserved", y, count)) for y in (later, beside))
+    for i, (along, off) in enumerate(zip(kept, other, strict=True)):
+        if along:
             raise DiffersError(f"conserved: number {i} of it is not kept")
-        if not part(off, EPS):
+        if not off:
             raise DiffersError(f"conserved: number {i} of it says nothing of the state")
     return "conserved"
 
@@ -186,14 +177,12 @@ ZERO = Fraction(0)
 
 @dataclass(frozen=True)
 class ExactJacobians:
-    """The derivatives of the rates at one point, and of so many ``outputs``; ``p``, ``k``: its
-    parameters and constants."""
+    """The derivatives of the rates at one point, and of so many ``outputs``."""
 
     machine: Machine
     state: StateChart
     point: Point
-    p: Sequence[Fraction]
-    k: Sequence[Fraction]
+    given: Given
     outputs: int = 0
 
     @property
@@ -201,43 +190,34 @@ class ExactJacobians:
         """Name of a Jacobian → the columns of its matrix D, computed one by one."""
         return {
             "jacobian": self._state(),
-            "jacobian_inputs": self._inputs(),
-            "jacobian_parameters": self._parameters(),
-            "jacobian_raw": self._rates_by("x"),
-            "jacobian_raw_inputs": self._rates_by("u"),
-            "variations": self._variations(),
-            "jacobian_outputs": self._outputs_along(),
-            "jacobian_outputs_inputs": self._outputs_by("u"),
-            "jacobian_outputs_raw": self._outputs_by("x"),
+            "jacobian_inputs": map(self._rates_column, self._beside("u")),
+            "jacobian_parameters": map(self._rates_column, self._constants()),
+            "jacobian_raw": map(slopes, map(self._rates, self._beside("x"))),
+            "jacobian_raw_inputs": map(slopes, map(self._rates, self._beside("u"))),
+            "variations": map(slopes, self._varied()),
+            "jacobian_outputs": (self._read({"x": x}) for x in self._varied()),
+            "jacobian_outputs_inputs": map(self._read, self._beside("u")),
+            "jacobian_outputs_raw": map(self._read, self._beside("x")),
         }
 
     def _varied(self) -> Iterator[Sequence[Any]]:
         """The state, in nilpotent numbers, along η = E_a, then along δζ = E_a."""
         none, basis = q.scaled(ZERO, self.point.Z), self.state.group.basis
-        for pairs in (((e, none) for e in basis), ((none, e) for e in basis)):
-            for eta, change in pairs:
-                yield self.state.varied(self.point.g, self.point.Z, eta, change)
+        for eta, change in (*((e, none) for e in basis), *((none, e) for e in basis)):
+            yield self.state.varied(self.point.g, self.point.Z, eta, change)
 
-    def _variations(self) -> Iterator[list[Fraction]]:
-        """The columns of the derivative of the numbers of the state along these."""
-        return ([part(y, EPS) for y in x] for x in self._varied())
+    def _beside(self, array: str) -> Iterator[Given]:
+        """An array with each of its numbers in turn moved."""
+        return ({array: x} for x in each_moved(self.given[array]))
 
-    def _outputs_along(self) -> Iterator[list[Fraction]]:
-        """The columns of the derivative of ``outputs`` along these."""
-        return (self._read({"x": x}) for x in self._varied())
+    def _constants(self) -> Iterator[Given]:
+        """The constants with each of the parameters in turn moved."""
+        for p in each_moved(self.given["p"]):
+            yield {"k": self.machine.numbers("constants", {"p": p}, len(self.given["k"]), "k")}
 
-    def _outputs_by(self, array: str) -> Iterator[list[Fraction]]:
-        """The columns of the derivative of ``outputs`` by the numbers of an array."""
-        return map(self._read, self._beside(array))
-
-    def _beside(self, array: str) -> Iterator[dict[str, list[Any]]]:
-        """An array with each of its numbers in turn moved, by a nilpotent one."""
-        given = self.point.arguments[array]
-        for j in range(len(given)):
-            yield {array: [y + EPSILON if i == j else y for i, y in enumerate(given)]}
-
-    def _read(self, changed: Mapping[str, Sequence[Any]]) -> list[Fraction]:
-        return [part(y, EPS) for y in self._called("outputs", "out", self.outputs, changed)]
+    def _read(self, changed: Given) -> list[Fraction]:
+        given = {**self.given, **changed}
+        return slopes(self.machine.numbers("outputs", given, self.outputs))
 
     def _state(self) -> Iterator[list[Fraction]]:
         """The columns of the Jacobian in the state: (η̇, δζ̇) for η = E_a, then for δζ = E_a."""
@@ -252,70 +232,47 @@ class ExactJacobians:
     def _rates_along(self, eta: Matrix, change: Matrix) -> list[Fraction]:
         """δζ̇ for δg = g η and δZ = ``change``."""
         x = self.state.varied(self.point.g, self.point.Z, eta, change)
-        rates = self._rates({"x": x})
         Z = q.plus(self.point.Z, q.scaled(EPSILON, change))
-        back = q.times(q.minus(q.identity(len(eta)), q.scaled(EPSILON, eta)), self._inverse())
-        return [part(y, EPS) for y in self.state.acceleration(Z, back, rates)]
+        undone = q.minus(q.identity(len(eta)), q.scaled(EPSILON, eta))
+        back = q.times(undone, q.inverted(self.point.g))
+        return slopes(self.state.acceleration(Z, back, self._rates({"x": x})))
 
-    def _rates_by(self, array: str) -> Iterator[list[Fraction]]:
-        """The columns of the derivative of ``rhs`` by the numbers of an array."""
-        return ([part(y, EPS) for y in self._rates(x)] for x in self._beside(array))
-
-    def _inputs(self) -> Iterator[list[Fraction]]:
-        """The columns of the Jacobian in the inputs u."""
-        return map(self._rates_column, self._beside("u"))
-
-    def _parameters(self) -> Iterator[list[Fraction]]:
-        """The columns of the Jacobian in the parameters p."""
-        for j in range(len(self.p)):
-            p = [y + EPSILON if i == j else y for i, y in enumerate(self.p)]
-            k = self.machine.call("constants", {"p": Array(p, "p")}, k=len(self.k))["k"]
-            yield self._rates_column({"k": k})
-
-    def _rates_column(self, changed: Mapping[str, Sequence[Any]]) -> list[Fraction]:
+    def _rates_column(self, changed: Given) -> list[Fraction]:
         """The column (0, δζ̇) where arguments of ``rhs`` have the changed values."""
-        rates = self._rates(changed)
-        found = self.state.acceleration(self.point.Z, self._inverse(), rates)
-        return [ZERO] * len(found) + [part(y, EPS) for y in found]
+        back, rates = q.inverted(self.point.g), self._rates(changed)
+        found = self.state.acceleration(self.point.Z, back, rates)
+        return [ZERO] * len(found) + slopes(found)
 
-    def _inverse(self) -> Matrix:
-        found = q.inverse(self.point.g)
-        assert found is not None
-        return found
-
-    def _rates(self, changed: Mapping[str, Sequence[Any]]) -> tuple[Any, ...]:
-        return self._called("rhs", "dx", len(self.point.rates), changed)
-
-    def _called(
-        self, name: str, array: str, size: int, changed: Mapping[str, Sequence[Any]]
-    ) -> tuple[Any, ...]:
-        """What a function writes where arguments have the changed values."""
-        values = {
-            "x": self.point.arguments["x"],
-            "u": self.point.arguments["u"],
-            "k": self.k,
-            **changed,
-        }
-        arguments = {x: Array(numbers, x) for x, numbers in values.items()}
-        given = {"t": self.point.arguments["t"], **arguments}
-        return tuple(self.machine.call(name, given, **{array: size})[array])
+    def _rates(self, changed: Given) -> tuple[Any, ...]:
+        given = {**self.given, **changed}
+        return (*self.machine.numbers("rhs", given, len(self.point.rates), "dx"),)
 
 
 Call = Callable[..., dict[str, list[Any]]]
 
 
 @dataclass(frozen=True)
-class MomentumFunctions:
-    """The comparison at one point. ``call``: runs a function of the module with arguments;
-    ``plain``: the machine for other numbers; ``require``: refuses numbers that differ; ``draw``: a
-    random number."""
+class FunctionsCalled:
+    """What is called and compared at one point. ``call``: runs a function of the module with
+    arguments; ``plain``: the machine for other numbers, without counting degrees, and what it is
+    ``given``; ``require``: refuses numbers that differ; ``draw``: a random number."""
 
     call: Call
     plain: Machine
+    given: Given
     require: Require
     draw: Callable[[], Any]
     point: Point
     chart: Any
+
+    def _same(self, name: str, found: Sequence[Any], wanted: Sequence[Any]) -> None:
+        names = [f"number {i}" for i in range(len(wanted))]
+        self.require(name, names, found, wanted)
+
+
+@dataclass(frozen=True)
+class MomentumFunctions(FunctionsCalled):
+    """The comparison of the functions in momenta at one point."""
 
     def compare(self, arguments: Mapping[str, Any]) -> tuple[str, ...]:
         """The names of the functions, each found right."""
@@ -326,11 +283,11 @@ class MomentumFunctions:
         y = self.call("momentum", arguments, out=size)["out"]
         self._same("momentum", y, self._with(x, momenta))
         there = {**arguments, "y": Array(y, "y")}
-        found, moved = ["momentum"], self._rate_along_motion(arguments)
+        found, moved = ["momentum"], self._rate_along_motion()
         if "velocity_step" in self.plain.module.functions:
             step = self.call("velocity_step", there, out=size)["out"]
             self._same("velocity_step", step, x)
-            self._same("velocity_step", self._varied_step(arguments), [0] * size)
+            self._same("velocity_step", self._varied_step(), [0] * size)
             rates = "momentum_rates"
             found += ["velocity_step"]
         else:
@@ -353,29 +310,21 @@ class MomentumFunctions:
         new = dict(zip(self._velocity, values, strict=True))
         return [new.get(i, z) for i, z in enumerate(x)]
 
-    def _rate_along_motion(self, arguments: Mapping[str, Any]) -> list[Any]:
+    def _rate_along_motion(self) -> list[Any]:
         """The derivative of ``momentum`` along ``rhs``, as fractions."""
-        x = [a + EPSILON * b for a, b in self._pairs(self.point.rates)]
-        out = self._plain("momentum", arguments, t=self.point.arguments["t"] + EPSILON, x=x)
-        return [part(z, EPS) for z in out]
+        t, x = self.given["t"] + EPSILON, self._moved(self.point.rates)
+        return slopes(self._plain("momentum", t=t, x=x))
 
-    def _varied_step(self, arguments: Mapping[str, Any]) -> list[Any]:
+    def _varied_step(self) -> list[Any]:
         """The derivative of a step of Newton's method by the velocity that it begins with."""
-        y = [part(z, 0) for z in self._plain("momentum", arguments)]
-        change = self._with([0] * len(y), [self.draw() for _ in self._velocity])
-        x = [a + EPSILON * b for a, b in self._pairs(change)]
-        return [part(z, EPS) for z in self._plain("velocity_step", arguments, x=x, y=y)]
+        y = [part(z, 0) for z in self._plain("momentum")]
+        x = self._moved(self._with([0] * len(y), [self.draw() for _ in self._velocity]))
+        return slopes(self._plain("velocity_step", x=x, y=y))
 
-    def _pairs(self, change: Sequence[Any]) -> list[tuple[Any, Any]]:
-        return [*zip(self.point.arguments["x"], change, strict=True)]
+    def _moved(self, change: Sequence[Any]) -> list[Any]:
+        """The state, moved by a multiple of a nilpotent number."""
+        pairs = zip(self.given["x"], change, strict=True)
+        return [a + EPSILON * b for a, b in pairs]
 
-    def _plain(self, name: str, arguments: Mapping[str, Any], **changed: Any) -> list[Any]:
-        """What a function writes, without counting degrees."""
-        k = [getattr(z, "value", z) for z in arguments["k"].values]
-        given = {**self.point.arguments, "k": k, **changed}
-        arrays = {a: z if a == "t" else Array(z, a) for a, z in given.items()}
-        return self.plain.call(name, arrays, out=len(self.point.rates))["out"]
-
-    def _same(self, name: str, found: Sequence[Any], wanted: Sequence[Any]) -> None:
-        names = [f"number {i}" for i in range(len(wanted))]
-        self.require(name, names, found, wanted)
+    def _plain(self, name: str, **changed: Any) -> list[Any]:
+        return self.plain.numbers(name, {**self.given, **changed}, len(self.point.rates))

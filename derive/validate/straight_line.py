@@ -15,6 +15,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from ..language.rings import RingElement
 from .terms import Body, CodeError, CodeFunction
 
 REFUSED = (1, 2)
@@ -174,7 +175,7 @@ def _unsmooth(e: Any, tainted: set[str]) -> bool:
     return any(_unsmooth(x, tainted) for x in e)
 
 
-class Measured:
+class Measured(RingElement):
     """A value, with bounds on the degrees of numerator and denominator in the random integers."""
 
     __slots__ = ("den", "num", "value")
@@ -197,22 +198,12 @@ class Measured:
         num = max(self.num + b.den, b.num + self.den)
         return Measured(self.value + b.value, num, self.den + b.den)
 
-    __radd__ = __add__
-
     def __neg__(self) -> Measured:
         return Measured(-self.value, self.num, self.den)
-
-    def __sub__(self, other: Any) -> Measured:
-        return self + -Measured.of(other)
-
-    def __rsub__(self, other: Any) -> Measured:
-        return Measured.of(other) + -self
 
     def __mul__(self, other: Any) -> Measured:
         b = Measured.of(other)
         return Measured(self.value * b.value, self.num + b.num, self.den + b.den)
-
-    __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> Measured:
         b = Measured.of(other)

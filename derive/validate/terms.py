@@ -262,6 +262,14 @@ class Machine:
             return _returned(value, sizes)
         return {x: array.numbers() for x, array in empty.items()}
 
+    def numbers(
+        self, name: str, given: Mapping[str, Any], size: int, array: str = "out"
+    ) -> list[Any]:
+        """The numbers of the one array that a function computes of the numbers that are given: t,
+        and those of arrays."""
+        arguments = {x: y if x == "t" else Array(y, x) for x, y in given.items()}
+        return self.call(name, arguments, **{array: size})[array]
+
 
 def _returned(value: Any, sizes: Mapping[str, int]) -> dict[str, list[Any]]:
     """The returned numbers, cut into arrays of these sizes."""

@@ -11,10 +11,10 @@ from derive import ProblemError, derive, searches
 from derive.algebra.families import group
 from derive.check.checker import Checker
 from derive.check.claims.enclosure import enclosure_fault
+from derive.language.intervals import Interval, characteristic
 from derive.language.tree import add, replaced
 from derive.record.as_json import from_json, to_json
 from derive.search.equilibria import enclosed_points
-from derive.search.equilibria.enclosed_points import RealBall, characteristic
 from tests.support.coadjoint_orbits import hat, match, orbit_signature
 from tests.support.lagrangians import LINE, bent, heavy, lagrangian, squares
 from tests.support.walks import SEED, repeated
@@ -198,11 +198,12 @@ def test_a_polynomial_of_too_many_terms_is_none(power):
 def test_a_characteristic_polynomial_is_enclosed():
     rng = np.random.default_rng(2)
     a = rng.integers(-5, 6, size=(4, 4))
-    balls = characteristic([[RealBall(Fraction(int(x)), Fraction(1, 100)) for x in r] for r in a])
-    assert [float(x.mid) for x in balls] == pytest.approx(np.poly(a))
+    near = [[Interval.about(Fraction(int(x)), Fraction(1, 100)) for x in row] for row in a]
+    found = characteristic(near)
+    assert [float(x) for x in characteristic(a.tolist())] == pytest.approx(np.poly(a))
     for _ in range(20):
         moved = np.poly(a + rng.uniform(-1, 1, size=(4, 4)) / 100)
-        assert all(abs(x - float(y.mid)) <= y.off for x, y in zip(moved, balls, strict=True))
+        assert all((y - Fraction(x)).sign == 0 for x, y in zip(moved, found, strict=True))
 
 
 def test_a_family_of_equilibria_is_not_enclosed():

@@ -15,7 +15,7 @@ from derive.language.read import (
     read,
 )
 from derive.language.show import FIELD_OPERATORS, in_quotes, show
-from derive.language.tree import add, mul, neg, subtrees
+from derive.language.tree import add, mul, neg, nodes
 from derive.record.vocabulary import VOCABULARY
 from tests.support.walks import ESTIMATES, NAMES, OTHERS, record
 
@@ -47,9 +47,7 @@ def trees_of(found):
 @pytest.mark.parametrize("name", NAMES + OTHERS + ESTIMATES)
 def test_all_that_is_printed_is_read(name):
     found = {*trees_of(record(name))}
-    parameters = {
-        s[1] for t in found for _, s in subtrees(t) if isinstance(s, tuple) and s[0] == "par"
-    }
+    parameters = {s[1] for t in found for s in nodes(t) if isinstance(s, tuple) and s[0] == "par"}
     parameters = sorted(x for x in parameters if not x.startswith("‘"))
     for t in found:
         back = read(show(t), *parameters)

@@ -9,9 +9,10 @@ import json
 from dataclasses import replace
 
 from derive.check.checker import check
-from derive.language.tree import mul, neg, replace_at, subtrees
+from derive.language.tree import mul, neg
 from derive.record.as_json import from_json, to_data
 from derive.record.record import RecordError
+from tests.support.record_mutations import replace_at, subtrees
 
 ABOUT = {
     "opposite": neg,

@@ -3,7 +3,7 @@
 import tomllib
 from dataclasses import replace
 
-from derive.language.tree import mul, neg, replace_at, subtrees
+from derive.language.tree import mul, neg
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from tests.problems import READY
@@ -41,6 +41,22 @@ def without_term(k):
         return rest[0] if len(rest) == 1 else ("add", *rest)
 
     return change
+
+
+def subtrees(t, path=()):
+    """Every subtree with the path that leads to it."""
+    yield path, t
+    if isinstance(t, tuple):
+        for k, part in enumerate(t[1:], 1):
+            yield from subtrees(part, (*path, k))
+
+
+def replace_at(t, path, change):
+    """The tree with change(subtree) for the subtree at ``path``."""
+    if not path:
+        return change(t)
+    k = path[0]
+    return (*t[:k], replace_at(t[k], path[1:], change), *t[k + 1 :])
 
 
 def corruptions(equation):

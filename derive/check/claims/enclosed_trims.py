@@ -35,7 +35,7 @@ from ..values.varying import value_of as value
 from .entries_checked import decided
 from .equilibrium_claims import Coordinates, coordinates, silent
 from .reduced_system import ClaimedRecord
-from .trim_claims import placed
+from .trim_claims import carried_along, defaults, linearised, placed, standing, the_one
 
 SIZE, BOUNDED_SIZE, TRIED, LARGEST = 2**16, 4, 3, 16
 """Numbers are drawn up to a size, smaller ones where their differences are within bounds; so many
@@ -69,8 +69,7 @@ class EnclosedState:
         self.c, self.group, self.exact = c, c.group, exact
         self.names, self.radius = [x for x, _ in near], radius
         self.near = [y for _, y in near if isinstance(y, Fraction)]
-        given = c.record.problem.get("parameters", {})
-        numbers = {name: Fraction(str(data["default"])) for name, data in given.items()}
+        numbers = defaults(c)
 
         def model(size: int, *, bounded: bool) -> AnyModel:
             chosen = {"given": numbers, "bounded": bounded}
@@ -89,15 +88,9 @@ class EnclosedState:
         basis = self.group.in_user_basis
         pairs = (*self.exact, *zip(self.names, y, strict=True))
         held, g, zeta, xi = placed(self.group, pairs)
-        found = copy(model)
-        found.parameters = {**model.parameters}
-        vars(found).pop("expressions", None)  # that of the other parameters
-        found.g, found.Z = g, basis.hat(zeta)
         if any(x[1] == "ξ" for x in self.names if isinstance(x, tuple)):
-            found.g = model.ordered(found.g, cayley(basis.hat(xi)))
-        found.t = model.t if t is None else t
-        found.hold(held)
-        return found
+            g = model.ordered(g, cayley(basis.hat(xi)))
+        return standing(model, g, basis.hat(zeta), model.t if t is None else t, held)
 
     # -- one solution is there ---------------------------------------------------------------------
 
@@ -153,13 +146,8 @@ class EnclosedState:
 
     def _stays(self) -> bool:
         here = self.at(self.free, self.any_numbers())
-        other, undone = self.group.sample(self.c.random), q.inverted(here.g)
-        # gZg⁻¹ moves the element, which may be any, as it moves g
-        first, last = (here.g, undone) if here.side == "left" else (undone, here.g)
-        Y, rate = q.times(q.times(first, here.Z), last), Varying(Fraction(0), [Fraction(1)])
-        step = q.plus(q.identity(self.group.size), q.scaled(rate, Y))
-        there = copy(here)
-        there.g = q.times(step, other) if here.side == "left" else q.times(other, step)
+        there, rate = copy(here), Varying(Fraction(0), [Fraction(1)])
+        there.g = carried_along(here, rate, self.group.sample(self.c.random))
         there.t = here.t + rate
         return not any(any(slopes_of(x, 1)) for x in there.load)
 
@@ -179,10 +167,7 @@ class EnclosedState:
         rates = q.solve(_all_bounded(here.metric), _all_bounded(slopes))
         if rates is None:
             raise RecordError("the mass matrix is singular")
-        sign = -1 if here.side == "left" else 1
-        turns = [group.nearest(q.scaled(sign, q.bracket(here.Z, e))) for e in group.basis]
-        pairs = zip(q.transposed(turns), q.identity(d), strict=True)
-        return characteristic([*((*turn, *one) for turn, one in pairs), *rates])
+        return characteristic(linearised(here, rates))
 
     # -- the element -------------------------------------------------------------------------------
 
@@ -220,16 +205,6 @@ def _enclosed(
     return EnclosedState(c, exact, near, radius)
 
 
-def _rows(claim: Claim, name: str) -> Coordinates:
-    """The names and numbers of a place of a claim; ``RecordError`` where one is told twice."""
-    rows = claim[name]
-    assert isinstance(rows, tuple)
-    found = tuple((x, value_of(y)) for _, x, y in rows[1:])
-    if len(dict(found)) < len(found):
-        raise RecordError("a number is told twice")
-    return found
-
-
 def _radius(claim: Claim) -> Fraction:
     """That of a claim; ``RecordError`` where it is none."""
     radius = value_of(claim["radius"])
@@ -239,7 +214,7 @@ def _radius(claim: Claim) -> Fraction:
 
 
 def _of_claim(c: ClaimedRecord, claim: Claim) -> EnclosedState:
-    exact, near = coordinates(claim), _rows(claim, "near")
+    exact, near = coordinates(claim), coordinates(claim, "near")
     if len({x for x, _ in (*exact, *near)}) < len(exact) + len(near):
         raise RecordError("a coordinate is told twice")
     return _enclosed(c, exact, near, _radius(claim))
@@ -247,10 +222,7 @@ def _of_claim(c: ClaimedRecord, claim: Claim) -> EnclosedState:
 
 def _of_step(c: ClaimedRecord, step: Step) -> EnclosedState:
     """The state that a step tells; ``RecordError`` where it tells none, or several."""
-    found = [x for x in step.claims if x.kind in POINTS]
-    if len(found) != 1:
-        raise RecordError("no one point is told")
-    return _of_claim(c, found[0])
+    return _of_claim(c, the_one(step, POINTS))
 
 
 def _at(c: ClaimedRecord, step: Step, claim: Claim) -> str:
@@ -280,7 +252,7 @@ def _silent_of_turns(here: EnclosedState, step: Step) -> str:
 def _turned(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """The entries of g are these, and no others differ from the exact ones; ξ stands on this side
     of g."""
-    here, told = _of_step(c, step), dict(_rows(claim, "entries"))
+    here, told = _of_step(c, step), dict(coordinates(claim, "entries"))
     side = "right" if claim.kind.endswith("_on_the_left") else "left"
     if here.free.side != side or here.box is None:
         return "Cayley’s transform stands on the other side of g"

@@ -6,18 +6,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Context, Decimal, localcontext
 from fractions import Fraction
-from functools import cached_property, reduce
+from functools import cached_property, partial, reduce
 from typing import Any
 
 from ...algebra.groups import Group
 from ...language import rational as q
+from ...language.laurent import Laurent, Monomial
 from ...language.show import show
 from ...language.tree import Tree, nodes
 from ...language.univariate import value_of
 from ...record.record import Equation, RecordError, Step
 from ...record.sentence import Claim
 from .entries_checked import Entries, invertible
-from .equilibrium_claims import coordinates, not_from, silent
+from .equilibrium_claims import coordinates, not_from, others_squared, silent
 from .exact_spectra import DIGITS as PRECISION
 from .exact_spectra import (
     all_roots,
@@ -39,8 +40,7 @@ from .reduced_system import ReducedSystem
 # once more, from the trees, in fractions. Entries of g there must be those of an element of the
 # group.
 
-Powers = tuple[tuple[Tree, int], ...]
-Terms = dict[Powers, Fraction]
+Terms = dict[Monomial, Fraction]
 """A polynomial: powers of names, sorted → coefficient."""
 VARIABLES = (("at", "Π"), ("entry", "A"), ("entry", "Γ"))
 DIGITS = 10**6
@@ -153,43 +153,32 @@ def _centre(x: Tree, trees: Sequence[Tree]) -> Fraction:
 
 def polynomial(t: Tree, centre: dict[Tree, Fraction]) -> Terms:
     """A tree as a polynomial in its names, those with a centre less this."""
+    return _polynomial(t, centre).terms
+
+
+def _polynomial(t: Tree, centre: dict[Tree, Fraction]) -> Laurent:
     if isinstance(t, (int, Fraction)):
-        return {(): Fraction(t)} if t else {}
+        return Laurent.of(t)
     if t == "h̃" or (isinstance(t, tuple) and t[:2] in VARIABLES):
-        shift = centre.get(t, Fraction(0))
-        return {((t, 1),): Fraction(1)} | ({(): shift} if shift else {})
+        return Laurent.symbol(t) + centre.get(t, Fraction(0))
     if not isinstance(t, tuple):
         raise ValueError(f"{t} in a polynomial")
+    of = partial(_polynomial, centre=centre)
     if t[0] == "add":
-        return reduce(_plus, (polynomial(x, centre) for x in t[1:]))
+        return sum(map(of, t[1:]), Laurent.of(0))
     if t[0] == "mul":
-        return reduce(_times, (polynomial(x, centre) for x in t[1:]))
+        return reduce(_times, map(of, t[1:]))
     if t[0] == "pow" and isinstance(t[2], int) and 0 < t[2] <= 8:
-        return reduce(_times, [polynomial(t[1], centre)] * t[2])
+        return reduce(_times, [of(t[1])] * t[2])
     if t[0] == "div" and isinstance(t[2], (int, Fraction)):
-        return _times(polynomial(t[1], centre), {(): 1 / Fraction(t[2])})
+        return of(t[1]) * (1 / Fraction(t[2]))
     raise ValueError(f"{t[0]} in a polynomial")
 
 
-def _plus(f: Terms, g: Terms) -> Terms:
-    found = dict(f)
-    for m, c in g.items():
-        found[m] = found.get(m, Fraction(0)) + c
-    return {m: c for m, c in found.items() if c}
-
-
-def _times(f: Terms, g: Terms) -> Terms:
-    if len(f) * len(g) > TERMS:
+def _times(f: Laurent, g: Laurent) -> Laurent:
+    if len(f.terms) * len(g.terms) > TERMS:
         raise ValueError("a polynomial of too many terms")
-    found: Terms = {}
-    for m, x in f.items():
-        for k, y in g.items():
-            powers: dict[Tree, int] = dict(m)
-            for name, e in k:
-                powers[name] = powers.get(name, 0) + e
-            key = tuple(sorted(powers.items(), key=str))
-            found[key] = found.get(key, Fraction(0)) + x * y
-    return {m: c for m, c in found.items() if c}
+    return f * g
 
 
 def _spanned(f: Terms, others: Sequence[Terms]) -> bool:
@@ -266,10 +255,7 @@ def _squares(system: ReducedSystem, step: Step) -> tuple[int, int]:
 
 
 def _signs(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    found = _squares(system, step)
-    if found == (claim["positive"], claim["negative"]):
-        return ""
-    return f"it has {found[0]} positive and {found[1]} negative squares"
+    return others_squared(_squares(system, step), claim)
 
 
 NEAR_0 = Fraction(1, 1000)

@@ -13,6 +13,7 @@ from ...language.tree import Tree, add, neg, nodes, replaced, terms
 from ...language.univariate import Number, coefficients_of, square_free, tree, value_of
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
+from ..values.residue import Residue
 from .entries_checked import Decision, decided
 from .exact_spectra import (
     DIGITS,
@@ -26,8 +27,8 @@ from .exact_spectra import (
     roots_near,
     signature,
 )
-from .integral_claims import Judge
-from .modular_values import SecondOrder, about, expansion
+from .integral_claims import Judge, listed
+from .modular_values import about, expansion, gradient, second_derivatives, value_there
 from .reduced_system import ReducedSystem, ResiduePoint
 
 Coordinates = tuple[tuple[Tree, Number], ...]
@@ -35,9 +36,10 @@ POINTS = ("equilibrium.at", "equilibrium.origin")
 """The claims that say a point."""
 
 
-def coordinates(claim: Claim) -> Coordinates:
-    """The coordinates that a claim tells, rows of a matrix; none where it tells none."""
-    rows = dict(claim.values).get("point", ("matrix",))
+def coordinates(claim: Claim, name: str = "point") -> Coordinates:
+    """The coordinates that a claim tells under a name, rows of a matrix; none where it tells none;
+    ``RecordError`` where one is told twice."""
+    rows = dict(claim.values).get(name, ("matrix",))
     assert isinstance(rows, tuple)
     found = [(x, value_of(y)) for _, x, y in rows[1:]]
     if len(dict(found)) < len(found):
@@ -63,7 +65,7 @@ def _at(system: ReducedSystem, step: Step, claim: Claim) -> str:
     point, stated = point_of(system, step), coordinates(claim)
     if unknown := [x for x, _ in stated if x not in point.variables]:
         raise RecordError(f"{unknown[0]} is no variable")
-    if any(x.value != 0 for x in point.rates):
+    if any(value_there(x) != 0 for x in point.rates):
         return "something moves there"
     using = (s for s in system.record.steps if step.label in s.uses)
     if not any(x.kind in PROVED for s in (step, *using) for x in s.claims):
@@ -114,7 +116,9 @@ def kept(system: ReducedSystem, step: Step) -> Tree:
     point = system.anywhere
     roots = {x for t in others for x in nodes(t) if isinstance(x, tuple) and x[0] == "fun"}
     # it has rational coefficients in place of roots: kept for any of them, if for a random one
-    at = {**point.at} | {x: system.random.randrange(system.prime) for x in roots}
+    at = {**point.at} | {
+        x: Residue(system.random.randrange(system.prime), system.prime) for x in roots
+    }
     if others and ResiduePoint(system, at).bracket(add(*others), system.energy):
         raise RecordError("the left side is not kept")
     return equation.lhs
@@ -126,9 +130,9 @@ def form_of(system: ReducedSystem, step: Step) -> q.Matrix | None:
         return None
     point = point_of(system, step)
     found = point.expansion(kept(system, step))
-    if any(found.slopes(point.n)):
+    if any(gradient(found, point.n)):
         raise RecordError("the derivative does not vanish at the equilibrium")
-    return q.matrix(found.matrix(point.n))
+    return second_derivatives(found, point.n)
 
 
 def _form(system: ReducedSystem, step: Step, claim: Claim) -> str:
@@ -138,19 +142,20 @@ def _form(system: ReducedSystem, step: Step, claim: Claim) -> str:
     if fault := silent(step, PROVED, point.verdict(form)):
         return fault
     found = point.squares(form)
-    if found != (claim["positive"], claim["negative"]):
-        return f"it has {found[0]} positive and {found[1]} negative squares"
+    if reason := others_squared(found, claim):
+        return reason
     signs = [_square(point, point.expansion(t)) for t in terms(step.equations[0].rhs)]
     written = signs.count(1), signs.count(-1)
     return "" if written == found else f"{written[0]} and {written[1]} are written"
 
 
-def _square(point: ClaimedEquilibrium, term: SecondOrder) -> int:
+def _square(point: ClaimedEquilibrium, term: Any) -> int:
     """The sign of a term that is a square on the leaf; 0 for what vanishes there to the second
     order; ``RecordError`` for any other."""
-    if any(term.slope.values()):
+    if any(gradient(term, point.n)):
         raise RecordError("a term is not of the second order in the distance")
-    on_the_leaf = point.on_the_leaf(q.matrix(term.matrix(point.n))) if point.dimension else ()
+    second = second_derivatives(term, point.n)
+    on_the_leaf = point.on_the_leaf(second) if point.dimension else ()
     if not any(map(any, on_the_leaf)):
         return 0
     if q.rank(on_the_leaf) > 1:
@@ -158,21 +163,29 @@ def _square(point: ClaimedEquilibrium, term: SecondOrder) -> int:
     return 1 if q.trace(on_the_leaf) > 0 else -1
 
 
+def others_squared(found: tuple[int, int], claim: Claim) -> str:
+    """That there are not as many squares of each sign as a claim says; "" where there are."""
+    if found == (claim["positive"], claim["negative"]):
+        return ""
+    return f"it has {found[0]} positive and {found[1]} negative squares"
+
+
 def _none(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    """The derivative of the energy is no combination of those of what is kept."""
-    point = point_of(system, step)
-    known = (*system.casimirs, *system.integrals[1:])
-    rows = [point.expansion(f).slopes(point.n) for f in known]
-    extended = [*rows, point.energy.slopes(point.n)]
+    return has_multiples(point_of(system, step))
+
+
+def has_multiples(point: ClaimedEquilibrium) -> str:
+    """That the derivative of the energy is a combination of those of what is kept; "" where it is
+    none."""
+    known = (*point.system.casimirs, *point.system.integrals[1:])
+    rows = [gradient(point.expansion(f), point.n) for f in known]
+    extended = [*rows, gradient(point.energy, point.n)]
     more, fewer = (q.rank(q.matrix(x)) if x else 0 for x in (extended, rows))
     return "" if more > fewer else "there are such multiples"
 
 
 def _orbit(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    found = point_of(system, step).squares(None)
-    if found == (claim["positive"], claim["negative"]):
-        return ""
-    return f"it has {found[0]} positive and {found[1]} negative squares"
+    return others_squared(point_of(system, step).squares(None), claim)
 
 
 # -- verdicts -------------------------------------------------------------------------------------
@@ -191,14 +204,10 @@ def _verdict(system: ReducedSystem, step: Step, claim: Claim) -> str:
     return ""
 
 
-def _listed(t: Tree) -> tuple[Tree, ...]:
-    return t[1:] if isinstance(t, tuple) and t[0] == "row" else (t,)
-
-
 def _exact_squares(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """They are all roots of q, for the characteristic polynomial q(λ²)."""
     f = point_of(system, step).characteristic[::2]
-    claimed = [_complex(t) for t in _listed(claim["squares"])]
+    claimed = [_complex(t) for t in listed(claim["squares"])]
     if any(any(at_complex(f, s)) for s in claimed):
         return "one is no square of an eigenvalue"
     each_once = len({*claimed}) == len(claimed) == distinct_roots(f)
@@ -288,28 +297,25 @@ class ClaimedEquilibrium:
         self.at = tuple(point.get(x, Fraction(0)) for x in system.variables)
         self.variables = about(system.variables, self.at)
 
-    def expansion(self, t: Tree) -> SecondOrder:
+    def expansion(self, t: Tree) -> Any:
         """A polynomial about the point."""
         return expansion(t, {**self.variables, "h̃": self.energy})
 
     @cached_property
-    def energy(self) -> SecondOrder:
+    def energy(self) -> Any:
         """h̃ about the point."""
         return expansion(self.system.energy, self.variables)
 
     @cached_property
-    def rates(self) -> list[SecondOrder]:
+    def rates(self) -> list[Any]:
         """The rates about the point."""
         return [expansion(x, self.variables) for x in self.system.rates]
 
     @cached_property
     def tensor(self) -> q.Matrix:
         """Λ at the point."""
-        found = [[Fraction(0)] * self.n for _ in range(self.n)]
-        for (i, j), form in self.system.tensor.forms.items():
-            terms = ((c if k is None else c * self.at[k]) for k, c in form.items())
-            found[i][j] = sum(terms, Fraction(0))
-        return q.matrix(found)
+        found, span = self.system.tensor.at(self.at), range(self.n)
+        return tuple(tuple(found.get((i, j), Fraction(0)) for j in span) for i in span)
 
     @cached_property
     def tangent(self) -> q.Matrix:
@@ -325,7 +331,7 @@ class ClaimedEquilibrium:
     @cached_property
     def linear(self) -> q.Matrix:
         """M, the derivatives of the rates."""
-        return tuple(tuple(x.slopes(self.n)) for x in self.rates)
+        return tuple(tuple(gradient(x, self.n)) for x in self.rates)
 
     @cached_property
     def characteristic(self) -> list[Number]:
@@ -356,11 +362,9 @@ class ClaimedEquilibrium:
         """Has an element of the group the entries of g at the point?"""
         pairs = zip(self.system.variables, self.at, strict=True)
         at = {x: y for x, y in pairs if isinstance(x, tuple) and x[1] == "A"}
-        one: dict[Tree, SecondOrder] = {
-            x: SecondOrder(Fraction(int(x[2] == x[3]))) for x in at if isinstance(x, tuple)
-        }
+        one: dict[Tree, Any] = {x: Fraction(x[2] == x[3]) for x in at if isinstance(x, tuple)}
         alone = (f for f in self.system.casimirs if {*nodes(f)} & {*self.variables} <= {*one})
-        if any(expansion(f, one).value != self.expansion(f).value for f in alone):
+        if any(expansion(f, one) != value_there(self.expansion(f)) for f in alone):
             return "no"
         return decided(self.system.group, {(x[2] - 1, x[3] - 1): y for x, y in at.items()})
 

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from decimal import Decimal
 from fractions import Fraction
-from itertools import pairwise
 
-from ...language.univariate import Number, Quadratic, square_free
+from ...language.univariate import (
+    Number,
+    Quadratic,
+    changes,
+    common_divisor,
+    square_free,
+    trimmed,
+)
 
 # Eigenvalues of exact matrices, counted: over Q, or numbers of one quadratic field.
 #
@@ -63,11 +69,6 @@ def signature(a: Matrix) -> tuple[int, int]:
     return changes(c), changes((-1) ** k * x for k, x in enumerate(c))
 
 
-def changes(c: Iterable[Number]) -> int:
-    """How often the sign changes along some numbers, those that are 0 left out."""
-    return sum(x != y for x, y in pairwise(x > 0 for x in c if x))
-
-
 def powers(f: Sequence[Number], most: int) -> list[Number]:
     """The sums p_0 … of powers of the roots of a polynomial with the highest coefficient 1, given
     from there (Newton)."""
@@ -104,23 +105,11 @@ def grows(f: Sequence[Number]) -> bool:
     divisor xᵃq(x²), and q has real roots alone, none positive, where all are imaginary or 0.
     """
     opposite = [(-1) ** k * x for k, x in enumerate(f)]
-    even = _monic_divisor(f, [opposite[0] * x for x in opposite])
-    while len(even) > 1 and not even[-1]:
-        even = even[:-1]
-    return not real_and_not_positive(even[::2]) or signature(_hermite_hurwitz(f))[1] > 0
-
-
-def _monic_divisor(f: Sequence[Number], g: Sequence[Number]) -> list[Number]:
-    """The greatest common divisor of two polynomials, from the highest coefficient, which is 1."""
-    f, g = [*f], [*g]
-    while g:
-        while len(f) >= len(g):
-            ratio = f[0] / g[0]
-            f = [x - ratio * y for x, y in zip(f, [*g, *[Fraction(0)] * len(f)], strict=False)][1:]
-        while f and not f[0]:
-            f = f[1:]
-        f, g = g, f
-    return [x / f[0] for x in f]
+    even = common_divisor(trimmed(f[::-1]), trimmed(opposite[::-1]))
+    squares = [x / even[-1] for x in even[::-1]]
+    while len(squares) > 1 and not squares[-1]:
+        squares.pop()
+    return not real_and_not_positive(squares[::2]) or signature(_hermite_hurwitz(f))[1] > 0
 
 
 def _hermite_hurwitz(f: Sequence[Number]) -> Matrix:

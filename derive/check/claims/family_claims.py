@@ -14,9 +14,10 @@ from ...language.tree import Tree, nodes
 from ...language.univariate import Number, coefficients_of, value_of
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
-from .equilibrium_claims import ClaimedEquilibrium, kept
+from .equilibrium_claims import ClaimedEquilibrium, has_multiples, kept
 from .exact_spectra import signature
 from .integral_claims import Judge, listed
+from .modular_values import gradient, second_derivatives, value_there
 from .reduced_system import ReducedSystem, substituted
 
 Numbers = Mapping[Tree, Fraction]
@@ -148,9 +149,9 @@ class EquilibriumInNumbers:
         if self.step is None:
             return None
         found = self.point.expansion(kept(self.point.system, self.step))
-        if any(found.slopes(self.point.n)):
+        if any(gradient(found, self.point.n)):
             raise RecordError("the derivative does not vanish at the equilibrium")
-        return q.matrix(found.matrix(self.point.n))
+        return second_derivatives(found, self.point.n)
 
     @property
     def definite(self) -> bool:
@@ -200,7 +201,7 @@ def _at(system: ReducedSystem, step: Step, claim: Claim) -> str:
         return f"{unknown[0]} is no variable"
     for _ in range(DRAWS):
         point = family.at(family.drawn()).point
-        if any(x.value != 0 for x in point.rates):
+        if any(value_there(x) != 0 for x in point.rates):
             return "something moves there"
         if point.entries != "yes":
             return "that an element of the group has these entries is not proved"
@@ -222,7 +223,7 @@ def _positive(system: ReducedSystem, step: Step, claim: Claim) -> str:
     for numbers in several:
         energy = family.at(numbers).point
         origin = ClaimedEquilibrium(energy.system, {})
-        second = [row[:m] for row in origin.energy.matrix(origin.n)[:m]]
+        second = [row[:m] for row in second_derivatives(origin.energy, origin.n)[:m]]
         if (signature(second) == (m, 0)) is not _hold(family.supposed, numbers):
             return "the kinetic energy is positive elsewhere, or not there"
     return ""
@@ -243,13 +244,8 @@ def _definite(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 
 def _orbit(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    """The derivative of the energy is no combination of those of what is kept."""
     family = ClaimedFamily(system, step)
-    point = family.at(family.drawn()).point
-    rows = [point.expansion(f).slopes(point.n) for f in (*point.system.casimirs,)]
-    rows += [point.expansion(f).slopes(point.n) for f in point.system.integrals[1:]]
-    more = q.rank(q.matrix([*rows, point.energy.slopes(point.n)]))
-    return "" if more > (q.rank(q.matrix(rows)) if rows else 0) else "there are such multiples"
+    return has_multiples(family.at(family.drawn()).point)
 
 
 def _form(system: ReducedSystem, step: Step, claim: Claim) -> str:

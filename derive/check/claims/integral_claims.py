@@ -10,6 +10,7 @@ from ...language.tree import Tree, add, neg, nodes, replaced
 from ...language.values import approximate
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
+from ..values.residue import Residue
 from .exact_spectra import signature
 from .modular_values import value
 from .no_more import (
@@ -360,10 +361,10 @@ def _no_first_order(system: ReducedSystem, f: Tree) -> bool:
     """Is a polynomial in parameters, and for none a first-order one?"""
     p, random = system.prime, system.random
     letters = [x for x in dict.fromkeys(nodes(f)) if x in system.parameters]
-    at = {x: random.randrange(1, p) for x in letters}
+    at = {x: Residue(random.randrange(1, p), p) for x in letters}
     for x in letters:
         first, second, third = (value(f, {**at, x: at[x] + k}, p) for k in range(3))
-        if first != second and (first - 2 * second + third) % p == 0:
+        if first != second and first - 2 * second + third == 0:
             return False
     return bool(letters)
 

@@ -12,6 +12,7 @@ from operator import add, mul
 from ...algebra.exact_kernel import PRIMES, ResidueVector, ResidueVectorSource, pivots
 from ...language.tree import Tree, operands
 from ...record.sentence import MONOMIALS
+from ..values.residue import Residue
 from .modular_values import Value, value
 from .reduced_system import ReducedSystem
 
@@ -128,7 +129,9 @@ class Completeness:
     def point(self, several: int, p: int) -> dict[Tree, Value]:
         """So many random points of the variables, at one of the parameters, modulo p."""
         random = self.system.random
-        at: dict[Tree, Value] = {x: random.randrange(1, p) for x in self.system.parameters}
+        at: dict[Tree, Value] = {
+            x: Residue(random.randrange(1, p), p) for x in self.system.parameters
+        }
         for letter, t in self.values:
             at[letter] = value(t, at, p)
         source = ResidueVectorSource(p, several, random.getrandbits(64))
@@ -230,7 +233,7 @@ def along_every_field(system: ReducedSystem) -> tuple[Images, Rates]:
         source = ResidueVectorSource(p, len(x[0].values), system.random.getrandbits(64))
         w = [source.randint(1, p) for _ in x]
         found: dict[int, ResidueVector] = {}
-        for (i, j), c in system.tensor.at(x, p).items():
+        for (i, j), c in system.tensor.at(x).items():
             found[i] = found[i] + w[j] * c if i in found else w[j] * c
         return found
 

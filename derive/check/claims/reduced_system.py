@@ -9,15 +9,16 @@ from functools import cached_property
 from random import Random
 from typing import Any
 
-from ...algebra.exact_kernel import residue_of
 from ...algebra.groups import Group
+from ...language import rational as q
 from ...language.show import show
 from ...language.tree import Tree, nodes, replaced
 from ...record.record import Derivation, RecordError, Step
 from ..trials.trial_points import group_of
-from ..values.residue import random_prime
+from ..values.residue import Residue, random_prime
+from ..values.varying import Varying
 from .entries_checked import constant_entries
-from .modular_values import Jet, Value, rank, value
+from .modular_values import Value, gradient, residues, value
 from .symmetry_count import SymmetryCount
 
 # The reduced equations of a record, read from its steps: variables, rates, energy, Casimirs and
@@ -88,7 +89,8 @@ class ReducedSystem:
         """A random point; on the ``level`` where a polynomial vanishes; with these ``values`` of
         some parameters."""
         p = self.prime
-        at = {x: self.random.randrange(1, p) for x in (*self.parameters, *self.variables)}
+        letters = (*self.parameters, *self.variables)
+        at = {x: Residue(self.random.randrange(1, p), p) for x in letters}
         for letter, t in values:
             at[letter] = value(t, at, p)
         found = ResiduePoint(self, at)
@@ -122,7 +124,7 @@ class ResiduePoint:
     """Values of the variables and the parameters of a system, modulo a large prime."""
 
     system: ReducedSystem
-    at: Mapping[Tree, int]
+    at: Mapping[Tree, Residue]
 
     @property
     def p(self) -> int:
@@ -133,62 +135,60 @@ class ResiduePoint:
         """The point with another value of the first variable in which a polynomial is linear, so
         that it vanishes; ``RecordError`` where there is none."""
         for x in self.system.variables:
-            a, b, c = (value(level, {**self.at, x: k}, self.p) for k in range(3))
-            if (a - 2 * b + c) % self.p == 0 and (b - a) % self.p:
-                return ResiduePoint(
-                    self.system, {**self.at, x: -a * pow(b - a, -1, self.p) % self.p}
-                )
+            a, b, c = (value(level, {**self.at, x: Residue(k, self.p)}, self.p) for k in range(3))
+            if a - 2 * b + c == 0 and b != a:
+                return ResiduePoint(self.system, {**self.at, x: -a / (b - a)})
         raise RecordError(f"no point is known where {show(level)[:80]} vanishes")
 
     @cached_property
-    def _jets(self) -> dict[Tree, Jet | int]:
-        found: dict[Tree, Jet | int] = {**self.at}
-        for k, x in enumerate(self.system.variables):
-            found[x] = Jet(self.at[x], {k: 1}, self.p)
-        return found
+    def _varied(self) -> dict[Tree, Value]:
+        variables = self.system.variables
+        pairs = zip(variables, q.identity(len(variables)), strict=True)
+        return {**self.at} | {x: Varying(self.at[x], unit) for x, unit in pairs}
 
     @cached_property
-    def _gradients(self) -> dict[Tree, list[int]]:
+    def _gradients(self) -> dict[Tree, list[Value]]:
         return {}
 
-    def gradient(self, f: Tree) -> list[int]:
+    def gradient(self, f: Tree) -> list[Value]:
         """The derivatives of a polynomial by the variables."""
         if f not in self._gradients:
-            jet = value(f, self._jets, self.p)
-            slopes = jet.slopes if isinstance(jet, Jet) else {}
-            self._gradients[f] = [slopes.get(k, 0) for k, _ in enumerate(self.system.variables)]
+            varied = value(f, self._varied, self.p)
+            self._gradients[f] = gradient(varied, len(self.system.variables))
         return self._gradients[f]
 
     @cached_property
-    def tensor(self) -> dict[tuple[int, int], int]:
+    def tensor(self) -> dict[tuple[int, int], Value]:
         """Λ, by its entries."""
-        return self.system.tensor.at([self.at[x] for x in self.system.variables], self.p)
+        return self.system.tensor.at([self.at[x] for x in self.system.variables])
 
-    def field(self, f: Tree) -> list[int]:
+    def field(self, f: Tree) -> list[Value]:
         """The Hamiltonian vector field Λ dF: the rates {x_i, F}."""
-        slopes, found = self.gradient(f), [0] * len(self.system.variables)
+        slopes, found = self.gradient(f), [Residue(0, self.p) for _ in self.system.variables]
         for (i, j), c in self.tensor.items():
-            found[i] = (found[i] + c * slopes[j]) % self.p
+            found[i] += c * slopes[j]
         return found
 
-    def bracket(self, f: Tree, g: Tree) -> int:
+    def bracket(self, f: Tree, g: Tree) -> Value:
         """{F, G}."""
-        pairs = zip(self.gradient(f), self.field(g), strict=True)
-        return sum(x * y for x, y in pairs) % self.p
+        return q.dot(self.gradient(f), self.field(g))
 
     @cached_property
     def poisson_rank(self) -> int:
         """The rank of Λ."""
         span = range(len(self.system.variables))
-        return rank([[self.tensor.get((i, j), 0) for j in span] for i in span], self.p)
+        return self._rank([[self.tensor.get((i, j), 0) for j in span] for i in span])
 
     def rank(self, f: Sequence[Tree]) -> int:
         """How many of some polynomials are independent of each other."""
-        return rank([self.gradient(x) for x in f], self.p)
+        return self._rank([self.gradient(x) for x in f])
 
     def rank_on_leaves(self, f: Sequence[Tree]) -> int:
         """How many are independent of each other and of all Casimirs: as many as their fields."""
-        return rank([self.field(x) for x in f], self.p)
+        return self._rank([self.field(x) for x in f])
+
+    def _rank(self, rows: Sequence[Sequence[Value]]) -> int:
+        return q.rank(residues(rows, self.p))
 
 
 def substituted(t: Tree, numbers: Mapping[Tree, Fraction]) -> Tree:
@@ -291,15 +291,13 @@ class PoissonTensor:
         """The entries that are the same for all elements of the group."""
         return constant_entries(self.group)
 
-    def at(self, x: Sequence[Value], p: int) -> dict[tuple[int, int], Value]:
-        """The entries Λ_ij = {x_i, x_j}, those that do not vanish for all x, modulo p at values of
-        the variables."""
-        found = {}
-        for ij, form in self.forms.items():
-            terms = ((1 if k is None else x[k]) * residue_of(c, p) for k, c in form.items())
-            total = sum(terms, 0)
-            found[ij] = total % p if isinstance(total, int) else total
-        return found
+    def at(self, x: Sequence[Value]) -> dict[tuple[int, int], Value]:
+        """The entries Λ_ij = {x_i, x_j}, those that do not vanish for all x, at values of the
+        variables."""
+        return {
+            ij: sum(((1 if k is None else x[k]) * c for k, c in form.items()), Fraction(0))
+            for ij, form in self.forms.items()
+        }
 
 
 # What the claims of a record speak of, read once: its reduced equations, its symmetries.

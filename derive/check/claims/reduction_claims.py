@@ -12,6 +12,14 @@ from ...algebra.exact_kernel import PRIMES, ResidueVectorSource
 from ...language import rational as q
 from ...language.show import show
 from ...language.tree import Tree, nodes, operands, terms
+from ...language.univariate import (
+    Coefficients,
+    common_divisor,
+    derivative,
+    division,
+    polynomial_value,
+    trimmed,
+)
 from ...record.as_json import decode
 from ...record.record import RecordError, Step, stated
 from ...record.sentence import Claim
@@ -57,7 +65,7 @@ def _quadrature(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     p = random_prime(c.random)
     at = _random(_leaves(f), c.random, p)
     found = _interpolated(lambda x: value(f, {**at, entry: x}, p), p, LARGEST)
-    degree, left = len(found) - 1, _odd_degree(found, p)
+    degree, left = len(found) - 1, _odd_degree(found)
     kind = "elementary" if left < 3 else "elliptic" if left < 5 else "hyperelliptic"
     told = {"degree": degree}
     if left < degree:
@@ -74,24 +82,24 @@ def _supposed(c: ClaimedRecord, step: Step, entry: Tree, degree: int) -> bool:
     supposed = [x.of for x in step.hypotheses if x.property == "nonzero"]
     at, along = (_random(_every_leaf([f, *supposed]), c.random, p) for _ in range(2))
 
-    def there(s: int) -> dict[Tree, int]:
-        return {x: (y + s * along[x]) % p for x, y in at.items()}
+    def there(s: Residue) -> dict[Tree, Residue]:
+        return {x: y + s * along[x] for x, y in at.items()}
 
-    def leading(s: int) -> int:
+    def leading(s: Residue) -> Residue:
         """The coefficient times all that is supposed, so that nothing is divided by."""
         here = there(s)
-        whole = _interpolated(lambda x: int(value(f, {**here, entry: x}, p)), p, LARGEST)
-        below = prod(int(value(t, here, p)) for t in supposed)
-        return whole[degree] * below % p if degree < len(whole) else 0
+        whole = _interpolated(lambda x: value(f, {**here, entry: x}, p), p, LARGEST)
+        below = prod((value(t, here, p) for t in supposed), start=Residue(1, p))
+        return whole[degree] * below if degree < len(whole) else Residue(0, p)
 
-    def on_line(t: Tree) -> list[int]:
-        return _interpolated(lambda s: int(value(t, there(s), p)), p, LARGEST_ON_LINE)
+    def on_line(t: Tree) -> Coefficients:
+        return _interpolated(lambda s: value(t, there(s), p), p, LARGEST_ON_LINE)
 
     first = _interpolated(leading, p, LARGEST_ON_LINE)
-    return _vanishes(first, [on_line(t) for t in supposed], p)
+    return _vanishes(first, [on_line(t) for t in supposed])
 
 
-def _odd_degree(c: Sequence[int], p: int) -> int:
+def _odd_degree(c: Coefficients) -> int:
     """The degree of the factors of odd multiplicity, each once.
 
     Divisors with the derivative lower all multiplicities by 1: of these steps every second adds the
@@ -99,31 +107,30 @@ def _odd_degree(c: Sequence[int], p: int) -> int:
     """
     degrees = [len(c) - 1]
     while len(c) > 1:
-        c = _divisor(c, [k * x % p for k, x in enumerate(c)][1:], p)
+        c = common_divisor(c, derivative(c))
         degrees.append(len(c) - 1)
     steps = (a - b for a, b in pairwise(degrees))
     return sum(x * (-1) ** k for k, x in enumerate(steps))
 
 
-def _random(leaves: Iterable[Tree], random: Random, p: int) -> dict[Tree, int]:
+def _random(leaves: Iterable[Tree], random: Random, p: int) -> dict[Tree, Residue]:
     """A random value of each."""
-    return {t: random.randrange(1, p) for t in leaves}
+    return {t: Residue(random.randrange(1, p), p) for t in leaves}
 
 
-def _interpolated(f: Callable[[int], int], p: int, largest: int) -> list[int]:
+def _interpolated(f: Callable[[Residue], Residue], p: int, largest: int) -> Coefficients:
     """The coefficients of a polynomial, by its values; ``RecordError`` for more than the largest
     degree, or what is no polynomial."""
-    found: list[int] = []
-    base = [1]  # ∏ (x − j), j < k
-    for k in range(largest + 3):
-        left = f(k) - sum(c * k**i for i, c in enumerate(found))
-        step = left * pow(sum(c * k**i for i, c in enumerate(base)), -1, p) % p
-        found = [(a + step * b) % p for a, b in zip([*found, 0][: k + 1], base, strict=True)]
-        base = [(a - k * b) % p for a, b in zip([0, *base], [*base, 0], strict=True)]
-    found = _trimmed(found)
-    if len(found) > largest + 1:
+    zero, one = Residue(0, p), Residue(1, p)
+    found, base = [zero], [one]  # ∏ (x − j), j < k
+    for k in (Residue(k, p) for k in range(largest + 3)):
+        step = (f(k) - polynomial_value(found, k)) / polynomial_value(base, k)
+        found = [a + step * b for a, b in zip(found, base, strict=True)] + [zero]
+        base = [a - k * b for a, b in zip([zero, *base], [*base, zero], strict=True)]
+    whole = trimmed(found)
+    if len(whole) > largest + 1:
         raise RecordError("the right side is no polynomial in the coordinate")
-    return found
+    return whole
 
 
 def _leaves(t: Tree) -> list[Tree]:
@@ -131,30 +138,6 @@ def _leaves(t: Tree) -> list[Tree]:
     if isinstance(t, tuple) and t[0] in ("add", "mul", "div", "pow"):
         return [x for y in operands(t) for x in _leaves(y)]
     return [] if isinstance(t, (int, Fraction)) else [t]
-
-
-def _trimmed(c: Sequence[int]) -> list[int]:
-    """The coefficients up to the last that is not 0."""
-    last = max((k for k, x in enumerate(c) if x), default=-1)
-    return [*c[: last + 1]]
-
-
-def _divisor(a: Sequence[int], b: Sequence[int], p: int) -> list[int]:
-    """The greatest common divisor of two polynomials."""
-    a, b = _trimmed(a), _trimmed(b)
-    while b:
-        a, b = b, _remainder(a, b, p)
-    return [*a]
-
-
-def _remainder(a: Sequence[int], b: Sequence[int], p: int) -> list[int]:
-    """What is left of a polynomial after division by another one."""
-    rest, lead = [*a], pow(b[-1], -1, p)
-    while len(rest) >= len(b):
-        factor, shift = rest[-1] * lead, len(rest) - len(b)
-        rest = [(x - factor * b[k - shift]) % p if k >= shift else x for k, x in enumerate(rest)]
-        rest = _trimmed(rest[:-1])
-    return rest
 
 
 # -- where the effective potential is defined ----------------------------------------------------
@@ -195,9 +178,10 @@ def _conditions(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     below, p = _divisors(step), random_prime(c.random)
     at, along = ({} | _random(_every_leaf([*stated, *below]), c.random, p) for _ in range(2))
 
-    def on_line(t: Tree) -> list[int]:
-        def at_time(s: int) -> int:
-            return int(value(t, {x: (y + s * along[x]) % p for x, y in at.items()}, p))
+    def on_line(t: Tree) -> Coefficients:
+        def at_time(s: Residue) -> Residue:
+            found: Residue = value(t, {x: y + s * along[x] for x, y in at.items()}, p)
+            return found
 
         return _interpolated(at_time, p, LARGEST_ON_LINE)
 
@@ -205,7 +189,7 @@ def _conditions(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     fixed = [t for t in below if not _varies(t)]
     pairs = [(stated, below), ([t for t in below if _varies(t)], [*stated, *fixed])]
     if len({*stated}) < len(stated) or not all(
-        _varies(x) and _vanishes(every[x], [every[y] for y in others], p)
+        _varies(x) and _vanishes(every[x], [every[y] for y in others])
         for listed, others in pairs
         for x in listed
     ):
@@ -219,24 +203,24 @@ def _every_leaf(trees: Iterable[Tree]) -> list[Tree]:
     return [*dict.fromkeys(x for t in trees for x in _leaves(t))]
 
 
-def _vanishes(x: Sequence[int], others: Sequence[Sequence[int]], p: int) -> bool:
+def _vanishes(x: Coefficients, others: Sequence[Coefficients]) -> bool:
     """Is one of some polynomials 0 wherever one is?  Then it divides a power of their product."""
     if len(x) < 2:
-        return bool(x)
-    power = [1]
+        return bool(x[0])
+    power: Coefficients = (x[0] * 0 + 1,)
     for y in others:
-        power = _remainder(_product(power, y, p), x, p)
+        power = division(_product(power, y), x)[1]
     for _ in range(LARGEST_ON_LINE.bit_length()):
-        power = _remainder(_product(power, power, p), x, p)
-    return not power
+        power = division(_product(power, power), x)[1]
+    return not any(power)
 
 
-def _product(a: Sequence[int], b: Sequence[int], p: int) -> list[int]:
-    found = [0] * (len(a) + len(b))
+def _product(a: Coefficients, b: Coefficients) -> Coefficients:
+    found = [a[0] * 0] * (len(a) + len(b) - 1)
     for i, x in enumerate(a):
         for j, y in enumerate(b):
-            found[i + j] = (found[i + j] + x * y) % p
-    return _trimmed(found)
+            found[i + j] += x * y
+    return trimmed(found)
 
 
 def _determined(c: ClaimedRecord, stated: Sequence[Tree]) -> bool:
@@ -251,17 +235,15 @@ def _determined(c: ClaimedRecord, stated: Sequence[Tree]) -> bool:
         g = c.group.sample_inside(source, 1)
         for i, row in enumerate(g, 1):
             for j, x in enumerate(row, 1):
-                at["entry", "A", i, j] = (source.constant(0) + x).values[0]
+                at["entry", "A", i, j] = Residue((source.constant(0) + x).values[0], p)
         for x in letters:
             if _is(x, "fun") and any(_is(y, "entry") for y in nodes(x)):
-                at[x] = c.random.randrange(1, p)
-        values = tuple(tuple(Residue(value(x, at, p), p) for x in row) for row in rows)
+                at[x] = Residue(c.random.randrange(1, p), p)
+        values = tuple(tuple(value(x, at, p) for x in row) for row in rows)
         at |= {
-            ("entry", "𝕀", i, j): x.n
-            for i, row in enumerate(values, 1)
-            for j, x in enumerate(row, 1)
+            ("entry", "𝕀", i, j): x for i, row in enumerate(values, 1) for j, x in enumerate(row, 1)
         }
-        product = prod((Residue(value(x, at, p), p) for x in stated), start=Residue(1, p))
+        product = prod((value(x, at, p) for x in stated), start=Residue(1, p))
         ratios.add((q.determinant(values) / product).n)
     return len(ratios) == 1
 

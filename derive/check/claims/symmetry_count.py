@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from itertools import combinations_with_replacement
 from math import prod
-from operator import mul
 from random import Random
 from typing import Any, NamedTuple
 
@@ -22,17 +21,17 @@ from ...algebra.exact_kernel import (
 )
 from ...algebra.groups import Group
 from ...language import rational as q
+from ...language.rational import Matrix
 from ...language.tree import Tree, add, neg, nodes, operands, terms
 from ...record.as_json import decode
 from ...record.record import Derivation, RecordError, Step
 from ...record.sentence import Claim
 from ..values.residue import Residue
+from ..values.varying import Varying, value_of
 from .entries_checked import constant_entries
-from .modular_values import Functions, Jet, UnluckyError, value
+from .modular_values import Functions, UnluckyError, gradient, value
 
-Square = list[list[int]]
-"""A square matrix of residues."""
-Field = tuple[Square, Square]
+Field = tuple[Matrix, Matrix]
 """Y and X."""
 SPARE = 8
 """So many more points than unknowns."""
@@ -83,25 +82,28 @@ class SymmetryCount:
         """The rank of ⟨Π, η⟩ − τh̃ − F modulo constants."""
         seen = (x for field in listed for t in field for x in nodes(t))
         letters = dict.fromkeys([*self.parameters, *(x for x in seen if _is_parameter(x))])
-        parameters = {x: self.random.randrange(1, p) for x in letters}
+        parameters = self._drawn(letters, p)
         points = self._points(len(listed) + SPARE, parameters, p)
-        functions = Functions(ResidueVectorSource(p, 1, self._seed()), roots=self.true_roots)
-        rows = [[x.conserved_by(field, parameters, functions) for x in points] for field in listed]
-        one = [1] * len(points)
-        return len(pivots([one, *rows], len(one), p)) - 1
+        source = ResidueVectorSource(p, points.count, self._seed())
+        functions = Functions(source, roots=self.true_roots)
+        found = points.rank([points.conserved_by(x, parameters, functions) for x in listed])
+        if not all(functions.valid):
+            raise UnluckyError
+        return found
 
     def _counted(self, p: int) -> int:
         """The dimension modulo a prime."""
-        parameters = {x: self.random.randrange(1, p) for x in self.parameters}
-        fields = self._tangent_fields(p)
+        parameters, fields = self._drawn(self.parameters, p), self._tangent_fields(p)
         columns = len(self.monomials) + 2 * len(fields) + 1
         points = self._points(columns + SPARE, parameters, p)
-        found = kernel((x.row(fields) for x in points), columns, p)[0]
+        found = kernel(_rows(points.row(fields), points.count, p), columns, p)[0]
         tried = self._points(len(found) + SPARE, parameters, p)
-        values = [x.conserved(fields) for x in tried]
-        kept = [[sum(map(mul, v, row)) % p for row in values] for v in found]
-        one = [1] * len(tried)
-        return len(pivots([one, *kept], len(one), p)) - 1
+        values = tried.conserved(fields)
+        return tried.rank([q.dot(v, values) for v in found])
+
+    def _drawn(self, letters: Iterable[Tree], p: int) -> dict[Tree, Residue]:
+        """Random values of parameters."""
+        return {x: Residue(self.random.randrange(1, p), p) for x in letters}
 
     @cached_property
     def entries(self) -> list[tuple[int, int]]:
@@ -117,56 +119,55 @@ class SymmetryCount:
 
     def _tangent_fields(self, p: int) -> list[Field]:
         """A basis of the pairs (Y, X) with g⁻¹Yg − X in 𝔤 for all g."""
-        size, rows = self.group.size, list[list[int]]()
-        normal = [_residues(m, p) for m in self.group.normal_space]
+        size, rows, normal = self.group.size, list[list[int]](), self.group.normal_space
         source = ResidueVectorSource(p, 2 * size**2 // max(1, len(normal)) + SPARE, self._seed())
-        for g, back in zip(*self._sampled(source), strict=True):
-            for m in normal:
-                pulled = _times(_times(_transposed(back), m, p), _transposed(g), p)
-                rows.append([*_flat(pulled), *(-x % p for x in _flat(m))])
+        g, back = self._sampled(source)
+        for m in normal:
+            pulled = q.times(q.times(q.transposed(back), m), q.transposed(g))
+            columns = (*q.flatten(pulled), *(-x for x in q.flatten(m)))
+            rows += _rows(columns, source.points, p)
         found = kernel(rows, 2 * size**2, p)[0]
-        return [(_square(v[: size**2], size), _square(v[size**2 :], size)) for v in found]
+        matrices = ([v[k : k + size] for k in range(0, len(v), size)] for v in found)
+        return [(q.matrix(x[:size]), q.matrix(x[size:])) for x in matrices]
 
     def _seed(self) -> int:
         return self.random.getrandbits(64)
 
-    def _sampled(self, source: ResidueVectorSource) -> tuple[list[Square], list[Square]]:
+    def _sampled(self, source: ResidueVectorSource) -> tuple[Matrix, Matrix]:
         """Random elements with their inverses."""
         zero = source.constant(0)
-        g = [[(zero + x).values for x in row] for row in self.group.sample_inside(source, 1)]
-        each = [[[x[k] for x in row] for row in g] for k in range(source.points)]
-        return each, [_inverse(x, source.p) for x in each]
+        g = q.matrix([[zero + x for x in row] for row in self.group.sample_inside(source, 1)])
+        back = q.inverse(g)
+        if back is None or q.times(g, back) != q.identity(len(g)):
+            raise UnluckyError
+        return g, back
 
-    def _points(self, several: int, parameters: Mapping[Tree, int], p: int) -> list[JetPoint]:
+    def _points(self, several: int, parameters: Mapping[Tree, Residue], p: int) -> JetPoints:
         """So many points of R × G × 𝔤; ``UnluckyError`` for fewer."""
         count = several if self.oversampling == 1 else self.oversampling * several * 5 // 4 + SPARE
         source = ResidueVectorSource(p, count, self._seed())
         g, back = self._sampled(source)
         t, *zeta = (source.randint(1, p) for _ in range(self.group.dimension + 1))
         leaves: dict[Tree, ResidueVector] = {"t": t}
-        for i, j in self.entries:
-            leaves["entry", "A", i + 1, j + 1] = ResidueVector([x[i][j] for x in g], p)
+        leaves |= {("entry", "A", i + 1, j + 1): g[i][j] for i, j in self.entries}
         leaves |= {("entry", "ζ", a): x for a, x in enumerate(zeta, 1)}
         at: dict[Tree, Any] = {**parameters}
-        at |= {
-            ("entry", "A", i + 1, j + 1): g[0][i][j]
-            for i, row in enumerate(g[0])
-            for j, _ in enumerate(row)
-        }
-        at |= {x: Jet(y, {k: 1}, p) for k, (x, y) in enumerate(leaves.items())}
+        at |= {x: Residue(y.values[0], p) for x, y in _entries(g).items()}
+        units = q.identity(len(leaves))
+        at |= {x: Varying(y, unit) for (x, y), unit in zip(leaves.items(), units, strict=True)}
         functions = Functions(source, roots=self.true_roots)
-        L = Jet(source.constant(0), {}, p) + value(self.tree, at, p, functions)
-        slopes = [_spread(L.slopes.get(k, 0), count) for k, _ in enumerate(leaves)]
-        values, drawn = _spread(L.n, count), [x.values for x in leaves.values()]
+        L = value(self.tree, at, p, functions)
         valid = [k for k, holds in enumerate(functions.valid) if holds][:several]
         if len(valid) < several:
             raise UnluckyError
 
-        def at_point(k: int) -> JetPoint:
-            own, derived = ([x[k] for x in y] for y in (drawn, slopes))
-            return JetPoint(self, p, g[k], back[k], own, derived, values[k])
+        def chosen(x: Any) -> ResidueVector:
+            found: ResidueVector = (source.constant(0) + x).at(valid)
+            return found
 
-        return [*map(at_point, valid)]
+        here, undone = (tuple(tuple(map(chosen, row)) for row in x) for x in (g, back))
+        drawn, slopes = ([*map(chosen, x)] for x in (leaves.values(), gradient(L, len(leaves))))
+        return JetPoints(self, p, here, undone, drawn, slopes, chosen(value_of(L)))
 
 
 class Listed(NamedTuple):
@@ -178,51 +179,51 @@ class Listed(NamedTuple):
 
 
 @dataclass(frozen=True)
-class JetPoint:
-    """A point modulo p: g, g⁻¹, the values of t, the entries of g and ζ, the slopes of L̃ by these,
+class JetPoints:
+    """Points modulo p: g, g⁻¹, the values of t, the entries of g and ζ, the slopes of L̃ by these,
     and L̃."""
 
     of: SymmetryCount
     p: int
-    g: Square
-    back: Square
-    leaves: Sequence[int]
-    slopes: Sequence[int]
-    value: int
-
-    @cached_property
-    def Z(self) -> Square:
-        """The velocity in 𝔤."""
-        zeta = self.leaves[1 + len(self.of.entries) :]
-        return _residues(q.combine(zeta, self.of.group.basis), self.p)
+    g: Matrix
+    back: Matrix
+    leaves: Sequence[ResidueVector]
+    slopes: Sequence[ResidueVector]
+    value: ResidueVector
 
     @property
-    def momenta(self) -> Sequence[int]:
-        """∂L̃/∂ζ."""
-        return self.slopes[1 + len(self.of.entries) :]
+    def count(self) -> int:
+        """How many there are."""
+        return len(self.value.values)
 
-    def tangent_vector(self, eta: Square) -> Square:
+    def rank(self, columns: Sequence[Any]) -> int:
+        """The rank of numbers at the points, modulo constants."""
+        one = [1] * self.count
+        found = [_each(x, self.count, self.p) for x in columns]
+        return len(pivots([one, *found], self.count, self.p)) - 1
+
+    @cached_property
+    def Z(self) -> Matrix:
+        """The velocity in 𝔤."""
+        return self.of.group.hat(self.leaves[1 + len(self.of.entries) :])
+
+    def tangent_vector(self, eta: Matrix) -> Matrix:
         """The tangent vector gη, or ηg."""
-        return _times(*((self.g, eta) if self.of.left else (eta, self.g)), self.p)
+        return q.times(self.g, eta) if self.of.left else q.times(eta, self.g)
 
-    def advected_rate(self, field: Field) -> Square:
+    def advected_rate(self, field: Field) -> Matrix:
         """η of V."""
         Y, X = field
         if self.of.left:
-            return _minus(_times(_times(self.back, Y, self.p), self.g, self.p), X, self.p)
-        return _minus(Y, _times(_times(self.g, X, self.p), self.back, self.p), self.p)
+            return q.minus(q.times(q.times(self.back, Y), self.g), X)
+        return q.minus(Y, q.times(q.times(self.g, X), self.back))
 
-    def paired(self, z: Square) -> int:
-        """⟨Π, z⟩ for z in 𝔤."""
-        total = 0
-        for a, pi in enumerate(self.momenta):
-            terms = self.of.group.coordinate_terms(a)
-            total += pi * sum(residue_of(c, self.p) * z[i][j] for c, i, j in terms)
-        return total % self.p
+    def paired(self, z: Matrix) -> Any:
+        """⟨Π, z⟩ for z in 𝔤, with Π = ∂L̃/∂ζ."""
+        return q.dot(self.slopes[1 + len(self.of.entries) :], self.of.group.nearest(z))
 
-    def row(self, fields: Sequence[Field]) -> list[int]:
+    def row(self, fields: Sequence[Field]) -> list[Any]:
         """δL̃ − dF/dt for each monomial of F, V₁, V₀ and τ."""
-        t, p = self.leaves[0], self.p
         turning, still = [], []
         for field in fields:
             eta = self.advected_rate(field)
@@ -230,13 +231,13 @@ class JetPoint:
             along = self.tangent_vector(eta)
             pairs = zip(self.slopes[1:], self.of.entries, strict=False)
             pushed = sum(x * along[i][j] for x, (i, j) in pairs)
-            own = self.paired(_minus(_times(turn, self.Z, p), _times(self.Z, turn, p), p)) + pushed
-            still.append(own % p)
-            turning.append((t * own + self.paired(eta)) % p)
-        return [*(-x % p for x in self.rates), *turning, *still, self.slopes[0] % p]
+            own = self.paired(q.bracket(turn, self.Z)) + pushed
+            still.append(own)
+            turning.append(self.leaves[0] * own + self.paired(eta))
+        return [*(-x for x in self.rates), *turning, *still, self.slopes[0]]
 
     @property
-    def rates(self) -> Iterator[int]:
+    def rates(self) -> Iterator[Any]:
         """The rates of the monomials of F."""
         velocity = self.tangent_vector(self.Z)
         rate = [1, *(velocity[i][j] for i, j in self.of.entries)]
@@ -247,59 +248,54 @@ class JetPoint:
             else:
                 yield rate[first]
 
-    def conserved(self, fields: Sequence[Field]) -> list[int]:
+    def conserved(self, fields: Sequence[Field]) -> list[Any]:
         """⟨Π, η⟩ − τh̃ − F for each of the same."""
-        t, p = self.leaves[0], self.p
         still = [self.paired(self.advected_rate(field)) for field in fields]
-        minus_f = (-prod(self.leaves[k] for k in m) % p for m in self.of.monomials)
-        return [*minus_f, *(t * x % p for x in still), *still, -self.energy % p]
+        minus_f = (-prod(self.leaves[k] for k in m) for m in self.of.monomials)
+        return [*minus_f, *(self.leaves[0] * x for x in still), *still, -self.energy]
 
     @property
-    def energy(self) -> int:
+    def energy(self) -> Any:
         """h̃."""
         return self.paired(self.Z) - self.value
 
     def conserved_by(
-        self, listed: Listed, parameters: Mapping[Tree, int], functions: Functions
-    ) -> int:
+        self, listed: Listed, parameters: Mapping[Tree, Residue], functions: Functions
+    ) -> Any:
         """⟨Π, η⟩ − τh̃ − F for a field given by trees."""
-        at = {"t": self.leaves[0], **parameters}
-        at |= {
-            ("entry", "A", i, j): x for i, row in enumerate(self.g, 1) for j, x in enumerate(row, 1)
-        }
+        at = {"t": self.leaves[0], **parameters, **_entries(self.g)}
 
-        def scalar(t: Tree) -> int:
-            return int(value(t, at, self.p, functions))
+        def scalar(t: Tree) -> Any:
+            found = value(t, at, self.p, functions)
+            return found.n if isinstance(found, Residue) else found
 
-        moved = _matrix(listed.displacement, self.g, scalar, self.p)
-        eta = _times(*((self.back, moved) if self.of.left else (moved, self.back)), self.p)
-        rest = scalar(listed.time) * self.energy + scalar(listed.F)
-        return (self.paired(eta) - rest) % self.p
+        moved = _matrix(listed.displacement, self.g, scalar)
+        eta = q.times(*((self.back, moved) if self.of.left else (moved, self.back)))
+        return self.paired(eta) - (scalar(listed.time) * self.energy + scalar(listed.F))
 
 
-def _matrix(t: Tree, g: Square, scalar: Callable[[Tree], int], p: int) -> Square:
+def _entries(g: Matrix) -> dict[Tree, Any]:
+    return {("entry", "A", i, j): x for i, row in enumerate(g, 1) for j, x in enumerate(row, 1)}
+
+
+def _matrix(t: Tree, g: Matrix, scalar: Callable[[Tree], Any]) -> Matrix:
     """The value of δA, a sum of products of numbers, matrices and A."""
     if t == "A":
         return g
     if t == 0:
-        return [[0 for _ in row] for row in g]
+        return q.scaled(0, g)
     if not isinstance(t, tuple) or t[0] not in ("matrix", "add", "mul"):
         raise RecordError("δA is no sum of products of matrices and A")
     if t[0] == "matrix":
-        return [[scalar(x) for x in operands(row)] for row in operands(t)]
+        return q.matrix([[scalar(x) for x in operands(row)] for row in operands(t)])
     if t[0] == "add":
-        parts = [_matrix(x, g, scalar, p) for x in operands(t)]
-        return [
-            [sum(entries) % p for entries in zip(*rows, strict=True)]
-            for rows in zip(*parts, strict=True)
-        ]
-    found = [[int(i == j) for j, _ in enumerate(g)] for i, _ in enumerate(g)]
+        return reduce(q.plus, (_matrix(x, g, scalar) for x in operands(t)))
+    found = q.identity(len(g))
     for x in operands(t):
         if x == "A" or _is(x, "matrix") or _is(x, "add"):
-            found = _times(found, _matrix(x, g, scalar, p), p)
+            found = q.times(found, _matrix(x, g, scalar))
         else:
-            factor = scalar(x)
-            found = [[factor * y % p for y in row] for row in found]
+            found = q.scaled(scalar(x), found)
     return found
 
 
@@ -316,44 +312,14 @@ def _of_state(x: Tree) -> bool:
     return any(y == "t" or _is(y, "entry") for y in nodes(x))
 
 
-# -- matrices of residues -------------------------------------------------------------------------
-
-
-def _residues(m: q.Matrix, p: int) -> Square:
-    return [[residue_of(x, p) for x in row] for row in m]
-
-
-def _times(a: Square, b: Square, p: int) -> Square:
-    columns = _transposed(b)
-    return [[sum(map(mul, row, c)) % p for c in columns] for row in a]
-
-
-def _minus(a: Square, b: Square, p: int) -> Square:
-    return [[(x - y) % p for x, y in zip(r, s, strict=True)] for r, s in zip(a, b, strict=True)]
-
-
-def _transposed(a: Square) -> Square:
-    return [[*x] for x in zip(*a, strict=True)]
-
-
-def _inverse(a: Square, p: int) -> Square:
-    found = q.inverse(tuple(tuple(Residue(x, p) for x in row) for row in a))
-    if found is None:
-        raise UnluckyError
-    return [[x.n if isinstance(x, Residue) else residue_of(x, p) for x in row] for row in found]
-
-
-def _flat(a: Square) -> list[int]:
-    return [x for row in a for x in row]
-
-
-def _square(v: Sequence[int], size: int) -> Square:
-    return [[*v[i * size : (i + 1) * size]] for i in range(size)]
-
-
-def _spread(x: Any, count: int) -> list[int]:
+def _each(x: Any, count: int, p: int) -> list[int]:
     """A number at each of so many points."""
-    return [x] * count if isinstance(x, int) else x.values
+    return x.values if isinstance(x, ResidueVector) else [residue_of(x, p)] * count
+
+
+def _rows(columns: Iterable[Any], count: int, p: int) -> list[list[int]]:
+    """The numbers at each of so many points."""
+    return [[*row] for row in zip(*(_each(x, count, p) for x in columns), strict=True)]
 
 
 # The claims about the symmetries of a Lagrangian: how many there are, as many independent ones

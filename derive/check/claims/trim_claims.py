@@ -9,7 +9,7 @@ modulo p², of either sign, as the conjugates of an algebraic function vanish to
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from fractions import Fraction
@@ -120,6 +120,48 @@ def placed(
     return held, q.matrix(g), zeta, xi
 
 
+def defaults(c: ClaimedRecord) -> dict[str, Fraction]:
+    """The numbers of the parameters of a record."""
+    given = c.record.problem.get("parameters", {})
+    return {name: Fraction(str(data["default"])) for name, data in given.items()}
+
+
+def standing(model: AnyModel, g: Matrix, Z: Matrix, t: Any, held: Mapping[str, Any]) -> AnyModel:
+    """A model in a state, at a time, with these inputs."""
+    found = copy(model)
+    found.parameters = {**model.parameters}
+    vars(found).pop("expressions", None)  # that of the other parameters
+    found.g, found.Z, found.t = g, Z, t
+    found.hold(held)
+    return found
+
+
+def carried_along(model: AnyModel, rate: Any, other: Matrix) -> Matrix:
+    """Another element a little later on the motion of a model: gZg⁻¹ moves it, which may be any, as
+    it moves g."""
+    g, left = model.g, model.side == "left"
+    first, last = (g, q.inverted(g)) if left else (q.inverted(g), g)
+    Y = q.times(q.times(first, model.Z), last)
+    step = q.plus(q.identity(len(g)), q.scaled(rate, Y))
+    return q.times(step, other) if left else q.times(other, step)
+
+
+def linearised(model: AnyModel, rates: Matrix) -> Matrix:
+    """The equations linearised in (η, δζ), for δg = gη or ηg: η̇ = δζ ∓ [Z, η], and δζ̇."""
+    group, sign = model.group, -1 if model.side == "left" else 1
+    turns = [group.nearest(q.scaled(sign, q.bracket(model.Z, e))) for e in group.basis]
+    pairs = zip(q.transposed(turns), q.identity(group.dimension), strict=True)
+    return (*((*turn, *one) for turn, one in pairs), *rates)
+
+
+def the_one(step: Step, kinds: Sequence[str]) -> Claim:
+    """The claim of a step that tells a point; ``RecordError`` where it has none, or several."""
+    found = [x for x in step.claims if x.kind in kinds]
+    if len(found) != 1:
+        raise RecordError("no one point is told")
+    return found[0]
+
+
 class ClaimedTrim:
     """A state with its inputs, by the numbers that a step tells; the others are those of g = 1,
     and 0.  ``here``: the model there, exactly; others are modulo p²."""
@@ -127,9 +169,7 @@ class ClaimedTrim:
     def __init__(self, c: ClaimedRecord, point: Coordinates):
         self.group, self.random = c.group, c.random
         self.roots = TrueRoots(c.random)
-        given = c.record.problem.get("parameters", {})
-        numbers = {name: Fraction(str(data["default"])) for name, data in given.items()}
-        problem, at = c.record.problem, Locus(driven=True)
+        numbers, problem, at = defaults(c), c.record.problem, Locus(driven=True)
         self.model: AnyModel = model_at(problem, c.group, c.random, SIZE, at, given=numbers)
         held, g, zeta, xi = placed(self.group, point)
         if any(xi):
@@ -150,12 +190,8 @@ class ClaimedTrim:
 
     def at(self, g: Matrix, Z: Matrix, inputs: Mapping[str, Any] | None = None) -> AnyModel:
         """The model in a state, at any time."""
-        found = copy(self.model)
-        found.parameters = {**self.model.parameters}
-        vars(found).pop("expressions", None)  # that of the other parameters
-        found.g, found.Z, found.t = g, Z, found.draw()
-        found.hold(self.held if inputs is None else inputs)
-        return found
+        held = self.held if inputs is None else inputs
+        return standing(self.model, g, Z, self.model.draw(), held)
 
     @property
     def on_the_group(self) -> bool:
@@ -197,11 +233,7 @@ class ClaimedTrim:
 
     def stays_from(self, other: Matrix) -> bool:
         """Is the derivative of the load 0 at another element, along the motion?"""
-        model, undone = self.model, q.inverted(self.g)
-        first = (self.g, self.Z, undone) if model.side == "left" else (undone, self.Z, self.g)
-        Y = q.times(q.times(*first[:2]), first[2])
-        step = q.plus(q.identity(self.group.size), q.scaled(self.prime, Y))
-        moved = q.times(step, other) if model.side == "left" else q.times(other, step)
+        moved = carried_along(self.here, self.prime, other)
         here, there = self.at(other, self.Z), self.at(moved, self.Z)
         there.t = here.t
         return not any(x.n for x in self.change(here, there))
@@ -218,20 +250,15 @@ class ClaimedTrim:
 
     @cached_property
     def characteristic(self) -> list[Any]:
-        """The characteristic polynomial, modulo p, of the equations linearised in (η, δζ), for
-        δg = gη or ηg: η̇ = δζ ∓ [Z, η], and M δζ̇ is what changes of the load."""
-        zero, d = Residue(0, self.prime), self.group.dimension
-        none = q.scaled(Fraction(0), self.Z)
-        sign = -1 if self.model.side == "left" else 1
-        turns = [self.group.nearest(q.scaled(sign, q.bracket(self.Z, e))) for e in self.group.basis]
+        """The characteristic polynomial, modulo p, of the linearised equations: M δζ̇ is what
+        changes of the load."""
+        zero, none = Residue(0, self.prime), q.scaled(Fraction(0), self.Z)
         changes = [self.shifted(e, none) for e in self.group.basis]
         changes += [self.shifted(none, e) for e in self.group.basis]
         M = tuple(tuple(zero + x for x in row) for row in self.here.metric)
         rates = q.solve(M, q.transposed(changes))
         assert rates
-        pairs = zip(q.transposed(turns), q.identity(d), strict=True)
-        rows = [[zero + x for x in (*turn, *one)] for turn, one in pairs]
-        return characteristic([*rows, *map(list, rates)])
+        return characteristic([[zero + x for x in row] for row in linearised(self.here, rates)])
 
 
 @lru_cache(maxsize=8)
@@ -259,10 +286,7 @@ def _at(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 
 def _trim_of(c: ClaimedRecord, step: Step) -> ClaimedTrim:
     """The trim that a step tells; ``RecordError`` where it tells none, or several."""
-    found = [x for x in step.claims if x.kind in POINTS]
-    if len(found) != 1:
-        raise RecordError("no one point is told")
-    return _trim(c, coordinates(found[0]))
+    return _trim(c, coordinates(the_one(step, POINTS)))
 
 
 def _unique(c: ClaimedRecord, step: Step, claim: Claim) -> str:

@@ -24,6 +24,7 @@ from ..form.hypotheses_checked import (
     no_sense,
     refusal,
 )
+from ..form.symbols import undeclared, verdict
 from ..form.well_formedness import Usage, definitions, occurrences
 from ..trials.trial_points import SIZE
 from ..values.arithmetic import EvaluationError
@@ -53,14 +54,8 @@ def first_fault(d: Derivation, kinds: Kinds) -> str:
     """What is wrong with the symbols of a record, in words; "" if nothing is. ``kinds``: the type
     of a tree at a point where a step is tried."""
     seen = used(d.steps)
-    listed, known = [s.name for s in d.symbols], dict.fromkeys(x for x, _ in seen)
-    for fault, faulty in (
-        ("is declared twice", (x for k, x in enumerate(listed) if x in listed[:k])),
-        ("is used, and not declared", (x for x in known if x not in listed)),
-        ("is declared, and no step uses it", (x for x in listed if x not in known)),
-    ):
-        if name := next(faulty, ""):
-            return f"{name} {fault}"
+    if reason := undeclared(d, (name for name, _ in seen)):
+        return reason
     defined = definitions(d.steps, PRIMITIVE)
     for symbol in d.symbols:
         wanted = wanted_uses(symbol.name, seen, defined, kinds)
@@ -294,16 +289,7 @@ class FluidChecker:
 
     def symbols(self, d: Derivation) -> Verdict:
         """The verdict on the symbols of a record."""
-        label = f"{d.name}.symbols"
-        try:
-            reason = first_fault(d, self.kinds_at)
-        except (EvaluationError, RecordError) as error:
-            reason = str(error)
-        except IMPOSSIBLE as error:
-            reason = no_sense(error)
-        if reason:
-            return Verdict(label, False, reason, 1.0, of="symbol")
-        return Verdict(label, True, "", 0.0, (len(d.symbols), (*SPACES,)), "symbol")
+        return verdict(d, lambda: first_fault(d, self.kinds_at), SPACES)
 
     def kinds_at(self, step: Step, t: Tree) -> str:
         """The kind of the value of a tree where a step is tried."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -12,11 +12,12 @@ from ...language import rational as q
 from ...language.show import show
 from ...language.tree import Tree
 from ...record.names import Type, Use
-from ...record.record import ANY_GROUP, Derivation, Equation, Step, Symbol
-from ..values.arithmetic import is_matrix
+from ...record.record import ANY_GROUP, Derivation, Equation, RecordError, Step, Symbol
+from ..values.arithmetic import EvaluationError, is_matrix
 from ..values.evaluate import Environment, evaluate, free_indices
 from . import well_formedness
 from .function_signatures import AT_ONE_TIME, AXIS, HEADS, INDEX_SETS, MOTION, SOLVED, VARIATION
+from .hypotheses_checked import IMPOSSIBLE, Verdict, no_sense
 from .well_formedness import Usage, definitions, occurrences
 
 RATES: tuple[str, ...] = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "Π̇_o")
@@ -55,14 +56,8 @@ class NameUses:
 def first_fault(d: Derivation, points: Points) -> str:
     """What is wrong with the symbols of a record, in words; "" if nothing is. ``points``: the
     groups and exact points where the checker tries a step."""
-    listed, names = [s.name for s in d.symbols], dict.fromkeys(name for name, _ in used(d.steps))
-    for fault, faulty in (
-        ("is declared twice", (x for k, x in enumerate(listed) if x in listed[:k])),
-        ("is used, and not declared", (x for x in names if x not in listed)),
-        ("is declared, and no step uses it", (x for x in listed if x not in names)),
-    ):
-        if name := next(faulty, ""):
-            return f"{name} {fault}"
+    if reason := undeclared(d, (name for name, _ in used(d.steps))):
+        return reason
     affine = d.problem.get("action") == "affine"
     heads = (_call(usage, x) for usage, seen in used(d.steps).items() for x in seen.where)
     if reason := next(
@@ -70,6 +65,34 @@ def first_fault(d: Derivation, points: Points) -> str:
     ):
         return reason  # nothing else is evaluated
     return next(filter(None, map(judge(d.steps, points).fault_of, d.symbols)), "")
+
+
+def undeclared(d: Derivation, occurring: Iterable[str]) -> str:
+    """A symbol that is declared twice, or not, or for nothing, by the names that occur; "" if none
+    is."""
+    listed, names = [s.name for s in d.symbols], dict.fromkeys(occurring)
+    for fault, faulty in (
+        ("is declared twice", (x for k, x in enumerate(listed) if x in listed[:k])),
+        ("is used, and not declared", (x for x in names if x not in listed)),
+        ("is declared, and no step uses it", (x for x in listed if x not in names)),
+    ):
+        if name := next(faulty, ""):
+            return f"{name} {fault}"
+    return ""
+
+
+def verdict(d: Derivation, fault: Callable[[], str], tried: Collection[str]) -> Verdict:
+    """The verdict on the symbols of a record, by their first fault; ``tried``: where."""
+    label = f"{d.name}.symbols"
+    try:
+        reason = fault()
+    except (EvaluationError, RecordError) as error:
+        reason = str(error)
+    except IMPOSSIBLE as error:
+        reason = no_sense(error)
+    if reason:
+        return Verdict(label, False, reason, 1.0, of="symbol")
+    return Verdict(label, True, "", 0.0, (len(d.symbols), (*tried,)), "symbol")
 
 
 def judge(steps: Sequence[Step], points: Points) -> Judge:

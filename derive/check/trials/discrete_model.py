@@ -108,14 +108,10 @@ class DiscreteModel(Model):
     @cached_property
     def family_of_steps(self) -> tuple[Matrix, ...]:
         """g₀ and g₁ on a two-parameter family, to first order in each."""
-        e, f, one = nilpotent(EPS), nilpotent(EPS_PRIME), q.identity(self.s)
-        found = []
-        for k, g in ((0, self.g_0), (1, self.g)):
-            for weight, mark in ((e, "δ"), (f, "δ′"), (e * f, "mixed")):
-                turned = q.scaled(weight, self.directions[mark][k])
-                g = q.times(g, q.plus(one, turned))
-            found.append(g)
-        return tuple(found)
+        e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
+        marks = (e, "δ"), (f, "δ′"), (e * f, "mixed")
+        turned = (self.displaced(*((x, self.directions[y][k]) for x, y in marks)) for k in ENDS)
+        return tuple(q.times(g, h) for g, (h, _) in zip((self.g_0, self.g), turned, strict=True))
 
     def one_form(self, end: int, mask: int) -> Any:
         """Θ⁺ (``end`` 1) or Θ⁻ (0) on the derivative of the family in one parameter, a function of
@@ -198,9 +194,7 @@ class DiscreteModel(Model):
         pairs = zip(self.given_forces, self.images(e), strict=True)
         work = sum((q.dot(f, v) for f, v in pairs), Fraction(0))
         if any(self.covector) or any(q.flatten(self.couple)):
-            back = q.inverse(self.g)
-            assert back is not None
-            xi = q.times(back, e)
+            xi = q.times(q.inverted(self.g), e)
             dual = self.group.covector_matrix(self.covector)
             work += q.dot(q.flatten(dual), q.flatten(xi)) + self.work_of_couple(xi)
         return work

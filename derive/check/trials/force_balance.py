@@ -310,8 +310,7 @@ def _pressures(model: Model, solid: Any, Q: Matrix, rate: Matrix, r: Matrix) -> 
     forces; the level, the density, that integral and κ_Q."""
     layers, level = LayeredDensity.of(model, solid), _form(Q, r)
     _, _, J = model.moments
-    back = q.inverse(J)
-    assert back is not None
+    back = q.inverted(J)
     applied = q.times(outer_sum(model.forces, model.points), back)
     left = q.times(q.transposed(model.group.linear_part(model.g)), q.minus(rate, applied))
     pushed, above = _form(left, r) / (2 * level), layers.above(level)

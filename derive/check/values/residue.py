@@ -68,9 +68,15 @@ class Residue(FieldElement):
     """The residue n of a rational number modulo a prime p: an element of the field F_p."""
 
     __slots__ = ("n", "p")
+    denominator = 1
 
     def __init__(self, n: int, p: int):
         self.n, self.p = n % p, p
+
+    @property
+    def numerator(self) -> int:
+        """The least integer that has the residue."""
+        return self.n
 
     def _other(self, x: Any) -> int | None:
         if isinstance(x, Residue):

@@ -38,8 +38,9 @@ class Varying(FieldElement):
         if not isinstance(other, Varying):
             return self._with(self.value * other, lambda x: x * other)
         pairs = zip(self.slopes, other.slopes, strict=True)
-        value = self.value * other.value  # where other is self, a square
-        return Varying(value, [x * other.value + self.value * y for x, y in pairs])
+        a, b = self.value, other.value
+        slopes = [(x * b if x else 0) + (a * y if y else 0) for x, y in pairs]
+        return Varying(a * b, slopes)  # where other is self, a square
 
     @property
     def inverse(self) -> Varying:

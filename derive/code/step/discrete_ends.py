@@ -13,7 +13,7 @@ from typing import Any
 from ...algebra.groups import Group
 from ...language import rational as q
 from ...language.rational import Matrix
-from ...language.tree import Tree, subtrees
+from ...language.tree import Tree, names
 from ...record.record import Derivation
 from .. import dense
 from ..graph import Graph, Node
@@ -200,7 +200,7 @@ class Centre:
 
 def has(t: Tree, *letters: str) -> bool:
     """Does a tree have one of these letters in it?"""
-    return any(x in letters for _, x in subtrees(t) if isinstance(x, str))
+    return not {*letters}.isdisjoint(names(t))
 
 
 def column(numbers: Sequence[Node]) -> Matrix:

@@ -9,10 +9,11 @@ from math import ceil
 from typing import Any
 
 from ...language import rational as q
+from ...language.intervals import Interval, characteristic
 from ...language.univariate import Number, Quadratic
 from ..integrals.all_integrals import IntegralsFound
-from ..integrals.lie_poisson import LiePoisson, Polynomial, plain
-from .energy_casimir import diagonalised, signs
+from ..integrals.lie_poisson import LiePoisson, Polynomial, collected, plain
+from .energy_casimir import diagonalised, second_derivatives, signs
 from .entries_of_elements import Line, numbers
 from .equilibrium_points import (
     About,
@@ -31,6 +32,7 @@ STEPS = 60
 
 Terms = dict[tuple[int, ...], Fraction]
 """A polynomial in y and δλ: exponents → coefficient."""
+Bounded = list[list[Interval]]
 
 
 @dataclass(frozen=True)
@@ -89,18 +91,22 @@ def newton(
     """Coordinates and multipliers of a critical point, in floats, by Newton's method."""
     import numpy as np
 
-    algebra, n, k = start.algebra, len(start.at), len(kept)
-    x = np.array([*map(float, start.at)])
-    energy, *others = (_Floats(f) for f in (algebra.hamiltonian, *kept))
-    borders = np.array([f.slope(x) for f in others]).reshape(k, n)
-    multipliers = np.linalg.lstsq(borders.T, -energy.slope(x), rcond=None)[0]
+    n, k = len(start.at), len(kept)
+
+    def there(x: Any) -> tuple[Expansion, list[Expansion], Any]:
+        """The energy and the others about a point, and the slopes of these."""
+        about = About(start.system, (*map(float, x),))  # type: ignore[arg-type]
+        energy, *others = (about.expansion(f) for f in (start.algebra.hamiltonian, *kept))
+        borders = np.array([e.slope for e in others], float).reshape(k, n)
+        return energy, others, borders
+
+    x = np.array(start.at, float)
+    energy, others, borders = there(x)
+    multipliers = np.linalg.lstsq(borders.T, -np.array(energy.slope, float), rcond=None)[0]
     for _ in range(STEPS):
-        borders = np.array([f.slope(x) for f in others]).reshape(k, n)
-        second = energy.second(x) + sum(
-            y * f.second(x) for y, f in zip(multipliers, others, strict=True)
-        )
-        slope = energy.slope(x) + multipliers @ borders
-        off = [f.value(x) - float(c) for f, c in zip(others, level, strict=True)]
+        second = np.array(second_derivatives(multipliers, energy, others), float)
+        slope = np.array(energy.slope, float) + multipliers @ borders
+        off = [float(e.value - c) for e, c in zip(others, level, strict=True)]
         matrix = np.block([[second, borders.T], [borders, np.zeros((k, k))]])
         step = np.linalg.lstsq(matrix, -np.array([*slope, *off]), rcond=1e-12)[0]
         x, multipliers = x + step[:n], multipliers + step[n:]
@@ -108,77 +114,26 @@ def newton(
             break
         if max(abs(step), default=0.0) < 1e-13 * (1 + max(abs(x))):
             return [*map(float, x)], [*map(float, multipliers)]
+        energy, others, borders = there(x)
     raise NoEquilibriumError("no equilibrium is found near there: Newton's method does not settle")
-
-
-class _Floats:
-    """A polynomial with its derivatives in floats."""
-
-    def __init__(self, f: Polynomial):
-        self.terms = [(e, float(c)) for e, c in f.items()]
-
-    def _sum(self, x: Any, *places: int) -> float:
-        total = 0.0
-        for e, c in self.terms:
-            left = [*e]
-            for i in places:
-                c, left[i] = c * left[i], left[i] - 1
-            if c:
-                for y, k in zip(x, left, strict=True):
-                    c *= y**k
-                total += c
-        return total
-
-    def value(self, x: Any) -> float:
-        return self._sum(x)
-
-    def slope(self, x: Any) -> Any:
-        import numpy as np
-
-        return np.array([self._sum(x, i) for i in range(len(x))])
-
-    def second(self, x: Any) -> Any:
-        import numpy as np
-
-        places = range(len(x))
-        return np.array([[self._sum(x, i, j) for j in places] for i in places])
 
 
 def lagrange_function(
     about: About, kept: Sequence[Polynomial], level: Sequence[Fraction], found: Sequence[Fraction]
 ) -> Terms:
     """𝓛 in powers of y = x − x̂ and δλ = λ − λ̂."""
-    k = len(kept)
-    terms: Terms = {}
-
-    def include(e: Expansion, factor: Fraction, multiplier: tuple[int, ...]) -> None:
-        for m, c in terms_of(e).items():
-            there = (*m, *multiplier)
-            terms[there] = terms.get(there, Fraction(0)) + factor * c
-
-    include(about.expansion(about.algebra.hamiltonian), Fraction(1), (0,) * k)
-    for j, (f, c, y) in enumerate(zip(kept, level, found, strict=True)):
-        e = less(about.expansion(f), c)
-        include(e, y, (0,) * k)
-        include(e, Fraction(1), tuple(int(i == j) for i in range(k)))
-    return terms
+    none, one = (0,) * len(kept), (0,) * len(about.at)
+    energy = _rational_terms(about, about.algebra.hamiltonian)
+    terms = [((*m, *none), c) for m, c in energy.items()]
+    for multiplier, f, value, y in zip(q.identity(len(kept)), kept, level, found, strict=True):
+        own = collected([*_rational_terms(about, f).items(), (one, -value)])
+        terms += [((*m, *none), y * c) for m, c in own.items()]
+        terms += [((*m, *map(int, multiplier)), c) for m, c in own.items()]
+    return collected(terms)
 
 
-def less(e: Expansion, c: Fraction) -> Expansion:
-    """A polynomial less a constant."""
-    return Expansion(e.value - c, e.slope, e.second, e.higher)
-
-
-def terms_of(e: Expansion) -> Terms:
-    """The terms of a polynomial by their exponents, its coefficients rational."""
-    n = len(e.slope)
-    found: dict[tuple[int, ...], Any] = {(0,) * n: e.value, **e.higher}
-    for i in range(n):
-        found[tuple(int(k == i) for k in range(n))] = e.slope[i]
-        for j in range(i, n):
-            m = tuple(int(k == i) + int(k == j) for k in range(n))
-            found[m] = e.second[i][j] / (2 if i == j else 1)
-    return {m: rational(c) for m, c in found.items() if c}
+def _rational_terms(about: About, f: Polynomial) -> Terms:
+    return {m: rational(c) for m, c in about.terms(f).items()}
 
 
 def rational(x: Number) -> Fraction:
@@ -246,12 +201,12 @@ def near_the_group(
     is proved: what is constant on the group is a combination of the Casimirs."""
     one = (0,) * len(about.at)
     levels = [{**f, one: f.get(one, 0) - c} for f, c in zip(kept, level, strict=True)]
-    at = [RealBall(rational(x), radius) for x in about.at]
+    at = [Interval.about(rational(x), radius) for x in about.at]
     return all(
-        (x.sufficient or (x.open and x.attained(about.at) and invertible(_balls(x.entries, at))))
+        (x.sufficient or (x.open and x.attained(about.at) and independent(_bounded(x.entries, at))))
         and all(_spanned(f, group_value(about.system, f, Fraction(0)), levels) for f in x.constant)
-        and all(independent(_balls(m.matrix, at)) for m in x.independent)
-        and all(determinant(_balls(m.matrix, at)).positive for m in x.positive)
+        and all(independent(_bounded(m.matrix, at)) for m in x.independent)
+        and all(determinant(_bounded(m.matrix, at)).sign > 0 for m in x.positive)
         for x in on
     )
 
@@ -265,116 +220,68 @@ def _spanned(f: Polynomial, value: Number, levels: Sequence[Polynomial]) -> bool
     return q.rank(q.matrix(rows)) == q.rank(q.matrix(rows[:-1]))
 
 
-def _balls(matrix: Sequence[Line], at: Sequence[RealBall]) -> Balls:
-    return [[*row] for row in numbers(matrix, at, lambda c: RealBall(Fraction(c)))]
+def _bounded(matrix: Sequence[Line], at: Sequence[Interval]) -> Bounded:
+    return [[*map(Interval.of, row)] for row in numbers(matrix, at)]
 
 
-def independent(rows: Balls) -> bool:
+def independent(rows: Bounded) -> bool:
     """Are the rows surely independent?"""
-    pivots = q.echelon(q.matrix([[x.mid for x in row] for row in rows]))[1]
-    return len(pivots) == len(rows) and invertible([[row[j] for j in pivots] for row in rows])
+    pivots = q.echelon(q.matrix([[x.middle for x in row] for row in rows]))[1]
+    chosen = [[row[j] for j in pivots] for row in rows]
+    return len(pivots) == len(rows) and determinant(chosen).sign != 0
 
 
-def invertible(a: Balls) -> bool:
-    """Is a square matrix surely invertible?"""
-    found = determinant(a)
-    return abs(found.mid) > found.off
-
-
-def determinant(a: Balls) -> RealBall:
+def determinant(a: Bounded) -> Interval:
     """The determinant of a square matrix."""
-    return characteristic(a)[-1] * RealBall(Fraction((-1) ** len(a)))
+    found = characteristic(a)[-1]
+    return -found if len(a) % 2 else found
 
 
 # -- instability ---------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class RealBall:
-    """The numbers at a distance of at most ``off`` from ``mid``."""
-
-    mid: Fraction
-    off: Fraction = Fraction(0)
-
-    def __add__(self, other: RealBall) -> RealBall:
-        return RealBall(self.mid + other.mid, self.off + other.off)
-
-    def __mul__(self, other: RealBall) -> RealBall:
-        off = abs(self.mid) * other.off + abs(other.mid) * self.off + self.off * other.off
-        return RealBall(self.mid * other.mid, off)
-
-    @property
-    def positive(self) -> bool:
-        """Are all its numbers positive?"""
-        return self.mid > self.off
-
-    @property
-    def negative(self) -> bool:
-        """Are all its numbers negative?"""
-        return self.mid + self.off < 0
-
-
-Balls = list[list[RealBall]]
-
-
 def grows(about: About, kept: Sequence[Polynomial], radius: Fraction) -> bool:
     """Have the linearised rates an eigenvalue with positive real part at every point within the
     radius that is an equilibrium?  True is proved."""
-    n = len(about.at)
-    rates = [_slopes(e, radius) for e in about.rates]
-    borders = [_slopes(about.expansion(f), radius) for f in kept]
+    n, algebra = len(about.at), about.algebra
+    functions = ([algebra.flow.get(i, {}) for i in range(n)], kept)
+    rates, borders = ([_slopes(_rational_terms(about, f), n, radius) for f in x] for x in functions)
     tensor = [
         [
-            RealBall(rational(x), radius * sum(map(abs, about.system.bracket(i, j).values())))
+            Interval.about(rational(x), radius * sum(map(abs, about.system.bracket(i, j).values())))
             for j, x in enumerate(row)
         ]
         for i, row in enumerate(about.tensor)
     ]
     whole = [[*row, *(b[i] for b in borders)] for i, row in enumerate(tensor)]
-    whole += [
-        [*(RealBall(-x.mid, x.off) for x in b), *[RealBall(Fraction(0))] * len(kept)]
-        for b in borders
-    ]
-    inverse = q.inverse(q.matrix([[x.mid for x in row] for row in whole]))
-    if inverse is None or contraction(inverse, [[x.off for x in row] for row in whole]) >= 1:
+    whole += [[*(-x for x in b), *[Interval.of(0)] * len(kept)] for b in borders]
+    inverse = q.inverse(q.matrix([[x.middle for x in row] for row in whole]))
+    off = [[(x - x.middle).size for x in row] for row in whole]
+    if inverse is None or contraction(inverse, off) >= 1:
         return False  # on a leaf whose dimension is not known the spectrum need not be even
     coefficients = characteristic(rates)[: n - len(kept) + 1 : 2]
-    return any(x.negative for x in coefficients) or _breaks_newton(coefficients)
+    return any(x.sign < 0 for x in coefficients) or _breaks_newton(coefficients)
 
 
-def _slopes(e: Expansion, radius: Fraction) -> list[RealBall]:
-    """The first derivatives of a polynomial within a radius."""
+def _slopes(terms: Terms, n: int, radius: Fraction) -> list[Interval]:
+    """The first derivatives of a polynomial in n variables within a radius."""
     found = []
-    for j, x in enumerate(e.slope):
-        terms = ((m, c) for m, c in terms_of(e).items() if sum(m) > 1 and m[j])
-        off = sum((abs(c) * m[j] * radius ** (sum(m) - 1) for m, c in terms), Fraction(0))
-        found.append(RealBall(rational(x), off))
+    for j in range(n):
+        mid = off = Fraction(0)
+        for m, c in terms.items():
+            if sum(m) == 1:
+                mid += c * m[j]
+            elif m[j]:
+                off += abs(c) * m[j] * radius ** (sum(m) - 1)
+        found.append(Interval.about(mid, off))
     return found
 
 
-def characteristic(a: Balls) -> list[RealBall]:
-    """The characteristic polynomial from the highest power (Faddeev and Le Verrier)."""
-    places = range(len(a))
-    zero, found = RealBall(Fraction(0)), [RealBall(Fraction(1))]
-    power: Balls = [[zero] * len(a) for _ in places]
-    for k in range(1, len(a) + 1):
-        inside = [[power[i][j] + (found[-1] if i == j else zero) for j in places] for i in places]
-        power = [
-            [sum((a[i][m] * inside[m][j] for m in places), zero) for j in places] for i in places
-        ]
-        trace = sum((power[i][i] for i in places), zero)
-        found.append(trace * RealBall(Fraction(-1, k)))
-    return found
-
-
-def _breaks_newton(c: Sequence[RealBall]) -> bool:
+def _breaks_newton(c: Sequence[Interval]) -> bool:
     """Is c_j² (j)(d − j) < c_{j−1} c_{j+1} (j + 1)(d − j + 1) for some j, surely?"""
     d = len(c) - 1
     return any(
-        (
-            c[j] * c[j] * RealBall(Fraction(j * (d - j)))
-            + c[j - 1] * c[j + 1] * RealBall(Fraction(-(j + 1) * (d - j + 1)))
-        ).negative
+        (c[j] * c[j] * (j * (d - j)) - c[j - 1] * c[j + 1] * ((j + 1) * (d - j + 1))).sign < 0
         for j in range(1, d)
     )
 

@@ -12,14 +12,14 @@ the ℓ_k independent: the signs of the d_k are the signature on T.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
 from ...language.rational import times, transposed
 from ...language.univariate import Number, Quadratic, number
-from ..integrals.lie_poisson import Polynomial
+from ..integrals.lie_poisson import Polynomial, collected
 from .equilibrium_points import About, Expansion, Matrix
 
 Vector = list[Number]
@@ -169,6 +169,17 @@ def second_derivatives(
     ]
 
 
+def combined(energy: Expansion, kept: Sequence[Expansion], by: Sequence[Number]) -> Expansion:
+    """A polynomial plus multiples of others."""
+    pairs = [*zip(by, kept, strict=True)]
+    added = ((m, y * c) for y, e in pairs for m, c in e.higher.items())
+    higher = collected([*energy.higher.items(), *added])
+    slope = [x + sum(y * e.slope[i] for y, e in pairs) for i, x in enumerate(energy.slope)]
+    value = energy.value + sum(y * e.value for y, e in pairs)
+    second = second_derivatives(by, energy, kept)
+    return Expansion(value, slope, second, higher)
+
+
 def restricted(second: Matrix, on: Leaf) -> Matrix:
     """P̄QP."""
     return times(transposed(on.basis), times(second, on.basis))
@@ -177,16 +188,9 @@ def restricted(second: Matrix, on: Leaf) -> Matrix:
 def _form(
     multipliers: Vector, energy: Expansion, kept: Sequence[Expansion], on: Leaf
 ) -> EnergyCasimirForm:
-    second = second_derivatives(multipliers, energy, kept)
-    n = len(second)
-    pairs = [*zip(multipliers, kept, strict=True)]
-    higher = dict(energy.higher)
-    for c, e in pairs:
-        for m, x in e.higher.items():
-            higher[m] = higher.get(m, Fraction(0)) + c * x
-    higher = {m: x for m, x in higher.items() if x}
-    value = energy.value + sum(c * e.value for c, e in pairs)
-    expansion = Expansion(value, [Fraction(0)] * n, second, higher)
+    whole = combined(energy, kept, multipliers)
+    second, n = whole.second, len(whole.second)
+    expansion = replace(whole, slope=[Fraction(0)] * n)
     squares = [(d / 2, _spread(row, on.free, n)) for d, row in diagonalised(restricted(second, on))]
     across = times(second, on.basis)
     mixed = []
@@ -196,8 +200,8 @@ def _form(
             row = [x + second[p][q] * y / 2 for x, y in zip(row, equation, strict=True)]
         mixed.append(row)
     signs = [d for d, _ in diagonalised(second)]
-    whole = len(signs) == n and len({d > 0 for d in signs}) == 1
-    return EnergyCasimirForm((*multipliers,), expansion, squares, mixed, whole)
+    beyond = len(signs) == n and len({d > 0 for d in signs}) == 1
+    return EnergyCasimirForm((*multipliers,), expansion, squares, mixed, beyond)
 
 
 def along_the_orbit(about: About, on: Leaf) -> Matrix:

@@ -21,7 +21,14 @@ from ...algebra.samplers import minimal_polynomial
 from ...algebra.user_groups import nilpotent
 from ...language import rational as q
 from ...language.univariate import real_roots
-from ..integrals.lie_poisson import ONE, LiePoisson, Polynomial
+from ..integrals.lie_poisson import (
+    ONE,
+    Exponents,
+    LiePoisson,
+    Polynomial,
+    collected,
+    multiplied,
+)
 
 Line = Sequence[Mapping[int, Fraction]]
 """A row or a column of linear forms in the variables, ``ONE`` for the constant."""
@@ -84,13 +91,11 @@ class EntryConditions:
         return not (roots.at_zero or roots.negative)
 
 
-def numbers(
-    matrix: Sequence[Line], at: Sequence[Any], of: Callable[[Fraction | int], Any] = Fraction
-) -> q.Matrix:
-    """A matrix of linear forms at a point; ``of``: a rational number among the numbers there."""
+def numbers(matrix: Sequence[Line], at: Sequence[Any]) -> q.Matrix:
+    """A matrix of linear forms at a point."""
 
     def value(form: Mapping[int, Fraction]) -> Any:
-        return sum((of(c) * (of(1) if k == ONE else at[k]) for k, c in form.items()), of(0))
+        return sum((c * (1 if k == ONE else at[k]) for k, c in form.items()), Fraction(0))
 
     return tuple(tuple(map(value, row)) for row in matrix)
 
@@ -172,8 +177,7 @@ class _EntryReader:
         _, chosen, moved = lines[not left]
         constant = [self._polynomial(self._combined(row, 0)) for row in self.linear]
         if relations.form:
-            metric = q.inverse(relations.form) if left else relations.form
-            assert metric is not None
+            metric = q.inverted(relations.form) if left else relations.form
             constant += self._products(moved, chosen, metric)
         full = len(rows) == n
         if full and relations.determinant and not relations.complex_basis:
@@ -239,47 +243,31 @@ class _EntryReader:
                     reference = f, at_one
                 elif self.relations.conformal and at_one and reference:
                     by = -at_one / reference[1]
-                    yield _sum(f, {e: by * c for e, c in reference[0].items()})
+                    yield collected([*f.items(), *((e, by * c) for e, c in reference[0].items())])
                 elif not self.relations.conformal or not at_one:
                     yield f
 
     def _product(self, one: Line, two: Line, metric: q.Matrix) -> Polynomial:
-        total: Polynomial = {}
-        for x, row in zip(one, metric, strict=True):
-            for y, c in zip(two, row, strict=True):
-                if c:
-                    by = {k: c * z for k, z in x.items()}
-                    total = _sum(total, _times(*map(self._polynomial, (by, y))))
-        return total
+        return collected(
+            (e, c * z)
+            for x, row in zip(one, metric, strict=True)
+            for y, c in zip(two, row, strict=True)
+            for e, z in multiplied(*map(self._polynomial, (x, y)))
+        )
 
     def _determinant(self, rows: Sequence[Line]) -> Polynomial:
         """det of linear forms, by its first row."""
         if not rows:
             return {(0,) * self.size: Fraction(1)}
-        total: Polynomial = {}
+        terms: list[tuple[Exponents, Fraction]] = []
         for j, x in enumerate(rows[0]):
             if x:
                 smaller = [[*row[:j], *row[j + 1 :]] for row in rows[1:]]
-                by = {k: c * (-1) ** j for k, c in x.items()}
-                total = _sum(total, _times(self._polynomial(by), self._determinant(smaller)))
-        return total
+                by = self._polynomial({k: c * (-1) ** j for k, c in x.items()})
+                terms += multiplied(by, self._determinant(smaller))
+        return collected(terms)
 
 
 def _in_line_with(j: int) -> tuple[Callable[[q.Matrix, int], Any], ...]:
     """The entries of column j, and of row j."""
     return lambda e, i: e[i][j], lambda e, i: e[j][i]
-
-
-def _sum(f: Polynomial, g: Polynomial) -> Polynomial:
-    found = dict(f)
-    for e, c in g.items():
-        found[e] = found.get(e, Fraction(0)) + c
-    return {e: c for e, c in found.items() if c}
-
-
-def _times(f: Polynomial, g: Polynomial) -> Polynomial:
-    total: Polynomial = {}
-    for e, x in f.items():
-        for m, y in g.items():
-            total = _sum(total, {tuple(map(int.__add__, e, m)): x * y})
-    return total

@@ -15,7 +15,15 @@ from ...language.reserved import suffixed
 from ...language.tree import Tree
 from ...language.univariate import Number, Quadratic, value_of
 from ...language.univariate import tree as number_tree
-from ..integrals.lie_poisson import ONE, LiePoisson, PoissonPolynomials, Polynomial, plain, scaled
+from ..integrals.lie_poisson import (
+    ONE,
+    LiePoisson,
+    PoissonPolynomials,
+    Polynomial,
+    collected,
+    plain,
+    scaled,
+)
 from .entries_of_elements import EntryConditions, numbers
 
 Point = tuple[Number, ...]
@@ -56,15 +64,15 @@ class About:
         known = isinstance(x, (int, Fraction, Quadratic))
         return number_tree(x) if known else scaled(self.algebra.number_tree(x))
 
+    def terms(self, f: Polynomial) -> dict[tuple[int, ...], Number]:
+        """A polynomial with coefficients in the field, in powers of y, by their exponents."""
+        own = f if self.algebra.letters else {e: Fraction(plain(c)) for e, c in f.items()}
+        terms = ((m, c * x) for e, c in own.items() for m, x in self._shifted(e).items())
+        return dict(sorted(collected(terms).items(), key=_order))
+
     def expansion(self, f: Polynomial) -> Expansion:
-        """A polynomial with coefficients in the field, in powers of y."""
-        n = len(self.at)
-        terms: dict[tuple[int, ...], Number] = {}
-        for e, c in f.items():
-            for m, x in self._shifted(e).items():
-                factor = c if self.algebra.letters else Fraction(plain(c))
-                terms[m] = terms.get(m, Fraction(0)) + factor * x
-        terms = {m: x for m, x in sorted(terms.items(), key=_order) if x != 0}
+        """The same by their orders."""
+        n, terms = len(self.at), self.terms(f)
 
         def of(*places: int) -> Number:
             return terms.get(tuple(places.count(i) for i in range(n)), Fraction(0))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -16,8 +17,8 @@ from ...walk.chapter import Chapter, Draft, say
 from ..integrals.all_integrals import IntegralsFound
 from ..integrals.integral_steps import rate
 from ..integrals.lie_poisson import scaled
-from .enclosed_points import Enclosed, less
-from .energy_casimir import EnergyCasimirForm, Leaf
+from .enclosed_points import Enclosed
+from .energy_casimir import EnergyCasimirForm, Leaf, combined
 from .equilibrium_points import About, Expansion
 from .stability import Equilibrium
 
@@ -74,7 +75,7 @@ def _enclosure(whole: IntegralsFound, x: Enclosed, made_from: Iterable[Step], c:
     kept = [*map(algebra.tree, whole.casimirs)]
     found = [x.about.expansion(algebra.over_the_field(f)) for f in whole.casimirs]
     equations = [
-        Equation(add(f, neg(plain(level))), expanded(less(e, level), away))
+        Equation(add(f, neg(plain(level))), expanded(replace(e, value=e.value - level), away))
         for f, e, level in zip(kept, found, x.level, strict=True)
     ]
     energy = x.about.expansion(algebra.hamiltonian)
@@ -89,22 +90,6 @@ def _enclosure(whole: IntegralsFound, x: Enclosed, made_from: Iterable[Step], c:
     if x.verdict != "stable":
         prose += draft.claim("enclosure.eigenvalues", eigenvalues=_about(x.eigenvalues))
     return draft.step(equations, prose)
-
-
-def combined(energy: Expansion, kept: Sequence[Expansion], by: Sequence[Number]) -> Expansion:
-    """A polynomial plus multiples of others."""
-    pairs, places = [*zip(by, kept, strict=True)], range(len(energy.slope))
-    higher = dict(energy.higher)
-    for y, e in pairs:
-        for m, c in e.higher.items():
-            higher[m] = higher.get(m, Fraction(0)) + y * c
-    slope = [energy.slope[i] + sum(y * e.slope[i] for y, e in pairs) for i in places]
-    second = [
-        [energy.second[i][j] + sum(y * e.second[i][j] for y, e in pairs) for j in places]
-        for i in places
-    ]
-    value = energy.value + sum(y * e.value for y, e in pairs)
-    return Expansion(value, slope, second, {m: c for m, c in higher.items() if c != 0})
 
 
 def scientific(x: Fraction) -> Tree:

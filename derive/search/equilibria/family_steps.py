@@ -12,7 +12,8 @@ from ...walk.chapter import Chapter, Draft, say
 from ..integrals.all_integrals import IntegralsFound
 from ..integrals.integral_steps import rate
 from ..integrals.lie_poisson import scaled
-from .equilibrium_steps import combined, distances, expanded, point_rows
+from .energy_casimir import combined
+from .equilibrium_steps import distances, expanded, point_rows
 from .letter_conditions import Case, inequality
 from .stability_in_letters import Family
 

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from ...language.limits import tell
 from .degree_search import PolynomialSearch, PrimePoint, UnluckyPrimeError, blocks, point, unknowns
-from .lie_poisson import Level, LiePoisson, PoissonPolynomials, Polynomial, rank_modulo
+from .lie_poisson import Level, LiePoisson, PoissonPolynomials, Polynomial, rank_modulo, slope
 from .parameter_cases import Case, Cases, Grading, grading
 
 ATTEMPTS = 6
@@ -79,17 +79,17 @@ def found(system: LiePoisson, degree: int) -> IntegralsFound:
 
     Each is verified by exact brackets; that there are no more is proved, too.
     """
-    return _lucky(system, lambda at: _found(system, degree, at))
+    return lucky(system, lambda at: _found(system, degree, at))
 
 
 def casimirs(system: LiePoisson, degree: int) -> list[Any]:
     """All Casimirs up to a degree, whatever the energy is."""
     algebra, by = system.algebra, grading(system)
     every = [algebra.along(j) for j in range(algebra.size)]
-    return _lucky(system, lambda at: _all(PolynomialSearch(algebra, by, every, at), degree, []))
+    return lucky(system, lambda at: _all(PolynomialSearch(algebra, by, every, at), degree, []))
 
 
-def _lucky(system: LiePoisson, searched: Callable[[PrimePoint], T]) -> T:
+def lucky(system: LiePoisson, searched: Callable[[PrimePoint], T]) -> T:
     """What is found at the first point of the parameters that is like a generic one."""
     for attempt in range(ATTEMPTS):
         try:
@@ -202,19 +202,16 @@ class PoissonPoint:
 
     def differential(self, f: Polynomial) -> list[int]:
         """The differential of a polynomial over the field."""
-        terms = [*self.at.residues(f).items()]
-        return [
-            sum(c * e[i] * self.monomial(_lower(e, i)) for e, c in terms if e[i]) % self.at.p
-            for i in range(len(self.x))
-        ]
+        terms = self.at.residues(f)
+        return [self.value(slope(terms, i)) for i in range(len(self.x))]
+
+    def value(self, f: Polynomial) -> int:
+        """That of a polynomial modulo the prime."""
+        return int(sum(c * self.monomial(e) for e, c in f.items()) % self.at.p)
 
     def monomial(self, e: tuple[int, ...]) -> int:
         """A monomial in x."""
         return prod(pow(v, k, self.at.p) for v, k in zip(self.x, e, strict=True) if k)
-
-
-def _lower(e: tuple[int, ...], i: int) -> tuple[int, ...]:
-    return (*e[:i], e[i] - 1, *e[i + 1 :])
 
 
 def _place(algebra: PoissonPolynomials, at: PrimePoint, level: Level | None) -> PoissonPoint:
@@ -225,10 +222,8 @@ def _place(algebra: PoissonPolynomials, at: PrimePoint, level: Level | None) -> 
     if level is not None:
         i = level.lead.index(1)
         without = PoissonPoint(at, (*x[:i], 0, *x[i + 1 :]))
-        terms = {e: c % at.p for e, c in level.rest.items()}
-        total = sum(c * without.monomial(e) for e, c in terms.items())
-        factor = without.monomial(_lower(level.lead, i))
-        x[i] = total * pow(factor, -1, at.p) % at.p
+        factor = without.value(slope({level.lead: 1}, i))
+        x[i] = without.value(level.rest) * pow(factor, -1, at.p) % at.p
     return PoissonPoint(at, tuple(x))
 
 
@@ -262,8 +257,7 @@ def poisson_rank(algebra: PoissonPolynomials, place: PoissonPoint) -> int:
     rows = [[0] * n for _ in range(n)]
     for j in range(n):
         for i, form in algebra.along(j).items():
-            terms = place.at.residues(form).items()
-            rows[i][j] = sum(c * place.monomial(e) for e, c in terms) % place.at.p
+            rows[i][j] = place.value(place.at.residues(form))
     return rank_modulo(rows, place.at.p)
 
 

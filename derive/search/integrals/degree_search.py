@@ -20,9 +20,11 @@ from .lie_poisson import (
     Level,
     PoissonPolynomials,
     Polynomial,
+    collected,
     kernel_modulo,
     kernel_vector,
     monomial_order,
+    multiplied,
     rank_modulo,
 )
 from .parameter_cases import Grading
@@ -243,13 +245,8 @@ def times(f: Polynomial, g: Polynomial, p: int) -> Polynomial:
     """The product of two polynomials, modulo p, where that is not 0; {} counts as 1."""
     if not f or not g:
         return f or g
-    found: Polynomial = {}
-    for e, x in f.items():
-        for m, y in g.items():
-            target = tuple(map(int.__add__, e, m))
-            total = found.get(target, 0) + x * y
-            found[target] = total % p if p else total
-    return {e: x for e, x in found.items() if x}
+    found = collected(multiplied(f, g))
+    return {e: x % p for e, x in found.items() if x % p} if p else found
 
 
 # -- the search ---------------------------------------------------------------------------------
@@ -333,11 +330,8 @@ class PolynomialSearch:
     def _on_level(self, f: Residues) -> Residues:
         if self.level is None:
             return f
-        found: Residues = {}
-        for target, x in f.items():
-            for e, c in self.level.normal(target).items():
-                found[e] = (found.get(e, 0) + x * c) % self.at.p
-        return {e: x for e, x in found.items() if x}
+        p, found = self.at.p, self.level.reduced(f.items())
+        return {e: x % p for e, x in found.items() if x % p}
 
 
 def _independent(rows: Rows, width: int, p: int) -> list[tuple[int, Exponents]]:

@@ -21,6 +21,26 @@ Linear = Mapping[int, Fraction]
 ONE = -1
 
 
+def collected(terms: Iterable[tuple[Exponents, Any]]) -> Polynomial:
+    """The sum of some terms, those of the same exponents together."""
+    found: Polynomial = {}
+    for e, c in terms:
+        found[e] = found[e] + c if e in found else c
+    return {e: c for e, c in found.items() if c}
+
+
+def multiplied(f: Polynomial, g: Polynomial) -> Iterator[tuple[Exponents, Any]]:
+    """The terms of the product of two polynomials, not yet collected."""
+    for e, x in f.items():
+        for m, y in g.items():
+            yield tuple(map(int.__add__, e, m)), x * y
+
+
+def slope(f: Polynomial, i: int) -> Polynomial:
+    """∂f/∂x_i."""
+    return {(*e[:i], e[i] - 1, *e[i + 1 :]): c * e[i] for e, c in f.items() if e[i]}
+
+
 @dataclass(frozen=True)
 class LiePoisson:
     """Lie–Poisson equations as data.
@@ -101,32 +121,16 @@ class PoissonPolynomials:
     @cached_property
     def flow(self) -> dict[int, Polynomial]:
         """The derivation {·, H}: i → ẋ_i over the field."""
-        found: dict[int, Polynomial] = {}
+        found: dict[int, list[tuple[Exponents, Any]]] = {}
         for j in range(self.size):
-            slope = {
-                (*e[:j], e[j] - 1, *e[j + 1 :]): c * e[j]
-                for e, c in self.hamiltonian.items()
-                if e[j]
-            }
             for i, image in self.along(j).items():
-                there = found.setdefault(i, {})
-                for e, c in slope.items():
-                    for m, y in image.items():
-                        target = tuple(map(int.__add__, e, m))
-                        there[target] = there[target] + c * y if target in there else c * y
-        return {i: {e: c for e, c in f.items() if c} for i, f in found.items()}
+                found.setdefault(i, []).extend(multiplied(slope(self.hamiltonian, j), image))
+        return {i: collected(terms) for i, terms in found.items()}
 
     def derivative(self, f: Polynomial) -> Polynomial:
         """{F, H} over the field."""
-        found: Polynomial = {}
-        for e, c in f.items():
-            for i, image in self.flow.items():
-                if e[i]:
-                    rest = (*e[:i], e[i] - 1, *e[i + 1 :])
-                    for m, y in image.items():
-                        target = tuple(map(int.__add__, rest, m))
-                        found[target] = found.get(target, self.field.zero) + c * y * e[i]
-        return {e: c for e, c in found.items() if c}
+        images = self.flow.items()
+        return collected(x for i, image in images for x in multiplied(slope(f, i), image))
 
     # -- coefficients --------------------------------------------------------------------------
 
@@ -292,16 +296,16 @@ class Level:
         """Is a monomial a multiple of the leading one?"""
         return all(x >= y for x, y in zip(e, self.lead, strict=True))
 
-    def _normal(self, e: Exponents) -> dict[Exponents, int]:
+    def _normal(self, e: Exponents) -> Polynomial:
         """The normal form of a monomial."""
         if not self.leads(e):
             return {e: 1}
-        found: dict[Exponents, int] = {}
         left = tuple(x - y for x, y in zip(e, self.lead, strict=True))
-        for m, c in self.rest.items():
-            for k, x in self.normal(tuple(map(int.__add__, left, m))).items():
-                found[k] = found.get(k, 0) + c * x
-        return {k: x for k, x in found.items() if x}
+        return self.reduced(multiplied({left: 1}, self.rest))
+
+    def reduced(self, terms: Iterable[tuple[Exponents, Any]]) -> Polynomial:
+        """The normal form of a sum of terms."""
+        return collected((k, c * x) for e, c in terms for k, x in self.normal(e).items())
 
     def quotient(self, f: Polynomial) -> Polynomial:
         """What the Casimir is multiplied by in a polynomial over the field that is a multiple."""
@@ -311,10 +315,7 @@ class Level:
             c = left.pop(e)
             own = tuple(x - y for x, y in zip(e, self.lead, strict=True))
             found[own] = c * self.sign
-            for m, y in self.rest.items():
-                target = tuple(map(int.__add__, own, m))
-                left[target] = left[target] + c * y if target in left else c * y
-            left = {e: c for e, c in left.items() if c}
+            left = collected([*left.items(), *multiplied({own: c}, self.rest)])
         return found
 
     def contains(self, f: Any) -> bool:

@@ -9,19 +9,18 @@ from functools import reduce
 from typing import Any
 
 from .all_integrals import (
-    ATTEMPTS,
     Condition,
     IntegralsFound,
     ParameterConditions,
     degrees,
     integrability,
+    lucky,
 )
 from .degree_search import (
     PolynomialSearch,
+    PrimePoint,
     TooLargeError,
-    UnluckyPrimeError,
     blocks,
-    point,
     products,
     system_rows,
 )
@@ -268,13 +267,11 @@ def condition(result: IntegralsFound, cases: Cases, case: Case, degree: Fraction
 
     casimirs, integrals = ([there(f) for f in x] for x in (result.casimirs, result.integrals))
     known = [algebra.energy, *map(algebra.over_the_field, (*casimirs, *integrals))]
-    for attempt in range(ATTEMPTS):
-        at = point(algebra, attempt)
-        try:
-            search = PolynomialSearch(algebra, result.grading, [algebra.flow], at)
-            new = search.of_degree(degree, [f for f in known if f])
-            proved = integrability(algebra, casimirs, [*integrals, *new], at)
-        except UnluckyPrimeError:
-            continue
+
+    def searched(at: PrimePoint) -> Condition:
+        search = PolynomialSearch(algebra, result.grading, [algebra.flow], at)
+        new = search.of_degree(degree, [f for f in known if f])
+        proved = integrability(algebra, casimirs, [*integrals, *new], at)
         return Condition(case, degree, system, (*new,), proved)
-    raise ArithmeticError("no point of the parameters modulo a prime is like a generic one")
+
+    return lucky(system, searched)

@@ -47,12 +47,6 @@ class TangentField:
     Y: Matrix
     X: Matrix
 
-    def carried(self, g: Matrix, back: Matrix, side: str) -> Matrix:
-        """g⁻¹δg on the left, δg g⁻¹ on the right, ``back`` being g⁻¹."""
-        if side == "left":
-            return q.minus(q.times(q.times(back, self.Y), g), self.X)
-        return q.minus(self.Y, q.times(q.times(g, self.X), back))
-
 
 @cache
 def tangent_fields(group: Group) -> tuple[TangentField, ...]:
@@ -63,7 +57,7 @@ def tangent_fields(group: Group) -> tuple[TangentField, ...]:
     right = [TangentField(zero, e) for e in group.basis]
     others = sorted(_mixed(group), key=_weight)
     listed = [*left, *right, *others]
-    chosen = independent([_values(x, group) for x in listed])
+    chosen = independent([values(x, group, group.size**2) for x in listed])
     kept = [listed[k] for k in chosen]
     mixed = [x for x in kept if x not in left and x not in right]
     return (*mixed[::-1], *[x for x in right if x in kept][::-1], *list(left)[::-1])
@@ -74,11 +68,11 @@ def independent(vectors: Sequence[Sequence[int]]) -> list[int]:
     return pivots(zip(*vectors, strict=True), len(vectors), PRIMES[0])
 
 
-def _values(field: TangentField, group: Group) -> list[int]:
-    """The values of a field at some elements of the group, in one list."""
-    g = _element(group, group.size**2)
+def values(field: TangentField, group: Group, points: int, p: int = PRIMES[0]) -> list[int]:
+    """The values of a field at so many elements of the group, in one list."""
+    g = _element(group, points, p)
     value = q.minus(q.times(field.Y, g), q.times(g, field.X))
-    return [y for row in value for x in row for y in _at_all(x, len(g[0][0].values))]
+    return [y for row in value for x in row for y in _at_all(x, points)]
 
 
 def _at_all(x: object, points: int) -> list[int]:

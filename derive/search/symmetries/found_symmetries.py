@@ -8,13 +8,12 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
-from ...algebra.exact_kernel import ResidueVector, ResidueVectorSource, kernel
+from ...algebra.exact_kernel import ResidueVector, kernel
 from ...algebra.groups import Group
 from ...code.graph import Graph
 from ...code.options import Options
 from ...code.state import StateSpace
 from ...language import rational as q
-from ...language.rational import Matrix
 from ...language.tree import Tree, add, coefficient, mul, neg, nodes, terms
 from ...problem.entries_on_orbit import along, element, hessian, null_directions
 from ...problem.fields import coordinates
@@ -23,7 +22,7 @@ from ...record.record import Derivation
 from ...schema.body_kinds import Place, Point
 from ...schema.kind import Lagrangian
 from ...schema.kinds.self_gravity import SelfGravity
-from .conditions import SymmetryConditions, TangentField
+from .conditions import SymmetryConditions, TangentField, values
 from .scalar_lagrangian import (
     Integrand,
     by_state,
@@ -72,16 +71,15 @@ class Brackets:
         """The coordinates of the brackets of the tangent fields, for those that are not 0: of
         (Y, X) and (Y′, X′) it is ([Y′, Y], [X′, X])."""
         group, p = self.search.system.group, self.p
-        source = ResidueVectorSource(p, 2 * group.size**2, 5)
-        g = group.sample_inside(source, 1)
-        basis = [_values(x, g, source) for x in self.fields]
+        points = 2 * group.size**2
+        basis = [values(x, group, points, p) for x in self.fields]
         count, brackets = len(self.fields), dict[tuple[int, int], TangentField]()
         for a, x in enumerate(self.fields):
             for b, y in enumerate(self.fields[:a]):
                 z = TangentField(q.bracket(y.Y, x.Y), q.bracket(y.X, x.X))
                 if any(map(any, (*z.Y, *z.X))):
                     brackets[b, a] = z
-        columns = [*basis, *(_values(z, g, source) for z in brackets.values())]
+        columns = [*basis, *(values(z, group, points, p) for z in brackets.values())]
         vectors, free = kernel(zip(*columns, strict=True), len(columns), p)
         assert free == [*range(count, len(columns))]
         found: dict[tuple[int, int], dict[int, int]] = {}
@@ -133,13 +131,6 @@ def _along(field: Symmetry, other: Symmetry) -> Tree:
             rest = (values[y] for y in (*monomial[:k], *monomial[k + 1 :]))
             found.append(mul(c, speeds[x], *rest))
     return add(*found)
-
-
-def _values(field: TangentField, g: Matrix, source: ResidueVectorSource) -> list[int]:
-    """The values of a field at the points, in one list."""
-    value = q.minus(q.times(field.Y, g), q.times(g, field.X))
-    zero = source.constant(0)
-    return [y for row in value for x in row for y in (zero + x).values]
 
 
 # The symmetries of a problem, all of the kind that is searched, as data.

@@ -212,12 +212,11 @@ class Evaluated:
         if op == "pow":
             return [a[0] ** (data - 1) * data]
         if op == "fun":
-            return [self._slope(*data)]
+            return [self._slope(data[1])]
         return []
 
-    def _slope(self, name: str, slope: Tree) -> Number:
+    def _slope(self, slope: Tree) -> Number:
         """The derivative of a function, an expression in its argument."""
-        del name
         known = {t: self.values[k] for t, k in self.tape.places.items()}
 
         def at(t: Tree) -> Number:

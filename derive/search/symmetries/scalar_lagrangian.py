@@ -18,6 +18,7 @@ from ...code.options import Options
 from ...code.reader import Value
 from ...language.derivatives import product
 from ...language.laurent import OverlongError, grouped, polynomial
+from ...language.rational import transposed
 from ...language.show import show
 from ...language.tree import Tree, add, mul, neg, nodes, operands, plain
 from ...problem.entries_on_orbit import Rows, element
@@ -103,11 +104,6 @@ def times(a: Entries, b: Entries) -> Rows:
         )
         for row in a
     )
-
-
-def transposed(a: Entries) -> Rows:
-    """The transpose of a matrix of expressions."""
-    return tuple(zip(*a, strict=True))
 
 
 def plus(a: Entries, b: Entries) -> Rows:

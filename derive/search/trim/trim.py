@@ -39,7 +39,7 @@ class Trim:
         "unstable", or "open" for nothing."""
         if grows(self.characteristic[::-1]):
             return "unstable"
-        return "stable" if routh(self.characteristic) else "open"
+        return "stable" if routh(self.characteristic) > 0 else "open"
 
     @property
     def eigenvalues(self) -> tuple[complex, ...]:

@@ -10,7 +10,7 @@ from ...algebra.calculus import PairRule, derivation, gradient, reduce, substitu
 from ...algebra.word_trees import WordNotation, hat, metrics, tree_of
 from ...algebra.words import Expr, Factor, Letter, inner, number, word, zero
 from ...language.derivatives import derivative, product
-from ...language.tree import Tree, add, mul, replaced, subtrees
+from ...language.tree import Tree, add, mul, nodes, replaced
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ...record.sentence import Prose
@@ -201,7 +201,7 @@ def place(problem: Problem, i: int) -> Tree:
 
 def _points(t: Tree) -> Iterator[int]:
     """The numbers i of the points whose places are in a tree."""
-    for _, x in subtrees(t):
+    for x in nodes(t):
         if isinstance(x, tuple) and x[:2] == ("at", "r"):
             yield x[2]
 

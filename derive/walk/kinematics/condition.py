@@ -83,8 +83,7 @@ class Velocity:
         """Is A⁻¹f(A) in the Lie algebra?"""
 
         def outside(x: Residues) -> Matrix:
-            back = q.inverse(x.a)
-            assert back is not None
+            back = q.inverted(x.a)
             z = q.times(back, x.value(self, x.a))
             return q.minus(z, self.group.hat(self.group.nearest(z)))
 
