@@ -10,7 +10,7 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..language.show import show
-from ..language.tree import Tree, add, mul, replaced, sized, subtrees
+from ..language.tree import Tree, add, mul, nodes, replaced, sized
 from ..record.as_json import decode
 from .typed_names import LONGEST_LAW, plain_text, typed
 
@@ -56,7 +56,7 @@ def _loci(where: str, data: Any, problem: Mapping[str, Any], group: Group) -> It
     """Where each root of an expression is 0, and what has it."""
     whole: Tree = _by_axes(decode(data, "law"), group)
     if where.startswith("potential"):  # which know the places of all points
-        for x in [x for _, x in subtrees(whole) if isinstance(x, tuple) and x[0] == "entry"]:
+        for x in [x for x in nodes(whole) if isinstance(x, tuple) and x[0] == "entry"]:
             whole = replaced(whole, x, ("par", f"r{x[1][1][2]}_{_row(group, x[2])}"))
     if isinstance(whole, tuple):
         for at, what in _roots(whole):
@@ -75,9 +75,7 @@ def _row(group: Group, row: int) -> int:
 
 def _by_axes(t: Tree, group: Group) -> Tree:
     """With Āv, the velocity of a place along the axes of the body, as the file calls it."""
-    for v in dict.fromkeys(
-        x[1] for _, x in subtrees(t) if isinstance(x, tuple) and x[0] == "entry"
-    ):
+    for v in dict.fromkeys(x[1] for x in nodes(t) if isinstance(x, tuple) and x[0] == "entry"):
         for first, factor in group.places if isinstance(v, tuple) and v[:2] == ("at", "v") else ():
             rows = range(first + 1, first + factor.n + 1)
             for k in rows:
@@ -88,7 +86,7 @@ def _by_axes(t: Tree, group: Group) -> Tree:
 
 def _roots(whole: Tree) -> Iterator[tuple[list[tuple[Tree, str]], str]]:
     """What is 0, or not positive, at each kink, and the function that has it there."""
-    found = [x for _, x in subtrees(whole) if isinstance(x, tuple)]
+    found = [x for x in nodes(whole) if isinstance(x, tuple)]
     signs = {x[2] for x in found if x[0] == "div"}
     halves = [x[2] for x in found if x[:2] == ("mul", Fraction(1, 2)) and isinstance(x[2], tuple)]
     terms = [x for y in halves for x in y[1:] if isinstance(x, tuple)]
