@@ -67,7 +67,9 @@ class Reader(ExpressionReader):
         """Pass a word that is not read; ``CodeError`` where it gives a name that is read another
         meaning."""
         token = self.tokens[self.at]
-        set_here = self.near(1) == "=" and token.column is not None
+        # what ends with a word, as in Julia, has its own names where it is indented
+        own = token.column is None or (token.column > 0 and bool(self.syntax.body[1]))
+        set_here = self.near(1) == "=" and not own
         if token.text in read and self.syntax.lines and (self.near(-1) in DEFINING or set_here):
             self.unknown(f"{token.text} is defined twice")
         self.unread.append(token)
