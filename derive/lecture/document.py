@@ -27,7 +27,7 @@ from ..views.printing.typeset import literal, plain
 from ..views.text import formula as aligned
 from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, homes, letters
 from .figures import FIGURES, Figure
-from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Given, Words
+from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Given, Typed, Words
 from .lecture_text import tree as tree_of
 from .sheets import AXES, Claims
 
@@ -335,12 +335,16 @@ class _Setter:
 
     def words(self, text: Words) -> str:
         """A sentence, its formulas set."""
-        return "".join(
-            self.medium.inline(formula(x.text) + formula_of_value(x.value))
-            if isinstance(x, Formula)
-            else (self.medium.text if isinstance(x, Given) else self.plain)(x)
-            for x in text
-        )
+        return "".join(map(self.part, text))
+
+    def part(self, x: str | Formula) -> str:
+        """A formula, or words, of a sentence."""
+        if isinstance(x, Formula):
+            return self.medium.inline(formula(x.text) + formula_of_value(x.value))
+        if not isinstance(x, Given):
+            return self.plain(x)
+        words = self.medium.text(x)
+        return self.medium.emphasis.format(words) if isinstance(x, Typed) else words
 
     def plain(self, words: str) -> str:
         """Words with their emphasis and their numbers of blocks; spaces at their ends stay."""

@@ -8,8 +8,8 @@ from functools import partial
 
 from ..language.tree import Tree, names, neg
 from ..record.record import Equation, Step
-from ..views.language import Language
-from .lecture_text import Block, Entry, Given, words_of
+from ..views.language import ENGLISH, Language
+from .lecture_text import Block, Entry, Typed, words_of
 from .ran_figure import Ran, letter_of
 from .recorded_text import SPOKEN, display, in_each, sentence, words
 
@@ -19,6 +19,7 @@ NOETHER = "It is what a symmetry of the Lagrangian leaves (Noether):"
 SIGN = "This equation of motion was copied with one sign changed. Which?"
 LAST = "That of the last term:"
 ASKED = "Between which values does {letter} stay, from the start of the problem to the time {time}?"
+SHOWN = "shows it."
 BETWEEN = "Between {low} and {high}."
 
 
@@ -88,8 +89,8 @@ def _on_motion(ran: Ran, command: str) -> list[Block]:
             *words_of(f"_{x.word(WATCH)}_ "),
             *words(x.word(ASKED, **places)),
             " ",
-            Given(command),
-            ".",
+            Typed(command if x is ENGLISH else f"{command} --lang {x.name}"),
+            f" {x.word(SHOWN)}",
         )
         for x in SPOKEN
     )

@@ -36,8 +36,8 @@ class OnTheGroup:
 
     def log(self, g: Any) -> Array:
         """The η, (d,), with exp η = g that turns by at most π; at π one of two. On groups that do
-        more than turn and shift that of eigenvalues a + bi, |b| < π; nan where one of g is negative
-        or 0."""
+        more than turn and shift that of eigenvalues a + bi with −π < b < π; nan where one of g is
+        negative or 0."""
         return self._on_the_group("log", g)
 
     def exp_jacobian(self, eta: Any) -> Array:
