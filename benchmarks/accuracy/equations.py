@@ -13,7 +13,7 @@ from typing import Any
 import mpmath
 
 from derive.algebra.groups import Group
-from derive.language.tree import Tree, subtrees
+from derive.language.tree import Tree, nodes
 from derive.record.record import Derivation
 
 from . import terms as q
@@ -106,7 +106,7 @@ class Equations:
         return self.value(found[1].rhs)  # type: ignore[no-any-return]
 
     def _members(self, body: Tree, index: str) -> list[int]:
-        families = {x[1] for _, x in subtrees(body) if _indexed(x, index) and x[0] == "at"}
+        families = {x[1] for x in nodes(body) if _indexed(x, index) and x[0] == "at"}
         if "E" in families:
             return [*range(1, len(self.group.linear_basis) + 1)]
         lefts = [e.lhs for step in self.record.steps for e in step.equations]

@@ -21,7 +21,8 @@ LONGEST_LAW = 200
 def plain_text(text: str) -> str:
     """An expression as it may stand in an ASCII comment: 1/4 for the one letter, pi, ^2, v_1."""
     text = re.sub("[₀-₉]+", r"_\g<0>", text)
-    spelt = str.maketrans(SPELT | {"\u2212": "-", "²": "^2", "³": "^3", "·": "*"})
+    text = re.sub("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda x: "^" + x[0].replace("⁻", "-"), text)
+    spelt = str.maketrans(SPELT | {"\u2212": "-", "·": "*"})
     return unicodedata.normalize("NFKD", text.translate(spelt)).replace("\u2044", "/")
 
 

@@ -136,7 +136,7 @@ def exp_of(eta: real[N_ALGEBRA], G: out[real[SIZE, SIZE]]):
         G[row][row] += 1.0
 
 
-def log_of(G: real[SIZE, SIZE], eta: out[real[N_ALGEBRA]]):
+def log_by_roots(G: real[SIZE, SIZE], eta: out[real[N_ALGEBRA]]):
     """The coordinates of the logarithm of a matrix: 2^(s + 1) artanh Z, Z = (R - 1)/(R + 1) of its root R of degree
     2^s, which is within 1/4 of 1."""
     R: real[WIDE, WIDE]
@@ -212,3 +212,26 @@ def derivative(eta: real[N_ALGEBRA], inverse: flag, J: out[real[N_JACOBIAN]]):
     for a in range(N_ALGEBRA):
         for b in range(N_ALGEBRA):
             J[N_ALGEBRA * a + b] = F[a][b] if regular else none
+
+
+def log_of(G: real[SIZE, SIZE], eta: out[real[N_ALGEBRA]]):
+    """The same, after two steps of Newton's method: roots lose digits where an eigenvalue is nearly negative."""
+    back: real[N_ALGEBRA]
+    left: real[N_ALGEBRA]
+    N: real[SIZE, SIZE]
+    W: real[SIZE, SIZE]
+    J: real[N_JACOBIAN]
+    log_by_roots(G, eta)
+    for m in range(2):
+        for a in range(N_ALGEBRA):
+            back[a] = -eta[a]
+        exp_of(back, N)
+        if RIGHT:
+            product(G, N, W)
+        else:
+            product(N, G, W)
+        log_by_roots(W, left)
+        derivative(eta, True, J)
+        for a in range(N_ALGEBRA):
+            for b in range(N_ALGEBRA):
+                eta[a] += J[N_ALGEBRA * a + b] * left[b]
