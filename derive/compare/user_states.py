@@ -133,6 +133,9 @@ def read(
     _require_known(told, known, str(path))
     state = tuple(x.name for x in default.items)
     listed = _texts(told.get("state", [*(blocks or state)]), f"{path}: state")
+    if not blocks and any(x in WORDS for x in listed):
+        raise CompareError(f"{path}: state: blocks are of SO(3) and SE(3); give names")
+    _require_known(listed, (*state, *(WORDS if blocks else ())), f"{path}: state")
     _require_known([x for x in told if x in WORDS], listed, f"{path}: tables of the state")
     units = _numbers(told.get("units", {}), f"{path}: units")
     _require_known(units, [x for x in listed if x not in SIZES], f"{path}: units")
@@ -140,9 +143,6 @@ def read(
         raise CompareError(f"{path}: units: a unit is not 0")
     items = []
     for name in listed:
-        if name in WORDS and not blocks:
-            raise CompareError(f"{path}: state: blocks are of SO(3) and SE(3); give names")
-        _require_known([name], (*state, *(WORDS if blocks else ())), f"{path}: state")
         said = told.get(name, {}) if name in WORDS else {}
         where = f"{path}: [{name}]"
         if not isinstance(said, dict):

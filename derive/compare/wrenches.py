@@ -38,11 +38,16 @@ def of_axes(b: Balance, term: Term, view: View) -> Iterator[Hypothesis]:
             continue
         own, kind = values[:, rows], b.kind(rows)
         called = term.name(kind) + about * (kind == "moment")
-        for frame, R in (("space", A.transpose(0, 2, 1)), ("the body", A)):
+        inverse = A.transpose(0, 2, 1)
+        turns = {
+            "has its numbers along the axes of space instead": inverse,
+            "has its numbers along the axes of the body instead": A,
+            "is turned by Ā, the transpose of the attitude, and not by A": inverse @ inverse,
+        }
+        for words, R in turns.items():
             left = here.copy()
-            left[:, rows] -= np.einsum("nij,nj->ni", R, own) - own
-            words = f"{called} has its numbers along the axes of {frame} instead"
-            yield Hypothesis(words, 0, left @ back)
+            left[:, rows] -= turned(R)(own) - own
+            yield Hypothesis(f"{called} {words}", 0, left @ back)
 
 
 def of_attitude(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
@@ -115,20 +120,21 @@ def of_speeds(b: Balance, term: Term) -> Iterator[Hypothesis]:
     if r is not None and r.any():
         taken["the centre of mass"] = v + turning(w, r)
     for place, velocity in taken.items():
-        values = term.at(b.with_velocities(0 * w, velocity))
+        values = term.at(b.with_velocities(w, velocity - turning(w, term.arm)))
         words = f"{name} is made of the velocity of {place}, not of its place"
         yield Hypothesis(words, 0, b.unexplained - (values - term.values))
     n = len(term.arm)
-    couple = term.values[:, :-n] - cross(term.arm, term.values[:, -n:])
-    if np.abs(couple).max() > 1e-9 * np.abs(term.values).max():
-        return
+    own = term.values[:, -n:]
+    by_arm = cross(term.arm, own)
+    if np.abs(term.values[:, :-n] - by_arm).max() > EXACT * np.abs(term.values).max():
+        # with no moment of its own the whole moment is missing, which is a factor of it
+        left = b.unexplained + np.hstack([by_arm, 0 * own])
+        yield Hypothesis(f"the moment of {name} by its arm is missing", 0, left)
     axes = {"the body": np.broadcast_to(np.eye(n), b.turns().shape), "space": b.turns()}
     for (frame, A), (words, to) in product(axes.items(), BY_AXES.items()):
-        along = turned(A)(term.values[:, -n:])
-        other = turned(A.transpose(0, 2, 1))(to(along))
-        values = changed_force(term.values, term.arm, lambda _, other=other: other)  # type: ignore[misc]
+        more = turned(A.transpose(0, 2, 1))(to(turned(A)(own))) - own
         said = f"{name} has {words}, in the axes of {frame}"
-        yield Hypothesis(said, 1, b.unexplained - (values - term.values))
+        yield Hypothesis(said, 1, b.unexplained - np.hstack([cross(term.arm, more), more]))
 
 
 def _apart(force: Array) -> Array:
