@@ -15,7 +15,7 @@ from ..code.program import Program
 from ..language.limits import Refused
 from ..language.values import approximate
 from ..problem.problem import Problem
-from .opened import Opened, Slot, called
+from .opened import ADDED, Opened, Slot, called
 from .users_code import Array
 
 Made = Callable[[Problem, bool], tuple[Program, ModuleType]]
@@ -166,7 +166,21 @@ class Balance:
     def alike(self, slot: Slot) -> Mapping[str, float]:
         """The numbers of one key with a number, in words."""
         same = (x for x in self.opened.slots if x.key == slot.key)
-        return {x.words: self.values()[x.name] for x in same}
+        return {self.words(x): self.values()[x.name] + self.operator.get(x.name, 0) for x in same}
+
+    def words(self, slot: Slot) -> str:
+        """What is called so with what it is added to, where there is a number of this."""
+        return slot.words.removeprefix(ADDED if slot.name in self.operator else "")
+
+    @cached_property
+    def operator(self) -> dict[str, float]:
+        """The entries of an operator that is the same in every state, by the parameters of what is
+        added to them."""
+        M = self.code.mass_matrix(self.t, self.x, self.k(self.values()))
+        names = self.opened.entries("operator")
+        alike = np.ptp(M, axis=0).max() <= EXACT * np.abs(M).max()
+        upper = M[0][np.triu_indices(M.shape[1])].tolist()
+        return dict(zip(names, upper, strict=True)) if names and alike else {}
 
     def arm(self, table: Any) -> Array | None:
         """Where a force acts, along the axes of the body; none where it is not at one place."""
@@ -226,7 +240,7 @@ class Balance:
         for key in ("forces", "damping", "potentials"):
             listed: tuple[Any, ...] = getattr(problem, key)
             for i, table in enumerate(listed):
-                code = self._without({key: (*listed[:i], *listed[i + 1 :])}, f"{key} {i}")
+                code = self.without({key: (*listed[:i], *listed[i + 1 :])}, f"{key} {i}")
                 if code is None:
                     continue
                 name = called(problem, table)
@@ -240,7 +254,7 @@ class Balance:
                 yield Term(acting(self.x), _of(name), about, at=acting, arm=arm, of=part)
                 if key != "potentials":
                     yield from self._by_velocities(code, name)
-        rest = self._without({"forces": (), "damping": (), "potentials": ()}, "all")
+        rest = self.without({"forces": (), "damping": (), "potentials": ()}, "all")
         if rest is None:
             return
 
@@ -285,16 +299,17 @@ class Balance:
 
     def of_momentum(self) -> Part | None:
         """What is left of b without inputs, forces and potentials."""
-        rest = self._without({"forces": (), "damping": (), "potentials": ()}, "all")
+        rest = self.without({"forces": (), "damping": (), "potentials": ()}, "all")
         if rest is None:
             return None
         return lambda values: rest.bias(self.t, self.x, self.k(values, rest), 0 * self.u)
 
-    def _without(self, fewer: Any, key: str) -> ModuleType | None:
+    def without(self, fewer: Any, key: str, problem: Problem | None = None) -> ModuleType | None:
         """The code of the problem that lacks something, made once; none where it has no walk."""
+        whole = problem or self.opened.problem
         if key not in self.codes:
             try:
-                self.codes[key] = self.make(replace(self.opened.problem, **fewer), True)[1]
+                self.codes[key] = self.make(replace(whole, **fewer), True)[1]
             except Refused:
                 self.codes[key] = None
         return self.codes[key]

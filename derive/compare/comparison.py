@@ -280,7 +280,7 @@ def _explained(c: Comparison, make: Made, off: Array, d: int) -> Explanation:
     to, x = c.ours(c.table), c.given["x"]
     a = rates(to, x, own)[:, -d:]
     whole = opened(c.problem, c.parameters)
-    for part in (whole, Opened(replace(c.problem, outputs=(), events=()), ())):
+    for part in (whole, Opened(whole.given, (), whole.given)):
         try:
             _, code = make(part.problem, True)
             break

@@ -12,7 +12,7 @@ from .added_mass import of_added_mass
 from .balance import Balance, Part, Term, exact
 from .told import ABOUT, NEAR, Changed, Hypothesis, changed, possible, told
 from .users_code import Array
-from .wrenches import of_axes, of_wrenches
+from .wrenches import of_axes, of_sizes, of_wrenches
 
 NEARER = 0.5
 """What a change leaves of the difference at most, to be told as the nearest."""
@@ -73,7 +73,7 @@ def explained(b: Balance, terms: list[Term]) -> Explanation:
     tried: list[Hypothesis] = []
     good = stage(hypotheses(b, terms))
     if not good or good[0].rank > 2:
-        good = stage(chain(of_numbers(b, parts_of(b, terms)), of_added_mass(b)))
+        good = stage(chain(of_numbers(b, parts_of(b, terms)), of_added_mass(b), of_sizes(b)))
     if good:
         least = [x.words for x in good if x.rank <= max(1, good[0].rank)]
         first = [x for x in least if ABOUT not in x or x.replace(ABOUT, "") not in least]
@@ -130,7 +130,7 @@ def of_numbers(b: Balance, parts: Mapping[str, Part]) -> Iterator[Hypothesis]:
     """A parameter of the problem, or one of its numbers, is another in a part."""
     base = b.values()
     numbers: dict[str, tuple[str, Values]] = {x: (x, b.parameters) for x in b.parameters}
-    numbers |= {x.name: (x.words, b.alike(x)) for x in b.opened.slots}
+    numbers |= {x.name: (b.words(x), b.alike(x)) for x in b.opened.slots}
     for (where, part), (name, (words, same)) in product(parts.items(), numbers.items()):
         own = name in b.parameters
 
@@ -138,10 +138,13 @@ def of_numbers(b: Balance, parts: Mapping[str, Part]) -> Iterator[Hypothesis]:
             return b.values({name: v}) if own else {**base, name: v}
 
         if found := fitted(b, values, base[name], part):
-            said, rank = told(words + where, base[name], found[0], same)
-            if where and abs(found[0] - 1) <= NEAR:
-                said, rank = f"{words} is left out{where}: it is 1, not {base[name]:.6g}", 1
-            yield Hypothesis(said, rank + (not own) + bool(where), found[1])
+            entry = b.operator.get(name, 0)
+            old, new = base[name] + entry, found[0] + entry
+            said, rank = told(words + where, old, new, same)
+            if where and abs(new - 1) <= NEAR:
+                said, rank = f"{words} is left out{where}: it is 1, not {old:.6g}", 1
+            rank += (not own) + bool(where) + (name in b.operator)  # whose letters say more
+            yield Hypothesis(said, rank, found[1])
 
 
 def parts_of(b: Balance, terms: list[Term]) -> dict[str, Part]:
@@ -334,7 +337,8 @@ def of_tables(b: Balance) -> Told:
     for x in b.opened.slots:
         groups.setdefault(x.key.partition(" of ")[2] or "body", []).append(x.name)
     groups["parameters"] = []
-    words = {x.name: x.words for x in b.opened.slots}
+    words = {x.name: b.words(x) for x in b.opened.slots}
+    more = {**dict.fromkeys(base, 0.0), **b.operator}
     for own in groups.values():
         values, here = dict(base), b.unexplained
         for _ in range(TURNS if own else 0):
@@ -355,6 +359,7 @@ def of_tables(b: Balance) -> Told:
             here = there
             if exact(here, size) and exact(b.checked(here, values), size):
                 changed = [x for x in own if abs(values[x] - base[x]) > NEAR * max(abs(base[x]), 1)]
-                every = {words[x]: base[x] for x in own}
-                return [told(words[x], base[x], values[x], every) for x in changed]
+                every = {words[x]: base[x] + more[x] for x in own}
+                two = {x: (base[x] + more[x], values[x] + more[x]) for x in changed}
+                return [told(words[x], *two[x], every) for x in changed]
     return []

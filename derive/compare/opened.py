@@ -28,11 +28,12 @@ class Slot:
 
 @dataclass(frozen=True)
 class Opened:
-    """The problem with a parameter for each of its ``slots``; ``central``: are those of its body
-    the centre of mass and the tensor about it?"""
+    """The problem with a parameter for each of its ``slots``, and as it was ``given``; ``central``:
+    are those of its body the centre of mass and the tensor about it?"""
 
     problem: Problem
     slots: tuple[Slot, ...]
+    given: Problem
     central: bool = False
 
     def entries(self, key: str) -> list[str]:
@@ -155,6 +156,7 @@ def _other(J: Any, half: int | Fraction) -> Any:
 def opened(problem: Problem, parameters: Mapping[str, float]) -> Opened:
     """The problem with a parameter for every number of its body, forces, inputs and damping;
     ``parameters``: the values of its own."""
+    problem = replace(problem, outputs=(), events=())
     made = Opening(problem, parameters)
     body, masses = problem.body, problem.masses
     turning = ("SO(2)", "SE(2)", "SO(3)", "SE(3)")
@@ -189,17 +191,17 @@ def opened(problem: Problem, parameters: Mapping[str, float]) -> Opened:
         damping=each(problem.damping, lambda _, x: called(problem, x)),
         forces=each(problem.forces, lambda _, x: called(problem, x)),
         places=each(problem.places, lambda k, _: acting.get(masses + k, f"place {k}")),
-        outputs=(),
-        events=(),
     )
     slots = {x.name: Parameter() for x in made.slots}
-    return Opened(
-        replace(replaced, parameters={**problem.parameters, **slots}), tuple(made.slots), central
-    )
+    whole = replace(replaced, parameters={**problem.parameters, **slots})
+    return Opened(whole, tuple(made.slots), problem, central)
 
 
 ENTRIES = 6
 """A kinetic energy of so many coordinates at most is opened entry by entry."""
+
+
+ADDED = "what is added to "
 
 
 def quadratic(d: int, made: Opening) -> list[Tree]:
@@ -209,7 +211,7 @@ def quadratic(d: int, made: Opening) -> list[Tree]:
     return [
         mul(
             Fraction(1, 2) if a == b else 1,
-            made.slot(0, "operator", f"what is added to operator_{a + 1}{b + 1}"),
+            made.slot(0, "operator", f"{ADDED}operator_{a + 1}{b + 1}"),
             zeta[a],
             zeta[b],
         )

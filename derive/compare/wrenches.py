@@ -6,10 +6,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import product
+from typing import Any
 
 import numpy as np
 
+from ..code.typed_names import plain_text, typed
+from ..language.show import show
+from ..language.tree import Tree, nodes, replaced, sized
+from ..problem.fields import velocity_at_place
+from ..schema.kind import StatedForce
 from .balance import EXACT, Balance, Term, cross, turning
+from .opened import called
 from .told import Hypothesis, possible
 from .users_code import Array
 
@@ -135,6 +142,44 @@ def of_speeds(b: Balance, term: Term) -> Iterator[Hypothesis]:
         more = turned(A.transpose(0, 2, 1))(to(turned(A)(own))) - own
         said = f"{name} has {words}, in the axes of {frame}"
         yield Hypothesis(said, 1, b.unexplained - np.hstack([cross(term.arm, more), more]))
+
+
+def of_sizes(b: Balance) -> Iterator[Hypothesis]:
+    """In a force each |x| is x, or 1: c x² for c x|x|, or what is linear for what is quadratic."""
+    problem = b.opened.given
+    listed = problem.forces
+    for i, table in enumerate(listed):
+        trees = {key: getattr(table, key) for key in table.expressed}
+        inside = (y for own in trees.values() for t in own for y in nodes(t))
+        sizes = {y: x for y in inside if (x := sized(y)) is not None}
+        for these in ([x] for x in sizes) if len(sizes) < 2 else (*([x] for x in sizes), sizes):
+            for one in (False, True):
+                other = dict(trees)
+                for y in these:
+                    x = 1 if one else sizes[y]
+                    other = {k: tuple(replaced(t, y, x) for t in own) for k, own in other.items()}
+                forces = (*listed[:i], replace(table, **other), *listed[i + 1 :])
+                # its own numbers: those of our code are parameters
+                code = b.without({"forces": forces}, f"{[*these]} {one} {i}", problem)
+                if code is None:
+                    continue
+                names = [_as_asked(b, table, sizes[y]) for y in these]
+                said = ", ".join(f"{1 if one else x} stands for |{x}|" for x in names)
+                left = b.unexplained + b.bias(b.x, b.u, code) - b.bias(b.x, b.u)
+                yield Hypothesis(f"in {called(problem, table)} {said}", 0, left)
+
+
+def _as_asked(b: Balance, table: Any, x: Tree) -> str:
+    """A tree of a force by the names of the problem file."""
+    group = b.opened.given.group
+    assert group is not None
+    if isinstance(table, StatedForce):
+        block, factor = b.opened.given.acted_on(table)
+        place = factor.n, group.places[block - 1][0], table.on
+        wind = table.relative_to or (0,) * factor.n
+        for name, v in velocity_at_place(*place, wind, turned=table.frame == "body").items():
+            x = replaced(x, v, ("par", name))
+    return plain_text(show(typed(x, group)))
 
 
 def _apart(force: Array) -> Array:

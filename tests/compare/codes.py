@@ -134,6 +134,16 @@ def f(x, u):
 """
 """In the form of Fossen's book, velocities before angular ones."""
 
+SLED = HULL.replace(
+    '"-90*v_2", "-110*v_3"]',
+    """"-90*v_2*abs(v_2)", "-110*v_3*abs(v_3)"]
+moment = ["-2*zeta_1", "-3*zeta_2", "-4*zeta_3"]""",
+)
+SLED_CODE = HULL_CODE.replace("-D @ through", "-D @ through * [1, *np.abs(through[1:])]").replace(
+    "0.1], drag)", "0.1], drag) - [2, 3, 4] * nu[3:]"
+)
+"""With drag by axes and a moment of its own."""
+
 TOP = """
 name = "heavy"
 group = "SO(3)"
@@ -309,6 +319,7 @@ name = "drag"
 at = [0, 0]
 relative_to = ["1.5*cos(t)", 0.4]
 force = ["-k*sqrt(v_1^2 + v_2^2)*v_1", "-k*sqrt(v_1^2 + v_2^2)*v_2"]
+moment = ["-0.3*zeta_1"]
 """
 
 PLANE_CODE = """
@@ -323,7 +334,7 @@ def f(t, x):
     weight = m * A.T @ [1.3, -9.81]
     through = A @ v - WIND * np.array([1.5 * np.cos(t), 0.4])
     drag = A.T @ (-k * np.linalg.norm(through) * through)
-    moment = s[1] * drag[0] - s[0] * drag[1]
+    moment = s[1] * drag[0] - s[0] * drag[1] - 0.3 * w
     turn = np.array([[0, -1], [1, 0]])
     a = moment / I
     dv = (weight + drag) / m - w * turn @ (v + w * turn @ s) - a * turn @ s

@@ -46,7 +46,7 @@ FAULTS = {
     "added mass": (
         "vehicle",
         ("[0.2, 0, 0, 0, 3.9, 0]", "[0.2, 0, 0, 0, 4.4, 0]"),
-        "what is added to operator_55 is 0.5, not 0",
+        "operator_55 is 4.4, not 3.9",
     ),
     "products of inertia": (
         "drone",
@@ -197,6 +197,37 @@ FAULTS = {
         ("dx[4:] = np.lin", "dx[4:] = 180 / np.pi * np.lin"),
         "it agrees if omega has the unit 57.295779513082323, degrees",
     ),
+    "sign of an entry": (
+        "vehicle",
+        ("[0, 1.5, 0, -0.2,", "[0, 1.5, 0, 0.2,"),
+        ("[0, -0.2, 0, 3.7,", "[0, 0.2, 0, 3.7,"),
+        "operator_24 has the other sign",
+    ),
+    "thrust turned by the transpose": (
+        "drone",
+        ("force + push", "force + A.T @ A.T @ push"),
+        "the force of all inputs is turned by Ā, the transpose of the attitude, and not by A",
+    ),
+    "drag at the origin beside a moment": (
+        "sled",
+        (" + np.cross(nu[3:], [0.2, 0, 0.1])", ""),
+        "the force is made of the velocity of the body's origin, not of its place",
+    ),
+    "arm of a drag with a moment of its own": (
+        "sled",
+        ("np.cross([0.2, 0, 0.1], drag)", "0"),
+        "the moment of the force by its arm is missing",
+    ),
+    "no sign of a square": (
+        "sled",
+        ("*np.abs(through[1:])", "through[1], abs(through[2])"),
+        "in the force v_2 stands for |v_2|",
+    ),
+    "linear drag": (
+        "sled",
+        (" * [1, *np.abs(through[1:])]", ""),
+        "in the force 1 stands for |v_2|",
+    ),
     "arm of a damping": (
         "drone",
         ("moment + np.cross(DAMPED, drag)", "moment"),
@@ -281,6 +312,9 @@ def test_bad_c_is_one_line(words, capsys, tmp_path, monkeypatch):
 
 TABLES = {
     "'positon' means nothing here; did you mean 'position'?": 'state = ["positon"]',
+    "state: 'omegaa' means nothing here; did you mean 'omega'?": (
+        'state = ["omegaa"]\nunits = { omega = 2 }\n[omega]\nframe = "space"'
+    ),
     "the state does not say A_11": 'state = ["position", "omega", "velocity"]',
     "the state says twice T_1": 'state = ["matrix", "position", "T_1", "omega", "velocity"]',
     "'xywz' means nothing here": 'state = ["quaternion"]\n[quaternion]\norder = "xywz"',
