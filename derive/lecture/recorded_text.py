@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ..language.show import show
+from ..language.show import in_sentence, show
+from ..language.tree import Tree
 from ..record.record import Equation
 from ..views.language import LANGUAGES, Language, language
 from ..views.printing.sentences import prose
@@ -29,6 +30,11 @@ def in_each(*texts: Words, labels: Sequence[str] = ()) -> Entry:
 def sentence(said: Callable[[Language], str], labels: Sequence[str] = ()) -> Entry:
     """A sentence in each language, by what it is in one."""
     return in_each(*(words(said(x)) for x in SPOKEN), labels=labels)
+
+
+def alone(t: Tree) -> Entry:
+    """The display of an expression of a step."""
+    return Entry(((Formula(in_sentence(t), condition=True),),) * len(LANGUAGES), (), True, 0)
 
 
 def display(
