@@ -20,7 +20,7 @@ from ..lecture.fresh_numbers import drawn
 from ..lecture.own_body import OwnBody, place_of
 from ..lecture.problem_chapter import Found, chapter_of
 from ..lecture.ran_figure import Ran, letter_of
-from ..lecture.told_refusals import OVER
+from ..lecture.told_refusals import OVER, UNSHOWN
 from ..motion.simulate import run
 from ..motion.trajectory import Method
 from ..pipeline import discrete, walk
@@ -132,7 +132,7 @@ def motion(problem: Problem, record: Derivation) -> tuple[Ran | Sentence, float]
         )
     except Refused as error:
         reason = str(error).removeprefix(f"{record.name}: ")
-        return phrase("No motion is shown: {reason}.", reason=reason), 0.0
+        return phrase(UNSHOWN, reason=reason), 0.0
     state = made.of_kind("state")
     rates = {x: y for x, y in state.items() if not x.startswith(("A_", "T_"))}
     turning = {x: y for x, y in rates.items() if x.startswith("zeta_")} or rates or state

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 
 from ..language.show import in_sentence, show
@@ -11,14 +12,16 @@ from ..views.language import LANGUAGES, Language, language
 from ..views.printing.sentences import prose
 from .lecture_text import Entry, Formula, Tie, Words, words_of
 
+FACTOR = re.compile(r"(?<![^ ])([0-9]+) `(?=‘)")
 SPOKEN: tuple[Language, ...] = tuple(map(language, LANGUAGES))
 
 
 def words(text: str) -> Words:
-    """A sentence of a record, whose formulas are as true as it."""
+    """A sentence of a record, whose formulas are as true as it; with them the numbers before
+    parameters, which alone would be words."""
     return tuple(
         Formula(x.text, condition=True) if isinstance(x, Formula) else x
-        for x in words_of(prose(text, escape=str, formula="`{}`".format))
+        for x in words_of(FACTOR.sub(r"`\1 ", prose(text, escape=str, formula="`{}`".format)))
     )
 
 

@@ -6,6 +6,7 @@ import re
 
 from ..views.language import Language
 
+UNSHOWN = "No motion is shown: {reason}."
 OVER = "the search takes more than {seconds} seconds (--seconds)"
 REASONS = (
     OVER,
