@@ -194,7 +194,7 @@ def _nothing(problem: str, search: str, found: Found) -> Entry:
     if not found.refused:
         return sentence(lambda x: x.word(NONE.get(search, "None was found.")))
     told = found.refused.removeprefix(f"{problem}: ")
-    tried = search == "trim" or told.startswith(OVER.partition("{")[0])
+    tried = search == "trim" or told.startswith(OVER.partition("{")[0]) or "nothing is" in told
     message = "None was found: {reason}." if tried else "Not sought: {reason}."
     return sentence(lambda x: x.word(message, reason=reason(told, x)))
 

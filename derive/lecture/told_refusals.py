@@ -70,9 +70,9 @@ REASONS = (
     "this text is about any group, so it has no numeric code; choose a problem with a group and a "
     "body",
     "a trim is of numbers, and {name} has no default",
-    "no trim: {terms} is {rate}, whatever {inputs} are",
-    "no trim: {terms} is {rate}, whatever {inputs} is",
-    "many trims: a family of dimension {size}, for multiples of {along} of {inputs} change "
+    "no trim: {terms} is {rate}, whatever {free} are",
+    "no trim: {terms} is {rate}, whatever {free} is",
+    "many trims: a family of dimension {size}, for multiples of {along} of {free} change "
     "nothing; give {many} of these by --at",
     "many trims: near {place} there are others, to the first order a family of dimension {size}; "
     "free {many} fewer of these",
