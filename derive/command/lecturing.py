@@ -5,23 +5,26 @@ from __future__ import annotations
 import argparse
 import math
 import shlex
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from ..language.limits import Refused
+from ..language.show import show
 from ..lecture import document, lecture_text, trials
 from ..lecture.back_matter import Front
 from ..lecture.body_figures import BodyOfLecture
 from ..lecture.fresh_numbers import drawn
 from ..lecture.own_body import OwnBody, place_of
-from ..lecture.problem_chapter import OVER, Found, chapter_of
-from ..lecture.ran_figure import Ran
+from ..lecture.problem_chapter import Found, chapter_of
+from ..lecture.ran_figure import Ran, letter_of
+from ..lecture.told_refusals import OVER, UNSHOWN
 from ..motion.simulate import run
 from ..motion.trajectory import Method
 from ..pipeline import discrete, walk
+from ..problem.fields import state_names
 from ..problem.problem import Problem
 from ..problem.toml import load
 from ..programs import motion_of, trim
@@ -129,7 +132,7 @@ def motion(problem: Problem, record: Derivation) -> tuple[Ran | Sentence, float]
         )
     except Refused as error:
         reason = str(error).removeprefix(f"{record.name}: ")
-        return phrase("This was not found: {reason}.", reason=reason), 0.0
+        return phrase(UNSHOWN, reason=reason), 0.0
     state = made.of_kind("state")
     rates = {x: y for x, y in state.items() if not x.startswith(("A_", "T_"))}
     turning = {x: y for x, y in rates.items() if x.startswith("zeta_")} or rates or state
@@ -137,7 +140,19 @@ def motion(problem: Problem, record: Derivation) -> tuple[Ran | Sentence, float]
     widest = sorted(turning, key=lambda x: -float(np.ptp(turning[x])))[:CURVES]
     curves = [(x, y.tolist()) for x, y in turning.items() if x in widest]
     energy = [y.tolist() for y in made.of_kind("energy").values()]
-    return Ran(made.t.tolist(), curves, energy[0] if energy else ()), speed
+    start = [(x, float(y[0])) for x, y in state.items()]
+    kept = energy[0] if energy else ()
+    return Ran(made.t.tolist(), curves, kept, [*_moved(problem, start)]), speed
+
+
+def _moved(problem: Problem, start: Sequence[tuple[str, float]]) -> Iterator[tuple[str, float]]:
+    """The numbers of a start other than those of the identity at rest, by their letters."""
+    known = state_names(problem.group) if problem.group else {}
+    for name, value in start:
+        t = known.get(name)
+        place = t[-2:] if isinstance(t, tuple) and t[0] == "entry" and t[1] == "A" else (0, 1)
+        if value != (place[0] == place[1]):
+            yield letter_of(name) if t is None else show(t), value
 
 
 def about(body: OwnBody, chapters: list[lecture_text.Chapter]) -> list[lecture_text.Chapter]:

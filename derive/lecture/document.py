@@ -60,8 +60,12 @@ class Medium:
     display: Callable[[typeset.Formula], str]
     picture: Callable[[Scene], str]
     aligned: Callable[[Sequence[Equation]], str]
+    apart: str
 
 
+AMONG = 60
+"""The most letters of a formula of a record that stands among words."""
+SIGNS = re.compile(r"\s*[.,;:]")
 WIDTH = 34.0
 """The width of a display in em."""
 
@@ -107,6 +111,7 @@ LATEX = Medium(
     _lines,
     lambda x: tikz(x, colours=frozenset(AXES)),
     _blocks,
+    "\\[{}\\]",
 )
 
 
@@ -123,6 +128,7 @@ PAGE = Medium(
     lambda x: x.mathml().replace("<math>", '<math display="block">'),
     svg,
     _one_by_one,
+    '<span class="display">{}</span>',
 )
 
 
@@ -334,8 +340,20 @@ class _Setter:
         return self.medium.display(found)
 
     def words(self, text: Words) -> str:
-        """A sentence, its formulas set."""
-        return "".join(map(self.part, text))
+        """A sentence, its formulas set; a long one of a record stands apart, with the sign behind
+        it."""
+        found, left = "", [*text]
+        while left:
+            x = left.pop(0)
+            if not isinstance(x, Formula) or not x.condition or len(x.text) <= AMONG:
+                found += self.part(x)
+                continue
+            shown = formula(x.text) + formula_of_value(x.value)
+            if left and isinstance(left[0], str) and (sign := SIGNS.match(left[0])):
+                shown += literal(sign[0].strip())
+                left[0] = left[0][sign.end() :]
+            found += self.medium.apart.format(self.medium.display(shown))
+        return found
 
     def part(self, x: str | Formula) -> str:
         """A formula, or words, of a sentence."""

@@ -10,7 +10,7 @@ from functools import partial
 from itertools import groupby
 
 from ..language.show import SUPERSCRIPTS, show
-from ..language.tree import names
+from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence
 from ..views.answer import definitions, equations_of_motion, steps_of_answer
@@ -18,11 +18,13 @@ from ..views.figure.scene import scene
 from ..views.language import Language, language
 from ..views.outline import declared, system, title
 from ..views.text import formula as aligned
+from .conserved import conserved, kept_by
 from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
 from .problem_exercises import exercises
-from .ran_figure import DESCRIBED, Ran, label_of
+from .ran_figure import DESCRIBED, FLAT, Ran, label_of
 from .recorded_text import SPOKEN, display, in_each, sentence, words
+from .told_refusals import OVER, reason
 
 SEARCHES = {
     "symmetries": "What the motion keeps.",
@@ -44,26 +46,13 @@ TOLD = {
 """Search → how the labels of the steps begin that a text for people tells, and whether with their
 equations; the record has all."""
 
+STEADY = ("equilibria", "families")
 NONE = dict.fromkeys(
-    ("equilibria", "families"),
+    STEADY,
     "Only points with one momentum were tried, and none was found; there may be others.",
 )
 """Search → what is said where it found nothing and there may be more."""
-
-
-OVER = "it takes more than {seconds} seconds (--seconds)"
-REASONS = (
-    OVER,
-    "the Lagrangian couples {velocities} velocities by terms with {letters} letters in all: the "
-    "inverse of its metric is too long; give numbers, or --at-defaults",
-    "there is no symmetry of L but of the time, so that nothing is reduced",
-    "its symmetries move the time as well, so that nothing is reduced",
-    "its symmetries change L by dF/dt, or depend on the time, so that nothing is reduced",
-    "what acts depends on the time: nothing is steady",
-    "equilibria are told for numbers, and π is none: of a density that is a mass over a volume, it "
-    "cancels",
-)
-"""Why a search is refused, with places, where the text says it in its language."""
+HELD = "mass.held"
 TITLE = "{title}: equations, what is kept, steady motions"
 BODY = "The body of the problem, with the axes of its frame."
 LISTED = {"en": ", ", "fr": "\u202f; "}
@@ -95,32 +84,37 @@ def chapter_of(
     blocks = [*_motion(d), *_body(d), *_parameters(d)]
     if place:
         blocks.append(Block("text", "", "", (sentence(lambda x: x.sentence(place)),), 0))
-    asked = (x for x in SEARCHES if x in found)
-    for _, alike in groupby(asked, lambda x: found[x].refused or x):
+    told = {x: _told(d, x, found[x]) for x in SEARCHES if x in found}
+    for _, alike in groupby(told, lambda x: found[x].refused or (told[x] and x) or NONE.get(x, x)):
         searches = (*alike,)
-        blocks += [
-            _section(*(SEARCHES[x] for x in searches)),
-            _told(d.name, searches[0], found[searches[0]]),
-        ]
+        entries = told[searches[0]] or [_nothing(d.name, searches[0], found[searches[0]])]
+        both = {*STEADY} <= {*searches}
+        headings = [SEARCHES[x] for x in searches if not both or x != STEADY[1]]
+        blocks += [_section(*headings), Block("text", "", "", tuple(entries), 0)]
     if ran:
         blocks += [_section("A motion."), *_pictured(d.name, ran)]
     home = {e: step.label for step in d.steps for e in step.equations}
-    kept = [x for x in found.get("symmetries", Found()).steps if ".conserved_" in x.label]
+    kept = [x for x in found.get("symmetries", Found()).steps if kept_by(x)]
     blocks += exercises(
+        d,
         [(e, home[e]) for e in equations_of_motion(d)],
         kept,
+        found.get("integrals", Found()).steps,
         ran if isinstance(ran, Ran) else None,
         command,
         lambda e: _rows(e) <= SHORT,
     )
-    titles = tuple(Given(x.word(TITLE, title=title(d, x))) for x in SPOKEN)
+    whole = kept and any(told.get(x) for x in STEADY)
+    titles = tuple(
+        Given(x.word(TITLE, title=title(d, x)) if whole else title(d, x)) for x in SPOKEN
+    )
     figures: dict[str, Figure] = {}
-    if isinstance(ran, Ran):
+    if isinstance(ran, Ran) and not ran.flat:
         figures[label_of(d.name)] = ran.picture
     if drawn := scene(d):
         figures[label_of(d.name, "body")] = lambda _: drawn
-    whole = f"the chapter of {d.name}"
-    return Chapter(d.name, titles, records, tuple(blocks), whole, figures)
+    file = f"the chapter of {d.name}"
+    return Chapter(d.name, titles, records, tuple(blocks), file, figures)
 
 
 def _section(*headings: str) -> Block:
@@ -134,10 +128,14 @@ def _motion(d: Derivation) -> Iterator[Block]:
     entries = [sentence(lambda x: system(d, x))] if system(d, language("en")) else []
     motion = equations_of_motion(d)
     entries.append(sentence(lambda x: x.word("Its equations of motion are")))
-    entries.append(display(motion, [s.label for s in steps_of_answer(d)]))
+    steps = steps_of_answer(d)
+    entries.append(display(motion, [s.label for s in steps]))
     if defined := definitions(d, motion):
         entries.append(sentence(lambda x: x.word("where")))
         entries.append(display(defined, [*dict.fromkeys(home[e] for e in defined)]))
+    held = [s.label for s in d.steps for x in s.prose if x.message == message(HELD)]
+    if held:
+        entries.append(sentence(lambda x: x.word(message(HELD)), held))
     yield Block("text", "", "", tuple(entries), 0)
 
 
@@ -174,17 +172,13 @@ def _valued(rows: Sequence[tuple[str, str, str, str]], spoken: Language) -> Word
     return tuple(found[:-1])
 
 
-def _told(problem: str, search: str, found: Found) -> Block:
-    """The steps that a search tells, or one sentence: why it was refused, or that it found none."""
-    if found.refused:
-        reason = found.refused.removeprefix(f"{problem}: ")
-        refused = sentence(
-            lambda x: x.word("This was not found: {reason}.", reason=_reason(reason, x))
-        )
-        return Block("text", "", "", (refused,), 0)
+def _told(d: Derivation, search: str, found: Found) -> list[Entry]:
+    """The steps that a search tells; nothing where it was refused, or found none."""
     entries: list[Entry] = []
-    begins = {x: f"{problem}.{x}" for x in TOLD[search]}
+    begins = {x: f"{d.name}.{x}" for x in TOLD[search]}
     told = [(s, x) for s in found.steps for x, y in begins.items() if s.label.startswith(y)]
+    if search == "symmetries":
+        return [*conserved(d, [s for s, _ in told if kept_by(s)])]
     for (prose, begin), run in groupby(told, lambda x: (x[0].prose, x[1])):
         steps = [step for step, _ in run]
         with_equations = TOLD[search][begin]
@@ -192,9 +186,17 @@ def _told(problem: str, search: str, found: Found) -> Block:
         entries.append(sentence(partial(_prose, prose), labels))
         if with_equations:
             entries += _displays(steps)
-    if not entries:
-        entries = [sentence(lambda x: x.word(NONE.get(search, "There is none.")))]
-    return Block("text", "", "", tuple(entries), 0)
+    return entries
+
+
+def _nothing(problem: str, search: str, found: Found) -> Entry:
+    """One sentence: why a search was refused, or that it found nothing."""
+    if not found.refused:
+        return sentence(lambda x: x.word(NONE.get(search, "None was found.")))
+    told = found.refused.removeprefix(f"{problem}: ")
+    tried = search == "trim" or told.startswith(OVER.partition("{")[0]) or "nothing is" in told
+    message = "None was found: {reason}." if tried else "Not sought: {reason}."
+    return sentence(lambda x: x.word(message, reason=reason(told, x)))
 
 
 def _pictured(problem: str, ran: Ran | Sentence) -> Iterator[Block]:
@@ -203,6 +205,9 @@ def _pictured(problem: str, ran: Ran | Sentence) -> Iterator[Block]:
         yield Block("text", "", "", (sentence(lambda x: x.sentence(ran)),), 0)
         return
     label = label_of(problem)
+    if ran.flat:
+        yield Block("text", "", "", (sentence(lambda x: f"{ran.told(x)} {x.word(FLAT)}"),), 0)
+        return
     texts = (
         (*words(ran.told(x).removesuffix(".")), f" ({x.word('Fig.').lower()} @{label}).")
         for x in SPOKEN
@@ -213,12 +218,8 @@ def _pictured(problem: str, ran: Ran | Sentence) -> Iterator[Block]:
 
 
 def _displays(steps: Sequence[Step]) -> Iterator[Entry]:
-    """What steps say, of a conservation what is kept alone; of what is too long, where it is."""
-    told: list[tuple[Equation, str]] = []
-    for step in steps:
-        kept = [e for e in step.equations if e.rhs != 0 and {"ϖ", "dϖ"} & {*names(e.lhs)}]
-        alone = kept and step.label.rpartition(".")[2].startswith("conserved_")
-        told += [(e, step.label) for e in (kept if alone else step.equations)]
+    """What steps say; of what is too long, where it is."""
+    told = [(e, step.label) for step in steps for e in step.equations]
     for long, run in groupby(told, lambda x: _rows(x[0]) > LONGEST):
         equations, labels = zip(*run, strict=True)
         places = [*dict.fromkeys(labels)]
@@ -234,18 +235,8 @@ def _rows(e: Equation) -> int:
 
 
 def _left_out(equations: Sequence[Equation], words: Language) -> str:
-    what, rows = ", ".join(show(e.lhs) for e in equations), sum(map(_rows, equations))
-    message = "The step beside this has {what} in full; that takes {rows} lines."
-    return words.word(message, what=what, rows=str(rows))
-
-
-def _reason(told: str, words: Language) -> str:
-    """Why a search was refused, in a language, where ``REASONS`` has it."""
-    for reason in REASONS:
-        pattern = re.sub(r"\\{(\w+)\\}", r"(?P<\1>.+)", re.escape(reason))
-        if match := re.fullmatch(pattern, told):
-            return words.word(reason, **match.groupdict())
-    return told
+    what = ", ".join(show(e.lhs) for e in equations)
+    return words.word("{what} (a long expression: see the step)", what=what) + "."
 
 
 def _prose(told: Prose, words: Language) -> str:

@@ -5,41 +5,59 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from zlib import crc32
 
-from ..language.tree import Tree, names, neg
-from ..record.record import Equation, Step
+from ..language.show import in_sentence
+from ..language.tree import Tree, neg
+from ..record.record import Derivation, Equation, Step
 from ..views.language import ENGLISH, Language
-from .lecture_text import Block, Entry, Typed, words_of
-from .ran_figure import Ran, letter_of
-from .recorded_text import SPOKEN, display, in_each, sentence, words
+from .conserved import kept_by, kind_of
+from .lecture_text import Block, Entry, Formula, Typed, Words, words_of
+from .ran_figure import Ran, letter_of, written
+from .recorded_text import SPOKEN, alone, display, in_each, sentence, words
 
 HAND, MISTAKE, WATCH = "By hand.", "Find the mistake.", "Predict, then watch."
 KEPT = "Show that this is constant along every motion:"
-NOETHER = "It is what a symmetry of the Lagrangian leaves (Noether):"
+NOETHER = "It is what a symmetry of the Lagrangian leaves, {kind} (Noether)."
 SIGN = "This equation of motion was copied with one sign changed. Which?"
-LAST = "That of the last term:"
-ASKED = "Between which values does {letter} stay, from the start of the problem to the time {time}?"
+TERM = "That of this term: {term}. The equation is"
+ASKED = (
+    "The problem starts with {start}, at the identity and at rest but for these. Between which "
+    "values does {letter} stay, until the time {time}?"
+)
+ASKED_WITH_PARAMETERS = (
+    "The problem starts with {start}, at the identity and at rest but for these, and its "
+    "parameters have the numbers of the table. Between which values does {letter} stay, until the "
+    "time {time}?"
+)
 SHOWN = "shows it."
 BETWEEN = "Between {low} and {high}."
+SEEN, MOST = 0.05, 9
+"""The part of the largest number of a figure by which a curve varies that is asked for; the most
+numbers of a start that an exercise says."""
 
 
 def exercises(
+    d: Derivation,
     motion: Sequence[tuple[Equation, str]],
     kept: Sequence[Step],
+    integrals: Sequence[Step],
     ran: Ran | None,
     command: str,
     short: Callable[[Equation], bool],
 ) -> Iterator[Block]:
-    """Exercises, each with its solution: on what the motion keeps, by the steps ``kept``, on the
-    equations of ``motion``, with the labels of their steps, and on the motion that ran, which
-    ``command`` shows; of equations that are ``short``."""
-    several = (_on_kept(x, short) for x in kept)
-    yield from max(filter(None, several), key=_length, default=())
+    """Exercises on a problem by its record, each with its solution: on what the motion keeps, by
+    the steps ``kept`` and ``integrals``, on the equations of ``motion``, with the labels of their
+    steps, and on the motion that ran, which ``command`` shows; of equations that are ``short``."""
+    fit = [x for x in kept if kept_by(x) != "h̃" and short(Equation("ϖ", kept_by(x)))]
+    if fit:
+        yield from _on_kept(d, max(fit, key=lambda x: len(in_sentence(kept_by(x)))), integrals)
     copied = [x for x in motion if short(x[0]) and len(_terms(x[0].rhs)) > 1]
     if copied:
-        yield from _on_sign(*max(copied, key=lambda x: len(_terms(x[0].rhs))))
+        drawn = crc32(d.name.encode())
+        yield from _on_sign(*copied[drawn % len(copied)], drawn // len(copied))
     if ran:
-        yield from _on_motion(ran, command)
+        yield from _on_motion(ran, command, parameters=bool(d.problem.get("parameters")))
 
 
 def _of(asked: Sequence[Entry], solved: Sequence[Entry]) -> list[Block]:
@@ -52,42 +70,50 @@ def _said(message: str, kind: str = "") -> Entry:
     return in_each(*(words_of(y + x.word(message)) for x, y in zip(SPOKEN, kinds, strict=True)))
 
 
-def _on_kept(step: Step, short: Callable[[Equation], bool]) -> list[Block]:
-    """What a step says to be kept: its value, and that its rate is zero; nothing if it is long."""
-    value = [e for e in step.equations if e.rhs != 0 and "ϖ" in names(e.lhs)]
-    rate = [e for e in step.equations if e.rhs == 0 and "d/dt" in names(e.lhs)]
-    if not value or not rate or not all(map(short, (*value, *rate))):
-        return []
-    asked = [_said(KEPT, HAND), display(value, condition=True)]
-    return _of(asked, [_said(NOETHER), display(rate, (step.label,))])
-
-
-def _length(blocks: Sequence[Block]) -> int:
-    return max(len(x.text) for e in blocks[0].entries for x in e.formulas)
+def _on_kept(d: Derivation, step: Step, integrals: Sequence[Step]) -> list[Block]:
+    """What a step says to be kept, and that its rate is zero, where one of ``integrals`` has it."""
+    kept = kept_by(step)
+    solved = [sentence(lambda x: x.word(NOETHER, kind=kind_of(d, step, x)), (step.label,))]
+    rate = Equation(("call", "d/dt", kept), 0)
+    proved = [x.label for x in integrals for e in x.equations if (e.lhs, e.rhs) == (rate.lhs, 0)]
+    solved += [display([rate], proved[:1])] if proved else []
+    return _of([_said(KEPT, HAND), alone(kept)], solved)
 
 
 def _terms(t: Tree) -> tuple[Tree, ...]:
     return t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
 
 
-def _on_sign(e: Equation, label: str) -> list[Block]:
-    """An equation with the sign of its last term changed."""
-    *others, last = _terms(e.rhs)
-    copied = Equation(e.lhs, ("add", *others, neg(last)))
+def _on_sign(e: Equation, label: str, drawn: int) -> list[Block]:
+    """An equation with the sign of one of its terms changed, the one that is ``drawn``."""
+    terms = [*_terms(e.rhs)]
+    k = drawn % len(terms)
+    copied = Equation(e.lhs, ("add", *terms[:k], neg(terms[k]), *terms[k + 1 :]))
     asked = [_said(SIGN, MISTAKE), display([copied], condition=True)]
-    return _of(asked, [_said(LAST), display([e], (label,))])
+    told = (_with(x.word(TERM, term="\0"), terms[k]) for x in SPOKEN)
+    return _of(asked, [in_each(*told), display([e], (label,))])
 
 
-def _on_motion(ran: Ran, command: str) -> list[Block]:
-    """Between which values the number that varies most stays."""
+def _with(told: str, t: Tree) -> Words:
+    before, _, after = told.partition("\0")
+    return (before, Formula(in_sentence(t), condition=True), after)
+
+
+def _on_motion(ran: Ran, command: str, *, parameters: bool) -> list[Block]:
+    """Between which values the number that varies most stays; nothing where that is hardly seen, or
+    the start is long to say."""
     name, curve = max(ran.curves, key=lambda x: max(x[1]) - min(x[1]))
-    places = {"letter": letter_of(name), "time": f"{ran.times[-1]:g}"}
-    ends = {"low": min(curve), "high": max(curve)}
-    told = {k: f"{y:.3g}".replace("-", "−") for k, y in ends.items()}
+    largest = max(abs(x) for _, values in ran.curves for x in values)
+    if max(curve) - min(curve) < SEEN * largest or not 0 < len(ran.start) <= MOST:
+        return []
+    start = ", ".join(f"{x} = {written(y)}" for x, y in ran.start)
+    places = {"letter": letter_of(name), "time": f"{ran.times[-1]:g}", "start": start}
+    told = {"low": written(min(curve), 3), "high": written(max(curve), 3)}
+    message = ASKED_WITH_PARAMETERS if parameters else ASKED
     asked = (
         (
             *words_of(f"_{x.word(WATCH)}_ "),
-            *words(x.word(ASKED, **places)),
+            *words(x.word(message, **places)),
             " ",
             Typed(command if x is ENGLISH else f"{command} --lang {x.name}"),
             f" {x.word(SHOWN)}",

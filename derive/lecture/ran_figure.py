@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..language.reserved import GREEK
 from ..language.show import SUBSCRIPTS, SUPERSCRIPTS
@@ -18,6 +18,11 @@ DESCRIBED = (
     "picture."
 )
 RUN = "It starts as the problem says, and is run by the code that is emitted of its equations."
+FLAT = "None of the numbers that a figure would show varies by one per cent."
+LEVEL = 0.01
+"""The part of its largest value by which a curve varies that is seen to."""
+APART = 4.4
+"""How far apart the letters at the ends of curves are, in millimetres."""
 COLOURS = ("{name} (blue)", "{name} (black)", "{name} (red)")
 ROUNDING = 1e-10
 """Less of a change, in the energy, is said no closer: it differs from machine to machine."""
@@ -33,12 +38,19 @@ def label_of(problem: str, kind: str = "run") -> str:
 
 @dataclass(frozen=True)
 class Ran:
-    """A motion: the times, one to three columns of numbers with their names in the code, and the
-    energy over time, empty where there is none."""
+    """A motion: the times, one to three columns of numbers with their names in the code, the energy
+    over time, empty where there is none, and the numbers of the state at the ``start`` other than
+    those of the identity at rest, by their letters."""
 
     times: Sequence[float]
     curves: Sequence[tuple[str, Sequence[float]]]
     energy: Sequence[float] = ()
+    start: Sequence[tuple[str, float]] = ()
+
+    @property
+    def flat(self) -> bool:
+        """Is each curve constant, but for a little?"""
+        return all(max(x) - min(x) <= LEVEL * max(map(abs, (*x, 0.0))) for _, x in self.curves)
 
     def caption(self, words: Language) -> str:
         """Which curve is which."""
@@ -52,14 +64,14 @@ class Ran:
             return words.word(RUN)
         change = max(abs(x - self.energy[0]) for x in self.energy)
         if change > LOST * max(map(abs, self.energy)):
-            ends = {x: f"{self.energy[k]:.4g}" for x, k in (("first", 0), ("last", -1))}
+            ends = {x: written(self.energy[k]) for x, k in (("first", 0), ("last", -1))}
             return (
                 f"{words.word(RUN)} {words.word('Its energy goes from {first} to {last}.', **ends)}"
             )
         exponent = _exponent(max(change, ROUNDING * abs(self.energy[0])))
         bound = f"10{str(exponent).translate(SUPERSCRIPTS)}" if exponent < 0 else f"{10**exponent}"
         kept = "Its energy, {energy} at first, changes by less than {change}."
-        energy = f"{self.energy[0]:.4g}"
+        energy = written(self.energy[0])
         return f"{words.word(RUN)} {words.word(kept, energy=energy, change=bound)}"
 
     def picture(self, _claims: Claims) -> Scene:
@@ -74,12 +86,33 @@ class Ran:
         strokes.append(frame.curve([(0, 0), (self.times[-1], 0)], "axis", "thin"))
         for role, (_, numbers) in zip(AXES, self.curves, strict=False):
             strokes.append(frame.curve(zip(self.times, numbers, strict=True), role))
-        return panel((118, 48), strokes, [x for x in labels if x.base])
+        labels += self._ends(frame)
+        return panel((124, 48), strokes, [x for x in labels if x.base])
+
+    def _ends(self, frame: Frame) -> list[Label]:
+        """The letters of the curves at their right ends, each above the one below it."""
+        found: list[Label] = []
+        least = frame.corner[1] + APART
+        for last, name in sorted((values[-1], name) for name, values in self.curves):
+            x, y = frame.at(self.times[-1], last)
+            least = max(y, least)
+            base, _, index = name.rpartition("_")
+            letter = letter_of(name)
+            quoted = letter.startswith("‘")
+            label = Label(name, name=True) if quoted else Label(GREEK.get(base, base), index)
+            found.append(replace(label, at=(x + 1.6 + label.half[0], least)))
+            least += APART
+        return found
 
 
 def _exponent(x: float) -> int:
     """The exponent of a power of ten above a number; −12 for 0."""
     return int(f"{x:e}".partition("e")[2]) + 1 if x else -12
+
+
+def written(x: float, digits: int = 4) -> str:
+    """A number with so many digits and the sign that is printed before negative ones."""
+    return f"{x:.{digits}g}".replace("-", "−")
 
 
 def letter_of(name: str) -> str:

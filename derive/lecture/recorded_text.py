@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 
-from ..language.show import show
+from ..language.show import in_sentence, show
+from ..language.tree import Tree
 from ..record.record import Equation
 from ..views.language import LANGUAGES, Language, language
 from ..views.printing.sentences import prose
 from .lecture_text import Entry, Formula, Tie, Words, words_of
 
+FACTOR = re.compile(r"(?<![^ ])([0-9]+) `(?=‘)")
 SPOKEN: tuple[Language, ...] = tuple(map(language, LANGUAGES))
 
 
 def words(text: str) -> Words:
-    """A sentence of a record, whose formulas are as true as it."""
+    """A sentence of a record, whose formulas are as true as it; with them the numbers before
+    parameters, which alone would be words."""
     return tuple(
         Formula(x.text, condition=True) if isinstance(x, Formula) else x
-        for x in words_of(prose(text, escape=str, formula="`{}`".format))
+        for x in words_of(FACTOR.sub(r"`\1 ", prose(text, escape=str, formula="`{}`".format)))
     )
 
 
@@ -29,6 +33,11 @@ def in_each(*texts: Words, labels: Sequence[str] = ()) -> Entry:
 def sentence(said: Callable[[Language], str], labels: Sequence[str] = ()) -> Entry:
     """A sentence in each language, by what it is in one."""
     return in_each(*(words(said(x)) for x in SPOKEN), labels=labels)
+
+
+def alone(t: Tree) -> Entry:
+    """The display of an expression of a step."""
+    return Entry(((Formula(in_sentence(t), condition=True),),) * len(LANGUAGES), (), True, 0)
 
 
 def display(

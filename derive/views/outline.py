@@ -301,7 +301,8 @@ def system(d: Derivation, language: Language) -> str:
     moved = language.sentence(_given_lagrangian(d)) if stated else _action_of(d, language)
     acting = [*_acting(d.problem)] if moved else []
     if acting:
-        forces = language.sentence(listed("{first}, {second}", acting))
+        before = [listed("{first}, {second}", acting[:-1])] if acting[1:] else []
+        forces = language.sentence(listed("{first} and {second}", [*before, acting[-1]]))
         return " ".join((moved, language.word("What acts: {forces}.", forces=forces)))
     if stated or not moved:
         return moved

@@ -197,7 +197,7 @@ def test_a_motion_that_is_refused_is_a_sentence():
     problem, record = derive("ideal_fluid")
     reason, speed = motion(problem, record)
     assert not isinstance(reason, Ran)
-    assert str(reason).startswith("This was not found: ")
+    assert str(reason).startswith("No motion is shown: ")
     assert speed == 0
 
 

@@ -1,31 +1,35 @@
 """A chapter on a problem of the reader's: what it claims is what records prove; a search that finds
 nothing, or is refused, is a sentence."""
 
+import ast
 import re
 import unicodedata
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+import derive
 from derive.command.cli import main
-from derive.command.lecturing import chapter_on
+from derive.command.lecturing import RECORDS, chapter_on
+from derive.command.showing import derive as derived
+from derive.language.limits import Refused
+from derive.language.read import FormulaError
 from derive.language.show import show
 from derive.lecture import document
-from derive.lecture.lecture_text import Formula, LectureError
-from derive.lecture.problem_chapter import (
-    LONGEST,
-    REASONS,
-    SEARCHES,
-    Found,
-    _reason,
-    _rows,
-    chapter_of,
-)
+from derive.lecture.conserved import kept_by
+from derive.lecture.lecture_text import Block, Chapter, Entry, Formula, LectureError, tree
+from derive.lecture.problem_chapter import LONGEST, SEARCHES, Found, _rows, chapter_of
+from derive.lecture.problem_exercises import _on_motion
+from derive.lecture.ran_figure import FLAT, Ran
+from derive.lecture.told_refusals import REASONS
+from derive.lecture.told_refusals import reason as told_reason
 from derive.lecture.trials import tied, tried
 from derive.record.record import Equation
 from derive.views.answer import equations_of_motion
 from derive.views.language import LANGUAGES, language
+from derive.views.outline import title
 from derive.views.printing.signs import tex_text
 from tests.support.walks import SEED
 
@@ -67,9 +71,9 @@ def test_each_search_has_a_heading_and_something_to_say(made, lang):
     words = language(lang)
     assert all(b.entries for b in chapter.blocks)
     page = document.page(document.Lecture([chapter], words, records))
-    headings = [x for search, x in SEARCHES.items() if search != "trim"]
+    headings = [x for search, x in SEARCHES.items() if search not in ("trim", "families")]
     for heading in (*headings, "A motion."):
-        assert words.word(heading) in page
+        assert page.count(words.word(heading)) == 1
     assert "‘" not in re.sub("<[^>]*>", "", page)  # parameters are set, not quoted
     said = tex_text(words.word("Its equations of motion are"))
     assert said in document.latex(document.Lecture([chapter], words, records))
@@ -84,7 +88,7 @@ def test_a_search_that_is_refused_says_why():
         if f"comet:{x}" not in records
     ]
     assert refused
-    assert 0 < page.count("This was not found:") <= len(refused)  # one for one reason
+    assert 0 < page.count("Not sought:") <= len(refused)  # one for one reason
 
 
 def test_a_search_that_takes_too_long_is_a_sentence():
@@ -95,13 +99,27 @@ def test_a_search_that_takes_too_long_is_a_sentence():
     assert "Ses équations du mouvement sont" in page
 
 
-def test_of_what_is_kept_the_value_alone_is_shown_and_nothing_too_long(made):
-    _, chapter, _ = made
-    told = [e for b in chapter.blocks if b.kind != "solution" for e in b.entries if e.display]
-    shown = [(e.labels[0], x) for e in told for x in e.equations]
-    told = [x for label, x in shown if ".conserved_" in label]
-    assert all(show(x.lhs).startswith(("ϖ(δy)", "dϖ(δy, δ′y)")) and x.rhs != 0 for x in told)
-    assert all(_rows(x) <= LONGEST for label, x in shown if "motion" not in label)
+def test_of_what_is_kept_the_value_alone_is_said_to_be_constant_and_nothing_is_too_long(made):
+    """Of no variation δy is it said that ϖ(δy) is a number."""
+    name, chapter, records = made
+    shown = [x for b in chapter.blocks for e in b.entries for x in e.formulas]
+    assert not any(re.search("ϖ\\(δ", x.text) for x in shown)
+    searched = records.get(f"{name}:symmetries")
+    kept = [kept_by(s) for s in searched.steps if kept_by(s) != 0] if searched else []
+    assert [x for x in shown if x.text == "h̃"]
+    for quantity in kept:
+        assert any(x.condition and _read(x.text) == quantity for x in shown), show(quantity)
+    displays = [e for b in chapter.blocks if b.kind != "solution" for e in b.entries if e.display]
+    told = [(e.labels[0], x) for e in displays if e.labels for x in e.equations]
+    assert all(_rows(x) <= LONGEST for label, x in told if "motion" not in label)
+
+
+def _read(text):
+    """A formula as a tree, or nothing for what is none."""
+    try:
+        return tree(text)
+    except FormulaError:
+        return None
 
 
 def test_two_exercises_at_least_whose_copies_are_wrong(made):
@@ -126,6 +144,76 @@ def test_two_exercises_at_least_whose_copies_are_wrong(made):
             list(tried(changed, records, SEED))
 
 
+def test_steady_motions_that_are_not_sought_have_one_heading():
+    """And the title tells of none."""
+    chapter, records, _ = chapter_on("comet")
+    page = document.page(document.Lecture([chapter], language("fr"), records))
+    assert page.count("Mouvements stationnaires") == 1
+    plain = [title(records["comet"], language(x)) for x in LANGUAGES]
+    assert [str(x) for x in chapter.title] == plain
+    assert "Lagrange's top: equations, what is kept" in str(chapter_on("lagrange_top")[0].title)
+
+
+def test_a_coordinate_without_energy_is_said_to_be_held_by_choice():
+    chapter = chapter_on("spherical_pendulum", 0.01)[0]
+    held = chapter.blocks[0].entries[-1]
+    assert held.labels == ("spherical_pendulum.mass",)
+    assert held.texts[0][0].startswith("One coordinate for each direction")
+    (said,) = [e for e in chapter.entries if "Its energy" in str(e.texts[0])]
+    assert "−4.269" in str(said.texts[0])
+    assert "-" not in str(said.texts[0][:2])
+
+
+def test_an_exercise_on_a_motion_says_its_start_and_asks_what_is_seen():
+    chapter, _, _ = chapter_on("lagrange_top")
+    (asked,) = [b for b in chapter.blocks if "Predict" in str(b.entries[0].texts[0])]
+    told = [x.text for x in asked.entries[0].formulas]
+    assert {"A₃₃ = 0.8776", "ζ₃ = 8"} <= {*told}
+    assert not any(x.startswith("A₁₁") or x.endswith("= 0") for x in told)
+    slow = Ran((0.0, 1.0), [("zeta_1", (100.0, 104.0))], (), [("ζ₁", 100.0)])
+    still = replace(slow, curves=[("zeta_1", (100.0, 100.5))])
+    assert [*_on_motion(slow, "", parameters=True)] == []
+    assert (slow.flat, still.flat) == (False, True)
+    seen = replace(slow, curves=[("zeta_1", (100.0, 106.0))])
+    assert len([*_on_motion(seen, "", parameters=True)]) == 2
+    assert [*_on_motion(replace(seen, start=()), "", parameters=True)] == []
+
+
+def test_a_motion_that_stays_has_no_figure():
+    record = derived("lagrange_top")[1]
+    still = Ran((0.0, 1.0), [("zeta_3", (8.0, 8.0))])
+    chapter = chapter_of(record, {}, ("lagrange_top",), ran=still)
+    assert [b.label for b in chapter.blocks if b.kind == "figure"] == ["body_lagrange_lftop"]
+    said = [str(x) for e in chapter.entries for x in e.texts[0]]
+    assert any(FLAT in x for x in said)
+
+
+def test_the_letters_of_curves_stand_at_their_ends_apart_from_one_another():
+    ran = Ran((0.0, 1.0), [(f"zeta_{k}", (0.0, y)) for k, y in ((1, 2.0), (2, 2.01), (3, -1.0))])
+    ends = {x.index: x.at for x in ran.picture({}).labels if x.base == "ζ"}
+    assert ends["3"][1] < ends["1"][1] < ends["2"][1]
+    assert ends["2"][1] - ends["1"][1] > 4
+    assert min(x for x, _ in ends.values()) > 106
+
+
+def test_a_long_formula_of_a_sentence_stands_apart_with_the_sign_behind_it():
+    long = Formula("a = " + " + ".join("bcdefghijk"), condition=True)
+    entry = Entry((("For all, ", long, "; and more."),) * 2, (), display=False, line=0)
+    chapter = Chapter("c", ("A", "B"), (), (Block("text", "", "", (entry,), 0),))
+    assert len(long.text) <= document.AMONG
+    assert "\\[" not in _body(chapter)
+    wider = replace(long, text=long.text.replace("b", "b + b + b + b + b + b"))
+    entry = Entry((("For all, ", wider, "; and more."),) * 2, (), display=False, line=0)
+    chapter = replace(chapter, blocks=(Block("text", "", "", (entry,), 0),))
+    assert re.search(r"For all,\s+\\\[[^]]*;\\\]\s+and more", _body(chapter))
+
+
+def _body(chapter):
+    """The LaTeX of its only text."""
+    tex = document.latex(document.Lecture([chapter], language("en"), {}))
+    return tex[tex.index("For all") : tex.index("and more") + 8]
+
+
 def test_parameters_have_a_table_and_the_body_a_figure():
     chapter, records, _ = chapter_on("lagrange_top")
     (table,) = [b for b in chapter.blocks if b.kind == "table"]
@@ -139,12 +227,58 @@ def test_parameters_have_a_table_and_the_body_a_figure():
 
 @pytest.mark.parametrize("reason", REASONS)
 def test_a_reason_is_told_in_french_with_its_numbers(reason):
-    told = reason.format(velocities=6, letters=27, seconds=9)
-    assert _reason(told, language("en")) == told
-    french = _reason(told, language("fr"))
+    told = re.sub(r"\{\w+\}", "7", reason)
+    assert told_reason(told, language("en")) == told
+    french = told_reason(told, language("fr"))
     assert french != told
-    assert re.findall("[0-9]+", french) == re.findall("[0-9]+", told)
-    assert _reason("no reason of these", language("fr")) == "no reason of these"
+    assert sorted(re.findall("[0-9]+", french)) == sorted(re.findall("[0-9]+", told))
+    assert told_reason("no reason of these", language("fr")) == "no reason of these"
+
+
+REFUSING = (
+    *("integrals/reduced.py", "symmetries/scalar_lagrangian.py", "symmetries/search.py"),
+    *("symmetries/found_symmetries.py", "symmetries/conditions.py", "reduction/routhian.py"),
+)
+"""What refuses a whole search of a lecture, in derive/search."""
+ELSEWHERE = ("damping changes the energy",)
+"""Of what the lecture does not seek."""
+
+
+def refusals():
+    """The texts of what is raised in these, with 7 in each place and without a problem's name."""
+    for name in REFUSING:
+        source = Path(derive.__file__).parent / "search" / name
+        for node in ast.walk(ast.parse(source.read_text(encoding="utf-8"))):
+            called = getattr(getattr(node, "func", None), "id", getattr(node, "func", None))
+            own = getattr(called, "attr", "") == "refuse"
+            if isinstance(node, ast.Call) and (own or str(called).endswith("Error")):
+                text = "".join(map(_literal, getattr(node.args[0], "values", node.args)))
+                if " " in text and text != "7: the Lagrangian 7":
+                    yield f"the Lagrangian {text}" if own else text.removeprefix("7: ")
+
+
+def _literal(x):
+    """The text of a part of an argument; 7 in the place of a value."""
+    return str(x.value) if isinstance(x, ast.Constant) else "7"
+
+
+def test_each_refusal_of_a_search_has_its_french():
+    found = [x for x in refusals() if not x.startswith(ELSEWHERE)]
+    assert len(found) > 15
+    assert [x for x in found if told_reason(x, language("fr")) == x] == []
+
+
+@pytest.mark.parametrize("name", ["imu", "linear", "ideal_fluid", "zeitlin", "pendulum", "screw"])
+def test_what_ready_made_problems_are_refused_for_is_in_french(name):
+    problem, record = derived(name)
+    for search in ("integrals", "reduction", "equilibria"):
+        with suppress(Refused):
+            RECORDS[search](problem, record)
+            continue
+        with pytest.raises(Refused) as refused:
+            RECORDS[search](problem, record)
+        told = str(refused.value).removeprefix(f"{name}: ")
+        assert told_reason(told, language("fr")) != told
 
 
 def test_searches_refused_for_one_reason_stand_together(made):
@@ -156,7 +290,7 @@ def test_searches_refused_for_one_reason_stand_together(made):
     chapter = chapter_of(d, found, tuple(records))
     page = document.page(document.Lecture([chapter], language("en"), records))
     assert "What the motion keeps. First integrals. Reduction." in page
-    assert page.count("This was not found: its forces are no part of") == 1
+    assert page.count("Not sought: its forces are no part of") == 1
     assert "Only points with one momentum were tried" in page
 
 

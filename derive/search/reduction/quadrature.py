@@ -47,7 +47,7 @@ def _why_not(found: SymmetriesFound) -> str:
         return "there is no symmetry of L but of the time"
     if all(x.exact for x in others):
         return "its symmetries move the time as well"
-    return "its symmetries change L by dF/dt, or depend on the time"
+    return "its symmetries change L by the derivative of a function F, or depend on the time"
 
 
 # Do the symmetries of a problem leave one degree of freedom, and what are their momenta called?
