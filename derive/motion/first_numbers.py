@@ -48,7 +48,7 @@ def first_numbers(
     ``MotionError`` for a name that means nothing, a parameter without a number, a number that is
     none.
     """
-    given = {program.by_block.get(name, name): x for name, x in given.items()}
+    given = program.by_state(given, MotionError)
     emitted = {name: default for name, default, _, _ in program.parameters}
     apart = {name for name in named(problem) if name in problem.parameters}
     defaults = emitted | {x: problem.parameters[x].default for x in sorted(apart - {*emitted})}

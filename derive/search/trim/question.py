@@ -48,7 +48,7 @@ class Question:
         velocity = program.state[-self.d :]
         self.turns = {x.replace("zeta", "eta"): a for a, x in enumerate(velocity) if "zeta" in x}
         own = program.by_block
-        at = {own.get(x, x): y for x, y in at.items()}
+        at = program.by_state(at, NoTrimError)
         free = [own.get(x, x) for x in free or ()]
         self.require_names(at, ())
         self.require_names(free, self.turns)
