@@ -72,10 +72,7 @@ def assemble(
     chosen = options or Options()
     require_written(d, group, chosen)
     lowering = Lowering(framed or d, group, chosen)
-    frame = None
-    if framed:
-        old = Lowering(d, group, chosen, lowering.graph).reader
-        frame = PrincipalFrame(framed.problem["frame"], old, bool(old.space.charts))
+    frame = _frame(framed, Lowering(d, group, chosen, lowering.graph)) if framed else None
     wanted, momenta, stepped = _of_state(lowering, chosen, kept or {}, events, discrete)
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
@@ -85,9 +82,7 @@ def assemble(
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
     parameters = _used_parameters(d, found, chosen)
     given = wanted, checks, parameters, frame, momenta, stepped
-    more: Mapping[str, Any] = {}
-    pairs = zip_longest(d.problem.get("forces", ()), forces, fillvalue=more)
-    said = {**d.problem, "forces": [{**x, **y} for x, y in pairs]}
+    said = _said(d, forces)
     functions, constants, framing = _functions(lowering, chosen, *given)
     return Program(
         d.name,
@@ -117,6 +112,19 @@ def assemble(
         discrete=stepped.step if stepped else None,
         **_further(d, said, lowering.reader.space, chosen),
     )
+
+
+def _frame(framed: Derivation, lowering: Lowering) -> PrincipalFrame:
+    """The principal frame, by its record and the values in the frame that is given."""
+    old = lowering.reader
+    return PrincipalFrame(framed.problem["frame"], old, bool(old.space.charts))
+
+
+def _said(d: Derivation, forces: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """The problem of a record, with what is known of its forces beside it."""
+    more: Mapping[str, Any] = {}
+    pairs = zip_longest(d.problem.get("forces", ()), forces, fillvalue=more)
+    return {**d.problem, "forces": [{**x, **y} for x, y in pairs]}
 
 
 def _further(

@@ -12,7 +12,8 @@ values and stores outputs.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, TypeVar
@@ -282,6 +283,12 @@ class Program:
         if both := next((x for x in given if own.get(x) in given), ""):
             raise fault(f"{both}: the same number as {own[both]}; leave out one")
         return {own.get(name, name): x for name, x in given.items()}
+
+    def like(self, name: str, known: Iterable[str]) -> list[str]:
+        """The names that a wrong one may stand for: those by blocks where it has a block, else all
+        that are ``known`` and these."""
+        own = [*self.by_block]
+        return own if own and re.match("(zeta|w)[1-9]", name) else [*known, *own]
 
     @property
     def momentum_range(self) -> tuple[int, int]:

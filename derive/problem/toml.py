@@ -231,8 +231,7 @@ def _without_points(
     if advected is not None:
         _require_covectors(data)
     group = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
-    reader = FileReader()
-    reader.moves(group)
+    (reader := FileReader()).moves(group)
     reader.advected, reader.pointless = advected, True
     said = data[where]
     reader.on_the_right = isinstance(said, dict) and said.get("trivialisation") == "right"
@@ -242,8 +241,7 @@ def _without_points(
     _, inputs, damping, of_state = forces(data, reader)
     if not negative_stiffness:
         _positive(negative_stiffness_of((), damping, parameters), "stiffness")
-    _, damped, numbers_of_damping = as_forces(damping, reader)
-    stated = (*of_state, *damped)
+    stated = (*of_state, *(damped := as_forces(damping, reader))[1])
     others = [x for x in OUTPUTS if x not in (*OF_MASSES, ExpressionOutput.kind)]
     for k, x in enumerate(tables(data, "output"), 1):
         placed = "y" not in x or {*ATTACHED} & {*x}
@@ -262,7 +260,7 @@ def _without_points(
         inputs=inputs,
         places=tuple(reader.places),
         forces=stated,
-        damped=numbers_of_damping,
+        damped=damped[2],
         outputs=observed,
         lagrangian=lagrangian(data, group, reader),
         advected=advected,

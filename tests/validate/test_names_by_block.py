@@ -84,6 +84,8 @@ TWO = ["w2_1=1", "zeta_3=2"]
         (["simulate", "--t", "1", "--set", TWO[0], "--set", TWO[1]], SAME),
         (["simulate", "--t", "1", "--set", TWO[0], "--set", TWO[0]], "given more than once"),
         (["simulate", "--t", "1", "--state", "{}/both.toml"], SAME),
+        (["simulate", "--t", "1", "--set", "w2_3=1"], "did you mean 'w2_2'?"),
+        (["trim", "--at", "w2_3=1"], "did you mean 'w2_2'?"),
         (["simulate", "--t", "1", "--ensemble", "2", "--vary", "w2_1=0:1", *VARIED], SAME),
     ],
 )

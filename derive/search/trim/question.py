@@ -86,7 +86,8 @@ class Question:
         known = (*self.program.state, *self.program.inputs, *more)
         for name in names:
             if name not in known:
-                near = nearest(name, known) or f"; these are {entries(known)}"
+                told = f"; these are {entries((*known, *self.program.by_block))}"
+                near = nearest(name, self.program.like(name, known)) or told
                 raise NoTrimError(f"{name} is no number of the state and no input{near}")
 
     def require(self) -> None:
