@@ -203,7 +203,13 @@ def program(
         more = {name: t for name, t in more.items() if name not in (kept or {})}
         every = None if kept is None else kept | more
         stepped = discrete(problem) if options and "discrete" in options.step else None
-        made = assemble(record, problem.group, options, kept=every, events=events, discrete=stepped)
+        made = assemble(
+            *(record, problem.group, options),
+            kept=every,
+            events=events,
+            discrete=stepped,
+            forces=problem.force_tables,
+        )
         return replace(made, weightless=(*more,))
     return assemble(record, problem.group, options, walk(principal(problem)))
 

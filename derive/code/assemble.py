@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from itertools import zip_longest
 from typing import Any
 
 from ..algebra.groups import Group, names_by_block
@@ -59,20 +60,19 @@ def assemble(
     kept: Mapping[str, Tree] | None = None,
     events: Sequence[EmittedEvent] = (),
     discrete: Derivation | None = None,
+    forces: Sequence[Mapping[str, Any]] = (),
 ) -> Program:
     """The program of a record; ``LoweringError`` when the record has no solved equations.
 
     ``framed``: the record of the problem in its principal frame, if the code is to be in that.
     ``kept``: what the motion keeps, by names, as :mod:`derive.code.watched_functions` takes it.
     ``events``: what is watched on a motion. ``discrete``: its record, where its step is wanted.
+    ``forces``: of forces of the state the ``table`` of the file and the ``wind``, for comments.
     """
     chosen = options or Options()
     require_written(d, group, chosen)
     lowering = Lowering(framed or d, group, chosen)
-    frame = None
-    if framed:
-        old = Lowering(d, group, chosen, lowering.graph).reader
-        frame = PrincipalFrame(framed.problem["frame"], old, bool(old.space.charts))
+    frame = _frame(framed, Lowering(d, group, chosen, lowering.graph)) if framed else None
     wanted, momenta, stepped = _of_state(lowering, chosen, kept or {}, events, discrete)
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
@@ -82,6 +82,7 @@ def assemble(
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
     parameters = _used_parameters(d, found, chosen)
     given = wanted, checks, parameters, frame, momenta, stepped
+    said = _said(d, forces)
     functions, constants, framing = _functions(lowering, chosen, *given)
     return Program(
         d.name,
@@ -89,7 +90,7 @@ def assemble(
         group.name,
         group.dimension,
         (
-            *conventions(group, d.problem, chosen, framed.problem["frame"] if framed else None),
+            *conventions(group, said, chosen, framed.problem["frame"] if framed else None),
             *_not_tested(lowering),
             *(sentences(d, momenta) if momenta else ()),
         ),
@@ -109,11 +110,26 @@ def assemble(
         *((momenta.names, momenta.size) if momenta else ((), 0)),
         mass_fault=lowering.inverses.mass_fault,
         discrete=stepped.step if stepped else None,
-        **_further(d, lowering.reader.space, chosen),
+        **_further(d, said, lowering.reader.space, chosen),
     )
 
 
-def _further(d: Derivation, space: StateSpace, chosen: Options) -> dict[str, Any]:
+def _frame(framed: Derivation, lowering: Lowering) -> PrincipalFrame:
+    """The principal frame, by its record and the values in the frame that is given."""
+    old = lowering.reader
+    return PrincipalFrame(framed.problem["frame"], old, bool(old.space.charts))
+
+
+def _said(d: Derivation, forces: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """The problem of a record, with what is known of its forces beside it."""
+    more: Mapping[str, Any] = {}
+    pairs = zip_longest(d.problem.get("forces", ()), forces, fillvalue=more)
+    return {**d.problem, "forces": [{**x, **y} for x, y in pairs]}
+
+
+def _further(
+    d: Derivation, said: Mapping[str, Any], space: StateSpace, chosen: Options
+) -> dict[str, Any]:
     """What the program says of outputs, of matrices in a state or beside its charts, and of the
     group."""
     door = matrix_state(space)
@@ -123,7 +139,7 @@ def _further(d: Derivation, space: StateSpace, chosen: Options) -> dict[str, Any
     return {
         "outputs": output_names(d),
         "state_by_block": by_block if by_block != names else (),
-        "kinks": kinks(d.problem, space.group) if chosen.jacobian else {},
+        "kinks": kinks(said, space.group) if chosen.jacobian else {},
         "blocks": matrices(space),
         "matrix_state": door.names if door else (),
         "matrix_blocks": matrices(plain) if door else (),

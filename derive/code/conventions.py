@@ -308,7 +308,10 @@ def _acting(
             what += "; v is the velocity of the place in space" * bool(re.search(r"\bv_\d", kinds))
             what += "; r is where it is" * bool(re.search(r"\br_\d", kinds))
         name = f" {x['name']}" if "name" in x else ""
-        found.append(f"Force of the state{name}: {what}.")
+        called = f"Force of the state{name}"
+        if (table := x.get("table", "")).startswith("damping"):
+            called = f"Damping{name}" if name else table.capitalize()
+        found.append(f"{called}: {what}.")
     for x in problem.get("flows", ()):
         at = places.get(x["on"]) or f" at point {x['on']}"
         name = f" {x['name']}" if "name" in x else ""

@@ -3,6 +3,7 @@ be added to what already acts; without inputs, that which they must supply."""
 
 from __future__ import annotations
 
+from ..language.limits import tell
 from ..language.reserved import suffixed
 from ..record.record import Derivation
 from .factor import factored
@@ -58,6 +59,7 @@ def _supplied(lowering: Lowering, rows: list[list[Node]], rates: list[Node]) -> 
     try:
         unforced = rewritten(rates, reachable(rates), remade, still)
     except ZeroDivisionError:
+        tell(f"{lowering.record.name}: no inverse is written, as an input is divided by")
         return []
     pairs = enumerate(zip(wanted_rates(lowering), unforced, strict=True), 1)
     lacking = [graph.value(a - x, suffixed("lacking", i), "") for i, (a, x) in pairs]

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
 from ..algebra.groups import Group
 from ..language.show import show
-from ..language.tree import Tree, add, mul, nodes, replaced, sized
+from ..language.tree import Tree, add, mul, neg, nodes, replaced, sized
 from ..record.as_json import decode
 from .typed_names import LONGEST_LAW, plain_text, typed
 
@@ -20,14 +20,13 @@ OF_RATES = ("acceleration", "specific_force", "power")
 
 def kinks(problem: Mapping[str, Any], group: Group) -> dict[str, tuple[str, ...]]:
     """A comment of ASCII for ``rates``, dx/dt, and one for ``outputs``, line by line; none where
-    all is smooth."""
-    acting = [x for where, t in _acting(problem) for x in _loci(where, t, problem, group)]
+    all is smooth.  ``problem``: of a record, with the ``wind`` of forces of the state as trees."""
+    acting = [x for where, t in _acting(problem, group) for x in _loci(where, t, problem, group)]
     read = [
         x
         for y in problem.get("outputs", ())
-        for key in ("y", "relative_to")
-        for t in y.get(key, ())
-        for x in _loci(f"output {y['name']}", t, problem, group)
+        for t in y.get("y", ())
+        for x in _loci(f"output {y['name']}", decode(t, "law"), problem, group)
     ]
     if any(y["kind"] in OF_RATES for y in problem.get("outputs", ())):
         read = acting + read
@@ -39,27 +38,48 @@ def _comment(loci: list[str]) -> tuple[str, ...]:
     return tuple(textwrap.wrap(text, 88, break_long_words=False)) if loci else ()
 
 
-def _acting(problem: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
-    """The expressions in dx/dt, as JSON has them, each with what it is of."""
+def _acting(problem: Mapping[str, Any], group: Group) -> Iterator[tuple[str, Tree]]:
+    """The expressions in dx/dt, each with what it is of."""
     if L := problem.get("lagrangian", {}).get("L"):
-        yield "L", L
+        yield "L", decode(L, "law")
     for k, x in enumerate(problem.get("potentials", ()), 1):
         if x["kind"] == "expression":
-            yield f"potential {k}", x["U"]
+            yield f"potential {k}", decode(x["U"], "law")
     for kind in ("force", "flow"):
         for k, x in enumerate(problem.get(f"{kind}s", ()), 1):
-            for key in ("force", "moment", "covector", "velocity"):
-                yield from ((f"{kind} {x.get('name', k)}", t) for t in x.get(key, ()))
+            keys = ("force", "moment", "covector", "velocity")
+            trees = [decode(t, "law") for key in keys for t in x.get(key, ())]
+            called = f"{kind} {x['name']}" if "name" in x else x.get("table", f"{kind} {k}")
+            yield from ((called, t) for t in _in_wind(trees, x.get("wind", ()), group))
 
 
-def _loci(where: str, data: Any, problem: Mapping[str, Any], group: Group) -> Iterator[str]:
+def _in_wind(trees: list[Tree], wind: Sequence[Tree], group: Group) -> list[Tree]:
+    """With v − c, what the file calls v where air moves by c, as v, and each such c."""
+    met: list[Tree] = []
+    for v in dict.fromkeys(x for t in trees for x in _velocities(t)):
+        c = wind[_row(group, v[2]) - 1] if wind else 0
+        if c != 0 and any((less := add(v, neg(c))) in nodes(t) for t in trees):
+            trees = [replaced(t, less, v) for t in trees]
+            met.append(c)
+    return trees + met
+
+
+def _velocities(t: Tree) -> list[tuple[Any, ...]]:
+    """The components of velocities of places in an expression."""
+    entries = [x for x in nodes(t) if isinstance(x, tuple) and x[0] == "entry"]
+    return [x for x in entries if isinstance(x[1], tuple) and x[1][:2] == ("at", "v")]
+
+
+def _loci(where: str, t: Tree, problem: Mapping[str, Any], group: Group) -> Iterator[str]:
     """Where each root of an expression is 0, and what has it."""
-    whole: Tree = _by_axes(decode(data, "law"), group)
+    whole = _by_axes(t, group)
     if where.startswith("potential"):  # which know the places of all points
         for x in [x for x in nodes(whole) if isinstance(x, tuple) and x[0] == "entry"]:
             whole = replaced(whole, x, ("par", f"r{x[1][1][2]}_{_row(group, x[2])}"))
     if isinstance(whole, tuple):
-        for at, what in _roots(whole):
+        for conditions, what in _roots(whole):
+            if (at := _that_may_hold(conditions)) is None:
+                continue
             told = " and ".join(
                 f"{plain_text(show(_as_typed(x, problem, group)))} {relation} 0"
                 for x, relation in at
@@ -75,8 +95,8 @@ def _row(group: Group, row: int) -> int:
 
 def _by_axes(t: Tree, group: Group) -> Tree:
     """With Āv, the velocity of a place along the axes of the body, as the file calls it."""
-    for v in dict.fromkeys(x[1] for x in nodes(t) if isinstance(x, tuple) and x[0] == "entry"):
-        for first, factor in group.places if isinstance(v, tuple) and v[:2] == ("at", "v") else ():
+    for v in dict.fromkeys(x[1] for x in _velocities(t)):
+        for first, factor in group.places:
             rows = range(first + 1, first + factor.n + 1)
             for k in rows:
                 along = add(*(mul(("entry", "A", j, k), ("entry", v, j)) for j in rows))
@@ -102,11 +122,44 @@ def _roots(whole: Tree) -> Iterator[tuple[list[tuple[Tree, str]], str]]:
         else:
             listed = inside[1:] if isinstance(inside, tuple) and inside[0] == "add" else (inside,)
             squares = [x[1] for x in listed if isinstance(x, tuple) and x[::2] == ("pow", 2)]
-            rest = [x for x in listed if not (isinstance(x, tuple) and x[::2] == ("pow", 2))]
-            if not rest:
+            if len(squares) == len(listed):
                 yield [(x, "=") for x in squares], "hypot"
-            elif not all(isinstance(x, int | Fraction) and x > 0 for x in rest):
+            else:
                 yield [(inside, "=")], "sqrt"
+
+
+def _that_may_hold(conditions: list[tuple[Tree, str]]) -> list[tuple[Tree, str]] | None:
+    """Those that do not hold everywhere; ``None`` where one never does, or all always do."""
+    held = {"=": {0}, "<=": {-1, 0}}
+    found = [(x, relation, _signs(x)) for x, relation in conditions]
+    if not all(signs & held[relation] for _, relation, signs in found):
+        return None
+    return [(x, relation) for x, relation, signs in found if not signs <= held[relation]] or None
+
+
+def _signs(t: Tree) -> set[int]:
+    """The signs that an expression may have, by those of its numbers, its even powers and exp."""
+    any_sign = {-1, 0, 1}
+    match t:
+        case int() | Fraction():
+            return {(t > 0) - (t < 0)}
+        case ("fun", "exp" | "cosh", _):
+            return {1}
+        case ("fun", "sqrt", x):
+            return _signs(x) & {0, 1} or any_sign
+        case ("pow", x, int(n)):
+            return {s if n % 2 else s * s for s in _signs(x)}
+        case ("mul" | "div", *factors):
+            found = {1}
+            for x in factors:
+                found = {a * b for a in found for b in _signs(x)}
+            return found
+        case ("add", *terms):
+            signs = set[int]().union(*map(_signs, terms))
+            cancel = {-1, 1} <= signs
+            some = any(0 not in _signs(x) for x in terms)
+            return any_sign if cancel else signs - {0} if some else signs
+    return any_sign
 
 
 def _angle(t: Any) -> tuple[Tree, list[tuple[Tree, str]]] | None:

@@ -12,15 +12,18 @@ values and stores outputs.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeVar
 
 from ..algebra.factor_charts import FactorChart
 from ..language.limits import Refused
 from ..language.tree import Tree, nodes
 from ..language.values import arithmetic
+
+V = TypeVar("V")
 
 
 class LoweringError(Refused, ValueError):
@@ -272,6 +275,20 @@ class Program:
         """Names by blocks → those of the state that are others."""
         pairs = zip(self.state_by_block, self.state, strict=False)
         return {own: name for own, name in pairs if own != name}
+
+    def by_state(self, given: Mapping[str, V], fault: type[Refused]) -> dict[str, V]:
+        """What is given by names, with those of the state for those by blocks; ``fault`` where one
+        number has both."""
+        own = self.by_block
+        if both := next((x for x in given if own.get(x) in given), ""):
+            raise fault(f"{both}: the same number as {own[both]}; leave out one")
+        return {own.get(name, name): x for name, x in given.items()}
+
+    def like(self, name: str, known: Iterable[str]) -> list[str]:
+        """The names that a wrong one may stand for: those by blocks where it has a block, else all
+        that are ``known`` and these."""
+        own = [*self.by_block]
+        return own if own and re.match("(zeta|w)[1-9]", name) else [*known, *own]
 
     @property
     def momentum_range(self) -> tuple[int, int]:

@@ -171,9 +171,9 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
 NEEDED = {
     "quaternion": "a quaternion needs a factor SO(3) or SE(3)",
     "angle": "an angle needs a factor that turns a plane, or one of one parameter that turns, "
-    "scales or translates",
+    "translates, or scales by rational eigenvalues, integer multiples of the least",
     "shortest": "--attitude shortest needs a factor SO(3), SE(3), SO(2), SE(2), or one of one "
-    "parameter that turns, scales or translates",
+    "parameter that turns, translates, or scales by integer multiples of one rational eigenvalue",
 }
 """What there must be for a value of --attitude."""
 

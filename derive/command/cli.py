@@ -6,7 +6,6 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
 from contextvars import copy_context
@@ -21,6 +20,7 @@ from .showing import (
     derive,
     discrete_walk,
     doubted,
+    each_once,
     load_problem,
     ready_made,
     save,
@@ -32,8 +32,6 @@ from .terminal import working
 from .writing import StoppedError, one_line, replacing_unencodable, time_limit, with_progress
 
 if TYPE_CHECKING:
-    from typing import Any
-
     from ..check.form.hypotheses_checked import Verdict
 
 
@@ -98,7 +96,7 @@ def command_equilibria(args: argparse.Namespace) -> int:
         raise UsageError("--letters has letters for the coordinates: give no --at and no --near")
     if args.near and args.at:
         raise UsageError("--at is exact and --near is not: give one of them")
-    at, near = _each_once("--at", args.at), _each_once("--near", args.near)
+    at, near = each_once("--at", args.at), each_once("--near", args.near)
     found: object
     problem = doubted(args.problem)
     with working(args.problem):
@@ -121,20 +119,12 @@ def command_trim(args: argparse.Namespace) -> int:
     """Find inputs and velocities of a state that stays as it is, and its stability."""
     from ..programs import trim
 
-    at, given = _each_once("--at", args.at), _each_once("--given", args.given)
+    at, given = each_once("--at", args.at), each_once("--given", args.given)
     free = [name for x in args.free or () for name in x.split(",")] or None
     with working(args.problem):
         _, record = trim(doubted(args.problem, given=given), at, free, given)
     save_found(record, args)
     return 0
-
-
-def _each_once(option: str, pairs: Sequence[tuple[str, Any]] | None) -> dict[str, Any]:
-    """The numbers that an option gives by names; ``UsageError`` for a name that stands twice."""
-    several = Counter(name for name, _ in pairs or ())
-    if twice := [name for name, count in several.items() if count > 1]:
-        raise UsageError(f"{option} {twice[0]}: given more than once; leave out all but one")
-    return dict(pairs or ())
 
 
 def command_symmetries(args: argparse.Namespace) -> int:

@@ -6,6 +6,7 @@ import argparse
 import os
 import shutil
 import sys
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from pathlib import Path
@@ -51,6 +52,14 @@ LECTURE = READY.with_name("lecture") / "chapters"
 
 class UsageError(Refused):
     """Bad input on the command line: one clear line, and the exit code 2."""
+
+
+def each_once(option: str, pairs: Sequence[tuple[str, Any]] | None) -> dict[str, Any]:
+    """The numbers that an option gives by names; ``UsageError`` for a name that stands twice."""
+    several = Counter(name for name, _ in pairs or ())
+    if twice := [name for name, count in several.items() if count > 1]:
+        raise UsageError(f"{option} {twice[0]}: given more than once; leave out all but one")
+    return dict(pairs or ())
 
 
 def ready_made() -> list[str]:

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ..algebra.groups import names_by_block
 from ..motion.emitted_code import parts
 from ..motion.energy_sources import DAMPING, FORCES, INPUTS, is_weightless
 from ..motion.ensemble import (
@@ -36,7 +37,7 @@ from ..record.record import Derivation
 from ..views.language import language
 from ..views.page.motion_page import motion_page
 from ..views.plot.pictures import plot
-from .showing import allowed, columns, derive
+from .showing import allowed, columns, derive, each_once
 from .terminal import filled, working
 from .writing import growing, heard, one_line, require_place, with_progress, write
 
@@ -99,12 +100,15 @@ def method_of(args: argparse.Namespace, step: str) -> Method:
 def start_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> dict[str, Any]:
     """Where the motion starts, as ``beginning`` takes it; on stderr what is amiss with it."""
     given: dict[str, float] = {}
+    chosen = each_once("--set", args.set)
     if args.state:
         given, doubt = state_file(Path(args.state), problem, record)
         if doubt:
             print(f"derive: warning: {one_line(f'{args.state}: {doubt}')}", file=sys.stderr)
+    own = names_by_block(problem.group) if problem.group else {}
+    both = own | {name: x for x, name in own.items()}
     return {
-        "given": given | dict(args.set or ()),
+        "given": {x: y for x, y in given.items() if both.get(x) not in chosen} | chosen,
         "exponent": args.exp or (),
         "project": args.project,
     }
@@ -143,7 +147,7 @@ def command_simulate(args: argparse.Namespace) -> int:
         format_of(args.out)  # refused before the work
     for file in filter(None, (args.out, args.html)):
         require_place(Path(file))
-    chosen = {"followed": True, "given": dict(args.set or ())}
+    chosen = {"followed": True, "given": each_once("--set", args.set)}
     with working(args.problem):
         problem, record = derive(args.problem, **chosen, **allowed(args))
     start = start_of(args, problem, record)

@@ -201,7 +201,9 @@ class _Parser:
             raise ExpressionError("a parenthesis is not closed")
         count, written = WRITTEN_OUT[token]
         if len(inside) != count and not (token == "hypot" and len(inside) > count):
-            raise ExpressionError(f"{token} is of {count} expressions, not of {len(inside)}")
+            told = "1 expression" if count == 1 else f"{count} expressions"
+            least = " or more" if token == "hypot" else ""
+            raise ExpressionError(f"{token} is of {told}{least}, not of {len(inside)}")
         return written(*inside)
 
     def no_comma(self) -> None:

@@ -6,7 +6,7 @@ import math
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -177,6 +177,12 @@ class EnsembleMotions:
     """
 
     def __init__(self, code: Emitted, problem: Problem, plan: Plan):
+        varied = code.program.by_state({x.name: x for x in plan.varied}, MotionError)
+        plan = replace(
+            plan,
+            varied=tuple(replace(x, name=name) for name, x in varied.items()),
+            given=code.program.by_state(plan.given, MotionError),
+        )
         self.code, self.problem, self.plan, self.t = code, problem, plan, plan.times
         held = {*plan.given, *plan.names}
         if moving := next((x.input for x in problem.signals if x.input not in held), ""):

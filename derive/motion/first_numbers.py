@@ -48,16 +48,16 @@ def first_numbers(
     ``MotionError`` for a name that means nothing, a parameter without a number, a number that is
     none.
     """
-    given = {program.by_block.get(name, name): x for name, x in given.items()}
+    given = program.by_state(given, MotionError)
     emitted = {name: default for name, default, _, _ in program.parameters}
     apart = {name for name in named(problem) if name in problem.parameters}
     defaults = emitted | {x: problem.parameters[x].default for x in sorted(apart - {*emitted})}
     zero = dict.fromkeys((*program.inputs, *program.matrix_state, *program.state), 0.0)
     values: dict[str, float | None] = {**defaults, **zero}
-    _known(values, given, program.name)
+    _known(values, given, program.name, program)
     values |= {name: x for name, x in given.items() if name in defaults}
     numbers, stated = _initial_numbers(problem, values)
-    _known(zero, numbers, f"{program.name}, [initial],")
+    _known(zero, numbers, f"{program.name}, [initial],", program)
     element = _at(problem, program, exponent if len(exponent) else stated)
     if len(exponent):
         if all(name in given for name in element):
@@ -95,20 +95,21 @@ def require_numbers(given: Any, exponent: Any, **single: Any) -> None:
             raise MotionError(f"{name}: expected a number, not {x!r:.40}")
 
 
-def _known(values: Collection[str], given: Mapping[str, float], where: str) -> None:
+def _known(
+    values: Collection[str], given: Mapping[str, float], where: str, program: Program
+) -> None:
     """``MotionError`` for a name that means nothing, and for a number that is none."""
     for name, number in given.items():
         if name not in values:
-            near = f"{nearest(name, values)} ".removeprefix("; ").lstrip()
+            near = f"{nearest(name, program.like(name, values))} ".removeprefix("; ").lstrip()
             if components := [x for x in values if x.startswith(f"{name}_")]:
                 near = f"give its components {_listed(components)}; "
             if name == "exp":
                 near = "a tilt is set by --exp, varied by a parameter that [initial] exp uses; "
             if (other := turned(name)) in values:
                 near = f"ω̂(−𝐧) is the conjugate of ω̂(𝐧): give {other}; "
-            raise MotionError(
-                f"{where} has no {name[:40]!r}; {near}its numbers: {_listed([*values])}"
-            )
+            listed = _listed([*values, *program.by_block])
+            raise MotionError(f"{where} has no {name[:40]!r}; {near}its numbers: {listed}")
         if not math.isfinite(number):
             raise MotionError(f"{where}: {name} = {number} is no finite number")
 

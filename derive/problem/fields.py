@@ -81,6 +81,8 @@ def undeclared(
 ) -> str:
     """That a name in an expression of a Lagrangian is neither a parameter nor of the state, in
     words."""
+    if name in known:
+        return f"{where}: {name!r} is of the state, which is not known there"
     if fault := no_entry(name, group, known):
         return f"{where}: {fault}"
     hint = nearest(name[:40], parameters).removeprefix("; ")

@@ -148,7 +148,7 @@ def problem_of(
     potentials, inputs, damping, stated = forces(data, reader)
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
-    linear, damped = as_forces(damping, reader)
+    linear, damped, numbers_of_damping = as_forces(damping, reader)
     flows, pushed = flows_of(data, its_body, reader, inputs)
     reader.knows_acting(inputs, (*stated, *damped, *pushed), linear)
     observed = outputs(data, reader, inputs, (*stated, *damped, *pushed), potentials)
@@ -167,6 +167,7 @@ def problem_of(
         observed,
         flows=flows,
         flow_forces=pushed,
+        damped=numbers_of_damping,
         signed=negative_mass,
         **motion_fields(data, reader),
     )
@@ -230,8 +231,7 @@ def _without_points(
     if advected is not None:
         _require_covectors(data)
     group = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
-    reader = FileReader()
-    reader.moves(group)
+    (reader := FileReader()).moves(group)
     reader.advected, reader.pointless = advected, True
     said = data[where]
     reader.on_the_right = isinstance(said, dict) and said.get("trivialisation") == "right"
@@ -241,7 +241,7 @@ def _without_points(
     _, inputs, damping, of_state = forces(data, reader)
     if not negative_stiffness:
         _positive(negative_stiffness_of((), damping, parameters), "stiffness")
-    stated = (*of_state, *as_forces(damping, reader)[1])
+    stated = (*of_state, *(damped := as_forces(damping, reader))[1])
     others = [x for x in OUTPUTS if x not in (*OF_MASSES, ExpressionOutput.kind)]
     for k, x in enumerate(tables(data, "output"), 1):
         placed = "y" not in x or {*ATTACHED} & {*x}
@@ -260,6 +260,7 @@ def _without_points(
         inputs=inputs,
         places=tuple(reader.places),
         forces=stated,
+        damped=damped[2],
         outputs=observed,
         lagrangian=lagrangian(data, group, reader),
         advected=advected,

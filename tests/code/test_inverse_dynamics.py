@@ -11,6 +11,7 @@ from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.code.options import Options
 from derive.code.program import LoweringError
+from derive.language.limits import LISTENER
 from derive.problem.toml import problem_of
 from derive.programs import program
 from tests.oracles import general, relative_error
@@ -103,7 +104,11 @@ def test_what_acts_without_inputs_has_no_rates_where_one_is_divided_by():
     force = [{"at": [1, 0], "frame": "space", "force": ["1/s", 0]}]
     given = [{"name": "s", "kind": "force", "at": [0, 1], "frame": "body", "direction": [1, 0]}]
     problem = problem_of(body("SO(2)", 2, input=given, force=force))
+    heard = list[str]()
+    told = LISTENER.set(heard.append)
     _, texts = emission(problem, ("c",), dynamics=True)
+    LISTENER.reset(told)
+    assert heard[-1].endswith("no inverse is written, as an input is divided by")
     assert "test_bias(" in texts["test.h"]
     assert "test_inverse(" not in texts["test.h"]
     with pytest.raises(ValueError, match="an input is divided by"):

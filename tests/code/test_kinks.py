@@ -24,6 +24,13 @@ CASES = {
     "abs(T_1)": ("T_1 = 0 (abs)", [0.3, 0.2]),
     "sqrt(1 + zeta_1^2)": ("", [0, 0]),
     "zeta_1^3": ("", [0, 0]),
+    "abs(zeta_1^2 + 1)": ("", [0, 0]),
+    "abs(exp(zeta_1))": ("", [0, 0]),
+    "sqrt(exp(zeta_1))": ("", [0, 0]),
+    "max(zeta_1^2, -1)": ("", [0, 0]),
+    "hypot(zeta_1, 2)": ("", [0, 0]),
+    "atan2(zeta_1, 2)": ("", [0, 0]),
+    "atan2(zeta_1, -2)": ("zeta_1 = 0 (atan2)", [0, 0.5]),
 }
 LANGUAGES = ("c", "cpp", "python", "rust", "julia", "javascript")
 
@@ -94,6 +101,37 @@ def test_the_names_are_those_of_the_file():
         "force": [{"covector": ["abs(up_2)", 0, 0]}],
     }
     assert told(emitted(spun, "raw")["test.h"]) == ["in force 1 up_2 = 0 (abs)"]
+
+
+@pytest.mark.parametrize("frame", ["body", "space"])
+def test_the_velocity_less_that_of_a_wind_is_that_of_the_file(frame):
+    force = {"name": "drag", "at": [0, 0], "frame": frame, "relative_to": ["abs(t - 1) + e", 0]}
+    data = {
+        "group": "SE(2)",
+        "parameters": {"e": {"default": 1.0}},
+        "point": [{"mass": 1, "at": [1, 0]}, {"mass": 1, "at": [0, 1]}],
+        "force": [force | {"force": ["-abs(v_1)*v_1", "-hypot(v_1 - 2, v_2)"]}],
+    }
+    inside = ("v_1 = 0 (abs)", "v_1 - 2 = 0 and v_2 = 0 (hypot)", "t - 1 = 0 (abs)")
+    says = "; ".join(f"in force drag {x}" for x in inside)
+    assert told(emitted(data, "state")["test.h"]) == [says]
+
+
+def test_damping_without_a_name_is_told_by_its_table():
+    data = {
+        "group": "SE(2)",
+        "lagrangian": {"L": "zeta_1^2 + zeta_2^2 + zeta_3^2"},
+        "force": [{"covector": ["abs(zeta_1)", 0, 0]}],
+        "damping": [
+            {"kind": "rotational", "coefficient": 1},
+            {"kind": "quadratic", "coefficient": 1, "at": [0, 0]},
+        ],
+    }
+    head = emitted(data, "state")["test.h"]
+    own = "in force 1 zeta_1 = 0 (abs); in damping 2 v_1 = 0 and v_2 = 0 (hypot)"
+    assert told(head) == [own]
+    called = ("Damping 1: a moment", "Damping 2: a force", "Force of the state: a covector")
+    assert [x for x in called if x not in head] == []
 
 
 def test_none_are_told_where_no_derivative_is_asked_for():

@@ -109,6 +109,15 @@ def test_refused(text):
     assert 0 < len(str(caught.value)) < 120
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [("hypot(a)", "2 expressions or more, not"), ("abs(a, b)", "1 expression, not of 2")],
+)
+def test_of_how_many_a_function_is(text, said):
+    with pytest.raises(ExpressionError, match=said):
+        parse(text)
+
+
 @pytest.mark.parametrize("seed", range(60))
 def test_zero_divisors_are_those_of_fractions(seed):
     """An expression is refused where Python divides by zero whatever the names are."""

@@ -48,7 +48,7 @@ class Question:
         velocity = program.state[-self.d :]
         self.turns = {x.replace("zeta", "eta"): a for a, x in enumerate(velocity) if "zeta" in x}
         own = program.by_block
-        at = {own.get(x, x): y for x, y in at.items()}
+        at = program.by_state(at, NoTrimError)
         free = [own.get(x, x) for x in free or ()]
         self.require_names(at, ())
         self.require_names(free, self.turns)
@@ -86,7 +86,8 @@ class Question:
         known = (*self.program.state, *self.program.inputs, *more)
         for name in names:
             if name not in known:
-                near = nearest(name, known) or f"; these are {entries(known)}"
+                told = f"; these are {entries((*known, *self.program.by_block))}"
+                near = nearest(name, self.program.like(name, known)) or told
                 raise NoTrimError(f"{name} is no number of the state and no input{near}")
 
     def require(self) -> None:
