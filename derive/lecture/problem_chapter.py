@@ -18,7 +18,7 @@ from ..views.figure.scene import scene
 from ..views.language import Language, language
 from ..views.outline import declared, system, title
 from ..views.text import formula as aligned
-from .conserved import conserved, kept_by
+from .conserved_sentences import conserved, kept_by
 from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
 from .problem_exercises import exercises

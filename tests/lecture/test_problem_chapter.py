@@ -18,7 +18,7 @@ from derive.language.limits import Refused
 from derive.language.read import FormulaError
 from derive.language.show import show
 from derive.lecture import document
-from derive.lecture.conserved import kept_by
+from derive.lecture.conserved_sentences import kept_by
 from derive.lecture.lecture_text import Block, Chapter, Entry, Formula, LectureError, tree
 from derive.lecture.problem_chapter import LONGEST, SEARCHES, Found, _rows, chapter_of
 from derive.lecture.problem_exercises import _on_motion

@@ -38,6 +38,7 @@ ALLOWED = {
         "views/figure",
         "check",
         "record",
+        "record/prose",
         "language",
     },
     "views/page": {
