@@ -90,15 +90,18 @@ def equilibria(
     return _at_points(problem, values, degree, equilibria_of, partial(told, tried=not values))
 
 
-def families(problem: Problem, degree: int = 4) -> tuple[tuple[Family, ...], Derivation]:
+def families(
+    problem: Problem, degree: int = 4, *, at_defaults: bool = False
+) -> tuple[tuple[Family, ...], Derivation]:
     """The families of relative equilibria through some points, with inequalities in the parameters
     and in the momentum of each under which they are stable, and under which they are not; and the
-    record of the integrals up to a degree with the steps that tell them."""
+    record of the integrals up to a degree with the steps that tell them.  ``at_defaults``: with
+    numbers for parameters, so that of the problem's own letters π alone may be left."""
     from .schema.kind import Parameter
     from .search.equilibria import stability_in_letters as letters
     from .search.equilibria.family_steps import told_families
 
-    whole, own, steps = _searched(problem, degree)
+    whole, own, steps = _searched(problem, degree, at_defaults=at_defaults)
     names = letters.letters(whole.system, own.parameters)
     whole = letters.with_letters(whole, names)
     found = tuple(letters.families(whole, names, _elements(problem, whole)))
@@ -116,12 +119,14 @@ def _at_points(
     tell: Callable[..., Iterable[Step]],
 ) -> tuple[Any, Derivation]:
     """What is found at a point of the equations with integrals, and their record with its steps."""
-    from .search.equilibria.stability import require_numbers
+    from .search.equilibria.stability import PiError, require_numbers
 
     whole, record = integrals(problem, degree, at_defaults=True)
     try:
         require_numbers(whole)
         found = find(whole, _of_variables(problem, values), _elements(problem, whole))
+    except PiError as error:
+        raise PiError(f"{problem.name}: {error}") from None
     except Refused as error:
         raise ProblemError(f"{problem.name}: {error}") from None
     steps = tell(whole, found, record.steps, Chapter(problem.name, problem.group_name))

@@ -5,6 +5,7 @@ link is one link here and there.  Nothing is fetched, neither to build the site 
 """
 
 import base64
+import re
 import shutil
 import tomllib
 import zlib
@@ -21,14 +22,12 @@ include_patterns = ["*.md", "docs/*.md", "docs/*/*.md"]
 ROOT = Path(__file__).parents[1]
 CONTENTS = {
     "Begin": "tutorial playground systems commands",
-    "A problem": "problem-file potentials/* lagrangian dirichlet fluid zeitlin kinematics",
-    "What is found of it": "symmetries integrals reduction equilibria control",
-    "Its motion": "motion ensembles plot",
-    "As text and data": "notes lecture record python sympy",
-    "As code": "code options steps discrete build fmu compare",
-    "Trust": "trust performance not-here strangers ../SECURITY paper",
-    "Inside": "architecture extending reference ../CONTRIBUTING ../CHANGELOG",
+    "A problem": "problem-file lagrangian dirichlet fluid zeitlin kinematics",
+    "What it tells": "symmetries integrals reduction equilibria control motion notes lecture",
+    "For programs": "code python sympy record",
+    "Trust, and inside": "trust paper architecture ../CHANGELOG",
 }
+"""Caption → pages of the table of contents."""
 
 html_theme = "furo"
 html_title = "derive"
@@ -43,14 +42,41 @@ autodoc_typehints_format = "short"
 highlight_language = "text"  # what has no language is what was printed
 
 
+BELOW = {
+    root_doc: CONTENTS,
+    "docs/problem-file": {"": "potentials/*"},
+    "docs/motion": {"": "ensembles plot"},
+    "docs/code": {"": "options steps discrete build fmu compare"},
+    "docs/trust": {"": "performance not-here strangers ../SECURITY"},
+    "docs/architecture": {"": "extending reference ../CONTRIBUTING"},
+}
+"""Page → the pages below it in the table of contents, under their captions."""
+
+
 def contents(app, docname, source):
-    """The table of contents, which README does not show, at its end."""
-    if docname == root_doc:
-        for caption, patterns in CONTENTS.items():
-            files = [x for p in patterns.split() for x in sorted((ROOT / "docs").glob(f"{p}.md"))]
-            pages = [f"/{x.resolve().relative_to(ROOT).with_suffix('')}" for x in files]
-            fence = ["```{toctree}", ":hidden:", f":caption: {caption}", "", *pages, "```"]
-            source[0] += "\n\n" + "\n".join(fence) + "\n"
+    """The table of contents, which pages do not show, at their ends."""
+    for caption, patterns in BELOW.get(docname, {}).items():
+        files = [x for p in patterns.split() for x in sorted((ROOT / "docs").glob(f"{p}.md"))]
+        pages = [f"/{x.resolve().relative_to(ROOT).with_suffix('')}" for x in files]
+        captions = [f":caption: {caption}"] if caption else []
+        fence = ["```{toctree}", ":hidden:", *captions, "", *pages, "```"]
+        source[0] += "\n\n" + "\n".join(fence) + "\n"
+
+
+MARKED = re.compile(r"[^\W\d][\u0300-\u036f]+")
+COLUMN, COMPOSED = "display:inline-block;width:1ch;text-align:center", "font-family:sans-serif"
+
+
+def marks(app, pagename, templatename, context, doctree):
+    """A letter with its dot as one, in blocks of text: of many fonts of one width the dot stands
+    above what follows."""
+    letter = rf'<span style="{COLUMN}"><span style="{COMPOSED}">\g<0></span></span>'
+    context["body"] = re.sub(
+        r"<pre>.*?</pre>",
+        lambda block: MARKED.sub(letter, block[0]),
+        context.get("body", ""),
+        flags=re.DOTALL,
+    )
 
 
 def playground(app, pagename, templatename, context, doctree):
@@ -99,5 +125,6 @@ def setup(app):
     """Where Sphinx calls these."""
     app.connect("source-read", contents)
     app.connect("html-page-context", playground)
+    app.connect("html-page-context", marks)
     app.connect("doctree-resolved", opened_there)
     app.connect("build-finished", index)

@@ -85,7 +85,7 @@ def both(words: str) -> str:
     return words
 
 
-OTHER_OPTIONS = {"page": "html", "web": "html", "language": "lang", "output": "out"}
+OTHER_OPTIONS = {"page": "html", "web": "html", "language": "lang", "output": "out", "o": "out"}
 """What others call an option."""
 
 PICTURES = ("plot", "picture", "figure")
@@ -117,6 +117,10 @@ class Parser(argparse.ArgumentParser):
         except argparse.ArgumentError as error:
             choices, listed = [*map(str, action.choices or ())], str(value).split(",")
             near = nearest(str(value), choices)
+            if not near and action.metavar == "COMMAND":
+                raise argparse.ArgumentError(
+                    None, f"no command {str(value)[:40]!r}; derive --help has them"
+                ) from None
             if "repeated" in (action.help or "") and len(listed) > 1 and {*listed} <= {*choices}:
                 option = action.option_strings[0]
                 near = f"; one at a time: {' '.join(f'{option} {x}' for x in listed)}"

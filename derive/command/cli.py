@@ -90,6 +90,7 @@ def command_integrals(args: argparse.Namespace) -> int:
 
 def command_equilibria(args: argparse.Namespace) -> int:
     """Find relative equilibria of the reduced equations of a problem, and their stability."""
+    from ..search.equilibria.stability import PiError
     from ..searches import equilibria, equilibrium_near, families
 
     if args.letters and (args.near or args.at):
@@ -105,7 +106,14 @@ def command_equilibria(args: argparse.Namespace) -> int:
         elif near:
             found, record = equilibrium_near(problem, near, args.degree)
         else:
-            found, record = equilibria(problem, at, args.degree)
+            try:
+                found, record = equilibria(problem, at, args.degree)
+            except PiError:
+                if at:
+                    raise
+                reason = "the moments of its solid have π, which is no fraction and stays a letter"
+                print(f"derive: {problem.name}: {reason}", file=sys.stderr)
+                found, record = families(problem, args.degree, at_defaults=True)
     if not found:
         raise UsageError(
             f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "

@@ -140,15 +140,16 @@ LEAST = 40
 """The fewest columns of a text."""
 
 
-def save(text: str, out: str | None, form: str) -> None:
-    """Write a text of one of the formats to stdout, or whole to the file ``out``."""
+def save(text: str, out: str | None, form: str, *, paged: bool = True) -> None:
+    """Write a text of one of the formats to stdout, where it may be ``paged``, or whole to the file
+    ``out``."""
     from .writing import write
 
     if out is None:
         if form != "text":
             as_in_a_file()
         text = text if text.endswith("\n") else text + "\n"
-        show(text) if form == "text" else sys.stdout.write(text)
+        show(text, paged=paged) if form == "text" else sys.stdout.write(text)
     else:
         path = Path(out)
         write({path.name: text}, path.parent, links=True)
@@ -170,7 +171,7 @@ def save_steps(
     shown = render(record, args.format, args.lang, width=columns(args.out), **chosen)
     if args.format == "latex":
         warn_of_letters([record])
-    save(shown, args.out, args.format)
+    save(shown, args.out, args.format, paged=not answer)
 
 
 def save_found(record: Derivation, args: argparse.Namespace) -> None:

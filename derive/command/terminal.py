@@ -39,12 +39,12 @@ def _emphasised(margin: str, line: str, below: str) -> str:
     return line
 
 
-def show(text: str) -> None:
-    """A text on standard output: at a terminal emphasised, and by a pager (PAGER, else less) where
-    it is longer than the screen."""
+def show(text: str, *, paged: bool = True) -> None:
+    """A text on standard output: at a terminal emphasised, and, ``paged``, by a pager (PAGER, else
+    less) where it is longer than the screen."""
     if coloured():
         text = emphasised(text)
-    if sys.stdout.isatty() and text.count("\n") >= shutil.get_terminal_size().lines:
+    if paged and sys.stdout.isatty() and text.count("\n") >= shutil.get_terminal_size().lines:
         import pydoc  # which a browser's Python has not
 
         os.environ.setdefault("LESS", "FRX")  # colours as they are, the text stays on the screen

@@ -57,6 +57,9 @@ def test_a_pager_for_what_is_longer_than_the_screen(tmp_path):
     assert seen("walk", "so3", cwd=tmp_path, PAGER=mark, NO_COLOR="1").startswith("paged ")
     short = seen("walk", "so3", "kernel", cwd=tmp_path, PAGER=mark, NO_COLOR="1")
     assert short.startswith("so3.kernel")
+    answer = seen("walk", "saff3", "--answer", cwd=tmp_path, PAGER=mark, NO_COLOR="1")
+    assert answer.count("\n") > 24
+    assert not answer.startswith("paged ")
 
 
 def test_derive_alone_prints_help(capfd):

@@ -8,6 +8,7 @@ import pytest
 from derive import ProblemError, derive
 from derive.command.cli import main
 from derive.problem.toml import problem_of
+from derive.record.as_json import from_json
 from derive.record.sentence import english
 from derive.search.equilibria.energy_casimir import between_roots, diagonalised
 from derive.search.equilibria.stability import polynomial, roots_of_squares
@@ -124,6 +125,19 @@ def test_pi_is_no_number_here(potential, said):
     """“b, π has no default”; “cos of its parameters” where there is none."""
     with pytest.raises(ValueError, match=said):
         derive(heavy("123", potential, "b" if "b" in potential else "")).equilibria()
+
+
+def test_pi_stays_a_letter_in_a_command(tmp_path, capsys):
+    """The cone of ``top``: what is told of it holds, and is stable where it spins fast enough."""
+    assert main(["equilibria", "top", "--format", "json"]) == 0
+    told, said = capsys.readouterr()
+    assert "have π, which is no fraction and stays a letter" in said
+    record = from_json(told)
+    upright = next(s for s in record.steps if s.label == "top.energy_casimir_2")
+    assert "are stable" in english(upright.prose)
+    assert "‘g’" not in english(upright.prose)
+    (tmp_path / "found.json").write_text(told, encoding="utf-8")
+    assert main(["check", str(tmp_path / "found.json")]) == 0
 
 
 def test_squares_by_lagrange():

@@ -109,13 +109,18 @@ class Equilibrium:
         return max((x.real for x in found), default=0.0)
 
 
+class PiError(NotReducedError):
+    """Numbers are fractions here, and π is left of the moments of a solid."""
+
+
 def require_numbers(whole: IntegralsFound) -> None:
-    """``NotReducedError`` where parameters have no numbers."""
+    """``NotReducedError`` where parameters have no numbers, ``PiError`` where π alone is left."""
+    told = "equilibria are told for numbers, and"
+    if names := ", ".join(x for x in whole.system.parameters if x != "π"):
+        raise NotReducedError(f"{told} {names} has no default")
     if whole.system.parameters:
         reason = "π is none: of a density that is a mass over a volume, it cancels"
-        if names := ", ".join(x for x in whole.system.parameters if x != "π"):
-            reason = f"{names} has no default"
-        raise NotReducedError(f"equilibria are told for numbers, and {reason}")
+        raise PiError(f"{told} {reason}")
 
 
 def equilibria_of(

@@ -148,7 +148,7 @@ def body(figure: Any, run: Run, word: Any) -> None:
             for j in range(3 if view is VIEW else 2):
                 tip = np.stack([np.zeros(3), A[k][:, j]]) * _size(points, parts) / 2
                 panel.plot(*projected(tip, view).T, c="#bbbbbb", lw=0.6, zorder=0)
-        title = f"$t = {run.t[k]:.3g}$"
+        title = f"$t = {run.t[k]:.3g}$ {run.columns[0].unit}".rstrip()
         if len(points) == 4 and view is VIEW:
             volume = abs(float(np.linalg.det(A[k] @ (points[1:] - points[0]).T))) / 6
             title += f"\n{word('volume')} {volume:.6g}"

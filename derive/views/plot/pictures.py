@@ -192,7 +192,7 @@ def _chosen(kinds: Mapping[str, PictureKind], run: Any, kind: str, what: str) ->
     fitting = [x for x, own in kinds.items() if not own.lacks(run)]
     there = f"there are {', '.join(fitting)}" if fitting else "nothing else can be drawn of it"
     if not kind:
-        first = ("vorticity", "axes", "state", "energy") if kinds is KINDS else tuple(kinds)
+        first = ("vorticity", "state", "axes", "energy") if kinds is KINDS else tuple(kinds)
         kind = next((x for x in first if x in fitting), first[-1])
     if kind == PRECISION:
         raise PlotError(f"{kind} is of several runs, derive plot A B …, or of a table; {there}")
@@ -233,16 +233,12 @@ def _sheet_of(
     for k in others:
         min(halves, key=height).append(k)
     widths = [max(sizes[k][0] for k in half) for half in halves]
-    most = max(map(height, halves))
-    figure = sheet(sum(widths), most)
+    figure = sheet(sum(widths), max(map(height, halves)))
     for column, half in zip(
         figure.subfigures(1, 2, width_ratios=widths, squeeze=False)[0], halves, strict=True
     ):
         heights = [sizes[k][1] for k in sorted(half)]
-        rest = [most - sum(heights)] if most - sum(heights) > 0.1 else []
-        rows = column.subfigures(
-            len(half) + len(rest), 1, height_ratios=heights + rest, squeeze=False
-        )
-        for row, k in zip(rows[:, 0], sorted(half), strict=False):
+        rows = column.subfigures(len(half), 1, height_ratios=heights, squeeze=False)
+        for row, k in zip(rows[:, 0], sorted(half), strict=True):
             kinds[chosen[k]].draw(row, run, word, *columns)
     return figure
