@@ -105,7 +105,10 @@ def test_a_rotation_is_drawn_by_its_calmest_axis_and_a_turn_of_the_plane_by_its_
 def test_an_overview_has_two_columns_and_begins_at_the_left():
     figure = pictures._sheet_of(KINDS, ["state", "energy", "axes"], run_of(), str, ())
     left, right = figure.subfigs
-    assert [len(x.subfigs) for x in (left, right)] == [2, 2]  # below one of them nothing
+    assert [len(x.subfigs) for x in (left, right)] == [2, 1]
+    assert [x.subfigs[-1].bbox.y0 for x in (left, right)] == pytest.approx(
+        [0, 0]
+    )  # both to the end
     assert left.subfigs[0].get_axes()[0].get_ylabel().endswith("e_2$")
 
 
