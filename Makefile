@@ -43,8 +43,8 @@ TEXT := tests/prose tests/project/test_docs.py tests/project/test_faults.py test
   tests/record/test_keys.py tests/record/test_uses.py tests/views/test_language.py \
   tests/views/test_both_languages.py
 
-rest: $(ALL)     ## what make test has just left out here, and an eighth of what it always leaves out
-	$(BIN)/python -m pytest --share=8 $(ON) --without=$(PASSED)
+rest: $(ALL)     ## what make test has just left out here, and a sixteenth of what it always leaves out
+	$(BIN)/python -m pytest --share=16 $(ON) --without=$(PASSED)
 
 # branches that only those cases take which a quick run leaves out, and which are not measured, count as not taken
 coverage: $(ALL) ## more tests, and the lines and branches of derive/ that none runs; fails below 95 % of lines

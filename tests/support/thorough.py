@@ -1,7 +1,8 @@
 """What a quick run leaves out: the long ones that try the tests themselves (mutations, forgeries),
-random problems, and most cases of what has many.  ``make rest`` has an eighth of these, every
-eighth case, ``make coverage`` half, ``make thorough`` all.  Which cases are run with the others, a
-hash of their names and of a seed says: at least one of each language and of each other kind.
+random problems, and most cases of what has many.  ``make rest`` has a sixteenth of these, a case of
+each test of which a quick run has none among them, ``make coverage`` half, ``make thorough`` all.
+Which cases are run with the others, a hash of their names and of a seed says: at least one of each
+language and of each other kind.
 
 A test that is named on the command line, by its file or folder, is run whole, or by ``--quick`` as
 in a quick run.
@@ -64,11 +65,13 @@ def chosen(cases, count, seed):
 
 
 def share(items, n):
-    """Every n-th one of some items, of each test the first, and the rest; for 0 none."""
+    """Every n-th one of some items, and the rest; for 0 none.  Of a test of which a quick run has
+    no case it begins with the first, of others with the last of n: one case has been run."""
     seen, run, rest = Counter(), [], []
     for item in items:
-        name = item.nodeid.partition("[")[0]
-        (rest if n == 0 or seen[name] % n else run).append(item)
+        name = item.nodeid.removeprefix("tests/").partition("[")[0]
+        first = n - 1 if KEPT.get(name) else 0
+        (rest if n == 0 or seen[name] % n != first else run).append(item)
         seen[name] += 1
     return run, rest
 
