@@ -1,18 +1,22 @@
-"""Charts of factors: quaternions, angles and coordinates in the place of their matrices."""
+"""Charts of factors: quaternions, angles and coordinates in the place of their matrices; to_matrix
+and from_matrix: a state with a quaternion, and the same with its matrix."""
 
 import re
+from itertools import product
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import derive
 from derive.algebra.factor_charts import factor_charts
 from derive.algebra.families import FAMILIES, group
-from derive.validate.chart import Chart
-from derive.validate.emission import EmittedFiles
 from tests.code.test_step_jacobian import close, derivative
-from tests.support.languages import Case, built
-from tests.support.library import derived
+from tests.oracles.sampling import quaternion
+from tests.problems import MIXED
+from tests.support.emitted_files import Emission
+from tests.support.library import derived, library, module_of
+from tests.support.states import charted
 
 PLAIN = """
 name = "cart"
@@ -71,30 +75,14 @@ FORMS = {
 """Problem, attitude, some numbers of its state, and how many this has."""
 
 
-def compiled(name):
-    """The program with charts, and that with matrices."""
-    given, attitude, *_ = FORMS[name]
-    return [derive.compile(derived(given), attitude=x, step="vern9") for x in (attitude, "matrix")]
-
-
-def start(f, seed=3):
-    """A state on the group: quaternions of length 1, the matrices of other factors 1."""
-    x = np.random.default_rng(seed).normal(size=len(f.STATE)) / 2
-    for k, name in enumerate(f.STATE):
-        if name.startswith("q") and name.endswith("_0"):
-            x[k : k + 4] /= np.linalg.norm(x[k : k + 4])
-        if name.startswith("A"):
-            x[k] = name[-1] == name[-2]
-    return x
-
-
 @pytest.mark.parametrize("name", FORMS)
 def test_the_numbers_of_the_state(name):
-    chart, plain = compiled(name)
-    _, _, some, count = FORMS[name]
+    """tests/code/test_forms.py has their rates, those of matrices."""
+    given, attitude, some, count = FORMS[name]
+    chart, plain = module_of(given, attitude=attitude), module_of(given)
     assert len(chart.STATE) == len({*chart.STATE}) == count
     assert {*some} <= {*chart.STATE}
-    assert len(chart.to_matrix(start(chart))) == len(plain.STATE) > count
+    assert len(chart.to_matrix(charted(chart))) == len(plain.STATE) > count
 
 
 @pytest.mark.parametrize("name", FORMS)
@@ -114,63 +102,13 @@ def test_the_header_has_their_places_and_what_they_are(name):
 
 
 @pytest.mark.parametrize("name", FORMS)
-def test_accelerations_and_energy_are_those_of_matrices(name):
-    chart, plain = compiled(name)
-    for seed in range(5):
-        x = start(chart, seed)
-        z = chart.to_matrix(x)
-        d = sum(y.startswith(("zeta", "w")) for y in chart.STATE)
-        found, wanted = chart(0.3, x)[-d:], plain(0.3, z)[-d:]
-        assert np.abs(found - wanted).max() <= 1e-13 * (1 + np.abs(wanted).max())
-        assert abs(chart.energy(0.3, x) - plain.energy(0.3, z)) <= 1e-13 * (1 + abs(z).max() ** 2)
-        # what the numbers of a chart do, their matrices do
-        h = 1e-6
-        ahead, behind = (chart.to_matrix(x + s * h * chart(0.3, x)) for s in (1, -1))
-        assert np.abs((ahead - behind) / (2 * h) - plain(0.3, z)).max() < 1e-8 * (1 + abs(z).max())
-
-
-@pytest.mark.parametrize("name", FORMS)
-def test_motions_are_those_of_matrices(name):
-    chart, plain = compiled(name)
-    x = start(chart)
-    there = chart.begin(x).move_to(2.0, 1e-13).x
-    wanted = plain.begin(chart.to_matrix(x)).move_to(2.0, 1e-13).x
-    assert np.abs(chart.to_matrix(there) - wanted).max() < 1e-10 * (1 + np.abs(wanted).max())
-    if name != "screw":
-        assert np.abs(wanted - chart.to_matrix(x)).max() > 0.1
-
-
-@pytest.mark.parametrize("name", FORMS)
 def test_it_equals_the_record(name):
-    given, attitude, *_ = FORMS[name]
-    d = derived(given)
-    small = FORMS[name][-1] < 20
+    given, attitude, *_, count = FORMS[name]
+    small = count < 20
     more = {"jacobian": ("state", "raw"), "momenta": name != "by a basis"} if small else {}
-    files = d.emit(languages=("c",), attitude=attitude, **more)
-    (report,) = EmittedFiles(files, d.problem.name, Chart(attitude=attitude)).reports(d.record)
+    (report,) = Emission(given, ("c",), attitude=attitude, **more).reports()
     assert report.holds
     assert all(x in report.text for x in ("to_matrix", *(["jacobian_raw"] * small)))
-
-
-@pytest.mark.parametrize("build", built())
-@pytest.mark.parametrize("name", ["four factors", "and matrices", "by a basis"])
-def test_every_language_says_the_same(name, build):
-    given, attitude, *_ = FORMS[name]
-    steps = ("rk4", "gauss")
-    options = {"attitude": attitude, "jacobian": ("state", "step"), "step": steps}
-    options["conserved"] = True
-    Case(given, options, tolerance=1e-13).agrees(build)
-
-
-def test_jacobians_are_differences_of_the_code():
-    f = derive.compile(derived(PLAIN), attitude="angle", jacobian=("state", "raw"))
-    x, h = start(f), 1e-6
-    columns = [(f(0.0, x + h * e) - f(0.0, x - h * e)) / (2 * h) for e in np.eye(4)]
-    assert np.abs(np.transpose(columns) - f.jacobian_raw(0.0, x)).max() < 1e-7
-    # where coordinates commute, (eta, δζ) are changes of the numbers themselves
-    rates, D = f.jacobian(0.0, x)
-    assert np.array_equal(rates, f(0.0, x))
-    assert np.abs(D - f.jacobian_raw(0.0, x)).max() < 1e-13
 
 
 SIZES = {"gauss": 0.1, "rk4": 0.02, "vern9": 0.05}
@@ -190,13 +128,13 @@ def variations(f, x):
 
 @pytest.mark.parametrize("name", FORMS)
 def test_derivatives_of_steps_are_differences_of_steps(name):
-    """To 1e-9, and those of gauss, which differ by rounding, are those of matrices; of many
-    factors, of which C takes long to compile, those of rk4 alone."""
+    """To 1e-9, where the rates lead; those of gauss, which differ by rounding, are those of
+    matrices; of many factors, of which C takes long to compile, those of rk4 alone."""
     given, attitude, _, count = FORMS[name]
     sizes = SIZES if count < 20 else {"rk4": SIZES["rk4"]}
     options = {"step": (*sizes,), "jacobian": "step"}
     chart = derive.compile(derived(given), attitude=attitude, **options)
-    x, u = start(chart), np.random.default_rng(4).normal(size=len(chart.INPUTS))
+    x, u = charted(chart), np.random.default_rng(4).normal(size=len(chart.INPUTS))
     V = variations(chart, x)
     for step, h in sizes.items():
 
@@ -206,6 +144,10 @@ def test_derivatives_of_steps_are_differences_of_steps(name):
             return chart.step_jacobian(0.3, x, h, u, n=2, step=step)[0]
 
         there, phi, gamma = chart.step_jacobian(0.3, x, h, u, n=2, step=step)
+        path = solve_ivp(
+            chart.rhs, (0.3, 0.3 + 2 * h), x, "DOP853", args=(u,), rtol=1e-12, atol=1e-12
+        )
+        assert close(there, path.y[:, -1], 1e-7)
         ahead = np.linalg.pinv(variations(chart, there))
         assert close(phi, ahead @ derivative(lambda e: end(x + V @ e, u), V.shape[1]))
         assert close(gamma, ahead @ derivative(lambda e: end(x, u + e), len(u)))
@@ -233,7 +175,7 @@ def test_an_angle_counts_turns():
 def test_quaternions_of_several_factors_there_and_back():
     f = derive.compile("two_tops", attitude="quaternion")
     for seed in range(20):
-        x = start(f, seed)
+        x = charted(f, seed)
         for k in (0, 4):
             x[k : k + 4] *= 1 if x[k] >= 0 else -1
         assert np.abs(f.from_matrix(f.to_matrix(x)) - x).max() < 1e-15
@@ -245,7 +187,7 @@ def test_quaternions_of_several_factors_there_and_back():
 
 def test_project_takes_every_quaternion_back():
     f = derive.compile(derived(FOUR), attitude="shortest")
-    x = start(f)
+    x = charted(f)
     off = x + 1e-5 * np.random.default_rng(1).normal(size=len(x))
     assert f.defect(x) < 1e-15
     assert f.defect(off) > 1e-6
@@ -267,3 +209,117 @@ def test_which_factors_have_charts(name):
     assert [*factor_charts(beside, "angle")] == [1] * (name in ANGLES)
     assert [*factor_charts(beside, "quaternion")] == [0]
     assert not factor_charts(beside, "matrix")
+
+
+# ---------------------------------------------------------------- there and back
+
+AXES = [v for v in product((-1.0, 0.0, 1.0), repeat=3) if any(v)]
+CARRIED = ("from_matrix", "to_matrix")
+BY = (0.0, 1e-9, 0.1, 1.0, 2.0, 3.0, np.pi - 1e-7, np.pi)
+
+
+def rotation(axis, angle):
+    """Rodrigues' formula."""
+    e = np.array(axis) / np.linalg.norm(axis)
+    K = np.cross(np.eye(3), e).T
+    return np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
+
+
+def turns():
+    """Rotations about axes in all directions, also by half a turn, exact and nearly so, and some
+    at random."""
+    for axis in AXES:
+        for angle in BY:
+            yield rotation(axis, angle)
+    for signs in ((1, -1, -1), (-1, 1, -1), (-1, -1, 1)):
+        yield np.diag(signs).astype(float)
+    yield np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, -1]])
+    rng = np.random.default_rng(2)
+    for _ in range(200):
+        yield rotation(rng.normal(size=3), rng.uniform(0, np.pi))
+
+
+@pytest.fixture(scope="module")
+def states():
+    """The states of SE(3) at all these turns, with matrices, (n, 18)."""
+    rng = np.random.default_rng(1)
+    return np.array([[*A.ravel(), *rng.normal(size=9)] for A in turns()])
+
+
+@pytest.fixture(scope="module")
+def se3():
+    return derive.compile("se3", attitude="quaternion")
+
+
+def test_there_and_back_at_every_turn(states, se3):
+    """Beside the quaternion of an oracle; of half a turn, where both signs are, up to it.  Python
+    does as C, of many at once, too."""
+    m, known = (
+        module_of("se3", attitude="quaternion"),
+        [quaternion(z[:9].reshape(3, 3)) for z in states],
+    )
+    assert derive.compile("se3").STATE == m.MATRIX_STATE
+    found, many = np.array([se3.from_matrix(z) for z in states]), m.from_matrix(states)
+    assert (found[:, 0] >= 0).all()
+    assert np.abs(np.linalg.norm(found[:, :4], axis=1) - 1).max() < 4e-16
+    signs = [np.abs(found[:, :4] - s * np.array(known)).max(axis=1) for s in (1, -1)]
+    assert np.minimum(*signs).max() < 1e-7
+    assert np.abs(np.abs(many) - np.abs(found)).max() < 1e-15
+    clear = found[:, 0] > 1e-12  # at half a turn a rounding more or less is another sign
+    assert np.abs(many - found)[clear].max() < 1e-15
+    assert np.array_equal(m.from_matrix(states[40]), many[40])
+    for back in (np.array([se3.to_matrix(x) for x in found]), m.to_matrix(many)):
+        assert np.abs(back - states)[:, :9].max() < 2e-15
+        assert np.array_equal(back[:, 9:], states[:, 9:])
+    with pytest.raises(ValueError, match="z has 13 numbers, not 18"):
+        m.from_matrix(many)
+
+
+def test_a_matrix_that_is_off_gives_a_unit_quaternion_near_it(states, se3):
+    rng = np.random.default_rng(5)
+    for z in states[::7]:
+        off = z + 1e-6 * rng.normal(size=z.shape)
+        x = se3.from_matrix(off)
+        assert abs(np.linalg.norm(x[:4]) - 1) < 4e-16
+        assert np.abs(se3.to_matrix(x) - off)[:9].max() < 2e-5
+
+
+@pytest.mark.parametrize("build", ["javascript", "rust2021", "g++17"])
+def test_other_languages_do_as_c(build, states, se3):
+    made = library(build, "se3", attitude="quaternion")
+    there, back = (next(x for x in made.calls if x.name == y) for y in CARRIED)
+    for z in states[::5]:
+        values = {"t": 0.0, "z": z, **dict.fromkeys("pkxyu", np.zeros(18))}
+        (x,) = made.shown(there, values, False)
+        assert np.abs(np.abs(x) - np.abs(se3.from_matrix(z))).max() < 1e-15
+        (found,) = made.shown(back, values | {"x": x}, False)
+        assert np.abs(found - z).max() < 2e-15
+
+
+def test_without_a_quaternion_there_are_none():
+    f = derive.compile("so3")
+    with pytest.raises(ValueError, match="attitude='quaternion'"):
+        f.to_matrix(np.zeros(12))
+
+
+OWN_BASIS = f"""
+name = "own"
+[group]
+name = "Own"
+action = "affine"
+basis = [{MIXED}]
+[lagrangian]
+L = "zeta_1^2 + 2*zeta_2^2 + 3/2*zeta_3^2 + zeta_4^2 + zeta_5^2/2 + 3*zeta_6^2 \
+  + zeta_1*zeta_5/3 - T_3 - A_33*T_1"
+[[input]]
+name = "u"
+kind = "covector"
+"""
+"""In a basis of se(3) with a screw in it."""
+
+
+def test_a_lagrangian_of_ones_own_equals_the_record():
+    options = {"attitude": "quaternion", "momenta": True, "jacobian": ("state", "inputs")}
+    reports = Emission(OWN_BASIS, **options).reports()
+    assert all(report.holds for report in reports), [x.text for x in reports]
+    assert "to_matrix, from_matrix, momentum, velocity, momentum_rhs" in reports[0].text

@@ -2,27 +2,23 @@
 
 import re
 from fractions import Fraction
-from types import ModuleType
+from functools import cache, partial
 
 import numpy as np
 import pytest
 import sympy
 from scipy.integrate import solve_ivp
 
-from derive.code.emit import emit
 from derive.code.languages import LANGUAGES
-from derive.code.options import Options
 from derive.command.cli import main
 from derive.command.showing import ready_made
-from derive.language.limits import Refused
 from derive.language.rational import times, transposed
 from derive.problem.toml import problem_of
-from derive.programs import program
 from derive.python.derived import derive
-from derive.validate.chart import Chart
-from derive.validate.emission import EmittedFiles
 from tests.oracles import general
-from tests.support.walks import FLUIDS, problem, record, repeated
+from tests.support import library
+from tests.support.emitted_files import Emission
+from tests.support.walks import FLUIDS, record, repeated
 
 WITHOUT = ("linear", "affine", "zeitlin", "imu", *FLUIDS)
 """About any group, or without matrices or a Lagrangian; on the torus see test_torus."""
@@ -33,22 +29,10 @@ NAMES = [x for x in ready_made() if x not in APART]
 SHORT = dict.fromkeys(("se3", "hammer", "screw", "heisenberg", "sp4", "saff3", "sim3"), 5.0)
 SHORT |= {"dirichlet": 5.0, "sl3": 10.0, "gl3": 0.2}
 """Falls and other motions without bounds, and one through a collapse of the body."""
-FORMS = {
-    "plain": {},
-    "by_columns": {"layout": "col"},
-    "quaternion": {"attitude": "quaternion"},
-    "tangent": {"velocity": "tangent"},
-}
 
 
-def module_of(name, **chosen):
-    """The emitted Python of a problem."""
-    module = ModuleType(name)
-    exec(
-        derive(name).emit(languages=("python",), conserved=True, **chosen)[f"{name}.py"],
-        vars(module),
-    )
-    return module
+module_of = partial(library.module_of, conserved=True)
+"""The emitted Python of a problem."""
 
 
 def start(name, module):
@@ -97,12 +81,6 @@ def test_every_number_is_kept_and_is_that_of_the_search(name):
     assert (np.abs(kept[:5, : wanted.shape[1]] - wanted).max(axis=0) / scale).max() < 1e-12
 
 
-def test_the_first_is_the_energy():
-    module = module_of("so3")
-    k, t, x = moved(module, start("so3", module), 1.0)
-    assert module.conserved(t, x, k)[:, 0] == pytest.approx(module.energy(t, x, k), rel=1e-12)
-
-
 def test_expressions_are_the_values():
     d, module = derive("se3"), module_of("se3")
     x, t, program = start("se3", module), 0.3, d.expressions()
@@ -111,17 +89,6 @@ def test_expressions_are_the_values():
         numbers = quantity.sympy().subs(defaults)
         f = sympy.lambdify([sympy.Symbol("t", real=True), program.x], numbers)
         assert f(t, x) == pytest.approx(value, rel=1e-9, abs=1e-9)
-
-
-@pytest.mark.parametrize("form", FORMS)
-def test_in_every_form_of_the_state(form):
-    module = module_of("se3", **FORMS[form])
-    x = np.random.default_rng(3).normal(size=len(module.STATE)) / 9
-    x[[0] if form == "quaternion" else [0, 4, 8]] += 1
-    for _ in range(9):
-        x = module.project(x)
-    k, t, x = moved(module, x, 5.0)
-    assert spread(module.conserved(t, x, k)) < 1e-8
 
 
 def test_kovalevskaya_s_own_integral():
@@ -203,16 +170,21 @@ coefficient = 0.2
 """
 
 
+def validated(path, capsys):
+    """The words that emit Python beside a file, which is equal to the record."""
+    words = ["emit", str(path), "--conserved", "--lang", "python", "--out", str(path.parent)]
+    assert main([*words, "--validate"]) == 0
+    assert "conserved equal the record" in capsys.readouterr().err
+    return words
+
+
 def test_the_momentum_with_what_damping_takes(tmp_path, capsys):
     """p − m g t + Σ κ r of a free body, by hand; of two dampings, one on a place of the body."""
     path = tmp_path / "top.toml"
     text = TOP.replace("GROUP", "SE(3)") + '[[damping]]\ncoefficient = "k"\nat = [1, 0, 2]\n'
     path.write_text(text.replace("[[point]]", "[parameters]\nk = { default = 0.3 }\n[[point]]", 1))
-    emit = ["emit", str(path), "--conserved", "--lang", "python", "--out", str(tmp_path)]
-    assert main([*emit, "--validate"]) == 0
-    assert "conserved equal the record" in capsys.readouterr().err
-    module = ModuleType("top")
-    exec((tmp_path / "top.py").read_text(), vars(module))
+    validated(path, capsys)
+    module = library.module("top", (tmp_path / "top.py").read_text())
     assert module.CONSERVED == ("momentum_1", "momentum_2", "momentum_3")
     start = {"zeta_1": 1.0, "w_1": 2.0, "w_3": -1.0}
     run = derive(str(path)).simulate(1.0, points=4, start=start)
@@ -235,11 +207,8 @@ def test_what_is_kept_with_damping(group, tmp_path, capsys):
     path = tmp_path / "top.toml"
     head = TOP.replace("GROUP", group)
     path.write_text(head + "at = [0, 0, 1]\n")
-    emit = ["emit", str(path), "--conserved", "--lang", "python", "--out", str(tmp_path)]
-    assert main([*emit, "--validate"]) == 0
-    assert "conserved equal the record" in capsys.readouterr().err
-    module = ModuleType("top")
-    exec((tmp_path / "top.py").read_text(), vars(module))
+    emit = validated(path, capsys)
+    module = library.module("top", (tmp_path / "top.py").read_text())
     free = group == "SE(3)"
     momenta = ("momentum_1", "momentum_2", "momentum_3") if free else ()
     assert (*momenta, "body_angular_momentum_3") == module.CONSERVED
@@ -256,14 +225,15 @@ def test_what_is_kept_with_damping(group, tmp_path, capsys):
         assert "take" not in told
 
 
+@cache
+def emitted(name):
+    return Emission(name, conserved=True)
+
+
 def reports(name, change=lambda text: text):
     """The verdicts of the validator on emitted files, changed."""
-    own = problem(name)
-    options = Options(conserved=True)
-    compiled = program(own, record(name), options)
-    files = emit(compiled, record(name), ("c", "python"), name, options)
-    files = {x: change(text) for x, text in files.items()}
-    return EmittedFiles(files, name, Chart(), compiled.numbers()).reports(record(name))
+    made = emitted(name)
+    return made.reports({x: change(text) for x, text in made.files.items()})
 
 
 @pytest.mark.parametrize("name", repeated([x for x in ready_made() if x not in WITHOUT], 4))
@@ -298,16 +268,13 @@ ANY_ENERGY = {  # of so(3), whose one Casimir is |Π|²
 
 
 def on_algebra(text, algebra):
-    data = {"name": "test", "algebra": algebra, "lagrangian": {"L": text}}
-    return derive(problem_of(data))
+    return problem_of({"name": "test", "algebra": algebra, "lagrangian": {"L": text}})
 
 
 @pytest.mark.parametrize("case", ANY_ENERGY)
 def test_casimirs_whatever_the_energy(case):
     text, names = ANY_ENERGY[case]
-    module = ModuleType("test")
-    files = on_algebra(text, {"of": "SO(3)"}).emit(languages=("python",), conserved=True)
-    exec(files["test.py"], vars(module))
+    module = module_of(on_algebra(text, {"of": "SO(3)"}))
     assert list(module.CONSERVED) == names
     k, times, states = moved(module, np.array([0.3, 1.1, -0.7]), 5.0)
     kept = np.array([module.conserved(t, x, k) for t, x in zip(times, states, strict=True)])
@@ -320,16 +287,7 @@ def test_a_root_of_a_number_is_validated(tmp_path, capsys):
     file = tmp_path / "rooted.toml"
     text = 'name = "rooted"\n[algebra]\nof = "SO(3)"\n[lagrangian]\nL = "{}"\n'
     file.write_text(text.format(ANY_ENERGY["root"][0]), encoding="utf-8")
-    out = ["--out", str(tmp_path), "--validate", "--conserved"]
-    assert main(["emit", str(file), "--lang", "python", *out]) == 0
-    assert "conserved equal the record" in capsys.readouterr().err
-
-
-def test_nothing_is_kept():
-    """The algebra of the affine group of the line has no Casimir."""
-    timed = on_algebra("zeta_1^2 + (2 + t^2)*zeta_2^2", {"brackets": [[1, 2, 2, 1]]})
-    with pytest.raises(Refused, match=r"on the time.*no Casimir.*: leave out conserved"):
-        timed.emit(conserved=True)
+    validated(file, capsys)
 
 
 def exactly(A, Z, J, Y):

@@ -1,13 +1,20 @@
-"""The FMUs of a problem, of both standards, as another's importer reads and runs them (FMPy)."""
+"""The FMUs of a problem, of both standards, as another's importer reads and runs them (FMPy); the
+emitted C in a program that integrates it by CVODE of SUNDIALS.
+"""
 
+import importlib
+import re
 import subprocess
 import zipfile
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-import derive
+from derive import derive
+from tests.support.library import module_of
 from tests.support.needs import CC, need, needs
+from tests.support.states import flow
 
 DRONE = """
 name = "drone"
@@ -43,7 +50,7 @@ TIME, CHANGED = 2.0, {"c_3": 0.3, "w_1": 0.25}
 def drone(tmp_path_factory):
     folder = tmp_path_factory.mktemp("drone")
     (folder / "drone.toml").write_text(DRONE, encoding="utf-8")
-    return derive.derive(folder / "drone.toml")
+    return derive(folder / "drone.toml")
 
 
 @pytest.fixture(scope="module")
@@ -64,23 +71,32 @@ def emitted(drone, tmp_path_factory):
     return folder
 
 
-def pushed(t):
-    return 3.0 * np.ones_like(t)
+@pytest.fixture
+def fmpy():
+    """The importer."""
+    need("the module fmpy")
+    importlib.import_module("fmpy.validation")
+    return importlib.import_module("fmpy")
 
 
-@needs("the module fmpy")
-@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
-@pytest.mark.parametrize("name", BINARIES)
-def test_an_importer_follows_the_same_motion(drone, emitted, name, kind):
+@pytest.fixture(params=BINARIES)
+def unpacked(request, emitted):
+    """The folder of an archive, with what a compiler makes of its sources."""
+    return emitted / request.param.removesuffix(".fmu")
+
+
+each_kind = pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+
+
+@each_kind
+def test_an_importer_follows_the_same_motion(drone, fmpy, unpacked, kind):
     """With a parameter, a start and an input that are not those of the file."""
-    import fmpy
-
     ours = drone.simulate(TIME, start={**CHANGED, "f": 3.0}, points=20, tol=1e-12)
     read = ("energy", "tip_1", "tip_3")
     names = (*ours.of_kind("state"), *read)
     told = {"tol": 1e-9} if kind == "CoSimulation" else {}
     found = fmpy.simulate_fmu(
-        emitted / name.removesuffix(".fmu"),
+        unpacked,
         fmi_type=kind,
         stop_time=TIME,
         output_interval=0.1,
@@ -95,20 +111,12 @@ def test_an_importer_follows_the_same_motion(drone, emitted, name, kind):
     assert (found["f"] == 3.0).all()
 
 
-@needs("the module fmpy")
-@pytest.mark.parametrize("name", BINARIES)
-def test_the_archive_is_valid(emitted, name):
-    from fmpy import validation
-
-    assert validation.validate_fmu(str(emitted / name)) == []
+def test_the_archive_is_valid(fmpy, unpacked):
+    assert fmpy.validation.validate_fmu(f"{unpacked}.fmu") == []
 
 
-@needs("the module fmpy")
-@pytest.mark.parametrize("name", BINARIES)
-def test_each_rate_is_that_of_its_state(emitted, name):
-    import fmpy
-
-    described = fmpy.read_model_description(emitted / name)
+def test_each_rate_is_that_of_its_state(fmpy, unpacked):
+    described = fmpy.read_model_description(unpacked)
     rates = [x.variable for x in described.derivatives]
     assert [x.name for x in rates] == [f"der({x.derivative.name})" for x in rates]
     assert len(rates) == 18
@@ -116,14 +124,10 @@ def test_each_rate_is_that_of_its_state(emitted, name):
     assert (mass.unit, mass.description, mass.start) == ("kg", "mass & more", "2.0")
 
 
-@needs("the module fmpy")
-@pytest.mark.parametrize("name", BINARIES)
-def test_a_coarse_integrator_is_taken_back_to_the_group(drone, emitted, name):
-    import fmpy
-
+def test_a_coarse_integrator_is_taken_back_to_the_group(drone, fmpy, unpacked):
     names = [f"A_{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]
     found = fmpy.simulate_fmu(
-        emitted / name.removesuffix(".fmu"),
+        unpacked,
         fmi_type="ModelExchange",
         stop_time=5.0,
         relative_tolerance=1e-2,
@@ -133,13 +137,9 @@ def test_a_coarse_integrator_is_taken_back_to_the_group(drone, emitted, name):
     assert np.abs(A.T @ A - np.eye(3)).max() < 1e-5
 
 
-@needs("the module fmpy")
-@pytest.mark.parametrize("name", BINARIES)
-def test_what_is_set_between_steps_counts(drone, emitted, name):
+def test_what_is_set_between_steps_counts(drone, fmpy, unpacked):
     """A parameter, an input and a number of the state, each after a step; then start again."""
-    import fmpy
-
-    unit = Instance(fmpy, emitted / name.removesuffix(".fmu"))
+    unit = Instance(fmpy, unpacked)
     at = {x.name: x.valueReference for x in unit.described.modelVariables}
     state = [*range(1, 19)]
     unit.step(0.0, 0.25)
@@ -154,13 +154,9 @@ def test_what_is_set_between_steps_counts(drone, emitted, name):
         assert np.allclose(unit.read(state), ours, atol=1e-9), place
 
 
-@needs("the module fmpy")
-@pytest.mark.parametrize("name", BINARIES)
-def test_an_instance_is_kept_and_restored(emitted, name):
+def test_an_instance_is_kept_and_restored(fmpy, unpacked):
     """As bytes, too; and the motion goes on from there by the same bits."""
-    import fmpy
-
-    unit = Instance(fmpy, emitted / name.removesuffix(".fmu"))
+    unit = Instance(fmpy, unpacked)
     places = list(range(1, 19))
     kept = unit.get()
     saved = unit.bytes_of(kept)
@@ -174,17 +170,13 @@ def test_an_instance_is_kept_and_restored(emitted, name):
         unit.free(state)
 
 
-@needs("the module fmpy")
-@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
-@pytest.mark.parametrize("name", BINARIES)
-def test_a_refused_parameter_is_said_to_the_importer(emitted, name, kind):
+@each_kind
+def test_a_refused_parameter_is_said_to_the_importer(fmpy, unpacked, kind):
     """By the function for messages of either standard, once; and no number comes out."""
-    import fmpy
-
     heard = []
     with pytest.raises(fmpy.fmi1.FMICallException):
         fmpy.simulate_fmu(
-            emitted / name.removesuffix(".fmu"),
+            unpacked,
             fmi_type=kind,
             stop_time=1.0,
             start_values={"m": -1.0},
@@ -239,3 +231,104 @@ class Instance:
     def of_bytes(self, data):
         of = self.unit.deSerializeFMUstate if self.two else self.unit.deserializeFMUState
         return of(data)
+
+
+# ---------------------------------------------------------------- CVODE
+
+MAIN = """\
+#include <cvode/cvode.h>
+#include <cvode/cvode_proj.h>
+#include <nvector/nvector_serial.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include "top_cvode.h"
+
+int main(int argc, char **argv)
+{
+    const double p[] = {800, 0.03, 0.05, 9.81};
+    double k[top_N_CONSTANTS], t = 0;
+    top_data data = {k, NULL};
+    SUNContext context;
+    if (top_constants(p, k) || SUNContext_Create(NULL, &context)) return 2;
+    N_Vector x = N_VNew_Serial(top_N_STATE, context);
+    double *at = N_VGetArrayPointer(x);
+    for (int i = 0; i < top_N_STATE; ++i) at[i] = i < 9 && i % 4 == 0;
+    at[top_N_STATE - 3] = 3;
+    at[top_N_STATE - 1] = 100;
+    void *memory = CVodeCreate(CV_BDF, context);
+    if (CVodeInit(memory, top_field, 0, x) || CVodeSStolerances(memory, 1e-7, 1e-8)) return 3;
+    SUNMatrix A = SUNDenseMatrix(top_N_STATE, top_N_STATE, context);
+    SUNLinearSolver solver = SUNLinSol_Dense(x, A, context);
+    if (CVodeSetUserData(memory, &data) || CVodeSetLinearSolver(memory, solver, A)) return 4;
+    if (argc > 1 && atoi(argv[1])) {
+        if (CVodeSetProjFn(memory, top_projection)) return 5;
+        if (CVodeSetProjErrEst(memory, SUNFALSE)) return 6;
+    }
+    if (CVodeSetMaxNumSteps(memory, 100000) || CVodeSetStopTime(memory, 1)) return 7;
+    if (argc > 1 && argv[1][0] == 'D') { /* the Jacobian at the start, by rows */
+        top_jacobian_of_field(0, x, NULL, A, &data, NULL, NULL, NULL);
+        for (int i = 0; i < top_N_STATE; ++i)
+            for (int j = 0; j < top_N_STATE; ++j) printf("%.17g ", SM_ELEMENT_D(A, i, j));
+        return 0;
+    }
+    long differences = 0; /* evaluations of the field for difference quotients */
+    if (argc > 2 && CVodeSetJacFn(memory, top_jacobian_of_field)) return 8;
+    if (CVode(memory, 1, x, &t, CV_NORMAL) < 0) return 9; /* at the end of a step */
+    if (CVodeGetNumLinRhsEvals(memory, &differences) || (argc > 2) != !differences) return 10;
+    printf("%.3e\\n", argc > 2 ? at[top_N_STATE - 3] : top_defect(at));
+    return 0;
+}
+"""
+
+
+@needs("cc", "SUNDIALS")
+def test_cvode_projects_each_step(tmp_path):
+    derive("top").emit(tmp_path, ["cvode"], jacobian=["raw"])
+    (tmp_path / "main.c").write_text(MAIN)
+    strict = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-O2"]
+    kinds = ("cvode", "nvecserial", "sunlinsoldense", "sunmatrixdense")
+    libraries = [f"-lsundials_{x}" for x in kinds]
+    command = [CC, *strict, "main.c", "top.c", "-o", "main", *libraries, "-lm"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+
+    def run(*how):
+        done = subprocess.run(["./main", *how], cwd=tmp_path, capture_output=True, check=True)
+        return np.array(done.stdout.split(), float)
+
+    alone, kept = run("0"), run("1")
+    assert kept < 1e-12 < 1e-6 < alone
+    start = np.concatenate([np.eye(3).ravel(), [3, 0, 100]])
+    code = module_of("top", jacobian=("raw",))
+    k = code.constants([800, 0.03, 0.05, 9.81])
+    exact = flow(code, k, start, [0, 1])[-1, 9]
+    assert abs(run("1", "J") - exact) < 1e-3
+    expected = code.jacobian_raw(0.0, start, k)
+    found = run("D").reshape(expected.shape)
+    assert np.abs(found - expected).max() < 1e-12 * np.abs(expected).max()
+    assert np.abs(found - found.T).max() > 1
+
+
+@needs("cc", "SUNDIALS")
+@pytest.mark.parametrize(("real", "precision"), [("double", "DOUBLE"), ("float", "SINGLE")])
+def test_sundials_of_another_precision_is_refused(real, precision, tmp_path):
+    """Its headers say what they were built with; the numbers would be read as the other kind."""
+    config = Path("/usr/include/sundials/sundials_config.h")
+    built = re.search(r"(?m)^#define SUNDIALS_(\w+)_PRECISION 1", config.read_text())[1]
+    derive("top").emit(tmp_path, ["cvode"], real=real)
+    (tmp_path / "user.c").write_text('#include "top_cvode.h"\nint user(void) { return 0; }\n')
+    strict = [CC, "-std=c99", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "user.c"]
+    for here in ("DOUBLE", "SINGLE"):
+        # as if SUNDIALS had been built so
+        as_built = f"#undef SUNDIALS_{built}_PRECISION\n#define SUNDIALS_{here}_PRECISION 1\n"
+        (tmp_path / "as.h").write_text(f"#include <sundials/sundials_config.h>\n{as_built}")
+        done = subprocess.run(
+            [*strict, "-include", "as.h"], cwd=tmp_path, capture_output=True, text=True
+        )
+        assert (done.returncode == 0) == (here == precision), done.stderr
+        if here != precision:
+            other = {"double": "float", "float": "double"}[real]
+            told = f"use SUNDIALS of {precision.lower()} precision, or derive emit --real {other}"
+            assert told in done.stderr

@@ -14,10 +14,11 @@ from derive import derive
 from derive.code.languages import LANGUAGES
 from derive.command.cli import main
 from derive.problem.toml import problem_of
+from tests.code.test_charts import FORMS as CHARTS
 from tests.problems import MIXED, SKEWED
 from tests.support.library import emission, module_of
 from tests.support.needs import needs
-from tests.support.states import element, element_names, hat, state
+from tests.support.states import charted, drawn, element, element_names, hat, state
 
 GROUPS = ("so3", "se3", "sl3", "saff3", "two_tops", "screw", "jelly", "heisenberg", "so4")
 FREE = ["1/2", "g", "-1/3"]
@@ -166,6 +167,7 @@ CASES += [("quaternion", name) for name in ("so3", "se3")]
 CASES += [(form, name) for form in FORMS if form.startswith("moving") for name in MOVING]
 CASES += [("principal", name) for name in IN_FRAMES]
 CASES += [(f"principal_{x}", name) for x in ("columns", "tangent") for name in TURNED]
+CASES += [("chart", name) for name in CHARTS]
 CASES += [("principal_quaternion", name) for name in ("SO(3)", "SE(3)", "se(3) mixed", "top")]
 H = 1e-30
 """A complex step, of functions that are made of real operations: exact."""
@@ -176,7 +178,7 @@ def given(name):
     """A problem by its name in one of the tables, or of a ready-made one."""
     if name in IN_FRAMES and not isinstance(IN_FRAMES[name], str):
         return IN_FRAMES[name]()
-    own = MOVING.get(name, name)
+    own = MOVING.get(name, CHARTS.get(name, (name,))[0])
     return own if isinstance(own, str) else problem_of({"name": name, **own})
 
 
@@ -184,12 +186,13 @@ def given(name):
 def module(name, **options):
     """The Python of a problem; with the jacobians that there are where these are compared."""
     plain = module_of(given(name))
-    if name not in (*GROUPS, *MOVING) or "frame" in options:
+    small = name in CHARTS and CHARTS[name][3] < 20
+    if not (small or name in (*GROUPS, *MOVING)) or "frame" in options:
         return module_of(given(name), **options)
     there = {"inputs": plain.INPUTS, "parameters": plain.PARAMETERS} if not options else {}
     jacobian = ("state", "raw", *(x for x, names in there.items() if names))
-    kept = {"conserved": True} if "state" in options else {}
-    return module_of(given(name), jacobian=jacobian, **options, **kept)
+    kept = name not in ("jelly", "pair", *CHARTS)
+    return module_of(given(name), jacobian=jacobian, conserved=kept, **options)
 
 
 def quaternion_matrix(q):
@@ -255,26 +258,44 @@ def near(found, expected, close=1e-11):
     return np.allclose(found, expected, rtol=close, atol=close * scale)
 
 
-@pytest.mark.parametrize(("form", "name"), CASES, ids=[f"{x}: {y}" for x, y in CASES])
-def test_a_form_moves_as_another(form, name):
+SMALL = ("so3", "screw", "heisenberg", *CHARTS)
+QUICK = {f"{x}: {y}": (x, y) for x, y in CASES if y in SMALL}
+OTHERS = {f"{x}: {y}": (x, y) for x, y in CASES if y not in SMALL}
+
+
+@pytest.mark.parametrize("case", QUICK)
+def test_a_form_of_a_small_problem_moves_as_another(case):
+    moves_as_another(*QUICK[case])
+
+
+@pytest.mark.parametrize("case", OTHERS)
+def test_a_form_moves_as_another(case):
+    moves_as_another(*OTHERS[case])
+
+
+def moves_as_another(form, name):
     """Rates are carried along, the energy is the same; the raw jacobian is the derivative by the
     numbers of the state, off the group as well, that along the group is the same in each."""
-    options, more = FORMS[form]
+    options, more = FORMS.get(form) or ({}, {"attitude": CHARTS[name][1]})
     ours, theirs = module(name, **options), module(name, **options, **more)
     for seed in (1, 2):
-        p, x, u = started(name, options, seed)
+        if form == "chart":
+            (p, _, u, _), y = drawn(ours, seed), charted(theirs, seed)
+            x = theirs.to_matrix(y)
+        else:
+            p, x, u = started(name, options, seed)
         k0, k = ours.constants(p), theirs.constants(p)
-        if more == QUATERNION:
+        if more == QUATERNION and form != "chart":
             y = started(name, more, seed)[1]
             x[:9] = quaternion_matrix(y[:4]).ravel()
             assert np.allclose(theirs.to_matrix(y), x, rtol=0, atol=1e-14)
-        else:
+        elif form != "chart":
             y = MAPS[next(iter(more))](ours, theirs, k)(x)
         v = theirs.inputs_into_frame(u, k) if more == FRAMED and len(u) else u
         dx, dy = ours.rhs(0.3, x, k0, u), theirs.rhs(0.3, y, k, v)
-        if more == QUATERNION:  # the matrix is a polynomial in q
+        if "attitude" in more:  # the matrix is a polynomial in q
             assert near(along(theirs.to_matrix, y, dy), dx, 1e-12)
-            assert abs(y[:4] @ dy[:4]) < 1e-13
+            assert form == "chart" or abs(y[:4] @ dy[:4]) < 1e-13
         else:
             assert near(dy, along(MAPS[next(iter(more))](ours, theirs, k), x, dx))
         assert np.isclose(theirs.energy(0.3, y, k), ours.energy(0.3, x, k0), rtol=1e-11, atol=1e-11)
@@ -282,16 +303,17 @@ def test_a_form_moves_as_another(form, name):
             assert np.allclose(theirs.out_of_frame(y, k), x, rtol=0, atol=1e-11)
             if len(u):
                 assert np.allclose(theirs.inputs_out_of_frame(v, k), u, rtol=0, atol=1e-11)
+        if not hasattr(theirs, "jacobian_raw"):
             continue
-        rates, D = theirs.jacobian(0.3, y, k, u)
+        moved, (rates, D) = y, theirs.jacobian(0.3, y, k, u)
         assert near(rates, dy, 1e-13)
         assert near(D, ours.jacobian(0.3, x, k0, u)[1], 1e-10)
         y = np.random.default_rng(5).normal(size=len(y))
         slopes = [along(lambda y: theirs.rhs(0.3, y, k, u), y, e) for e in np.eye(len(y))]  # noqa: B023
         assert near(theirs.jacobian_raw(0.3, y, k, u), np.transpose(slopes), 1e-9)
-        if "conserved" in vars(theirs) and "conserved" in vars(ours):
-            found = theirs.conserved(0.3, MAPS["state"](ours, theirs, k)(x), k)
-            assert near(found, ours.conserved(0.3, x, k0))
+        if "CONSERVED" in vars(ours):
+            assert theirs.CONSERVED == ours.CONSERVED
+            assert near(theirs.conserved(0.3, moved, k), ours.conserved(0.3, x, k0))
 
 
 @pytest.mark.parametrize("name", GROUPS)
@@ -439,12 +461,6 @@ group = "SE(2)"
 point = [{ mass = 1, at = [1, 0] }, { mass = 1, at = [0, 1] }]
 force = [{ on = 1, relative_to = [0, "r_1"], force = [0, "-v_2"] }]
 """
-IN_BLOCKS = """
-name = "test"
-group = "SO(2) x R(2)"
-point = [{ mass = 1, at = [1, 0] }, { mass = 1, at = [0, 1], block = 2 }]
-force = [{ at = [0, 3], block = 2, force = ["-zeta_1*T2_1*v_2", "A1_12 + zeta_3"] }]
-"""
 
 
 @pytest.mark.parametrize(
@@ -452,7 +468,6 @@ force = [{ at = [0, 3], block = 2, force = ["-zeta_1*T2_1*v_2", "A1_12 + zeta_3"
     [
         (WINDY, "a force (0, -(v_2 - r_1)) on point 1, in the space frame; v is the velocity"),
         (WINDY, "; r is where it is."),
-        (IN_BLOCKS, "(-zeta_1*T2_1*v_2, A1_12 + zeta_3) on the body at (0, 3) of block 2, in the"),
         (ACTING, "A_31 v_3, 0, 0) and a moment (0, A_12 v_1 + A_22 v_2 + A_32 v_3, 0) on the body"),
         (ACTING, "Mass flows at (1, 0, 2), dm/dt = -1."),
         (ACTING, "Damping: the force -kappa v on point 1, point 4, kappa = 3b."),

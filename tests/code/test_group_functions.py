@@ -10,14 +10,10 @@ import pytest
 
 import derive
 from derive.code.group_functions import FUNCTIONS
-from derive.code.options import Options
-from derive.code.program import LoweringError
-from derive.command.cli import main
 from derive.problem.toml import problem_of
-from derive.programs import program
 from tests.support import walks
 from tests.support.lagrangians import lagrangian, squares
-from tests.support.library import STRICT, emission, module
+from tests.support.library import STRICT, Asked, built, emission, module
 from tests.support.needs import need
 from tests.support.read_julia import Module, Numbers
 
@@ -290,14 +286,14 @@ def test_its_coordinates_are_those_of_the_linearised_equations(name):
 # -- languages -----------------------------------------------------------------------------------
 
 
-def in_python(prefix, text, calls):
-    made = module(prefix, text)
+def in_python(prefix, texts, calls):
+    made = module(prefix, texts[f"{prefix}_group.py"])
     return [getattr(made, name)(*given).ravel() for name, given, _ in calls]
 
 
-def in_julia(_, text, calls):
-    found, real = [], np.float32 if "--real float" in text else np.float64
-    made = Module(text)
+def in_julia(prefix, texts, calls):
+    text, found = texts[f"{prefix}_group.jl"], []
+    real, made = np.float32 if "--real float" in text else np.float64, Module(text)
     for name, given, count in calls:
         arrays = [Numbers(len(x), values=map(real, x)) for x in given]
         out = Numbers(count, kind=real)
@@ -306,44 +302,31 @@ def in_julia(_, text, calls):
     return found
 
 
-def printed(lines):
-    return [np.array(line.split(), dtype=float) for line in lines.splitlines()]
+def in_javascript(prefix, texts, calls):
+    real = "float" if "--real float" in texts[f"{prefix}_group.mjs"] else "double"
+    made = Asked("javascript", f"{prefix}_group", texts, real)
+    return [np.array(made.ask(name, *map(np.asarray, given))[1], float) for name, given, _ in calls]
 
 
 def listed(x):
     return f"[{', '.join(map(repr, map(float, x)))}]"
 
 
-def in_javascript(prefix, text, calls, folder):
-    need("node")
-    (folder / f"{prefix}_group.mjs").write_text(text, encoding="utf-8")
-    lines = [f'import * as m from "./{prefix}_group.mjs";']
-    for name, given, _ in calls:
-        lines.append(f"console.log(m.{name}({', '.join(map(listed, given))}).join(' '));")
-    (folder / "main.mjs").write_text("\n".join(lines), encoding="utf-8")
-    return printed(subprocess.check_output(["node", "main.mjs"], cwd=folder, text=True))
-
-
-def in_rust(prefix, text, calls, folder):
+def in_rust(prefix, texts, calls):
     need("rustc")
-    (folder / f"{prefix}_group.rs").write_text(text, encoding="utf-8")
     lines = [f"mod {prefix}_group;", "fn main() {"]
     for name, given, count in calls:
         arrays = ", ".join(f"&{listed(x)}" for x in given)
         lines += [f"let mut out = [0.0; {count}];", f"{prefix}_group::{name}({arrays}, &mut out);"]
         lines += ['for x in out { print!("{x:e} "); }', "println!();"]
-    (folder / "main.rs").write_text("\n".join([*lines, "}"]), encoding="utf-8")
-    command = ["rustc", "--edition=2021", "-Dwarnings", "main.rs"]
-    subprocess.run(command, cwd=folder, check=True)
-    return printed(subprocess.check_output(["./main"], cwd=folder, text=True))
+    main = {"main.rs": "\n".join([*lines, "}"])}
+    own = {x: text for x, text in texts.items() if x.endswith("_group.rs")}
+    words = ("rustc", "--edition=2021", "-Dwarnings", "-oout", "main.rs")
+    done = subprocess.check_output([built([words], own | main)], text=True)
+    return [np.array(line.split(), dtype=float) for line in done.splitlines()]
 
 
-RUN = {
-    "python": (".py", in_python),
-    "julia": (".jl", in_julia),
-    "javascript": (".mjs", in_javascript),
-    "rust": (".rs", in_rust),
-}
+RUN = {"python": in_python, "julia": in_julia, "javascript": in_javascript, "rust": in_rust}
 
 
 ALIKE = ("SO(3) x SE(3)", "SE(2)", "right", "SAff(2)")
@@ -353,12 +336,11 @@ COMPARED += [("right SL(2)", x, "float") for x in RUN if x != "python"]
 
 
 @pytest.mark.parametrize(("name", "language", "real"), COMPARED)
-def test_every_language_says_what_c_says(name, language, real, tmp_path):
-    ending, run = RUN[language]
+def test_every_language_says_what_c_says(name, language, real):
     f, E, _ = case(name)
     d, rng = len(E), np.random.default_rng(8)
     chosen = {"exponential": True, "real": real, **OPTIONS.get(name, {})}
-    prefix, texts = emission({**PROBLEMS, **GENERAL}[name](), (language,), **chosen)
+    prefix, texts = emission({**PROBLEMS, **GENERAL}[name](), ("c", language), **chosen)
     calls = []
     for angle in ANGLES if name in PROBLEMS else SIZES:
         eta = turned(E, angle, rng)
@@ -369,8 +351,7 @@ def test_every_language_says_what_c_says(name, language, real, tmp_path):
             own = {**values, "eta": moved if function == "retract" else eta}
             given = [own[x] for x in takes]
             calls.append((function, given, getattr(f, function)(*given).size))
-    folder = [tmp_path] if language in ("javascript", "rust") else []
-    found = run(prefix, texts[f"{prefix}_group{ending}"], calls, *folder)
+    found = RUN[language](prefix, texts, calls)
     for (function, given, _), there in zip(calls, found, strict=True):
         error = far(there, getattr(f, function)(*given).ravel())
         assert error < 2 * back(name) * (1 if real == "double" else 1e9), function
@@ -382,45 +363,15 @@ COMPILERS = ("gcc -std=c99", "clang -std=c99", "g++ -xc++ -std=c++11", "clang++ 
 @pytest.mark.parametrize("real", ["double", "float"])
 @pytest.mark.parametrize("compiler", COMPILERS)
 @pytest.mark.parametrize("name", ["SO(3) x SE(3)", "SO(3) x SL(2)"])
-def test_every_compiler_takes_the_header(name, compiler, real, tmp_path):
+def test_every_compiler_takes_the_header(name, compiler, real):
     words = compiler.split()
     need(words[0])
     prefix, texts = emission({**PROBLEMS, **GENERAL}[name](), ("c",), exponential=True, real=real)
     header = f"{prefix}_group.h"
-    (tmp_path / header).write_text(texts[header], encoding="utf-8")
-    source = f'#include "{header}"\nint main(void) {{ return 0; }}\n'
-    (tmp_path / "main.c").write_text(source, encoding="utf-8")
+    main = f'#include "{header}"\nint main(void) {{ return 0; }}\n'
     more = ["-Wdouble-promotion"] if real == "float" else []
-    subprocess.run([*words, *STRICT, *more, "main.c", "-lm"], cwd=tmp_path, check=True)
-
-
-def test_what_is_not_read_back_is_told(tmp_path, capsys):
-    """--validate says that of these files, and of the others what they are."""
-    assert main(["emit", "so3", "--exponential", "--validate", "--out", str(tmp_path)]) == 0
-    told = capsys.readouterr().err.splitlines()
-    assert [x.split(": ")[0] for x in told if "not read back" in x] == [
-        "so3_group.h",
-        "so3_group.py",
-    ]
-    assert sum("equal the record" in x for x in told) == 2
-
-
-# -- what is refused ------------------------------------------------------------------------------
-
-REFUSED = {
-    "so3": ({"attitude": "quaternion"}, "not written with --attitude quaternion"),
-    "se3": ({"velocity": "tangent"}, "not written with --velocity tangent"),
-    "spherical_pendulum": ({}, "without all of g and Z"),
-    "euler_poisson": ({}, "without all of g and Z"),
-    "zeitlin": ({}, "--exponential is not written on the torus"),
-}
-
-
-@pytest.mark.parametrize("name", REFUSED)
-def test_what_has_no_such_functions_is_told(name):
-    choices, message = REFUSED[name]
-    with pytest.raises(LoweringError, match=message):
-        program(walks.problem(name), walks.record(name), Options(exponential=True, **choices))
+    command = (*words, *STRICT, *more, "main.c", "-oout", "-lm")
+    built([command], {header: texts[header], "main.c": main})
 
 
 def test_arrays_of_another_length_are_told():
@@ -436,17 +387,15 @@ def test_arrays_of_another_length_are_told():
 
 
 @pytest.mark.parametrize("language", RUN)
-def test_every_language_updates_as_c_does(language, tmp_path):
+def test_every_language_updates_as_c_does(language):
     """An estimate and its covariance, by an observation of A o and of A⁻¹ o."""
-    ending, run = RUN[language]
     problem, rng = walks.problem("imu"), np.random.default_rng(3)
     f = derive.compile(problem, exponential=True)
     root = rng.normal(size=(9, 9))
     x = [*f.exp(rng.normal(size=9)), *(root @ root.T)[np.triu_indices(9)]]
     given = [np.array(x), rng.normal(size=5), rng.normal(size=3), np.diag([1.0, 2, 3]).ravel()]
     calls = [(f"update_{side}", given, len(x)) for side in ("left", "right")]
-    prefix, texts = emission(problem, (language,), exponential=True)
-    folder = [tmp_path] if language in ("javascript", "rust") else []
-    found = run(prefix, texts[f"{prefix}_group{ending}"], calls, *folder)
+    prefix, texts = emission(problem, ("c", language), exponential=True)
+    found = RUN[language](prefix, texts, calls)
     for (function, _, _), there in zip(calls, found, strict=True):
         assert far(there, getattr(f, function)(*given)) < 1e-13, function

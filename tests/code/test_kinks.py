@@ -6,12 +6,7 @@ import re
 import numpy as np
 import pytest
 
-import derive
-from derive.code.emit import emit
-from derive.code.options import Options
-from derive.problem.toml import problem_of
-from derive.programs import program
-from tests.support.library import module
+from tests.support.emitted_files import Emission
 
 CASES = {
     "abs(zeta_1 - 1)*zeta_2": ("zeta_1 - 1 = 0 (abs)", [1, 0.5]),
@@ -36,11 +31,7 @@ LANGUAGES = ("c", "cpp", "python", "rust", "julia", "javascript")
 
 
 def emitted(data, *jacobians):
-    problem = problem_of({"name": "test", **data})
-    record = derive.derive(problem).record
-    options = Options(jacobian=jacobians)
-    compiled = program(problem, record, options)
-    return emit(compiled, record, LANGUAGES, "test", options)
+    return Emission({"name": "test", **data}, LANGUAGES, jacobian=jacobians)
 
 
 def told(text):
@@ -55,10 +46,10 @@ def told(text):
 def test_at_kinks_and_elsewhere(law):
     locus, velocity = CASES[law]
     L = {"lagrangian": {"L": "(zeta_1^2 + zeta_2^2)/2"}}
-    files = emitted({"group": "R(2)", **L, "force": [{"covector": [law, 0]}]}, "state")
+    made = emitted({"group": "R(2)", **L, "force": [{"covector": [law, 0]}]}, "state")
     for end in (".h", ".hpp", ".py", ".rs", ".jl", ".mjs"):
-        assert told(files[f"test{end}"]) == ([f"in force 1 {locus}"] if locus else []), end
-    m = module("test", files["test.py"])
+        assert told(made.files[f"test{end}"]) == ([f"in force 1 {locus}"] if locus else []), end
+    m = made.module
     k, h = m.constants([]), 1e-6
 
     def sided(x, s):
@@ -90,17 +81,17 @@ def test_the_names_are_those_of_the_file():
     }
     acting = "in potential 1 r2_2 = 0 (abs); in force drag v_1 = 0 (abs)"
     own = "in output y zeta_1 - w_1 = 0 (min or max)"
-    assert told(emitted(data, "state", "outputs")["test.h"]) == [acting, own]
+    assert told(emitted(data, "state", "outputs").files["test.h"]) == [acting, own]
     felt = {"name": "f", "kind": "specific_force", "at": [0, 0]}
-    files = emitted(data | {"output": [*data["output"], felt]}, "outputs")
-    assert told(files["test.h"]) == [f"{acting}; {own}"]
+    made = emitted(data | {"output": [*data["output"], felt]}, "outputs")
+    assert told(made.files["test.h"]) == [f"{acting}; {own}"]
     spun = {
         "algebra": {"of": "SO(3)"},
         "advected": [{"name": "up", "representation": "coadjoint"}],
         "lagrangian": {"L": "(zeta_1^2 + zeta_2^2 + zeta_3^2)/2"},
         "force": [{"covector": ["abs(up_2)", 0, 0]}],
     }
-    assert told(emitted(spun, "raw")["test.h"]) == ["in force 1 up_2 = 0 (abs)"]
+    assert told(emitted(spun, "raw").files["test.h"]) == ["in force 1 up_2 = 0 (abs)"]
 
 
 @pytest.mark.parametrize("frame", ["body", "space"])
@@ -114,7 +105,7 @@ def test_the_velocity_less_that_of_a_wind_is_that_of_the_file(frame):
     }
     inside = ("v_1 = 0 (abs)", "v_1 - 2 = 0 and v_2 = 0 (hypot)", "t - 1 = 0 (abs)")
     says = "; ".join(f"in force drag {x}" for x in inside)
-    assert told(emitted(data, "state")["test.h"]) == [says]
+    assert told(emitted(data, "state").files["test.h"]) == [says]
 
 
 def test_damping_without_a_name_is_told_by_its_table():
@@ -127,7 +118,7 @@ def test_damping_without_a_name_is_told_by_its_table():
             {"kind": "quadratic", "coefficient": 1, "at": [0, 0]},
         ],
     }
-    head = emitted(data, "state")["test.h"]
+    head = emitted(data, "state").files["test.h"]
     own = "in force 1 zeta_1 = 0 (abs); in damping 2 v_1 = 0 and v_2 = 0 (hypot)"
     assert told(head) == [own]
     called = ("Damping 1: a moment", "Damping 2: a force", "Force of the state: a covector")
@@ -136,4 +127,4 @@ def test_damping_without_a_name_is_told_by_its_table():
 
 def test_none_are_told_where_no_derivative_is_asked_for():
     L = {"lagrangian": {"L": "zeta_1^2/2"}, "force": [{"covector": ["abs(zeta_1)"]}]}
-    assert all("Kinks" not in x for x in emitted({"group": "R(1)", **L}).values())
+    assert all("Kinks" not in x for x in emitted({"group": "R(1)", **L}).files.values())

@@ -13,8 +13,8 @@ from tests.oracles import (
     relative_error,
     sampling,
 )
-from tests.support.flows import flow
 from tests.support.library import arrange, module_of
+from tests.support.states import flow
 
 RNG = np.random.default_rng(2)
 BODY_TURN, SPACE_TURN = sampling.random_rotation(RNG), sampling.random_rotation(RNG)

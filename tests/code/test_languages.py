@@ -9,8 +9,9 @@ import pytest
 from derive import SE, Points, Potential, Problem
 from derive.code.languages import LANGUAGES
 from derive.problem.toml import problem_of
+from tests.code.test_charts import FORMS as CHARTS
 from tests.code.test_forms import DRAG
-from tests.code.test_indefinite import REGULAR, typed
+from tests.code.test_mass_matrix import REGULAR, typed
 from tests.problems import PROBLEMS as FILES
 from tests.support.languages import PIECES, Case, T, command
 from tests.support.library import BUILDS, emission, library, loaded
@@ -38,6 +39,8 @@ HYPERBOLIC = TURNING | {"group": "SO(2)", "lagrangian": {"L": "cosh(zeta_1) + A_
 FLUID = {"algebra": {"of": "torus", "N": 9}, "inertia": {"operator": "laplacian"}}
 OBSERVED = FILES["SE(2) x SO(2) outputs"]
 JACOBIANS = ("state", "inputs", "parameters", "raw")
+CHARTED = ("four factors", "and matrices", "by a basis")
+IN_CHARTS = {"jacobian": ("state", "step"), "step": ("rk4", "gauss"), "conserved": True}
 PROBLEMS = {
     "body": ("so3", {"jacobian": JACOBIANS, "conserved": True}),
     "pressed": ("saff3", {"conserved": True, "multiplier": True}),
@@ -52,11 +55,13 @@ PROBLEMS = {
     "newton": (problem_of(HYPERBOLIC), {"momenta": True}),
     "indefinite": (typed(REGULAR[0]), {"momenta": True}),
     "torus": (problem_of({"name": "fluid9", **FLUID}), {"conserved": True}),
+    **{f"charts, {x}": (CHARTS[x][0], {"attitude": CHARTS[x][1], **IN_CHARTS}) for x in CHARTED},
     "floats": (BARE, {"jacobian": JACOBIANS[:1]}),
     "newton in floats": (problem_of(HYPERBOLIC), {"momenta": True}),
 }
 """What is emitted, and options; with others test_pairs_of_options has them."""
 CLOSE = {"newton": 1e-13, "momenta": 1e-11, "indefinite": 1e-11, "torus": 1e-13}
+CLOSE |= {f"charts, {x}": 1e-13 for x in CHARTED}
 
 
 @cache

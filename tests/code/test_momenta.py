@@ -1,7 +1,11 @@
-"""The motion in momenta: beside an oracle without brackets, in every language, and what it keeps.
+"""The motion in momenta: beside oracles without brackets, in every language, and what it keeps.
 
-The momenta are ∂ℓ/∂ζ by JAX, their rates along the acceleration of Euler and Lagrange.
+The momenta of a Lagrangian are ∂ℓ/∂ζ by JAX, their rates along the acceleration of Euler and
+Lagrange; those of points Π_a = Σ m ⟨v, gE_a r⟩, the rates by the accelerations of Gauss's
+principle, the Poisson tensor by the flows.
 """
+
+import tomllib
 
 import jax
 import jax.numpy as jnp
@@ -9,10 +13,12 @@ import numpy as np
 import pytest
 
 import derive
-from derive.command.cli import main
 from derive.problem.toml import problem_of
+from tests.oracles import general
 from tests.oracles.euler_lagrange import acceleration
 from tests.oracles.general import evaluate
+from tests.problems import READY as READY_MADE
+from tests.support.emitted_files import Emission
 from tests.support.library import module_of
 from tests.support.walks import own_verdicts
 
@@ -159,6 +165,73 @@ def test_momenta_that_no_velocity_has():
                 function(0.0, y)
 
 
+# -- points ---------------------------------------------------------------------------------------
+
+READY = ("so3", "se3", "sl3", "saff3", "so4", "sim3", "heisenberg", "screw", "jelly")
+READY += ("two_tops", "su2", "gl3", "comet", "sp4")
+POINTS = [
+    {"mass": 1.5, "at": [1.0, 0.2, 0.5], "block": 1},
+    {"mass": 0.7, "at": [0.1, 1.0, -0.3], "block": 1},
+    {"mass": 1.2, "at": [-0.4, 0.3, 1.0], "block": 1},
+]
+TWO = {
+    "name": "test",
+    "group": "SE(3) x SE(3)",
+    "point": POINTS + [{**x, "block": 2} for x in POINTS],
+    "potential": [{"kind": "spring", "between": [1, 4], "stiffness": 2, "length": 0.5}],
+    "input": [{"name": "F", "kind": "force", "on": 1, "frame": "space"}],
+}
+FLAT = {
+    "name": "test",
+    "group": "SE(2)",
+    "point": [{"mass": x["mass"], "at": x["at"][:2]} for x in POINTS],
+    "damping": [{"coefficient": 0.3}],
+    "input": [{"name": "u", "kind": "covector"}],
+}
+OF_POINTS = {name: name for name in READY} | {"two bodies": TWO, "flat": FLAT}
+
+
+def data_of(case):
+    if isinstance(OF_POINTS[case], dict):
+        return OF_POINTS[case]
+    return tomllib.loads((READY_MADE / f"{case}.toml").read_text(encoding="utf-8"))
+
+
+def by_sums(data, E, p, t, x, u):
+    """Π_a, its rate along the motion, and the brackets {Π_a, Π_b}: of gE_a moved by gE_b."""
+    found, (G, zeta) = general.places(data, p), general.split(data, x, len(E))
+    rates = general.rhs(data, E, p, t, x, u)[-len(E) :]
+    Z, change = np.tensordot(zeta, E, 1), np.tensordot(rates, E, 1)
+    v, a = found.moved(G @ Z), found.moved(G @ (change + Z @ Z))
+
+    def along(X):
+        return found.masses @ (v * found.moved(G @ X))
+
+    momenta = [along(e) for e in E]
+    pushed = [found.masses @ (a * found.moved(G @ e)) + along(Z @ e) for e in E]
+    return momenta, pushed, [[along(f @ e - e @ f) for f in E] for e in E]
+
+
+@pytest.mark.parametrize("case", OF_POINTS)
+def test_beside_sums_over_the_points(case):
+    data = data_of(case)
+    m, rng = module_of(problem_of(data), momenta=True), np.random.default_rng(4)
+    E, p = np.array(m.BASIS, float), general.parameters(data)
+    k = m.constants([p[x] for x in m.PARAMETERS])
+    for _ in range(2):
+        x, u = general.random_state(data, E, rng), rng.normal(size=len(m.INPUTS))
+        momenta, pushed, brackets = by_sums(data, E, p, 0.4, x, u if len(u) else None)
+        y = np.array([*x[: -len(E)], *momenta])
+        scale = max(1, *map(abs, momenta), *map(abs, pushed))
+        assert np.abs(m.momentum(0.4, x, k) - y).max() < 1e-12 * scale
+        assert np.abs(m.velocity(0.4, y, k) - x).max() < 1e-11 * scale
+        dy = m.momentum_rhs(0.4, y, k, u if len(u) else None)
+        assert np.abs(dy[-len(E) :] - pushed).max() < 1e-11 * scale
+        turned = m.rhs(0.4, x, k, u if len(u) else None)[: -len(E)]
+        assert np.abs(dy[: -len(E)] - turned).max() < 1e-11 * scale
+        assert np.abs(m.poisson(0.4, y, k) - brackets).max() < 1e-12 * scale
+
+
 # -- held against the record, and refused ---------------------------------------------------------
 
 SPOILED = {
@@ -181,30 +254,18 @@ SPOILED = {
 
 
 @pytest.mark.parametrize("name", dict.fromkeys(x.partition(",")[0] for x in SPOILED))
-def test_validated(name, tmp_path, capsys):
-    given = name
-    if name in CASES:
-        group, side, text = CASES[name]
-        given = tmp_path / f"{name}.toml"
-        given.write_text(
-            f'name = "{name}"\ngroup = "{group}"\n[lagrangian]\nL = "{text}"\n'
-            f'trivialisation = "{side}"\n[[input]]\nname = "u"\nkind = "covector"\n'
-        )
-    words, newton = ["emit", str(given), "--out", str(tmp_path), "--validate"], name == "quartic"
-    assert main([*words, "--momenta"]) == 0
-    told = "".join(capsys.readouterr())
+def test_validated(name):
+    made = Emission(typed(name) if name in CASES else name, momenta=True)
+    newton = name == "quartic"
     step = "velocity_step, momentum_rates" if newton else "velocity, momentum_rhs"
-    assert told.count(f"momentum, {step}, poisson equal the record") == 2
-    assert ("for it is a loop: Newton's method" in told) == newton
-    assert main([*words, "--check"]) == 0
-    path = tmp_path / f"{name}.c"
-    whole = path.read_text(encoding="utf-8")
+    for report in made.reports(fresh=made.files):
+        assert f"momentum, {step}, poisson equal the record" in report.text
+        assert ("for it is a loop: Newton's method" in report.text) == newton
+    file = f"{made.name}.c"
     for old, new in (x for case, x in SPOILED.items() if case.partition(",")[0] == name):
-        assert old in whole, old
-        path.write_text(whole.replace(old, new), encoding="utf-8")
-        capsys.readouterr()
-        assert main([*words, "--check"])
-        assert "DIFFERS" in "".join(capsys.readouterr()), old
+        assert old in made.files[file], old
+        changed = {file: made.files[file].replace(old, new, 1)}
+        assert "DIFFERS" in " ".join(x.text for x in made.reports(changed, made.files)), old
 
 
 def test_nothing_without_the_option():

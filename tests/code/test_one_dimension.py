@@ -1,12 +1,20 @@
-"""Springs, distances and forces along a line: vectors of one number."""
+"""One number: springs, distances and forces along a line; atan2 to rounding up to ±π in every
+language, π at the jump; a group of one parameter that scales, which keeps its coordinate s: exp(sE)
+with SciPy, the same motion as by matrices, and the files read back."""
+
+import math
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
 import derive
-from derive.validate.chart import Chart
-from derive.validate.emission import EmittedFiles
-from tests.support.library import ONE_BUILD, derived, library
+from derive.algebra.factor_charts import factor_charts
+from derive.algebra.user_groups import group_of_basis
+from derive.language import rational as q
+from derive.motion.first_numbers import first_numbers
+from tests.support.emitted_files import READ, Emission
+from tests.support.library import ONE_BUILD, STEPPED, derived, library
 
 STEPS = ("gauss", "vern9")
 SPRING = '[[potential]]\nkind = "spring"\nstiffness = 4\n'
@@ -62,9 +70,7 @@ def test_rates_on_a_line(name):
     x = np.random.default_rng(5).normal(size=len(f.STATE))
     rates = np.asarray(f.rhs(0.0, x))[-len(known(x)) :]
     assert np.allclose(rates, known(x), rtol=0, atol=1e-13)
-    files = d.emit(languages=("c", "python"))
-    (report, *_) = EmittedFiles(files, "line", Chart()).reports(d.record)
-    assert report.holds
+    assert not Emission(text(group, points, more)).refused({})
 
 
 @pytest.mark.parametrize(("group", "points"), [("R(1)", ONE), ("R(1) x R(1)", TWO)])
@@ -99,3 +105,121 @@ def test_from_rest_at_the_origin(name, build, step):
         known = np.zeros(2 * size)
         known[size - 1], known[-1] = -9.81 * t * t / 2, -9.81 * t
         assert np.allclose(place.x, known, rtol=1e-9, atol=0)
+
+
+# ---------------------------------------------------------------- angles
+
+ANGLE = """
+name = "turned"
+group = "R(2)"
+[[point]]
+mass = 1
+at = [0, 0]
+[[output]]
+kind = "expression"
+name = "angle"
+y = ["atan2(T_2, T_1)"]
+[[potential]]
+kind = "expression"
+U = "atan2(r1_y, r1_x)"
+"""
+TINY = [1.0, 1e-4, 1.5e-8, 3e-9, 1e-12, 1e-16, 1e-40, 1e-120]
+
+
+def around():
+    rng = np.random.default_rng(4)
+    for size in TINY:
+        for x, y in rng.normal(size=(12, 2)) * [1, size]:
+            yield x, y
+            yield y, x
+
+
+@pytest.mark.parametrize("build", [ONE_BUILD[x] for x in STEPPED])
+def test_it_is_the_angle(build):
+    found = library(build, ANGLE)
+    k = found.constants([])[1]
+
+    def angle(x, y):
+        return found.said("outputs", np.array([x, y, 0.0, 0.0]), 0.0, k=k)[0]
+
+    for x, y in [*around()][:: 1 if build == "c" else 16]:
+        assert abs(angle(x, y) - math.atan2(y, x)) <= 1e-15
+    for x, y, known in [(-2, 0, math.pi), (2, 0, 0), (0, 3, math.pi / 2), (-1e20, 0, math.pi)]:
+        assert angle(x, y) == known
+
+
+def test_its_slope_near_the_jump():
+    found = library("c", ANGLE)
+    k = found.constants([])[1]
+    for x, y in around():
+        if abs(y) > 1e-100 < abs(x):
+            rate = np.ravel(found.rhs(0.0, np.array([x, y, 0.0, 0.0]), k, np.zeros(0)))[-2:]
+            r = math.hypot(x, y)
+            assert np.abs(rate - np.array([y, -x]) / r / r).max() <= 1e-14 / r
+
+
+def test_the_record_of_an_angle_holds():
+    assert derived(ANGLE).check()
+
+
+# ---------------------------------------------------------------- scalings
+
+BASES = {
+    "dilation": "[[[1, 0], [0, 1]]]",
+    "contraction": '[[["-2/3", 0], [0, "-2/3"]]]',
+    "boost": '[[[0, "1/2"], ["1/2", 0]]]',
+    "weights": "[[[2, 0], [0, -1]]]",
+    "one axis": "[[[3, 3], [0, 0]]]",
+}
+BODY = """
+name = "test"
+[group]
+name = "G"
+action = "linear"
+basis = {basis}
+[[point]]
+mass = 1
+at = [1, 0.5]
+[[point]]
+mass = 2
+at = [-0.5, 1]
+[[potential]]
+kind = "spring"
+on = 1
+anchor = [1, 1]
+stiffness = 2
+[initial]
+exp = [0.7]
+zeta_1 = 0.4
+"""
+
+
+def made(basis, attitude):
+    several = READ if basis == BASES["boost"] else ("python",)
+    return Emission(BODY.format(basis=basis), several, attitude=attitude, jacobian=("state",))
+
+
+@pytest.mark.parametrize("name", BASES)
+def test_the_coordinate_is_that_of_the_exponential(name):
+    chart = made(BASES[name], "angle")
+    angle, matrices, compiled = chart.module, made(BASES[name], "matrix").module, chart.program
+    assert compiled.state == ("s_1", "zeta_1")
+    E = np.array(compiled.basis[0], float)
+    k, other = angle.constants([]), matrices.constants([])
+    for s in (-1.3, 0, 0.8):
+        x, A = np.array([s, 0.4]), expm(s * E)
+        y = np.array([*A.ravel(), 0.4])
+        assert np.allclose(angle.to_matrix(x), y, rtol=1e-13, atol=1e-14)
+        wanted = matrices.rhs(0.0, y, other)[-1]
+        assert np.allclose(angle.rhs(0.0, x, k), [0.4, wanted], rtol=1e-12)
+        assert np.isclose(angle.energy(0.0, x, k), matrices.energy(0.0, y, other), rtol=1e-13)
+    assert np.allclose(first_numbers(compiled, chart.problem, {}).x, [0.7, 0.4], rtol=1e-14)
+    assert not chart.refused({})
+
+
+@pytest.mark.parametrize(
+    "rows", [[[0, 2], [1, 0]], [[2, 0], [0, 3]], [[1, 1], [0, 1]], [[1, -1], [1, 1]]]
+)
+def test_what_has_none(rows):
+    """Irrational eigenvalues, none of which all are multiples, a shear beside, a spiral."""
+    assert not factor_charts(group_of_basis("G", "linear", [q.matrix(rows)]), "angle")

@@ -101,12 +101,17 @@ end
 """
 
 
-def test_loops_and_records_have_their_values():
-    module = Module(STEPS)
-    x = Numbers(2, values=map(np.float64, (0.5, 0.25)))
-    m = module.call("Motion", 3, x)
+def moved(text):
+    """The module, a motion that has turned, and what this said."""
+    module = Module(text)
+    m = module.call("Motion", 3, Numbers(2, values=map(np.float64, (0.5, 0.25))))
     assert type(m["t"]) is np.float64
-    assert module.call("turned!", m, np.float64(4)) == 0.5 + 2 * (5 * 2 + 0.25)
+    return module, m, module.call("turned!", m, np.float64(4))
+
+
+def test_loops_and_records_have_their_values():
+    module, m, said = moved(STEPS)
+    assert said == 0.5 + 2 * (5 * 2 + 0.25)
     assert (m["made"], m["t"], m["good"]) == (2, 3 - 8, False)
     assert [*m["x"]] == [16, 21, 0, 0, 0.25, 0]  # row by row
     module.call("turned!", m, np.float64(4), 3, u=lambda m: np.float64(0.5))
@@ -126,18 +131,6 @@ WRONG_STEPS = {
     "an index that is no integer": ("TABLE[i, 2]", "TABLE[total, 2]"),
     "no such method": ("Motion()\n    m", "Motion(t)\n    m"),
 }
-
-
-@pytest.mark.parametrize("case", WRONG_STEPS)
-def test_what_are_no_such_steps_is_an_error(case):
-    old, new = WRONG_STEPS[case]
-    assert old in STEPS
-    module = Module(STEPS.replace(old, new))
-    x = Numbers(2, values=map(np.float64, (0.5, 0.25)))
-    with pytest.raises((JuliaError, ValueError)):
-        module.call("turned!", module.call("Motion", 3, x), np.float64(4))
-
-
 WRONG = {
     "an expression that ends with its line": ("(x[2]\n        + 1.0)", "x[2]\n        + 1.0"),
     "an index from 0": ("x[1]", "x[0]"),
@@ -161,11 +154,12 @@ WRONG = {
     "another module": ("end # module m\n", "end\nmodule n\nend\n"),
     "no value": ("    return -sqrt(y)*(x[1])\n", ""),
 }
+TABLE = [(STEPS, *x) for x in WRONG_STEPS.values()] + [(TEXT, *x) for x in WRONG.values()]
 
 
-@pytest.mark.parametrize("case", WRONG)
-def test_what_is_no_such_julia_is_an_error(case):
-    old, new = WRONG[case]
-    assert old in TEXT
+@pytest.mark.parametrize(("text", "old", "new"), TABLE, ids=[*WRONG_STEPS, *WRONG])
+def test_what_is_no_such_julia_is_an_error(text, old, new):
+    assert old in text
+    changed = text.replace(old, new)
     with pytest.raises((JuliaError, ValueError)):
-        value(TEXT.replace(old, new), 3, 2)
+        moved(changed) if text is STEPS else value(changed, 3, 2)

@@ -8,7 +8,6 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 import derive
-from derive.command.cli import main
 from tests.problems.line import FALLING
 from tests.support.library import ONE_BUILD, STEPPED, library, module_of
 from tests.support.states import element_names, hat, state
@@ -133,7 +132,7 @@ def linearised(m, x, k, u, t):
 
     def rates(t, y):
         dx, A = m.jacobian(0.3 + t, y[:n], k, u)
-        B = m.jacobian_inputs(0.3 + t, y[:n], k, u)
+        B = m.jacobian_inputs(0.3 + t, y[:n], k, u) if inputs else np.zeros((d, 0))
         S = y[n:].reshape(d, d + inputs)
         return np.concatenate([dx, (A @ S + np.hstack([np.zeros((d, d)), B])).ravel()])
 
@@ -203,17 +202,11 @@ def test_on_the_right_variations_are_those_of_space():
     """δg = η g; of the linearised equations."""
     m = module_of(RIGHT, step=("gauss",), jacobian=("state", "step"))
     p, x, *_ = state(m)
-    k, n = m.constants(p), len(x)
-
-    def rates(t, y):
-        dx, A = m.jacobian(t, y[:n], k)
-        return np.concatenate([dx, (A @ y[n:].reshape(6, 6)).ravel()])
-
-    start = np.concatenate([x, np.eye(6).ravel()])
-    known = solve_ivp(rates, (0, 0.2), start, "DOP853", rtol=1e-12, atol=1e-12).y[n:, -1]
+    k = m.constants(p)
+    known, _ = linearised(m, x, k, None, 0.2)
     status, phi, gamma = m.gauss_jacobian(m.begin(0.0, x), k, None, 0.1, 2)
     assert (status, gamma.shape) == (0, (6, 0))
-    assert close(phi, known.reshape(6, 6))
+    assert close(phi, known)
 
 
 def test_inputs_that_are_a_function_of_time():
@@ -330,24 +323,3 @@ def test_in_python_by_the_compiled_c():
     for wrong in ({"step": "vern9"}, {"n": 0}):
         with pytest.raises(ValueError, match=r"not compiled|number of steps"):
             f.step_jacobian(0, x, 0.05, **wrong)
-
-
-REFUSED = {
-    ("so3", "c"): "--jacobian step is that of --step gauss, rk4, vern9: add one of these",
-    ("so3", "c", "discrete"): "is that of --step gauss, rk4, vern9: add one of these",
-    ("zeitlin", "c", "rk4"): "--jacobian step is not written on the torus",
-    ("imu", "c", "rk4"): "--jacobian step is not written for kinematics of first order",
-    ("euler_poisson", "c", "rk4"): "--jacobian step is for a state with an element of the group",
-    ("spherical_pendulum", "c", "rk4"): "--jacobian step is for motions on the whole group",
-}
-
-
-@pytest.mark.parametrize("case", REFUSED, ids=" ".join)
-def test_where_there_are_none_it_is_refused(case, tmp_path, capsys):
-    name, language, *steps = case
-    words = [f"--step={x}" for x in steps] + ["--jacobian", "step", "--out", str(tmp_path / "out")]
-    assert main(["emit", name, "--lang", language, *words]) == 2
-    told = capsys.readouterr().err
-    assert REFUSED[case] in told
-    assert told.count("\n") == 1
-    assert not (tmp_path / "out").exists()

@@ -8,23 +8,14 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from derive import derive
 from derive.code.options import Options
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.programs import program
 from tests.oracles import relative_error, torus
-from tests.support.library import ONE_BUILD, STEPPED, library, module_of
+from tests.support.library import ONE_BUILD, STEPPED, built, emission, library, module_of
 from tests.support.needs import CC, need
 
-FILE = """
-name = "fluid{N}"
-[algebra]
-of = "torus"
-N = {N}
-[inertia]
-operator = "laplacian"
-"""
 SIZES = (3, 9, 31, 5, 7, 11)
 
 
@@ -81,30 +72,18 @@ def test_energy_and_traces_are_kept(N):
         assert np.abs(kept(0.0, last, k) - kept(0.0, x, k)).max() < 1e-9
 
 
-def test_one_header_and_a_prefix(tmp_path):
-    need("cc")
-    derive(fluid(9)).emit(tmp_path, ("c",), "flow", form="header")
-    text = (tmp_path / "flow.h").read_text(encoding="utf-8")
-    assert "flow_FUNCTION void flow_transform(" in text
-    assert not (tmp_path / "flow.c").exists()
-
-
-def test_the_header_speaks_of_a_fluid(tmp_path):
-    derive(fluid(9)).emit(tmp_path, ("c",), "plain")
-    derive(fluid(9)).emit(tmp_path, ("c",), "traced", conserved=True)
-    plain, traced = ((tmp_path / f"{x}.h").read_text("utf-8") for x in ("plain", "traced"))
-    assert "trace_k" in traced
-    assert "trace_k" not in plain
-    for text in (plain, traced):
-        assert "/* Kinetic energy, its mean over the torus. */" in text
-        assert "h e_j = e_(j-1)" in text
+def test_one_header_and_a_prefix():
+    _, texts = emission(fluid(9), ("c",), "flow", form="header")
+    assert [*texts] == ["flow.h"]
+    assert "flow_FUNCTION void flow_transform(" in texts["flow.h"]
 
 
 def test_the_shift_of_the_header_has_its_bracket():
     """h e_j = e_(j-1), as the head of a file says, and not the other one."""
+    said = re.search(r"h e_j = e_\(j([-+])1\)", emission(fluid(9), ("c",))[1]["fluid9.h"])[1]
     N = 7
     w, j = np.exp(2j * np.pi / N), np.arange(N)
-    for step, holds in ((-1, True), (1, False)):
+    for sign, step in (("-", -1), ("+", 1)):
         g, h = np.diag(w ** (2 * j)), np.eye(N)[:, (j + step) % N]
         assert np.array_equal(h @ np.eye(N)[2], np.eye(N)[2 + step])
         T = {
@@ -113,7 +92,7 @@ def test_the_shift_of_the_header_has_its_bracket():
         }
         found = T[1, 2] @ T[3, 1] - T[3, 1] @ T[1, 2]
         expected = -2j * np.sin(2 * np.pi * (1 * 1 - 2 * 3) / N) * T[4, 3]
-        assert np.allclose(found, expected) == holds
+        assert np.allclose(found, expected) == (sign == said)
 
 
 def test_written_out_up_to_five():
@@ -150,18 +129,16 @@ def test_the_vorticity_is_measured_as_one(build):
     assert 1 <= coarse.h / fine.h < 6  # 1000^(1/9) = 2.2, but for where the last step ends
 
 
-def test_the_header_says_what_memory_a_step_takes(tmp_path):
+def test_the_header_says_what_memory_a_step_takes():
     """Without optimisation, in a process that has no more stack than that."""
     need("cc")
-    derive(fluid(31)).emit(tmp_path, ("c",), step=("gauss", "vern9"))
-    head = (tmp_path / "fluid31_steps.h").read_text(encoding="utf-8")
-    motion, within = map(int, re.findall(r"(\d+) kB", head))
-    rhs = int(re.search(r"(\d+) kB", (tmp_path / "fluid31.h").read_text(encoding="utf-8"))[1])
-    (tmp_path / "main.c").write_text(MEMORY, encoding="utf-8")
-    command = [CC, "-O0", "main.c", "fluid31.c", "-o", "main", "-lm"]
-    subprocess.run(command, cwd=tmp_path, check=True)
-    command = f"ulimit -s {within + rhs + 128} && ./main"
-    done = subprocess.run(["sh", "-c", command], cwd=tmp_path, check=True, capture_output=True)
+    _, texts = emission(fluid(31), ("c",), step=("gauss", "vern9"))
+    motion, within = map(int, re.findall(r"(\d+) kB", texts["fluid31_steps.h"]))
+    rhs = int(re.search(r"(\d+) kB", texts["fluid31.h"])[1])
+    words = (CC, "-O0", "main.c", "fluid31.c", "-o", "out", "-lm")
+    program = built([words], texts | {"main.c": MEMORY})
+    command = f"ulimit -s {within + rhs + 128} && {program}"
+    done = subprocess.run(["sh", "-c", command], check=True, capture_output=True)
     assert abs(motion - int(done.stdout) / 1024) < 0.02 * motion
 
 

@@ -262,16 +262,6 @@ BAD = {
 }
 
 
-@pytest.mark.parametrize("words", BAD)
-def test_bad_code_is_one_line(words, capsys, tmp_path, monkeypatch):
-    monkeypatch.setattr("derive.compare.users_code.SECONDS", 2)
-    monkeypatch.setattr(codes, "DRONE_CODE", BAD[words])
-    code, told = compared(capsys, tmp_path, "drone")
-    assert (code, told.out) == (2, "")
-    assert words in told.err
-    assert told.err.count("\n") == 1
-
-
 SHAPES = {
     "a column": "np.concatenate([(A @ hat(w)).ravel(), A @ v, dw, dv])[:, None]",
     "a row": "np.concatenate([(A @ hat(w)).ravel(), A @ v, dw, dv])[None]",
@@ -286,28 +276,12 @@ def test_the_shape_of_what_is_returned(shape, capsys, tmp_path):
     assert (code, told.err) == (0, "")
 
 
-def test_what_is_written_is_real(capsys, tmp_path):
-    change = ("    dx[4:] = np", "    dx[4:] = (1 + 0j) * np")
-    code, told = compared(capsys, tmp_path, "wheel", change)
-    assert (code, told.out) == (2, "")
-    assert "f gives complex numbers" in told.err
-
-
 LOOP = "void top(double *x, double *dx) { for (int i = 0; i < N; ++i) dx[i] = x[0]; }"
 BAD_C = {
     "refused": "void top(double *x, double *dx) { x = }",
     "writes more than 12 numbers": LOOP.replace("N", "20"),
     "does not write [11]": LOOP.replace("N", "11"),
 }
-
-
-@pytest.mark.parametrize("words", BAD_C)
-def test_bad_c_is_one_line(words, capsys, tmp_path, monkeypatch):
-    monkeypatch.setattr(codes, "TOP_CODE", f"#include <math.h>\n{BAD_C[words]}")
-    code, told = compared(capsys, tmp_path, "top")
-    assert (code, told.out) == (2, "")
-    assert words in told.err
-    assert told.err.count("\n") == 1
 
 
 TABLES = {
@@ -325,11 +299,21 @@ TABLES = {
 }
 
 
-@pytest.mark.parametrize("words", TABLES)
-def test_a_bad_table_is_one_line(words, capsys, tmp_path):
-    code, told = compared(capsys, tmp_path, "drone", table=TABLES[words])
+REFUSED = [("drone", x, None, words) for words, x in BAD.items()]
+REFUSED += [("top", f"#include <math.h>\n{x}", None, words) for words, x in BAD_C.items()]
+REFUSED += [("drone", codes.DRONE_CODE, x, words) for words, x in TABLES.items()]
+COMPLEX = codes.WHEEL_CODE.replace("    dx[4:] = np", "    dx[4:] = (1 + 0j) * np")
+REFUSED += [("wheel", COMPLEX, None, "f gives complex numbers")]
+
+
+@pytest.mark.parametrize(("name", "text", "table", "words"), REFUSED, ids=[x[3] for x in REFUSED])
+def test_what_is_refused_is_one_line(name, text, table, words, capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr("derive.compare.users_code.SECONDS", 2)
+    monkeypatch.setattr(codes, f"{name.upper()}_CODE", text)
+    code, told = compared(capsys, tmp_path, name, table=table)
     assert (code, told.out) == (2, "")
     assert words in told.err
+    assert told.err.count("\n") == 1
 
 
 def test_several_faults_are_named_together(capsys, tmp_path):

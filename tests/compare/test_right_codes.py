@@ -1,7 +1,13 @@
 """Right code, in any language, conventions and hand, is no false alarm (the list is
-``right_codes.toml``), and a wrong convention is told."""
+``right_codes.toml``), and a wrong convention is told.
 
+Conventions that someone may have chosen are drawn at random, and our code is written in them.
+"""
+
+import json
 import os
+import random
+import shutil
 from functools import cache
 from pathlib import Path
 
@@ -10,11 +16,59 @@ import pytest
 from derive.command.comparing import made
 from derive.command.showing import load_problem
 from derive.compare.comparison import comparison, reports
-from derive.compare.user_states import WORDS
-from tests.compare import codes, conventions
+from derive.compare.user_states import SIZES, WORDS
+from tests.compare import codes
 from tests.compare.codes import LISTED
-from tests.support.library import module_of
+from tests.support.library import ONE_BUILD, library, module_of
 from tests.support.needs import need
+
+WRITTEN = Path(__file__).with_name("written_otherwise.py")
+UNITS = (1.0, 57.3, 0.001)
+
+
+def drawn(seed, state, inputs=(), in_blocks=True):
+    """What someone may have chosen of a state by our names; ``in_blocks``: of a rotation, and
+    maybe of a place."""
+    chosen = random.Random(seed)
+    names = [*state]
+    if in_blocks:
+        moving = ["position", "velocity"] * ("T_1" in state)
+        names = [["quaternion", "euler", "matrix"][seed % 3], "omega", *moving]
+    chosen.shuffle(names)
+    said = {x: {k: chosen.choice(y) for k, y in WORDS[x].items()} for x in names if x in WORDS}
+    plain = [x for x in names if x not in SIZES and x != "euler"]
+    units = {x: chosen.choice(UNITS) for x in plain if in_blocks or not x.startswith("A")}
+    order = [*range(len(inputs))]
+    chosen.shuffle(order)
+    sizes = [(x, SIZES.get(x, 3) if x in WORDS else 1) for x in names]
+    found = {"state": sizes, "said": said, "units": units, "inputs": order, "options": {}}
+    return found | {"names": [*state]}
+
+
+def table(choices, inputs=()):
+    """The same as a table for ``--as``."""
+    state, order = [x for x, _ in choices["state"]], [inputs[i] for i in choices["inputs"]]
+    lines = ['call = "f(t, x, u) -> dx"', f"state = {json.dumps(state)}"]
+    lines += [f"inputs = {json.dumps(order)}"] * bool(order)
+    lines += ["[units]", *(f"{x} = {y}" for x, y in choices["units"].items())]
+    for name, words in choices["said"].items():
+        lines += [f"[{name}]", *(f"{k} = {json.dumps(x)}" for k, x in words.items())]
+    return "\n".join(lines)
+
+
+def written(folder, problem, language, choices):
+    """Our code of a problem, a name or a text, in these conventions: a file."""
+    build = ONE_BUILD[language]
+    library(build, problem, **choices["options"])  # kept on the disk for the process of the code
+    defaults = module_of(problem).DEFAULTS
+    said = {"BUILD": build, "PROBLEM": problem, "CHOICES": choices}
+    said["DEFAULTS"] = [*defaults.values()]
+    lines = [f"{name} = {x!r}" for name, x in said.items()]
+    (folder / "choices.py").write_text("\n".join(lines), encoding="utf-8")
+    return shutil.copy(WRITTEN, folder / "users.py")
+
+
+# ---------------------------------------------------------------- comparisons
 
 HERE = Path(__file__).parent
 OURS = [
@@ -37,13 +91,13 @@ def walked(path):
 
 def agreed(place, name, file, told):
     """What is said of a file beside a problem, in the conventions of a table."""
-    problem, table = name, place / "as.toml"
+    problem, path = name, place / "as.toml"
     if name.isupper():
         problem = str(place.parent / f"{name}.toml")
         Path(problem).write_text(getattr(codes, name), encoding="utf-8")
-    table.write_text(told, encoding="utf-8")
+    path.write_text(told, encoding="utf-8")
     once = lambda _, dynamics: walked(problem)  # noqa: E731
-    return reports(comparison(load_problem(problem), once, file, "", table, 3, 6), once)
+    return reports(comparison(load_problem(problem), once, file, "", path, 3, 6), once)
 
 
 @pytest.fixture(autouse=True)
@@ -58,23 +112,23 @@ def test_ours_in_any_conventions(name, language, seed, tmp_path):
     text = getattr(codes, name, name)
     code = module_of(text)
     blocks = name not in OF_NAMES
-    choices = conventions.drawn(seed, code.STATE, code.INPUTS, blocks)
-    file = conventions.written(tmp_path, text, language, choices)
-    agrees, lines = agreed(tmp_path, name, file, conventions.table(choices, code.INPUTS))
+    choices = drawn(seed, code.STATE, code.INPUTS, blocks)
+    file = written(tmp_path, text, language, choices)
+    agrees, lines = agreed(tmp_path, name, file, table(choices, code.INPUTS))
     assert agrees, (choices, lines)
 
 
 @pytest.mark.parametrize(("name", "language"), QUATERNIONS)
 def test_ours_with_quaternions(name, language, tmp_path):
     code = module_of(name, attitude="quaternion")
-    choices = conventions.drawn(0, code.STATE, code.INPUTS, False)
+    choices = drawn(0, code.STATE, code.INPUTS, False)
     choices["options"], choices["units"] = {"attitude": "quaternion"}, {}
     named = dict.fromkeys(x.split("_")[0] for x in code.STATE)
     own = {"q": ("quaternion", 4), "T": ("position", 3), "zeta": ("omega", 3)}
     state = [own.get(x, ("velocity", 3)) for x in named]
     choices |= {"state": state, "names": [x for x, _ in state]}
-    file = conventions.written(tmp_path, name, language, choices)
-    agrees, lines = agreed(tmp_path, name, file, conventions.table(choices, code.INPUTS))
+    file = written(tmp_path, name, language, choices)
+    agrees, lines = agreed(tmp_path, name, file, table(choices, code.INPUTS))
     assert agrees, lines
 
 
@@ -103,11 +157,11 @@ def test_codes_of_others(name, tmp_path):
 )
 def test_another_convention_is_told(seed, name, key, tmp_path):
     code = module_of(codes.DRONE)
-    choices = conventions.drawn(seed, code.STATE, code.INPUTS)
-    file = conventions.written(tmp_path, codes.DRONE, "python", choices)
+    choices = drawn(seed, code.STATE, code.INPUTS)
+    file = written(tmp_path, codes.DRONE, "python", choices)
     word = choices["said"][name][key]
     choices["said"][name][key] = next(x for x in WORDS[name][key] if x != word)
-    agrees, lines = agreed(tmp_path, "DRONE", file, conventions.table(choices, code.INPUTS))
+    agrees, lines = agreed(tmp_path, "DRONE", file, table(choices, code.INPUTS))
     assert not agrees
     assert f"  it agrees if {name} has {key} {word!r}" in lines
 

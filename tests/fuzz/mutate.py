@@ -63,50 +63,37 @@ kind = "force"
 at = [1, 0, 0]
 """
 SOURCES = ("SO(2)", "UT(2)", "SL(2)", "SE(2)", "screw", "weighted", "an axis", "SO(3) x SO(3)")
-WORDS = (
-    "r1_x",
-    "r1_y",
-    "r2_x",
-    "r2_y",
-    "k",
-    "t",
-    "pi",
-    "1",
-    "2",
-    "0",
-    "0.5",
-    "1e-3",
-    "1e300",
-    "3.",
-)
+WORDS = ("r1_x", "r1_y", "r2_x", "r2_y", "k", "t", "pi", "1", "2", "0", "0.5")
+WORDS += ("1e-3", "1e300", "3.")
 SIGNS = ("+", "-", "*", "/", "^", "(", ")", ",", " ", "**", "^2", "^-1", "^64", "e5", ".", "_")
 LETTERS = "[]{}()=.,'\"#\n\x00\ufeff\u202e\\"
 
 
 def quoted(words):
     """A string of TOML."""
-    text = json.dumps(words, ensure_ascii=False).replace("\x7f", "\\u007f")
-    return text
+    return json.dumps(words, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def toml(data):
     """Any data as TOML, one table in braces after the other; ``None`` is left out."""
-    return "".join(f"{_key(k)} = {_value(x)}\n" for k, x in data.items() if x is not None)
+    return "".join(f"{line}\n" for line in _lines(data))
 
 
-def _key(name):
-    return name if name.isascii() and name.replace("_", "").isalnum() else quoted(name)
+def _lines(data):
+    """A line for each key."""
+    for name, x in data.items():
+        if x is not None:
+            plain = name.isascii() and name.replace("_", "").isalnum()
+            yield f"{name if plain else quoted(name)} = {_value(x)}"
 
 
 def _value(x):
     if isinstance(x, bool):
         return str(x).lower()
     if isinstance(x, dict):
-        return (
-            "{" + ", ".join(f"{_key(k)} = {_value(y)}" for k, y in x.items() if y is not None) + "}"
-        )
+        return f"{{{', '.join(_lines(x))}}}"
     if isinstance(x, list):
-        return "[" + ", ".join(_value(y) for y in x if y is not None) + "]"
+        return f"[{', '.join(_value(y) for y in x if y is not None)}]"
     return quoted(x) if isinstance(x, str) else repr(x)
 
 
@@ -166,13 +153,8 @@ def expression_case(random):
 def paths(data, path=()):
     """The paths to all nodes."""
     yield path
-    inside = (
-        data.items()
-        if isinstance(data, dict)
-        else enumerate(data)
-        if isinstance(data, list)
-        else ()
-    )
+    inside = data.items() if isinstance(data, dict) else ()
+    inside = enumerate(data) if isinstance(data, list) else inside
     for key, x in inside:
         yield from paths(x, (*path, key))
 
@@ -261,22 +243,8 @@ def binary_stl():
     return bytes(80) + struct.pack("<I", len(FACES)) + facets
 
 
-ODD = (
-    "nan",
-    "inf",
-    "-inf",
-    "1e999",
-    "1e308",
-    "1e-320",
-    "0x1",
-    "99999999",
-    "-1",
-    "4",
-    "0",
-    "1/2",
-    "",
-    "a",
-)
+ODD = ("nan", "inf", "-inf", "1e999", "1e308", "1e-320", "0x1", "99999999", "-1", "4", "0")
+ODD += ("1/2", "", "a")
 
 
 def mesh_case(random):

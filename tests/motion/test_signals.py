@@ -209,8 +209,6 @@ def test_what_is_given_wins(tmp_path, capsys):
         assert main([*command, "--input", str(table), *more, "--out", f"{tmp_path}/r.npz"]) == 0
         assert abs(np.load(tmp_path / "r.npz")["table"][-1][12] - end) < 1e-9
     capsys.readouterr()
-    assert main([*command, "--linear"]) == 2
-    assert "--linear joins the rows of --input" in capsys.readouterr().err
     assert main([*command[:2], "--t", "1", "--html", str(tmp_path / "ball.html")]) == 0
     assert "it has no [[signal]]" in capsys.readouterr().err
 

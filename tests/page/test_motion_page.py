@@ -12,10 +12,7 @@ from derive.views.page.motion_page import DEFINED, SCRIPTS, plain
 from tests.support.motion_pages import BAD, FAST, page, told
 from tests.support.walks import derived
 
-MOST = 79_800  # 41 600 when names were shortened: 20 and 17 thousand bytes as a server packs them;
-# 400 more since a body is seen from itself; 1 600 more since numbers are dragged, or moved by keys;
-# 1 200 more since a quantity has its graph; 400 more since a motion goes on; 4 200 more
-# since its picture has a legend, labels make room and trails are joined: the longest has 79 668
+MOST = 79_800  # some 25 000 as a server packs them; the longest has 79 668
 LONGEST = "riemann_ellipsoid"
 PAGELESS = ("affine", "linear", "ideal_fluid", "inhomogeneous_fluid", "stratified_fluid")
 PAGELESS += ("imu",)

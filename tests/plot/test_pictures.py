@@ -1,5 +1,6 @@
 """Pictures of real runs: every kind, the same bytes, texts on the sheet and in both languages, and
-what is refused."""
+what is refused; those in notes; those in docs/pictures, which are of the runs in examples/runs, and
+these are small and those of the commands that are said."""
 
 import re
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 
 from derive.command.cli import main
+from derive.motion.ensemble_files import read_either
 from derive.motion.run import Run, written
 from derive.views.language import language
 from derive.views.plot import kind_descriptions
@@ -15,7 +17,9 @@ from derive.views.plot.kind_descriptions import OVERVIEW, PRECISION
 from derive.views.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
 from derive.views.plot.plot_sheet import FORMATS, PlotError, label, laid_out, look, with_mark
 from tests.support.drawn_runs import figure_of, fitting, run_of, simulated, texts, words_of
-from tests.support.needs import needs
+from tests.support.motion_pictures import DRAWN, MADE, PICTURES, ROOT, RUNS, drawn, remade, unlike
+from tests.support.needs import need, needs
+from tests.support.walks import derived
 
 pytestmark = needs("the module matplotlib")
 FRENCH = language("fr").word
@@ -191,3 +195,80 @@ def test_the_command_and_python(tmp_path, capsys):
     (tmp_path / "b.npz").write_bytes(b"PK")
     assert main(["plot", str(tmp_path / "b.npz"), "--out", str(out)]) == 2
     assert "not a run" in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------- in notes
+
+
+@pytest.mark.parametrize(
+    ("name", "shown", "problems"),
+    [
+        ("notes.html", r'<img src="([^"]*\.svg)"', ("rod", "euler_top")),
+        ("notes.tex", r"{(\w+\.pdf)}", ("rod",)),
+    ],
+)
+def test_the_picture_of_each_problem_is_beside_and_shown(name, shown, problems, tmp_path, capsys):
+    out = tmp_path / name
+    assert main(["notes", *problems, "--picture", "3", "--out", str(out)]) == 0
+    pictures = re.findall(shown, out.read_text(encoding="utf-8"))
+    assert [x.rpartition(".")[0] for x in pictures] == [f"notes_{x}_motion" for x in problems]
+    assert capsys.readouterr().out.split() == [str(out), *(str(tmp_path / x) for x in pictures)]
+    for problem, picture in zip(problems, pictures, strict=True):
+        run = derived(problem).simulate(3.0)
+        assert (tmp_path / picture).read_bytes() == plot(run, picture)
+
+
+def test_without_it_nothing_is_shown(tmp_path):
+    assert main(["notes", "rod", "--out", str(tmp_path / "notes.tex")]) == 0
+    assert "graphic" not in (tmp_path / "notes.tex").read_text(encoding="utf-8")
+    assert len([*tmp_path.iterdir()]) == 1
+
+
+def test_in_a_pdf(tmp_path):
+    need("pdflatex")
+    bare, out = tmp_path / "bare.pdf", tmp_path / "notes.pdf"
+    assert main(["notes", "rod", "--out", str(bare)]) == 0
+    assert main(["notes", "rod", "--picture", "3", "--out", str(out)]) == 0
+    assert (tmp_path / "notes_rod_motion.pdf").stat().st_size > 2000
+    assert out.stat().st_size > bare.stat().st_size + 2000
+
+
+# ---------------------------------------------------------------- those that are committed
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_a_picture_is_drawn_from_its_run(name, tmp_path):
+    found = drawn(name, tmp_path)
+    if unlike():
+        pytest.skip(f"not as in requirements-dev.lock: {', '.join(unlike())}")
+    assert found == (PICTURES / name).read_bytes()
+
+
+def numbers(path):
+    """The numbers of a run or of an ensemble, columns last."""
+    found = read_either(path)
+    return found.table if isinstance(found, Run) else found.states
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_a_run_is_that_of_its_command(name, tmp_path):
+    if "--ensemble" in MADE[name].words:
+        need("cc")
+    path = tmp_path / name
+    path.write_bytes(remade(name, tmp_path))
+    again, committed = numbers(path), numbers(RUNS / name)
+    largest = np.abs(committed).max(axis=tuple(range(committed.ndim - 1)))
+    last_digit = 10.0 ** (1 - MADE[name].digits)
+    assert again.shape == committed.shape
+    assert np.all(np.abs(again - committed) <= last_digit * largest)
+
+
+def test_the_runs_are_small_and_all_are_shown():
+    assert {x.name for x in RUNS.iterdir()} == {*MADE} == {run for run, _ in DRAWN.values()}
+    assert all(x.stat().st_size < 30_000 for x in RUNS.iterdir())
+    shown = {
+        name
+        for page in (ROOT / "docs").glob("*.md")
+        for name in re.findall(r"\]\(pictures/([\w.]+)\)", page.read_text(encoding="utf-8"))
+    }
+    assert {*DRAWN} <= shown

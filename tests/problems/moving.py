@@ -3,3 +3,18 @@
 BODY = '[body]\ngiven = { m = 1, c = [0, 0, 0], J = [["7/4", 0, 0], [0, 1, 0], [0, 0, "1/4"]] }\n'
 WEIGHT = '[[potential]]\nkind = "gravity"\ng = [0, 0, "-9.81"]\n'
 SPIN = f'name = "spin"\ngroup = "SO(3)"\n[parameters]\nw = 2.0\n{BODY}'
+STONE = f"""
+name = "stone"
+group = "SE(3)"
+[parameters]
+H = {{ default = 3.0, meaning = "height" }}
+{BODY}{WEIGHT}[initial]
+zeta_2 = 3
+w_1 = 1
+T_3 = "H"
+[[event]]
+name = "ground"
+when = "T_3"
+terminal = true
+"""
+"""A body that turns as it falls, up to the ground."""

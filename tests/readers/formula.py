@@ -505,28 +505,3 @@ def _over(a, b):
     if _is(a, "mul") and isinstance(a[1], Fraction):
         number, rest = a[1], _times(a[2:])
     return ("div", rest, b) if number == 1 else _times([number, ("div", rest, b)])
-
-
-# -- values --------------------------------------------------------------------------------------
-
-PRIME = 2**61 - 1
-ARITHMETIC = {"add", "mul", "div", "pow"}
-
-
-def value(t, seed=0):
-    """A number, from a random one for all that is not arithmetic."""
-    if isinstance(t, Fraction):
-        return t.numerator * pow(t.denominator, -1, PRIME) % PRIME
-    if isinstance(t, str) or t[0] not in ARITHMETIC:
-        return hash((seed, repr(t))) % PRIME
-    if t[0] == "pow":
-        return pow(value(t[1], seed), int(t[2]), PRIME)
-    parts = [value(x, seed) for x in t[1:]]
-    if t[0] == "add":
-        return sum(parts) % PRIME
-    if t[0] == "div":
-        return parts[0] * pow(parts[1], -1, PRIME) % PRIME
-    product = 1
-    for x in parts:
-        product = product * x % PRIME
-    return product

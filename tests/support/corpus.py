@@ -197,10 +197,11 @@ input = [
 """A problem of points on which inputs and damping act, without its group."""
 
 
-def driven(group):
-    """The same on a group; a moment goes with a force where it turns."""
+def driven(group, length=1):
+    """The same on a group; a moment goes with a force where it turns; ``length`` of the spring."""
     moment = ", moment = [0, 1, 2]" if group.startswith("S") and group != "SL(3)" else ""
-    return DRIVEN.replace("GROUP", group).replace("MOMENT", moment)
+    text = DRIVEN.replace("GROUP", group).replace("MOMENT", moment)
+    return text.replace("length = 1 ", f"length = {length} ")
 
 
 DRIVEN_ON = ("SO(3)", "SL(3)", "GL(3)", "SE(3)")

@@ -8,8 +8,8 @@ from derive.motion.emitted_code import Column
 from derive.motion.run import Run
 from derive.views.plot.pictures import KINDS
 from derive.views.plot.plot_sheet import sheet
-from tests.support.flows import flow
 from tests.support.library import module_of
+from tests.support.states import flow
 from tests.support.walks import derived
 
 BODY = {"inertia": [[1.0, 0, 0], [0, 1.6, 0], [0, 0, 2.2]]}

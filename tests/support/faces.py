@@ -57,7 +57,7 @@ static void given(double *to, const real *from, int n)
 int face(const char *word, double a, double b, const double *P, const double *K, const double *U,
     const double *X, const double *Z, double *out)
 {
-    real p[@name@_N_PARAMETERS + 1], k[@name@_N_CONSTANTS + 1], u[@name@_N_INPUTS + 1];
+    real p[@name@_N_PARAMETERS + 1], k[@name@_N_CONSTANTS + 1], u[@name@_N_INPUTS + 1] = {0};
     real x[@name@_N_STATE], z[@name@_N_STATE + @more@];
     const real t = (real)a, *y = x, *dzeta = z;
     int status = 0;

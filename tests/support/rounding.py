@@ -7,9 +7,10 @@ the terms of sums, the products of those of products, and in proportion through 
 
 import ctypes
 import re
-import subprocess
 
 import numpy as np
+
+from tests.support.library import built, emission
 
 SIZED = """\
 #include <math.h>
@@ -45,70 +46,52 @@ class Pair(ctypes.Structure):
 
 
 class Functions:
-    """constants, rhs and energy of some prefixes in one library; ``sized`` numbers are pairs."""
+    """constants, rhs and energy of one problem on such numbers, as a library of
+    tests/support/library.py has them; each number of an array is a pair."""
 
-    def __init__(self, path, headers, sized=False):
-        self.library, self.sized = ctypes.CDLL(str(path)), sized
-        self.real = Pair if sized else ctypes.c_double
-        self.sizes = {x: dict(re.findall(r"_N_(\w+) = (\d+)", text)) for x, text in headers.items()}
+    def __init__(self, path, name, header):
+        self.library, self.name = ctypes.CDLL(str(path)), name
+        self.sizes = dict(re.findall(r"_N_(\w+) = (\d+)", header))
 
-    def _call(self, prefix, what, *arguments, result=None):
-        function = getattr(self.library, f"{prefix}_{what}")
+    def _call(self, what, *arguments, result=None):
+        function = getattr(self.library, f"{self.name}_{what}")
         function.restype = result
-        return function(*arguments)
+        at = (ctypes.c_void_p(a.ctypes.data) if isinstance(a, np.ndarray) else a for a in arguments)
+        return function(*at)
 
-    def _array(self, values):
-        a = np.ascontiguousarray(values, dtype=float)
-        return np.stack([a, np.abs(a)], axis=-1) if self.sized else a
+    def constants(self, p):
+        """The status and k."""
+        k = pairs(np.zeros(int(self.sizes["CONSTANTS"])))
+        return self._call("constants", pairs(p), k, result=ctypes.c_int), k
 
-    def _out(self, prefix, size):
-        return self._array(np.zeros(int(self.sizes[prefix][size])))
-
-    def constants(self, prefix, p):
-        """k, which must be that of a body."""
-        p, k = self._array(p), self._out(prefix, "CONSTANTS")
-        assert self._call(prefix, "constants", _at(p), _at(k), result=ctypes.c_int) == 0
-        return k
-
-    def rhs(self, prefix, x, k, u):
-        """dx/dt at time 0.3."""
-        x, k, u, dx = map(self._array, (x, k, u, np.zeros(len(x))))
-        self._call(prefix, "rhs", self._time(), _at(x), _at(k), _at(u), _at(dx))
+    def rhs(self, t, x, k, u):
+        """dx/dt."""
+        dx = pairs(np.zeros(len(x)))
+        self._call("rhs", Pair(t, t), pairs(x), pairs(k), pairs(u), dx)
         return dx
 
-    def rhs_batch(self, prefix, x, k, u):
-        """dx/dt at time 0.3 of many columns."""
-        x, k, u, dx = map(self._array, (x, k, u, np.zeros(x.shape)))
-        count = ctypes.c_size_t(x.shape[1])
-        self._call(prefix, "rhs_batch", count, self._time(), _at(x), _at(k), _at(u), _at(dx))
+    def rhs_batch(self, t, x, k, u):
+        """dx/dt of many columns."""
+        dx, count = pairs(np.zeros(x.shape)), ctypes.c_size_t(x.shape[1])
+        self._call("rhs_batch", count, Pair(t, t), pairs(x), pairs(k), pairs(u), dx)
         return dx
 
-    def energy(self, prefix, x, k):
-        """The energy, in an array of one."""
-        x, k = self._array(x), self._array(k)
-        found = self._call(prefix, "energy", self._time(), _at(x), _at(k), result=self.real)
-        return np.array([[found.v, found.size]] if self.sized else [found])
-
-    def _time(self):
-        return Pair(0.3, 0.3) if self.sized else ctypes.c_double(0.3)
+    def energy(self, t, x, k):
+        """The energy."""
+        found = self._call("energy", Pair(t, t), pairs(x), pairs(k), result=Pair)
+        return np.array([found.v, found.size])
 
 
-def _at(a):
-    return ctypes.c_void_p(a.ctypes.data)
+def pairs(values):
+    """Numbers with their sizes."""
+    a = np.asarray(values, dtype=float)
+    return np.ascontiguousarray(np.stack([a, np.abs(a)], axis=-1))
 
 
-def built(command, prefixes, folder, name):
-    """A library of the sources NAME.c of a folder, by a compiler with options."""
-    sources = [f"{x}.c" for x in prefixes]
-    where = ["-shared", "-fPIC", *sources, "-o", name, "-lm"]
-    subprocess.run([*command, *where], cwd=folder, check=True)
-    headers = {x: (folder / f"{x}.h").read_text(encoding="utf-8") for x in prefixes}
-    return Functions(folder / name, headers, sized="-xc++" in command)
-
-
-def sized(prefixes, folder):
-    """The same library on numbers that carry the size of their terms."""
-    (folder / "sized.h").write_text(SIZED, encoding="utf-8")
+def sized(given, **options):
+    """The functions of a problem on numbers that carry the size of their terms."""
+    name, texts = emission(given, ("c",), **options)
     # functions with a C name that return a class: what clang warns of is what is wanted
-    command = ["g++", "-std=c++11", "-O1", "-include", "sized.h", "-xc++", "-fmax-errors=3"]
-    return built(command, prefixes, folder, "sized.so")
+    words = ("g++", "-std=c++11", "-O1", "-include", "sized.h", "-xc++", "-fmax-errors=3")
+    command = (*words, "-shared", "-fPIC", f"{name}.c", "-o", "out", "-lm")
+    return Functions(built([command], texts | {"sized.h": SIZED}), name, texts[f"{name}.h"])

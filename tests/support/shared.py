@@ -1,8 +1,9 @@
 """What the engine makes of a problem, made once for the tests of a room: its record, and, on the
-disk, its programs and what its motion keeps; all else is made of these."""
+disk, its programs, what its motion keeps, and what is compiled; all else is made of these."""
 
 import pickle
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,11 +12,12 @@ import derive.command.emitting
 import derive.command.simulating
 import derive.python.compiled  # noqa: F401  (all that name a function of the pipeline, before it is another)
 from derive import pipeline, programs, searches
+from derive.motion import native
 from derive.problem.problem import Problem
 from derive.record.as_json import to_json
 from derive.record.record import Derivation
 from derive.walk.spine.head import problem_data
-from tests.support.cached import place, write
+from tests.support.cached import place, read, write
 
 TESTS = Path(__file__).parents[1]
 RECORDS = {}
@@ -60,6 +62,22 @@ KEPT_ON_DISK |= {searches.conserved_quantities: True}
 OWN = {make.__name__: make for make in KEPT_ON_DISK}
 ONCE = {name: once(make, on_disk=KEPT_ON_DISK[make]) for name, make in OWN.items()}
 
+
+def compiled_once(folder, source, what, compiler=None):
+    """The library of C, made once for all processes; with fewer optimisations where no test names
+    its own, as to compile takes longer than to run.  What has headers of its own is made anew."""
+    compiler, target = compiler or native._compiler(source.compiler), folder / f"{source.name}.so"
+    if "-I" in source.flags:
+        return OWN["compiled_into"](folder, source, what, compiler)
+    quick = replace(source, flags=tuple("-O1" if x == "-O3" else x for x in source.flags))
+    kept = place("library", compiler, repr(quick))
+    if not kept.is_file():
+        write(kept, OWN["compiled_into"](folder, quick, what, compiler).read_bytes())
+    target.write_bytes(read(kept))
+    return target
+
+
+OWN["compiled_into"], ONCE["compiled_into"] = native.compiled_into, compiled_once
 
 ROOMS = ("code", "command", "motion", "page", "plot", "python", "validate")
 

@@ -1,6 +1,10 @@
-"""States of emitted code of any group: parameters, an element of the group, velocities, inputs."""
+"""States of emitted code of any group: parameters, an element of the group, velocities, inputs; and
+its motions, followed as closely as doubles allow."""
+
+from itertools import pairwise
 
 import numpy as np
+from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 
@@ -83,3 +87,32 @@ def loose(module, seed):
                 a * np.linalg.det(a) @ z
             ).ravel()
     return p, x, rng.normal(size=len(module.INPUTS))
+
+
+def charted(module, seed=3):
+    """A state on the group, of code whose factors have charts: quaternions of length 1, matrices
+    of other factors 1."""
+    x = np.random.default_rng(seed).normal(size=len(module.STATE)) / 2
+    for k, name in enumerate(module.STATE):
+        if name.startswith("q") and name.endswith("_0"):
+            x[k : k + 4] /= np.linalg.norm(x[k : k + 4])
+        if name.startswith("A"):
+            x[k] = name[-1] == name[-2]
+    return x
+
+
+# The least relative tolerance that SciPy takes; the absolute one is for entries that vanish.
+CLOSE = {"method": "DOP853", "rtol": 2.3e-14, "atol": 1e-16}
+
+
+def flow(code, k, x, times):
+    """The states (len(times), N) of ``code``, a module or a library, that starts at times[0].
+
+    From one time to the next: interpolation inside a step is less exact than the steps.
+    """
+    states = [np.asarray(x, float)]
+    for start, end in pairwise(times):
+        found = solve_ivp(code.rhs, (start, end), states[-1], args=(k,), **CLOSE)
+        assert found.success, found.message
+        states.append(found.y[:, -1])
+    return np.array(states)
