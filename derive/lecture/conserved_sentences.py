@@ -32,7 +32,8 @@ def conserved(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
         kept = kept_by(step)
         exact = step.prose[0].message == message("symmetries.exact")
         told = (ENERGY if kept == "h̃" else EXACT) if exact else UP_TO
-        texts = (_sentence(told, kept, kind_of(d, step, x), x) for x in SPOKEN)
+        marked = [x.marked for x in SPOKEN]
+        texts = (_sentence(told, kept, kind_of(d, step, x), x) for x in marked)
         yield in_each(*texts, labels=(step.label,))
 
 
@@ -55,7 +56,7 @@ def kind_of(d: Derivation, step: Step, spoken: Language) -> str:
     else:
         return told
     letter = f"e{axis + 1}".translate(SUBSCRIPTS).replace("ₑ", "e")
-    return spoken.word(AXIS[len(places)], kind=told, axis=letter)
+    return spoken.word(AXIS[len(places)], kind=told, axis=spoken.formula(letter))
 
 
 def _places(matrix: Tree) -> Iterator[tuple[int, int]]:

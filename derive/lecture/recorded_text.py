@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 
 from ..language.show import in_sentence, show
 from ..language.tree import Tree
 from ..record.record import Equation
 from ..views.language import LANGUAGES, Language, language
-from ..views.printing.sentences import prose
-from .lecture_text import Entry, Formula, Tie, Words, words_of
+from ..views.printing.sentences import FORMULA
+from .lecture_text import Entry, Formula, Tie, Words
 
-FACTOR = re.compile(r"(?<![^ ])([0-9]+) `(?=‘)")
 SPOKEN: tuple[Language, ...] = tuple(map(language, LANGUAGES))
 
 
 def words(text: str) -> Words:
-    """A sentence of a record, whose formulas are as true as it; with them the numbers before
-    parameters, which alone would be words."""
-    return tuple(
-        Formula(x.text, condition=True) if isinstance(x, Formula) else x
-        for x in words_of(FACTOR.sub(r"`\1 ", prose(text, escape=str, formula="`{}`".format)))
-    )
+    """A sentence of a record with marks, whose formulas are as true as it."""
+    parts = enumerate(text.split(FORMULA))
+    return tuple(Formula(x, condition=True) if k % 2 else x for k, x in parts if x)
 
 
 def in_each(*texts: Words, labels: Sequence[str] = ()) -> Entry:
@@ -32,7 +27,7 @@ def in_each(*texts: Words, labels: Sequence[str] = ()) -> Entry:
 
 def sentence(said: Callable[[Language], str], labels: Sequence[str] = ()) -> Entry:
     """A sentence in each language, by what it is in one."""
-    return in_each(*(words(said(x)) for x in SPOKEN), labels=labels)
+    return in_each(*(words(said(x.marked)) for x in SPOKEN), labels=labels)
 
 
 def alone(t: Tree) -> Entry:

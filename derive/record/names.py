@@ -55,8 +55,8 @@ class Use(NamedTuple):
 
 
 class Name(NamedTuple):
-    """What a name means, in English and in French, how LaTeX writes it, and in which ways it is
-    used in equations."""
+    """What a name means, in English and in French, formulas between dollars, how LaTeX writes it,
+    and in which ways it is used in equations."""
 
     meaning: str
     french: str
@@ -122,12 +122,12 @@ def with_derivatives(table: dict[str, Name], varied: str, moving: str) -> dict[s
     found: dict[str, Name] = {}
     for x in varied.split():
         latex, use = table[x].latex, letter(table[x].uses[0].type)
-        told = f"variation of {x}", f"variation de {x}"
+        told = f"variation of ${x}$", f"variation de ${x}$"
         found[f"δ{x}"] = Name(*told, _of(r"\delta", latex), (use,))
-        told = f"variation δ′ of {x}", f"variation δ′ de {x}"
+        told = f"variation $δ′$ of ${x}$", f"variation $δ′$ de ${x}$"
         found[f"δ′{x}"] = Name(*told, _of(r"\delta'", latex), (use,))
     for x in moving.split():
-        told = f"d{x}/dt along the motion", f"d{x}/dt le long du mouvement"
+        told = f"$d{x}/dt$ along the motion", f"$d{x}/dt$ le long du mouvement"
         rates = tuple(Use(use.type, "value on X") for use in table[x].uses)
         dotted = normalize("NFC", f"{x[0]}\u0307{x[1:]}")
         found[dotted] = Name(*told, _of(r"\dot", table[x].latex), rates)
@@ -149,8 +149,8 @@ def of_action(square: Type, algebra: Type, *, affine: bool) -> dict[str, Name]:
     have a hat where they are of its size."""
     parts = tables(WORDS / "discrete.txt", {})
     hat, latex_hat = ("\u0302", r"\hat ") if affine else ("", "")
-    hatted, chapeau = ("; of (r, 1)", " ; de (r, 1)") if affine else ("", "")
-    inside = "g_1⁻¹δg_1, in the Lie algebra", "g_1⁻¹δg_1, dans l’algèbre de Lie"
+    hatted, chapeau = ("; of $(r, 1)$", " ; de $(r, 1)$") if affine else ("", "")
+    inside = "$g_1⁻¹δg_1$, in the Lie algebra", "$g_1⁻¹δg_1$, dans l’algèbre de Lie"
     basis = ("family", "basis", algebra)
     found = {
         f"ξ{hat}": Name(*inside, rf"{latex_hat}\xi", (defined(algebra),)),
@@ -159,10 +159,11 @@ def of_action(square: Type, algebra: Type, *, affine: bool) -> dict[str, Name]:
     for k, (which, french) in enumerate(WHICH):
         told = f"{which} element of the group", f"{french} élément du groupe"
         found[f"g_{k}"] = Name(*told, f"g_{k}", (letter(square),))
-        told = f"moments of the forces at g_{k}{hatted}", f"moments des forces en g_{k}{chapeau}"
+        at = f"$g_{k}$"
+        told = f"moments of the forces at {at}{hatted}", f"moments des forces en {at}{chapeau}"
         found[f"N{hat}_{k}"] = Name(*told, f"{latex_hat}N_{k}", (defined(square),))
         for mark, latex in (("δ", r"\delta"), ("δ′", r"\delta'")):
-            told = f"variation {mark} of g_{k}", f"variation {mark} de g_{k}"
+            told = f"variation ${mark}$ of {at}", f"variation ${mark}$ de {at}"
             found[f"{mark}g_{k}"] = Name(*told, f"{latex} g_{k}", (letter(square),))
     common = parts["both"] | _numbered(parts["numbered"], 2)
     blocks = parts["affine"] | _numbered(parts["blocks"], 3) if affine else {}

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from .names import WORDS
-from .prose import read
+from .prose import read, unmarked
 
 
 class Rule(NamedTuple):
-    """The name of a rule in French, what a step with it does, in a sentence in both languages, and
-    the kind of its equations.
+    """The name of a rule in French, what a step with it does, in a sentence, and the kind of its
+    equations.
 
     A *definition* says what names are; an *identity* holds at every point of the evolution space, a
     *restriction* for some arguments alone; a *kernel* step is what the variations test, those of
@@ -20,22 +20,21 @@ class Rule(NamedTuple):
 
     french: str
     sentence: str
-    sentence_in_french: str
     kind: str
 
 
 OFF_MOTION = ("definition", "identity", "restriction")
 """The kinds of what holds whether or not a point moves as the equations of motion say."""
 
+TOLD = read([WORDS / "rules.txt"])
 RULES = {
-    name: Rule(french, sentence, sentence_in_french, kind)
-    for label, (sentence, sentence_in_french) in read([WORDS / "rules.txt"]).items()
+    name: Rule(french, unmarked(texts[0]), kind)
+    for label, texts in TOLD.items()
     for name, french, kind in [label.split(" | ")]
 }
 
 
-def names() -> Iterator[tuple[str, str]]:
+def names() -> Iterator[tuple[str, ...]]:
     """The name of every rule, and its sentence, in English and in French."""
-    for name, rule in RULES.items():
-        yield name, rule.french
-        yield rule.sentence, rule.sentence_in_french
+    yield from ((name, rule.french) for name, rule in RULES.items())
+    yield from TOLD.values()

@@ -15,6 +15,7 @@ from pathlib import Path
 from ...language.read import read
 from ...language.tree import Tree
 from ...record.prose import read as read_texts
+from ...record.prose import unmarked
 from ...record.record import Equation, stated
 
 ALWAYS = {"Σ ": "Σᵢ ", "(t, g, ν)": "", " ∈ so(3)": "", "(δx)": "(δy)"}
@@ -46,7 +47,7 @@ class Printed:
     @property
     def remark(self) -> str:
         """What the print needs, in English; empty for most."""
-        return remarks().get(self.number, ("", ""))[0]
+        return unmarked(remarks().get(self.number, ("", ""))[0])
 
     @property
     def group(self) -> str:
