@@ -18,13 +18,21 @@ from ..views.figure.scene import scene
 from ..views.language import Language, language
 from ..views.outline import declared, system, title
 from ..views.text import formula as aligned
-from .conserved_sentences import conserved, kept_by
 from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
 from .problem_exercises import exercises
 from .ran_figure import DESCRIBED, FLAT, Ran, label_of
-from .recorded_text import SPOKEN, display, in_each, sentence, words
-from .told_refusals import OVER, reason
+from .recorded_text import (
+    OVER,
+    SPOKEN,
+    conserved,
+    display,
+    in_each,
+    kept_by,
+    reason,
+    sentence,
+    words,
+)
 
 SEARCHES = {
     "symmetries": "What the motion keeps.",

@@ -18,13 +18,12 @@ from derive.language.limits import Refused
 from derive.language.read import FormulaError
 from derive.language.show import show
 from derive.lecture import document
-from derive.lecture.conserved_sentences import kept_by
 from derive.lecture.lecture_text import Block, Chapter, Entry, Formula, LectureError, tree
 from derive.lecture.problem_chapter import LONGEST, SEARCHES, Found, _rows, chapter_of
 from derive.lecture.problem_exercises import _on_motion
 from derive.lecture.ran_figure import FLAT, Ran
-from derive.lecture.told_refusals import REASONS
-from derive.lecture.told_refusals import reason as told_reason
+from derive.lecture.recorded_text import REASONS, kept_by
+from derive.lecture.recorded_text import reason as told_reason
 from derive.lecture.trials import tied, tried
 from derive.record.record import Equation
 from derive.views.answer import equations_of_motion
