@@ -152,11 +152,11 @@ def letters(
     found: dict[tuple[str, str], LetterUse] = {}
     for k, chapter in enumerate(chapters, 1):
         declared = {
-            s.name: language.of(s.meaning)
+            s.name: language.marked.of(s.meaning)
             for problem in reversed(chapter.problems)
             for s in records[problem].symbols
         }
-        declared |= {x: language.word(OWN[of, x]) for of, x in OWN if of == chapter.name}
+        declared |= {x: language.marked.word(OWN[of, x]) for of, x in OWN if of == chapter.name}
         for entry in chapter.entries:
             for name in _names(entry):
                 if name in declared and not _marked(name):

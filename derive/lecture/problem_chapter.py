@@ -217,7 +217,7 @@ def _pictured(problem: str, ran: Ran | Sentence) -> Iterator[Block]:
         yield Block("text", "", "", (sentence(lambda x: f"{ran.told(x)} {x.word(FLAT)}"),), 0)
         return
     texts = (
-        (*words(ran.told(x).removesuffix(".")), f" ({x.word('Fig.').lower()} @{label}).")
+        (*words(ran.told(x.marked).removesuffix(".")), f" ({x.word('Fig.').lower()} @{label}).")
         for x in SPOKEN
     )
     yield Block("text", "", "", (in_each(*texts),), 0)
@@ -243,7 +243,7 @@ def _rows(e: Equation) -> int:
 
 
 def _left_out(equations: Sequence[Equation], words: Language) -> str:
-    what = ", ".join(show(e.lhs) for e in equations)
+    what = words.formula(", ".join(show(e.lhs) for e in equations))
     return words.word("{what} (a long expression: see the step)", what=what) + "."
 
 

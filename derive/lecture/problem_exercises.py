@@ -10,6 +10,7 @@ from zlib import crc32
 from ..language.show import in_sentence
 from ..language.tree import Tree, neg
 from ..record.record import Derivation, Equation, Step
+from ..record.sentence import phrase
 from ..views.language import ENGLISH, Language
 from .lecture_text import Block, Entry, Formula, Typed, Words, words_of
 from .ran_figure import Ran, letter_of, written
@@ -112,15 +113,16 @@ def _on_motion(ran: Ran, command: str, *, parameters: bool) -> list[Block]:
     asked = (
         (
             *words_of(f"_{x.word(WATCH)}_ "),
-            *words(x.word(message, **places)),
+            *words(_placed(message, places, x.marked)),
             " ",
             Typed(command if x is ENGLISH else f"{command} --lang {x.name}"),
             f" {x.word(SHOWN)}",
         )
         for x in SPOKEN
     )
-    return _of([in_each(*asked)], [sentence(partial(_between, told))])
+    return _of([in_each(*asked)], [sentence(partial(_placed, BETWEEN, told))])
 
 
-def _between(ends: dict[str, str], spoken: Language) -> str:
-    return spoken.word(BETWEEN, **ends)
+def _placed(message: str, places: dict[str, str], spoken: Language) -> str:
+    """A message with formulas in its places."""
+    return spoken.sentence(phrase(message, **places))

@@ -55,8 +55,9 @@ class Ran:
     def caption(self, words: Language) -> str:
         """Which curve is which."""
         coloured = zip(COLOURS, self.curves, strict=False)
-        named = (words.word(colour, name=letter_of(x)) for colour, (x, _) in coloured)
-        return words.word("The motion: {curves} over time.", curves=", ".join(named))
+        named = ((colour, words.formula(letter_of(x))) for colour, (x, _) in coloured)
+        curves = ", ".join(words.word(colour, name=x) for colour, x in named)
+        return words.word("The motion: {curves} over time.", curves=curves)
 
     def told(self, words: Language) -> str:
         """What made it, and what became of the energy."""
@@ -72,7 +73,7 @@ class Ran:
         bound = f"10{str(exponent).translate(SUPERSCRIPTS)}" if exponent < 0 else f"{10**exponent}"
         kept = "Its energy, {energy} at first, changes by less than {change}."
         energy = written(self.energy[0])
-        return f"{words.word(RUN)} {words.word(kept, energy=energy, change=bound)}"
+        return f"{words.word(RUN)} {words.word(kept, energy=energy, change=words.formula(bound))}"
 
     def picture(self, _claims: Claims) -> Scene:
         """The curves, in the colours of the axes."""

@@ -12,20 +12,19 @@ from ..language.tree import Tree, names
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
 from ..views.language import LANGUAGES, Language, language
-from ..views.printing.sentences import prose
-from .lecture_text import Entry, Formula, Tie, Words, words_of
+from ..views.printing.sentences import FORMULA, QUOTED
+from .lecture_text import Entry, Formula, Tie, Words
 
-FACTOR = re.compile(r"(?<![^ ])([0-9]+) `(?=‘)")
 SPOKEN: tuple[Language, ...] = tuple(map(language, LANGUAGES))
 
 
 def words(text: str) -> Words:
-    """A sentence of a record, whose formulas are as true as it; with them the numbers before
-    parameters, which alone would be words."""
-    return tuple(
-        Formula(x.text, condition=True) if isinstance(x, Formula) else x
-        for x in words_of(FACTOR.sub(r"`\1 ", prose(text, escape=str, formula="`{}`".format)))
-    )
+    """A sentence of a record with marks, whose formulas are as true as it; with them parameters in
+    ‘quotes’."""
+    parts = text.split(FORMULA)
+    parts[::2] = (QUOTED.sub(rf"{FORMULA}\g<0>{FORMULA}", x) for x in parts[::2])
+    found = enumerate(FORMULA.join(parts).split(FORMULA))
+    return tuple(Formula(x, condition=True) if k % 2 else x for k, x in found if x)
 
 
 def in_each(*texts: Words, labels: Sequence[str] = ()) -> Entry:
@@ -35,7 +34,7 @@ def in_each(*texts: Words, labels: Sequence[str] = ()) -> Entry:
 
 def sentence(said: Callable[[Language], str], labels: Sequence[str] = ()) -> Entry:
     """A sentence in each language, by what it is in one."""
-    return in_each(*(words(said(x)) for x in SPOKEN), labels=labels)
+    return in_each(*(words(said(x.marked)) for x in SPOKEN), labels=labels)
 
 
 def alone(t: Tree) -> Entry:
@@ -73,7 +72,8 @@ def conserved(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
         kept = kept_by(step)
         exact = step.prose[0].message == message("symmetries.exact")
         told = (ENERGY if kept == "h̃" else EXACT) if exact else UP_TO
-        texts = (_sentence(told, kept, kind_of(d, step, x), x) for x in SPOKEN)
+        marked = [x.marked for x in SPOKEN]
+        texts = (_sentence(told, kept, kind_of(d, step, x), x) for x in marked)
         yield in_each(*texts, labels=(step.label,))
 
 
@@ -96,7 +96,7 @@ def kind_of(d: Derivation, step: Step, spoken: Language) -> str:
     else:
         return told
     letter = f"e{axis + 1}".translate(SUBSCRIPTS).replace("ₑ", "e")
-    return spoken.word(AXIS[len(places)], kind=told, axis=letter)
+    return spoken.word(AXIS[len(places)], kind=told, axis=spoken.formula(letter))
 
 
 def _places(matrix: Tree) -> Iterator[tuple[int, int]]:

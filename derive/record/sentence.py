@@ -144,9 +144,39 @@ KINDS = {
         "near_steady near_turned near_turned_on_the_left near_stable near_unstable near_open"
     ),
 }
-CLAIMS = frozenset(
-    f"{subject}.{name}" for subject, names in KINDS.items() for name in names.split()
-)
+OF_MASSES = {
+    "body": "symbolic",
+    "pullback": "metric",
+    "kernel": "line",
+    "unique": "span affine_span",
+    "elimination": "mass linear_parts",
+    "euler": "solved",
+    "motion": (
+        "rotation displacement maps maps_of_a_volume affine_maps affine_maps_of_a_volume "
+        "mass_matrix"
+    ),
+}
+OF_ALGEBRA = {
+    "relation": "more",
+    "null": "symmetries",
+    "isomorphism": "onto",
+    "hat": "rotations displacements",
+    "unaligned": "turned displaced",
+    "motion": "lagrangian",
+    "quadric": "stokes layers",
+    "total": "sign",
+}
+
+
+def _keys(kinds: Mapping[str, str]) -> frozenset[str]:
+    return frozenset(f"{subject}.{x}" for subject, names in kinds.items() for x in names.split())
+
+
+SIGNED = "_signed"
+"""The end of the key of what is said where masses may be negative."""
+CONDITIONS = _keys(OF_ALGEBRA) | _keys(OF_MASSES) | {f"{x}{SIGNED}" for x in _keys(OF_MASSES)}
+"""The claims of the walk, whose values, names and numbers, stand in their sentences."""
+CLAIMS = CONDITIONS | _keys(KINDS)
 """The keys of the sentences that are claims."""
 
 MONOMIALS = 10_000
@@ -245,6 +275,15 @@ others as :func:`text` has it."""
 def rendered(claim: Claim, **phrases: Sentence) -> Sentence:
     """The sentence of a claim; ``phrases`` fill the places that have no value."""
     return phrase(message(claim.kind), **(claim.texts | phrases))
+
+
+def conditions(prose: Prose) -> Iterator[Claim]:
+    """The claims of sentences that alone tell them."""
+    keys = {message(kind): kind for kind in CONDITIONS}
+    for x in _parts(prose):
+        if kind := keys.get(x.message):
+            texts = ((name, y) for name, y in x.places if isinstance(y, str))
+            yield Claim(kind, tuple((name, int(y) if y.isdigit() else y) for name, y in texts))
 
 
 def fault(prose: Prose, claims: tuple[Claim, ...]) -> str:

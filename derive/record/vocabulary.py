@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from unicodedata import normalize
 
 from ..schema.kinds import kinds
-from .prose import read
+from .prose import read, unmarked
 
 Type = str | tuple[Any, ...]
 """``scalar``, ``(matrix, rows, columns)``, ``(vector, n)``; ``(algebra,)``, a matrix among the
@@ -58,8 +58,8 @@ class Use(NamedTuple):
 
 
 class Name(NamedTuple):
-    """What a name means, in English and in French, how LaTeX writes it, and in which ways it is
-    used in equations."""
+    """What a name means, in English and in French, formulas between dollars, how LaTeX writes it,
+    and in which ways it is used in equations."""
 
     meaning: str
     french: str
@@ -125,12 +125,12 @@ def with_derivatives(table: dict[str, Name], varied: str, moving: str) -> dict[s
     found: dict[str, Name] = {}
     for x in varied.split():
         latex, use = table[x].latex, letter(table[x].uses[0].type)
-        told = f"variation of {x}", f"variation de {x}"
+        told = f"variation of ${x}$", f"variation de ${x}$"
         found[f"δ{x}"] = Name(*told, _of(r"\delta", latex), (use,))
-        told = f"variation δ′ of {x}", f"variation δ′ de {x}"
+        told = f"variation $δ′$ of ${x}$", f"variation $δ′$ de ${x}$"
         found[f"δ′{x}"] = Name(*told, _of(r"\delta'", latex), (use,))
     for x in moving.split():
-        told = f"d{x}/dt along the motion", f"d{x}/dt le long du mouvement"
+        told = f"$d{x}/dt$ along the motion", f"$d{x}/dt$ le long du mouvement"
         rates = tuple(Use(use.type, "value on X") for use in table[x].uses)
         dotted = normalize("NFC", f"{x[0]}\u0307{x[1:]}")
         found[dotted] = Name(*told, _of(r"\dot", table[x].latex), rates)
@@ -152,8 +152,8 @@ def of_action(square: Type, algebra: Type, *, affine: bool) -> dict[str, Name]:
     have a hat where they are of its size."""
     parts = tables(WORDS / "discrete.txt", {})
     hat, latex_hat = ("\u0302", r"\hat ") if affine else ("", "")
-    hatted, chapeau = ("; of (r, 1)", " ; de (r, 1)") if affine else ("", "")
-    inside = "g_1⁻¹δg_1, in the Lie algebra", "g_1⁻¹δg_1, dans l’algèbre de Lie"
+    hatted, chapeau = ("; of $(r, 1)$", " ; de $(r, 1)$") if affine else ("", "")
+    inside = "$g_1⁻¹δg_1$, in the Lie algebra", "$g_1⁻¹δg_1$, dans l’algèbre de Lie"
     basis = ("family", "basis", algebra)
     found = {
         f"ξ{hat}": Name(*inside, rf"{latex_hat}\xi", (defined(algebra),)),
@@ -162,10 +162,11 @@ def of_action(square: Type, algebra: Type, *, affine: bool) -> dict[str, Name]:
     for k, (which, french) in enumerate(WHICH):
         told = f"{which} element of the group", f"{french} élément du groupe"
         found[f"g_{k}"] = Name(*told, f"g_{k}", (letter(square),))
-        told = f"moments of the forces at g_{k}{hatted}", f"moments des forces en g_{k}{chapeau}"
+        at = f"$g_{k}$"
+        told = f"moments of the forces at {at}{hatted}", f"moments des forces en {at}{chapeau}"
         found[f"N{hat}_{k}"] = Name(*told, f"{latex_hat}N_{k}", (defined(square),))
         for mark, latex in (("δ", r"\delta"), ("δ′", r"\delta'")):
-            told = f"variation {mark} of g_{k}", f"variation {mark} de g_{k}"
+            told = f"variation ${mark}$ of {at}", f"variation ${mark}$ de {at}"
             found[f"{mark}g_{k}"] = Name(*told, f"{latex} g_{k}", (letter(square),))
     common = parts["both"] | _numbered(parts["numbered"], 2)
     blocks = parts["affine"] | _numbered(parts["blocks"], 3) if affine else {}
@@ -191,8 +192,8 @@ DISCRETE: dict[str, dict[str, Name]] = {
 
 
 class Rule(NamedTuple):
-    """The name of a rule in French, what a step with it does, in a sentence in both languages, and
-    the kind of its equations.
+    """The name of a rule in French, what a step with it does, in a sentence, and the kind of its
+    equations.
 
     A *definition* says what names are; an *identity* holds at every point of the evolution space, a
     *restriction* for some arguments alone; a *kernel* step is what the variations test, those of
@@ -201,25 +202,24 @@ class Rule(NamedTuple):
 
     french: str
     sentence: str
-    sentence_in_french: str
     kind: str
 
 
 OFF_MOTION = ("definition", "identity", "restriction")
 """The kinds of what holds whether or not a point moves as the equations of motion say."""
 
+TOLD = read([WORDS / "rules.txt"])
 RULES = {
-    name: Rule(french, sentence, sentence_in_french, kind)
-    for label, (sentence, sentence_in_french) in read([WORDS / "rules.txt"]).items()
+    name: Rule(french, unmarked(texts[0]), kind)
+    for label, texts in TOLD.items()
     for name, french, kind in [label.split(" | ")]
 }
 
 
-def names() -> Iterator[tuple[str, str]]:
+def names() -> Iterator[tuple[str, ...]]:
     """The name of every rule, and its sentence, in English and in French."""
-    for name, rule in RULES.items():
-        yield name, rule.french
-        yield rule.sentence, rule.sentence_in_french
+    yield from ((name, rule.french) for name, rule in RULES.items())
+    yield from TOLD.values()
 
 
 VOCABULARY: dict[str, Name] = with_derivatives(

@@ -13,6 +13,7 @@ from itertools import groupby
 from unicodedata import normalize
 
 from ..language.tree import Tree, names
+from ..record.prose import unmarked
 from ..record.record import ACTIONS, ANY_GROUP, Derivation, Step, Symbol
 from ..record.sentence import english, say
 from ..record.vocabulary import VOCABULARY
@@ -73,7 +74,7 @@ def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[Bo
         if own:
             letters = new_letters(d.symbols, own, explained)
             parts.append(
-                BookPart(d.name, title(d, language), system(d, language), own, d, letters, d)
+                BookPart(d.name, title(d, language), system(d, language.marked), own, d, letters, d)
             )
     return parts
 
@@ -123,7 +124,7 @@ def parameters(d: Derivation | None, language: Language) -> list[tuple[list[str]
 def of_any_group(s: Symbol) -> Symbol:
     """The symbol with the meaning that it has whatever the group."""
     known = VOCABULARY.get(s.name)
-    return replace(s, meaning=say(known.meaning)) if known else s
+    return replace(s, meaning=say(unmarked(known.meaning))) if known else s
 
 
 def _regular(name: str) -> bool:
@@ -182,6 +183,7 @@ def corrections(
 def _passages(f: PaperFinding, language: Language) -> Iterator[Passage]:
     """A correction: what was printed, how it is true, what is wrong, values that show it."""
     formulas: list[tuple[Tree, ...]] = []
+    language = language.marked
 
     def formula(*sides: Tree) -> str:
         formulas.append(sides)

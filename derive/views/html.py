@@ -37,7 +37,7 @@ from .outline import (
 from .paper.findings import PaperFinding
 from .printing.letters import NAMES, standard
 from .printing.line_breaking import groups, measure
-from .printing.sentences import between_dollars, inline, prose, spelt
+from .printing.sentences import inline, prose, spelt
 from .printing.signs import Notation
 from .printing.tex import Cut, cut_up, formula, joined
 from .printing.typeset import Formula, literal, plain
@@ -148,9 +148,9 @@ def _shown(
         "language": language.name,
         "title": visible(title(records[0], language)) if len(records) == 1 else word(MOTION),
         "about": visible(capitalised(subtitle(records[0], language))) if len(records) == 1 else "",
-        "road": words(word(road(records)), chosen, ready=True),
+        "road": words(language.marked.word(road(records)), chosen),
         "conventions": " ".join(
-            words(word(x), chosen, ready=True)
+            words(language.marked.word(x), chosen)
             for x in (TRANSPOSES[chosen.transpose], conventions(records))
         ),
         "regular": words(word(REGULAR), chosen),
@@ -179,13 +179,10 @@ def numbered(parts: Sequence[BookPart]) -> dict[str, str]:
     return found
 
 
-def words(
-    text: str, notation: Notation, names: Mapping[str, str] = NAMES, *, ready: bool = False
-) -> str:
-    """A sentence as markup, its formulas as MathML; ``names``: the LaTeX of a record's own;
-    ``ready``: they stand between dollars."""
-    between = between_dollars if ready else prose
-    shown = between(text, escaped, lambda x: movable(spelt(x).tex, inline(x, notation, names)))
+def words(text: str, notation: Notation, names: Mapping[str, str] = NAMES) -> str:
+    """A sentence as markup, its formulas, between marks, as MathML; ``names``: the LaTeX of a
+    record's own."""
+    shown = prose(text, escaped, lambda x: movable(spelt(x).tex, inline(x, notation, names)))
     return BESIDE.sub(r'<span class="kept">\g<0></span>', shown)
 
 
@@ -243,7 +240,7 @@ class _PartFields:
         drawn = scene(self.part.record) if self.part.record else None
         if drawn is None:
             return {"figure": "", "caption": ""}
-        caption = words(self.language.of(drawn.caption), self.notation)
+        caption = words(self.language.marked.of(drawn.caption), self.notation)
         titled = replace(drawn, title=title(self.part.source, self.language))
         return {"figure": svg(titled), "caption": caption}
 
@@ -257,11 +254,13 @@ class _PartFields:
             "label": step.label,
             "id": anchor(step.label),
             "rule": capitalised(self.language.word(step.rule)),
-            "told": words(self.language.word(RULES[step.rule].sentence), self.notation),
+            "told": words(self.language.marked.word(RULES[step.rule].sentence), self.notation),
             "printed": printed(step),
-            "notes": [words(x, self.notation, self.names) for x in assumed(step, self.language)],
+            "notes": [
+                words(x, self.notation, self.names) for x in assumed(step, self.language.marked)
+            ],
             "corrections": [*map(self.correction, self.corrections[step.label].values())],
-            "prose": words(self.language.of(step.prose), self.notation, self.names),
+            "prose": words(self.language.marked.of(step.prose), self.notation, self.names),
             "equations": shown(step.label),
             "uses": [unfolded(x) for x in step.uses],
             "coordinates": [
@@ -351,7 +350,7 @@ class _PartFields:
     def symbols(self) -> Iterable[dict[str, str]]:
         """The letters of the part and their meanings."""
         for s in self.part.symbols:
-            yield self.letter(Letter(s.name, self.language.of(s.meaning)))
+            yield self.letter(Letter(s.name, self.language.marked.of(s.meaning)))
 
     def parameters(self) -> Iterable[dict[str, str]]:
         """The parameters of the problem and their meanings."""

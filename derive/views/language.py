@@ -14,18 +14,23 @@ from ..language.show import show
 from ..language.tree import Tree
 from ..record import vocabulary
 from ..record.prose import LANGUAGES as LANGUAGES
+from ..record.prose import MARK, read, unmarked
 from ..record.prose import entries as steps
-from ..record.prose import read
 from ..record.record import Equation
-from ..record.sentence import Prose, Sentence, filled, phrase
+from ..record.sentence import Prose, Sentence, filled
 from .paper.findings import remarks
 from .printing.line_breaking import display_width, measure
+from .printing.sentences import FORMULA
 from .printing.tex import latex_tree
 
 CATALOGUE = Path(__file__).with_name("catalogue.txt")
 LABELLED = Path(__file__).with_name("outline.txt")
 POINT = re.compile(r"(?<=[0-9])\.(?=[0-9])")
 """The point of a decimal number."""
+SEPARATOR, NUMBER = re.compile(r"(\s*[,;]\s+)"), re.compile(r"\(\d+\) ")
+"""What stands between the formulas of a list, and before each, if anything does."""
+WORD = re.compile(r"[A-Za-z]{2,}|[A-Z]\d+|\d+|[A-Z][A-Za-z]*\(\d+\).*")
+"""What is no formula in such a list: words, a number alone, groups by their names."""
 THIN, WIDE = "\u202f", "\u00a0"
 SPACES = ((r" (?=[;!?])", THIN), (r" (?=[:»])|(?<=«) ", WIDE))
 """Where French has a space that does not break: in the catalogue it is an ordinary one."""
@@ -33,10 +38,14 @@ SPACES = ((r" (?=[;!?])", THIN), (r" (?=[:»])|(?<=«) ", WIDE))
 
 @dataclass(frozen=True)
 class Language:
-    """A language of the views; ``messages``: English → this one, missing ones stay English."""
+    """A language of the views; ``messages``: English → this one, missing ones stay English.
+
+    ``marks``: formulas stand between marks (FORMULA), to be typeset.
+    """
 
     name: str
     messages: Mapping[str, str] = field(default_factory=dict)
+    marks: bool = False
 
     def of(self, prose: Prose) -> str:
         """The sentences of a step, or of a caption, in this language."""
@@ -44,11 +53,36 @@ class Language:
 
     def sentence(self, x: Sentence) -> str:
         """One sentence in this language, its places filled."""
-        places = {
-            name: self.numbers(y) if isinstance(y, str) else self.sentence(y)
-            for name, y in x.places
-        }
-        return filled(self.messages.get(x.message, x.message), places)
+        message, places = self.messages.get(x.message, x.message), {}
+        for name, y in x.places:
+            if not isinstance(y, str):
+                places[name] = self.sentence(y)
+            elif f"{FORMULA}{{{name}}}" in message:  # it goes on
+                places[name] = f"{FORMULA}{self.numbers(y)}{FORMULA}"
+            else:
+                places[name] = self.formula(self.numbers(y))
+        said = filled(message, places)
+        return said.replace(2 * FORMULA, "") if self.marks else said
+
+    @property
+    def marked(self) -> Language:
+        """The language with its formulas between marks."""
+        return _marked(self.name)
+
+    def formula(self, text: str) -> str:
+        """A text that is the same in all languages, each formula of a list between marks."""
+        if not self.marks:
+            return text
+        found, whole = "", ""
+        for piece in SEPARATOR.split(text.replace(FORMULA, "")):
+            whole += piece
+            if all(whole.count(a) == whole.count(b) for a, b in ("()", "⟨⟩", "[]")):
+                number = NUMBER.match(whole)
+                at = number.end() if number else 0
+                word = SEPARATOR.fullmatch(whole) or WORD.fullmatch(whole[at:])
+                found += whole if word else f"{whole[:at]}{FORMULA}{whole[at:]}{FORMULA}"
+                whole = ""
+        return found + whole
 
     @property
     def mark(self) -> str:
@@ -69,8 +103,10 @@ class Language:
         return self.numbers(f"{x:g}")
 
     def word(self, message: str, **places: str) -> str:
-        """A message of the views in this language, or a word of the user's, which stays."""
-        return self.sentence(phrase(message, **places))
+        """A message of the views in this language, or a word of the user's, which stays; what
+        fills the places has its marks already."""
+        told = {name: self.numbers(x) for name, x in places.items()}
+        return filled(self.messages.get(message, message), told)
 
 
 ENGLISH = Language("en")
@@ -81,7 +117,15 @@ def language(name: str) -> Language:
     """The language of a name in ``LANGUAGES``, with the messages of the catalogue."""
     if name == ENGLISH.name:
         return ENGLISH
-    return Language(name, {x["en"]: typeset(x[name]) for x in catalogue_entries()})
+    return Language(
+        name, {unmarked(x["en"]): typeset(x[name], name, "") for x in catalogue_entries()}
+    )
+
+
+@cache
+def _marked(name: str) -> Language:
+    messages = {unmarked(x["en"]): typeset(x[name], name, FORMULA) for x in catalogue_entries()}
+    return Language(name, messages, marks=True)
 
 
 @cache
@@ -92,7 +136,7 @@ def labelled() -> dict[str, tuple[str, ...]]:
 
 def told(label: str) -> str:
     """The English of a label."""
-    return labelled()[label][0]
+    return unmarked(labelled()[label][0])
 
 
 def catalogue_entries() -> list[dict[str, str]]:
@@ -104,11 +148,13 @@ def catalogue_entries() -> list[dict[str, str]]:
     return [*steps(), *(dict(zip(LANGUAGES, x, strict=True)) for x in (*words, *catalogue))]
 
 
-def typeset(french: str) -> str:
-    """French with the spaces that do not break where French has them."""
-    for pattern, space in SPACES:
-        french = re.sub(pattern, space, french)
-    return french
+def typeset(text: str, language: str = "fr", mark: str = MARK) -> str:
+    """A text with a mark around its formulas, and, between them, the spaces that do not break where
+    French has them."""
+    parts = text.split(MARK)
+    for pattern, space in SPACES if language == "fr" else ():
+        parts[::2] = (re.sub(pattern, space, x) for x in parts[::2])
+    return mark.join(parts)
 
 
 # The numbered entries of a step: equations one by one, short ones of a family by the row.

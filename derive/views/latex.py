@@ -33,7 +33,7 @@ from .outline import (
 )
 from .paper.findings import PaperFinding
 from .printing.letters import definitions, parameter, styled
-from .printing.sentences import between_dollars, dollars, prose
+from .printing.sentences import dollars, prose
 from .printing.signs import Notation, tex_text
 from .printing.tex import latex_tree
 
@@ -66,7 +66,7 @@ def latex(
     writer = _Writer(parts, language, findings, pictures or {})
     chosen = notation or Notation()
     stated = (TRANSPOSES[chosen.transpose], conventions(records))
-    meant = " ".join(between_dollars(language.word(x)) for x in stated)
+    meant = " ".join(prose(language.marked.word(x)) for x in stated)
     return _rendered(
         "walk.tex.jinja",
         language,
@@ -74,12 +74,12 @@ def latex(
         title=tex_text(title(records[0], language) if one else language.word(MOTION)),
         subtitle=tex_text(capitalised(subtitle(records[0], language))) if one else "",
         contents="" if one else tex_text(language.word("Contents")),
-        road=styled(between_dollars(language.word(road(records)))).removesuffix("."),
+        road=styled(prose(language.marked.word(road(records)))).removesuffix("."),
         conventions=styled(f"{meant} {tex_text(language.word(PAPER))}"),
         walk=styled("\n".join(writer.body())),
         drawn=any(writer.drawings.values()),
         pictures=bool(pictures),
-        regular=styled(prose(language.word(REGULAR))),
+        regular=styled(prose(language.marked.word(REGULAR))),
         references=tex_text(language.word("References")),
         bibliography=[[*map(tex_text, x)] for x in references(records)],
     )
@@ -189,7 +189,7 @@ class _Writer:
             if part.about:
                 yield rf"{{\large {prose(part.about)}\par}}"
             if drawn := self.drawings[part.name]:
-                caption = prose(self.language.of(drawn.caption))
+                caption = prose(self.language.marked.of(drawn.caption))
                 yield rf"\walkfigure{{{tikz(drawn)}}}{{{caption}}}"
             if part.record and (picture := self.pictures.get(part.name)):
                 told = tex_text(self.language.word("In motion"))
@@ -242,13 +242,13 @@ class _Writer:
         """The lines of a step: heading, sentences, equations."""
         names, language = latex_names(part.source), self.language
         own = partial(dollars, names=names)
-        assumptions = (prose(x, formula=own) for x in assumed(step, language))
+        assumptions = (prose(x, formula=own) for x in assumed(step, language.marked))
         beside = "".join(f", {x}" for x in assumptions) + self.footnotes(step)
         rule = tex_text(capitalised(language.word(step.rule)))
         paper = tex_text(printed(step))
         yield rf"\walkstep{{{paper}}}{{{rule}}}{{{beside}}}{{{breakable(step.label)}}}"
         used = ", ".join(self.references(step.uses))
-        told = prose(language.of(step.prose), formula=own)
+        told = prose(language.marked.of(step.prose), formula=own)
         yield told + (rf" \walkfrom{{{used}}}" if used else "")
         yield from _equations(step, self.labels[step.label], names, language)
 
@@ -313,7 +313,8 @@ def breakable(label: str) -> str:
 def _names(part: BookPart, names: Mapping[str, str], language: Language) -> Iterator[str]:
     """The letters of a part with their meanings, then the parameters of the problem."""
     for symbol in part.symbols:
-        meaning = prose(language.of(symbol.meaning), formula=partial(dollars, names=names))
+        own = partial(dollars, names=names)
+        meaning = prose(language.marked.of(symbol.meaning), formula=own)
         yield rf"\walkname{{{latex_tree(symbol.name, names)}}}{{{meaning}}}"
     for run, meaning, unit in parameters(part.record, language):
         shown = ", ".join(parameter(x, names).tex for x in run)

@@ -232,7 +232,8 @@ def assumed(step: Step, language: Language = ENGLISH) -> list[str]:
     if any(map(_of_accelerations, step.equations)) and not moving(step.equations):
         found.append(language.word("for any acceleration"))
         left = {e: None for e in left if not _velocity(e)}
-    return [*found, *(f"{in_sentence(e.lhs)} = {in_sentence(e.rhs)}" for e in left)]
+    others = (f"{in_sentence(e.lhs)} = {in_sentence(e.rhs)}" for e in left)
+    return [*found, *map(language.formula, others)]
 
 
 def _of_accelerations(e: Equation) -> bool:

@@ -41,7 +41,7 @@ from .printing.line_breaking import (
     display_width,
     fill,
 )
-from .printing.sentences import QUOTED, between_dollars, dollars, prose
+from .printing.sentences import QUOTED, dollars, prose
 from .printing.signs import NO_BREAK, markdown_text
 
 MARGIN, EQUATION, INSIDE = 2, 6, 4
@@ -283,8 +283,7 @@ def markdown(d: Derivation, *, language: Language = ENGLISH) -> str:
     """The walk: headings, prose and display formulas; no raw HTML."""
     names = latex_names(d)
     meant = " ".join(
-        between_dollars(language.word(x), markdown_text)
-        for x in (TRANSPOSES["bar"], conventions([d]))
+        prose(language.marked.word(x), markdown_text) for x in (TRANSPOSES["bar"], conventions([d]))
     )
     parts = [
         f"# {markdown_text(headline(d, language))}",
@@ -304,12 +303,12 @@ def step_markdown(step: Step, symbols: Iterable[Symbol], *, language: Language =
 
 def _step_in_markdown(step: Step, names: Mapping[str, str], language: Language) -> Iterator[str]:
     told = partial(prose, escape=markdown_text, formula=partial(dollars, names=names))
-    beside = "".join(f", {told(note)}" for note in notes(step, language))
+    beside = "".join(f", {told(note)}" for note in notes(step, language.marked))
     rule = markdown_text(capitalised(language.word(step.rule)))
     yield f"### {rule}{beside} — {code(step.label)}"
     used = ", ".join(map(code, step.uses))
     from_these = f" ({language.word('from')} {used})" if used else ""
-    yield told(language.of(step.prose)) + from_these
+    yield told(language.marked.of(step.prose)) + from_these
     for block in _aligned(step.equations, names, language):
         yield f"$$\n{block}\n$$"
 

@@ -18,7 +18,7 @@ from ..problem.problem import ProblemError
 from ..record import sentence
 from ..record.prose import message
 from ..record.record import ANY_GROUP, Equation, Hypothesis, Step
-from ..record.sentence import Claim, Prose, Sentence, listed, rendered
+from ..record.sentence import Claim, Prose, Sentence, conditions, listed, rendered
 from ..record.uses import position_of
 from ..record.vocabulary import DERIVATIVE_OF, VOCABULARY
 
@@ -97,7 +97,7 @@ class Draft:
             tuple(where),
             c.driven,
             tuple(hypotheses),
-            tuple(self.claims),
+            (*self.claims, *conditions(prose)),
         )
 
     def mark(self, e: Expr) -> Expr:

@@ -61,7 +61,7 @@ def test_a_step_of_integrals_says_what_stands_under_its_label():
 def says_what_stands_under_its_label(found):
     own = {}
     for key, (english, _) in prose.sentences().items():
-        own.setdefault(english, set()).add(key.split(".")[0])
+        own.setdefault(prose.unmarked(english), set()).add(key.split(".")[0])
     for step in found.steps:
         said = [m for sentence in step.prose for m in messages(sentence) if m in own]
         short = re.sub(

@@ -27,7 +27,7 @@ OPERATORS |= {
     r"\mapsto": "↦",
     r"\infty": "∞",
 }
-OPERATORS |= {c: c for c in "+-=/,;<>:.|"}
+OPERATORS |= {c: c for c in "+-=/,;<>:.|*"}
 BRACKETS = {r"\langle": "⟨", r"\rangle": "⟩"} | {c: c for c in "()[]"}
 ACCENTS = {r"\tilde": "~", r"\pulled": "~", r"\dot": "˙", r"\rate": "˙", r"\hat": "^"}
 SPACES = (r"\,", r"\quad", r"\qquad", r"\ ", r"\;")

@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 from tests.readers.formula import UnreadableError, accented, equation, parsed
 
-OPERATORS = {"−": "-", "∧": "∧", "·": "·", "⊤": "⊤"} | {c: c for c in "+=/,;<>:.≠≤≥≅≈±∈→↦×∘√"}
+OPERATORS = {"−": "-", "∧": "∧", "·": "·", "⊤": "⊤"} | {c: c for c in "+=/,;<>:.≠≤≥≅≈±∈→↦×∘√*"}
 ACCENTS = "˙~^"
 BRACKETS = "([⟨)]⟩"
 WORDS = {"∑": "Σ", "∫": "∫"}

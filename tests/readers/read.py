@@ -1,6 +1,7 @@
 """Does a page say the equations of its record, and a formula its tree?"""
 
 from functools import partial
+from itertools import zip_longest
 
 from derive.language.show import show
 from derive.views import html
@@ -10,7 +11,7 @@ from derive.views import text as text_view
 from derive.views.language import language
 from derive.views.outline import assumed, latex_names
 from derive.views.printing.letters import standard, styled
-from derive.views.printing.sentences import dollars, prose
+from derive.views.printing.sentences import FORMULA, dollars, prose
 from derive.views.printing.signs import Notation, markdown_text, tex_text
 from derive.views.printing.tex import formula, latex_tree
 from tests.readers import latex, markdown, mathml, sentence, text
@@ -103,18 +104,36 @@ def said(d, words):
 
 
 def misread_sentences(d, words):
-    """The sentences that a format shows as others: the format, what is said, what is shown."""
+    """What a format shows as something else: the format, what is said, what is shown, of a whole
+    sentence as its letters, numbers and signs, and of each of its formulas as a tree."""
     known, names = letters_of(d), latex_names(d)
     own = partial(dollars, names=names)
-    for x in dict.fromkeys(said(d, words)):
-        want = sentence.plain(x, known)
+    for x in dict.fromkeys(said(d, words.marked)):
+        known = sentence.with_quoted(known, x)
+        want, trees = sentence.plain(x.replace(FORMULA, ""), known), [*formulas(x, "text", known)]
         for kind, shown in (
-            ("latex", sentence.of_latex(styled(prose(x, tex_text, own)), known)),
-            ("markdown", sentence.of_markdown(standard(prose(x, markdown_text, own)), known)),
-            ("html", sentence.of_html(html.words(x, Notation(), names), known)),
+            ("latex", styled(prose(x, tex_text, own))),
+            ("markdown", standard(prose(x, markdown_text, own))),
+            ("html", html.words(x, Notation(), names)),
         ):
-            if shown != want:
-                yield kind, want, shown
+            line = SENTENCES[kind](shown, known)
+            if line != want:
+                yield kind, want, line
+            read = [*formulas(shown, kind, known)]
+            yield from ((kind, a, b) for a, b in zip_longest(trees, read) if a != b)
+
+
+SENTENCES = {
+    "latex": sentence.of_latex,
+    "markdown": sentence.of_markdown,
+    "html": sentence.of_html,
+}
+
+
+def formulas(shown, kind, known):
+    """The trees of the formulas of a sentence, as a format has them."""
+    for tokens in sentence.formulas(shown, kind, known):
+        yield canonical(sentence.statement(tokens, known, raw=kind != "text"), known, True)
 
 
 # -- formulas ------------------------------------------------------------------------------------

@@ -10,8 +10,9 @@ from fractions import Fraction
 from html import unescape
 from xml.etree import ElementTree
 
-from tests.readers import latex, mathml
-from tests.readers.formula import GREEK, UnreadableError
+from derive.views.printing.sentences import FORMULA
+from tests.readers import latex, mathml, text
+from tests.readers.formula import GREEK, Letters, UnreadableError, _Reader, joined
 
 LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ", "0123456789ijet", strict=True))
 HIGH = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-", strict=True))
@@ -47,7 +48,7 @@ def _signs(words):
     words = re.sub(f"[{''.join(LOW)}]+", lambda m: "_" + "".join(LOW[c] for c in m[0]), words)
     words = re.sub(f"[{''.join(HIGH)}]+", lambda m: "^" + "".join(HIGH[c] for c in m[0]), words)
     words = re.sub(f"[{''.join(HALVES)}]", lambda m: HALVES[m[0]], words)
-    return words.replace("−", "-").replace("'", "’")
+    return words.replace("−", "-").replace("'", "’").replace("𝔤*", "𝔤^*")
 
 
 def _joined(line):
@@ -126,6 +127,8 @@ def _flat(kind, value):
         return f"√({flat(value)})"
     if kind == "par":
         return f"⟦{value.replace('_', '')}⟧"
+    if (kind, value) == ("op", ","):
+        return ", "  # what has no space is a decimal
     return _tree(value) if kind in ("tree", "number") else value
 
 
@@ -140,3 +143,114 @@ def _tree(t):
     if t[0] == "hat":
         return f"j({_tree(t[1])})"
     raise UnreadableError(t)
+
+
+# -- the formulas of a sentence, read as trees ----------------------------------------------------
+
+RELATIONS = {"=", "≠", "<", ">", "≤", "≥", "≈", "∈", "↦", ":", "≅"}
+LISTED = {",", ";"}
+MASS = ("name", "dm")
+OPERATORS = {"δ", "δ′", "grad", "div", "∇"}
+ENDS_ABOVE = {"+": "⁺", "-": "⁻", "*": "*"}
+CALLED = ("P",)
+"""Functions that sentences alone have."""
+BARE = {"log", "exp", "sqrt"}
+ENDS, END = ("end", "close", "op"), ("end", "")
+
+
+class _Statements(_Reader):
+    """Descends from what sentences have beside the equations of steps: lists, relations, tuples,
+    compositions, operators by themselves."""
+
+    def listed_statements(self):
+        found = [self.statement()]
+        while self.peek()[0] == "op" and self.peek()[1] in LISTED:
+            found.append((self.take()[1], self.statement()))
+        return found[0] if len(found) == 1 else ("list", *found)
+
+    def statement(self):
+        sides = [self.sum()]
+        while self.peek()[0] == "op" and self.peek()[1] in RELATIONS:
+            sides += [self.take()[1], self.sum()]
+        return sides[0] if len(sides) == 1 else ("holds", *sides)
+
+    def term(self):
+        left = super().term()
+        while self.peek() in (("op", "∘"), ("op", "×")):
+            left = (self.take()[1], left, super().term())
+        return left
+
+    def sum(self):
+        return ("±", super().sum()) if self.passed(("op", "±")) else super().sum()
+
+    def of_open(self, mark):
+        if mark != "(":
+            return super().of_open(mark)
+        inside = self.listed_statements()
+        self.take(("close", ")"))
+        return inside
+
+    def called(self, tree):
+        return tree in CALLED or super().called(tree)
+
+    def of_root(self, tokens):
+        return ("fun", "sqrt", statement(tokens, self.known))
+
+    def of_name(self, name):
+        if name in OPERATORS and (self.peek()[0] in ENDS or str(self.peek()[1]) in OPERATORS):
+            return name
+        if name == "grad" and self.peek()[0] == "sub":
+            return (name, flat(self.take()[1]), self.factor())
+        return super().of_name(name)
+
+    def of_word(self, word):
+        """A function by itself, or before its argument without brackets; a partial derivative."""
+        raised = self.peek()[0] == "sup"
+        kind, value = self.tokens[self.at + raised] if self.at + raised < len(self.tokens) else END
+        if kind in ENDS:
+            return word
+        if word in ("∂", "d"):
+            return (word, self.factor())
+        if word == "∫":
+            ends = [flat(self.take()[1]), flat(self.take()[1])]
+            return (word, *ends, self.sum())
+        if word == "Σ" and kind != "sub":
+            return ("sum", "", self.term())
+        if word in BARE and value != "(":
+            return ("fun", word, self.factor())
+        return self.of_name(word) if word in OPERATORS else super().of_word(word)
+
+    def raised(self, tree, tokens):
+        end = ENDS_ABOVE.get(flat(tokens)) if isinstance(tokens, list) else None
+        return f"{tree}{end}" if end else super().raised(tree, tokens)
+
+
+def statement(tokens, known, raw=True):
+    """The tree of what a formula of a sentence says."""
+    tokens = joined(tokens, known) if raw else tokens
+    reader = _Statements([MASS if x == ("word", "dm") else x for x in tokens], known)
+    tree = reader.listed_statements()
+    if reader.at < len(reader.tokens):
+        raise UnreadableError(f"left over: {reader.tokens[reader.at :][:4]}")
+    return tree
+
+
+def formulas(shown, kind, known):
+    """The tokens of each formula of a sentence, as a format has it; in text it is between marks."""
+    if kind == "text":
+        return [text.tokens(x, known) for x in shown.split(FORMULA)[1::2]]
+    if kind == "html":
+        return [mathml.all_tokens(x, known) for x in re.findall("<math>.*?</math>", shown)]
+    return [latex.tokens(x, known) for x in re.findall(r"(?<!\\)\$(.*?)(?<!\\)\$", shown)]
+
+
+def with_quoted(known, said):
+    """The letters of a record, with the parameters that a sentence has in ‘quotes’: inputs and
+    outputs are none of its equations'."""
+    found = re.findall("‘([^’]+)’", said)
+    quoted = {re.sub("[₀-₉]+", lambda m: f"_{_low(m[0])}", x) for x in found}
+    return Letters(known.letters, known.parameters | quoted, known.moments)
+
+
+def _low(index):
+    return "".join(LOW[c] for c in index)

@@ -9,10 +9,12 @@ from tests.readers.formula import FUNCTION, UnreadableError, equation, parsed
 SUBSCRIPTS = dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ", "0123456789ije", strict=True))
 SUPERSCRIPTS = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 FRACTIONS = {"½": Fraction(1, 2), "⅓": Fraction(1, 3), "¼": Fraction(1, 4), "⅔": Fraction(2, 3)}
-OPERATORS = {"+": "+", "−": "-", "∧": "∧", "·": "·", "/": "/", ",": ",", ";": ";", "=": "="}
+OPERATORS = {"−": "-", "⊤": "⊤"} | {c: c for c in "+∧·/,;=<>≤≥≈±∈∘×↦→:"}
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log",
              "asinh", "acosh", "atanh", "sqrt")  # fmt: skip
 BAR = "\u0304"
+LETTER = re.compile(rf"([^\W\d_])((?:(?!{BAR})[\u0300-\u036f])*)({BAR}?)(′?)")
+UNEQUAL = "=\u0338"
 PAIRS = {"(": ")", "[": "]", "⟨": "⟩"}
 HEADING = re.compile(r"(\S+)  ·  (.+)")
 
@@ -46,7 +48,7 @@ def _spelt(shown, known):
 
 def _names(known):
     """What is spelt with more than one letter → its tokens, the longest first."""
-    spelt = {word: ("word", word) for word in ("Tr", "det", "dm", *FUNCTIONS)}
+    spelt = {word: ("word", word) for word in ("Tr", "det", "dm", "Ric", "const", *FUNCTIONS)}
     spelt["√"], spelt["∫"], spelt["Σ"] = ("word", "sqrt"), ("word", "∫"), ("word", "Σ")
     for name in {*known.letters, *FUNCTION} - {"∫"}:
         name = unicodedata.normalize("NFD", name)
@@ -71,6 +73,8 @@ def _token(text, at, names, known, found):
         end = at + len(shown)
         mark = text[end : end + 1]
         if text.startswith(shown, at) and not unicodedata.combining(mark or " "):
+            if shown == "d" and mark.isalpha():
+                continue  # a differential
             if mark in SUBSCRIPTS and token[0] == "tree" and shown[-1:] not in SUBSCRIPTS:
                 continue
             if token[0] == "tree" and shown[-1:].isdigit() and mark in [*"0123456789"]:
@@ -78,18 +82,30 @@ def _token(text, at, names, known, found):
             found.append(token)
             return end
     c = text[at]
-    if run := re.compile(r"[0-9]+").match(text, at):
-        found.append(("number", int(run[0])))
+    if run := re.compile(r"[0-9]+(?:[.,](?=[0-9])[0-9]+)?").match(text, at):
+        found.append(("number", Fraction(run[0].replace(",", "."))))
         return run.end()
+    if text.startswith(UNEQUAL, at):
+        found.append(("op", "≠"))
+        return at + len(UNEQUAL)
     if run := re.compile(f"[{''.join(SUBSCRIPTS)},]*[{''.join(SUBSCRIPTS)}]").match(text, at):
         found.append(("sub", [("name", "".join(SUBSCRIPTS.get(x, x) for x in run[0]))]))
         return run.end()
     if run := re.compile(f"[{''.join(SUPERSCRIPTS)}]+").match(text, at):
         found.append(("sup", int("".join(SUPERSCRIPTS[x] for x in run[0]))))
         return run.end()
+    if c == "^":
+        end = text.find(")", at) if text[at + 1] == "(" else at + 1
+        found.append(("sup", tokens(text[at + 1 : end + 1].strip("()"), known)))
+        return end + 1
+    if c == "d" and text[at + 1 : at + 2].isalpha():
+        found.append(("word", "d"))
+        return at + 1
     if c == "_":
         return _lowered(text, at + 1, names, known, found)
     simple = {"‖": ("norm", ""), "|": ("size", ""), "‾": ("sup", [("op", "⊤")])}
+    simple |= {"𝟏": ("tree", ("one",)), "∂": ("word", "∂"), "∞": ("op", "∞")}
+    simple |= {"*": ("sup", [("op", "*")])}
     if c in simple:
         found.append(simple[c])
     elif c in OPERATORS:
@@ -98,7 +114,7 @@ def _token(text, at, names, known, found):
         found.append(("number", FRACTIONS[c]))
     elif c in "([⟨)]⟩":
         found.append(("open" if c in "([⟨" else "close", c))
-    elif run := re.compile(rf"([^\W\d_])([\u0300-\u036f]*?)({BAR}?)(′?)").match(text, at):
+    elif run := LETTER.match(text, at):
         name = unicodedata.normalize("NFC", run[1] + run[2]) + run[4]
         found.append(("barred", ("T", name)) if run[3] else ("name", name))
         return run.end()

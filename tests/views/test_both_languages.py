@@ -5,9 +5,10 @@ import re
 import unicodedata
 from collections.abc import Iterator
 
+from derive.record.prose import unmarked
 from derive.views.language import catalogue_entries
 
-ENTRIES = [(x["en"], x["fr"]) for x in catalogue_entries()]
+ENTRIES = [(unmarked(x["en"]), unmarked(x["fr"])) for x in catalogue_entries()]
 
 MARKS = r"[\u0300-\u036f]"
 LETTER = rf"(?:[A-Za-zÀ-ÖØ-öø-ÿœŒ](?!{MARKS}))"
@@ -24,7 +25,7 @@ NUL = r"\b(?<!est )nul\b|(?:(?<=trace )|(?<=vide ))nulle\b"
 REORDERED = {
     "An element g = A of the group G moves the body": (3, 0, 1, 2),
     "An element g = (A, T) of the group G moves the body": (4, 0, 1, 2, 3),
-    "The Lagrangian $L$ of the points is pulled back": (1, 0, 2, 3),
+    "The Lagrangian L of the points is pulled back": (1, 0, 2, 3),
     "Between two elements of the Lie algebra C drops out: A keeps": (0,),
 }
 """Beginning of a sentence → the places in English of the formulas of the French."""

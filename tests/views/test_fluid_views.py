@@ -4,10 +4,7 @@ import re
 
 import pytest
 
-from derive.views.language import catalogue_entries
 from derive.views.outline import assumed, moving
-from derive.views.printing.sentences import prose
-from derive.views.printing.signs import markdown_text
 from derive.views.rendering import FORMATS, render
 from tests.support.walks import FLUIDS, record
 
@@ -48,12 +45,3 @@ def test_every_view_says_it_beside_the_equation(form, lang):
         assert clauses.count(ALONG[lang]) == others
         assert "any acceleration" not in shown
         assert "accélération quelconque" not in shown
-
-
-@pytest.mark.parametrize("lang", ["en", "fr"])
-@pytest.mark.parametrize("escape", [None, markdown_text])
-def test_no_index_is_left_outside_a_formula(escape, lang):
-    shown = [
-        prose(x[lang], *filter(None, [escape])) for x in catalogue_entries() if "$" not in x["en"]
-    ]
-    assert [x for x in shown if r"\_" in x] == []

@@ -31,6 +31,7 @@ from derive.views.language import (
     language,
 )
 from derive.views.paper.findings import PAPER
+from derive.views.printing.sentences import FORMULA
 from derive.views.text import markdown, step_markdown, step_text, text
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
@@ -50,7 +51,7 @@ from tests.support.trims import (
 )
 
 ROOT = Path(__file__).parents[2] / "derive"
-ENTRIES = catalogue_entries()
+ENTRIES = [{k: texts.unmarked(v) for k, v in x.items()} for x in catalogue_entries()]
 FRENCH = language("fr")
 THREE = Points((1, [1, 0]), (2, [0, 1]), (3, [0, 0]))
 LIFTS = Group("Lifts", [[[0, 0, 0], [0, 0, 1], [0, 0, 0]]], "affine")
@@ -259,7 +260,11 @@ def test_every_message_of_the_walk_is_reached(records):
     checked and quadratures with a square factor (tests/check/test_record_claims.py)."""
     steps = texts.sentences().items()
     written = strings("walk/*.py", "walk/kinds/*.py") & set(FRENCH.messages) - set(RULES)
-    written |= {x[0] for key, x in steps if not key.endswith(("_signed", "_large", "_squared"))}
+    written |= {
+        texts.unmarked(x[0])
+        for key, x in steps
+        if not key.endswith(("_signed", "_large", "_squared"))
+    }
     meanings = titles_and_meanings()
     assert written - meanings <= set().union(*map(said, records))
 
@@ -271,7 +276,7 @@ def test_every_word_of_the_tables_is_in_the_catalogue():
     words |= {*RULES, *(words for _, words in outline.ASSUMPTIONS)}
     words |= {p.remark for p in PAPER if p.remark}
     words |= {outline.CONVENTIONS, outline.FORMULAS_CONVENTIONS, outline.PAPER}
-    assert words | titles_and_meanings() <= set(FRENCH.messages)
+    assert {*map(texts.unmarked, words)} | titles_and_meanings() <= set(FRENCH.messages)
     assert set(SOLIDS) <= strings("walk/given/body.py")
 
 
@@ -311,6 +316,7 @@ def test_every_entry_is_used():
     used = sources | strings("pipeline.py") | titles_and_meanings()
     used |= {meaning for meaning, _ in meanings()}  # of which some are made of parts
     used |= {x["en"] for x in texts.entries()}  # tests/prose
+    used = {*map(texts.unmarked, used)}
     assert [x["en"] for x in ENTRIES if x["en"] not in used] == []
 
 
@@ -326,13 +332,14 @@ TYPOGRAPHY = {
 
 
 def in_words(french):
-    """Without formulas between dollars and without places."""
-    return PLACE.sub("…", re.sub(r"\$[^$]*\$", "…", french))
+    """Without formulas, which stand between marks, and without places."""
+    return PLACE.sub("…", re.sub(f"{FORMULA}[^{FORMULA}]*{FORMULA}", "…", french))
 
 
 @pytest.mark.parametrize("rule", TYPOGRAPHY)
 def test_french_typography(rule):
-    wrong = [x for x in FRENCH.messages.values() if re.search(TYPOGRAPHY[rule], in_words(x))]
+    said = FRENCH.marked.messages.values()
+    wrong = [x for x in said if re.search(TYPOGRAPHY[rule], in_words(x))]
     assert wrong == []
 
 

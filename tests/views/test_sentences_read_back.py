@@ -6,9 +6,10 @@ from functools import cache
 import pytest
 
 from derive.language.show import show_name
-from derive.record.sentence import Sentence
-from derive.views.language import language
+from derive.record.sentence import PLACE, Sentence
+from derive.views.language import catalogue_entries, language
 from derive.views.printing.sentences import QUOTED
+from derive.views.printing.signs import LOWERED, RAISED, SYMBOLS
 from tests.readers.formula import letters_of
 from tests.readers.read import misread_sentences
 from tests.support import corpus, reduced, symmetric
@@ -67,3 +68,19 @@ def test_parameters_of_a_sentence_are_told_from_its_letters():
 
 def test_they_are_as_many():
     assert {*found()} == {*range(COUNT), *BESIDE}
+
+
+MATHEMATICAL = rf"[{re.escape(''.join(SYMBOLS))}{''.join(RAISED)}{''.join(LOWERED)}_=^<>]"
+ALONE = r"(?<![\w’'-])[^\W\da_](?![\w’'-])|[^\W\d]\("
+OTHER = {*"AyàÀ", "→", "_"}
+"""Words of one letter; a key between arrows; a key of a problem."""
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_no_formula_stands_outside_marks(lang):
+    """Nothing there is a sign of mathematics, a letter by itself or a function."""
+    found = []
+    for x in catalogue_entries():
+        words = PLACE.sub("", " ".join(x[lang].split("$")[::2]))
+        found += [(m[0], x[lang]) for m in re.finditer(f"{MATHEMATICAL}|{ALONE}", words)]
+    assert [x for x in found if x[0] not in OTHER] == []

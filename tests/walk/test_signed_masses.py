@@ -17,7 +17,7 @@ from derive.record import prose
 from derive.record.as_json import from_json, to_json
 from derive.record.mass_signs import SUPPOSED
 from derive.record.record import ANY_GROUP, OF_MASSES
-from derive.record.sentence import Sentence
+from derive.record.sentence import CONDITIONS, Sentence
 from derive.views.language import language
 from derive.views.text import text
 from tests.support.corpus import SIGNED as BODIES_OF_ANY_SIGN
@@ -108,17 +108,19 @@ def test_every_message_is_said_somewhere():
 
 
 def test_the_checker_refuses_a_claim_of_positive_masses():
-    """The ordinary hypotheses under the problem of any masses."""
+    """The ordinary hypotheses and sentences under the problem of any masses."""
     plain, signed = (walked("SAff(2)", signed=x) for x in (False, True))
     forged = from_json(to_json(replace(plain, problem=signed.problem)))
     found = {v.label: v for v in check(forged)}
-    assert {x for x, v in found.items() if not v.holds} == {"affine.pullback"} == of_masses(plain)
+    assert {x for x, v in found.items() if not v.holds} == of_masses(plain)
     assert found["affine.pullback"].reason == SUPPOSED
 
 
 def of_masses(d):
-    """The steps that suppose positive masses."""
-    return {s.label for s in d.steps if any(x.property in OF_MASSES for x in s.hypotheses)}
+    """The steps that suppose positive masses, in a hypothesis or in a sentence."""
+    supposed = {s.label for s in d.steps if any(x.property in OF_MASSES for x in s.hypotheses)}
+    told = {s.label for s in d.steps for x in s.claims if f"{x.kind}_signed" in CONDITIONS}
+    return supposed | told
 
 
 @pytest.mark.parametrize("name", ["moments", "moments of SE(3)"])

@@ -10,6 +10,7 @@ from ...record.record import RecordError, Step
 from ...record.sentence import Claim, fault
 from ..form.hypotheses_checked import IMPOSSIBLE, MOST_BITS, bit_count, no_sense
 from . import (
+    condition_claims,
     enclosed_trims,
     enclosure,
     equilibrium_claims,
@@ -126,6 +127,7 @@ def _of_symmetries(judge: symmetry_count.Judge) -> Judge:
 
 JUDGES: dict[str, Judge] = {
     **reduction_claims.JUDGES,
+    **condition_claims.JUDGES,
     **ORBIT_JUDGES,
     **trim_claims.JUDGES,
     **enclosed_trims.JUDGES,

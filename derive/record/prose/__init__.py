@@ -2,8 +2,9 @@
 
 A message is its label and, each in an indented line, its English and its French; ``#`` begins a
 comment.  The label of a sentence is ``kernel.line``: that of its step without the chapter, and a
-name, which ends in ``_signed`` where it is said of masses that may be negative.  Spaces that French
-does not break are written as ordinary ones (views/language.py).
+name, which ends in ``_signed`` where it is said of masses that may be negative.  Formulas stand
+between dollars, which no record has: :func:`unmarked`.  Spaces that French does not break are
+written as ordinary ones (views/language.py).
 """
 
 from __future__ import annotations
@@ -17,6 +18,13 @@ LANGUAGES = ("en", "fr")
 LISTS = ("{first}, {second}", "{first}; {second}", "{first} and {second}")
 """How parts of a sentence are strung together; in French in the catalogue of the views."""
 INDENT = "  "
+MARK = "$"
+"""What stands before and after a formula."""
+
+
+def unmarked(text: str) -> str:
+    """A text as a record has it."""
+    return text.replace(MARK, "")
 
 
 def read(files: Iterable[Path], languages: Sequence[str] = LANGUAGES) -> dict[str, tuple[str, ...]]:
@@ -59,12 +67,12 @@ def sentences() -> dict[str, tuple[str, ...]]:
 @cache
 def messages() -> frozenset[str]:
     """All that steps of a record say, in English: nothing else is a sentence of a step."""
-    return frozenset(("", *LISTS, *(texts[0] for texts in sentences().values())))
+    return frozenset(("", *LISTS, *(unmarked(texts[0]) for texts in sentences().values())))
 
 
 def message(label: str) -> str:
     """The English of a sentence; ``KeyError`` for none."""
-    return sentences()[label][0]
+    return unmarked(sentences()[label][0])
 
 
 def entries() -> Iterator[dict[str, str]]:

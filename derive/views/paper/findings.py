@@ -28,6 +28,7 @@ from ...language.read import read
 from ...language.show import show
 from ...language.tree import Tree, names, neg
 from ...record.prose import read as read_texts
+from ...record.prose import unmarked
 from ...record.record import Derivation, Equation, stated
 
 ALWAYS = {"Σ ": "Σᵢ ", "(t, g, ν)": "", " ∈ so(3)": "", "(δx)": "(δy)"}
@@ -59,7 +60,7 @@ class Printed:
     @property
     def remark(self) -> str:
         """What the print needs, in English; empty for most."""
-        return remarks().get(self.number, ("", ""))[0]
+        return unmarked(remarks().get(self.number, ("", ""))[0])
 
     @property
     def group(self) -> str:

@@ -11,6 +11,7 @@ from ...language.show import in_sentence
 from ...problem.problem import Problem, data
 from ...record import sentence, vocabulary
 from ...record.as_json import encode
+from ...record.prose import unmarked
 from ...record.record import CONVENTIONS, Derivation, Step, Symbol
 from ...record.uses import of_steps
 from ...record.vocabulary import DISCRETE, Name
@@ -60,7 +61,7 @@ def _symbols(
     sizes["fields"] = len(data.get("symmetries", ()))
     sizes["carried"] = sum(x.size for x in problem.advected or ())
     sizes["reduced"] = sizes["carried"] + sizes.get("dim", 0)
-    meanings = {x: sentence.say(about.meaning) for x, about in meant.items()}
+    meanings = {x: sentence.say(unmarked(about.meaning)) for x, about in meant.items()}
     if problem.covector and group:
         for x in ("u", "f_u"):
             given = _given(problem, x, discrete)
