@@ -119,7 +119,7 @@ accuracy: $(ALL) ## worst error of each output against 50 digits, over 100000 st
 	$(BIN)/python -m benchmarks.accuracy
 
 fuzz: $(ALL)   ## random problems and 100000 changed files of every kind: half an hour; faults go to fuzz-faults/
-	EXAMPLES=300 $(BIN)/python -m pytest tests/walk/test_random_problems.py
+	EXAMPLES=300 $(BIN)/python -m pytest tests/walk/test_any_problem.py -k random
 	$(BIN)/python -m tests.fuzz 100000
 
 clean:           ## remove the virtual environment and caches

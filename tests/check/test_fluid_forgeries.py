@@ -1,11 +1,20 @@
-"""Statements about a fluid that have no meaning are refused, and it is said why."""
+"""Fields on balls and tori beside SymPy, integrals along closed curves beside quadrature;
+statements about a fluid that have no meaning are refused, and it is said why."""
 
+import cmath
+import itertools
+import random
 from dataclasses import replace
+from fractions import Fraction
 
 import pytest
+import sympy
+from scipy.integrate import quad
 
+from derive.check.fluid.curves import curve
+from derive.check.fluid.exact_functions import Function, divergence, dot
 from derive.check.fluid.fluid_checker import FluidChecker
-from derive.check.fluid.fluid_spaces import Ball, FlatTorus, curl
+from derive.check.fluid.fluid_spaces import Ball, FlatTorus, curl, on_boundary
 from derive.language.read import read
 from derive.record.record import Equation
 from tests.support.walks import FLUIDS, SEED, record
@@ -176,3 +185,202 @@ def test_steps_that_cannot_be_tried(case):
     found = verdict(step)
     assert not found.holds
     assert why in found.reason
+
+
+K = ((0.3, -1.1), (0.7, 0.4), (-0.5, 0.9))
+CORNERS = ((0.2, 0.1), (1.3, -0.4), (0.6, 1.5))
+MODES = ((1, 0, 0, 0), (0, -1, 0, 0), (1, 1, -1, 0), (0, 0, 0, 0))
+
+
+def uniform():
+    draw = random.Random(5)
+    return lambda: draw.uniform(-1, 1)
+
+
+def dotted(a, b):
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def number(f):
+    (value,) = f.terms.values()
+    return value
+
+
+def test_a_polygon():
+    """∮ f ds and ∮ ⟨c, dχ⟩ of exponentials, between corners that are places."""
+    draw = uniform()
+    space = FlatTorus(K)
+    polygon = curve(space, space.of_points(), draw, level=False)
+    after = [*CORNERS[1:], CORNERS[0]]
+    polygon.edges = [
+        [y - x for x, y in zip(a, b, strict=True)] for a, b in zip(CORNERS, after, strict=True)
+    ]
+    polygon.corners = [[cmath.exp(dotted(k, v)).real for k in K] for v in CORNERS]
+    field = [Function(space, {m: draw() for m in MODES}) for _ in range(2)]
+
+    def value(f, place):
+        return sum(
+            c * cmath.exp(dotted(space.frequency(m), place)).real for m, c in f.terms.items()
+        )
+
+    def along(edge, start, s):
+        return [x + s * e for x, e in zip(start, edge, strict=True)]
+
+    whole, work = 0, 0
+    for edge, start in zip(polygon.edges, CORNERS, strict=True):
+        whole += quad(lambda s, e=edge, v=start: value(field[0], along(e, v, s)), 0, 1)[0]
+        for j, f in enumerate(field):
+            work += (
+                quad(lambda s, e=edge, v=start, f=f: value(f, along(e, v, s)), 0, 1)[0] * edge[j]
+            )
+    composed = [polygon.of_space(f) for f in field]
+    assert number(composed[0].mean()) == pytest.approx(whole, rel=1e-10)
+    circulation = sum(
+        (a * b for a, b in zip(composed, polygon.tangent, strict=True)), Function(polygon, {})
+    ).mean()
+    assert number(circulation) == pytest.approx(work, rel=1e-10)
+    assert number(composed[0].d(0).mean()) == pytest.approx(0, abs=1e-12)
+
+
+def test_a_level():
+    """On a polygon of a level the first exponential is constant: only the others are left."""
+    draw = uniform()
+    for k in (K, tuple((*x, 0.3) for x in K)):
+        space = FlatTorus(k)
+        polygon = curve(space, space.of_points(), draw, level=True)
+        assert all(abs(dotted(k[0], edge)) < 1e-12 for edge in polygon.edges)
+        layered = polygon.of_space(space.layered(draw))
+        assert layered.is_constant
+        assert not polygon.of_space(space.function(draw)).is_constant
+
+
+def test_a_laurent_curve():
+    """At z = e^{is}, over a whole turn; its points come from those that the turn takes there."""
+    draw = uniform()
+    space, points = Ball(2), Ball(2)
+    laurent = curve(space, points, draw, level=False)
+    laurent.pace = 1j
+    f = Function(space, {(2, 1, 0): draw(), (1, 0, 0): draw(), (0, 3, 0): draw()})
+
+    def at(g, s):
+        return sum(c * cmath.exp(1j * s) ** m[0] for m, c in g.terms.items())
+
+    def value(s):
+        x, y = (at(g, s) for g in laurent.place)
+        return sum(c * x ** m[0] * y ** m[1] for m, c in f.terms.items())
+
+    for s in (0.3, 2.0):
+        assert at(laurent.of_space(f), s) == pytest.approx(value(s), rel=1e-12)
+        slope = (value(s + 1e-5) - value(s - 1e-5)) / 2e-5
+        assert at(laurent.of_space(f).d(0), s) == pytest.approx(slope, rel=1e-7)
+        carried = laurent.of_points(space.pulled_back(f, points))
+        assert at(carried, s) == pytest.approx(value(s), rel=1e-12)
+    found = number(laurent.of_space(f).mean())
+    for part in ("real", "imag"):
+        whole = quad(lambda s, part=part: getattr(value(s), part), 0, 2 * cmath.pi)[0]
+        assert getattr(complex(found), part) == pytest.approx(whole / (2 * cmath.pi), abs=1e-10)
+
+
+COORDINATES = sympy.symbols("x y z")
+VOLUME = Fraction(7, 3)
+
+
+def drawing():
+    draw = random.Random(8)
+    return lambda: Fraction(draw.randint(-9, 9), draw.randint(1, 5))
+
+
+def expression(f):
+    """A polynomial as SymPy's."""
+    places = COORDINATES[: f.space.dimension]
+    terms = f.terms.items()
+    return sum(
+        sympy.Rational(c) * sympy.prod(x**n for x, n in zip(places, m, strict=False))
+        for m, c in terms
+    )
+
+
+def integral(f):
+    """Over the unit ball, in polar coordinates."""
+    r, a, b = sympy.symbols("r a b", positive=True)
+    if f.space.dimension == 2:
+        place, measure = (r * sympy.cos(a), r * sympy.sin(a)), r
+        ranges = [(r, 0, 1), (a, 0, 2 * sympy.pi)]
+    else:
+        ring = r * sympy.sin(b)
+        place = ring * sympy.cos(a), ring * sympy.sin(a), r * sympy.cos(b)
+        measure, ranges = r**2 * sympy.sin(b), [(r, 0, 1), (a, 0, 2 * sympy.pi), (b, 0, sympy.pi)]
+    there = expression(f).subs(dict(zip(COORDINATES, place, strict=False)), simultaneous=True)
+    return sympy.integrate(sympy.expand(there * measure), *ranges)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_means_are_integrals(dimension):
+    space = Ball(dimension, VOLUME)
+    f = space.function(drawing(), 4)
+    ball = {2: sympy.pi, 3: 4 * sympy.pi / 3}[dimension]
+    (found,) = f.mean().terms.values()
+    assert sympy.simplify(integral(f) / ball * sympy.Rational(VOLUME) - sympy.Rational(found)) == 0
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_potential_takes_divergence_and_flux_away(dimension):
+    """Of any polynomial field; and a field of the algebra has neither."""
+    space = Ball(dimension)
+    draw = drawing()
+    field = tuple(space.function(draw, 5) for _ in range(dimension))
+    q = space.potential(field)
+    rest = tuple(f - q.d(j) for j, f in enumerate(field))
+    for u in (rest, space.solenoidal(draw)):
+        assert any(expression(f) != 0 for f in u)
+        assert sympy.expand(expression(divergence(u))) == 0
+        assert on_boundary(space.outwards(u)) == 0
+    normal = sympy.expand(expression(space.outwards(rest)))
+    *others, last = COORDINATES[:dimension]
+    assert sympy.rem(normal, last**2 - 1 + sum(x**2 for x in others), last) == 0
+
+
+def test_a_rotation_is_one():
+    """Composition with g₀ keeps ‖x‖ and means."""
+    for space in (Ball(2), Ball(3)):
+        f = space.function(drawing(), 4)
+        assert space.pulled_back(space.square, space) == space.square
+        assert space.pulled_back(f, space).mean() == f.mean()
+        assert space.pulled_back(f, space) != f
+
+
+@pytest.mark.parametrize("count", [3, 4, 5])
+def test_fields_have_modes_of_any_frequencies(count):
+    """n fields those of n that are any, n + 1 fields those of any with the sum 0."""
+    space = FlatTorus(tuple((Fraction(j), Fraction(j * j)) for j in range(1, count + 1)))
+    modes = {*space.modes}
+    free = [tuple(int(i == j) for i in range(count)) for j in range(count)]
+    for n in range(1, count + 1):
+        assert {*free[:n]} <= modes
+        closing = tuple(-sum(x) for x in zip(*free[:n], strict=True))
+        assert closing in modes
+    densities = {*space.levels}
+    assert densities <= modes
+    assert {*free[:2]} <= densities
+
+
+def test_three_fields_differ_in_three_directions():
+    """Tr (∇u)³ of a field on T³ is not 0, and its mean is; in a ball neither is."""
+    draw = drawing()
+    k = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    for space in (FlatTorus(k), Ball(3)):
+        u = space.solenoidal(draw)
+        jacobian = [[f.d(j) for j in range(3)] for f in u]
+        trace = Function(space, {})
+        for i, j, n in itertools.product(range(3), repeat=3):
+            trace = trace + jacobian[i][j] * jacobian[j][n] * jacobian[n][i]
+        assert trace != 0
+        assert (trace.mean() == 0) is not space.bounded
+        assert dot(u, u).mean() != 0
+
+
+def test_a_volume_is_any():
+    for space in (FlatTorus(((1, 2), (3, 5)), VOLUME), Ball(3, VOLUME)):
+        one = Function(space, {(0,) * space.length: Fraction(1)})
+        assert [*one.mean().terms.values()] == [VOLUME]
+        assert space.of_points().volume == VOLUME

@@ -11,28 +11,22 @@ import pytest
 import derive
 from derive.check.checker import checker_of
 from derive.check.values.arithmetic import EvaluationError, Nilpotent, determinant
+from derive.problem.toml import problem_of
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
 from tests.support.library import derived
 
-SHAKEN = """
-name = "shaken"
-group = "SO(2)"
-[[point]]
-mass = 2
-at = [0, -1]
-[[potential]]
-kind = "gravity"
-g = [0, "-9.81 - cos(t)"]
-[[output]]
-kind = "specific_force"
-name = "a"
-at = [0, -1]
-"""
+SHAKEN = {
+    "name": "shaken",
+    "group": "SO(2)",
+    "point": [{"mass": 2, "at": [0, -1]}],
+    "potential": [{"kind": "gravity", "g": [0, "-9.81 - cos(t)"]}],
+    "output": [{"kind": "specific_force", "name": "a", "at": [0, -1]}],
+}
 
 
 def test_a_sensor_where_gravity_is_shaken():
-    d = derived(SHAKEN)
+    d = derived(problem_of(SHAKEN))
     assert d.check()
     (report,) = EmittedFiles(d.emit(languages=("python",)), "shaken", Chart()).reports(d.record)
     assert report.holds
@@ -74,19 +68,13 @@ def test_a_determinant_of_the_largest_product(n):
             determinant(a)
 
 
-THREE = """
-name = "three"
-group = "SO(2) x R(3) x SO(2) x SO(3)"
-""" + "".join(
-    f"[[point]]\nmass = {k}\nblock = {block}\nat = {at}\n"
-    for k, (block, at) in enumerate(
-        [(1, [1, 0]), (2, [0, 0, 1]), (3, [0, 1]), (4, [1, 2, 0]), (4, [0, 0, 1])], 1
-    )
-)
+PLACES = [(1, [1, 0]), (2, [0, 0, 1]), (3, [0, 1]), (4, [1, 2, 0]), (4, [0, 0, 1])]
+POINTS = [{"mass": k, "block": block, "at": at} for k, (block, at) in enumerate(PLACES, 1)]
+THREE = {"name": "three", "group": "SO(2) x R(3) x SO(2) x SO(3)", "point": POINTS}
 
 
 def test_a_product_of_more_than_eight_rows():
-    d = derived(THREE)
+    d = derived(problem_of(THREE))
     checker = checker_of(d.record.problem, 3)
     (step,) = [x for x in d.record.steps if x.rule == "relation" and ("det", "A") in lefts(x)]
     assert checker.check(step).holds

@@ -10,29 +10,12 @@ from derive.code.languages import LANGUAGES
 from derive.code.options import CHOICES, REPEATED, Options
 from derive.code.requests import EmissionRequest, request_of
 from derive.command.cli import main
+from tests.fuzz.mutate import toml
 
-NEGATIVE = """
-name = "bubble"
-group = "SE(3)"
-[[point]]
-mass = 3
-at = [1, 0, 0]
-[[point]]
-mass = 2
-at = [0, 1, 1]
-[[point]]
-mass = 2
-at = [0, 0, -1]
-[[point]]
-mass = "-1/2"
-at = [0, 0, 1]
-[[potential]]
-kind = "spring"
-at = [1, 0, 0]
-anchor = [0, 0, 0]
-stiffness = -2
-length = 0
-"""
+MASSES = ((3, [1, 0, 0]), (2, [0, 1, 1]), (2, [0, 0, -1]), ("-1/2", [0, 0, 1]))
+REPELLED = {"kind": "spring", "at": [1, 0, 0], "anchor": [0, 0, 0], "stiffness": -2, "length": 0}
+NEGATIVE = {"name": "bubble", "group": "SE(3)", "potential": [REPELLED]}
+NEGATIVE["point"] = [{"mass": m, "at": at} for m, at in MASSES]
 ASKED = (
     [],
     ["--lang", "c"],
@@ -142,7 +125,7 @@ def test_other_problems_of_a_folder_are_left_alone(tmp_path):
 
 def test_what_may_be_negative_is_stated(tmp_path):
     file = tmp_path / "bubble.toml"
-    file.write_text(NEGATIVE)
+    file.write_text(toml(NEGATIVE))
     allowed = ["--allow-negative-mass", "--allow-negative-stiffness"]
     assert main(["emit", str(file), "--out", str(tmp_path), *allowed]) == 0
     assert request_of((tmp_path / "bubble.h").read_text()).allowed == ("mass", "stiffness")

@@ -1,17 +1,21 @@
-"""What a person at a terminal sees: weight, a pager, that work goes on."""
+"""What a person sees: at a terminal weight, a pager, how far a command is; where standard output is
+not UTF-8, what it lacks."""
 
+import json
 import os
 import re
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
 from derive.command import terminal
 from derive.command.cli import main
 from derive.views.printing.line_breaking import display_width
-from tests.support.terminals import read_to_end
+from derive.views.rendering import FORMATS
+from tests.support.unmeasured import environment
 
 pty = pytest.importorskip("pty", reason="this system has no pty")
 ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
@@ -112,3 +116,133 @@ def test_what_a_run_says_is_as_wide_as_what_shows_it(tmp_path, monkeypatch, caps
         widest = max(map(len, capsys.readouterr().out.splitlines()))
         assert (widest <= 72) == bool(columns)
     assert max(map(len, seen(*words, cwd=tmp_path).splitlines())) <= 80
+
+
+def on_a_terminal(*command, cwd):
+    """The exit code, stdout, and what a terminal gets on stderr."""
+    ours, theirs = pty.openpty()
+    command = [sys.executable, "-m", "derive", *map(str, command)]
+    run = subprocess.Popen(command, cwd=cwd, stdout=subprocess.PIPE, stderr=theirs, text=True)
+    os.close(theirs)
+    shown = read_to_end(ours)
+    out = run.communicate()[0]
+    return run.returncode, out, shown
+
+
+def screen(shown):
+    """The lines that are left when each return has been to the start of the line."""
+    lines = []
+    for line in shown.replace("\r\n", "\n").split("\n"):
+        row = ""
+        for part in line.split("\r"):
+            row = part + row[len(part) :]
+        lines.append(row.rstrip())
+    return [x for x in lines if x]
+
+
+COMMANDS = {
+    "build": (["build", "--out", "out"], "problems: 2 of 3"),
+    "check": (["check", "so3"], "so3: 3 of "),
+    "notes": (["notes", "linear", "so3", "--out", "n.html"], "walks: 1 of 2"),
+    "paper": (["paper"], "equations: 10 of 39"),
+}
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_it_counts_on_a_terminal(name, tmp_path):
+    command, line = COMMANDS[name]
+    status, out, shown = on_a_terminal(*command, cwd=tmp_path)
+    assert status == 0
+    assert line in shown
+    assert not re.search(r"\d of \d.*\r", out)
+    left = screen(shown)
+    assert not any(" of " in x for x in left)
+    assert all(x.startswith("out") for x in left) if name == "build" else not left
+
+
+def test_an_error_has_a_line_of_its_own(tmp_path):
+    (tmp_path / "bad.toml").write_text("name = 1")
+    status, _, shown = on_a_terminal("notes", "so3", "bad.toml", "--out", "n.html", cwd=tmp_path)
+    assert status == 2
+    assert len(screen(shown)) == 1
+    assert screen(shown)[0].startswith("derive: bad.toml")
+
+
+def test_nothing_elsewhere(tmp_path):
+    command = [sys.executable, "-m", "derive", "notes", "so3", "--out", "n.html"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.stderr == ""
+    assert done.stdout == "n.html\n"
+
+
+WALK = ("walk", "so3")
+ASCII = {"LC_ALL": "C", "LANG": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+
+
+def run(*arguments, folder, **variables):
+    """The bytes of stdout, and the lines of stderr; the exit code is 0."""
+    here = {k: v for k, v in environment().items() if not k.startswith(("LC_", "PYTHONIO"))}
+    command = [sys.executable, "-m", "derive", *arguments]
+    done = subprocess.run(command, cwd=folder, env=here | variables, capture_output=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout, done.stderr.decode("utf-8").splitlines()
+
+
+@pytest.fixture(scope="module")
+def utf8(tmp_path_factory):
+    """The walk in UTF-8, of which nothing is said."""
+    folder = tmp_path_factory.mktemp("utf8")
+    text, told = run(*WALK, folder=folder, PYTHONIOENCODING="utf-8")
+    assert told == []
+    return text.decode("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("codec", "variables"),
+    [
+        ("latin-1", {"PYTHONIOENCODING": "latin-1"}),
+        ("cp1252", {"PYTHONIOENCODING": "cp1252"}),
+        ("ascii", {"PYTHONIOENCODING": "ascii"}),
+        ("ascii", ASCII),
+    ],
+)
+def test_letters_that_are_lost_are_said_once(codec, variables, utf8, tmp_path):
+    text, told = run(*WALK, folder=tmp_path, **variables)
+    assert text == utf8.encode(codec, errors="replace")
+    lacks = {x for x in utf8 if x.encode(codec, errors="ignore") == b""}
+    assert len(told) == 1
+    assert f"lacks {len(lacks)} letters, shown as ?" in told[0]
+    assert "PYTHONIOENCODING=utf-8" in told[0]
+    assert told[0].isascii()
+
+
+@pytest.mark.parametrize("form", [x for x in FORMATS if x != "text"])
+def test_formats_that_are_files_stay_utf8(form, tmp_path):
+    """Through a pipe they are what --out writes: a record with ? in it would be another one."""
+    out = tmp_path / "walk"
+    assert run(*WALK, "--format", form, "--out", str(out), folder=tmp_path, **ASCII) == (b"", [])
+    text, told = run(*WALK, "--format", form, folder=tmp_path, **ASCII)
+    assert text.rstrip(b"\n") == out.read_bytes().rstrip(b"\n")
+    assert "ζ" in text.decode("utf-8") or form in ("latex", "markdown")
+    assert told == []
+    if form == "json":
+        assert json.loads(text)["problem"]["name"] == "so3"
+
+
+def test_nothing_is_said_where_nothing_is_lost(tmp_path):
+    assert run("list", "--help", folder=tmp_path, **ASCII)[1] == []
+    _, told = run(*WALK, "--out", "walk.txt", folder=tmp_path, **ASCII)
+    assert told == []
+    assert "ζ" in Path(tmp_path / "walk.txt").read_text(encoding="utf-8")
+
+
+def read_to_end(ours):
+    """All that comes from the other end of a terminal, until that is closed."""
+    shown = b""
+    try:
+        while part := os.read(ours, 4096):
+            shown += part
+    except OSError:  # the other end is closed
+        pass
+    os.close(ours)
+    return shown.decode()

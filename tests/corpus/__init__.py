@@ -75,6 +75,8 @@ def commands():
     for about in ("words", "emit", "simulate", "search", "page"):
         for words, *said in rows[about]:
             yield words.split(), files, said
+    for words, *said in rows["trim"]:
+        yield ["trim", *words.split()], files, said
     motion = ["simulate", "so3", "--t", "1", "--ensemble"]
     for words, *said in rows["ensemble"]:
         yield [*motion, *words.split()], files, said

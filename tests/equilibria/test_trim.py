@@ -1,4 +1,5 @@
-"""Equilibria under inputs: what is found beside what is known by hand, and what is refused."""
+"""Equilibria under inputs, also of which the attitude is found: beside what is known by hand, and
+what is refused."""
 
 from fractions import Fraction
 
@@ -8,17 +9,22 @@ import pytest
 from derive import ProblemError, derive
 from derive import compile as compiled
 from derive.check.claims.claim_checker import ClaimChecker
-from derive.command.cli import main
 from derive.problem.toml import problem_of
 from derive.record.sentence import Claim, english
 from tests.check.test_record_claims import said
 from tests.support.lagrangians import LINE, heavy, lagrangian, squares
-from tests.support.trims import DRONE, PENDULUM, TURNED, drifting, drone, leaning, upside_down
+from tests.support.trims import (
+    DRONE,
+    PENDULUM,
+    TURNED,
+    drifting,
+    drone,
+    holds,
+    in_a_wind,
+    leaning,
+    upside_down,
+)
 from tests.support.walks import SEED
-
-
-def holds(found):
-    return all(v.holds for v in found.check(SEED))
 
 
 def test_a_torque_keeps_a_damped_pendulum_aside():
@@ -99,51 +105,7 @@ def test_a_velocity_that_stays_for_an_instant_is_refused():
         drone().trim({"zeta_1": 1})
 
 
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        ("--at A_11=3/5", "no element of SO(2) has the entries"),
-        ("--at A_22=-1", "no element of SO(2) has the entries"),
-        ("--at A_11=sqrt(2)", "no element of SO(2) has the entries"),
-        ("--at A_11=1/0", "is no exact number"),
-        ("--at m=1", "m is no number of the state and no input"),
-        ("--free A_11", "inputs, velocities and turns from there, as eta_1, are found"),
-        ("--free u", "u is no number of the state and no input"),
-        ("--free zeta_1,u", ": u is no number of the state and no input"),
-        ("--at zeta_1=1 --at zeta_1=2", "given more than once"),
-        ("--at A_11=0 --at A_22=0 --at A_12=-1 --at A_21=1", "no trim: dzeta_1/dt is -981/80"),
-    ],
-)
-def test_bad_input_is_one_line(options, said, capsys):
-    try:
-        status = main(["trim", "pendulum", *options.split()])
-    except SystemExit as stopped:
-        status = stopped.code
-    out, err = capsys.readouterr()
-    assert (status, out, err.count("\n")) == (2, "", 1)
-    assert said in err
-
-
-@pytest.mark.parametrize(
-    ("problem", "said"),
-    [
-        ("euler_poisson", "derive equilibria may tell"),
-        ("top", "π, or a root, is in the equations: .* say by --free"),
-        ("sl3", "no trim: dzeta_1/dt is"),
-        ("zeitlin", "and a fluid has none"),
-        ("ideal_fluid", "and a fluid has none"),
-        ("imu", r"\[kinematics\] has none: its velocity is given"),
-    ],
-)
-def test_what_has_no_exact_trim(problem, said, capsys):
-    with pytest.raises(ValueError, match=said):
-        derive(problem).trim()
-    assert main(["trim", problem]) == 2
-    out, err = capsys.readouterr()
-    assert (out, err.count("\n")) == ("", 1)
-
-
-def test_a_parameter_is_given(capsys):
+def test_a_parameter_is_given():
     """A pendulum of weight m g l sin θ: u = 3/5 · 10 m."""
     heavier = PENDULUM | {"parameters": {"m": 2}, "point": [{"mass": "m", "at": [0, -1]}]}
     made = derive(problem_of(heavier))
@@ -151,11 +113,6 @@ def test_a_parameter_is_given(capsys):
     found = made.trim(TURNED, given={"m": 4})
     assert (found.found.inputs, found.found.characteristic) == ({"u": 24}, (1, Fraction(3, 2), 8))
     assert holds(found)
-    assert main(["trim", "pendulum", "--given", "k=1"]) == 2
-    assert "k is no parameter" in capsys.readouterr().err
-    with pytest.raises(SystemExit):
-        main(["trim", "pendulum", "--given", "k"])
-    assert "is not NAME=NUMBER" in capsys.readouterr().err
 
 
 def test_what_acts_must_be_steady_smooth_and_linear():
@@ -183,3 +140,107 @@ def test_inputs_that_may_take_each_other_s_place_are_not_the_only_ones():
     more = Claim(told.kind, (("inputs", (*told["inputs"], ("par", "z"))),))
     assert not judge(step)
     assert "others do so as well" in judge(said(step, told, more))
+
+
+ROTOR = {"name": "f", "kind": "force", "at": [0, 0, 0], "frame": "body", "direction": [0, 0, 1]}
+MOMENTS = {"m": 2, "centre": [0, 0, 0], "I_centre": [[1, 0, 0], [0, 2, 0], [0, 0, 3]]}
+
+
+def blown(*wind):
+    """A rotor alone holds a body of mass 2 in a wind with the drag −c‖v‖v, g = 10."""
+    drag = {"name": "drag", "frame": "space", "at": [0, 0, 0], "relative_to": [*wind]}
+    drag["force"] = [f"-c*sqrt(v_1^2+v_2^2+v_3^2)*v_{k}" for k in (1, 2, 3)]
+    gravity = {"kind": "gravity", "g": [0, 0, -10]}
+    data = {"name": "hovering", "group": "SE(3)", "parameters": {"c": 0.5}}
+    data |= {"body": {"given": MOMENTS}, "potential": [gravity], "input": [ROTOR], "force": [drag]}
+    return problem_of(data)
+
+
+def attitude(found, n):
+    state = found.found.state
+    return np.array([[float(state[f"A_{i}{j}"]) for j in range(1, n + 1)] for i in range(1, n + 1)])
+
+
+def test_a_drone_leans_into_the_wind():
+    """In the plane: thrust (−sin θ, cos θ) f, drag c·5 along the wind, weight 20."""
+    found = in_a_wind()
+    theta = np.arctan2(2 * 5, 20)
+    turned = [[np.cos(theta), -np.sin(theta)], [np.sin(theta), np.cos(theta)]]
+    assert np.allclose(attitude(found, 2), turned, atol=1e-15)
+    thrust = [float(found.found.inputs[x]) for x in "uv"]
+    assert np.allclose(thrust, [np.hypot(10, 20) / 2] * 2, rtol=1e-15)
+    assert (found.found.resting, holds(found)) == (True, True)
+    assert "no others of ξ₁, ‘u’, ‘v’ do so" in english(found.record.steps[-1].prose)
+
+
+def test_in_space_it_leans_about_a_horizontal_axis():
+    """The third axis is along the sum of what acts, and the axis of the turn is horizontal."""
+    found = derive(blown(3, 4, 0)).trim({}, ["eta_1", "eta_2", "f"])
+    A, force = attitude(found, 3), 0.5 * 5 * np.array([3, 4, 0]) + [0, 0, -20]
+    assert np.allclose(A @ A.T, np.eye(3), atol=1e-14)
+    assert np.allclose(A[:, 2] * float(found.found.inputs["f"]), -force, atol=1e-13)
+    assert np.allclose(A @ [4, -3, 0], [4, -3, 0], atol=1e-14)
+    assert holds(found)
+
+
+def test_an_angle_is_that_of_a_torque():
+    """20 sin θ = 12."""
+    found = derive(problem_of(PENDULUM)).trim({"u": 12}, ["eta_1"])
+    assert found.found.state["A_21"] == Fraction(3, 5)
+    assert (found.found.characteristic, found.verdict) == ((1, 3, 8), "stable")
+    assert holds(found)
+
+
+def test_it_turns_on_from_the_attitude_that_is_given():
+    """The other angle of this torque: the pendulum stands aside."""
+    upside_down = {"A_11": -1, "A_22": -1}
+    found = derive(problem_of(PENDULUM)).trim(upside_down | {"u": 12}, ["eta_1"])
+    assert found.found.state["A_11"] == Fraction(-4, 5)
+    assert found.verdict == "unstable"
+    assert holds(found)
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_on_both_sides(side):
+    """3 A₁₁ + 4 A₂₁ is largest along (3, 4), by the turn about axis 3 of the body or of space."""
+    L = "(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 + 3*A_11 + 4*A_21"
+    found = derive(lagrangian(L, "SO(3)", side=side)).trim({}, ["eta_3"])
+    assert (found.found.state["A_11"], found.found.state["A_21"]) == (
+        Fraction(3, 5),
+        Fraction(4, 5),
+    )
+    assert holds(found)
+
+
+def test_that_others_turn_as_well_is_refused():
+    """About the direction of the thrust it may turn as it likes."""
+    several = ["eta_1", "eta_2", "eta_3", "f"]
+    problem = blown(3, 4, 0)
+    with pytest.raises(ProblemError, match="many trims"):
+        derive(problem).trim({}, several)
+    found = derive(problem).trim({}, ["eta_1", "eta_2", "f"])
+    step, judge = found.record.steps[-1], ClaimChecker(found.record, SEED).fault
+    (old,) = (x for x in step.claims if x.kind == "trim.isolated_with_turns")
+    numbers = ("row", *(("entry", "ξ", a) for a in (1, 2, 3)), ("par", "f"))
+    assert not judge(step)
+    assert "others may do so" in judge(said(step, old, Claim(old.kind, (("numbers", numbers),))))
+
+
+@pytest.mark.parametrize(
+    ("free", "message"),
+    [
+        (["A_11"], "turns from there, as eta_1, are found"),
+        (["eta_9"], "did you mean 'eta_3'"),
+        (["eta_1", "f"], "no trim is found: .* for f, g, or free others"),
+    ],
+)
+def test_what_is_not_found_is_said(free, message):
+    with pytest.raises(ProblemError, match=message):
+        derive(blown(3, 4, 0)).trim({}, free)
+
+
+def test_an_attitude_that_is_no_element_is_refused():
+    """Of SL(2) Cayley's transforms are elements: exp would be, for all groups; of SL(3) not all."""
+    L = "(" + " + ".join(f"{k + 1}*zeta_{k + 1}^2" for k in range(8)) + ")/2 - (A_11 - 2)^2"
+    with pytest.raises(ProblemError):
+        derive(lagrangian(L, "SL(3)")).trim({}, ["eta_1"])

@@ -13,16 +13,12 @@ from derive.language.tree import add
 from derive.problem.toml import problem_of
 from derive.record.sentence import Claim, english
 from tests.check.test_record_claims import said
-from tests.support.trims import ASIDE, DRAG, PENDULUM, TURNED, balanced, drone, flying
+from tests.support.trims import ASIDE, DRAG, PENDULUM, TURNED, balanced, drone, flying, holds
 from tests.support.walks import SEED
 
 
 def falling(*damping, **more):
     return flying(*damping, input=[], **more)
-
-
-def holds(found):
-    return all(v.holds for v in found.check(SEED))
 
 
 def told(found):

@@ -1,6 +1,5 @@
 """Trims within bounds: beside numbers of another source, and what a checker must refuse of them."""
 
-import tomllib
 from dataclasses import replace
 from fractions import Fraction
 
@@ -14,23 +13,20 @@ from derive.problem.toml import problem_of
 from derive.record.prose import message
 from derive.record.sentence import Claim
 from tests.check.test_record_claims import said
-from tests.equilibria.test_trim_attitude import WIND, attitude
+from tests.equilibria.test_trim import attitude, blown
 from tests.support.trims import (
     ASIDE,
     DRONE,
     PENDULUM,
     TURNED,
     cubed,
+    holds,
     leaning,
     nearly_upside_down,
     spun,
     turned_in_space,
 )
 from tests.support.walks import SEED
-
-
-def holds(found):
-    return all(v.holds for v in found.check(SEED))
 
 
 def is_near(found, name, value):
@@ -91,8 +87,7 @@ def test_a_parameter_may_be_an_angle():
 def test_a_drone_leans_into_a_wind_of_three_components():
     """The axis of the thrust is along what it must hold; the turn is about a horizontal axis."""
     wind = np.array([3.0, 2.0, 1.0])
-    problem = tomllib.loads(WIND.replace('["3", "4", "0"]', '["3", "2", "1"]'))
-    found = derive(problem_of(problem)).trim({}, ["eta_1", "eta_2", "f"])
+    found = derive(blown(3, 2, 1)).trim({}, ["eta_1", "eta_2", "f"])
     force = 20 * np.array([0, 0, 1]) - 0.5 * np.linalg.norm(wind) * wind
     A = attitude(found, 3)
     assert is_near(found, "f", np.linalg.norm(force))

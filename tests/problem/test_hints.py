@@ -1,4 +1,5 @@
-"""What a file or a command that is almost right means is said; of the doubtful it is warned."""
+"""What a file or a command that is almost right means is said; of the doubtful it is warned;
+moments in axes of their own."""
 
 import os
 import re
@@ -7,16 +8,10 @@ import sys
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
-from derive import (
-    SE,
-    SL,
-    Inertia,
-    Lagrangian,
-    Moments,
-    Points,
-    Problem,
-)
+import derive
+from derive import SE, SL, Inertia, Lagrangian, Moments, Points, Problem
 from derive.command.cli import COMMANDS, main
 from derive.language.values import approximate
 from derive.motion.emitted_code import Column
@@ -303,39 +298,34 @@ def test_a_kinetic_energy_that_is_negative_somewhere(diagonal, told):
     assert found == [words] * told
 
 
-BODY = {
-    "name": "out",
-    "group": "SE(2)",
-    "point": [{"mass": "3 - t", "at": [1, 0]}, {"mass": 2, "at": [0, 1]}],
-    "flow": [{"on": 1, "rate": -1, "velocity": [0, 1]}],
+TENSOR = [[0.5, 0.02, 0], [0.02, 0.6, 0], [0, 0, 0.8]]
+TURNS = {
+    "rpy": ({"rpy": [0.3, -0.2, 0.7]}, Rotation.from_euler("xyz", [0.3, -0.2, 0.7])),
+    "yaw alone": ({"rpy": [0, 0, 0.5]}, Rotation.from_euler("z", 0.5)),
+    "a quaternion": ({"quaternion": [1, 2, 3, 4]}, Rotation.from_quat([2, 3, 4, 1])),
+    "an axis": (
+        {"rotation": {"axis": [0, 0, 1], "angle": 0.5}},
+        Rotation.from_rotvec([0, 0, 0.5]),
+    ),
 }
-OUT_OF_PLACE = [
-    (
-        {"force": [{"on": 1, "force": ["-v_1", 0], "relative_to": ["zeta_1", 0]}]},
-        "force 1, key 'relative_to': 'zeta_1' is of the state, and what moves in space depends on",
-    ),
-    (
-        {"output": [{"kind": "expression", "name": "y", "y": ["r_1"]}]},
-        "output 1, key 'y': 'r_1' is of a place; say of which: 'at'",
-    ),
-    (
-        {
-            "output": [
-                {"kind": "expression", "name": "e", "y": ["zeta_1"]},
-                {"kind": "expression", "name": "f", "y": ["1 + e"]},
-            ]
-        },
-        "output 2, key 'y': 'e' is another output; write its expression here",
-    ),
-    (
-        {"flow": [{"on": 1, "rate": "-zeta_1", "velocity": [0, 1]}]},
-        "flow 1, key 'rate': 'zeta_1' is of the state, and a rate knows t alone",
-    ),
-]
 
 
-@pytest.mark.parametrize(("more", "message"), OUT_OF_PLACE)
-def test_a_name_that_is_known_elsewhere(more, message):
-    with pytest.raises(ProblemError) as error:
-        problem_of(BODY | more)
-    assert message in str(error.value)
+@pytest.mark.parametrize("name", TURNS)
+def test_a_tensor_in_axes_that_are_turned(name):
+    said, R = TURNS[name]
+    given = {"m": 2, "centre": [0, 0, 0], "I_centre": TENSOR, **said}
+    problem = problem_of({"name": "b", "group": "SE(3)", "body": {"given": given}})
+    f = derive.compile(derive.derive(problem))
+    zeta = np.array([1.0, 2.0, 3.0])
+    x = np.concatenate([np.eye(3).ravel(), np.zeros(3), zeta, np.zeros(3)])
+    inertia = R.as_matrix() @ TENSOR @ R.as_matrix().T
+    wanted = np.linalg.solve(inertia, np.cross(inertia @ zeta, zeta))
+    assert np.allclose(f.rhs(0.0, x)[12:15], wanted, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("said", [{"rpy": [0, 0, 1]}, {"rotation": {"axis": [0, 0, 1]}}])
+def test_in_the_plane_a_rotation_is_rows(said):
+    given = {"m": 1, "centre": [0, 0], "J": [[1, 0], [0, 2]], **said}
+    told = r"'(rpy|axis)' is of R\^3; give rotation = \[\[c, -s\], \[s, c\]\] with numbers"
+    with pytest.raises(ProblemError, match=told):
+        problem_of({"name": "b", "group": "SE(2)", "body": {"given": given}})

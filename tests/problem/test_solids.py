@@ -132,41 +132,6 @@ def test_against_numerical_integration(kind):
     assert np.array(second, float) == pytest.approx((r * w) @ r.T, rel=1e-12, abs=1e-12)
 
 
-def inertia(found, names):
-    """The tensor of inertia, Tr J 1 − J, from the trees."""
-    J = values(found, names)[2]
-    trace = sum(J[i][i] for i in range(3))
-    return [trace * (i == j) - J[i][j] for i in range(3) for j in range(3)]
-
-
-def diagonal(*entries):
-    return [entries[i] if i == j else 0 for i in range(3) for j in range(3)]
-
-
-def test_textbook():
-    """The tensors of inertia of any table, the mass being m."""
-    names = {RHO: Fraction(7, 3), A: Fraction(3), B: Fraction(2), H: Fraction(5), "π": Fraction(3)}
-
-    def of(kind, **sizes):
-        found = moments(made(kind, RHO, sizes))
-        first = [value(x, names) for x in found.c]
-        return inertia(found, names), value(found.m, names), first
-
-    found, m, _ = of("ball", radius=A)
-    assert (found, m) == (diagonal(*[m * 2 * 9 / 5] * 3), names[RHO] * 36 * 3)
-    found, m, _ = of("cylinder", radius=A, height=H)
-    assert found == diagonal(m * (27 + 25) / 12, m * (27 + 25) / 12, m * 9 / 2)
-    found, m, c = of("cone", radius=A, height=H)
-    assert (found[8], c) == (m * 9 * 3 / 10, [0, 0, m * 5 / 4])
-    assert found[0] - c[2] ** 2 / m == m * (Fraction(3 * 9, 20) + Fraction(3 * 25, 80))
-    found, m, _ = of("hollow_ball", outer=A, inner=B)
-    assert found == diagonal(*[m * Fraction(2 * (3**5 - 2**5), 5 * (3**3 - 2**3))] * 3)
-    found, m, _ = of("box", sides=(A, B, H))
-    assert found == diagonal(m * 29 / 12, m * 34 / 12, m * 13 / 12)
-    found, m, _ = of("ellipsoid", semi_axes=(A, B, H))
-    assert found == diagonal(m * 29 / 5, m * 34 / 5, m * 13 / 5)
-
-
 def test_trees_are_tidy():
     ball = unit_moments(made("ball", 1, {"radius": A}))
     assert ball.m == ("mul", Fraction(4, 3), "π", ("pow", A, 3))
@@ -249,14 +214,6 @@ def test_turned_without_relations(kind):
     _, f, S = slice_moments(kind, sizes, names["π"])
     assert found[1] == [x for (x,) in q.times(R, [(x,) for x in f])]
     assert found[2] == [list(row) for row in q.times(q.times(R, S), q.transposed(R))]
-
-
-def test_huygens_steiner():
-    """I about an axis at a distance d from the centre is I_c + m d²."""
-    solid = made("cylinder", RHO, {"radius": A, "height": H}, None, (3, 4, 0))
-    names = {RHO: Fraction(2), A: Fraction(3), H: Fraction(5), "π": Fraction(3)}
-    found, m = inertia(moments(solid), names), value(moments(solid).m, names)
-    assert found[8] == m * 9 / 2 + m * 25
 
 
 def test_mixtures():

@@ -1,9 +1,11 @@
 """What is so of every record: its steps hold, also read back from JSON, with another seed, and
-whatever stands before and after what is given."""
+whatever stands before and after what is given; and whatever is made wrong in it, by rule, is not.
+"""
 
 import json
 import re
 from dataclasses import replace
+from itertools import islice
 
 import pytest
 
@@ -15,6 +17,15 @@ from derive.record.record import ANY_GROUP
 from derive.record.uses import position_of
 from derive.record.vocabulary import RULES
 from tests.support.corpus import NAMED, checker, record
+from tests.support.record_mutations import corruptions
+from tests.support.refusals import (
+    TABLE,
+    givens,
+    hypotheses,
+    quantifiers,
+    symbols_listed,
+    uses_of_symbols,
+)
 from tests.support.walks import SEED
 
 
@@ -82,3 +93,42 @@ def test_its_data_are_of_one_form(name):
         if position_of(use.type) == "function" and name in HEADS and "torus" not in d.problem:
             shift = name in ("p̃", "dŨ") and not affine
             assert len(use.type) - 2 == len(HEADS[name]) - shift
+
+
+SHARES = {hypotheses: 2, givens: 2, quantifiers: 1, uses_of_symbols: 1, symbols_listed: 2}
+"""Of how many cases each has its share of the changes of a record: of others, of ten."""
+
+
+def of_changes(what, name, share):
+    """The kind of change and the road are the kind of a case, of which one at least is run."""
+    road, _, problem = name.partition(" ")
+    return f"{what} of {road}: {problem} {share}"
+
+
+CASES = [
+    pytest.param(changes, name, share, id=of_changes(changes.__name__, name, share))
+    for changes, names in TABLE.items()
+    for name in names
+    for share in range(SHARES.get(changes, 10))
+]
+
+
+@pytest.mark.no_cover
+@pytest.mark.parametrize(("changes", "name", "share"), CASES)
+def test_none_is_held(changes, name, share):
+    found = islice(changes(name), share, None, SHARES.get(changes, 10))
+    assert [what for what, held in found if held()] == []
+
+
+@pytest.mark.no_cover
+@pytest.mark.parametrize("changes", TABLE)
+def test_there_is_what_is_changed(changes):
+    found = {repr(what) for name in TABLE[changes] for what, _ in islice(changes(name), 40)}
+    assert len(found) > 10
+
+
+@pytest.mark.no_cover
+def test_equations_are_changed_in_every_way():
+    steps = record("ready so3").steps
+    kinds = {kind for s in steps for e in s.equations for kind, _ in corruptions(e)}
+    assert kinds == {"sign", "factor", "term", "bar", "zero"}

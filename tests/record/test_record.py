@@ -12,7 +12,7 @@ from derive.problem.toml import problem_of
 from derive.record.as_json import from_json, to_data, to_json
 from derive.record.record import COMMENTARY, RecordError
 from derive.record.vocabulary import RULES
-from tests.support import steps
+from tests.support import corpus, steps
 from tests.support.engine_mutations.jobs import MIXED
 from tests.support.walks import own_verdicts, record
 
@@ -123,6 +123,108 @@ def test_hostile_records_fail_in_one_line(case):
         verdicts = check(HOSTILE[case])
     assert not all(v.holds for v in verdicts)
     assert all("\n" not in v.reason for v in verdicts)
+
+
+SPRING = {"kind": "spring", "stiffness": 1, "length": 0, "between": [1]}
+TETRAHEDRON = {"kind": "tetrahedron", "density": 1, "sizes": {"vertices": [[0, 0, 0]]}}
+BALL = {"kind": "ball", "density": 1, "sizes": {"side": 1}}
+FACES = {"vertices": [[0, 0, 0]], "faces": [[0, 0, 9]]}
+MESH = {"kind": "mesh", "density": 1, "sizes": FACES}
+BARE = {"m": 1, "c": [0, 0, 0], "J": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}
+FORGED = ["entry", ["call", ["at", "r", 0], "t"], 1]
+A_PARAMETER = {"default": 1, "unit": "", "meaning": ""}
+POINT = {"mass": 1, "at": [1, 0, 0], "block": 1}
+
+
+def of_solid(solid):
+    solid |= {"rotation": None, "shift": None}
+    return lambda p: p.update(body={"kind": "given", "given": BARE, "solids": [solid]})
+
+
+def with_potential(**fields):
+    return lambda p: p["potentials"].append(fields)
+
+
+def with_parameter(name):
+    return lambda p: p["parameters"].update({name: A_PARAMETER})
+
+
+def of_density(density):
+    return lambda p: p["body"]["solids"][0].update(density=density)
+
+
+def lagrangian(**fields):
+    return lambda p: p["lagrangian"].update(fields)
+
+
+def others(**fields):
+    return lambda p: p.update(fields)
+
+
+LEVEL = "density: expected a polynomial in the level"
+STRANGE = [
+    ("ready so3", with_parameter("0 = 1"), "record, problem: "),
+    ("ready so3", with_parameter("а"), "record, problem: "),
+    ("ready so3", others(name="0 = 1"), "record, problem: "),
+    ("ready so3", lambda p: p["inputs"][0].update(name="u = 0"), "record, problem: "),
+    ("ready so3", lambda p: p["inputs"].append(p["inputs"][0]), "record, problem: "),
+    ("ready so3", lambda p: p["potentials"][0].update(g=["Z", 0, 0]), "record, problem: "),
+    ("ready so3", lambda p: p["potentials"][0].update(g=[["par", "q"], 0, 0]), "record, problem: "),
+    ("ready so3", lambda p: p["places"].append({"at": ["t", 0, 0], "block": 1}), "problem: "),
+    ("ready so3", with_potential(kind="expression", U=FORGED), "record, problem: "),
+    ("ready so3", with_potential(kind="attraction", strength=1, centre=[]), "record, problem: "),
+    ("ready two_tops", with_parameter("pi"), "the number π"),
+    ("ready two_tops", with_parameter("t"), "the time"),
+    ("ready two_tops", with_parameter("sin"), "math.h"),
+    ("ready two_tops", with_parameter("class"), "a keyword"),
+    ("ready two_tops", with_parameter("r1_x"), "a place of a point"),
+    ("ready so3", lambda p: p["body"].update(points=[POINT] * 10), "leaves the points open"),
+    ("ready so3", others(potentials=[SPRING]), "'between' must be two"),
+    ("ready so3", others(basis=[[["0"]]] * 5000), "more than"),
+    (
+        "ready so3",
+        others(body={"kind": "given", "given": BARE | {"J": []}, "solids": []}),
+        "3 rows",
+    ),
+    ("ready so3", others(title="long" * 1000), "longer than"),
+    ("ready so3", others(group="line\nSO(3)"), "key 'scope' must be"),
+    ("ready so3", of_solid(BALL), "the sizes must be radius"),
+    ("ready so3", of_solid(TETRAHEDRON), "expected a list of 4 points"),
+    ("ready so3", of_solid(MESH), "three numbers of vertices"),
+    ("ready so3", of_solid(MESH | {"sizes": FACES | {"faces": []}}), "no faces"),
+    ("ready hammer", of_density("s_r"), LEVEL),
+    ("ready dirichlet", of_density(["fun", "sin", "s_r"]), LEVEL),
+    ("ready dirichlet", of_density(["div", 1, "s_r"]), LEVEL),
+    ("ready gyrostat", lambda p: p["body"].update(kind="any"), ""),
+    ("ready gyrostat", lambda p: p.pop("lagrangian"), ""),
+    ("ready gyrostat", lagrangian(trivialisation="both"), ""),
+    ("ready gyrostat", lagrangian(L=["at", "Π", 1]), ""),
+    ("ready gyrostat", lagrangian(L=["entry", "A", 4, 1]), ""),
+    ("ready gyrostat", lagrangian(L=["entry", "ζ", 4]), ""),
+    ("ready gyrostat", with_potential(kind="gravity", g=[0, 0, 1]), ""),
+    ("fluid ideal_fluid", others(fluid={"density": "none", "forces": "none"}), ""),
+    ("fluid ideal_fluid", others(fluid={"density": "advected"}), ""),
+    ("fluid ideal_fluid", others(group="SO(3)"), ""),
+    ("fluid ideal_fluid", others(n=3), ""),
+    ("fluid ideal_fluid", others(parameters={"k": {}}), ""),
+    ("fluid ideal_fluid", others(body={"kind": "any"}), ""),
+    ("fluid ideal_fluid", others(frame={}), ""),
+    ("reduced lagrange_top", others(symmetries=[]), "one at least"),
+    ("reduced lagrange_top", others(symmetries="A"), "list"),
+    ("reduced lagrange_top", others(symmetries=[["nothing"]]), "symmetries 1"),
+    ("reduced lagrange_top", others(symmetries=[0, 0, 0, 0]), "one at least"),
+    ("ready so3", others(symmetries=[0]), "of a Lagrangian"),
+]
+"""A record of the corpus, what is changed of its problem, and why it is not read."""
+
+
+@pytest.mark.parametrize(("name", "change", "why"), STRANGE, ids=range(len(STRANGE)))
+def test_a_problem_that_is_none_is_not_read(name, change, why):
+    data = json.loads(to_json(corpus.record(name)))
+    change(data["problem"])
+    with pytest.raises(RecordError, match=why or None) as caught:
+        from_json(json.dumps(data))
+    assert "\n" not in str(caught.value)
 
 
 NO_SHAPE = (

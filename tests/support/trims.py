@@ -2,6 +2,7 @@
 
 from derive import derive
 from derive.problem.toml import problem_of
+from tests.support.walks import SEED
 
 PENDULUM = {
     "name": "arm",
@@ -109,3 +110,8 @@ def spun():
         "input": [{"name": "u", "kind": "torque"}],
     }
     return derive(problem_of(problem)).trim({"u": 1}, ["zeta_1"])
+
+
+def holds(found):
+    """Is a trim held, with all steps of its record?"""
+    return all(v.holds for v in found.check(SEED))

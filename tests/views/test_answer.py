@@ -1,4 +1,5 @@
-"""The answer of a record: its equations of motion alone, with what their letters are."""
+"""The answer of a record, with what its letters are; what the views say of a system in words, of a
+fluid, and of both trivialisations."""
 
 import re
 
@@ -10,6 +11,7 @@ import derive
 from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.language.tree import nodes
+from derive.pipeline import both_trivialisations
 from derive.views.answer import (
     answer_mathml,
     answer_text,
@@ -19,11 +21,16 @@ from derive.views.answer import (
     steps_of_answer,
     summary,
 )
+from derive.views.html import html
 from derive.views.language import LANGUAGES, language
+from derive.views.latex import latex
+from derive.views.outline import assumed, moving, system
 from derive.views.printing.line_breaking import display_width
 from derive.views.printing.signs import tex_text
-from derive.views.rendering import pdf, render
+from derive.views.rendering import FORMATS, pdf, render
+from tests.support import corpus, walks
 from tests.support.needs import needs
+from tests.support.walks import FLUIDS, record
 from tests.support.walks import record as walk_of
 
 PENDULUM = """\
@@ -178,3 +185,102 @@ def test_its_latex_is_typeset_and_its_page_is_well_formed(tmp_path):
     body = render(record, "latex", answer=True, fragment=True)
     assert r"\documentclass" not in body
     assert r"\label{two_tops.answer}" in body
+
+
+@pytest.fixture(scope="module", params=["gyrostat", "so3", "kirchhoff"])
+def walked(request):
+    return derive.derive(request.param).record
+
+
+def test_each_step_beside_its_like(walked):
+    labels = [s.label for s in both_trivialisations(walked).steps]
+    on_left = [x for x in labels if x.startswith("left.")]
+    assert len(on_left) > 8
+    beside = [y for x in on_left for y in (x, x.replace("left.", "right."))]
+    assert labels[: len(beside)] == beside
+    assert {s.label for s in walked.steps} <= {*labels}
+    assert len({*labels}) == len(labels)
+
+
+@pytest.mark.parametrize("form", [x for x in FORMATS if x != "json"])
+@pytest.mark.parametrize("lang", ["en", "fr"])
+def test_every_format(walked, form, lang):
+    shown = render(both_trivialisations(walked), form, lang)
+    assert shown.index("left.structure") < shown.index("right.structure")
+    if form == "html":
+        assert ("beside the right" if lang == "en" else "à gauche et à droite") in shown
+
+
+def test_the_command(capsys):
+    steps = ["left.structure", "right.structure"]
+    assert main(["walk", "gyrostat", *steps, "--trivialisation", "both"]) == 0
+    out = capsys.readouterr().out
+    assert "left.structure" in out
+    assert "right.structure" in out
+
+
+ON_MOTIONS = {"energy_kept": 1, "circulation": 1, "kelvin": 2}
+"""Of the equations that say something of the acceleration, how many hold on motions alone."""
+EVERY = {"en": "for every", "fr": "pour tout"}
+ALONG = {"en": "along the motion", "fr": "le long du mouvement"}
+
+CLAUSES = {
+    "text": re.compile(r"(?m)^ {6}.*\S  (\w.*)$"),
+    "latex": re.compile(r"\\text\{([^}]*)\}"),
+    "markdown": re.compile(r"\\text\{([^}]*)\}"),
+    "html": re.compile("<mtext>([^<]*)</mtext>"),
+}
+"""Format → what stands at the end of an equation."""
+
+
+@pytest.mark.parametrize("name", FLUIDS)
+def test_which_equations_hold_along_the_motion_alone(name):
+    for step in record(name).steps:
+        short = step.label.removeprefix(f"{name}.")
+        found = moving(step.equations)
+        assert len(found) == ON_MOTIONS.get(short, 0), step.label
+        assert not any(e.for_all for e in found)
+        free = any("u̇" in e.for_all or "ν̇" in e.for_all for e in step.equations)
+        assert ("for any acceleration" in assumed(step)) == (free and not found), step.label
+
+
+@pytest.mark.parametrize("lang", EVERY)
+@pytest.mark.parametrize("form", [x for x in FORMATS if x != "json"])
+def test_every_view_says_it_beside_the_equation(form, lang):
+    d = record("inhomogeneous_fluid")
+    for short, others in ON_MOTIONS.items():
+        shown = render(d, form, lang, steps=[d[short]])
+        clauses = [x.replace("\u00a0", " ").strip() for x in CLAUSES[form].findall(shown)]
+        free = sum(bool(e.for_all) for e in d[short].equations)
+        assert sum(x.startswith(EVERY[lang]) for x in clauses) == free
+        assert clauses.count(ALONG[lang]) == others
+        assert "any acceleration" not in shown
+        assert "accélération quelconque" not in shown
+
+
+POINTS = "of the points is pulled back"
+STATED = ("lagrange_top", "gyrostat", "charged_body", "kirchhoff", "spherical_pendulum", "manakov")
+OTHER = ("euler_poisson", "zeitlin")
+
+
+@pytest.mark.parametrize("name", [*STATED, *OTHER])
+def test_a_given_lagrangian_moves_no_body(name):
+    d = walks.record(name)
+    for text in (html([d]), latex(d)):
+        assert POINTS not in text
+        assert "Nothing acts" not in text
+    for tongue in ("en", "fr"):
+        told = system(d, language(tongue))
+        assert "{" not in told
+        assert not any(x in told for x in ("moves", "déplace", "Rien n’agit", "Nothing acts"))
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("ready dirichlet", "moves a homogeneous ellipsoid."),
+        ("lagrangian Heisenberg on the right dual False", "carries along and on the time"),
+    ],
+)
+def test_what_it_moves_or_depends_on(name, words):
+    assert words in system(corpus.record(name), language("en"))

@@ -1,17 +1,26 @@
-"""What is printed is read back, by readers that know no printer, and is what the record says."""
+"""What is printed is read back, by readers that know no printer, and is what the record says; each
+sentence says the same in text, LaTeX, Markdown and MathML."""
 
 import random
+import re
+from dataclasses import replace
+from functools import cache
 
 import pytest
 
 import derive
-from derive.language.show import unclear
+from derive.language.show import show_name, unclear
 from derive.problem.toml import problem_of
+from derive.record.sentence import PLACE, Sentence
+from derive.views.language import catalogue_entries, language
 from derive.views.printing.letters import names_of, parameter
+from derive.views.printing.sentences import QUOTED
+from derive.views.printing.signs import LOWERED, RAISED, SYMBOLS
 from derive.views.rendering import FORMATS
-from tests.readers.read import PAGES, READERS, faults, misread
-from tests.support import printing_mutations, random_trees
-from tests.support.renamed import renamed
+from tests.readers.formula import letters_of
+from tests.readers.read import PAGES, READERS, faults, misread, misread_sentences
+from tests.support import corpus, printing_mutations, random_trees, reduced, symmetric
+from tests.support.lagrangians import every_record
 from tests.support.walks import ESTIMATES, FLUIDS, NAMES, OTHERS, record, repeated
 
 SEEDS = 4
@@ -90,3 +99,106 @@ def material():
 @pytest.mark.parametrize("name", repeated(printing_mutations.MUTATIONS))
 def test_a_printer_that_is_wrong_is_seen(name, material):
     assert printing_mutations.caught(name, *material)
+
+
+LANGUAGES = ("en", "fr")
+WALKS = tuple(dict.fromkeys((*NAMES, *FLUIDS, *OTHERS, *ESTIMATES)))
+
+
+BESIDE = [
+    *(f"reduced {x}" for x in reduced.FILES),
+    *(f"symmetries {x}" for x in symmetric.FILES),
+    *("discrete so3", "discrete se3", "discrete top"),
+]
+COUNT = 33
+"""Integrals and equilibria of :func:`.every_record`."""
+
+
+@cache
+def found():
+    """What is told of problems beside their walks."""
+    return dict(enumerate(every_record())) | {x: corpus.record(x) for x in BESIDE}
+
+
+@pytest.mark.parametrize("name", repeated(WALKS))
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_every_sentence_of_a_walk_is_read_back(name, lang):
+    assert [*misread_sentences(record(name), language(lang))] == []
+
+
+@pytest.mark.parametrize("name", [*range(COUNT), *BESIDE])
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_every_sentence_of_what_is_found_is_read_back(name, lang):
+    assert [*misread_sentences(found()[name], language(lang))] == []
+
+
+def places(x):
+    """What fills the places of a sentence, in any depth."""
+    for _, y in x.places:
+        yield from places(y) if isinstance(y, Sentence) else (y,)
+
+
+def unmarked(d):
+    """The places with a parameter that stands in no quotes."""
+    known = letters_of(d)
+    own = {show_name(x) for x in known.parameters - known.letters} - {"i"}
+    filled = (y for step in d.steps for x in step.prose for y in places(x))
+    bare = re.compile(rf"(?<![^\W\d])(?:{'|'.join(map(re.escape, sorted(own)))})(?![\w(])")
+    return [x for x in filled if own and bare.search(QUOTED.sub("", x))]
+
+
+def test_parameters_of_a_sentence_are_told_from_its_letters():
+    assert [x for d in (*map(record, WALKS), *found().values()) for x in unmarked(d)] == []
+
+
+def test_they_are_as_many():
+    assert {*found()} == {*range(COUNT), *BESIDE}
+
+
+LOOKING_ALIKE = """
+    a b c d e h i j k l m n p q r s t_ x y z A B C E F G H J K M N P Q R S T U V X Y Z ab ba
+    xy x1 x_1 x12 x_12 y1 y_1 k12 k_12 Tr det dm dt dT dd mu rho rho1 rho_1 sigma_1 d_11 d11
+    d_1 J_3 J_11 c_9 m_1 m1 M_ab E_a r_1 r_i I_c U_Q p_b N_c w_c si cos_1 sn pi_2 lambda
+    Lambda phi Omega omega_3 mass s_max a1_2 a12 x_123 zeta zeta_1 alpha delta delta_A Sigma
+    in_ os sp An ca
+""".split()  # noqa: SIM905
+"""Of those that a problem may have, the ones that are hardest to print apart."""
+
+
+def renamed(d, draw):
+    """The record with names drawn for all parameters but its moments."""
+    parameters = d.problem["parameters"]
+    kept = [*parameters] if d.problem["body"]["kind"] == "moments" else []
+    kept = [x for x in kept if x[0] in "mcJ"]
+    free = [x for x in LOOKING_ALIKE if x not in kept]
+    new = dict(
+        zip([x for x in parameters if x not in kept], draw.sample(free, len(free)), strict=False)
+    )
+    problem = {**d.problem, "parameters": {new.get(x, x): y for x, y in parameters.items()}}
+
+    def of(t):
+        if isinstance(t, tuple) and t[0] == "par":
+            return ("par", new.get(t[1], t[1]))
+        return (t[0], *map(of, t[1:])) if isinstance(t, tuple) else t
+
+    steps = tuple(
+        replace(s, equations=tuple(replace(e, lhs=of(e.lhs), rhs=of(e.rhs)) for e in s.equations))
+        for s in d.steps
+    )
+    return replace(d, problem=problem, steps=steps)
+
+
+MATHEMATICAL = rf"[{re.escape(''.join(SYMBOLS))}{''.join(RAISED)}{''.join(LOWERED)}_=^<>]"
+ALONE = r"(?<![\w’'-])[^\W\da_](?![\w’'-])|[^\W\d]\("
+OTHER = {*"AyàÀ", "→", "_"}
+"""Words of one letter; a key between arrows; a key of a problem."""
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_no_formula_stands_outside_marks(lang):
+    """Nothing there is a sign of mathematics, a letter by itself or a function."""
+    found = []
+    for x in catalogue_entries():
+        words = PLACE.sub("", " ".join(x[lang].split("$")[::2]))
+        found += [(m[0], x[lang]) for m in re.finditer(f"{MATHEMATICAL}|{ALONE}", words)]
+    assert [x for x in found if x[0] not in OTHER] == []

@@ -15,7 +15,7 @@ from derive.problem.toml import load
 from derive.record.record import Derivation, Equation, Step, Symbol
 from derive.record.sentence import say
 from derive.views.language import language
-from derive.views.latex import anchor, breakable, labels, latex
+from derive.views.latex import breakable, latex
 from derive.views.outline import printed
 from derive.views.printing.letters import names_of
 from derive.views.printing.line_breaking import Piece, display_width, fill
@@ -77,17 +77,6 @@ def numbers(heading: str) -> set[int]:
     """The numbers of the paper in it, where (1)–(3) is three of them."""
     runs = re.findall(r"\((\d+)\)\*?(?:–\((\d+)\))?", heading)
     return {n for a, b in runs for n in range(int(a), int(b or a) + 1)}
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_every_equation_has_its_key_in_latex_and_the_first_its_step_as_well(name: str) -> None:
-    d = record(name)
-    source = latex(d)
-    found = re.findall(r"\\label\{(.*?)\}", source)
-    assert found == [anchor(label) for step in d.steps for label in labels(step)]
-    assert len(set(found)) == len(found)
-    also = re.findall(r"\\label\{(.*?)\}\\walkalso\{(.*?)\}\{(.*?)\}", source)
-    assert also == [(s.label, f"{s.label}.1", s.label) for s in d.steps]
 
 
 @pytest.mark.parametrize("packages", ["", r"\usepackage{cleveref}"])

@@ -1,25 +1,38 @@
-"""Every group × potential × input: C = Python = Gauss's principle."""
+"""Every group × potential × input: C = Python = Gauss's principle, also of random problems, of
+other sizes at exact points against d'Alembert, and of what acts twice."""
 
+import os
 import re
 import tomllib
 from fractions import Fraction
+from random import Random
 
+import numpy as np
 import pytest
+from hypothesis import HealthCheck, assume, given, settings
 
+from derive import Gravity, Group, Moments, Problem, derive
 from derive.check.checker import Checker
+from derive.check.trials.model import Model
+from derive.check.values.draws import Locus
 from derive.code.assemble import assemble
 from derive.code.emit import emit
+from derive.language import rational as q
 from derive.language.tree import mul, neg
 from derive.pipeline import walk
+from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
+from derive.record.as_json import from_json, to_json
 from derive.record.sentence import english
+from derive.walk.matrices import solution
 from tests.oracles import solids
 from tests.problems import PROBLEMS
 from tests.support import corpus, walks
-from tests.support.corpus import SOLIDS, SOLIDS_ON
+from tests.support.corpus import LARGE, SOLIDS, SOLIDS_ON, record
 from tests.support.gauss import agrees
-from tests.support.library import loaded, module
+from tests.support.library import loaded, module, module_of
 from tests.support.needs import present
+from tests.support.random_problems import of_both, of_points, of_solids
 from tests.support.walks import SEED, own_verdicts
 
 STATES = 12
@@ -116,3 +129,174 @@ def test_a_mesh_is_the_solid_it_bounds(tmp_path):
     found, expected = walk(mesh), walk(whole)
     assert found["body"].equations == expected["body"].equations
     assert Checker(found.problem, SEED).check(found["body"]).holds
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("name", LARGE)
+def test_code_against_points(name, seed):
+    p, d = LARGE[name](), record(f"points many on {name}")
+    g = p.group
+    code = module_of(p)
+    model = Model(d.problem, g, Random(seed), 2, Locus(driven=bool(p.inputs)))
+    n = g.n
+    A = [float(x) for row in model.g[:n] for x in row[:n]]
+    zeta = [float(x) for x in g.vee(model.Z)]
+    T = [float(row[n]) for row in model.g[:n]] if g.affine else []
+    x = np.array([*A, *T, *zeta])
+    k = code.constants([float(model.parameters[name]) for name in code.PARAMETERS])
+    u = [float(x) for x in model.input] if p.inputs else None
+    dx = code.rhs(0.0, x, k, u)
+    rate = [float(x) for x in g.vee(model.acceleration)]
+    scale = max(map(abs, rate))
+    # a random element of SL(4) may be far from a rotation: C = ĀA is inverted with its condition
+    condition = np.linalg.cond(np.reshape(A, (n, n))) ** 2
+    assert np.abs(dx[-g.dimension :] - rate).max() <= max(1e-12, 1e-14 * condition) * scale
+    motion = q.times(model.g, model.Z)
+    assert np.allclose(dx[: n * n], [float(x) for row in motion[:n] for x in row[:n]])
+    energy = float(model.energy(model.t, model.g, model.Z))
+    assert code.energy(0.0, x, k) == pytest.approx(energy, rel=1e-9)
+
+
+GROUPS = ("SL(2)", "SL(3)", "SL(4)", "GL(2)", "GL(3)", "SAff(2)", "SAff(3)", "Aff(2)", "Aff(3)")
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_a_multiplier_costs_less_than_the_mass_matrix(group, monkeypatch):
+    """Why the normal space of 𝔤 is used where it has at most one dimension."""
+    n = int(group[-2])
+    problem = Problem("p", Group(group), Moments(), [Gravity(*[0] * (n - 1), -1)])
+
+    def operations():
+        d = derive(problem)
+        return assemble(d.record, d.problem.group).functions["rhs"].operations()
+
+    ours = operations()
+    monkeypatch.setattr(solution, "MULTIPLIERS", -1)
+    other = operations()
+    assert sum(ours.values()) < sum(other.values())
+    assert "Aff" not in group or 3 * ours["mul"] < 2 * other["mul"]
+
+
+def test_a_problem_in_numbers_has_no_parameters():
+    """What is 0, 1 or alike for this body is folded: J diagonal, gravity along an axis."""
+    J = [[1, 0, 0], [0, 2, 0], [0, 0, 3]]
+    body = Moments(m=1, c=[0, 0, 0.2], J=J)
+    d = derive(Problem("heavy", Group("SO(3)"), body, [Gravity(0, 0, -9.81)]))
+    program = assemble(d.record, d.problem.group)
+    assert program.parameters == program.constants == ()
+    operations = program.functions["rhs"].operations()
+    assert operations["mul"] <= 27
+    assert operations["add"] <= 11
+
+
+POINTS = [{"mass": m, "at": r} for m, r in ((1, [1, 0, 0]), (2, [0, 1, 0.5]), (1.5, [0.2, 0, -1]))]
+ON = {"on": 2}
+TABLES = {
+    "damping": ("damping", {"coefficient": 0.3, "on": [2]}),
+    "damping of all": ("damping", {"coefficient": 0.3}),
+    "gravity": ("potential", {"kind": "gravity", "g": [1, 2, -9]}),
+    "spring": ("potential", {"kind": "spring", **ON, "anchor": [2, 1, 1], "stiffness": 3}),
+    "spring with a length": (
+        "potential",
+        {"kind": "spring", **ON, "anchor": [2, 1, 1], "stiffness": 3, "length": 0.5},
+    ),
+    "spring at a place": (
+        "potential",
+        {"kind": "spring", "at": [1, 1, 1], "anchor": [2, 0, 1], "stiffness": 3},
+    ),
+    "attraction": ("potential", {"kind": "attraction", "strength": 2, "centre": [3, 4, 5]}),
+    "expression": ("potential", {"kind": "expression", "U": "r2_x^2*r3_y + sin(t)*r1_z"}),
+    "force on a point": ("input", {"kind": "force", **ON}),
+    "force in the body": ("input", {"kind": "force", **ON, "frame": "body"}),
+    "force at a place": ("input", {"kind": "force", "at": [1, 1, 1]}),
+}
+STATE = [0, -1, 0, 1, 0, 0, 0, 0, 1, 0.5, -0.3, 0.2, 0.7, -0.4, 1.1, 0.3, 0.6, -0.8]
+
+
+def rates(kind, table, several):
+    """dx/dt with so many tables, the same numbers as inputs for each."""
+    own = [table | {"name": f"f{k}"} if kind == "input" else table for k in range(several)]
+    problem = problem_of({"name": "x", "group": "SE(3)", "point": POINTS, kind: own})
+    space = module_of(problem)
+    each = len(space.INPUTS) // several
+    u = np.tile(np.linspace(1, 2, each), several)
+    return space.rhs(0.3, np.array(STATE), space.constants([]), u)
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_the_second_of_two_adds_what_the_first_adds(name):
+    kind, table = TABLES[name]
+    one, two, three = (rates(kind, table, several) for several in (1, 2, 3))
+    assert np.abs(two - one).max() > 1e-2
+    assert np.abs((three - two) - (two - one)).max() < 1e-12
+
+
+EXAMPLES = int(os.environ.get("EXAMPLES", "16"))
+"""`make fuzz` takes more."""
+FEW_STATES = 3
+COMPILED = 5
+"""One in so many problems is compiled as C, too."""
+RANDOM = settings(
+    max_examples=EXAMPLES,
+    derandomize=True,
+    database=None,
+    deadline=None,
+    suppress_health_check=[*HealthCheck],
+)
+FEWER = settings(RANDOM, max_examples=max(EXAMPLES // 3, 1))
+
+
+def derived(data):
+    """The problem of a file and its record, which holds; degenerate bodies are left out."""
+    try:
+        problem = problem_of(data)
+    except ProblemError as error:
+        assume("moves no mass" not in str(error))
+        raise
+    record = walk(problem)
+    again = from_json(to_json(record))
+    assert again == record
+    verdicts = own_verdicts(again)
+    assert [f"{v.label}: {v.reason}" for v in verdicts if not v.holds] == []
+    assert max(v.bound for v in verdicts) < 1e-30
+    return problem, record
+
+
+def held(problem, record, data, values):
+    """The emitted code against the oracle, which gets ``data``; C once in a while."""
+    files = emit(assemble(record, problem.group), record, ("c", "python"), "test")
+    compiled = len(files["test.py"]) % COMPILED == 0 and present("cc")
+    c = loaded("c", "test", files) if compiled else None
+    m = module("test", files["test.py"])
+    try:
+        agrees(m, c, data, values, states=FEW_STATES, tolerance=1e-8)
+    except np.linalg.LinAlgError:  # the points are nearly on a plane
+        assume(False)
+
+
+@pytest.mark.no_cover
+@RANDOM
+@given(data=of_points())
+def test_random_points(data):
+    problem, record = derived(data)
+    held(problem, record, data, {})
+
+
+@pytest.mark.no_cover
+@FEWER
+@given(data=of_solids())
+def test_random_solids(data):
+    """The oracle gets the moments of the solids by quadrature."""
+    problem, record = derived(data)
+    other = solids.by_moments(data)
+    held(problem, record, other, data["parameters"])
+
+
+@pytest.mark.no_cover
+@FEWER
+@given(data=of_both())
+def test_random_solids_and_points(data):
+    """The oracle gets points in place of the solids, with their moments."""
+    problem, record = derived(data)
+    other = solids.by_points(data)
+    held(problem, record, other, data["parameters"])

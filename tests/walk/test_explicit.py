@@ -1,6 +1,5 @@
 """The answer: equations in coordinates with a problem's own numbers, beside other roads."""
 
-import tomllib
 from random import Random
 
 import numpy as np
@@ -16,37 +15,28 @@ from tests.support.corpus import record
 from tests.support.walks import record as ready
 from tests.walk.test_power_apart import value
 
-TRANSLATIONS = """
-name = "shifted"
-parameters = { m = 1.0, k = 2.0, g = 9.81 }
-[group]
-name = "R2"
-action = "affine"
-basis = [[[0, 0, 1], [0, 0, 0], [0, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 0, 0]]]
-[[point]]
-mass = "m"
-at = [0, 0]
-[[potential]]
-kind = "spring"
-on = 1
-anchor = [2, 3]
-stiffness = "k"
-[[potential]]
-kind = "gravity"
-g = [0, "-g"]
-"""
-BALANCED = """
-name = "balanced"
-group = "SO(3)"
-parameters = { m = 1.0, g = 9.81 }
-[[potential]]
-kind = "gravity"
-g = [0, 0, "-g"]
-"""
+SHIFTS = [[[0, 0, 1], [0, 0, 0], [0, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 0, 0]]]
+TRANSLATIONS = {
+    "name": "shifted",
+    "group": {"name": "R2", "action": "affine", "basis": SHIFTS},
+    "parameters": {"m": 1.0, "k": 2.0, "g": 9.81},
+    "point": [{"mass": "m", "at": [0, 0]}],
+    "potential": [
+        {"kind": "spring", "on": 1, "anchor": [2, 3], "stiffness": "k"},
+        {"kind": "gravity", "g": [0, "-g"]},
+    ],
+}
 
 
-def points(*places):
-    return "".join(f'[[point]]\nmass = "m"\nat = {list(x)}\n' for x in places)
+def heavy(*places):
+    """Equal points about a fixed one, with their weight."""
+    return {
+        "name": "balanced",
+        "group": "SO(3)",
+        "parameters": {"m": 1.0, "g": 9.81},
+        "point": [{"mass": "m", "at": [*x]} for x in places],
+        "potential": [{"kind": "gravity", "g": [0, 0, "-g"]}],
+    }
 
 
 def answer(d):
@@ -59,10 +49,6 @@ def told(d):
 
 def said(d):
     return " ".join(s.message for s in answer(d).prose)
-
-
-def walked(text):
-    return walk(problem_of(tomllib.loads(text)))
 
 
 def test_a_nut_on_a_screw_falls_with_a_constant():
@@ -86,13 +72,13 @@ def test_a_motion_by_a_one_parameter_group(side, motion):
 
 
 def test_springs_on_translations_are_linear():
-    d = walked(TRANSLATIONS)
+    d = walk(problem_of(TRANSLATIONS))
     assert told(d) == ["ζ̇₁ = 2k/m − k A₁₃/m", "ζ̇₂ = (3k − gm)/m − k A₂₃/m"]
     assert "linear" in said(d)
 
 
 def test_a_body_without_a_first_moment_feels_no_gravity():
-    d = walked(BALANCED + points((1, 0, 0), (0, 1, 1), (-1, -1, -1)))
+    d = walk(problem_of(heavy((1, 0, 0), (0, 1, 1), (-1, -1, -1))))
     assert "cannot act" in said(d)
 
 
@@ -101,7 +87,7 @@ PLACES = ((1, 0, 0), (0, 1, 1), (1, 0, 1))
 
 def test_a_solid_with_products_of_inertia_is_solved():
     """Beside Euler's equations in floating point, with the tensor from the points."""
-    d = walked(BALANCED + points(*PLACES))
+    d = walk(problem_of(heavy(*PLACES)))
     random = np.random.default_rng(3)
     A, _ = np.linalg.qr(random.normal(size=(3, 3)))
     zeta, m, g = random.normal(size=3), 1.7, 9.81
@@ -144,7 +130,7 @@ def test_as_few_entries_are_free_as_can_be(name, free):
 )
 def test_what_is_too_long_is_not_multiplied_out(U):
     """Else there are more terms than memory; left out as any long answer."""
-    points = "".join(f"[[point]]\nmass = {i}\nat = [{i}, 1, {i * i % 9}]\n" for i in range(1, 41))
-    text = f'name = "p"\ngroup = "SO(3)"\nparameters = {{ a = 1.0 }}\n{points}'
-    d = walked(text + f'[[potential]]\nkind = "expression"\nU = "{U}"\n')
+    data = {"name": "p", "group": "SO(3)", "parameters": {"a": 1.0}}
+    data["point"] = [{"mass": i, "at": [i, 1, i * i % 9]} for i in range(1, 41)]
+    d = walk(problem_of(data | {"potential": [{"kind": "expression", "U": U}]}))
     assert "p.explicit" not in {s.label for s in d.steps}

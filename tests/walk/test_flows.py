@@ -9,9 +9,7 @@ from scipy.integrate import solve_ivp
 
 import derive
 from derive.check.checker import Checker
-from derive.command.cli import main
 from derive.language.tree import add
-from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from tests.oracles import relative_error
 from tests.support.library import arrange, library, module_of
@@ -271,72 +269,6 @@ def test_a_point_that_loses_mass_in_a_flat_space(n):
     slack = np.array([1, 2, 3][:n]) - there
     known = np.array(g) + (-(1 + t) * np.array(u) + slack) / (10 - t - t * t / 2)
     assert np.allclose(found, [*x[n:], *known], rtol=0, atol=1e-13)
-
-
-def test_a_product_with_a_body_says_that_mass_flows_in_one():
-    data = {"name": "two", "group": "SE(3) x SE(3)", "body": {"moments": "symbolic"}}
-    data["flow"] = [{"at": [0, 0, 0], "rate": -1, "velocity": [0, 0, 1]}]
-    with pytest.raises(ProblemError, match="flow 1: mass flows in one body"):
-        problem_of(data)
-    with pytest.raises(ProblemError, match=r"body: R\(2\) moves \[\[point\]\] tables alone"):
-        problem_of({"name": "flat", "group": "R(2)", "body": {"moments": "symbolic"}})
-
-
-LINE = {"name": "b", "group": "SE(3)", "body": {"moments": "symbolic"}}
-BAD = [
-    ({"flow": []}, "body: its masses depend on t, and no [[flow]] says where the mass leaves"),
-    ({"flow": [{"at": [0, 0, 0], "rate": "-b", "velocity": [0, 0, 0]}]}, "flow 1, rate: the rates"),
-    (
-        {
-            "flow": [{"at": [0, 0, 0], "rate": "-throttle", "velocity": [0, 0, 0]}],
-            "input": [{"name": "throttle", "kind": "force", "on": 1, "direction": [0, 0, 1]}],
-        },
-        "flow 1, rate: 'throttle' is an input",
-    ),
-    ({"flow": [{"at": [0, 0, 0], "rate": "-b"}]}, "flow 1: key 'velocity' is missing"),
-    ({"group": "SL(3)"}, "flow 1: mass flows in one body that turns in the plane or in R^3"),
-    ({"group": "SO(3) x SO(3)"}, "flow 1: mass flows in one body that turns"),
-    (
-        {"flow": [{"at": [0, 0, 0], "rate": "-zeta_1", "velocity": [0, 0, 0]}]},
-        "flow 1, key 'rate': 'zeta_1' is of the state, and a rate knows t alone",
-    ),
-    ({"flow": [], "point": [{"mass": 1, "at": ["t", 0, 0]}]}, "point 1, at: t: a place"),
-]
-
-
-@pytest.mark.parametrize(("change", "message"), BAD)
-def test_it_is_refused_in_one_line(change, message):
-    with pytest.raises(ProblemError) as error:
-        problem_of(ROCKET | change)
-    assert message in str(error.value)
-    assert "\n" not in str(error.value)
-
-
-BALLOON = """
-name = "balloon"
-group = "SE(3)"
-[body]
-given = { m = "3 - t", c = [0, 0, 0], J = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }
-[[flow]]
-at = [0, 0, 0]
-rate = -1
-velocity = [0, 0, 0]
-"""
-
-
-@pytest.mark.parametrize("words", ["symmetries", "equilibria", "walk --discrete", "emit --momenta"])
-def test_what_is_of_masses_that_stay_refuses_it(words, tmp_path, capsys):
-    """Where what leaves pushes with nothing, too."""
-    path = tmp_path / "balloon.toml"
-    path.write_text(BALLOON, encoding="utf-8")
-    command, *more = words.split()
-    assert main([command, str(path), *more]) == 2
-    assert "mass flows" in capsys.readouterr().err.splitlines()[-1]
-
-
-def test_moments_that_are_parameters_do_not_say_how_they_change():
-    with pytest.raises(ProblemError, match="do not say how they change"):
-        problem_of(LINE | {"flow": [{"at": [0, 0, 0], "rate": -1, "velocity": [0, 0, -1]}]})
 
 
 # -- power ---------------------------------------------------------------------------------------

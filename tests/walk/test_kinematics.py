@@ -1,7 +1,6 @@
 """Kinematics of first order: the errors of an estimate, and the condition under which they move by
 themselves, with a counterexample where it does not hold."""
 
-import tomllib
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -13,7 +12,6 @@ from derive.command.cli import main
 from derive.language.expression import parse
 from derive.language.tree import add, mul, neg, nodes
 from derive.pipeline import walk
-from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.record.record import Equation
 from derive.walk.kinematics.invariant_errors import Velocity, matrix, numbers
@@ -215,31 +213,6 @@ def test_a_counterexample_off_the_group_is_refused():
 
 # -- bad input ------------------------------------------------------------------------------------
 
-GOOD = {"inputs": ["u", "w"], "rate": UNICYCLE}
-BAD = {
-    "off the group": (GOOD | {"rate": [["u", "w", 0], [0, 0, 0], [0, 0, 0]]}, "leaves the group"),
-    "no such input": (GOOD | {"inputs": ["u"]}, "'w' is not declared"),
-    "an input twice": (GOOD | {"inputs": ["u", "w", "u"]}, "'u' is another input as well"),
-    "an entry for an input": (GOOD | {"inputs": ["A_11"]}, "'A_11' is an entry of the state"),
-    "an unused input": (GOOD | {"inputs": ["u", "w", "s"]}, "'s' is not used in 'rate'"),
-    "the time": (GOOD | {"inputs": ["t", "u", "w"]}, "'t' is the time as well"),
-    "too few rows": (GOOD | {"rate": UNICYCLE[:2]}, "expected a list of 3 rows"),
-    "a velocity": (GOOD | {"rate": [["zeta_1*u*w", 0, 0], *UNICYCLE[1:]]}, "has no zeta_1"),
-    "too few densities": (GOOD | {"noise": [1]}, "expected a list of 2 expressions"),
-    "a density below 0": (GOOD | {"noise": [1, -1]}, "a density is not negative"),
-    "noise by an input": (GOOD | {"noise": ["u", 1]}, "'u' is an input; give parameters alone"),
-    "another side": (GOOD | {"error": "both"}, "must be one of left, right"),
-}
-
-
-@pytest.mark.parametrize("case", BAD)
-def test_bad_input_is_told_in_one_line(case):
-    table, told = BAD[case]
-    with pytest.raises(ProblemError) as caught:
-        walk(problem_of({"name": "bad", "group": "SE(2)", "kinematics": table}))
-    assert told in str(caught.value)
-    assert "\n" not in str(caught.value)
-
 
 def test_a_density_that_is_negative_by_a_default_is_told_in_one_line(tmp_path, capsys):
     text = (ROOT / "derive/problems/imu.toml").read_text(encoding="utf-8")
@@ -248,10 +221,3 @@ def test_a_density_that_is_negative_by_a_default_is_told_in_one_line(tmp_path, c
     out, err = capsys.readouterr()
     assert (out, err.count("\n")) == ("", 1)
     assert "noise of 'w_1': a density is not negative" in err
-
-
-@pytest.mark.parametrize("key", ["point", "lagrangian", "initial", "input"])
-def test_what_else_a_file_says_is_refused(key):
-    data = tomllib.loads((ROOT / "derive/problems/imu.toml").read_text(encoding="utf-8"))
-    with pytest.raises(ProblemError, match=f"key '{key}': \\[kinematics\\] says all"):
-        problem_of(data | {key: {}})

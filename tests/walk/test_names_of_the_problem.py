@@ -1,8 +1,8 @@
 """What a Lagrangian is said to depend on, and where the names that the user typed have gone."""
 
-import tomllib
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from derive.check.checker import Checker
@@ -18,10 +18,6 @@ from derive.views.text import text
 from tests.support.library import emission
 
 
-def walked(text):
-    return walk(problem_of(tomllib.loads(text)))
-
-
 def told(d, label):
     return english(d[f"{d.name}.{label}"].prose)
 
@@ -30,63 +26,43 @@ def meaning(d, name):
     return english(next(s.meaning for s in d.symbols if s.name == name))
 
 
-MASS = """
-name = "masses"
-group = "SO(3)"
-[parameters]
-{m} = {{}}
-[[point]]
-mass = "{m}"
-at = [1, 0, 0]
-[[point]]
-mass = 2
-at = [0, 1, 0]
-[[point]]
-mass = 1
-at = [0, 0, 1]
-"""
+def walked(**data):
+    return walk(problem_of({"name": "masses", **data}))
 
 
 @pytest.mark.parametrize(("m", "latex"), [("m", r"\mathbf m"), ("k", "m")])
 def test_the_total_mass_is_another_letter_than_a_parameter_m(m, latex):
-    d = walked(MASS.format(m=m))
+    masses = [{"mass": x, "at": at} for x, at in zip((m, 2, 1), np.eye(3).tolist(), strict=True)]
+    d = walked(group="SO(3)", parameters={m: {}}, point=masses)
     assert latex_names(d)["m"] == latex
     assert (r"\mathbf m" in render(d, "latex", "en")) == (m == "m")
 
 
 def test_moments_are_the_same_in_both_meanings():
-    moments = 'name = "masses"\ngroup = "SE(3)"\n[body]\nmoments = "symbolic"\n'
-    assert latex_names(walked(moments))["m"] == "m"
+    assert latex_names(walked(group="SE(3)", body={"moments": "symbolic"}))["m"] == "m"
 
 
 PLACES = ([1, 0, 0], [-1, 0, 0], [0, 2, 0], [0, -2, 0], [0, 0, 3], [0, 0, -3])
-POINTS = "".join(f"[[point]]\nmass = 1\nat = {at}\n" for at in PLACES)
-INPUTS = """
-[[input]]
-name = "thrust"
-kind = "force"
-on = 1
-frame = "body"
-[[input]]
-name = "F"
-kind = "covector"
-"""
-TURNED = """
-[group]
-name = "Turned"
-basis = [
-  [[0, 0, 1], [0, 0, 0], [-1, 0, 0]],
-  [[0, -1, 1], [1, 0, 0], [-1, 0, 0]],
-  [[0, 0, 0], [0, 0, 2], [0, -2, 0]],
+INPUTS = [
+    {"name": "thrust", "kind": "force", "on": 1, "frame": "body"},
+    {"name": "F", "kind": "covector"},
 ]
-"""
+TURNED = {
+    "name": "Turned",
+    "basis": [
+        [[0, 0, 1], [0, 0, 0], [-1, 0, 0]],
+        [[0, -1, 1], [1, 0, 0], [-1, 0, 0]],
+        [[0, 0, 0], [0, 0, 2], [0, -2, 0]],
+    ],
+}
 
 
 def driven(group):
-    return problem_of(tomllib.loads(f'name = "driven"\n{group}\n{POINTS}{INPUTS}'))
+    points = [{"mass": 1, "at": at} for at in PLACES]
+    return problem_of({"name": "driven", "group": group, "point": points, "input": INPUTS})
 
 
-@pytest.mark.parametrize("group", ['group = "SE(3)"', 'group = "SO(3)"', 'group = "SL(3)"', TURNED])
+@pytest.mark.parametrize("group", ["SE(3)", "SO(3)", "SL(3)", TURNED], ids=str)
 @pytest.mark.parametrize("road", [walk, discrete])
 def test_the_numbers_of_inputs_have_the_names_of_the_file(road, group):
     """f_u₁ was force 1, and the first component of the force of a covector as well; u₄ stood in
@@ -105,7 +81,7 @@ def test_the_numbers_of_inputs_have_the_names_of_the_file(road, group):
 
 def test_text_and_code_call_an_input_alike():
     """F are the forces on the points as well: in quotes."""
-    p = driven('group = "SE(3)"')
+    p = driven("SE(3)")
     d = walk(p)
     (solved,) = (x for x in text(d).split("\n\n") if x.startswith("driven.explicit"))
     assert "thrust₂" in solved
@@ -117,27 +93,21 @@ def test_text_and_code_call_an_input_alike():
     }
 
 
-STATED = """
-name = "stated"
-group = "SE(3)"
-point = [
-  { mass = 1, at = [1, 0, 0] }, { mass = 2, at = [0, 1, 0] }, { mass = 1, at = [0, 0, 1] },
-]
-[[force]]
-name = "drag"
-on = 2
-frame = "body"
-force = ["-v_1", 0, "-v_3"]
-moment = [0, "-zeta_2", 0]
-[[force]]
-name = "loads"
-covector = ["-zeta_1", 0, 0, 0, 0, "-w_3"]
-"""
+STATED = {
+    "name": "stated",
+    "group": "SE(3)",
+    "point": [{"mass": m, "at": at} for m, at in zip((1, 2, 1), np.eye(3).tolist(), strict=True)],
+    "force": [
+        {"name": "drag", "on": 2, "frame": "body"}
+        | {"force": ["-v_1", 0, "-v_3"], "moment": [0, "-zeta_2", 0]},
+        {"name": "loads", "covector": ["-zeta_1", 0, 0, 0, 0, "-w_3"]},
+    ],
+}
 
 
 def test_forces_of_the_state_have_the_names_of_the_file():
     """Their numbers are said once, entries that are 0 have none, and code calls them so too."""
-    p = problem_of(tomllib.loads(STATED))
+    p = problem_of(STATED)
     d = walk(p)
     step = d["stated.input"]
     told = {
@@ -157,10 +127,8 @@ def test_forces_of_the_state_have_the_names_of_the_file():
 
 def test_without_a_name_nothing_is_said_of_it():
     """The equations are those of the named, put in: the record of before."""
-    bare = problem_of(
-        tomllib.loads(STATED.replace('name = "drag"', "").replace('name = "loads"', ""))
-    )
-    d = walk(bare)
+    nameless = [{k: x for k, x in force.items() if k != "name"} for force in STATED["force"]]
+    d = walk(problem_of(STATED | {"force": nameless}))
     assert all("name" not in x for x in d.problem["forces"])
     parts = {x for e in d["stated.input"].equations for x in nodes(e.rhs)}
     assert not [x for x in parts if isinstance(x, tuple) and x[0] == "par"]
@@ -168,7 +136,7 @@ def test_without_a_name_nothing_is_said_of_it():
 
 def test_a_record_with_another_force_under_the_name_is_seen():
     """The checker has the numbers from the problem, not from the equation that says them."""
-    d = walk(problem_of(tomllib.loads(STATED)))
+    d = walk(problem_of(STATED))
     step = d["stated.input"]
     changed = [
         replace(e, rhs=mul(-1, e.rhs)) if e.lhs == ("par", "drag_5") else e for e in step.equations

@@ -230,7 +230,7 @@ def basis_member(index: str, b: Alphabet) -> Letter:
 MULTIPLIERS = 1
 """The kernel is solved through the normal space of 𝔤 where it has at most so many dimensions: the
 counted operations of the emitted code are then fewer than through the mass matrix
-(tests/walk/test_sizes.py)."""
+(tests/walk/test_any_problem.py)."""
 
 
 @dataclass(frozen=True)

@@ -9,41 +9,17 @@ from tests.oracles import solids
 from tests.problems import PROBLEMS, READY
 from tests.support import corpus
 
-SOLIDS = (
-    corpus.SOLIDS.replace("GROUP", "SE(3)")
-    + """
-[[solid]]
-kind = "box"
-density = 2
-sides = ["a", 0.3, "b"]
-[[solid]]
-kind = "cylinder"
-density = "rho"
-radius = "b"
-height = 0.7
-rotation = { axis = [1, 0, 0], angle = "pi/4" }
-[[solid]]
-kind = "hollow_ball"
-density = 1.5
-outer = 2
-inner = "a"
-[[solid]]
-kind = "ball"
-density = 1.5
-radius = "b"
-shift = [0, 2, 0]
-[[solid]]
-kind = "tetrahedron"
-density = 4
-vertices = [[0, 0, 0], [1, 0, 0.5], [0, 1, 0], [0.2, 0.1, 1]]
-[[potential]]
-kind = "spring"
-at = ["a", 0, 0]
-anchor = [3, 0, 1]
-stiffness = 5
-length = "b"
-"""
-)
+BOX = {"kind": "box", "density": 2, "sides": ["a", 0.3, "b"]}
+CYLINDER = {"kind": "cylinder", "density": "rho", "radius": "b", "height": 0.7}
+CYLINDER |= {"rotation": {"axis": [1, 0, 0], "angle": "pi/4"}}
+HOLLOW = {"kind": "hollow_ball", "density": 1.5, "outer": 2, "inner": "a"}
+BALL = {"kind": "ball", "density": 1.5, "radius": "b", "shift": [0, 2, 0]}
+CORNERS = [[0, 0, 0], [1, 0, 0.5], [0, 1, 0], [0.2, 0.1, 1]]
+TETRAHEDRON = {"kind": "tetrahedron", "density": 4, "vertices": CORNERS}
+SPRING = {"kind": "spring", "at": ["a", 0, 0], "anchor": [3, 0, 1], "stiffness": 5, "length": "b"}
+SOLIDS = tomllib.loads(corpus.SOLIDS.replace("GROUP", "SE(3)"))
+SOLIDS["solid"] += [BOX, CYLINDER, HOLLOW, BALL, TETRAHEDRON]
+SOLIDS["potential"] += [SPRING]
 MIXED = """
 name = "test"
 group = "Sim(3)"
@@ -82,49 +58,28 @@ kind = "gravity"
 g = [1, 2, "-9.81"]
 """
 
-BOTH = """
-name = "test"
-group = "SE(3)"
-[parameters]
-b = 0.7
-[[point]]
-mass = "b"
-at = [0, 0, 0.125]
-[[solid]]
-kind = "ball"
-density = 0.5
-radius = "b"
-"""
+BOTH = {
+    "group": "SE(3)",
+    "parameters": {"b": 0.7},
+    "point": [{"mass": "b", "at": [0, 0, 0.125]}],
+    "solid": [{"kind": "ball", "density": 0.5, "radius": "b"}],
+}
 """A solid and a point in principal axes."""
-
-GIVEN = """
-name = "test"
-group = "SE(3)"
-[parameters]
-a = 1.1
-M = 2.0
-[body]
-given = { m = "M", c = [0.1, "a/4", -0.2], I = [["a", 0.1, 0], [0.1, 2, "a/9"], [0, "a/9", 2.2]] }
-[[potential]]
-kind = "gravity"
-g = [0, 0, "-9.81"]
-[[input]]
-name = "u"
-kind = "covector"
-"""
-
-NUMBERS = """
-name = "test"
-group = "Aff(3)"
-[parameters]
-b = 0.7
-[body]
-given = { m = 2, c = [0.1, 0.2, -0.2], J = [[1, 0.1, 0], [0.1, 2, 0.2], [0, 0.2, 2.2]] }
-[[potential]]
-kind = "gravity"
-g = [1, 2, "-b"]
-"""
-
+TENSOR = [["a", 0.1, 0], [0.1, 2, "a/9"], [0, "a/9", 2.2]]
+GIVEN = {
+    "group": "SE(3)",
+    "parameters": {"a": 1.1, "M": 2.0},
+    "body": {"given": {"m": "M", "c": [0.1, "a/4", -0.2], "I": TENSOR}},
+    "potential": [{"kind": "gravity", "g": [0, 0, "-9.81"]}],
+    "input": [{"name": "u", "kind": "covector"}],
+}
+J = [[1, 0.1, 0], [0.1, 2, 0.2], [0, 0.2, 2.2]]
+NUMBERS = {
+    "group": "Aff(3)",
+    "parameters": {"b": 0.7},
+    "body": {"given": {"m": 2, "c": [0.1, 0.2, -0.2], "J": J}},
+    "potential": [{"kind": "gravity", "g": [1, 2, "-b"]}],
+}
 FUNCTIONS = """
 name = "test"
 group = "GL(2)"
@@ -143,58 +98,34 @@ U = "r2_x*atan(r2_y) + exp(r1_x*r2_y) + sqrt(5 + r1_y^2) + r1_x*log(4 + r1_y^2)"
 """
 """Every elementary function."""
 
-ON_THE_RIGHT = """
-name = "test"
-group = "SE(2)"
-[parameters]
-s = 0.1
-[inertia]
-operator = [[1, 0, "s"], [0, "2 + A_11", 0], ["s", 0, 3]]
-momentum = [0, "s", "T_1"]
-U = "T_2^2*t"
-trivialisation = "right"
-"""
-QUARTIC = """
-name = "test"
-group = "SO(3)"
-[parameters]
-a = 0.3
-[lagrangian]
-L = "(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 + a*zeta_1^4/4 + sin(t)*zeta_2 - A_33*A_12"
-"""
-GORYACHEV = """
-name = "test"
-group = "SO(3)"
-[parameters]
-I = 1.5
-m = 2.0
-[lagrangian]
-L = "I*(4*zeta_1^2 + 4*zeta_2^2 + zeta_3^2)/2 - m*A_31"
-"""
-POURED = """
-name = "test"
-[fluid]
-forces = "potential"
-"""
-TORUS = """
-name = "test"
-[algebra]
-of = "torus"
-N = 3
-[inertia]
-operator = "laplacian"
-"""
-CARRIED = """
-name = "test"
-[algebra]
-of = "SE(2)"
-[[advected]]
-name = "gamma"
-representation = "dual"
-[lagrangian]
-L = "(2*zeta_1^2 + zeta_2^2 + 3*zeta_3^2)/2 + zeta_1*gamma_2 - gamma_1*gamma_3"
-trivialisation = "right"
-"""
+OPERATOR = [[1, 0, "s"], [0, "2 + A_11", 0], ["s", 0, 3]]
+POTENTIAL = {"momentum": [0, "s", "T_1"], "U": "T_2^2*t", "trivialisation": "right"}
+L_4 = "(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 + a*zeta_1^4/4 + sin(t)*zeta_2 - A_33*A_12"
+CARRIED = "(2*zeta_1^2 + zeta_2^2 + 3*zeta_3^2)/2 + zeta_1*gamma_2 - gamma_1*gamma_3"
+OWN = {
+    "solids": SOLIDS,
+    "both": BOTH,
+    "given": GIVEN,
+    "numbers": NUMBERS,
+    "on the right": {
+        "group": "SE(2)",
+        "parameters": {"s": 0.1},
+        "inertia": {"operator": OPERATOR} | POTENTIAL,
+    },
+    "quartic": {"group": "SO(3)", "parameters": {"a": 0.3}, "lagrangian": {"L": L_4}},
+    "goryachev": {
+        "group": "SO(3)",
+        "parameters": {"I": 1.5, "m": 2.0},
+        "lagrangian": {"L": "I*(4*zeta_1^2 + 4*zeta_2^2 + zeta_3^2)/2 - m*A_31"},
+    },
+    "carried on the right": {
+        "algebra": {"of": "SE(2)"},
+        "advected": [{"name": "gamma", "representation": "dual"}],
+        "lagrangian": {"L": CARRIED, "trivialisation": "right"},
+    },
+    "torus": {"algebra": {"of": "torus", "N": 3}, "inertia": {"operator": "laplacian"}},
+    "poured": {"fluid": {"forces": "potential"}},
+}
 
 
 class Job(NamedTuple):
@@ -239,9 +170,7 @@ class Job(NamedTuple):
 
 
 TEXTS = PROBLEMS | {p.stem: p.read_text(encoding="utf-8") for p in READY.glob("*.toml")}
-TEXTS |= {"solids": SOLIDS, "mixed": MIXED, "both": BOTH, "given": GIVEN, "numbers": NUMBERS}
-TEXTS |= {"functions": FUNCTIONS, "on the right": ON_THE_RIGHT, "quartic": QUARTIC}
-TEXTS |= {"goryachev": GORYACHEV, "carried on the right": CARRIED, "torus": TORUS, "poured": POURED}
+TEXTS |= {"mixed": MIXED, "functions": FUNCTIONS}
 WHOLE = ("state", "inputs", "parameters")
 CHOSEN = [
     ("linear", {}),
@@ -326,6 +255,7 @@ SOUGHT = [
 ]
 
 DATA = {name: tomllib.loads(text) for name, text in TEXTS.items()}
+DATA |= {name: {"name": "test"} | data for name, data in OWN.items()}
 DATA |= {f"pushed {group}": pushed_data(group, FREE) for group in ("SE(3)", "SAff(3)")}
 JOBS = [Job(name, DATA[name], options) for name, options in (*CHOSEN, *LAGRANGIANS)]
 JOBS += [Job(f"{what} of {name}", DATA[name], {}, sought=what) for what, name in SOUGHT]
