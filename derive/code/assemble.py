@@ -9,7 +9,7 @@ from typing import Any
 
 from ..algebra.groups import Group, names_by_block
 from ..language.limits import SLOPES
-from ..language.reserved import suffixed
+from ..language.reserved import rate_of_mass, suffixed
 from ..language.show import show
 from ..language.tree import Tree
 from ..record.record import Derivation
@@ -18,7 +18,7 @@ from .drift import TEXTS, drift, matrices
 from .factor import factored
 from .graph import Node, reachable
 from .group_functions import GroupFunctions
-from .kinks import kinks
+from .kinks import kinks, may_bend
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
@@ -147,6 +147,7 @@ def _further(
         "outputs": output_names(d),
         "state_by_block": by_block if by_block != names else (),
         "kinks": kinks(said, space.group) if chosen.jacobian else {},
+        "bends": may_bend(d.problem),
         "blocks": matrices(space),
         "matrix_state": door.names if door else (),
         "matrix_blocks": matrices(plain) if door else (),
@@ -313,6 +314,7 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
     space = reader.space
     try:
         rates = space.rates(reader.vector, reader.component, in_space=reader.in_space)
+        rates += [reader.number_of(("par", rate_of_mass(x))) for x in space.stored]
         lowering.inverses.require_regular()
         energy, tensor = reader.number("h̃"), _inertia(reader)
         *rates, energy = factored(graph, [*rates, energy])

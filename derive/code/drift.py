@@ -51,7 +51,8 @@ def drift(x: StateSpace, *, slopes: bool = False) -> dict[str, list[Node]]:
     if not residuals:
         return {}
     if x.tangent:
-        here, there = leaves[: len(leaves) // 2], leaves[len(leaves) // 2 :]
+        half = (len(leaves) - len(x.stored)) // 2
+        here, there = leaves[:half], leaves[half : 2 * half]
         moving = Directional(g, dict(zip(here, there, strict=True)), "t")
         pairs = zip(here, there, strict=True)
         images |= {rate: moving.of(images.get(y, y)) for y, rate in pairs}

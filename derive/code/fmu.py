@@ -69,6 +69,7 @@ def fields_of(p: Program, asked: EmissionRequest, made_of: Sequence[str]) -> dic
     """What the templates have beside those of C; ``made_of``: what the heads of the files say,
     for which the token stands."""
     found, steps = variables(p), asked.options.step
+    order = ("vern9", "gauss") if p.bends else ("gauss", "vern9")
     sources = [".c"] * (asked.options.form == "source") + ["_fmu.c"]
     return {
         "variables": found,
@@ -76,7 +77,7 @@ def fields_of(p: Program, asked: EmissionRequest, made_of: Sequence[str]) -> dic
         "token": hashlib.sha256("\n".join(made_of).encode()).hexdigest()[:32],
         "tool": "derive",
         "sources": [asked.prefix + x for x in sources],
-        "step": "gauss" if "gauss" in steps else "vern9",
+        "step": next((x for x in order if x in steps), ""),
         "first": dict(zip("xpu", p.start, strict=True)),
     }
 

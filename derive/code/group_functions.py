@@ -285,6 +285,7 @@ def printed_group(language: str, p: Program, fields: Mapping[str, Any]) -> dict[
     given = known(p) | {
         "prefix": fields["prefix"],
         "real": real_of_work(language, fields["real"]),
+        "fabs": fields["fabs"],
         "SMALL": 1e-7 if fields["real"] in FLOATS else 1e-16,
         "inline": "static inline",
         "public": {*f.functions} if language == "rust" else (),

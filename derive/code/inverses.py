@@ -227,9 +227,13 @@ class Inverses:
             self._check([] if pivot else [(self.graph.recip(x), scale)])
 
     def _check(self, checks: Iterable[tuple[Node, Node | None]]) -> None:
-        """Note checks that are not noted yet; of masses that flow they are at the time 0."""
+        """Note checks that are not noted yet; of masses that flow they are at the time 0,
+        of those that are of the state at their defaults."""
         if self.reader.record.problem.get("flows"):
             start = {self.reader.leaf("t", "time"): self.graph.num(0)}
+            for name, leaf in self.reader.space.stored.items():
+                about = self.reader.record.problem["parameters"][name]
+                start[leaf] = self.graph.num(Fraction(repr(about["default"] or 1.0)))
             checks = [(replaced(x, start), size and replaced(size, start)) for x, size in checks]
         self.checks += [x for x in dict.fromkeys(checks) if x not in self.checks]
 

@@ -17,6 +17,9 @@ from .typed_names import LONGEST_LAW, plain_text, typed
 OF_RATES = ("acceleration", "specific_force", "power")
 """The outputs in which all is that acts."""
 
+LAWS = ("force", "moment", "covector", "velocity")
+"""The keys of a force, or of a flow, that have expressions."""
+
 
 def kinks(problem: Mapping[str, Any], group: Group) -> dict[str, tuple[str, ...]]:
     """A comment of ASCII for ``rates``, dx/dt, and one for ``outputs``, line by line; none where
@@ -33,6 +36,14 @@ def kinks(problem: Mapping[str, Any], group: Group) -> dict[str, tuple[str, ...]
     return {"rates": _comment(acting), "outputs": _comment(read)}
 
 
+def may_bend(problem: Mapping[str, Any]) -> bool:
+    """Has a force of the problem of a record a root, as in |v| and so in sign, min and max, where
+    its derivatives may jump?"""
+    given = [x for f in problem.get("forces", ()) for key in LAWS for x in f.get(key, ())]
+    found = [x for t in given for x in nodes(decode(t, "law"))]
+    return any(isinstance(x, tuple) and x[:2] == ("fun", "sqrt") for x in found)
+
+
 def _comment(loci: list[str]) -> tuple[str, ...]:
     text = f"Kinks, where derivatives are one-sided or none: {'; '.join(dict.fromkeys(loci))}."
     return tuple(textwrap.wrap(text, 88, break_long_words=False)) if loci else ()
@@ -47,8 +58,8 @@ def _acting(problem: Mapping[str, Any], group: Group) -> Iterator[tuple[str, Tre
             yield f"potential {k}", decode(x["U"], "law")
     for kind in ("force", "flow"):
         for k, x in enumerate(problem.get(f"{kind}s", ()), 1):
-            keys = ("force", "moment", "covector", "velocity")
-            trees = [decode(t, "law") for key in keys for t in x.get(key, ())]
+            told = [t for key in LAWS for t in x.get(key, ())]
+            trees = [decode(t, "law") for t in (*told, *([x["rate"]] if "rate" in x else []))]
             called = f"{kind} {x['name']}" if "name" in x else x.get("table", f"{kind} {k}")
             yield from ((called, t) for t in _in_wind(trees, x.get("wind", ()), group))
 

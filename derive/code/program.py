@@ -267,6 +267,8 @@ class Program:
     """The names of the state, where several blocks move those of the velocity by their blocks."""
     kinks: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """What comments say of where rates and outputs have no derivative."""
+    bends: bool = False
+    """May the derivatives of a force jump?"""
     group_functions: Any = None
     """What the functions of the group know (``group_functions.GroupFunctions``), if asked for."""
 

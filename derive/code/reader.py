@@ -63,6 +63,7 @@ class RecordReader:
         """Set the values of the state's names, and of the problem's inputs."""
         n, d = self.n, self.group.dimension
         self.state: dict[str, Value] = dict(self.space.values)
+        self.memo |= {("par", name): leaf for name, leaf in self.space.stored.items()}
         self.state["t"] = self.leaf("t", "time")
         self.inputs: list[str] = []
         self.forces: list[Matrix] = []

@@ -12,7 +12,7 @@ from typing import Any
 from ..algebra.factor_charts import QUATERNION, factor_charts
 from ..algebra.groups import Group
 from ..language.limits import SLOPES, SLOPES_BY_PARAMETERS
-from ..language.reserved import STANDARD_MACROS
+from ..language.reserved import STANDARD_MACROS, stored_masses
 from ..record.record import Derivation
 from . import group_functions, watched_functions
 from .languages import LANGUAGES, TargetLanguage
@@ -138,6 +138,8 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
         _refused_where_held(d, chosen)
     if d.problem.get("lagrangian", {}).get("trivialisation") == "right":
         _refused_on_the_right(d, group, chosen)
+    if masses := stored_masses(d.problem):
+        _refused_with_masses(d, masses[0], chosen)
     if chosen.multiplier and d.definition("θ") is None:
         raise LoweringError(
             f"{d.name}: --multiplier is for a group with one relation, as SL(n) or SAff(n) that "
@@ -193,47 +195,52 @@ def _refused_with_charts(d: Derivation, group: Group, chosen: Options) -> None:
         raise LoweringError(f"{d.name}: {what} is of the body as given: leave out --frame")
 
 
+def _refuse(d: Derivation, options: Iterable[tuple[object, str]], why: str) -> None:
+    """``LoweringError`` for the first option that is on, and why it is not written."""
+    for on, option in options:
+        if on:
+            raise LoweringError(f"{d.name}: {option} is for {why}: leave it out")
+
+
+def _refused_with_masses(d: Derivation, mass: str, chosen: Options) -> None:
+    """What is written for a state of g and its velocity alone."""
+    options = (
+        (chosen.varied, f"--jacobian {' '.join(chosen.varied)}"),
+        (chosen.exponential, "--exponential"),
+    )
+    why = f"a state of g and its velocity, and this has the mass {mass}, too (--jacobian raw is by "
+    _refuse(d, options, f"{why}all numbers of a state)")
+
+
 def _refused_without_element(d: Derivation, chosen: Options) -> None:
     """What is written for a state with an element of the group."""
-    for on, option in (
+    options = (
         (chosen.velocity == "tangent", "--velocity tangent"),
         (chosen.attitude != "matrix", f"--attitude {chosen.attitude}"),
         (chosen.layout == "col", "--layout col"),
         (chosen.state == "moving", "--state moving"),
         (chosen.varied, f"--jacobian {' '.join(chosen.varied)}"),
-    ):
-        if on:
-            raise LoweringError(
-                f"{d.name}: {option} is for a state with an element of the group, and [algebra] "
-                "has none: leave it out"
-            )
+    )
+    _refuse(d, options, "a state with an element of the group, and [algebra] has none")
 
 
 def _refused_where_held(d: Derivation, chosen: Options) -> None:
     """What is written for a motion that the whole velocity tells."""
-    for on, option in (
+    options = (
         (chosen.velocity == "tangent", "--velocity tangent"),
         (chosen.varied, f"--jacobian {' '.join(chosen.varied)}"),
-    ):
-        if on:
-            raise LoweringError(
-                f"{d.name}: {option} is for motions on the whole group, and these are on a "
-                "quotient of it: leave it out"
-            )
+    )
+    _refuse(d, options, "motions on the whole group, and these are on a quotient of it")
 
 
 def _refused_on_the_right(d: Derivation, group: Group, chosen: Options) -> None:
     """What is written for Z = g⁻¹ġ alone."""
     charts = factor_charts(group, chosen.attitude).values()
-    for on, option in (
+    options = (
         (chosen.velocity == "tangent", "--velocity tangent"),
         (any(x.kind == QUATERNION for x in charts), f"--attitude {chosen.attitude}"),
-    ):
-        if on:
-            raise LoweringError(
-                f"{d.name}: {option} is for Z = g^-1 dg/dt, and this Lagrangian is trivialised on "
-                "the right: leave it out"
-            )
+    )
+    _refuse(d, options, "Z = g^-1 dg/dt, and this Lagrangian is trivialised on the right")
 
 
 # Emitted names kept apart from the identifiers that a language's templates use themselves.

@@ -57,8 +57,13 @@ class StateSpace:
         self.names: list[str] = []
         self.values: dict[str, Matrix] = {}
         self.numbers: dict[OfElement, list[Node]] = {}
+        self.stored: dict[str, Node] = {}
         self._element()
         self._velocity()
+
+    def store(self, masses: Sequence[str]) -> None:
+        """Add masses to the state, by their names."""
+        self.stored = {name: self._leaf(name) for name in masses}
 
     # -- the group element -------------------------------------------------------------------
 

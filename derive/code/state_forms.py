@@ -8,7 +8,7 @@ from typing import Any
 
 from ..algebra.factor_charts import QUATERNION, FactorChart
 from ..algebra.groups import Group
-from ..language.reserved import suffixed
+from ..language.reserved import stored_masses, suffixed
 from ..language.tree import Tree, add, mul, nodes, replaced, terms
 from .graph import Graph, Node
 from .naming import ClaimedNames
@@ -25,6 +25,7 @@ class ReducedSpace(StateSpace):
     def __init__(self, graph: Graph, group: Group, problem: Mapping[str, Any]):
         self.graph, self.group, self.standard, self.n = graph, group, group, group.n
         self.right, self.held = problem["lagrangian"]["trivialisation"] == "right", ()
+        self.stored = {}
         self.held_of_g, self.charts, self.still, self.tangent = [], {}, {}, False
         self.names, self.values = [], {}
         self.coordinates = [self._leaf(suffixed("zeta", a)) for a in self._span(group.dimension)]
@@ -60,7 +61,9 @@ def state_of(
         return ReducedSpace(graph, group, problem)
     own = problem.get("lagrangian", {})
     right, held = own.get("trivialisation") == "right", own.get("held", ())
-    return StateSpace(graph, group, options, right=right, held=held)
+    found = StateSpace(graph, group, options, right=right, held=held)
+    found.store(stored_masses(problem))
+    return found
 
 
 # Points by their velocity in space, ν = gZ, with ν = (Ȧ, Ṫ).

@@ -299,7 +299,7 @@ def _numbers(lowering: Lowering) -> dict[str, Node]:
     plain = state_of(reader.record.problem, graph, reader.group, Options())
     velocity = [x for a, x in enumerate(space.coordinates, 1) if a not in space.held]
     if plain.has_element:
-        found = [*plain.entries(space.element), *velocity]
+        found = [*plain.entries(space.element), *velocity, *space.stored.values()]
     else:
         found = [*velocity, *(x for (x,) in space.values["Γ"])]
     return {

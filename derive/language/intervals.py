@@ -122,9 +122,10 @@ class Interval(FieldElement):
         return float(self.middle)
 
 
-def function(name: str, x: Interval) -> Interval:
+def function(name: str, x: Any) -> Interval:
     """The values of an elementary function, of "abs", and of "none": 1 at 0, else 0;
     ``UnknownSignError`` where some have none, ``ValueError`` where none has."""
+    x = Interval.of(x)
     if name == "none":
         if x and not x.sign:
             raise UnknownSignError("a number may be 0")

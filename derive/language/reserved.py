@@ -122,6 +122,16 @@ def suffixed(name: str, *index: int) -> str:
     return f"{name}_{digits}"
 
 
+def stored_masses(problem: Mapping[str, Any]) -> list[str]:
+    """The masses that the flows of a record's problem say to be numbers of the state, in order."""
+    return [*dict.fromkeys(x["mass"] for x in problem.get("flows", ()) if "mass" in x)]
+
+
+def rate_of_mass(name: str) -> str:
+    """The name of the rate of a mass that is a number of the state."""
+    return f"{name}_dot"
+
+
 def numbers_of_input(told: Mapping[str, Any], dimension: int) -> list[str]:
     """The names of the numbers of an input, which is ``told`` as in a record: as many as the
     ``dimension``, of 𝔤 or of the space of a force; one where there is a direction, of a torque in

@@ -51,12 +51,6 @@ def is_free(problem: Mapping[str, Any]) -> bool:
     return not acting and not _anywhere(problem.get("lagrangian"), _placed)
 
 
-def may_bend(problem: Mapping[str, Any]) -> bool:
-    """Has a force of the problem of a record a root, as in |v| and so in sign, min and max, where
-    its derivatives may jump?"""
-    return _anywhere(problem.get("forces"), lambda x: [*x[:2]] == ["fun", "sqrt"])
-
-
 def _anywhere(data: Any, found: Callable[[Sequence[Any]], bool]) -> bool:
     """Is there a list in data of a record that is ``found``?"""
     if isinstance(data, dict):

@@ -50,10 +50,11 @@ def first_numbers(
     """
     given = program.by_state(given, MotionError)
     emitted = {name: default for name, default, _, _ in program.parameters}
-    apart = {name for name in named(problem) if name in problem.parameters}
+    stored = {name: problem.parameters[name].default for name in problem.stored}
+    apart = {name for name in named(problem) if name in problem.parameters} - {*stored}
     defaults = emitted | {x: problem.parameters[x].default for x in sorted(apart - {*emitted})}
     zero = dict.fromkeys((*program.inputs, *program.matrix_state, *program.state), 0.0)
-    values: dict[str, float | None] = {**defaults, **zero}
+    values: dict[str, float | None] = {**defaults, **zero, **stored}
     _known(values, given, program.name, program)
     values |= {name: x for name, x in given.items() if name in defaults}
     numbers, stated = _initial_numbers(problem, values)

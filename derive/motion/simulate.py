@@ -89,6 +89,7 @@ def run(
     found = simulate(code, begin, method, times, follow, progress)
     if used_up <= duration and not found.ended:
         require_mass(code, problem, begin, duration, ends=False)
+    require_mass_left(code, problem, found)
     return found
 
 
@@ -177,6 +178,21 @@ def require_mass(
             f"t = {duration:g}: let it end before, by --t or a terminal [[event]]"
         )
     return when
+
+
+def require_mass_left(code: Emitted, problem: Problem, run: Run) -> None:
+    """``MotionError`` where a mass that is of the state went below 0 in a run."""
+    masses = [x.mass for x in points_of(problem.body)] if problem.stored else []
+    for i, t in enumerate(run.t.tolist() if masses else ()):
+        known = {**run.facts["parameters"]} | {x: float(run[x][i]) for x in problem.stored}
+        for mass in masses:
+            left = approximate(replaced(mass, "t", Fraction(t)), known, float) or 0.0
+            if left < -NEGLIGIBLE:
+                raise MotionError(
+                    f"{code.name}: the mass {show(mass)} of a point is used up before t = {t:.6g}: "
+                    "let an input be 0 then, or a terminal [[event]] end the motion, as when = "
+                    f'"{next(iter(problem.stored))}"'
+                )
 
 
 def _used_up(mass: Tree, begin: Start, duration: float, *, whole: bool = False) -> float:

@@ -10,13 +10,13 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from ..code.kinks import may_bend
 from ..code.languages import C
 from ..code.options import DEPENDENT
 from ..code.program import Block
 from ..code.step.step_numbers import FIXED
 from ..language.limits import STEPS_OF_A_MOTION
 from ..language.reserved import did_you_mean, near_name
-from .energy_sources import may_bend
 from .first_numbers import MotionError
 from .native import AT_EVENT, FAULTS, StepError
 from .run import Array, Happening

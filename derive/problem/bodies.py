@@ -44,7 +44,7 @@ from ..schema.kind import (
 )
 from ..schema.kinds import kinds
 from ..schema.output_kinds import OUTPUTS, ExpressionOutput, Output, PowerOutput
-from ..schema.table import ACTIONS, Slot
+from ..schema.table import ACTIONS, Slot, Table
 from .fields import angular_velocity, one_body, tables, velocity_at_place
 from .file_reader import FileReader
 from .inertia import is_negative
@@ -180,14 +180,18 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
         reader.typed(StatedCovector, x, w) if "covector" in x else reader.typed(StatedForce, x, w)
         for w, x in stated.items()
     )
-    known = {name for x in of_state for t in x.trees() for name in names(t)}
-    for where, x in zip(inputs, given, strict=True):
+    return found, given, damped, of_state
+
+
+def require_known(inputs: Sequence[Input], acting: Sequence[Table]) -> None:
+    """``ProblemError`` for a scalar that nothing has which acts by expressions."""
+    known = {name for x in acting for t in x.trees() for name in names(t)}
+    for k, x in enumerate(inputs, 1):
         if isinstance(x, ScalarInput) and x.name not in known:
             raise ProblemError(
-                f"{where}: no [[force]] has {x.name!r} in its expressions, by which alone a scalar "
-                "acts"
+                f"input {k}: no [[force]] and no [[flow]] has {x.name!r} in its expressions, by "
+                "which alone a scalar acts"
             )
-    return found, given, damped, of_state
 
 
 def outputs(

@@ -6,7 +6,9 @@ rate ṁ (dm/dt, < 0 leaves) at the place r, with the velocity u there, by the t
 to there through the body, of the moments p = Σ ρ v = ċ − Σ ṁ r and Q = Σ ρ (v r̄ + r v̄) =
 J̇ − Σ ṁ r r̄ by continuity, by Coriolis' forces −2ζ ∧ v and by −dv/dt: together the force
 −2ζ ∧ p − ṗ at the body's origin, and the moment −((Tr Q) 1 − Q) ζ, the jet damping; this where what
-flows has no angular momentum of its own about the origin (no swirl). It is the balance of momentum
+flows has no angular momentum of its own about the origin (no swirl). A rate that inputs say has
+no rate of its own: the mass is a number of the state then, and ṗ may not depend on such a rate, as
+where mass leaves from where it is. It is the balance of momentum
 of a control volume (W. T. Thomson, Equations of motion for the variable mass system, AIAA J. 4
 (1966); L. Meirovitch, General motion of a variable-mass flexible rocket with internal flow, J.
 Spacecraft 7 (1970)).
@@ -14,14 +16,15 @@ Spacecraft 7 (1970)).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from itertools import product as pairs
 from typing import Any
 
 from ..algebra.groups import Group
-from ..language.derivatives import derivative, product
+from ..language.derivatives import product, rate
 from ..language.expression import names
 from ..language.laurent import shortened
+from ..language.reserved import rate_of_mass
 from ..language.tree import Tree, add, mul, neg, nodes
 from ..schema.body_kinds import (
     Body,
@@ -35,7 +38,7 @@ from ..schema.kind import Flow, Input, StatedForce
 from .entries_on_orbit import vanishes
 from .fields import angular_velocity, names_in_forces, one_body, tables
 from .file_reader import FileReader
-from .problem import ProblemError, points_of
+from .problem import Problem, ProblemError, masses_of_state, points_of
 
 Row = tuple[Tree, ...]
 
@@ -46,7 +49,29 @@ def flows_of(
     """The flows of a file, and how they push."""
     listed = enumerate(tables(data, "flow"), 1)
     flows = tuple(reader.typed(Flow, x, f"flow {k}") for k, x in listed)
+    stored = masses_of_state(flows)
+    for k, x in enumerate(flows, 1):
+        if x.mass and x.mass not in reader.parameters:
+            raise ProblemError(
+                f"flow {k}, mass: {x.mass!r} is not declared; add it to [parameters], where its "
+                "default is what there is at the start"
+            )
+        if taken := next((y for y in map(rate_of_mass, stored) if y in reader.parameters), ""):
+            raise ProblemError(f"parameter {taken!r}: the rate of a mass; choose another name")
     return flows, flow_forces(flows, body, reader, inputs)
+
+
+def require_bodies_own(problem: Problem) -> None:
+    """``ProblemError`` where a potential, or a place, depends on a mass that is of the state."""
+    listed = [(f"potential {k}", x) for k, x in enumerate(problem.potentials, 1)]
+    for where, x in (*listed, *(("at", x) for x in problem.places)):
+        for name in (y for t in x.trees() for y in names(t) if y in problem.stored):
+            what = (
+                "a place of the body that depends on it would move"
+                if where == "at"
+                else ("potentials do not know it: the weight of the body does by its masses")
+            )
+            raise ProblemError(f"{where}: {name!r} is a mass, a number of the state; {what}")
 
 
 def flow_forces(
@@ -56,7 +81,9 @@ def flow_forces(
 
     ``ProblemError`` where masses depend on the time and nothing flows, or the rates are others.
     """
-    changing = body is not None and _depends_on_time(body)
+    stored = masses_of_state(flows)
+    rates: dict[Tree, Tree] = {"t": 1, **{("par", x): t for x, t in stored.items()}}
+    changing = body is not None and _depends_on_time(body, rates)
     if not flows:
         if changing:
             raise ProblemError(
@@ -74,24 +101,25 @@ def flow_forces(
             "given = { m, c, J }, or masses of [[point]] tables"
         )
     for k, x in enumerate(flows, 1):
-        given = [y.name for y in inputs if any(z.startswith(y.name) for z in names(x.rate))]
-        if given:
+        given = [y for y in names(x.rate) if y not in reader.parameters and _of_inputs(y, inputs)]
+        if given and not x.mass:
             raise ProblemError(
-                f"flow {k}, rate: {given[0]!r} is an input: the mass that is left would be a "
-                "number of the state, dm/dt its rate, and a state has g and its velocity alone; "
-                "give rates and masses as expressions of t, or let the input scale the thrust, a "
-                "[[force]]"
+                f"flow {k}, rate: {given[0]!r} is an input, so that the mass that is left is a "
+                'number of the state: name it, as mass = "fuel", with fuel among [parameters] '
+                "and in the masses of the body"
             )
         if of_state := [y for y in names(x.rate) if y in names_in_forces(group)]:
             raise ProblemError(
-                f"flow {k}, key 'rate': {of_state[0]!r} is of the state, and a rate knows t alone"
+                f"flow {k}, key 'rate': {of_state[0]!r} is of the state, and a rate knows t alone, "
+                "inputs and masses"
             )
     moments = body.moments()
-    rates = add(*(x.rate for x in flows))
-    if not vanishes(add(derivative(moments.m, "t"), neg(rates))):
+    whole = add(*(x.rate for x in flows))
+    if not vanishes(add(rate(moments.m, rates), neg(whole))):
         raise ProblemError(
             "flow 1, rate: the rates of all [[flow]] tables must add up to dm/dt of the body; give "
             "its mass as that expression of t, as m0 - b*t for the rate -b"
+            + (f", or as what has {next(iter(stored))} in it" if stored else "")
         )
     found = [
         StatedForce(
@@ -101,9 +129,10 @@ def flow_forces(
             force=tuple(product(x.rate, u) for u in x.velocity),
         )
         for x in flows
+        if x.mass or any(x.velocity)  # a mass of the state has its rate beside what acts
     ]
-    within = _within(flows, moments, reader)
-    return (*(x for x in found if any(x.force)), *within)
+    within = _within(flows, moments, reader, rates, inputs)
+    return (*found, *within)
 
 
 def _translates(group: Group) -> bool:
@@ -111,36 +140,59 @@ def _translates(group: Group) -> bool:
     return len(group.factors) == 1 and not group.factors[0].linear_basis
 
 
-def _depends_on_time(body: Body) -> bool:
-    """Do the masses of a body? ``ProblemError`` where a place does."""
+def _of_inputs(name: str, inputs: Sequence[Input]) -> bool:
+    """Is it a number of an input?"""
+    return any(name == x.name or name.startswith(f"{x.name}_") for x in inputs)
+
+
+def _depends_on_time(body: Body, rates: Collection[Tree]) -> bool:
+    """Do the masses of a body, or on what has a rate? ``ProblemError`` where a place does."""
+
+    def varies(t: Tree) -> bool:
+        return any(x in nodes(t) for x in rates)
+
     for i, x in enumerate(points_of(body), 1):
-        if any("t" in nodes(y) for y in x.at):
+        if found := [y for y in x.at if varies(y)]:
+            told = "t" if "t" in nodes(found[0]) else ", ".join(names(found[0]))
             raise ProblemError(
-                f"point {i}, at: t: a place of the body does not move in it; mass that moves there "
-                "is one point that loses what another gains"
+                f"point {i}, at: {told}: a place of the body does not move in it; mass that moves "
+                "there is one point that loses what another gains"
             )
-    return not isinstance(body, MomentBody) and any("t" in nodes(t) for t in body.trees())
+    return not isinstance(body, MomentBody) and any(map(varies, body.trees()))
 
 
-def _within(flows: Sequence[Flow], moments: Moments, reader: FileReader) -> tuple[StatedForce, ...]:
+def _within(
+    flows: Sequence[Flow],
+    moments: Moments,
+    reader: FileReader,
+    rates: Mapping[Tree, Tree],
+    inputs: Sequence[Input],
+) -> tuple[StatedForce, ...]:
     """What flows inside the body, as a force at its origin and a moment; none where nothing
-    does."""
+    does. ``rates``: of what the moments depend on."""
     group, span = reader.moving(), range(len(moments.c))
     places = [reader.listed_places[x.on - 1].at for x in flows]
-    rates = [(x.rate, at) for x, at in zip(flows, places, strict=True)]
+    leaving = [(x.rate, at) for x, at in zip(flows, places, strict=True)]
 
     def left(moment: Tree, k: int, j: int | None = None) -> Tree:
         """The rate of a moment, less what leaves at the places."""
-        gone = (product(-1, rate, r[k], 1 if j is None else r[j]) for rate, r in rates)
-        return _collected(add(derivative(moment, "t"), *gone))
+        gone = (product(-1, x, r[k], 1 if j is None else r[j]) for x, r in leaving)
+        return _collected(add(rate(moment, rates), *gone))
 
     shifts = _translates(group)
     p = [left(moments.c[k], k) if group.affine or shifts else 0 for k in span]
     Q = {(i, j): left(moments.J[i][j], i, j) for i, j in pairs(span, span) if not shifts}
     if not any(p) and not any(Q.values()):
         return ()
+    for name in (z for y in p for z in names(y)):
+        if name not in reader.parameters and _of_inputs(name, inputs):
+            raise ProblemError(
+                f"flow 1, at: what flows there from where the mass is has a momentum with {name!r} "
+                "in it, an input, whose rate would push; let the mass leave from where it is, 'on' "
+                "its point, or give rates as expressions of t"
+            )
     if shifts:
-        return (_at_origin(reader, tuple(neg(_collected(derivative(y, "t"))) for y in p)),)
+        return (_at_origin(reader, tuple(neg(_collected(rate(y, rates))) for y in p)),)
     turning = angular_velocity(group, 1)
     trace = _collected(add(*(Q[i, i] for i in span)))
     if len(span) == 2:
@@ -157,7 +209,7 @@ def _within(flows: Sequence[Flow], moments: Moments, reader: FileReader) -> tupl
             for i in span
         )
     force = tuple(
-        add(mul(-2, x), neg(_collected(derivative(y, "t")))) for x, y in zip(across, p, strict=True)
+        add(mul(-2, x), neg(_collected(rate(y, rates)))) for x, y in zip(across, p, strict=True)
     )
     return (_at_origin(reader, force if any(p) else (), moment if any(Q.values()) else ()),)
 

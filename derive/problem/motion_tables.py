@@ -32,7 +32,8 @@ def motion_fields(data: Mapping[str, Any], reader: FileReader) -> dict[str, Any]
         reader.typed(Event, x, f"event {k}") for k, x in enumerate(tables(data, "event"), 1)
     )
     for k, x in enumerate(events, 1):
-        moving = [name for name in names(x.when) if name not in reader.parameters]
+        still = {*reader.parameters} - {table.get("mass") for table in tables(data, "flow")}
+        moving = [name for name in names(x.when) if name not in still]
         if not moving and "t" not in nodes(x.when):
             raise ProblemError(
                 f"event {k}, when: nothing in it changes on a motion; write it of the numbers of "

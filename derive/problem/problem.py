@@ -9,8 +9,8 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.structure import TorusLattice
 from ..language.limits import Refused
-from ..language.reserved import numbers_of_input, numbers_of_output
-from ..language.tree import Tree
+from ..language.reserved import numbers_of_input, numbers_of_output, rate_of_mass
+from ..language.tree import Tree, add
 from ..schema.body_kinds import AnyBody, Body, MomentBody, NoBody, Place, Point
 from ..schema.kind import (
     GROUP,
@@ -198,8 +198,15 @@ class Problem:
 
     @property
     def named_numbers(self) -> dict[str, Tree]:
-        """The numbers of the forces of the state that have names, with their expressions."""
-        return {name: t for x in self.forces for name, t in x.numbers().items()}
+        """The numbers of the forces of the state that have names, and the rates of masses that are
+        of the state, with their expressions."""
+        found = {name: t for x in self.forces for name, t in x.numbers().items()}
+        return found | {rate_of_mass(x): t for x, t in self.stored.items()}
+
+    @property
+    def stored(self) -> dict[str, Tree]:
+        """The masses that are numbers of the state, in order, each with its rate."""
+        return masses_of_state(self.flows)
 
     @property
     def driven(self) -> bool:
@@ -234,6 +241,15 @@ class Problem:
         assert self.group is not None
         _, factor = self.group.places[self.block_of(x.plain()) - 1]
         return numbers_of_output(x.plain(), factor.n)
+
+
+def masses_of_state(flows: Iterable[Flow]) -> dict[str, Tree]:
+    """The masses that flows say to be numbers of the state, in order, each with its rate."""
+    found: dict[str, Tree] = {}
+    for x in flows:
+        if x.mass:
+            found[x.mass] = add(found.get(x.mass, 0), x.rate)
+    return found
 
 
 def _timed(t: Tree) -> bool:

@@ -28,6 +28,7 @@ from .bodies import (
     group_of,
     negative_stiffness_of,
     outputs,
+    require_known,
 )
 from .entries_on_orbit import hessian, vanishes
 from .fields import (
@@ -41,7 +42,7 @@ from .fields import (
     used_at,
 )
 from .file_reader import FileReader
-from .flows import flows_of
+from .flows import flows_of, require_bodies_own
 from .inertia import impossible, negative_kinetic_energy, negative_mass
 from .kinematics_tables import kinematics_problem
 from .lagrangian_tables import group_of_algebra, lagrangian, on_torus, torus_problem
@@ -150,6 +151,7 @@ def problem_of(
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     linear, damped, numbers_of_damping = as_forces(damping, reader)
     flows, pushed = flows_of(data, its_body, reader, inputs)
+    require_known(inputs, (*stated, *flows))
     reader.knows_acting(inputs, (*stated, *damped, *pushed), linear)
     observed = outputs(data, reader, inputs, (*stated, *damped, *pushed), potentials)
     problem = Problem(
@@ -239,6 +241,7 @@ def _without_points(
     parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)
     _, inputs, damping, of_state = forces(data, reader)
+    require_known(inputs, of_state)
     if not negative_stiffness:
         _positive(negative_stiffness_of((), damping, parameters), "stiffness")
     stated = (*of_state, *(damped := as_forces(damping, reader))[1])
@@ -292,6 +295,7 @@ def _positive(where: str | None, what: str) -> None:
 
 def _massive(problem: Problem, negative_mass: bool) -> None:
     """``ProblemError`` for a direction without inertia, and for masses that cannot be."""
+    require_bodies_own(problem)
     moved, its_body = problem.group, problem.body
     values = inertia.defaults(problem.parameters)
     if fault := inertia.fault_of_quadrics(its_body, values, "the defaults"):
@@ -341,7 +345,9 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     found = [*_trees(problem.points), *_moments(problem), *_forces(rest)]
     used = dict.fromkeys(x for t in found for x in names(t))
     given = {x for y in problem.inputs for x in problem.numbers_of(y)} if problem.group else ()
-    stated = (x for t in _trees((*problem.forces, *problem.outputs)) for x in names(t))
+    stated = (
+        x for t in _trees((*problem.forces, *problem.flows, *problem.outputs)) for x in names(t)
+    )
     used |= dict.fromkeys(x for x in stated if x not in given)
     for name in used:
         if name not in problem.parameters:

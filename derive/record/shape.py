@@ -112,7 +112,7 @@ class _RecordReader(TableReader):
         self.each("damping", lambda x, where: self.typed(Damping, x, where))
         forces: list[Any] = self.each("forces", self.acting) if "forces" in data else []
         if "flows" in data:
-            forces += self.each("flows", lambda x, where: self.typed(Flow, x, where))
+            forces += self.each("flows", self.flow)
         outputs = []
         if "outputs" in data:
             outputs = self.each("outputs", lambda x, where: self.one_of(OUTPUTS, x, where))
@@ -144,6 +144,15 @@ class _RecordReader(TableReader):
         if isinstance(data, dict) and "covector" in data:
             return self.typed(StatedCovector, data, where)
         return self.typed(StatedForce, data, where)
+
+    def flow(self, data: Any, where: str) -> Flow:
+        """Mass that flows, as inputs say, too; that of the state is one of the parameters."""
+        self.flowing = True
+        found = self.typed(Flow, data, where)
+        self.flowing = False
+        if found.mass and found.mass not in self.data["parameters"]:
+            raise ShapeError(f"{where}: the mass {found.mass!r:.40} is no parameter")
+        return found
 
     def body(self) -> None:
         """Its points are those that are named by numbers."""
@@ -375,7 +384,7 @@ class _RecordReader(TableReader):
         if not isinstance(t, tuple):
             return not isinstance(t, str) or t == "π" or (timed and t == "t")
         if t[0] == "par":
-            return t[1] in self.data["parameters"]
+            return t[1] in self.data["parameters"] or (self.flowing and self.is_input(t[1]))
         if t[0] == "entry":
             if coordinates:
                 return self.is_entry(t, coordinates)
@@ -384,6 +393,10 @@ class _RecordReader(TableReader):
         return t[0] in kept and all(
             self.is_scalar(x, placed, timed, coordinates) for x in kept[t[0]]
         )
+
+    def is_input(self, name: str) -> bool:
+        """Is it that of an input, or of one of its numbers?"""
+        return bool({name, name.rpartition("_")[0]} & {x["name"] for x in self.data["inputs"]})
 
     def is_entry(self, t: tuple[Any, ...], coordinates: int) -> bool:
         """Is a tree an entry of g, or of Γ where the state has no g, or of ζ?"""
@@ -405,13 +418,12 @@ class _RecordReader(TableReader):
     def stated(self, slot: Slot) -> tuple[Tree, ...]:
         """Expressions of t, parameters, inputs and the state: A, T, Z, ζ, w, places with their
         velocities."""
-        inputs = {x["name"] for x in self.data["inputs"]}
 
         def lettered(t: Tree) -> Tree:
             """The same with t for the state and for inputs."""
             if not isinstance(t, tuple):
                 return t
-            if t[0] == "par" and {t[1], t[1].rpartition("_")[0]} & inputs:
+            if t[0] == "par" and self.is_input(t[1]):
                 return "t"
             if t[0] == "entry" and all(type(i) is int and i > 0 for i in t[2:]):
                 velocity = isinstance(t[1], tuple) and t[1][:2] == ("at", "v")
@@ -428,6 +440,7 @@ class _RecordReader(TableReader):
         return self.listed(self.value(slot), None, slot.path, one)
 
     stated_couple = stated_covector = observed = stated
+    flowing = False
 
     def is_spring(self, k: int) -> bool:
         """Is it one of the problem?"""

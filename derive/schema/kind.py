@@ -287,12 +287,20 @@ class StatedCovector(Acting):
 
 class Flow(Nameable):
     """Mass that comes to a place of the body, or leaves there: the ``rate`` dm/dt, below 0 where it
-    leaves, and its ``velocity`` relative to the body, along the axes of this."""
+    leaves, and its ``velocity`` relative to the body, along the axes of this; ``mass``: the number
+    of the state that the mass is, where inputs say the rate."""
 
     section, timed = "flow", True
     on: End
     rate: Scalar
     velocity: Vector
+    mass: Named = None
+
+    @classmethod
+    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
+        """A mass of the state where a table has one."""
+        own = super().chosen(table, last)
+        return own if isinstance(own, str) else tuple(x for x in own if x != "mass" or x in table)
 
     @classmethod
     def word(
@@ -301,10 +309,13 @@ class Flow(Nameable):
         rate: Number,
         velocity: Sequence[Number] | None = None,
         name: str | None = None,
+        mass: str | None = None,
     ) -> Any:
         """Mass that flows at a point or a place of the body: dm/dt, below 0 where it leaves, and
-        its velocity relative to the body; expressions of t; with a name in the equations."""
-        return {"name": name, "rate": rate, "velocity": velocity, **place(on, None)}
+        its velocity relative to the body; expressions of t and inputs; with a name in the
+        equations; ``mass``: the parameter that the mass is, a number of the state then."""
+        told = {"name": name, "rate": rate, "velocity": velocity, "mass": mass}
+        return {**told, **place(on, None)}
 
 
 class Damping(Nameable):

@@ -20,6 +20,7 @@ from ..algebra.groups import Group
 from ..check.values.arithmetic import EPS, nilpotent
 from ..language import rational as q
 from ..language.rational import Matrix
+from ..language.reserved import stored_masses
 
 Numbers = tuple[Any, ...]
 EPSILON = nilpotent(EPS)
@@ -46,12 +47,14 @@ class Chart:
 @dataclass(frozen=True)
 class StateChart:
     """The coordinates of the states (g, ġ) of a group in a chart; ``right``: Z = ġg⁻¹, δg = η g;
-    ``held``: coordinates, from 1, that are 0 and no numbers of the state."""
+    ``held``: coordinates, from 1, that are 0 and no numbers of the state; ``stored``: masses that
+    are, after the velocity."""
 
     group: Group
     chart: Chart
     right: bool = False
     held: tuple[int, ...] = ()
+    stored: tuple[str, ...] = ()
 
     def _moving(self, values: Sequence[Any]) -> Numbers:
         """Those of the coordinates of 𝔤 that the state holds."""
@@ -108,10 +111,10 @@ class StateChart:
             y for x in self.held_of_g for y in (x.names if isinstance(x, FactorChart) else x[:1])
         ]
         if self.chart.velocity == "tangent":
-            return (*place, *(f"{name}_dot" for name in place))
+            return (*place, *(f"{name}_dot" for name in place), *self.stored)
         moved = self.group.n if self.group.free_translations else 0
         turns = self._moving([named("zeta", a) for a in range(self.group.dimension - moved)])
-        return (*place, *turns, *(named("w", i) for i in range(moved)))
+        return (*place, *turns, *(named("w", i) for i in range(moved)), *self.stored)
 
     def _read(self, x: Matrix, told: Callable[[FactorChart], Numbers]) -> Numbers:
         """What the state holds, entries read off a matrix of the group's size, the numbers of
@@ -119,12 +122,13 @@ class StateChart:
         held = (told(y) if isinstance(y, FactorChart) else (x[y[1]][y[2]],) for y in self.held_of_g)
         return tuple(z for numbers in held for z in numbers)
 
-    def values(self, g: Matrix, Z: Matrix) -> Numbers:
-        """The numbers of the state at g with velocity g Z."""
+    def values(self, g: Matrix, Z: Matrix, masses: Numbers = ()) -> Numbers:
+        """The numbers of the state at g with velocity g Z, masses 1 where they are not given."""
         place = self._read(g, lambda chart: numbers_of(chart, g))
+        masses = masses or (Fraction(1),) * len(self.stored)
         if self.chart.velocity == "tangent":
-            return (*place, *self._read(q.times(g, Z), no_chart))
-        return (*place, *self._moving(self.group.nearest(Z)))
+            return (*place, *self._read(q.times(g, Z), no_chart), *masses)
+        return (*place, *self._moving(self.group.nearest(Z)), *masses)
 
     def varied(self, g: Matrix, Z: Matrix, eta: Matrix, change: Matrix) -> Numbers:
         """The numbers of the state at g + ε δg with Z + ε δZ, in nilpotent numbers."""
@@ -155,7 +159,7 @@ class StateChart:
         if self.chart.velocity == "body":
             return True
         eta = q.times(back, self._matrix(of_entries, len(g)))
-        rate = q.times(back, self._matrix(change[count:], len(g)))
+        rate = q.times(back, self._matrix(change[count : 2 * count], len(g)))
         return self.group.vee(q.minus(rate, q.times(eta, Z))) is not None
 
     def _tangent_entries(self, back: Matrix, change: Sequence[Any]) -> bool:
@@ -179,17 +183,21 @@ class StateChart:
 
     def acceleration(self, Z: Matrix, back: Matrix, rates: Numbers) -> Numbers:
         """The d coordinates of Ż = g⁻¹g̈ − Z² from the rates of the state; ``back``: g⁻¹."""
+        rates = rates[: len(rates) - len(self.stored)]
         if self.chart.velocity == "body":
             return rates[-self.group.dimension :]
         second = self._matrix(rates[len(self.entries) :], len(Z))  # no chart beside ġ
         return self.group.nearest(q.minus(q.times(back, second), q.times(Z, Z)))
 
-    def rates(self, g: Matrix, Z: Matrix, g_dot: Matrix, Z_dot: Matrix) -> Numbers:
-        """The rates of the state for these ġ and Ż, with g̈ = ġZ + gŻ."""
+    def rates(
+        self, g: Matrix, Z: Matrix, g_dot: Matrix, Z_dot: Matrix, masses: Numbers = ()
+    ) -> Numbers:
+        """The rates of the state for these ġ and Ż, with g̈ = ġZ + gŻ, and those of masses."""
         place = self._read(g_dot, lambda chart: rates_of(chart, g, Z))
         if self.chart.velocity == "tangent":
-            return (*place, *self._read(q.plus(q.times(g_dot, Z), q.times(g, Z_dot)), no_chart))
-        return (*place, *self._moving(self.group.nearest(Z_dot)))
+            second = q.plus(q.times(g_dot, Z), q.times(g, Z_dot))
+            return (*place, *self._read(second, no_chart), *masses)
+        return (*place, *self._moving(self.group.nearest(Z_dot)), *masses)
 
 
 def named(name: str, *index: int) -> str:
@@ -307,6 +315,7 @@ def chart_of(group: Group, chart: Chart, problem: Mapping[str, Any]) -> StateCha
     if "advected" not in problem:
         own = problem.get("lagrangian", {})
         held = tuple(own.get("held", ()))
-        return StateChart(group, chart, own.get("trivialisation") == "right", held)
+        right, stored = own.get("trivialisation") == "right", tuple(stored_masses(problem))
+        return StateChart(group, chart, right, held, stored)
     carried = tuple((x["name"], x["size"]) for x in problem["advected"])
     return ReducedChart(group, chart, advected=carried)

@@ -29,7 +29,7 @@ from ..check.values.evaluate import Environment, evaluate
 from ..check.values.residue import Degree, DegreeSource, degrees
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.reserved import numbers_of_input, numbers_of_output
+from ..language.reserved import numbers_of_input, numbers_of_output, rate_of_mass
 from ..record.record import Derivation, Equation, RecordError
 from .chart import Chart, Numbers, ReducedChart, chart_of, circles
 from .straight_line import Measured
@@ -146,8 +146,10 @@ class Claims:
             x = self.state.with_advected(model.Z, env.names.get("Γ"))
             return x, self.state.with_advected(acceleration, self._value("Γ̇", env))
         g_dot = self._homogeneous(self._value("Ȧ", env), self._value("Ṫ", env))
-        x = self.state.values(model.g, model.Z)
-        return x, self.state.rates(model.g, model.Z, g_dot, acceleration)
+        masses = tuple(env.parameters[x] for x in self.state.stored)
+        rates = tuple(env.parameters[rate_of_mass(x)] for x in self.state.stored)
+        x = self.state.values(model.g, model.Z, masses)
+        return x, self.state.rates(model.g, model.Z, g_dot, acceleration, rates)
 
     def _input_values(self, model: AnyModel) -> Numbers:
         """The numbers of u, in order: those of forces, covectors on the stated basis."""

@@ -71,7 +71,8 @@ def compare_drift(run: Run, draw: Callable[[], Fraction], state: StateChart, poi
     if not state.tangent(g, point.Z, slopes(moved)):
         raise DiffersError("project: a change that leaves the group is not taken back")
     seen = [slopes(run("defect", y)) for y in each_moved(x)]
-    if q.rank(residues(seen, PRIME)) != len(x) - 2 * state.group.dimension + len(state.held):
+    on_it = 2 * state.group.dimension - len(state.held) + len(state.stored)
+    if q.rank(residues(seen, PRIME)) != len(x) - on_it:
         raise DiffersError("defect: it does not see all that leaves the group")
     return "project, defect"
 

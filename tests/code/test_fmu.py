@@ -60,15 +60,22 @@ def emitted(drone, tmp_path_factory):
     folder = tmp_path_factory.mktemp("emitted")
     drone.emit(folder, "fmu", **OPTIONS)
     for name, binaries in BINARIES.items():
-        apart = folder / name.removesuffix(".fmu")
-        with zipfile.ZipFile(folder / name) as archive:
-            archive.extractall(apart)
-        to = apart / "binaries" / binaries
-        to.mkdir(parents=True)
-        flags = ("-std=c99", "-O1", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fPIC", "-shared")
-        sources = sorted((apart / "sources").glob("*.c"))
-        subprocess.run([CC, *flags, *sources, "-lm", "-o", to / "drone.so"], check=True)
+        built(folder / name, binaries)
     return folder
+
+
+def built(archive, binaries):
+    """The folder of an archive, with what a compiler makes of its sources."""
+    apart = archive.with_suffix("")
+    with zipfile.ZipFile(archive) as packed:
+        packed.extractall(apart)
+    to = apart / "binaries" / binaries
+    to.mkdir(parents=True)
+    flags = ("-std=c99", "-O1", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fPIC", "-shared")
+    sources = sorted((apart / "sources").glob("*.c"))
+    library = to / f"{archive.stem.removesuffix('_fmi2')}.so"
+    subprocess.run([CC, *flags, *sources, "-lm", "-o", library], check=True)
+    return apart
 
 
 @pytest.fixture
@@ -113,6 +120,31 @@ def test_an_importer_follows_the_same_motion(drone, fmpy, unpacked, kind):
 
 def test_the_archive_is_valid(fmpy, unpacked):
     assert fmpy.validation.validate_fmu(f"{unpacked}.fmu") == []
+
+
+BALL = """
+name = "ball"
+group = "R(1)"
+point = [{ mass = 1, at = [0] }]
+force = [{ on = 1, force = ["-abs(v_1)*v_1/2"] }]
+potential = [{ kind = "gravity", g = [-9.81] }]
+initial = { zeta_1 = 10 }
+"""
+
+
+@needs("cc")
+@pytest.mark.parametrize(("steps", "least", "most"), [("gauss", 1e-7, 1e-5), ("both", 0, 1e-9)])
+def test_a_step_that_sees_where_a_force_bends_is_taken(fmpy, steps, least, most, tmp_path):
+    """A ball that goes up and comes down through air, beside the formulas of both ways."""
+    (tmp_path / "ball.toml").write_text(BALL, encoding="utf-8")
+    ball = derive(tmp_path / "ball.toml")
+    ball.emit(tmp_path, "fmu", step=("gauss", "vern9") if steps == "both" else ("gauss",))
+    folder = built(tmp_path / "ball.fmu", BINARIES["drone.fmu"])
+    options = {"fmi_type": "CoSimulation", "output_interval": 0.1, "relative_tolerance": 1e-9}
+    found = fmpy.simulate_fmu(folder, stop_time=2.0, output=["T_1"], **options)
+    rate, angle = np.sqrt(9.81 / 2), np.arctan(10 / np.sqrt(9.81 * 2))
+    height = -2 * np.log(np.cos(angle)) - 2 * np.log(np.cosh(2 * rate - angle))
+    assert least < abs(found["T_1"][-1] - height) < most
 
 
 def test_each_rate_is_that_of_its_state(fmpy, unpacked):

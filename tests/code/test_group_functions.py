@@ -239,6 +239,24 @@ def test_what_has_no_logarithm_is_no_number(name, g):
     assert np.isnan(f.local(x, [*g, *np.zeros(d)])[:d]).all()
 
 
+@pytest.mark.parametrize("decades", [-200, -18, -8, -3, 3, 5, 8, 18, 200])
+def test_scales_of_many_decades_keep_their_logarithm_or_have_none(decades):
+    """Of a multiple of 1, one of a single axis, a shear of it: right, or no number, never wrong."""
+    f, E, _ = case("GL(2)")
+    size, c = decades * np.log(10), 10.0**decades
+    for g, X in (
+        (np.diag([c, c]), np.diag([size, size])),
+        (np.diag([c, 1]), np.diag([size, 0])),
+        ([[c, c / 2], [0, c]], [[size, 0.5], [0, size]]),
+    ):
+        eta = f.log(np.ravel(g))
+        if abs(decades) > 100:
+            assert np.isnan(eta).all()
+        else:
+            found = np.array(hat(E, eta).tolist(), dtype=float)
+            assert np.abs(found - X).max() < 1e-15 * max(1, abs(size))
+
+
 def test_half_a_turn_has_one_of_two_signs():
     f = case("SO(3)")[0]
     for n in np.eye(3), np.array([[0.6, 0.8, 0], [0, -0.6, 0.8]]):

@@ -30,8 +30,11 @@ CASES = {
 LANGUAGES = ("c", "cpp", "python", "rust", "julia", "javascript")
 
 
-def emitted(data, *jacobians):
-    return Emission({"name": "test", **data}, LANGUAGES, jacobian=jacobians)
+ENDINGS = (".h", ".hpp", ".py", ".rs", ".jl", ".mjs")
+
+
+def emitted(data, *jacobians, **chosen):
+    return Emission({"name": "test", **data}, LANGUAGES, jacobian=jacobians, **chosen)
 
 
 def told(text):
@@ -47,7 +50,7 @@ def test_at_kinks_and_elsewhere(law):
     locus, velocity = CASES[law]
     L = {"lagrangian": {"L": "(zeta_1^2 + zeta_2^2)/2"}}
     made = emitted({"group": "R(2)", **L, "force": [{"covector": [law, 0]}]}, "state")
-    for end in (".h", ".hpp", ".py", ".rs", ".jl", ".mjs"):
+    for end in ENDINGS:
         assert told(made.files[f"test{end}"]) == ([f"in force 1 {locus}"] if locus else []), end
     m = made.module
     k, h = m.constants([]), 1e-6
@@ -66,6 +69,26 @@ def test_at_kinks_and_elsewhere(law):
             D = m.jacobian(0.0, x, k)[1][2]
             for s in (1, -1):
                 assert np.abs(sided(x, s) - D).max() < 1e-4
+
+
+@pytest.mark.parametrize("law", ["-abs(v_1)*v_1", "-v_1"])
+def test_the_derivatives_of_steps_say_them_and_gauss_what_it_does_not_see(law):
+    """That is, each of the two steps, in each language; and no file of a problem without one."""
+    data = {
+        "group": "R(1)",
+        "point": [{"mass": 1, "at": [0]}],
+        "force": [{"name": "drag", "on": 1, "force": [law]}],
+    }
+    steps = ("gauss", "rk4")
+    files = emitted(data, "step", step=steps).files
+    bent = "abs" in law
+    for end in ("_steps.h", *ENDINGS[1:]):
+        text = files[f"test{end}"]
+        raw = end != "_steps.h"  # the derivative of the rates, which a step's is made of
+        wanted = ["in force drag v_1 = 0 (abs)"] * (len(steps) + raw) * bent
+        assert told(text) == wanted, end
+        seen = re.sub(r"\s*\n\s*(\*|///|#|)\s*", " ", text)
+        assert ("the estimate of gauss does not see" in seen) == (bent and end != ".hpp"), end
 
 
 def test_the_names_are_those_of_the_file():

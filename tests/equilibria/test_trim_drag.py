@@ -196,6 +196,25 @@ def test_several_velocities_are_told_and_one_is_chosen():
     assert (found.found.state["zeta_1"], found.verdict, holds(found)) == (-2, "unstable", True)
 
 
+def test_at_a_double_root_it_is_said_what_is_proved():
+    """−4 + 4ζ − ζ|ζ| = −(ζ − 2)² for ζ > 0: the rate is 0 at 2, exactly, and so is its slope."""
+    problem = {"name": "spun", "group": "SO(2)", "point": [{"mass": 1, "at": [1, 0]}]}
+    problem["force"] = [{"covector": ["4*zeta_1 - abs(zeta_1)*zeta_1 - 4"]}]
+    made = derive(problem_of(problem))
+    with pytest.raises(ProblemError, match=r"at zeta_1 = 2 all rates are 0, and their derivatives"):
+        made.trim({"zeta_1": "1.9"}, ["zeta_1"])
+    assert holds(made.trim({"zeta_1": 2}))
+    other = made.trim({"zeta_1": -5}, ["zeta_1"]).found.state["zeta_1"]
+    assert float(other) == pytest.approx(-2 - 2 * np.sqrt(2), rel=1e-14)
+
+
+def test_numbers_in_functions_are_enclosed():
+    problem = PENDULUM | {"force": [{"covector": ["-exp(-2)"]}]}
+    found = derive(problem_of(problem)).trim(TURNED)
+    assert abs(float(found.found.inputs["u"]) - 12 - np.exp(-2)) <= found.found.radius < 1e-8
+    assert holds(found)
+
+
 @pytest.mark.parametrize(
     ("torque", "u"),
     [

@@ -171,6 +171,13 @@ OWN = [
     },
     {
         "group": "SO(2)",
+        "parameters": {"fuel": {}},
+        "point": [{"mass": "fuel", "at": [1, 0]}, {"mass": 1, "at": [0, 1]}],
+        "input": [{"name": "gas", "kind": "scalar"}],
+        "flow": [{"on": 1, "mass": "fuel", "rate": "-gas", "velocity": [0, 1]}],
+    },
+    {
+        "group": "SO(2)",
         "point": [{"mass": 2, "at": [1, 0]}],
         "input": [{"name": "gas", "kind": "scalar"}],
         "force": [{"covector": ["-gas*zeta_1"]}],

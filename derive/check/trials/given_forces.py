@@ -25,7 +25,7 @@ from ...language.reserved import (
 )
 from ...record.as_json import decode
 from ..values.arithmetic import EPS, ETA, Nilpotent, nilpotent
-from ..values.draws import Draws, at_time
+from ..values.draws import Draws, integral, onward
 from ..values.evaluate import Environment, evaluate
 from .phase_point import PhasePoint
 from .point_masses import Body, Vector, damping_members, outer_sum, scaled_each
@@ -212,18 +212,20 @@ def flowing(model: Body, Z: Matrix) -> Flowing:
     A particle of the flow inside has Coriolis' acceleration 2Zv and its own rate; with Σ ρ v = p
     and Σ ρ (v r̄ + r v̄) = Q their moments are ZQ, less what is symmetric: −½ (ZQ + QZ).
     """
-    env = at_time(model.expressions, model.t + nilpotent(ETA) + nilpotent(EPS))
+    flows, step = model.problem["flows"], nilpotent(ETA) + nilpotent(EPS)
+    env = onward(model.expressions, flows, model.t, step)
     first, second = _moments(model, env)
     push, forces = q.scaled(Fraction(-1), first), []
-    for x in model.problem["flows"]:
+    for x in flows:
         rate, place = _value(x["rate"], env), model.points[x["on"] - 1]
-        push = q.plus(push, q.scaled(_earlier(rate), q.column(place)))
-        second = q.minus(second, q.scaled(_earlier(rate), outer_sum([place], [place])))
+        gone = integral(rate, step)
+        push = q.plus(push, q.scaled(gone, q.column(place)))
+        second = q.minus(second, q.scaled(gone, outer_sum([place], [place])))
         u = q.column(model.group.in_block(1, [_value(y, env) for y in x["velocity"]]))
         forces.append((x["on"], _part(q.scaled(rate, u), 0)))
     p, Q = q.scaled(Fraction(-1), _part(push, ETA)), _part(second, ETA)
     within = q.plus(q.scaled(Fraction(-2), q.times(Z, p)), _part(push, ETA | EPS))
-    on = model.problem["flows"][0]["on"]  # carried from the origin to there
+    on = flows[0]["on"]  # carried from the origin to there
     origin = model.group.in_block(1, [0] * model.group.places[0][1].n, 1)
     arm = tuple(x - y for x, y in zip(model.points[on - 1], origin, strict=True))
     back = q.times(within, q.transposed(q.column(arm)))
@@ -233,14 +235,6 @@ def flowing(model: Body, Z: Matrix) -> Flowing:
         g: Matrix = model.g  # type: ignore[attr-defined]
         back = q.times(q.times(q.transposed(g), g), back)
     return Flowing([*forces, (on, within)], q.minus(turning, back))
-
-
-def _earlier(rate: Any) -> Any:
-    """An integral of the rate, in nilpotent numbers, whose derivatives are it and its own."""
-    x = Nilpotent.of(rate)
-    return x.part(0) * (nilpotent(ETA) + nilpotent(EPS)) + x.part(ETA) * nilpotent(ETA) * nilpotent(
-        EPS
-    )
 
 
 def _moments(model: Draws, env: Environment) -> tuple[Matrix, Matrix]:

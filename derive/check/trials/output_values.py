@@ -7,7 +7,7 @@ from typing import Any
 
 from ...algebra.groups import Group
 from ...language import rational as q
-from ...language.reserved import numbers_of_output, one_or_more
+from ...language.reserved import numbers_of_output, one_or_more, rate_of_mass
 from ...record.as_json import decode
 from ...record.record import RecordError
 from ..values.draws import at_time
@@ -35,6 +35,7 @@ class Observed(Mapping[str, Any]):
             "tension": self.tension,
             "power": lambda x: (model.power_of(x["of"]) if x["of"] else model.power(),),
             "expression": self.expression,
+            "rate of mass": lambda x: (sum(self.expression(x)),),
         }
         self.told: dict[str, Data] = {}
         for data in () if model.generic else model.problem.get("outputs", ()):
@@ -45,6 +46,10 @@ class Observed(Mapping[str, Any]):
             for name, tree in _numbers_of(data):
                 told = {"name": name, "kind": "expression", "names": [name], "y": [tree]}
                 self.told[name] = told
+        stored = [x for x in flows if "mass" in x]
+        for called in (rate_of_mass(x["mass"]) for x in stored):
+            rates = [x["rate"] for x in stored if rate_of_mass(x["mass"]) == called]
+            self.told[called] = {"kind": "rate of mass", "names": [called], "y": rates}
 
     def __getitem__(self, name: str) -> Any:
         if name not in self.known and name not in self.told and name.startswith("P_"):

@@ -17,7 +17,7 @@ from ...record.as_json import decode
 from ...record.record import RecordError
 from ..kinds import accounts, uses_body_axes
 from ..values.arithmetic import EPS, ETA, Nilpotent, nilpotent, part
-from ..values.draws import Draws, at_time
+from ..values.draws import Draws, at_time, onward
 from ..values.evaluate import Environment, evaluate
 from .equimomental import equimomental_points, moments_of, remaining_moments
 from .phase_point import ENTRY
@@ -54,7 +54,7 @@ def points_later(model: Body) -> tuple[list[Any], list[Vector]]:
     stay, and those that complete the moments have those of then."""
     body, env = model.problem["body"], model.expressions
     later = copy(model)
-    later.expressions = at_time(env, model.t + nilpotent(EPS))
+    later.expressions = onward(env, model.problem["flows"], model.t, nilpotent(EPS))
     listed = body.get("points", [])
     own = [evaluate(decode(p["mass"], "mass"), later.expressions) for p in listed]
     first = listed_count(model)

@@ -16,10 +16,20 @@ from ...language.rational import Matrix, flatten
 from ...language.reserved import suffixed
 from ...language.show import show
 from ...language.tree import Tree
+from ...record.as_json import decode
 from ...record.record import Equation, RecordError, Step
 from ...record.vocabulary import OFF_MOTION
 from ..form.function_signatures import LATTICE, RATES
-from .arithmetic import EvaluationError, describe_shapes, is_matrix, shape
+from .arithmetic import (
+    EPS,
+    ETA,
+    EvaluationError,
+    Nilpotent,
+    describe_shapes,
+    is_matrix,
+    nilpotent,
+    shape,
+)
 from .evaluate import ElementaryValues, Environment, evaluate, free_indices, index_values
 from .residue import (
     ZERO_GRADE,
@@ -43,6 +53,26 @@ a symmetry of few points."""
 def at_time(env: Environment, t: Any) -> Environment:
     """An environment of expressions at a time."""
     return replace(env, names={**env.names, "t": t})
+
+
+def onward(env: Environment, flows: Sequence[Mapping[str, Any]], t: Any, s: Any) -> Environment:
+    """An environment of expressions at the time t + s, s nilpotent: the masses that are of the
+    state have gone on by the rates of the flows, at inputs that are held."""
+    moved = at_time(env, t + s)
+    for _ in range(2):  # s³ is 0
+        gone: dict[str, Any] = {}
+        for x in flows:
+            if name := x.get("mass"):
+                rate = integral(evaluate(decode(x["rate"], "rate"), moved), s)
+                gone[name] = gone.get(name, env.parameters[name]) + rate
+        moved = replace(moved, parameters={**env.parameters, **gone})
+    return moved
+
+
+def integral(rate: Any, s: Any) -> Any:
+    """An integral of a rate over s, in nilpotent numbers, whose derivatives are it and its own."""
+    x = Nilpotent.of(rate)
+    return x.part(0) * s + x.part(ETA) * nilpotent(ETA) * nilpotent(EPS)
 
 
 class Draws:

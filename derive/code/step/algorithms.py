@@ -47,6 +47,7 @@ def known(p: Program, steps: Mapping[str, Any]) -> dict[str, Any]:
         "COARSE": "solved by Newton's method, or " * bool(gauss and gauss["modes"])
         + "made in halves",
         "KEEPS": " ".join(steps["keeps"]),
+        "KINKS": " ".join(steps["kinks"]),
         "MODES": bool(gauss and gauss["modes"]),
         "EXPLICIT": bool(explicit),
         "EXTRA": bool(explicit and explicit["extra"]),
@@ -367,6 +368,7 @@ def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "NO_EVENT": -1,
         "public": {*roots(steps)} - {"towards", "begin", "dense"},
         **{f"{x}_jacobian": f"{x}_varied!" for x in steps["varied"]},
+        "KINKS": "",  # which the function around it says
         "begin": "begin_at!",
         "dense": "dense_at!",
         "status": "`OK`, or why not: then `m` is as it was after the last good step.",
@@ -396,6 +398,7 @@ def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "public": {*roots(steps)} - {"begin", "dense", "towards"},
         "named": {"towards", "gauss_step", "vern9_step", "first_step"},
         **{f"{x}_jacobian": f"_{x}_jacobian" for x in steps["varied"]},
+        "KINKS": "",  # which the function around it says
         "begin": "_begin_at",
         "dense": "_dense_at",
         "fault_here": "fault_of",

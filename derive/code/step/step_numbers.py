@@ -41,10 +41,21 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         "watch": WATCH[options.real] if p.events else None,
         "ensemble": ensemble(p, written) if compiled and options.ensemble else None,
         "gauss": gauss("raw" in options.jacobian) if {*COLLOCATED} & {*options.step} else None,
-        "keeps": textwrap.wrap(sentences(p.keeps, energy_alone=not p.conserved), 92)
-        if p.keeps
-        else [],
+        "keeps": textwrap.wrap(of_gauss(p), 92),
+        "kinks": p.kinks.get("rates", ()),
     }
+
+
+BENDS = (
+    "A force has a root, as in |v|: where that is 0 its derivatives may jump, which the estimate "
+    "of gauss does not see; its error is larger than tol then, and nearer to it with vern9."
+)
+
+
+def of_gauss(p: Program) -> str:
+    """What the emitted files say of the equations that it has here."""
+    kept = [sentences(p.keeps, energy_alone=not p.conserved)] if p.keeps else []
+    return " ".join([*kept, *[BENDS] * p.bends])
 
 
 def sentences(found: KeptByGauss, *, energy_alone: bool) -> str:

@@ -214,24 +214,44 @@ def derivative(eta: real[N_ALGEBRA], inverse: flag, J: out[real[N_JACOBIAN]]):
             J[N_ALGEBRA * a + b] = F[a][b] if regular else none
 
 
+def largest(G: real[SIZE, SIZE]) -> real:
+    """The size of the largest entry."""
+    found: var[real] = 0.0
+    for row in range(SIZE):
+        for column in range(SIZE):
+            if abs(G[row][column]) > found:
+                found = abs(G[row][column])
+    return found
+
+
 def log_of(G: real[SIZE, SIZE], eta: out[real[N_ALGEBRA]]):
-    """The same, after two steps of Newton's method: roots lose digits where an eigenvalue is nearly negative."""
+    """The same, after two steps of Newton's method: roots lose digits where an eigenvalue is nearly negative.  Of G
+    or its inverse that with the smaller entries is taken, as small numbers of the other's exponential are lost."""
     back: real[N_ALGEBRA]
     left: real[N_ALGEBRA]
+    S: real[SIZE, SIZE]
     N: real[SIZE, SIZE]
     W: real[SIZE, SIZE]
     J: real[N_JACOBIAN]
-    log_by_roots(G, eta)
-    for m in range(2):
+    inverse_of(G, S)
+    sign: real = -1.0 if largest(S) < largest(G) else 1.0
+    for row in range(SIZE):
+        for column in range(SIZE):
+            S[row][column] = S[row][column] if sign < 0.0 else G[row][column]
+    log_by_roots(S, eta)
+    steps: index = 2 if largest(S) < 1e4 else 0
+    for m in range(steps):
         for a in range(N_ALGEBRA):
             back[a] = -eta[a]
         exp_of(back, N)
         if RIGHT:
-            product(G, N, W)
+            product(S, N, W)
         else:
-            product(N, G, W)
+            product(N, S, W)
         log_by_roots(W, left)
         derivative(eta, True, J)
         for a in range(N_ALGEBRA):
             for b in range(N_ALGEBRA):
                 eta[a] += J[N_ALGEBRA * a + b] * left[b]
+    for a in range(N_ALGEBRA):
+        eta[a] = sign * eta[a]

@@ -220,7 +220,8 @@ def METHOD_jacobian(
     gamma: out[real[N_VARIATIONS * N_INPUTS]],
 ) -> status:
     """n steps of size h, with what their end changes by, (eta, delta zeta) there, by rows: phi by (eta, delta zeta)
-    where they begin, gamma by what is added to the inputs.  A step that is too coarse is not made in halves."""
+    where they begin, gamma by what is added to the inputs.  A step that is too coarse is not made in halves.
+    KINKS"""
     S: real[N_ENTRIES]
     if HELD:
         hold(m, k, u)

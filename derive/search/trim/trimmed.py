@@ -46,6 +46,8 @@ from .trim import EnclosedTrim, Trim
 
 EXACT = 2**40
 """A number of a program with a larger power of two below is one that has no fraction, as π."""
+SIMPLE = 1000
+"""Fractions with a divisor of at most this are tried where digits are few."""
 PRIME = 2**61 - 1
 """p, in the place of a root that is 0: F(x, p) − F(x, 0) is 0 modulo p² where ∂F/∂s is 0."""
 
@@ -95,13 +97,20 @@ class ExactQuestion(Question):
         """Put those velocities, and turns of g, in the state with which, and with free inputs, its
         rates vanish."""
         f = self.unknown()
-        y = exact(f.names, solutions(f, self.near))
+        found = solutions(f, self.near)
+        simple = [x.limit_denominator(SIMPLE) for x in found]  # a double root has few digits
+        near = all(abs(x - y) < 1 / SIMPLE**2 for x, y in zip(simple, found, strict=True))
+        y = simple if near and not any(f.values(simple, EXACTLY)) else exact(f.names, found)
         self.x, self.u = self.at(y)
+        told = ", ".join(f"{x} = {float(v):.8g}" for x, v in zip(f.names, y, strict=True))
         if any(self.rates({})):
-            told = ", ".join(f"{x} = {float(v):.8g}" for x, v in zip(f.names, y, strict=True))
             raise NotExactError(f"near {told} a rate is small, and not 0 in numbers of a root")
         if q.rank(q.matrix(f.slopes(y, EXACTLY))) < len(y):
-            raise NoTrimError("many trims: others are near this one; free fewer")
+            raise NoTrimError(
+                f"at {told} all rates are 0, and their derivatives by these are dependent: one of "
+                "a family of trims or a double root, where others near it are not excluded; give "
+                "these numbers by --at, or free fewer"
+            )
         for name in self.free:  # they are found once more, linearly
             self.u[self.program.inputs.index(name)] = Fraction(0)
 
@@ -219,7 +228,10 @@ class EnclosedQuestion(Question):
             smaller = _newton_step(f, box, rows)
             if not k and not all(x.within(y) for x, y in zip(smaller, box, strict=True)):
                 told = describe(f, [*map(float, near)])
-                raise NoTrimError(f"near {told} rates are small; that they vanish is not proved")
+                raise NoTrimError(
+                    f"near {told} rates are small; that they vanish is not proved, as at a double "
+                    "root, which the least change takes away or makes two"
+                )
             box = smaller
         return box
 

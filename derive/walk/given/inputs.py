@@ -11,7 +11,7 @@ from ...algebra.calculus import gradient, reduce, substitute
 from ...algebra.groups import Group
 from ...algebra.word_trees import fold_inertia, normal_form, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
-from ...language.reserved import UNNAMED_DAMPING, UNNAMED_FORCE, suffixed
+from ...language.reserved import UNNAMED_DAMPING, UNNAMED_FORCE, rate_of_mass, suffixed
 from ...language.tree import Tree, add, mul, neg, nodes, plain, replaced
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
@@ -86,7 +86,11 @@ def where_given(problem: Problem) -> Prose:
         called = [f"‘{x.name}’" for x in problem.forces if x.name and x not in own]
         names = {"name": ", ".join(called)} if called else {}
         given += say("input.named_covector" if called else "input.covector", **names)
-    return given + (say("input.flow") if problem.flows else ())
+    given += say("input.flow") if problem.flows else ()
+    stored = [phrase("input.stored_mass", mass=x, rate=rate_of_mass(x)) for x in problem.stored]
+    if stored:
+        given += say("input.stored", masses=listed("{first}; {second}", stored))
+    return given
 
 
 def _sort(x: ForceInput) -> str:

@@ -10,6 +10,7 @@ from ...algebra.groups import Group
 from ...algebra.word_trees import tree_of
 from ...algebra.words import Expr, inner, number, trace, word
 from ...language.derivatives import rate
+from ...language.reserved import rate_of_mass
 from ...language.tree import Tree, add, mul, names, neg, replaced
 from ...problem.fields import coordinates
 from ...problem.problem import Problem
@@ -54,7 +55,8 @@ def of_points(
         terms.append(vector_sum(whole))
         apart = _apart(problem, external, vector_sum(turning), vector_sum(pulling))
     sums = [s for s in moments if any(e.lhs == b.J.name for e in s.equations)]
-    known = _rates([*body, *sums]) if problem.flows else {}
+    stored: dict[Tree, Tree] = {("par", x): ("par", rate_of_mass(x)) for x in problem.stored}
+    known = _rates([*body, *sums], stored) if problem.flows else {}
     in_time = _in_time(b, found.steps[0], known)
     timed: list[Tree] = [b.dU_dt.name] if problem.timed or in_time != 0 else []
     own = [Equation(b.dU_dt.name, in_time)] if timed else []
@@ -69,6 +71,7 @@ def of_points(
     prose += say("power.apart") if apart else ()
     prose += say("power.timed", rate=b.dU_dt.name) if own else ()
     prose += say("power.flow") if problem.flows else ()
+    prose += say("power.stored") if problem.stored else ()
     return (draft.step([*own, *_balance(terms, timed, apart)], prose),)
 
 

@@ -1,0 +1,330 @@
+"""Mass that flows at a rate that inputs say, a number of the state: beside the balances of momentum
+of a control volume, masses that are expressions of the time, and known solutions."""
+
+import json
+import re
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+import derive
+from derive.check.checker import Checker
+from derive.command.cli import main
+from derive.language.tree import add, nodes
+from derive.problem.toml import problem_of
+from derive.record.as_json import from_json, to_data
+from derive.record.record import RecordError
+from tests.oracles import relative_error
+from tests.oracles.control_volume import Leaking
+from tests.support.library import ONE_BUILD, arrange, library, module_of
+from tests.support.needs import needs
+from tests.support.walks import own_verdicts
+from tests.walk import test_flows as timed
+
+GROUPS = ["SE(3)", "SO(3)", "SE(2)", "SO(2)", "moments"]
+NUMBERS = {"b": timed.RATE, "u": timed.SPEED}
+TANK = timed.ROCKET | {
+    "name": "tank",
+    "parameters": {"fuel": 10.0, **NUMBERS},
+    "point": [{"mass": "fuel", "at": [0.1, 0.2, 1]}, *timed.ROCKET["point"][1:]],
+    "input": [{"name": name, "kind": "scalar"} for name in ("throttle", "gimbal")],
+    "flow": [
+        {
+            "name": "jet",
+            "on": 1,
+            "mass": "fuel",
+            "rate": "-b*throttle*(1 + fuel/20)",
+            "velocity": ["gimbal", "gimbal*(1 + t)", "-u"],
+        },
+        timed.ROCKET["flow"][1],
+    ],
+}
+"""Of the fuel the rate is said by an input, of the mass at the second point by the time."""
+
+
+def on(what, rocket=TANK):
+    """A rocket on a group of R³ or of the plane, or by its moments."""
+    if what != "moments":
+        n = int(what[-2])
+        cut = [
+            {k: x[-n:] if isinstance(x, list) else x for k, x in table.items()}
+            for table in (*rocket["point"], *rocket["flow"], *rocket["potential"])
+        ]
+        points, flows = len(rocket["point"]), len(rocket["flow"])
+        return rocket | {
+            "group": what,
+            "point": cut[:points],
+            "flow": cut[points : points + flows],
+            "potential": cut[points + flows :],
+        }
+    told = [f"({x['mass']})" for x in rocket["point"]]
+
+    def summed(weights):
+        return " + ".join(f"{m}*({w})" for m, w in zip(told, weights, strict=True))
+
+    P = timed.PLACES
+    J = [[summed(P[:, i] * P[:, j]) for j in range(3)] for i in range(3)]
+    given = {"m": " + ".join(told), "c": [summed(P[:, i]) for i in range(3)], "J": J}
+    first, other = rocket["flow"]
+    at = first.get("at", rocket["point"][0]["at"])
+    flows = [{**x, "at": y} for x, y in ((first, at), (other, [0, 1, -1]))]
+    flows = [{k: y for k, y in x.items() if k != "on"} for x in flows]
+    rest = {k: v for k, v in rocket.items() if k not in ("point", "flow")}
+    return rest | {"body": {"given": given}, "flow": flows}
+
+
+@cache
+def made(what):
+    problem = problem_of(on(what))
+    return problem, module_of(problem, jacobian="raw")
+
+
+def drawn(m, what, rng, t):
+    """A time's state of the module, and A and the velocity in it."""
+    n, d = len(m.BASIS[0]) - ("SO" not in what), len(m.BASIS)
+    A = np.linalg.qr(rng.normal(size=(n, n)))[0]
+    A[:, 0] *= np.linalg.det(A)
+    velocity = rng.normal(size=d)
+    place = rng.normal(size=n * ("SO" not in what))
+    return np.concatenate([A.ravel(), place, velocity, [rng.uniform(3, 12)]]), A, velocity
+
+
+@pytest.mark.parametrize("what", GROUPS)
+def test_momentum_is_lost_with_what_leaves_alone(what):
+    _, m = made(what)
+    assert m.STATE[-1] == "fuel"
+    assert m.PARAMETERS == ("b", "u")
+    rng, k = np.random.default_rng(3), m.constants(arrange(m, NUMBERS))
+    for _ in range(5):
+        t, (throttle, gimbal) = rng.uniform(0, 3), rng.uniform(0.2, 2, size=2)
+        x, A, velocity = drawn(m, what, rng, t)
+        found, fuel = m.rhs(t, x, k, [throttle, gimbal]), x[-1]
+        lost = -timed.RATE * throttle * (1 + fuel / 20)
+        assert found[-1] == pytest.approx(lost, rel=1e-14)
+
+        def masses(s, t=t, fuel=fuel, lost=lost):
+            return np.array([fuel + (s - t) * lost, *timed.masses(s)[1:]])
+
+        def mass_rates(s, lost=lost):
+            return np.array([lost, *timed.mass_rates(s)[1:]])
+
+        def velocities(s, gimbal=gimbal):
+            return np.array([[gimbal, gimbal * (1 + s), -timed.SPEED], [s, 0, timed.SPEED]])
+
+        exits = [timed.PLACES[0], timed.EXITS[1]]
+        laws = masses, mass_rates, lambda s, own=mass_rates: own(s)[:2], velocities
+        body, rate = Leaking(timed.PLACES, exits, *laws), found[-1 - len(velocity) : -1]
+        left, size = body.unbalanced_of(t, A, velocity, rate)
+        assert np.abs(left).max() < 1e-12 * size
+
+
+@pytest.mark.parametrize("what", [*GROUPS, "R(3)"])
+def test_at_a_rate_of_time_it_is_the_mass_that_time_says(what):
+    """Also where what flows inside has a momentum, whose rate is known then."""
+    first, other = timed.ROCKET["flow"]
+    rocket = TANK | {"flow": [first | {"mass": "fuel"}, other], "input": []}
+    m, old = (
+        module_of(problem_of(on(what, x) if what != "R(3)" else flat(x)))
+        for x in (rocket, timed.ROCKET)
+    )
+    rng, numbers = np.random.default_rng(4), NUMBERS | {"m0": 10.0}
+    k, k_old = m.constants(arrange(m, numbers)), old.constants(arrange(old, numbers))
+    for _ in range(3):
+        t = rng.uniform(0, 3)
+        x = rng.normal(size=6) if what == "R(3)" else drawn(m, what, rng, t)[0][:-1]
+        fuel = timed.masses(t)[0]
+        found = m.rhs(t, [*x, fuel], k)
+        assert relative_error(found[:-1], old.rhs(t, x, k_old)) < 1e-13
+        assert found[-1] == pytest.approx(timed.mass_rates(t)[0], rel=1e-14)
+        assert m.energy(t, [*x, fuel], k) == pytest.approx(old.energy(t, x, k_old), rel=1e-14)
+
+
+def flat(rocket):
+    """The rocket in a space that only shifts it."""
+    return rocket | {"group": "R(3)"}
+
+
+@pytest.mark.parametrize("what", GROUPS)
+def test_the_record_holds_and_a_forged_one_does_not(what):
+    record = derive.derive(made(what)[0]).record
+    assert all(v.holds for v in own_verdicts(record))
+    told = [dict(x) for x in record.problem["flows"]]
+    told[0]["rate"] = ["mul", -2, ["par", "b"]]
+    forged = replace(record, problem={**record.problem, "flows": told})
+    assert "tank.input" in {v.label for v in own_verdicts(forged) if not v.holds}
+    step, checker = record["power"], Checker(record.problem, 7)
+    assert any(("par", "fuel_dot") in nodes(e.rhs) for e in step.equations)
+    for k, e in enumerate(step.equations):
+        terms = e.rhs[1:] if isinstance(e.rhs, tuple) and e.rhs[0] == "add" else (e.rhs,)
+        for j in range(len(terms)):
+            less = add(*terms[:j], *terms[j + 1 :])
+            forged = (*step.equations[:k], replace(e, rhs=less), *step.equations[k + 1 :])
+            assert not checker.check(replace(step, equations=forged)).holds, (k, j)
+
+
+@pytest.mark.parametrize("what", ["SE(3)", "SO(2)"])
+def test_the_raw_jacobian_is_the_derivative_by_all_numbers(what):
+    _, m = made(what)
+    rng, k = np.random.default_rng(5), m.constants(arrange(m, NUMBERS))
+    x, u = drawn(m, what, rng, 0.7)[0], [0.8, 0.3]
+    D = m.jacobian_raw(0.7, x, k, u)
+    for i, e in enumerate(np.eye(len(x))):
+        slope = m.rhs(0.7, x + 1e-30j * e, k, u).imag / 1e-30
+        assert np.abs(D[:, i] - slope).max() < 1e-12 * max(1, np.abs(slope).max())
+
+
+@pytest.mark.parametrize("what", ["SE(3)", "SO(3)", "SE(2)"])
+def test_what_acts_changes_the_energy_at_masses_that_are_held(what):
+    told = [{"name": "whole", "kind": "power"}, {"name": "own", "kind": "power", "of": "jet"}]
+    m = module_of(problem_of(on(what) | {"output": told}))
+    rng, k = np.random.default_rng(6), m.constants(arrange(m, NUMBERS))
+    t, h, u = 1.3, 1e-5, [0.8, 0.3]
+    x = drawn(m, what, rng, t)[0]
+    rates = np.array(m.rhs(t, x, k, u))
+    rates[-1] = 0
+    ends = [m.energy(t, x + s * h * rates, k) for s in (-2, -1, 1, 2)]
+    wanted = (ends[0] - 8 * ends[1] + 8 * ends[2] - ends[3]) / (12 * h)
+    assert m.outputs(t, x, k, u)[0] == pytest.approx(wanted, rel=1e-8)
+
+
+FORMS = ["", "--attitude quaternion", "--velocity tangent", "--layout col", "--dynamics"]
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_every_form_and_language_is_read_back(form, tmp_path):
+    path = tmp_path / "rocket.toml"
+    path.write_text(ROCKET, encoding="utf-8")
+    words = ["emit", str(path), *form.split(), "--validate", "--out", str(tmp_path)]
+    languages = ("python", "c", "rust", "julia", "javascript") if not form else ("c",)
+    assert main([*words, *(x for name in languages for x in ("--lang", name))]) == 0
+
+
+STEPS = [("gauss", 0.05, 4), ("vern9", 0.05, 4)]
+
+
+@needs("cc")
+@pytest.mark.parametrize("build", [ONE_BUILD[x] for x in ("python", "javascript", "rust")])
+def test_the_steps_of_other_languages_are_those_of_c(build):
+    start = np.concatenate([np.eye(3).ravel(), np.zeros(3), [0.1, 0.2, 0.3, 0, 0, 0], [60]])
+    given = start, [1.5, 2500.0], [0.7]
+    options = {"step": ("gauss", "vern9")}
+    found, known = (library(b, ROCKET, **options).follow(STEPS, *given) for b in (build, "c"))
+    for a, b in zip(found, known, strict=True):
+        assert relative_error(a.x, b.x) < 1e-13
+        assert b.x[-1] == pytest.approx(60 - 1.5 * 0.7 * b.t, rel=1e-13)
+
+
+ROCKET = """
+name = "rocket"
+group = "SE(3)"
+parameters = { fuel = 60.0, b = 1.5, u = 2500.0 }
+potential = [{ kind = "gravity", g = [0, 0, -9.81] }]
+input = [{ name = "throttle", kind = "scalar" }]
+[[point]]
+mass = "fuel"
+at = [0, 0, 0]
+[[point]]
+mass = 20
+at = [0.3, 0, 0]
+[[point]]
+mass = 20
+at = [-0.3, 0, 0]
+[[point]]
+mass = 20
+at = [0, 0, 2]
+[[flow]]
+name = "jet"
+on = 1
+mass = "fuel"
+rate = "-b*throttle"
+velocity = [0, 0, "-u"]
+"""
+
+
+def followed(text, tmp_path, duration, **options):
+    """The motion of a problem file, and its problem."""
+    path = tmp_path / "rocket.toml"
+    path.write_text(text, encoding="utf-8")
+    return derive.derive(path).simulate(duration, **options)
+
+
+def test_tsiolkovsky_whatever_the_throttle(tmp_path):
+    """Along its axis it gains u log(m₀/m) − gt, until the fuel is left that an event says."""
+    signal = '[[signal]]\ninput = "throttle"\nu = "1 + sin(3*t)/2"\n'
+    event = '[[event]]\nname = "empty"\nwhen = "fuel - 20"\nterminal = true\n'
+    told = '[[output]]\nname = "left"\ny = ["fuel"]\n'
+    run = followed(ROCKET + signal + event + told, tmp_path, 60)
+    fuel, t = run["fuel"], run.t
+    left = 60 - 1.5 * (t + (1 - np.cos(3 * t)) / 6)
+    assert np.abs(fuel - left).max() < 1e-7
+    assert (run["left"] == fuel).all()
+    assert fuel[-1] == pytest.approx(20, abs=1e-8)
+    assert run["w_3"][-1] == pytest.approx(2500 * np.log(120 / 80) - 9.81 * t[-1], rel=1e-8)
+    path = tmp_path / "rocket.toml"
+    from_less = derive.derive(path).simulate(5, start={"fuel": 40.0})
+    assert from_less["fuel"][0] == 40
+
+
+def test_a_mass_that_says_its_own_rate_decays(tmp_path):
+    text = ROCKET.replace("-b*throttle", "-b*fuel/60").replace(
+        'input = [{ name = "throttle", kind = "scalar" }]\n', ""
+    )
+    run = followed(text, tmp_path, 30, tol=1e-11)
+    assert np.abs(run["fuel"] - 60 * np.exp(-run.t * 1.5 / 60)).max() < 1e-8
+
+
+def test_where_nothing_leaves_fast_the_mass_has_its_rate(tmp_path):
+    """The body falls, and does not feel what it loses."""
+    text = ROCKET.replace('[0, 0, "-u"]', "[0, 0, 0]").replace(", u = 2500.0", "")
+    run = followed(text, tmp_path, 3, start={"throttle": 1.0})
+    assert run["fuel"][-1] == pytest.approx(60 - 4.5)
+    assert run["w_3"][-1] == pytest.approx(-9.81 * 3)
+
+
+def test_a_mass_that_is_used_up_is_told(tmp_path):
+    with pytest.raises(ValueError, match=r"the mass fuel of a point is used up before t = 40\.1"):
+        followed(ROCKET, tmp_path, 50, start={"throttle": 1.0})
+
+
+WRONG = {
+    'mass = "fuel"\nrate -> rate': "flow 1, rate: 'throttle' is an input, so that the mass",
+    'mass = "fuel"\nrate -> mass = "fule"\nrate': "flow 1, mass: 'fule' is not declared",
+    "on = 1\nmass -> at = [0, 0, -2]\nmass": "has a momentum with 'throttle' in it",
+    "fuel = 60.0 -> fuel = 60.0, fuel_dot = 1.0": "parameter 'fuel_dot': the rate of a mass",
+    '-9.81] -> "-fuel"]': "potential 1: 'fuel' is a mass, a number of the state",
+    'at = [0, 0, 0] -> at = [0, 0, "fuel"]': "point 1, at: fuel: a place of the body does not move",
+    "-b*throttle -> -b*w_3": "'w_3' is of the state",
+    'mass = "fuel"\nat -> mass = "2*fuel"\nat': "the rates of all [[flow]] tables must add up",
+}
+
+
+@pytest.mark.parametrize("change", WRONG)
+def test_it_is_refused_in_one_line(change, tmp_path, capsys):
+    old, new = change.split(" -> ")
+    path = tmp_path / "rocket.toml"
+    path.write_text(ROCKET.replace(old, new), encoding="utf-8")
+    assert main(["walk", str(path)]) == 2
+    (told,) = capsys.readouterr().err.splitlines()
+    assert WRONG[change] in told
+
+
+@pytest.mark.parametrize(
+    "option", ["--jacobian state", "--jacobian step --step rk4", "--exponential", "--momenta"]
+)
+def test_what_is_of_the_group_alone_is_refused(option, tmp_path, capsys):
+    path = tmp_path / "rocket.toml"
+    path.write_text(ROCKET, encoding="utf-8")
+    assert main(["emit", str(path), *option.split(), "--out", str(tmp_path)]) == 2
+    told = capsys.readouterr().err.splitlines()[-1]
+    assert re.search("the mass fuel, too|mass flows", told)
+
+
+def test_a_record_whose_mass_is_no_parameter_is_none():
+    record = derive.derive(problem_of(on("SO(2)"))).record
+    data = to_data(record)
+    assert from_json(json.dumps(data)).steps == record.steps
+    data["problem"]["flows"][0]["mass"] = "other"
+    with pytest.raises(RecordError, match="the mass 'other' is no parameter"):
+        from_json(json.dumps(data))
