@@ -332,7 +332,7 @@ class _Setter:
         ((whole,), *_) = x.texts
         assert isinstance(whole, Formula)
         if whole.recorded:
-            return self.medium.aligned(whole.recorded)
+            return self.medium.aligned(whole.shown or whole.recorded)
         parts = [formula(y) for y in re.split(r",\s\s+", whole.text)]
         found = parts[0]
         for part in parts[1:]:

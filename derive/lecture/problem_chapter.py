@@ -14,6 +14,7 @@ from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence
 from ..views.answer import definitions, equations_of_motion, steps_of_answer
+from ..views.by_block import blocks_of
 from ..views.figure.scene import scene
 from ..views.language import Language, language
 from ..views.outline import declared, system, title
@@ -23,7 +24,7 @@ from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
 from .problem_exercises import exercises
 from .ran_figure import DESCRIBED, FLAT, Ran, label_of
-from .recorded_text import SPOKEN, display, in_each, sentence, words
+from .recorded_text import SPOKEN, display, in_blocks, in_each, sentence, words
 from .told_refusals import OVER, reason
 
 SEARCHES = {
@@ -104,6 +105,8 @@ def chapter_of(
         command,
         lambda e: _rows(e) <= SHORT,
     )
+    if named := blocks_of(d):
+        blocks = [in_blocks(x, named) for x in blocks]
     whole = kept and any(told.get(x) for x in STEADY)
     titles = tuple(
         Given(x.word(TITLE, title=title(d, x)) if whole else title(d, x)) for x in SPOKEN

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from ..language.show import in_sentence, show
 from ..language.tree import Tree
 from ..record.record import Equation
+from ..views.by_block import Blocks
 from ..views.language import LANGUAGES, Language, language
 from ..views.printing.sentences import prose
-from .lecture_text import Entry, Formula, Tie, Words, words_of
+from .lecture_text import Block, Entry, Formula, Tie, Words, words_of
 
 FACTOR = re.compile(r"(?<![^ ])([0-9]+) `(?=‘)")
 SPOKEN: tuple[Language, ...] = tuple(map(language, LANGUAGES))
@@ -48,3 +50,16 @@ def display(
     formula: Words = (Formula(text, condition, tuple(equations)),)
     ties = (Tie(tuple(labels)),) if labels else ()
     return Entry((formula,) * len(LANGUAGES), ties, display=True, line=0)
+
+
+def in_blocks(block: Block, named: Blocks) -> Block:
+    """A block of a chapter with the entries of g by the blocks of a product of groups."""
+
+    def part(x: str | Formula) -> str | Formula:
+        if not isinstance(x, Formula):
+            return x
+        shown = tuple(map(named.equation, x.recorded))
+        return replace(x, text=named.text(x.text), shown=shown)
+
+    entries = (replace(x, texts=tuple(tuple(map(part, y)) for y in x.texts)) for x in block.entries)
+    return replace(block, entries=tuple(entries))
