@@ -9,7 +9,7 @@ from dataclasses import replace
 from ..language.show import in_sentence, show
 from ..language.tree import Tree
 from ..record.record import Equation
-from ..views.by_block import Blocks
+from ..views.as_read import Reading
 from ..views.language import LANGUAGES, Language, language
 from ..views.printing.sentences import prose
 from .lecture_text import Block, Entry, Formula, Tie, Words, words_of
@@ -52,14 +52,14 @@ def display(
     return Entry((formula,) * len(LANGUAGES), ties, display=True, line=0)
 
 
-def in_blocks(block: Block, named: Blocks) -> Block:
-    """A block of a chapter with the entries of g by the blocks of a product of groups."""
+def as_read(block: Block, reading: Reading) -> Block:
+    """A block of a chapter as it is read."""
 
     def part(x: str | Formula) -> str | Formula:
         if not isinstance(x, Formula):
             return x
-        shown = tuple(map(named.equation, x.recorded))
-        return replace(x, text=named.text(x.text), shown=shown)
+        shown = tuple(map(reading.equation, x.recorded))
+        return replace(x, text=reading.text(x.text), shown=shown)
 
     entries = (replace(x, texts=tuple(tuple(map(part, y)) for y in x.texts)) for x in block.entries)
     return replace(block, entries=tuple(entries))

@@ -90,3 +90,8 @@ def reason(told: str, words: Language) -> str:
         if match := re.fullmatch(pattern, told):
             return words.word(one, **match.groupdict())
     return told
+
+
+def without_advice(told: str) -> str:
+    """A reason without what is to be typed instead, behind a semicolon: that is for the command."""
+    return re.split(r"\s*; ", told)[0]

@@ -119,9 +119,9 @@ def render(
     if fragment and form not in LINKED:
         raise RenderError("--fragment is for --format latex and html")
     if form != "json":
-        from .by_block import by_block
+        from .as_read import as_read
 
-        d, steps = by_block(d), by_block(replace(d, steps=tuple(steps))).steps
+        d, steps = as_read(d), as_read(replace(d, steps=tuple(steps))).steps
     chosen = Notation(**notation)
     if form not in LINKED and chosen != Notation():
         raise RenderError("--notation and --hat are for --format latex and html")
@@ -183,7 +183,7 @@ def notes(
     of pictures of their motions, which are shown.
     """
     from . import latex
-    from .by_block import by_block
+    from .as_read import as_read
     from .html import html
     from .language import language
     from .printing.signs import Notation
@@ -203,7 +203,7 @@ def notes(
                 f"{names.count(name)} problems have the name {name!r}, and their equations the "
                 "same labels; give each its own (key 'name' of its file)"
             )
-    records = [*map(by_block, records)]
+    records = [*map(as_read, records)]
     found = corrections(records)
     if fragment:
         return latex.fragment(records, language=words, findings=found)
