@@ -40,6 +40,8 @@ WORDS = (
 """The words of the templates."""
 MARKED = re.compile(r"_([^_]+)_|@([a-z_]+)")
 """What is marked among words: emphasis, and the number of a block."""
+COMMAND = "derive "
+"""How what is typed begins."""
 LISTED = re.compile(r"(?<=\d\u202f;) (?=\d)")
 """The space between two numbers of a list in French."""
 TIED = re.compile(r"(?<=\w|\.) $")
@@ -51,10 +53,11 @@ CLOSED = re.compile(r"(<math>(?:(?!<math).)*</math>)([.,;:)]+)", re.S)
 
 @dataclass(frozen=True)
 class Medium:
-    """How words and formulas are written in a kind of document."""
+    """How words, commands and formulas are written in a kind of document."""
 
     text: Callable[[str], str]
     emphasis: str
+    command: str
     reference: str
     inline: Callable[[typeset.Formula], str]
     display: Callable[[typeset.Formula], str]
@@ -66,7 +69,7 @@ class Medium:
 AMONG = 60
 """The most letters of a formula of a record that stands among words."""
 SIGNS = re.compile(r"\s*[.,;:]")
-WIDTH = 34.0
+WIDTH = 39.0
 """The width of a display in em."""
 
 
@@ -106,6 +109,7 @@ def _sides(e: Equation) -> typeset.Formula:
 LATEX = Medium(
     tex_text,
     r"\emph{{{}}}",
+    r"\texttt{{{}}}",
     r"\ref{{{label}}}",
     _inline,
     _lines,
@@ -123,6 +127,7 @@ def _one_by_one(equations: Sequence[Equation]) -> str:
 PAGE = Medium(
     escaped,
     "<em>{}</em>",
+    "<code>{}</code>",
     '<a href="#{label}">{number}</a>',
     lambda x: x.mathml(),
     lambda x: x.mathml().replace("<math>", '<math display="block">'),
@@ -362,7 +367,7 @@ class _Setter:
         if not isinstance(x, Given):
             return self.plain(x)
         words = self.medium.text(x)
-        return self.medium.emphasis.format(words) if isinstance(x, Typed) else words
+        return self.medium.command.format(words) if isinstance(x, Typed) else words
 
     def plain(self, words: str) -> str:
         """Words with their emphasis and their numbers of blocks; spaces at their ends stay."""
@@ -371,7 +376,9 @@ class _Setter:
             before = words[at : mark.start()]
             found.append(self.spaced(TIED.sub(NO_BREAK[0], before) if mark[2] else before))
             if mark[1]:
-                found.append(self.medium.emphasis.format(self.medium.text(mark[1])))
+                typed = mark[1].startswith(COMMAND)
+                form = self.medium.command if typed else self.medium.emphasis
+                found.append(form.format(self.medium.text(mark[1])))
             else:
                 where = {"label": mark[2], "number": self.numbers[mark[2]]}
                 found.append(self.medium.reference.format(**where))

@@ -103,7 +103,7 @@ class Given(str):
 
 
 class Typed(Given):
-    """A command that has names of the user's, with emphasis."""
+    """A command that has names of the user's."""
 
 
 Words = tuple[str | Formula, ...]
