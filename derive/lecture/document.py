@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import groupby
@@ -69,8 +69,8 @@ class Medium:
 AMONG = 60
 """The most letters of a formula of a record that stands among words."""
 SIGNS = re.compile(r"\s*[.,;:]")
-WIDTH = 39.0
-"""The width of a display in em."""
+WIDTH, TALL = 36.0, 14
+"""The width of a display in em; the most rows of one that no page parts."""
 
 
 def _lines(x: typeset.Formula) -> str:
@@ -98,8 +98,26 @@ def _blocks(equations: Sequence[Equation]) -> str:
     found: list[str] = []
     for wide, run in groupby(equations, lambda e: measure(plain(_sides(e).tex)) > WIDTH):
         alike = [*run]
-        found += [_lines(_sides(e)) for e in alike] if wide else [aligned(alike, ())]
+        found += (
+            [_lines(_sides(e)) for e in alike] if wide else [aligned(x, ()) for x in _parted(alike)]
+        )
     return "\\]\n\\[".join(found)
+
+
+def _parted(equations: Sequence[Equation]) -> Iterator[list[Equation]]:
+    """Equations in displays of at most TALL rows, between which a page may end; those of a family
+    stand side by side."""
+    part: list[Equation] = []
+    rows = 0
+    for _, run in groupby(equations, lambda e: e.lhs[:2] if isinstance(e.lhs, tuple) else e.lhs):
+        alike = [*run]
+        height = 1 + max(plain(_sides(e).tex).count(r" \\") for e in alike)
+        if part and rows + height > TALL:
+            yield part
+            part, rows = [], 0
+        part += alike
+        rows += height
+    yield part
 
 
 def _sides(e: Equation) -> typeset.Formula:

@@ -9,6 +9,7 @@ from functools import partial
 from itertools import groupby
 
 from ..language.show import show
+from ..language.tree import Tree, nodes
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence
@@ -141,13 +142,28 @@ def _motion(d: Derivation) -> Iterator[Block]:
     entries.append(sentence(lambda x: x.word("Its equations of motion are")))
     steps = steps_of_answer(d)
     entries.append(display(motion, [s.label for s in steps]))
-    if defined := definitions(d, motion):
+    if defined := in_order(definitions(d, motion)):
         entries.append(sentence(lambda x: x.word("where")))
         entries.append(display(defined, [*dict.fromkeys(home[e] for e in defined)]))
     held = [s.label for s in d.steps for x in s.prose if x.message == message(HELD)]
     if held:
         entries.append(sentence(lambda x: x.word(message(HELD)), held))
     yield Block("text", "", "", tuple(entries), 0)
+
+
+def in_order(defined: Sequence[Equation]) -> list[Equation]:
+    """Definitions, each behind those of the letters that it is made of, as far as they can be."""
+    left, found = [*defined], list[Equation]()
+    while left:
+        open_ = {y for e in left for y in (e.lhs, _family(e.lhs))}
+        free = [e for e in left if not open_ - {e.lhs, _family(e.lhs)} & {*nodes(e.rhs)}]
+        found += (chosen := free or left[:1])
+        left = [e for e in left if e not in chosen]
+    return found
+
+
+def _family(t: Tree) -> Tree:
+    return t[1] if isinstance(t, tuple) and t[0] in ("at", "entry") else t
 
 
 def _body(d: Derivation) -> Iterator[Block]:
