@@ -28,7 +28,7 @@ class Reading:
         self.count = len(factors)
         self.named = _entries(group(name)) if factors else {}
         self.texts = {show(old): show(new) for old, new in self.named.items()}
-        self.found = re.compile("|".join(rf"{re.escape(x)}(?![₀-₉,])" for x in self.texts))
+        self.found = re.compile("|".join(rf"{re.escape(x)}(?!,?[₀-₉])" for x in self.texts))
 
     def tree(self, t: Tree) -> Tree:
         """A tree as it is read."""

@@ -20,14 +20,23 @@ from derive.language.show import show
 from derive.lecture import document
 from derive.lecture.conserved_sentences import kept_by
 from derive.lecture.lecture_text import Block, Chapter, Entry, Formula, LectureError, tree
-from derive.lecture.problem_chapter import LONGEST, SEARCHES, Found, _rows, chapter_of
+from derive.lecture.problem_chapter import (
+    LONGEST,
+    SEARCHES,
+    Found,
+    _rows,
+    chapter_of,
+    in_order,
+)
 from derive.lecture.problem_exercises import _on_motion
 from derive.lecture.ran_figure import FLAT, Ran
+from derive.lecture.steady_sentences import SAID
 from derive.lecture.told_refusals import REASONS
 from derive.lecture.told_refusals import reason as told_reason
 from derive.lecture.trials import tied, tried
+from derive.record import prose as texts
 from derive.record.record import Equation
-from derive.views.answer import equations_of_motion
+from derive.views.answer import definitions, equations_of_motion
 from derive.views.language import LANGUAGES, language
 from derive.views.outline import title
 from derive.views.printing.signs import tex_text
@@ -154,6 +163,44 @@ def test_steady_motions_that_are_not_sought_have_one_heading():
     plain = [title(records["comet"], language(x)) for x in LANGUAGES]
     assert [str(x) for x in chapter.title] == plain
     assert "Lagrange's top: equations, what is kept" in str(chapter_on("lagrange_top")[0].title)
+
+
+def test_each_steady_motion_is_a_sentence_with_its_conditions():
+    """In letters, where they are found so; what is supposed, and the variables, are said once."""
+    chapter, records, _ = chapter_on("lagrange_top")
+    found = records["lagrange_top:families"].steps
+    told = [e for e in chapter.entries if any(".equilibrium_" in x for x in e.labels)]
+    at = [s for s in found if ".equilibrium_" in s.label]
+    assert [e.labels[0] for e in told] == [s.label for s in at]
+    for e in told:
+        said = {x.text for x in e.formulas}
+        prose = [x for s in found if s.label in e.labels for x in s.prose]
+        for x in prose:
+            for place in ("point", "cases"):
+                told_so = str(dict(x.places).get(place, ""))
+                assert {y for y in told_so.split(", ") if y} <= said
+    whole = " ".join(str(x) for e in chapter.entries for x in e.texts[0])
+    assert whole.count("The kinetic energy is taken to be positive definite") == 1
+    variables = next(e for e in chapter.entries if "The variables are" in str(e.texts[0]))
+    assert [*["Π₁", "Π₂", "Π₃", "A₃₁", "A₃₂", "A₃₃"]] == [x.text for x in variables.formulas][:6]
+
+
+def test_what_the_record_says_of_stability_is_said():
+    """But that a form is indefinite and roots imaginary, which proves nothing."""
+    kinds = ("equilibrium", "family", "enclosure")
+    listed = {k: x[0] for k, x in texts.sentences().items() if k.partition(".")[0] in kinds}
+    telling = {k for k, x in listed.items() if re.search("stab(?:le|ility)|on the leaf is", x)}
+    silent = {"family.open", "family.imaginary"}  # said of all at once, or of no use alone
+    assert len(telling) > 15
+    assert {listed[k] for k in telling - silent} <= {*SAID}
+
+
+def test_definitions_stand_behind_those_of_their_letters():
+    defined = definitions(derived("hammer")[1], equations_of_motion(derived("hammer")[1]))
+    letters = [e.lhs for e in in_order(defined)]
+    assert {*letters} == {e.lhs for e in defined}
+    for before, after in (("c", "r_c"), ("m", "r_c"), ("J", "J_c"), ("J_c", "I_c")):
+        assert letters.index(before) < letters.index(after)
 
 
 def test_a_coordinate_without_energy_is_said_to_be_held_by_choice():
