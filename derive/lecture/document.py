@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import groupby
 
 from ..language.read import FormulaError
 from ..language.templating import environment
@@ -16,7 +15,6 @@ from ..views.html import escaped
 from ..views.language import LANGUAGES, Language
 from ..views.language import typeset as typeset_french
 from ..views.latex import DELIMITERS
-from ..views.layout import broken, indented
 from ..views.printing import typeset
 from ..views.printing.letters import NAMES, definitions
 from ..views.printing.line_breaking import measure
@@ -24,8 +22,8 @@ from ..views.printing.sentences import prose, spelt
 from ..views.printing.signs import NO_BREAK, SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal, plain
-from ..views.text import formula as aligned
 from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, homes, letters
+from .displays import blocks, displayed, sides
 from .figures import FIGURES, Figure
 from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Given, Typed, Words
 from .lecture_text import tree as tree_of
@@ -69,17 +67,6 @@ class Medium:
 AMONG = 60
 """The most letters of a formula of a record that stands among words."""
 SIGNS = re.compile(r"\s*[.,;:]")
-WIDTH, TALL = 36.0, 14
-"""The width of a display in em; the most rows of one that no page parts."""
-
-
-def _lines(x: typeset.Formula) -> str:
-    """A display as LaTeX; one that is too wide in several lines."""
-    first, *others = broken(x.tex, WIDTH)
-    if not others:
-        return first.text
-    rows = [f"&{first.text}", *("&" + indented(line, 1) for line in others)]
-    return "\n".join((r"\begin{aligned}", " \\\\\n".join(rows), r"\end{aligned}"))
 
 
 SHORT = 7.0
@@ -92,54 +79,22 @@ def _inline(x: typeset.Formula) -> str:
     return f"${{{tex}}}$" if measure(tex) < SHORT else f"${tex}$"
 
 
-def _blocks(equations: Sequence[Equation]) -> str:
-    """Equations of a record as displays, which a page may part: short ones below one another, one
-    that is too wide in several lines."""
-    found: list[str] = []
-    for wide, run in groupby(equations, lambda e: measure(plain(_sides(e).tex)) > WIDTH):
-        alike = [*run]
-        found += (
-            [_lines(_sides(e)) for e in alike] if wide else [aligned(x, ()) for x in _parted(alike)]
-        )
-    return "\\]\n\\[".join(found)
-
-
-def _parted(equations: Sequence[Equation]) -> Iterator[list[Equation]]:
-    """Equations in displays of at most TALL rows, between which a page may end; those of a family
-    stand side by side."""
-    part: list[Equation] = []
-    rows = 0
-    for _, run in groupby(equations, lambda e: e.lhs[:2] if isinstance(e.lhs, tuple) else e.lhs):
-        alike = [*run]
-        height = 1 + max(plain(_sides(e).tex).count(r" \\") for e in alike)
-        if part and rows + height > TALL:
-            yield part
-            part, rows = [], 0
-        part += alike
-        rows += height
-    yield part
-
-
-def _sides(e: Equation) -> typeset.Formula:
-    return of_tree(e.lhs) + literal(" = ") + of_tree(e.rhs)
-
-
 LATEX = Medium(
     tex_text,
     r"\emph{{{}}}",
     r"\texttt{{{}}}",
     r"\ref{{{label}}}",
     _inline,
-    _lines,
+    displayed,
     lambda x: tikz(x, colours=frozenset(AXES)),
-    _blocks,
+    blocks,
     "\\[{}\\]",
 )
 
 
 def _one_by_one(equations: Sequence[Equation]) -> str:
     """Equations of a record as displays of a page, one below the other."""
-    return "\n".join(map(PAGE.display, map(_sides, equations)))
+    return "\n".join(map(PAGE.display, map(sides, equations)))
 
 
 PAGE = Medium(

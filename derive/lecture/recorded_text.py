@@ -14,13 +14,13 @@ from ..views.language import LANGUAGES, Language, language
 from ..views.printing.sentences import prose
 from .lecture_text import Block, Entry, Formula, Tie, Words, words_of
 
-FACTOR = re.compile(r"(?<![^ ])([0-9]+) `(?=‘)")
+FACTOR = re.compile(r"(?<![^ ])(\(*[0-9]+) `(?=‘)")
 SPOKEN: tuple[Language, ...] = tuple(map(language, LANGUAGES))
 
 
 def words(text: str) -> Words:
     """A sentence of a record, whose formulas are as true as it; with them the numbers before
-    parameters, which alone would be words."""
+    parameters, and their brackets, which alone would be words."""
     return tuple(
         Formula(x.text, condition=True) if isinstance(x, Formula) else x
         for x in words_of(FACTOR.sub(r"`\1 ", prose(text, escape=str, formula="`{}`".format)))

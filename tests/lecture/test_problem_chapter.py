@@ -19,6 +19,7 @@ from derive.language.read import FormulaError
 from derive.language.show import show
 from derive.lecture import document
 from derive.lecture.conserved_sentences import kept_by
+from derive.lecture.displays import tall
 from derive.lecture.lecture_text import Block, Chapter, Entry, Formula, LectureError, tree
 from derive.lecture.problem_chapter import (
     LONGEST,
@@ -30,6 +31,7 @@ from derive.lecture.problem_chapter import (
 )
 from derive.lecture.problem_exercises import _on_motion
 from derive.lecture.ran_figure import FLAT, Ran
+from derive.lecture.recorded_text import words as words_of_record
 from derive.lecture.steady_sentences import SAID
 from derive.lecture.told_refusals import REASONS
 from derive.lecture.told_refusals import reason as told_reason
@@ -195,6 +197,13 @@ def test_what_the_record_says_of_stability_is_said():
     assert {listed[k] for k in telling - silent} <= {*SAID}
 
 
+def test_a_number_in_brackets_before_a_parameter_is_of_the_formula():
+    """Or the bracket is closed in the formula, and no line of it breaks."""
+    told = words_of_record("unstable where (1) (30 ‘M’³ + 8 ‘m’) ‘R’ < 0; (2) 3 ‘m’ > ‘M’")
+    formulas = [x.text for x in told if isinstance(x, Formula)]
+    assert formulas == ["(30 ‘M’³ + 8 ‘m’) ‘R’ < 0", "3 ‘m’ > ‘M’"]
+
+
 def test_definitions_stand_behind_those_of_their_letters():
     defined = definitions(derived("hammer")[1], equations_of_motion(derived("hammer")[1]))
     letters = [e.lhs for e in in_order(defined)]
@@ -261,6 +270,12 @@ def _body(chapter):
     """The LaTeX of its only text."""
     tex = document.latex(document.Lecture([chapter], language("en"), {}))
     return tex[tex.index("For all") : tex.index("and more") + 8]
+
+
+def test_brackets_about_fractions_are_as_tall():
+    assert tall(r"2(a)(b(\frac{c}{d} - e))^2") == (
+        r"2(a)\biggl(b\biggl(\frac{c}{d} - e\biggr)\biggr)^2"
+    )
 
 
 def test_parameters_have_a_table_and_the_body_a_figure():
