@@ -24,7 +24,7 @@ from .walk.fluid import circulation, fluid_forms, fluid_kernel
 from .walk.fluid.fluid_forms import FluidAlphabet
 from .walk.given import body, inputs, outputs, potentials, power
 from .walk.given.inputs import acts, by_name
-from .walk.kinematics import errors
+from .walk.kinematics import invariant_errors
 from .walk.lie import any_lagrangian, at_places, expressed, momentum_side
 from .walk.matrices import (
     conserved, coordinates, explicit, isometry, separation, solution, specialisation,
@@ -178,7 +178,7 @@ FLUID = (
     Stage("kelvin", "kernel points a c", "Steps", circulation.kelvin),
 )
 """An incompressible fluid: the road of ANY_GROUP, affine, with composition for matrices."""
-KINEMATICS = (Stage("errors", "problem group c", "Steps", errors.kinematics_steps),)
+KINEMATICS = (Stage("errors", "problem group c", "Steps", invariant_errors.kinematics_steps),)
 """A motion of first order on a group, and the errors of an estimate of it."""
 ON_THE_TORUS = (Stage("fluid", "problem lagrangian a c", "Steps", vorticity.torus_steps),)
 """The kinetic energy of a fluid on su(N), in the basis of the torus."""

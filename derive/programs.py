@@ -122,7 +122,7 @@ def trim(
     defaults, or what is ``given``."""
     from .code.options import Options
     from .code.program import LoweringError
-    from .search.trim.trim_steps import told
+    from .search.trim.trim import told
     from .search.trim.trimmed import trimmed
     from .walk.chapter import Chapter
     from .walk.spine.lagrangian import completed

@@ -15,11 +15,9 @@ from ..language.tree import Tree
 from ..record.record import Derivation
 from .conventions import conventions, titles
 from .drift import TEXTS, drift, matrices
-from .emitted_outputs import output_names, outputs
 from .factor import factored
 from .graph import Node, reachable
 from .group_functions import GroupFunctions
-from .inverse_dynamics import dynamics, wanted_rates
 from .kinks import kinks
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
@@ -33,7 +31,16 @@ from .schedule import Scheduler, by_leaves, by_numbers, by_state, frontier, vari
 from .state import StateSpace
 from .state_forms import FROM_MATRIX, LABELS, matrix_state, state_of
 from .step.discrete_step import STEPPING, Lowered, lowered
-from .watched_functions import EmittedEvent, EmittedQuantities, table, values
+from .watched_functions import (
+    EmittedEvent,
+    EmittedQuantities,
+    dynamics,
+    output_names,
+    outputs,
+    table,
+    values,
+    wanted_rates,
+)
 
 Place = tuple[str, tuple[str, int]]
 """The name of a number that is read, and its array and index."""

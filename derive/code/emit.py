@@ -28,8 +28,7 @@ from .signatures import ARRAYS, functions
 from .step.algorithms import ALGORITHMS, PRINTERS
 from .step.step_numbers import IN_FLOAT, VARIED, steps
 from .step.tableaux import METHODS
-from .torus.printed_sums import printed_sums
-from .torus.torus_program import Loops
+from .torus.torus_program import Loops, printed_sums
 
 
 class EmitError(Refused, ValueError):

@@ -14,7 +14,7 @@ from ..algebra.groups import Group
 from ..language.limits import SLOPES, SLOPES_BY_PARAMETERS
 from ..language.reserved import STANDARD_MACROS
 from ..record.record import Derivation
-from . import group_functions, inverse_dynamics
+from . import group_functions, watched_functions
 from .languages import LANGUAGES, TargetLanguage
 from .momentum_state import refuse
 from .options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
@@ -150,7 +150,7 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
     if chosen.momenta:
         refuse(d, group, chosen)
     if chosen.dynamics:
-        inverse_dynamics.refuse(d)
+        watched_functions.refuse(d)
     if chosen.exponential:
         group_functions.refuse(d, chosen)
     if "discrete" in chosen.step:

@@ -18,7 +18,7 @@ from ..algebra.relations import skew
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.reserved import suffixed
-from . import charts, dense
+from . import dense, slots
 from .graph import Graph, Node
 from .options import Options
 from .slots import OfElement, StateSlot, fixed_entries, order, still_slots
@@ -95,7 +95,7 @@ class StateSpace:
             known |= {("A", *place): num(x) for place, x in fixed_entries(self.group).items()}
             known |= {(x.letter, x.row, x.column): num(y) for x, y in self.still.items()}
             for chart in self.charts.values():
-                own = charts.entries(self.graph, chart, self.numbers[chart])
+                own = slots.entries(self.graph, chart, self.numbers[chart])
                 known |= {("A", *place): y for place, y in own.items()}
         return {
             "A": tuple(tuple(known.get(("A", i, j), num(0)) for j in span) for i in span),
@@ -130,7 +130,7 @@ class StateSpace:
             found = self._changed(e, "A", "T")
         for chart in self.charts.values():
             x = self.numbers[chart]
-            found |= dict(zip(x, charts.rates(self.graph, chart, x, e), strict=True))
+            found |= dict(zip(x, slots.rates(self.graph, chart, x, e), strict=True))
         return found
 
     def _changed(self, e: Matrix, linear: str, shift: str) -> Seeds:
@@ -260,7 +260,7 @@ class StateSpace:
         speeds = []
         for x in self.held_of_g:
             if isinstance(x, FactorChart):
-                speeds += charts.rates(self.graph, x, self.numbers[x], Z)
+                speeds += slots.rates(self.graph, x, self.numbers[x], Z)
             else:
                 speeds += self._entries(Ȧ, Ṫ, [x])
         return speeds + velocity

@@ -1,29 +1,87 @@
-"""What a motion keeps, and events on it, as functions of its state."""
+"""Functions of the state beside its rates: outputs, what a motion keeps, events, inverse dynamics.
+
+Outputs are in the numbers of the state as it is emitted, with their derivatives.  Of the mass
+matrix M and the bias b: for rates a of the velocity, M a + b is the covector that must be added to
+what already acts; without inputs, that which they must supply.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, Protocol
 
 from ..language import rational as q
 from ..language.expression import names
+from ..language.limits import tell
 from ..language.rational import Matrix
-from ..language.reserved import did_you_mean, near_name
+from ..language.reserved import did_you_mean, near_name, suffixed
 from ..language.tree import Tree, add, fold, mul
 from ..language.values import OPERATIONS, value
+from ..record.record import Derivation, Equation
 from . import dense
-from .emitted_outputs import output_names, output_nodes
 from .factor import factored
-from .graph import Graph, Node
+from .graph import Graph, Node, reachable, remade, rewritten
 from .lower import Lowering
 from .options import Options
 from .program import LoweringError, Watched
 from .reader import matrix, scalar
-from .schedule import Directional
+from .schedule import Directional, by_numbers, of_velocity, variations
 from .state_forms import BACK, IN_SPACE, has_velocity, in_space, state_of
+
+RULE = "output"
+"""That of the step which says the outputs."""
+
+
+def output_names(d: Derivation) -> tuple[str, ...]:
+    """The names of the numbers that a record says to be read off its motion, in their order."""
+    return tuple(name for name, _, _ in _entries(d))
+
+
+def _entries(d: Derivation) -> Iterator[tuple[str, Equation, int]]:
+    """Name, equation and which entry of its sides, from 0, of each number."""
+    equations = (e for s in d.steps if s.rule == RULE for e in s.equations)
+    for e in equations:
+        match e.lhs:
+            case ("par", name):
+                yield name, e, 0
+            case ("matrix", *rows):
+                yield from ((row[1][1], e, k) for k, row in enumerate(rows))
+
+
+def outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
+    """The function ``outputs`` and the derivatives that are asked for, as name → outputs; nothing
+    where the record says none."""
+    found = output_nodes(lowering)
+    if not found:
+        return {}
+    graph, reader = lowering.graph, lowering.reader
+    wanted = {"outputs": found}
+    if "outputs" in options.jacobian:
+        wanted["jacobian_outputs"] = [v.of(x) for x in found for v in variations(reader.space)]
+        leaves = [reader.leaf(x, "input") for x in reader.inputs]
+        if leaves:
+            wanted["jacobian_outputs_inputs"] = by_numbers(graph, found, leaves)
+        if "raw" in options.jacobian:
+            state = [reader.leaf(x, "state") for x in reader.space.names]
+            wanted["jacobian_outputs_raw"] = by_numbers(graph, found, state)
+    return {name: factored(graph, nodes) for name, nodes in wanted.items()}
+
+
+def output_nodes(lowering: Lowering) -> list[Node]:
+    """The values of the outputs, in their order."""
+    return [_value(lowering, e, k) for _, e, k in _entries(lowering.record)]
+
+
+def _value(lowering: Lowering, e: Equation, k: int) -> Node:
+    """Entry k of the right side of an equation, or the number that it is."""
+    label = next(s.key(e) for s in lowering.record.steps if e in s.equations)
+    reader = lowering.reader
+    reader.label = label
+    value = lowering.tree(e.rhs)
+    return scalar(value if isinstance(value, Node) else value[k][0])
 
 
 class EmittedQuantities:
@@ -250,3 +308,55 @@ def _numbers(lowering: Lowering) -> dict[str, Node]:
         **{x: reader.leaf(x, "input") for x in reader.inputs},
         **dict(zip(output_names(lowering.record), output_nodes(lowering), strict=True)),
     }
+
+
+def refuse(d: Derivation) -> None:
+    """``LoweringError`` where the velocity is not determined by the momenta."""
+    if d.problem.get("lagrangian", {}).get("held"):
+        raise LoweringError(
+            f"{d.name}: --dynamics is for motions on the whole group, and these are on a quotient: "
+            "leave it out"
+        )
+
+
+def wanted_rates(lowering: Lowering) -> list[Node]:
+    """What ``inverse`` takes: the rates that the velocity is to have, in the basis of the state."""
+    span = range(1, lowering.reader.group.dimension + 1)
+    return [lowering.graph.leaf(suffixed("dzeta", a), "state") for a in span]
+
+
+def dynamics(lowering: Lowering) -> dict[str, list[Node]]:
+    """The functions ``mass_matrix``, ∂Π_a/∂ζ_b by rows, ``bias``, −M ζ̇ of the motion, and
+    ``inverse``, M (a − ζ̇) by rates a and the motion without inputs, where there is such a motion;
+    in the basis of the state."""
+    reader, graph = lowering.reader, lowering.graph
+    count = reader.group.dimension
+    momenta = EmittedQuantities(lowering).momenta
+    speeds = of_velocity(reader.space)
+    upper = {
+        (a, b): graph.value(speeds[b].of(momenta[a]), suffixed("M", a + 1, b + 1), "")
+        for a in range(count)
+        for b in range(a, count)
+    }
+    rows = [[upper[min(a, b), max(a, b)] for b in range(count)] for a in range(count)]
+    rates = reader.space.velocity(reader.component)
+    found = {
+        "mass_matrix": [x for row in rows for x in row],
+        "bias": [-Node.dot(row, rates) for row in rows],
+        "inverse": _supplied(lowering, rows, rates),
+    }
+    return {name: factored(graph, nodes) for name, nodes in found.items() if nodes}
+
+
+def _supplied(lowering: Lowering, rows: list[list[Node]], rates: list[Node]) -> list[Node]:
+    """M on what the rates without inputs lack; none where an input is divided by."""
+    reader, graph = lowering.reader, lowering.graph
+    still = {reader.leaf(x, "input"): graph.num(0) for x in reader.inputs}
+    try:
+        unforced = rewritten(rates, reachable(rates), remade, still)
+    except ZeroDivisionError:
+        tell(f"{lowering.record.name}: no inverse is written, as an input is divided by")
+        return []
+    pairs = enumerate(zip(wanted_rates(lowering), unforced, strict=True), 1)
+    lacking = [graph.value(a - x, suffixed("lacking", i), "") for i, (a, x) in pairs]
+    return [Node.dot(row, lacking) for row in rows]

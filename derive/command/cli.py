@@ -159,7 +159,7 @@ def command_lecture(args: argparse.Namespace) -> int:
 def command_notes(args: argparse.Namespace) -> int:
     """The whole record of problems as notes: .tex, .pdf, .html; or .sty, the macros of their
     fragments."""
-    from .noting import command_notes
+    from .lecturing import command_notes
 
     return command_notes(args)
 
@@ -298,7 +298,7 @@ def command_paper(args: argparse.Namespace) -> int:
     from ..views.book import as_json, as_text
     from ..views.language import language
     from ..views.paper import findings as paper
-    from ..views.paper.printed import PAPER
+    from ..views.paper.findings import PAPER
 
     records = [derive(name)[1] for name in paper.PROBLEMS]
     findings = list(with_progress(paper.findings(records), len(PAPER), "equations"))

@@ -8,11 +8,10 @@ from itertools import chain, combinations, product
 
 import numpy as np
 
-from .added_mass import of_added_mass
 from .balance import Balance, Part, Term, exact
 from .told import ABOUT, NEAR, Changed, Hypothesis, changed, possible, told
 from .users_code import Array
-from .wrenches import of_axes, of_sizes, of_wrenches
+from .wrenches import of_added_mass, of_axes, of_sizes, of_wrenches
 
 NEARER = 0.5
 """What a change leaves of the difference at most, to be told as the nearest."""

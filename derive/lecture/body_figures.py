@@ -10,12 +10,12 @@ from functools import cached_property, partial
 from ..views.figure.drawing import Label, Scene, Stroke, arrow
 from ..views.figure.drawn_body import ExpressionValues, View, cross, parts, placed
 from ..views.figure.panels import Panel, Sheet, draw
-from ..views.figure.stated_inertia import parts_of_inertia
+from ..views.figure.scene import parts_of_inertia
 from ..views.language import LANGUAGES, Language
 from .figures import Figure, Spun, displacement, polhodes
 from .lecture_text import Given
+from .motion_figures import MOMENTS, poinsot
 from .own_body import FREE, OwnBody
-from .rolling_figure import MOMENTS, poinsot
 from .sheets import Claims, Vector, euler, panel, solved
 
 TILTED = 0.004

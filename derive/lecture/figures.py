@@ -8,10 +8,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
-from .rolling_figure import poinsot
+from .motion_figures import ellipse, poinsot, tetrahedron, tilts, top_paths
 from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, euler, panel, solved
-from .top_figures import tilts, top_paths
-from .volume_figures import ellipse, tetrahedron
 
 LEVELS = (0.1, 0.3, 0.55, 0.8)
 """Where on the way from an axis to the separatrices the polhodes are."""

@@ -20,8 +20,8 @@ from ..language.values import elementary
 from ..views.language import LANGUAGES, Language, language
 from .body_figures import turned
 from .lecture_text import ASKED, Block, Chapter, Entry, Formula, LectureError, Words, tree
+from .motion_figures import Top
 from .sheets import Claims, number
-from .top_figures import Top
 
 RANGE = re.compile(r"(−?\d+)…(−?\d+)")
 LEAD = "In numbers:"

@@ -15,7 +15,7 @@ from ..record.as_json import decode
 from ..record.record import Derivation
 from ..record.sentence import Sentence, phrase
 from ..views.figure.drawn_body import ExpressionValues, moments_of
-from ..views.figure.stated_inertia import along, at_velocity, quadratic, turns
+from ..views.figure.scene import along, at_velocity, quadratic, turns
 from ..views.language import LANGUAGES, language
 from ..views.outline import group, title
 from .sheets import Vector

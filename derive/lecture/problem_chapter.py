@@ -19,14 +19,25 @@ from ..views.figure.scene import scene
 from ..views.language import Language, language
 from ..views.outline import declared, system, title
 from ..views.text import formula as aligned
-from .conserved_sentences import conserved, kept_by, reduced_by
 from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
 from .problem_exercises import exercises
 from .ran_figure import DESCRIBED, FLAT, Ran, label_of, raised
-from .recorded_text import SPOKEN, as_read, display, in_each, sentence, words
+from .recorded_text import (
+    OVER,
+    SPOKEN,
+    as_read,
+    conserved,
+    display,
+    in_each,
+    kept_by,
+    reason,
+    reduced_by,
+    sentence,
+    without_advice,
+    words,
+)
 from .steady_sentences import steady, variables_of
-from .told_refusals import OVER, reason, without_advice
 
 SEARCHES = {
     "symmetries": "What the motion keeps.",

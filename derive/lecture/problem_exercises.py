@@ -11,10 +11,9 @@ from ..language.show import in_sentence
 from ..language.tree import Tree, neg
 from ..record.record import Derivation, Equation, Step
 from ..views.language import ENGLISH, Language
-from .conserved_sentences import kept_by, kind_of
 from .lecture_text import Block, Entry, Formula, Typed, Words, words_of
 from .ran_figure import Ran, letter_of, written
-from .recorded_text import SPOKEN, alone, display, in_each, sentence, words
+from .recorded_text import SPOKEN, alone, display, in_each, kept_by, kind_of, sentence, words
 
 HAND, MISTAKE, WATCH = "By hand.", "Find the mistake.", "Predict, then watch."
 KEPT = "Show that this is constant along every motion:"

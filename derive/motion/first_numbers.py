@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, SupportsFloat
 from ..algebra.factor_charts import QUATERNION
 from ..code.program import Program
 from ..code.slots import horn
-from ..code.torus.lattice_state import turned
+from ..code.torus.torus_program import turned
 from ..language.expression import names
 from ..language.limits import Refused
 from ..language.rational import Matrix

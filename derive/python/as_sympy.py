@@ -16,7 +16,8 @@ from ..language.read import read
 from ..language.show import show, show_name
 from ..language.tree import Tree, nodes
 from ..problem.problem import ProblemError
-from ..record.names import (
+from ..record.record import Derivation, Equation
+from ..record.vocabulary import (
     ALGEBRA,
     FIELD,
     FUNCTION_ON_SPACE,
@@ -24,10 +25,9 @@ from ..record.names import (
     SCALAR,
     SQUARE,
     TENSOR,
+    VOCABULARY,
     Type,
 )
-from ..record.record import Derivation, Equation
-from ..record.vocabulary import VOCABULARY
 from ..views.outline import named_numbers
 from ..views.text import clashing
 from .sympy_matrices import FunctionValue, Hat, MatrixSum, Member, scalar_member

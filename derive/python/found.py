@@ -18,9 +18,8 @@ from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..search.equilibria.enclosed_points import Enclosed
 from ..search.equilibria.equilibrium_points import coordinate
-from ..search.equilibria.letter_conditions import Case, inequality
 from ..search.equilibria.stability import Equilibrium
-from ..search.equilibria.stability_in_letters import Family
+from ..search.equilibria.stability_in_letters import Case, Family, inequality
 from ..search.integrals.all_integrals import Condition, IntegralsFound
 from ..search.reduction.routhian import Routhian
 from ..search.trim.trim import Trim

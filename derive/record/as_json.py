@@ -19,7 +19,6 @@ from typing import Any
 from ..language.limits import RECORD_BYTES, TREE
 from ..language.tree import OPERATORS, Tree
 from . import sentence
-from .names import ROLES, Type, Use
 from .record import (
     ANY_GROUP,
     CHAPTERS,
@@ -35,10 +34,9 @@ from .record import (
     equation_key,
     step_of,
 )
-from .rules import RULES
 from .sentence import CLAIMS, Claim, Prose, english
 from .shape import ShapeError, deepest, problem_shape, tree_shape
-from .vocabulary import VOCABULARY
+from .vocabulary import ROLES, RULES, VOCABULARY, Type, Use
 
 
 def loads(text: str) -> Any:

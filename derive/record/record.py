@@ -17,9 +17,8 @@ from typing import Any
 from ..language.limits import Refused
 from ..language.read import FormulaError, read
 from ..language.tree import Tree, names
-from .names import Use
-from .rules import RULES
 from .sentence import Claim, Prose
+from .vocabulary import RULES, Use
 
 ANY_GROUP = "any group"
 ACTIONS = ("linear", "affine")

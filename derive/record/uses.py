@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 
 from ..language.show import FIELD_OPERATORS
 from ..language.tree import Tree
-from .names import ALGEBRA, SCALAR, SQUARE, VECTOR, Name, Type, Use
 from .record import ANY_GROUP, FIELDS, Equation, Step
-from .vocabulary import VOCABULARY
+from .vocabulary import ALGEBRA, SCALAR, SQUARE, VECTOR, VOCABULARY, Name, Type, Use
 
 Usage = tuple[str, str]
 """A name and the position in which it stands: "value", "member", "function" or "moved"."""

@@ -16,7 +16,7 @@ from ..language.show import show, signed
 from ..language.tree import Tree, names, neg, nodes
 from ..record.record import Derivation, Equation, Step
 from .answer import ANGLE, by_angle, equations_of_motion, steps_of_answer
-from .figure.stated_inertia import SIZES, along, shifts, turns
+from .figure.scene import SIZES, along, shifts, turns
 from .language import Language
 from .outline import latex_names
 from .printing.tex import COMMA_SPACE, formula, joined

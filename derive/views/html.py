@@ -12,7 +12,7 @@ from typing import Any
 from ..language.templating import environment
 from ..language.tree import Tree
 from ..record.record import Derivation, Equation, Step
-from ..record.rules import RULES
+from ..record.vocabulary import RULES
 from .answer import Letter, Summary, after
 from .book import MOTION, REGULAR, BookPart, Passage, book, corrections, parameters
 from .figure.drawing import svg

@@ -12,13 +12,13 @@ from pathlib import Path
 
 from ..language.show import show
 from ..language.tree import Tree
-from ..record import rules, vocabulary
+from ..record import vocabulary
 from ..record.prose import LANGUAGES as LANGUAGES
 from ..record.prose import entries as steps
 from ..record.prose import read
 from ..record.record import Equation
 from ..record.sentence import Prose, Sentence, filled, phrase
-from .paper.printed import remarks
+from .paper.findings import remarks
 from .printing.line_breaking import display_width, measure
 from .printing.tex import latex_tree
 
@@ -98,7 +98,7 @@ def told(label: str) -> str:
 def catalogue_entries() -> list[dict[str, str]]:
     """The prose of the steps, the names and rules of the record, what views say of all, remarks on
     the note, and the catalogue."""
-    tables = vocabulary.meanings(), rules.names(), labelled().values(), remarks().values()
+    tables = vocabulary.meanings(), vocabulary.names(), labelled().values(), remarks().values()
     words = dict.fromkeys(x for table in tables for x in table)
     catalogue = ((en, *texts) for en, texts in read([CATALOGUE], LANGUAGES[1:]).items())
     return [*steps(), *(dict(zip(LANGUAGES, x, strict=True)) for x in (*words, *catalogue))]

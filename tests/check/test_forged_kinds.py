@@ -22,7 +22,7 @@ from derive.problem.toml import problem_of
 from derive.record.as_json import from_json, to_data
 from derive.record.mass_signs import SUPPOSED
 from derive.record.record import ANY_GROUP, Equation, Hypothesis
-from derive.record.rules import OFF_MOTION, RULES
+from derive.record.vocabulary import OFF_MOTION, RULES
 from tests.support import corpus
 from tests.support.walks import FLUIDS, SEED, record
 

@@ -27,7 +27,7 @@ def swimming():
 
 def trees(found, cases):
     """The same by trees: for each case its pairs of sides."""
-    from derive.search.equilibria.letter_conditions import inequality
+    from derive.search.equilibria.stability_in_letters import inequality
 
     algebra = found.about.algebra
     return [[inequality(algebra, *x) for x in case.beyond(found.known)] for case in cases]

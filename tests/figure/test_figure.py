@@ -20,8 +20,7 @@ from derive.record.as_json import from_json, to_json
 from derive.record.record import Derivation
 from derive.views.figure.drawing import Scene, Stroke, svg, tikz
 from derive.views.figure.drawn_body import ExpressionValues, overlap
-from derive.views.figure.scene import WIDTH, scene
-from derive.views.figure.stated_inertia import parts_of_inertia
+from derive.views.figure.scene import WIDTH, parts_of_inertia, scene
 from tests.support.tex import compiled
 from tests.support.walks import record as ready_made_record
 

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derive.command.lecturing import records_of
-from derive.lecture import document, figures, rolling_figure, top_figures, volume_figures
+from derive.lecture import document, figures, motion_figures
 from derive.lecture.lecture_text import LectureError, chapters, parsed
 from derive.lecture.sheets import View
 from derive.problem.toml import problem_of
@@ -19,26 +19,26 @@ CHAPTERS = chapters()
 RECORDS = records_of(CHAPTERS)
 CLAIMS = document.claims_of(CHAPTERS)
 FIGURES = [b for c in CHAPTERS for b in c.blocks if b.kind == "figure"]
-I1, I3, P = top_figures.PARAMETERS.values()
+I1, I3, P = motion_figures.PARAMETERS.values()
 
 
 def top(kind):
-    return top_figures.Top(CLAIMS, top_figures.PRECESSIONS[kind])
+    return motion_figures.Top(CLAIMS, motion_figures.PRECESSIONS[kind])
 
 
 def momenta(kind):
     """The rate of precession at the upper tilt, the momentum about the vertical, and the energy, by
     the angular velocity: ψ̇ of precession about e_z and what is left about the axis."""
-    rate, spin, u = top_figures.PRECESSIONS[kind], top_figures.SPIN, top_figures.UPPER
+    rate, spin, u = motion_figures.PRECESSIONS[kind], motion_figures.SPIN, motion_figures.UPPER
     about_vertical = I1 * rate * (1 - u * u) + spin * u
     return rate, about_vertical, I1 * rate**2 * (1 - u * u) / 2 + spin**2 / (2 * I3) + P * u
 
 
 def by_vectors(kind, end):
     """The axis n of the top by the law of its angular momentum, L′ = −P n × e_z."""
-    rate, u, up = momenta(kind)[0], top_figures.UPPER, np.array([0, 0, 1.0])
+    rate, u, up = momenta(kind)[0], motion_figures.UPPER, np.array([0, 0, 1.0])
     n = np.array([np.sqrt(1 - u * u), 0, u])
-    momentum = I1 * np.cross(n, np.cross(rate * up, n)) + top_figures.SPIN * n
+    momentum = I1 * np.cross(n, np.cross(rate * up, n)) + motion_figures.SPIN * n
 
     def moved(_, x):
         n, about = x[:3], x[3:]
@@ -48,7 +48,7 @@ def by_vectors(kind, end):
     return lambda t: run.sol(t)[:3]
 
 
-@pytest.mark.parametrize("kind", top_figures.PRECESSIONS)
+@pytest.mark.parametrize("kind", motion_figures.PRECESSIONS)
 def test_the_axis_moves_as_its_angular_momentum_says(kind):
     motion = top(kind).motion(20.0, 1600)
     axis = by_vectors(kind, 20.0)
@@ -57,15 +57,15 @@ def test_the_axis_moves_as_its_angular_momentum_says(kind):
         assert np.allclose([r * np.cos(angle), r * np.sin(angle), u], axis(t), rtol=0, atol=1e-5)
 
 
-@pytest.mark.parametrize("kind", top_figures.PRECESSIONS)
+@pytest.mark.parametrize("kind", motion_figures.PRECESSIONS)
 def test_the_turning_points_are_roots_of_the_cubic(kind):
     """(1 − u²)(2h − J₂²/I₃ − 2Pu) I₁ − (J₁ − uJ₂)², by the roots of polynomials."""
     _, about_vertical, energy = momenta(kind)
-    spin = top_figures.SPIN
+    spin = motion_figures.SPIN
     cubic = I1 * np.poly1d([-1, 0, 1]) * np.poly1d([-2 * P, 2 * energy - spin**2 / I3])
     cubic -= np.poly1d([-spin, about_vertical]) ** 2
     low, high, outside = sorted(cubic.roots.real)
-    assert np.allclose([low, high], [top(kind).lower, top_figures.UPPER], rtol=0, atol=1e-9)
+    assert np.allclose([low, high], [top(kind).lower, motion_figures.UPPER], rtol=0, atol=1e-9)
     assert outside > 1
     heights = [u for _, (u, *_) in top(kind).motion(20.0, 1600)]
     assert min(heights) == pytest.approx(low, abs=1e-3)
@@ -76,7 +76,7 @@ def test_the_turning_points_are_roots_of_the_cubic(kind):
 def test_waves_cusps_and_loops():
     """Along a path the angle grows, stands still with the height at cusps, or also falls."""
     backwards, slowest = {}, {}
-    for kind in top_figures.PRECESSIONS:
+    for kind in motion_figures.PRECESSIONS:
         path = np.array(top(kind).path())
         steps = np.diff(np.unwrap(np.arctan2(path[:, 1], path[:, 0])))
         backwards[kind] = (steps < -1e-6).sum()
@@ -105,8 +105,8 @@ def test_the_racket_flips_as_the_emitted_code_says():
 def test_the_ellipsoid_rolls_as_the_emitted_code_says():
     """The point of contact stays in one plane; its place there up to a rotation, by A in space."""
     code, end, steps = module_of("euler_top"), 20.0, 2000
-    moments = np.array(rolling_figure.MOMENTS)
-    start = [*np.eye(3).ravel(), *rolling_figure.START]
+    moments = np.array(motion_figures.MOMENTS)
+    start = [*np.eye(3).ravel(), *motion_figures.START]
     run = solve_ivp(
         code.rhs,
         (0, end),
@@ -117,12 +117,12 @@ def test_the_ellipsoid_rolls_as_the_emitted_code_says():
         atol=1e-13,
     )
     wanted = np.array([x[:9].reshape(3, 3) @ x[9:] for x in run.y.T])
-    momentum = moments * rolling_figure.START
+    momentum = moments * motion_figures.START
     down = momentum / np.linalg.norm(momentum)
     first = np.cross(momentum, [0, 0, 1])
     first /= np.linalg.norm(first)
-    motion = rolling_figure.rolling(CLAIMS, end, steps)[::100]
-    found = np.array([rolling_figure.in_space(*x)(x[0]) for x in motion])
+    motion = motion_figures.rolling(CLAIMS, end, steps)[::100]
+    found = np.array([motion_figures.in_space(*x)(x[0]) for x in motion])
     axes = np.array([first, np.cross(first, down), -down])
     assert np.allclose(found, wanted @ axes.T, rtol=0, atol=1e-5)
     assert np.ptp(found[:, 2]) < 1e-8
@@ -132,21 +132,21 @@ def test_the_ellipsoid_rolls_as_the_emitted_code_says():
 
 def test_four_points_move_as_the_emitted_code_says():
     """The same points and springs as a problem; the volume stays, and θ is that of its walk."""
-    points = volume_figures.PLACES.tolist()
+    points = motion_figures.PLACES.tolist()
     springs = [
-        {"kind": "spring", "between": [i, j], "stiffness": volume_figures.SPRING, "length": 0}
+        {"kind": "spring", "between": [i, j], "stiffness": motion_figures.SPRING, "length": 0}
         for i in range(1, 5)
         for j in range(1, i)
     ]
-    listed = zip(volume_figures.MASSES, points, strict=True)
+    listed = zip(motion_figures.MASSES, points, strict=True)
     data = {"name": "four", "group": "SL(3)", "potential": springs}
     data["point"] = [{"mass": m, "at": at} for m, at in listed]
     code = module_of(problem_of(data))
     basis = np.array(code.BASIS, float)
     rows = basis.reshape(len(basis), 9).T
-    zeta = np.linalg.lstsq(rows, volume_figures.VELOCITY.ravel(), rcond=None)[0]
-    motion = volume_figures.motion(
-        CLAIMS, volume_figures.moments(), volume_figures.VELOCITY, volume_figures.END
+    zeta = np.linalg.lstsq(rows, motion_figures.VELOCITY.ravel(), rcond=None)[0]
+    motion = motion_figures.motion(
+        CLAIMS, motion_figures.moments(), motion_figures.VELOCITY, motion_figures.END
     )
     times, k = [t for t, *_ in motion], code.constants([])
     start, end = [*np.eye(3).ravel(), *zeta], (0, times[-1])
@@ -159,9 +159,9 @@ def test_four_points_move_as_the_emitted_code_says():
 
 def test_an_edge_of_the_tetrahedron_is_pale_where_a_point_just_before_it_is_inside():
     """A point of an edge is hidden if the way from it to the eye goes through the inside."""
-    points = volume_figures.PLACES
+    points = motion_figures.PLACES
     for A in (np.eye(3), np.diag([3, 1, 1 / 3]), np.array([[1, 2, 0], [0, 1, 0], [1, 0, 1]])):
-        scene = volume_figures._placed(A, 0.0)
+        scene = motion_figures._placed(A, 0.0)
         view = View((12.5, 17.5), 11.0, 25, 18)
         eye = np.array([view.depth(x) for x in np.eye(3)])
         moved = points @ A.T
@@ -184,8 +184,8 @@ def test_an_ellipse_of_fluid_keeps_its_area():
         theta = -2 * np.linalg.det(v) / (cofactors**2).sum()
         return np.concatenate([v.ravel(), theta * cofactors.ravel()])
 
-    J, strain = {"J": np.eye(2), "K": np.zeros((2, 2))}, volume_figures.STRAIN
-    motion = volume_figures.motion(CLAIMS, J, strain, volume_figures.SPREAD)
+    J, strain = {"J": np.eye(2), "K": np.zeros((2, 2))}, motion_figures.STRAIN
+    motion = motion_figures.motion(CLAIMS, J, strain, motion_figures.SPREAD)
     times = [t for t, *_ in motion]
     start = [*np.eye(2).ravel(), *strain.ravel()]
     run = solve_ivp(rate, (0, times[-1]), start, t_eval=times, rtol=1e-11, atol=1e-13)
@@ -233,7 +233,7 @@ def test_the_pictures_in_a_language(lang):
 def test_a_caption_says_the_numbers_of_its_figure():
     (tilts,) = (b for b in FIGURES if b.label == "tilts")
     said = {x.text for x in tilts.entries[1].formulas}
-    drawn = top_figures.PARAMETERS | {"𝒥₂": top_figures.SPIN}
+    drawn = motion_figures.PARAMETERS | {"𝒥₂": motion_figures.SPIN}
     assert {f"{x} = {Fraction(str(y))}" for x, y in drawn.items()} <= said
 
 

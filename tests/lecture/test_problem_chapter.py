@@ -18,7 +18,6 @@ from derive.language.limits import Refused
 from derive.language.read import FormulaError
 from derive.language.show import show
 from derive.lecture import document
-from derive.lecture.conserved_sentences import kept_by
 from derive.lecture.displays import tall
 from derive.lecture.lecture_text import Block, Chapter, Entry, Formula, LectureError, tree
 from derive.lecture.problem_chapter import (
@@ -31,10 +30,10 @@ from derive.lecture.problem_chapter import (
 )
 from derive.lecture.problem_exercises import _on_motion
 from derive.lecture.ran_figure import FLAT, Ran
+from derive.lecture.recorded_text import REASONS, kept_by
+from derive.lecture.recorded_text import reason as told_reason
 from derive.lecture.recorded_text import words as words_of_record
 from derive.lecture.steady_sentences import SAID
-from derive.lecture.told_refusals import REASONS
-from derive.lecture.told_refusals import reason as told_reason
 from derive.lecture.trials import tied, tried
 from derive.record import prose as texts
 from derive.record.record import Equation

@@ -12,8 +12,7 @@ from derive.command.cli import main
 from derive.language.show import show
 from derive.record.record import AMENDED
 from derive.views.paper import findings as paper
-from derive.views.paper.findings import VERDICTS
-from derive.views.paper.printed import PAPER
+from derive.views.paper.findings import PAPER, VERDICTS
 from derive.views.text import text
 from tests.support.walks import record
 

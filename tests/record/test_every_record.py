@@ -12,8 +12,8 @@ from derive.check.form.function_signatures import HEADS
 from derive.language.tree import names
 from derive.record.as_json import from_json, to_json
 from derive.record.record import ANY_GROUP
-from derive.record.rules import RULES
 from derive.record.uses import position_of
+from derive.record.vocabulary import RULES
 from tests.support.corpus import NAMED, checker, record
 from tests.support.walks import SEED
 

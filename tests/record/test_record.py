@@ -11,7 +11,7 @@ from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.as_json import from_json, to_data, to_json
 from derive.record.record import COMMENTARY, RecordError
-from derive.record.rules import RULES
+from derive.record.vocabulary import RULES
 from tests.support import steps
 from tests.support.engine_mutations.jobs import MIXED
 from tests.support.walks import own_verdicts, record

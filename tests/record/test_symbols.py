@@ -7,9 +7,14 @@ import pytest
 
 from derive.check.checker import Checker
 from derive.record.as_json import from_json
-from derive.record.names import (
+from derive.record.record import RecordError
+from derive.record.vocabulary import (
+    DISPLACEMENTS,
+    PRODUCTS,
+    ROTATIONS,
     SQUARE,
     VECTOR,
+    VOCABULARY,
     Name,
     Use,
     defined,
@@ -17,8 +22,6 @@ from derive.record.names import (
     tables,
     type_of,
 )
-from derive.record.record import RecordError
-from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
 from tests.support.refusals import data, read
 from tests.support.walks import SEED
 

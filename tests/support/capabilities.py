@@ -18,7 +18,7 @@ from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
 from derive.command.arguments import parser
 from derive.command.cli import COMMANDS
 from derive.command.showing import ready_made
-from derive.record.rules import RULES
+from derive.record.vocabulary import RULES
 from derive.schema.table import Table
 
 LISTED = Path(__file__).with_suffix(".txt")

@@ -20,10 +20,8 @@ from derive.check.form.function_signatures import RATES
 from derive.check.form.hypotheses_checked import missing_mass_hypotheses
 from derive.check.form.well_formedness import unexplained, unused
 from derive.record.as_json import from_json, step_data, to_data
-from derive.record.names import ROLES
 from derive.record.record import ANY_GROUP, COMMENTARY, RecordError
-from derive.record.rules import OFF_MOTION
-from derive.record.vocabulary import VOCABULARY
+from derive.record.vocabulary import OFF_MOTION, ROLES, VOCABULARY
 from tests.support import record_forgeries, record_mutations
 from tests.support.corpus import DRIVEN_ON, READY, STARS, checker, record
 from tests.support.record_mutations import TWINS

@@ -26,7 +26,7 @@ from derive.validate.straight_line import Measured
 from derive.validate.syntax import SYNTAX, tokens
 from derive.validate.terms import CodeError
 from derive.validate.torus.loop_reader import LoopReader
-from derive.validate.torus.loops_in_julia import JuliaLoopReader
+from derive.validate.torus.loops_of_languages import JuliaLoopReader
 from derive.validate.torus.run_loops import Cells, Loops
 from derive.validate.torus.torus_files import (
     TorusClaims,

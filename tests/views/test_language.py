@@ -14,11 +14,10 @@ from derive.pipeline import walk
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
 from derive.record import prose as texts
-from derive.record import rules
+from derive.record import vocabulary
 from derive.record.as_json import from_json, to_json
-from derive.record.rules import RULES
 from derive.record.sentence import PLACE
-from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, meanings
+from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, RULES, VOCABULARY, meanings
 from derive.schema.body_kinds import SOLIDS, MomentBody
 from derive.schema.kinds import kinds
 from derive.searches import families, symmetries
@@ -31,7 +30,7 @@ from derive.views.language import (
     labelled,
     language,
 )
-from derive.views.paper.printed import PAPER
+from derive.views.paper.findings import PAPER
 from derive.views.text import markdown, step_markdown, step_text, text
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
@@ -303,7 +302,7 @@ def test_every_word_said_is_in_the_catalogue():
 
 def test_every_entry_is_used():
     sources = strings("walk/*.py", "walk/*/*.py", "record/record.py")
-    sources |= {x for pair in (*rules.names(), *labelled().values()) for x in pair}
+    sources |= {x for pair in (*vocabulary.names(), *labelled().values()) for x in pair}
     sources |= strings(
         *("views/*.py", "views/*/*.py", "schema/kinds/*.py", "motion/emitted_code.py"),
         "lecture/*.py",

@@ -16,8 +16,7 @@ from derive.pipeline import walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.record.record import Equation
-from derive.walk.kinematics.condition import Velocity, numbers
-from derive.walk.kinematics.errors import matrix
+from derive.walk.kinematics.invariant_errors import Velocity, matrix, numbers
 from tests.support.cached import ROOT
 from tests.support.walks import SEED, record
 

@@ -28,10 +28,9 @@ from ...language.univariate import value_of
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
 from ..trials.trial_points import AnyModel, model_at
-from ..values.arithmetic import EvaluationError
+from ..values.arithmetic import EvaluationError, Varying, slopes_of
+from ..values.arithmetic import value_of as value
 from ..values.draws import Locus
-from ..values.varying import Varying, slopes_of
-from ..values.varying import value_of as value
 from .entries_checked import decided
 from .equilibrium_claims import Coordinates, coordinates, silent
 from .reduced_system import ClaimedRecord

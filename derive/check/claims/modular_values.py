@@ -11,8 +11,8 @@ from ...language import rational as q
 from ...language.tree import Tree, operands
 from ...language.univariate import Number, exact_function
 from ...language.values import arithmetic
+from ..values.arithmetic import Varying, slopes_of, value_of
 from ..values.residue import Residue
-from ..values.varying import Varying, slopes_of, value_of
 
 # Values of trees of rational functions modulo a prime: at points, and with their gradients.
 

@@ -15,8 +15,8 @@ from ...language.show import show
 from ...language.tree import Tree, nodes, replaced
 from ...record.record import Derivation, RecordError, Step
 from ..trials.trial_points import group_of
+from ..values.arithmetic import Varying
 from ..values.residue import Residue, random_prime
-from ..values.varying import Varying
 from .entries_checked import constant_entries
 from .modular_values import Value, gradient, residues, value
 from .symmetry_count import SymmetryCount

@@ -26,8 +26,8 @@ from ...language.tree import Tree, add, neg, nodes, operands, terms
 from ...record.as_json import decode
 from ...record.record import Derivation, RecordError, Step
 from ...record.sentence import Claim
+from ..values.arithmetic import Varying, value_of
 from ..values.residue import Residue
-from ..values.varying import Varying, value_of
 from .entries_checked import constant_entries
 from .modular_values import Functions, UnluckyError, gradient, value
 

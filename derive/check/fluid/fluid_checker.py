@@ -11,9 +11,8 @@ from typing import Any
 
 from ...algebra.samplers import Source
 from ...language.tree import Tree, names
-from ...record.names import Type, Use
 from ...record.record import Derivation, Equation, Hypothesis, RecordError, Step
-from ...record.rules import OFF_MOTION
+from ...record.vocabulary import OFF_MOTION, Type, Use
 from ..form.hypotheses_checked import (
     IMPOSSIBLE,
     MOST_BITS,

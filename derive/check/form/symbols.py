@@ -11,8 +11,8 @@ from ...algebra.groups import Group
 from ...language import rational as q
 from ...language.show import show
 from ...language.tree import Tree
-from ...record.names import Type, Use
 from ...record.record import ANY_GROUP, Derivation, Equation, RecordError, Step, Symbol
+from ...record.vocabulary import Type, Use
 from ..values.arithmetic import EvaluationError, is_matrix
 from ..values.evaluate import Environment, evaluate, free_indices
 from . import well_formedness

@@ -16,8 +16,7 @@ from ...language.reserved import UNNAMED_FORCE
 from ..values.arithmetic import ETA, Nilpotent, nilpotent
 from ..values.draws import Locus, at_time
 from ..values.evaluate import Environment
-from .flowing import Flowing, flowing
-from .given_forces import GivenForces
+from .given_forces import Flowing, GivenForces, flowing
 from .phase_point import ENTRY
 from .point_masses import (
     AnyPotential,

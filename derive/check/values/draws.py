@@ -17,7 +17,7 @@ from ...language.reserved import suffixed
 from ...language.show import show
 from ...language.tree import Tree
 from ...record.record import Equation, RecordError, Step
-from ...record.rules import OFF_MOTION
+from ...record.vocabulary import OFF_MOTION
 from ..form.function_signatures import LATTICE, RATES
 from .arithmetic import EvaluationError, describe_shapes, is_matrix, shape
 from .evaluate import ElementaryValues, Environment, evaluate, free_indices, index_values

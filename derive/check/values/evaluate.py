@@ -18,6 +18,7 @@ from .arithmetic import (
     EvaluationError,
     Nilpotent,
     Value,
+    Varying,
     determinant,
     hat,
     inner,
@@ -33,7 +34,6 @@ from .arithmetic import (
     wedge,
 )
 from .residue import Graded
-from .varying import Varying
 
 LARGEST_NESTING = 3
 

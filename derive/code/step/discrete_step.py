@@ -20,11 +20,9 @@ from ..graph import Node
 from ..lower import Lowering
 from ..options import Options
 from ..program import LoweringError
-from .discrete_basis import basis
+from .discrete_basis import basis, pattern
 from .discrete_ends import Ends
-from .discrete_linear import volume, whole
-from .discrete_turning import turning
-from .discrete_turns import pattern
+from .discrete_special import turning, volume, whole
 from .tableaux import weights
 
 TURNING, VOLUME, WHOLE, BASIS = "turning", "volume", "whole", "basis"

@@ -22,9 +22,9 @@ from ...algebra.exact_kernel import PRIMES, ResidueVector, ResidueVectorSource, 
 from ...algebra.factor_charts import FactorChart
 from ...language import rational as q
 from ...language.tree import nodes
-from ..charts import drawn
 from ..ellipsoid import BUNDLES
 from ..program import EmittedFunction, KeptByGauss
+from ..slots import drawn
 from ..state import StateSpace
 
 LARGEST, MORE = 26, 20

@@ -1,31 +1,166 @@
 """The program of a fluid on the torus, by the road that is the shortest for its N.
 
-Up to ``WRITTEN_OUT`` the sums of the record are written out.  Above, W and P are made as matrices,
+The state is Re and Im of ω̂(n) for one of n and −n, in order.  Up to ``WRITTEN_OUT`` the sums of
+the record over the lattice are written out, term by term.  Above, W and P are made as matrices,
 from which dW/dt = (N/4πi) [W, P] has its coefficients: N³ products in place of N⁴, and loops, of
-which the program says its tables alone; the templates of each language have the loops.
+which the program says its tables alone; each language has the loops as functions of a file.
 """
 
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from fractions import Fraction
-from typing import NamedTuple
+from functools import reduce
+from typing import Any, NamedTuple
 
 from ...algebra.structure import Place, TorusLattice
+from ...language.tree import Tree, mul
 from ...record.record import Derivation
+from ...routines.source import Source as RoutineSource
 from ..factor import factored
 from ..graph import Graph, Node
 from ..naming import ClaimedNames
 from ..options import Options
-from ..program import EmittedFunction, Load, Program
+from ..program import EmittedFunction, Load, LoweringError, Program
 from ..requests import require_options
 from ..schedule import Scheduler, Source, frontier
+from ..step.algorithms import PRINTERS, real_of_work, text_of
 from ..watched_functions import EmittedEvent, table, values_of
-from .lattice_state import described, names, position
-from .written_out import WrittenOut
+
+
+def names(torus: TorusLattice) -> tuple[str, ...]:
+    """Those of the numbers of the state: re_1_0, im_1_0, …; m for a minus sign."""
+    found = ("_".join(str(x).replace("-", "m") for x in n) for n in torus.half_plane)
+    return tuple(f"{part}_{x}" for x in found for part in ("re", "im"))
+
+
+def position(torus: TorusLattice, n: Place) -> tuple[int, bool]:
+    """Where Re ω̂(n) stands in the state, Im being next to it; and is ω̂(n) the conjugate?"""
+    first, second = torus.representative(n)
+    turned = second < 0 or (second == 0 and first < 0)
+    a, b = (-first, -second) if turned else (first, second)
+    place = a - 1 if b == 0 else torus.half + (b - 1) * torus.N + a + torus.half
+    return 2 * place, turned
+
+
+def turned(name: str) -> str:
+    """The name in the state of what a name like re_m1_0 would be the conjugate of."""
+    part, *n = name.split("_")
+    opposite = (x[1:] if x.startswith("m") else f"m{x}" * (x != "0") or x for x in n)
+    return "_".join((part, *opposite))
+
+
+def described(torus: TorusLattice) -> tuple[str, ...]:
+    """The state in words, for the head of a file."""
+    h = torus.half
+    return (
+        f"The state has {torus.N**2 - 1} numbers: number 2j and the next, from 0, are Re and Im of",
+        "the coefficient omega(n) of T_n; omega(-n) is its conjugate, omega(0) = 0:",
+        f"j = n1 - 1 for n2 = 0, n1 = 1 ... {h};",
+        f"j = {h} + {torus.N} (n2 - 1) + n1 + {h} for n2 = 1 ... {h}, n1 = -{h} ... {h}.",
+    )
+
+
+class Complex(NamedTuple):
+    """A complex number by its parts."""
+
+    re: Node
+    im: Node
+
+
+class WrittenOut:
+    """Trees of the record as pairs of nodes; ``leaves``: the numbers of the state."""
+
+    def __init__(self, torus: TorusLattice, graph: Graph, leaves: list[Node]):
+        self.torus, self.graph, self.leaves = torus, graph, leaves
+        self.pi = graph.product((graph.num(4), graph.function("atan", graph.num(1))))
+
+    def value(self, t: Tree, at: Mapping[str, Place]) -> Complex:
+        """The value of a tree where its indices are bound."""
+        g = self.graph
+        if isinstance(t, (int, Fraction)):
+            return Complex(g.num(t), g.num(0))
+        if t == "π":
+            return Complex(self.pi, g.num(0))
+        if not isinstance(t, tuple):
+            raise LoweringError(f"no number {t!r} of the torus")
+        op, *parts = t
+        if op == "call" and parts[0] == "ω̂":
+            return self.vorticity(self.place(parts[1], at))
+        if op == "norm2":
+            return self.value(sum(x * x for x in self.place(parts[0], at)), at)
+        if op == "fun" and parts[0] == "sin":
+            return Complex(self.sine(self.turns(parts[1], at)), g.num(0))
+        if op == "sum":
+            return self.total(parts[1], [{**at, parts[0]: n} for n in self.torus.places])
+        found = [self.value(x, at) for x in parts]
+        if op == "mul":
+            return reduce(self.product, found)
+        if op == "div" and found[1].im.is_zero:
+            below = g.recip(found[1].re)
+            return Complex(g.product((found[0].re, below)), g.product((found[0].im, below)))
+        raise LoweringError(f"no {op!r} of numbers on the torus")
+
+    def total(self, term: Tree, places: list[dict[str, Place]]) -> Complex:
+        """A sum over places, the terms with the same sine together."""
+        g, groups = self.graph, defaultdict[Node, list[Complex]](list)
+        factors = term[1:] if isinstance(term, tuple) and term[0] == "mul" else (term,)
+        sines = [x for x in factors if isinstance(x, tuple) and x[:2] == ("fun", "sin")]
+        rest = mul(*(x for x in factors if x not in sines))
+        for at in places:
+            sine = self.value(mul(*sines), at).re
+            sign, least = sine.split
+            there = self.product(Complex(g.num(sign), g.num(0)), self.value(rest, at))
+            groups[least].append(there)
+        parts = [
+            [g.product((sine, g.sum(part))) for part in zip(*found, strict=True)]
+            for sine, found in groups.items()
+        ]
+        return Complex(*(g.sum(x) for x in zip(*parts, strict=True)))
+
+    def product(self, x: Complex, y: Complex) -> Complex:
+        """A product, of sums term by term: like ones are added before they are multiplied."""
+        g = self.graph
+        re = (g.product((x.re, y.re)), -g.product((x.im, y.im)))
+        return Complex(g.sum(re), g.sum((g.product((x.re, y.im)), g.product((x.im, y.re)))))
+
+    def vorticity(self, n: Place) -> Complex:
+        """ω̂(n), by the state."""
+        if self.torus.representative(n) == (0, 0):
+            return Complex(self.graph.num(0), self.graph.num(0))
+        j, conjugate = position(self.torus, n)
+        return Complex(self.leaves[j], -self.leaves[j + 1] if conjugate else self.leaves[j + 1])
+
+    def sine(self, k: int) -> Node:
+        """sin 2πk/N, by those of 0 < k < N/2."""
+        g, k = self.graph, k % self.torus.N
+        if not k:
+            return g.num(0)
+        least, sign = (k, 1) if k <= self.torus.half else (self.torus.N - k, -1)
+        angle = g.product((g.num(Fraction(2 * least, self.torus.N)), self.pi))
+        return g.product((g.num(sign), g.function("sin", angle)))
+
+    def turns(self, angle: Tree, at: Mapping[str, Place]) -> int:
+        """The k of an angle 2π k/N, k = m ∧ n."""
+        match angle:
+            case ("div", ("mul", 2, "π", ("wedge", m, n)), self.torus.N):
+                (a, b), (c, d) = self.place(m, at), self.place(n, at)
+                return a * d - b * c
+        raise LoweringError("an angle of another form")
+
+    def place(self, t: Tree, at: Mapping[str, Place]) -> Place:
+        """A point of the lattice."""
+        if isinstance(t, str):
+            return at[t]
+        found: list[Any] = [x if isinstance(x, int) else self.place(x, at) for x in t[1:]]  # type: ignore[index]
+        if t[0] == "mul":  # type: ignore[index]
+            return found[0] * found[1][0], found[0] * found[1][1]
+        return sum(x for x, _ in found), sum(y for _, y in found)
+
 
 WRITTEN_OUT = 5
 """The largest N that is written out: at 7 the loops take the same time, and 4 % of the text."""
@@ -251,3 +386,49 @@ def _looped(torus: TorusLattice) -> dict[str, EmittedFunction]:
 
     sizes = {"constants": 0, "rhs": torus.N**2 - 1, "energy": 1, "conserved": len(POWERS)}
     return {name: hollow(count) for name, count in sizes.items()}
+
+
+OF_MATRICES = ("rhs", "conserved")
+
+
+def printed_sums(language: str, loops: Loops, fields: Mapping[str, Any]) -> dict[str, Any]:
+    """The bodies of these functions by their names; the tables and functions that they need."""
+    N, prefix = loops.N, fields["prefix"]
+    M = N // 2 + 1
+    # in C rows of a multiple of four numbers, which compilers take several at a time
+    pad = 4 if language == "c" else 1
+    given = {
+        "N": N,
+        "M": M,
+        "HALF": N // 2,
+        "ROW": -(-N // pad) * pad,
+        "COLUMNS": -(-M // pad) * pad,
+        "PADDED": pad > 1,
+        "FOURS": N - N % 4,
+        "SIZE": float(N),
+        "SCALE": float(loops.scale),
+        "COSINES": [*map(float, loops.cosines)],
+        "SINES": [*map(float, loops.sines)],
+        "prefix": prefix,
+        "real": real_of_work(language, fields["real"]),
+        "inline": f"{prefix}_FUNCTION" if fields["header"] else "static",
+        "public": (),
+        "generic": True,
+        "item": ["#[allow(clippy::all, clippy::pedantic)]", "#[rustfmt::skip]"],
+    }
+    source = RoutineSource()
+    source.read(text_of("torus_sums"), given)
+    printer = PRINTERS[language](source, given)
+    by_table = {"rhs"} if loops.table and language == "c" else set()
+    named = loops.names & {*fields["functions"]} & {*source.routines} - by_table
+    of_matrices = bool({*OF_MATRICES} & named)
+    tables = [*printer.tables()] if of_matrices else []
+    bodies = {}
+    for x in sorted(named):
+        bodies[x] = "\n".join(printer.body(source.routines[x]))
+        tables += printer.before
+    return {
+        "bodies": bodies,
+        "tables": "\n".join(tables),
+        "functions": printer.text(["waves", "matrix_of", "added", "row"]) if of_matrices else "",
+    }

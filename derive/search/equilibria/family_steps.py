@@ -14,8 +14,7 @@ from ..integrals.integral_steps import rate
 from ..integrals.lie_poisson import scaled
 from .energy_casimir import combined
 from .equilibrium_steps import distances, expanded, point_rows
-from .letter_conditions import Case, inequality
-from .stability_in_letters import Family
+from .stability_in_letters import Case, Family, inequality
 
 LONG = 400
 """Inequalities and polynomials of more nodes are not printed."""

@@ -1,4 +1,7 @@
-"""The state and the inputs of which a trim is asked, and the emitted equations in any numbers."""
+"""The state and the inputs of which a trim is asked, and the emitted equations in any numbers.
+
+Elements near one are told by Cayley's transform C(η) = (1 − ½η)⁻¹(1 + ½η), which is rational in η.
+"""
 
 from __future__ import annotations
 
@@ -17,9 +20,34 @@ from ...language.univariate import Number, root
 from ...problem.fields import entries, state_names
 from ...problem.problem import Problem
 from ...schema.table import nearest
-from .cayley_chart import slopes as chart_slopes
-from .cayley_chart import turned
 from .steady_velocity import FLOATS, Arithmetic, NoTrimError, Rates
+
+
+def turned(group: Group, g: Matrix, eta: Sequence[Any], *, right: bool) -> Matrix:
+    """g C(η), ``right``: C(η) g, for the d coordinates η; an element where Cayley's transforms are,
+    as of orthogonal groups and of those with translations."""
+    less, more = _halves(group, eta)
+    C = q.times(q.inverted(less), more)
+    return q.times(C, g) if right else q.times(g, C)
+
+
+def chart_slopes(group: Group, eta: Sequence[Any], *, right: bool) -> Matrix:
+    """Row a: the coordinates of C⁻¹∂C/∂η_a, ``right``: of ∂C/∂η_a C⁻¹."""
+    less, more = _halves(group, eta)
+    back, one = q.inverted(less), q.identity(group.size)
+    C = q.times(back, more)
+    undone, rows = q.inverted(C), []
+    for element in group.basis:
+        dC = q.times(back, q.times(q.scaled(Fraction(1, 2), element), q.plus(C, one)))
+        rows.append(group.nearest(q.times(dC, undone) if right else q.times(undone, dC)))
+    return tuple(rows)
+
+
+def _halves(group: Group, eta: Sequence[Any]) -> tuple[Matrix, Matrix]:
+    """1 − ½η and 1 + ½η."""
+    one, half = q.identity(group.size), q.scaled(Fraction(1, 2), group.hat(eta))
+    return q.plus(one, q.scaled(Fraction(-1), half)), q.plus(one, half)
+
 
 Numbers = Mapping[str, Number]
 ROUNDING = 1e-9

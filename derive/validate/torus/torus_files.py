@@ -39,8 +39,7 @@ from ..syntax import SYNTAX, tokens
 from ..terms import CodeError, DiffersError
 from .exact_arrays import ExactArray, ExactLibrary
 from .loop_reader import LoopReader
-from .loops_in_c import CLoopReader
-from .loops_in_julia import JuliaLoopReader
+from .loops_of_languages import CLoopReader, JuliaLoopReader
 from .run_loops import Cells, Loops
 
 SCALE = 1 << 200

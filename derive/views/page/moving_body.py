@@ -11,7 +11,7 @@ from typing import Any
 from ...algebra.groups import Group
 from ...problem.fields import state_names
 from ..figure.drawn_body import UNITS, ExpressionValues
-from ..figure.stated_inertia import along, shifts, turns
+from ..figure.scene import along, shifts, turns
 
 DIGITS = 4
 """Of the places of a mesh."""

@@ -11,8 +11,8 @@ from ...language.rational import Matrix
 from ...language.reserved import UNNAMED_FORCE
 from ...language.tree import Tree, add, mul, neg, nodes, plain
 from ...problem.fields import coordinates, velocity_at_place
+from ...problem.lagrangian_tables import quotient_of
 from ...problem.problem import Problem, ProblemError
-from ...problem.quotient import quotient_of
 from ...record.record import Equation, Step
 from ...schema.kind import TorqueInput
 from ...schema.output_kinds import (

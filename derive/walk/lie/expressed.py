@@ -19,8 +19,8 @@ from ...problem.entries_on_orbit import (
     vanishes_on,
 )
 from ...problem.fields import coordinates
+from ...problem.lagrangian_tables import quotient_of
 from ...problem.problem import Problem, ProblemError
-from ...problem.quotient import quotient_of
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
 from ...schema.kind import Lagrangian

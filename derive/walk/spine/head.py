@@ -11,9 +11,9 @@ from ...language.show import in_sentence
 from ...problem.problem import Problem, data
 from ...record import sentence, vocabulary
 from ...record.as_json import encode
-from ...record.names import DISCRETE, Name
 from ...record.record import CONVENTIONS, Derivation, Step, Symbol
 from ...record.uses import of_steps
+from ...record.vocabulary import DISCRETE, Name
 from ..chapter import say
 from ..given.inputs import numbers
 from .lagrangian import completed
