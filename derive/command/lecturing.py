@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 import math
 import shlex
+import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -201,17 +202,18 @@ def chapter_on(name: str, seconds: float | None = None, *, taken: bool = False) 
             found[search] = Found(refused=str(error))
     ran, speed = motion(problem, record)
     body, place = place_of(record, speed or 1.0, taken=taken)
-    command = f"derive simulate {shlex.quote(name)} --html {record.name}.html"
-    chapter = chapter_of(record, found, tuple(records), place, ran, command)
+    command = f"derive simulate {shlex.quote(Path(name).name)} --html {record.name}.html"
+    if body is None:
+        print(f"{record.name}: {place}", file=sys.stderr)
+    chapter = chapter_of(record, found, tuple(records), place if body else None, ran, command)
     return OnProblem(chapter, records, body)
 
 
 def motion(problem: Problem, record: Derivation) -> tuple[Ran | Sentence, float]:
     """The motion of a problem from its start, or why there is none; how fast it turns at first."""
     try:
-        made = run(
-            motion_of(problem, record), problem, Method(), None, 400, given={}, compiled=False
-        )
+        code = motion_of(problem, record)
+        made = run(code, problem, Method(), None, 400, given={}, compiled=False)
     except Refused as error:
         reason = str(error).removeprefix(f"{record.name}: ")
         return phrase(UNSHOWN, reason=reason), 0.0
@@ -224,7 +226,8 @@ def motion(problem: Problem, record: Derivation) -> tuple[Ran | Sentence, float]
     energy = [y.tolist() for y in made.of_kind("energy").values()]
     start = [(x, float(y[0])) for x, y in state.items()]
     kept = energy[0] if energy else ()
-    return Ran(made.t.tolist(), curves, kept, [*_moved(problem, start)]), speed
+    units = {x.name: x.unit for x in code.columns()}
+    return Ran(made.t.tolist(), curves, kept, [*_moved(problem, start)], units), speed
 
 
 def _moved(problem: Problem, start: Sequence[tuple[str, float]]) -> Iterator[tuple[str, float]]:

@@ -57,6 +57,8 @@ def show_name(name: str) -> str:
 
 MOMENT = re.compile(r"m|c_[0-9]|J_[0-9]{2}")
 """The entries of the letters of symbolic moments, parameters of the same name."""
+ENTRY = re.compile(r"\([^()]+\)[₀-₉]")
+"""The entry of a member of a family, (A₂)₁₁."""
 INDEX = re.compile(r"_?[0-9]+$|_[abeijn]{1,2}$")
 """What is taken for an index at the end of a name."""
 
@@ -199,7 +201,7 @@ def _spread(f: Tree) -> bool:
 
 def _separator(text: str, last: str, piece: str) -> str:
     if not last or piece.startswith("("):
-        return ""
+        return " " if last and ENTRY.match(piece) else ""
     if _letter(last) and _letter(piece):
         return " " if WORD.search(text + piece) else ""
     if last in FRACTIONS.values() and _letter(piece):

@@ -6,7 +6,6 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import groupby
 
 from ..language.read import FormulaError
 from ..language.templating import environment
@@ -16,7 +15,6 @@ from ..views.html import escaped
 from ..views.language import LANGUAGES, Language
 from ..views.language import typeset as typeset_french
 from ..views.latex import DELIMITERS
-from ..views.layout import broken, indented
 from ..views.printing import typeset
 from ..views.printing.letters import NAMES, definitions
 from ..views.printing.line_breaking import measure
@@ -24,8 +22,8 @@ from ..views.printing.sentences import prose, spelt
 from ..views.printing.signs import NO_BREAK, SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal, plain
-from ..views.text import formula as aligned
 from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, homes, letters
+from .displays import blocks, displayed, sides
 from .figures import FIGURES, Figure
 from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Given, Typed, Words
 from .lecture_text import tree as tree_of
@@ -40,6 +38,8 @@ WORDS = (
 """The words of the templates."""
 MARKED = re.compile(r"_([^_]+)_|@([a-z_]+)")
 """What is marked among words: emphasis, and the number of a block."""
+COMMAND = "derive "
+"""How what is typed begins."""
 LISTED = re.compile(r"(?<=\d\u202f;) (?=\d)")
 """The space between two numbers of a list in French."""
 TIED = re.compile(r"(?<=\w|\.) $")
@@ -51,10 +51,11 @@ CLOSED = re.compile(r"(<math>(?:(?!<math).)*</math>)([.,;:)]+)", re.S)
 
 @dataclass(frozen=True)
 class Medium:
-    """How words and formulas are written in a kind of document."""
+    """How words, commands and formulas are written in a kind of document."""
 
     text: Callable[[str], str]
     emphasis: str
+    command: str
     reference: str
     inline: Callable[[typeset.Formula], str]
     display: Callable[[typeset.Formula], str]
@@ -66,17 +67,6 @@ class Medium:
 AMONG = 60
 """The most letters of a formula of a record that stands among words."""
 SIGNS = re.compile(r"\s*[.,;:]")
-WIDTH = 34.0
-"""The width of a display in em."""
-
-
-def _lines(x: typeset.Formula) -> str:
-    """A display as LaTeX; one that is too wide in several lines."""
-    first, *others = broken(x.tex, WIDTH)
-    if not others:
-        return first.text
-    rows = [f"&{first.text}", *("&" + indented(line, 1) for line in others)]
-    return "\n".join((r"\begin{aligned}", " \\\\\n".join(rows), r"\end{aligned}"))
 
 
 SHORT = 7.0
@@ -89,40 +79,28 @@ def _inline(x: typeset.Formula) -> str:
     return f"${{{tex}}}$" if measure(tex) < SHORT else f"${tex}$"
 
 
-def _blocks(equations: Sequence[Equation]) -> str:
-    """Equations of a record as displays, which a page may part: short ones below one another, one
-    that is too wide in several lines."""
-    found: list[str] = []
-    for wide, run in groupby(equations, lambda e: measure(plain(_sides(e).tex)) > WIDTH):
-        alike = [*run]
-        found += [_lines(_sides(e)) for e in alike] if wide else [aligned(alike, ())]
-    return "\\]\n\\[".join(found)
-
-
-def _sides(e: Equation) -> typeset.Formula:
-    return of_tree(e.lhs) + literal(" = ") + of_tree(e.rhs)
-
-
 LATEX = Medium(
     tex_text,
     r"\emph{{{}}}",
+    r"\texttt{{{}}}",
     r"\ref{{{label}}}",
     _inline,
-    _lines,
+    displayed,
     lambda x: tikz(x, colours=frozenset(AXES)),
-    _blocks,
+    blocks,
     "\\[{}\\]",
 )
 
 
 def _one_by_one(equations: Sequence[Equation]) -> str:
     """Equations of a record as displays of a page, one below the other."""
-    return "\n".join(map(PAGE.display, map(_sides, equations)))
+    return "\n".join(map(PAGE.display, map(sides, equations)))
 
 
 PAGE = Medium(
     escaped,
     "<em>{}</em>",
+    "<code>{}</code>",
     '<a href="#{label}">{number}</a>',
     lambda x: x.mathml(),
     lambda x: x.mathml().replace("<math>", '<math display="block">'),
@@ -332,7 +310,7 @@ class _Setter:
         ((whole,), *_) = x.texts
         assert isinstance(whole, Formula)
         if whole.recorded:
-            return self.medium.aligned(whole.recorded)
+            return self.medium.aligned(whole.shown or whole.recorded)
         parts = [formula(y) for y in re.split(r",\s\s+", whole.text)]
         found = parts[0]
         for part in parts[1:]:
@@ -362,7 +340,7 @@ class _Setter:
         if not isinstance(x, Given):
             return self.plain(x)
         words = self.medium.text(x)
-        return self.medium.emphasis.format(words) if isinstance(x, Typed) else words
+        return self.medium.command.format(words) if isinstance(x, Typed) else words
 
     def plain(self, words: str) -> str:
         """Words with their emphasis and their numbers of blocks; spaces at their ends stay."""
@@ -371,7 +349,9 @@ class _Setter:
             before = words[at : mark.start()]
             found.append(self.spaced(TIED.sub(NO_BREAK[0], before) if mark[2] else before))
             if mark[1]:
-                found.append(self.medium.emphasis.format(self.medium.text(mark[1])))
+                typed = mark[1].startswith(COMMAND)
+                form = self.medium.command if typed else self.medium.emphasis
+                found.append(form.format(self.medium.text(mark[1])))
             else:
                 where = {"label": mark[2], "number": self.numbers[mark[2]]}
                 found.append(self.medium.reference.format(**where))

@@ -63,12 +63,14 @@ class LectureError(Refused, ValueError):
 @dataclass(frozen=True)
 class Formula:
     """A formula among the words, as it is typed, or equations of a record; ``condition``: it is not
-    tried; ``value``: what is printed behind it, a value asked for or found."""
+    tried; ``value``: what is printed behind it, a value asked for or found; ``shown``: equations
+    of a record as they are printed, if not as they stand there."""
 
     text: str
     condition: bool = False
     recorded: tuple[Equation, ...] = ()
     value: str = ""
+    shown: tuple[Equation, ...] = ()
 
     @cached_property
     def equations(self) -> tuple[Equation, ...]:
@@ -101,7 +103,7 @@ class Given(str):
 
 
 class Typed(Given):
-    """A command that has names of the user's, with emphasis."""
+    """A command that has names of the user's."""
 
 
 Words = tuple[str | Formula, ...]

@@ -3,17 +3,18 @@ of motion, what the motion keeps, its reduction, its steady motions, a motion.""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import groupby
 
-from ..language.show import SUPERSCRIPTS, show
+from ..language.show import show
+from ..language.tree import Tree, nodes
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence
 from ..views.answer import definitions, equations_of_motion, steps_of_answer
+from ..views.as_read import Reading
 from ..views.figure.scene import scene
 from ..views.language import Language, language
 from ..views.outline import declared, system, title
@@ -21,40 +22,46 @@ from ..views.text import formula as aligned
 from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
 from .problem_exercises import exercises
-from .ran_figure import DESCRIBED, FLAT, Ran, label_of
+from .ran_figure import DESCRIBED, FLAT, Ran, label_of, raised
 from .recorded_text import (
     OVER,
     SPOKEN,
+    as_read,
     conserved,
     display,
     in_each,
     kept_by,
     reason,
+    reduced_by,
     sentence,
+    without_advice,
     words,
 )
+from .steady_sentences import steady, variables_of
 
 SEARCHES = {
     "symmetries": "What the motion keeps.",
     "integrals": "First integrals.",
     "reduction": "Reduction.",
     "equilibria": "Steady motions.",
-    "families": "Steady motions, in letters.",
+    "families": "Steady motions.",
     "trim": "At rest, by its inputs.",
 }
 """What is told of a problem after its equations, under which heading."""
 TOLD = {
     "symmetries": {"conserved_": True},
     "integrals": {"casimirs": True, "first_integrals": True},
-    "reduction": {"momentum_": False, "locked": True, "effective": True, "quadrature": True},
-    "equilibria": {"equilibrium_": False, "energy_casimir_": False},
-    "families": {"equilibrium_": False, "energy_casimir_": False},
+    "reduction": {"locked": True, "effective": True, "quadrature": True},
     "trim": {"trim": False},
 }
 """Search → how the labels of the steps begin that a text for people tells, and whether with their
 equations; the record has all."""
 
 STEADY = ("equilibria", "families")
+REDUCED = (
+    "The motion of {variables} is told by these variables alone, with the Poisson bracket of "
+    "Lie and Poisson."
+)
 NONE = dict.fromkeys(
     STEADY,
     "Only points with one momentum were tried, and none was found; there may be others.",
@@ -93,12 +100,14 @@ def chapter_of(
     if place:
         blocks.append(Block("text", "", "", (sentence(lambda x: x.sentence(place)),), 0))
     told = {x: _told(d, x, found[x]) for x in SEARCHES if x in found}
+    if {*STEADY} <= {*told}:  # in letters, where they are found so: it says more
+        del told[STEADY[0] if told[STEADY[1]] else STEADY[1]]
     for _, alike in groupby(told, lambda x: found[x].refused or (told[x] and x) or NONE.get(x, x)):
         searches = (*alike,)
         entries = told[searches[0]] or [_nothing(d.name, searches[0], found[searches[0]])]
-        both = {*STEADY} <= {*searches}
-        headings = [SEARCHES[x] for x in searches if not both or x != STEADY[1]]
-        blocks += [_section(*headings), Block("text", "", "", tuple(entries), 0)]
+        apart = [[x] for x in entries] if {*STEADY} & {*searches} else [entries]
+        blocks.append(_section(*(SEARCHES[x] for x in searches)))
+        blocks += (Block("text", "", "", tuple(x), 0) for x in apart)
     if ran:
         blocks += [_section("A motion."), *_pictured(d.name, ran)]
     home = {e: step.label for step in d.steps for e in step.equations}
@@ -112,6 +121,8 @@ def chapter_of(
         command,
         lambda e: _rows(e) <= SHORT,
     )
+    reading = Reading(str(d.problem["group"]))
+    blocks = [as_read(x, reading) for x in blocks]
     whole = kept and any(told.get(x) for x in STEADY)
     titles = tuple(
         Given(x.word(TITLE, title=title(d, x)) if whole else title(d, x)) for x in SPOKEN
@@ -134,17 +145,36 @@ def _motion(d: Derivation) -> Iterator[Block]:
     """What moves, and by which equations; each letter in them that the problem defines."""
     home = {e: step.label for step in d.steps for e in step.equations}
     entries = [sentence(lambda x: system(d, x))] if system(d, language("en")) else []
+    for s in d.steps:
+        if s.label == f"{d.name}.lagrangian":
+            entries.append(sentence(lambda x: x.word("It reads")))
+            entries += _displays([s])
     motion = equations_of_motion(d)
     entries.append(sentence(lambda x: x.word("Its equations of motion are")))
     steps = steps_of_answer(d)
     entries.append(display(motion, [s.label for s in steps]))
-    if defined := definitions(d, motion):
+    if defined := in_order(definitions(d, motion)):
         entries.append(sentence(lambda x: x.word("where")))
         entries.append(display(defined, [*dict.fromkeys(home[e] for e in defined)]))
     held = [s.label for s in d.steps for x in s.prose if x.message == message(HELD)]
     if held:
         entries.append(sentence(lambda x: x.word(message(HELD)), held))
     yield Block("text", "", "", tuple(entries), 0)
+
+
+def in_order(defined: Sequence[Equation]) -> list[Equation]:
+    """Definitions, each behind those of the letters that it is made of, as far as they can be."""
+    left, found = [*defined], list[Equation]()
+    while left:
+        open_ = {y for e in left for y in (e.lhs, _family(e.lhs))}
+        free = [e for e in left if not open_ - {e.lhs, _family(e.lhs)} & {*nodes(e.rhs)}]
+        found += (chosen := free or left[:1])
+        left = [e for e in left if e not in chosen]
+    return found
+
+
+def _family(t: Tree) -> Tree:
+    return t[1] if isinstance(t, tuple) and t[0] in ("at", "entry") else t
 
 
 def _body(d: Derivation) -> Iterator[Block]:
@@ -164,8 +194,7 @@ def _parameters(d: Derivation) -> Iterator[Block]:
         rows = [*run]
         valued = (_valued([row[k] for row in rows], x) for k, x in enumerate(SPOKEN))
         meanings = ((Given(x[1]),) for x in rows[0])
-        shown = re.sub(r"\^(-?\d+)", lambda x: x[1].translate(SUPERSCRIPTS), unit)
-        cells += [in_each(*valued), in_each(*((Given(shown),) for _ in SPOKEN))]
+        cells += [in_each(*valued), in_each(*((Given(raised(unit)),) for _ in SPOKEN))]
         cells.append(in_each(*meanings))
     if cells:
         yield Block("table", "", "", tuple(cells), 0)
@@ -182,19 +211,43 @@ def _valued(rows: Sequence[tuple[str, str, str, str]], spoken: Language) -> Word
 
 def _told(d: Derivation, search: str, found: Found) -> list[Entry]:
     """The steps that a search tells; nothing where it was refused, or found none."""
-    entries: list[Entry] = []
+    if search in STEADY:
+        return [*steady(found.steps)]
     begins = {x: f"{d.name}.{x}" for x in TOLD[search]}
     told = [(s, x) for s in found.steps for x, y in begins.items() if s.label.startswith(y)]
     if search == "symmetries":
-        return [*conserved(d, [s for s, _ in told if kept_by(s)])]
+        kept = [s for s, _ in told if kept_by(s)]
+        return [*(_momenta(d) if any("Π" in s.names for s in kept) else ()), *conserved(d, kept)]
+    entries = [*reduced_by(d, found.steps)] if search == "reduction" else [*_reduced(found.steps)]
     for (prose, begin), run in groupby(told, lambda x: (x[0].prose, x[1])):
         steps = [step for step, _ in run]
         with_equations = TOLD[search][begin]
-        labels = () if with_equations else [x.label for x in steps]
+        labels = () if with_equations else _labels(steps)
         entries.append(sentence(partial(_prose, prose), labels))
         if with_equations:
             entries += _displays(steps)
     return entries
+
+
+def _reduced(steps: Sequence[Step]) -> Iterator[Entry]:
+    """Of which variables the integrals are."""
+    for step in (s for s in steps if s.label.endswith(".poisson")):
+        told = (x.word(REDUCED, variables=", ".join(variables_of(step))) for x in SPOKEN)
+        yield in_each(*map(words, told), labels=[step.label])
+
+
+def _labels(steps: Sequence[Step]) -> list[str]:
+    return [x.label for x in steps]
+
+
+def _momenta(d: Derivation) -> Iterator[Entry]:
+    """What the momenta Π_a are, where the record tells each by the velocity, in short equations."""
+    for s in d.steps:
+        told = [e for e in s.equations if isinstance(e.lhs, tuple) and e.lhs[:2] == ("at", "Π")]
+        told = [e for e in told if not e.for_all and e.rhs != ("inner", "Π", ("at", "E", "a"))]
+        if s.label == f"{d.name}.momenta" and told and all(_rows(e) <= SHORT for e in told):
+            yield sentence(lambda x: x.word("The momenta are"))
+            yield display(told, [s.label])
 
 
 def _nothing(problem: str, search: str, found: Found) -> Entry:
@@ -204,7 +257,7 @@ def _nothing(problem: str, search: str, found: Found) -> Entry:
     told = found.refused.removeprefix(f"{problem}: ")
     tried = search == "trim" or told.startswith(OVER.partition("{")[0]) or "nothing is" in told
     message = "None was found: {reason}." if tried else "Not sought: {reason}."
-    return sentence(lambda x: x.word(message, reason=reason(told, x)))
+    return sentence(lambda x: x.word(message, reason=without_advice(reason(told, x))))
 
 
 def _pictured(problem: str, ran: Ran | Sentence) -> Iterator[Block]:

@@ -108,7 +108,9 @@ def _on_motion(ran: Ran, command: str, *, parameters: bool) -> list[Block]:
         return []
     start = ", ".join(f"{x} = {written(y)}" for x, y in ran.start)
     places = {"letter": letter_of(name), "time": f"{ran.times[-1]:g}", "start": start}
-    told = {"low": written(min(curve), 3), "high": written(max(curve), 3)}
+    low, high = min(curve), max(curve)
+    digits = len(written(max(-low, high, key=abs), 3).partition(".")[2])
+    told = {x: f"{y:.{digits}f}".replace("-", "−") for x, y in (("low", low), ("high", high))}
     message = ASKED_WITH_PARAMETERS if parameters else ASKED
     asked = (
         (

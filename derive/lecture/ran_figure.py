@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from ..language.reserved import GREEK
 from ..language.show import SUBSCRIPTS, SUPERSCRIPTS
@@ -39,13 +39,14 @@ def label_of(problem: str, kind: str = "run") -> str:
 @dataclass(frozen=True)
 class Ran:
     """A motion: the times, one to three columns of numbers with their names in the code, the energy
-    over time, empty where there is none, and the numbers of the state at the ``start`` other than
-    those of the identity at rest, by their letters."""
+    over time, empty where there is none, the numbers of the state at the ``start`` other than
+    those of the identity at rest, by their letters, and the ``units`` of columns."""
 
     times: Sequence[float]
     curves: Sequence[tuple[str, Sequence[float]]]
     energy: Sequence[float] = ()
     start: Sequence[tuple[str, float]] = ()
+    units: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def flat(self) -> bool:
@@ -57,7 +58,11 @@ class Ran:
         coloured = zip(COLOURS, self.curves, strict=False)
         named = ((colour, words.formula(letter_of(x))) for colour, (x, _) in coloured)
         curves = ", ".join(words.word(colour, name=x) for colour, x in named)
-        return words.word("The motion: {curves} over time.", curves=curves)
+        units = {self.units.get(x, "") for x, _ in self.curves}
+        if "" in units or len(units) > 1 or self.units.get("t") != "s":
+            return words.word("The motion: {curves} over time.", curves=curves)
+        told = "The motion: {curves}, in {unit}, over time, in seconds."
+        return words.word(told, curves=curves, unit=raised(units.pop()))
 
     def told(self, words: Language) -> str:
         """What made it, and what became of the energy."""
@@ -109,6 +114,11 @@ class Ran:
 def _exponent(x: float) -> int:
     """The exponent of a power of ten above a number; −12 for 0."""
     return int(f"{x:e}".partition("e")[2]) + 1 if x else -12
+
+
+def raised(unit: str) -> str:
+    """A unit with its exponents above the line."""
+    return re.sub(r"\^(-?\d+)", lambda x: x[1].translate(SUPERSCRIPTS), unit)
 
 
 def written(x: float, digits: int = 4) -> str:

@@ -6,14 +6,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
 from ..language.show import SUBSCRIPTS, in_sentence, show
 from ..language.tree import Tree, names
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
+from ..views.as_read import Reading
 from ..views.language import LANGUAGES, Language, language
 from ..views.printing.sentences import FORMULA, QUOTED
-from .lecture_text import Entry, Formula, Tie, Words
+from .lecture_text import Block, Entry, Formula, Tie, Words
 
 SPOKEN: tuple[Language, ...] = tuple(map(language, LANGUAGES))
 
@@ -52,11 +54,36 @@ def display(
     return Entry((formula,) * len(LANGUAGES), ties, display=True, line=0)
 
 
+def as_read(block: Block, reading: Reading) -> Block:
+    """A block of a chapter as it is read."""
+
+    def part(x: str | Formula) -> str | Formula:
+        if not isinstance(x, Formula):
+            return x
+        shown = tuple(map(reading.equation, x.recorded))
+        return replace(x, text=reading.text(x.text), shown=shown)
+
+    entries = (replace(x, texts=tuple(tuple(map(part, y)) for y in x.texts)) for x in block.entries)
+    return replace(block, entries=tuple(entries))
+
+
 ENERGY = "L̃ is invariant under {kind}: the energy {kept} is constant."
 EXACT = "L̃ is invariant under {kind}: {kept} is constant."
 UP_TO = "Under {kind}, L̃ changes by the derivative of a function alone: {kept} is constant."
+REDUCED = "It is reduced by {kind}, whose momentum is {kept}."
 AXIS = {2: "{kind} about {axis}", 1: "{kind} along {axis}"}
 """How many entries of the matrix of a field are not 0 → the field with its axis."""
+
+
+def reduced_by(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
+    """A sentence of each symmetry by which a problem is reduced."""
+    for step in steps:
+        for e in step.equations:
+            if isinstance(e.lhs, tuple) and e.lhs[:2] == ("at", "𝒥"):
+                momentum = f"{show(e.lhs)} = {in_sentence(e.rhs)}"
+                marked = [x.marked for x in SPOKEN]
+                texts = (_sentence(REDUCED, momentum, kind_of(d, step, x), x) for x in marked)
+                yield in_each(*texts, labels=(step.label,))
 
 
 def kept_by(step: Step) -> Tree:
@@ -73,18 +100,19 @@ def conserved(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
         exact = step.prose[0].message == message("symmetries.exact")
         told = (ENERGY if kept == "h̃" else EXACT) if exact else UP_TO
         marked = [x.marked for x in SPOKEN]
-        texts = (_sentence(told, kept, kind_of(d, step, x), x) for x in marked)
+        texts = (_sentence(told, in_sentence(kept), kind_of(d, step, x), x) for x in marked)
         yield in_each(*texts, labels=(step.label,))
 
 
-def _sentence(told: str, kept: Tree, kind: str, spoken: Language) -> Words:
+def _sentence(told: str, kept: str, kind: str, spoken: Language) -> Words:
     before, _, after = spoken.word(told, kind=kind, kept="\0").partition("\0")
-    return (*words(before), " ", Formula(in_sentence(kept), condition=True), " ", *words(after))
+    apart = () if after.startswith(".") else (" ",)
+    return (*words(before), " ", Formula(kept, condition=True), *apart, *words(after))
 
 
 def kind_of(d: Derivation, step: Step, spoken: Language) -> str:
     """What the symmetry of a step is, in a language, with its axis in space."""
-    kind = dict(step.prose[0].places)["kind"]
+    kind = next(y for x in step.prose for place, y in x.places if place == "kind")
     told = kind if isinstance(kind, str) else spoken.sentence(kind)
     field = next(e.rhs for e in step.equations if e.lhs == "δA")
     matrix = [x for x in field[1:] if x[0] == "matrix"] if isinstance(field, tuple) else []
@@ -203,3 +231,8 @@ def reason(told: str, words: Language) -> str:
         if match := re.fullmatch(pattern, told):
             return words.word(one, **match.groupdict())
     return told
+
+
+def without_advice(told: str) -> str:
+    """A reason without what is to be typed instead, behind a semicolon: that is for the command."""
+    return re.split(r"\s*; ", told)[0]

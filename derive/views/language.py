@@ -96,7 +96,7 @@ class Language:
         if self.name != "fr":
             return marked
         listed = marked.replace(", ", "; ") if marked != text else marked
-        return listed.replace("; ", f"{THIN}; ")
+        return re.sub(f"(?<!{THIN}); ", f"{THIN}; ", listed)
 
     def decimal(self, x: float) -> str:
         """A number with the decimal mark of the language."""

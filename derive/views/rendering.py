@@ -118,6 +118,10 @@ def render(
         raise RenderError(f"no format {form[:40]!r}; there are {', '.join(FORMATS)}")
     if fragment and form not in LINKED:
         raise RenderError("--fragment is for --format latex and html")
+    if form != "json":
+        from .as_read import as_read
+
+        d, steps = as_read(d), as_read(replace(d, steps=tuple(steps))).steps
     chosen = Notation(**notation)
     if form not in LINKED and chosen != Notation():
         raise RenderError("--notation and --hat are for --format latex and html")
@@ -179,6 +183,7 @@ def notes(
     of pictures of their motions, which are shown.
     """
     from . import latex
+    from .as_read import as_read
     from .html import html
     from .language import language
     from .printing.signs import Notation
@@ -198,6 +203,7 @@ def notes(
                 f"{names.count(name)} problems have the name {name!r}, and their equations the "
                 "same labels; give each its own (key 'name' of its file)"
             )
+    records = [*map(as_read, records)]
     found = corrections(records)
     if fragment:
         return latex.fragment(records, language=words, findings=found)

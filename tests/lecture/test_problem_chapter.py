@@ -18,15 +18,26 @@ from derive.language.limits import Refused
 from derive.language.read import FormulaError
 from derive.language.show import show
 from derive.lecture import document
+from derive.lecture.displays import tall
 from derive.lecture.lecture_text import Block, Chapter, Entry, Formula, LectureError, tree
-from derive.lecture.problem_chapter import LONGEST, SEARCHES, Found, _rows, chapter_of
+from derive.lecture.problem_chapter import (
+    LONGEST,
+    SEARCHES,
+    Found,
+    _rows,
+    chapter_of,
+    in_order,
+)
 from derive.lecture.problem_exercises import _on_motion
 from derive.lecture.ran_figure import FLAT, Ran
 from derive.lecture.recorded_text import REASONS, kept_by
 from derive.lecture.recorded_text import reason as told_reason
+from derive.lecture.recorded_text import words as words_of_record
+from derive.lecture.steady_sentences import SAID
 from derive.lecture.trials import tied, tried
+from derive.record import prose as texts
 from derive.record.record import Equation
-from derive.views.answer import equations_of_motion
+from derive.views.answer import definitions, equations_of_motion
 from derive.views.language import LANGUAGES, language
 from derive.views.outline import title
 from derive.views.printing.signs import tex_text
@@ -45,7 +56,9 @@ def test_every_equation_holds_and_is_of_a_record(made):
     tied(chapter, records)
     claims = [*tried(chapter, records, SEED)]
     motion = equations_of_motion(records[name])
-    assert [x.equation for x in claims][: len(motion)] == [*motion]
+    told = [x.equation for x in claims]
+    first = told.index(motion[0])
+    assert told[first : first + len(motion)] == [*motion]
 
 
 def test_a_changed_equation_is_refused(made):
@@ -153,6 +166,51 @@ def test_steady_motions_that_are_not_sought_have_one_heading():
     assert "Lagrange's top: equations, what is kept" in str(chapter_on("lagrange_top")[0].title)
 
 
+def test_each_steady_motion_is_a_sentence_with_its_conditions():
+    """In letters, where they are found so; what is supposed, and the variables, are said once."""
+    chapter, records, _ = chapter_on("lagrange_top")
+    found = records["lagrange_top:families"].steps
+    told = [e for e in chapter.entries if any(".equilibrium_" in x for x in e.labels)]
+    at = [s for s in found if ".equilibrium_" in s.label]
+    assert [e.labels[0] for e in told] == [s.label for s in at]
+    for e in told:
+        said = {x.text for x in e.formulas}
+        prose = [x for s in found if s.label in e.labels for x in s.prose]
+        for x in prose:
+            for place in ("point", "cases"):
+                told_so = str(dict(x.places).get(place, ""))
+                assert {y for y in told_so.split(", ") if y} <= said
+    whole = " ".join(str(x) for e in chapter.entries for x in e.texts[0])
+    assert whole.count("The kinetic energy is taken to be positive definite") == 1
+    variables = next(e for e in chapter.entries if "The variables are" in str(e.texts[0]))
+    assert [*["Π₁", "Π₂", "Π₃", "A₃₁", "A₃₂", "A₃₃"]] == [x.text for x in variables.formulas][:6]
+
+
+def test_what_the_record_says_of_stability_is_said():
+    """But that a form is indefinite and roots imaginary, which proves nothing."""
+    kinds = ("equilibrium", "family", "enclosure")
+    listed = {k: x[0] for k, x in texts.sentences().items() if k.partition(".")[0] in kinds}
+    telling = {k for k, x in listed.items() if re.search("stab(?:le|ility)|on the leaf is", x)}
+    silent = {"family.open", "family.imaginary"}  # said of all at once, or of no use alone
+    assert len(telling) > 15
+    assert {listed[k] for k in telling - silent} <= {*SAID}
+
+
+def test_a_number_in_brackets_before_a_parameter_is_of_the_formula():
+    """Or the bracket is closed in the formula, and no line of it breaks."""
+    told = words_of_record("unstable where (1) (30 ‘M’³ + 8 ‘m’) ‘R’ < 0; (2) 3 ‘m’ > ‘M’")
+    formulas = [x.text for x in told if isinstance(x, Formula)]
+    assert formulas == ["(30 ‘M’³ + 8 ‘m’) ‘R’ < 0", "3 ‘m’ > ‘M’"]
+
+
+def test_definitions_stand_behind_those_of_their_letters():
+    defined = definitions(derived("hammer")[1], equations_of_motion(derived("hammer")[1]))
+    letters = [e.lhs for e in in_order(defined)]
+    assert {*letters} == {e.lhs for e in defined}
+    for before, after in (("c", "r_c"), ("m", "r_c"), ("J", "J_c"), ("J_c", "I_c")):
+        assert letters.index(before) < letters.index(after)
+
+
 def test_a_coordinate_without_energy_is_said_to_be_held_by_choice():
     chapter = chapter_on("spherical_pendulum", 0.01)[0]
     held = chapter.blocks[0].entries[-1]
@@ -211,6 +269,12 @@ def _body(chapter):
     """The LaTeX of its only text."""
     tex = document.latex(document.Lecture([chapter], language("en"), {}))
     return tex[tex.index("For all") : tex.index("and more") + 8]
+
+
+def test_brackets_about_fractions_are_as_tall():
+    assert tall(r"2(a)(b(\frac{c}{d} - e))^2") == (
+        r"2(a)\biggl(b\biggl(\frac{c}{d} - e\biggr)\biggr)^2"
+    )
 
 
 def test_parameters_have_a_table_and_the_body_a_figure():

@@ -25,7 +25,7 @@ ALLOWED = {
     "compare": {"compare", "motion", "code", "problem", "schema", "language"},
     "views": {
         *("views", "views/figure", "views/printing", "views/paper"),
-        *("record", "record/prose", "schema", "language"),
+        *("record", "record/prose", "schema", "algebra", "language"),
     },
     "views/printing": {"views/printing", "record", "language"},
     "views/figure": {"views/figure", "views/printing", "record", "schema", "language"},

@@ -3,8 +3,10 @@ and claim the same: the negations of an entry, and its terms."""
 
 import re
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from pathlib import Path
 
+from derive import lecture
 from derive.record.prose import unmarked
 from derive.views.language import catalogue_entries
 
@@ -105,7 +107,7 @@ TERMS = {
     r"kernel": r"noyau",
     r"tensor": r"tenseur",
     r"inertia": r"inertie",
-    r"first moment": r"premier moment",
+    r"first moment": r"moment d’ordre un",
     r"kinetic": r"(?<!moment )cinétiques?",
     r"angular momentum": r"moment cinétique",
     r"potentials?": r"potentiels?",
@@ -131,7 +133,8 @@ TERMS = {
     r"left-invariant": r"invariante? à gauche",
     r"eliminated": r"éliminée?",
     r"(?<!\{)entr(?:y|ies)|coefficients?": r"coefficients?",
-    r"inputs?(?! forces)": r"commandes?|entrées?",
+    r"inputs?(?! forces)": r"commandes?",
+    r"loads?": r"forces? généralisées?",
     r"if and only if": r"si et seulement si",
     r"at least": r"au moins",
     r"at most": r"au plus",
@@ -159,3 +162,34 @@ def misclaimed(english, french):
 
 def test_both_languages_claim_the_same():
     assert [(english, x) for english, french in ENTRIES for x in misclaimed(english, french)] == []
+
+
+# -- words that the French texts do not use -------------------------------------------------------
+
+AVOIDED = (
+    *(r"premiers? moments?", r"quantités? de mouvement", r"entrées?", r"réétiquet\w*"),
+    *(r"zigzags?", r"anneaux?", r"en les", r"en celles?(?:-ci)? et", r"demeurent?"),
+    *(r"dans les lettres de", r"corps à l’identité", r"(?:son|leur) contour est libre"),
+    *(r"l’impulsion sur le", r"l’énergie sur le temps", r"le long de la pesanteur"),
+    r"mis(?:e|es)? dans dϖ",
+    *(r"(?:meut|meuvent|tournent?) (?:celui|celle|le|la|les)\b", r"charges le long"),
+)
+"""One French term each, that of the table above, and sentences that are French: no calques."""
+CHAPTERS = Path(lecture.__file__).parent / "chapters"
+
+
+def calques(texts: Iterable[str]) -> list[str]:
+    """The French texts in which a word stands that they do not use."""
+    return [x for x in texts if any(has(word, x) for word in AVOIDED)]
+
+
+def test_french_texts_use_the_terms_of_the_table():
+    chapters = [x for path in CHAPTERS.glob("*.txt") for x in path.read_text("utf-8").split("\n")]
+    assert min(len(ENTRIES), len(chapters)) > 500
+    assert calques([french for _, french in ENTRIES] + chapters) == []
+
+
+def test_calques_are_found():
+    assert calques(("Un polynôme en les coefficients.", "Un polynôme des coefficients.")) == [
+        "Un polynôme en les coefficients."
+    ]

@@ -73,6 +73,9 @@ class Piece:
     depth: float
 
 
+START = 0.12
+"""The part of a line that the beginning of a term takes which shares it with what is broken."""
+
 P = TypeVar("P", bound=Piece)
 
 
@@ -108,6 +111,10 @@ def fill(
         if measure((current + text).strip()) <= room:
             current += text
             continue
+        if current and len(group) > 1 and measure(current.strip()) <= START * room:
+            head, *rest = group  # a factor before a bracket, as k: not alone on its line
+            group = [replace(head, text=current + head.text), *rest]
+            text, current = current + text, ""
         if current:
             lines.append(Line(current.strip(), 0))
         if len(group) == 1 or measure(text.strip()) <= room:

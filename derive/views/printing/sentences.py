@@ -143,9 +143,13 @@ def _open(f: Formula, mark: str) -> Formula:
     return f + Formula("{}", ("",)) if second else f
 
 
+GROUPS = ("SO", "SE", "SL", "GL", "SU", "Sp")
+"""Groups of matrices, upright before their dimension."""
+
+
 def _word(letters: str, after: str) -> Formula:
     """The formula of several letters: a differential as dx, or an operator as Tr."""
-    if len(letters) == 2 and letters != "Tr":
+    if len(letters) == 2 and letters != "Tr" and not (letters in GROUPS and after == "("):
         return upright("d") + literal(letters[1]) if letters[0] == "d" else literal(letters)
     return operator(letters, near=after in ("", "(", "_", *RAISED, *LOWERED))
 

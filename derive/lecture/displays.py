@@ -1,0 +1,71 @@
+"""Displays of the lecture as LaTeX: in several lines where they are wide, in several displays where
+they are tall, with brackets as tall as what is in them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import groupby
+
+from ..record.record import Equation
+from ..views.layout import broken, indented
+from ..views.printing.line_breaking import measure
+from ..views.printing.tex import formula
+from ..views.printing.typeset import Formula, literal, plain
+from ..views.text import formula as aligned
+
+WIDTH, TALL = 36.0, 14
+"""The width of a display in em; the most rows of one that no page parts."""
+
+
+def displayed(x: Formula) -> str:
+    """A display as LaTeX; one that is too wide in several lines."""
+    first, *others = broken(x.tex, WIDTH)
+    if not others:
+        return tall(first.text)
+    rows = [f"&{first.text}", *("&" + indented(line, 1) for line in others)]
+    return tall("\n".join((r"\begin{aligned}", " \\\\\n".join(rows), r"\end{aligned}")))
+
+
+def blocks(equations: Sequence[Equation]) -> str:
+    """Equations of a record as displays, which a page may part: short ones below one another, one
+    that is too wide in several lines."""
+    found: list[str] = []
+    for wide, run in groupby(equations, lambda e: measure(plain(sides(e).tex)) > WIDTH):
+        if wide:
+            found += [displayed(sides(e)) for e in run]
+        else:
+            found += [tall(aligned(x, ())) for x in _parted([*run])]
+    return "\\]\n\\[".join(found)
+
+
+def _parted(equations: Sequence[Equation]) -> Iterator[list[Equation]]:
+    """Equations in displays of at most TALL rows, between which a page may end; those of a family
+    stand side by side."""
+    part: list[Equation] = []
+    rows = 0
+    for _, run in groupby(equations, lambda e: e.lhs[:2] if isinstance(e.lhs, tuple) else e.lhs):
+        alike = [*run]
+        height = 1 + max(plain(sides(e).tex).count(r" \\") for e in alike)
+        if part and rows + height > TALL:
+            yield part
+            part, rows = [], 0
+        part += alike
+        rows += height
+    yield part
+
+
+def sides(e: Equation) -> Formula:
+    """An equation as a formula."""
+    return formula(e.lhs) + literal(" = ") + formula(e.rhs)
+
+
+def tall(tex: str) -> str:
+    """LaTeX with larger brackets about what has a fraction in it."""
+    opened: list[int] = []
+    found = [*tex]
+    for k, c in enumerate(tex):
+        if c == "(":
+            opened.append(k)
+        elif c == ")" and opened and r"\frac" in tex[(start := opened.pop()) : k]:
+            found[start], found[k] = r"\biggl(", r"\biggr)"
+    return "".join(found)

@@ -1,0 +1,105 @@
+"""Steady motions of a problem, told of each in one sentence: where it is, and its stability."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from unicodedata import normalize
+
+from ..language.show import show
+from ..record.prose import message
+from ..record.record import Step
+from ..record.sentence import Sentence
+from ..views.language import Language
+from .lecture_text import Entry
+from .recorded_text import sentence
+
+TRIED = (
+    "The variables are {variables}; those that are not named are 0. Points were tried with at most "
+    "one momentum and at most one other coordinate other than 0. Stable means in the sense of "
+    "Lyapunov, for these variables, by the energy–Casimir method; unstable, by an eigenvalue with "
+    "a positive real part. Where neither is said, it is not decided here."
+)
+POSITIVE = "The kinetic energy is taken to be positive definite: {positive}."
+LETTERS = "Any values but 0: {letters}."
+AT = "{point}: {verdict}."
+STABLE, UNSTABLE, OPEN = "stable", "unstable", "stability is not decided here"
+ON_LEAF = "stable for motions with the same Casimirs"
+VERDICTS = {
+    "equilibrium": {
+        **dict.fromkeys(("stable", "stable_beyond", "stable_compact"), STABLE),
+        **dict.fromkeys(("unstable", "unstable_beyond"), UNSTABLE),
+        **dict.fromkeys(("open", "point", "undecided"), OPEN),
+        "on_the_leaf": ON_LEAF,
+        "eigenvalues": "the eigenvalues are about {eigenvalues}",
+    },
+    "enclosure": {"stable": STABLE, "unstable": UNSTABLE, "open": OPEN},
+    "family": {
+        "stable": "stable where {cases}",
+        "stable_always": STABLE,
+        "on_the_leaf": "stable for motions with the same Casimirs where {cases}",
+        "on_the_leaf_always": ON_LEAF,
+        **dict.fromkeys(("unstable", "unstable_large"), "unstable where {cases}"),
+        "unstable_always": UNSTABLE,
+        **dict.fromkeys(("roots_large", "minors_large"), OPEN),
+    },
+}
+"""What sentences of the record say of stability, in a few words."""
+SAID = {message(f"{x}.{y}"): told for x, all_ in VERDICTS.items() for y, told in all_.items()}
+
+
+def steady(steps: Sequence[Step]) -> Iterator[Entry]:
+    """What is supposed, then a sentence for each steady motion; ``steps``: of one search."""
+    at = [s for s in steps if ".equilibrium_" in s.label]
+    if not at:
+        return
+    variables = ", ".join(variables_of(at[0]))
+    supposed = {x.message: x for s in steps for x in s.prose}
+    positive = supposed.get(message("family.positive"))
+    letters = dict.fromkeys(y for s in steps for y in _letters(s.prose))
+
+    def told(spoken: Language) -> str:
+        found = [spoken.word(TRIED, variables=variables)]
+        if positive:
+            found.append(spoken.word(POSITIVE, **_places(positive, spoken)))
+        if letters:
+            found.append(spoken.word(LETTERS, letters=", ".join(letters)))
+        return " ".join(found)
+
+    yield sentence(told)
+    for s in at:
+        number = s.label.rpartition("_")[2]
+        both = [x for x in steps if x.label.rpartition("_")[2] == number]
+        said = [x for step in both for x in step.prose]
+        yield sentence(partial(_of_one, said), [x.label for x in both])
+
+
+def variables_of(step: Step) -> Iterator[str]:
+    """The letters of what a step gives the rates of."""
+    for e in step.equations:
+        if isinstance(e.lhs, tuple) and e.lhs[0] in ("at", "entry"):
+            yield normalize("NFC", normalize("NFD", show(e.lhs)).replace("\u0307", ""))
+
+
+def _letters(prose: Sequence[Sentence]) -> Iterator[str]:
+    for x in prose:
+        if x.message == message("family.letter"):
+            yield str(dict(x.places)["letter"])
+
+
+def _places(x: Sentence, spoken: Language) -> Mapping[str, str]:
+    return {name: y if isinstance(y, str) else spoken.sentence(y) for name, y in x.places}
+
+
+def _of_one(said: Sequence[Sentence], spoken: Language) -> str:
+    """Where a steady motion is, and what is proved of its stability."""
+    at = next((dict(x.places)["point"] for x in said if "point" in dict(x.places)), "")
+    verdicts: list[str] = []
+    for x in said:
+        if x.message in SAID:
+            places = {k: y for k, y in _places(x, spoken).items() if f"{{{k}}}" in SAID[x.message]}
+            verdicts.append(spoken.word(SAID[x.message], **places))
+    first, *others = dict.fromkeys(verdicts or [spoken.word(OPEN)])
+    for other in others:
+        first = spoken.word("{first}; {second}", first=first, second=other)
+    return spoken.word(AT, point=str(at) or spoken.word("all variables 0"), verdict=first)
