@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from .language.univariate import Number
     from .motion.emitted import Emitted, OneDegree
     from .search.trim.trim import Trim
+    from .search.trim.trimmed import Bounds
 
 
 def motion_of(
@@ -115,11 +116,13 @@ def trim(
     at: Mapping[str, Number],
     free: Sequence[str] | None = None,
     given: Mapping[str, float] | None = None,
+    bounds: Bounds | None = None,
 ) -> tuple[Trim, Derivation]:
     """The inputs and velocities ``free``, else all inputs that are not given, with which the
     velocity of a state stays as it is, and the record of the problem with the step that tells them;
     ``at``: numbers of the state and of inputs, else those of g = 1, and 0; parameters have their
-    defaults, or what is ``given``."""
+    defaults, or what is ``given``; a trim that is out of ``bounds``, of numbers by name, is
+    refused."""
     from .code.options import Options
     from .code.program import LoweringError
     from .search.trim.trim import told
@@ -141,7 +144,7 @@ def trim(
         ) from None
     assert problem.group
     try:
-        found = trimmed(problem, made, at, free)
+        found = trimmed(problem, made, at, free, bounds)
     except Refused as error:
         raise ProblemError(f"{problem.name}: {error}") from None
     c = Chapter(problem.name, problem.group_name)

@@ -17,6 +17,7 @@ from fractions import Fraction
 from math import factorial
 from typing import Any
 
+from ..algebra.factor_charts import QUATERNION, FactorChart, factor_charts
 from ..algebra.groups import Group
 from ..language.rational import Matrix, identity
 from ..record.record import Derivation
@@ -25,7 +26,7 @@ from ..routines.source import Source
 from .conventions import basis_lines, listed
 from .options import Options
 from .program import LoweringError, Program
-from .slots import StateSlot
+from .slots import OfElement, StateSlot
 from .state import StateSpace
 from .step.algorithms import PRINTERS, real_of_work, text_of
 
@@ -42,6 +43,7 @@ FUNCTIONS: dict[str, tuple[tuple[str, ...], str]] = {
 OF_FILTER: dict[str, tuple[tuple[str, ...], str]] = {
     **{x: FUNCTIONS[x] for x in ("exp", "log", "exp_jacobian", "log_jacobian")},
     **dict.fromkeys(("update_left", "update_right"), (("x", "o", "Y", "N"), "y")),
+    "update": (("x", "z", "H", "N"), "y"),
 }
 """The same where the state is an estimate with the covariance of its error."""
 
@@ -75,15 +77,17 @@ class Factor:
 class GroupFunctions:
     """What the algorithms know of a group and its state.
 
-    ``entries``: row and column of each number of an element; ``origin``: the matrix of the
-    identity, with what never varies; ``read``: of each coordinate the terms (coefficient, row,
-    column) that it is read by; ``brackets``: the coordinates of [E_a, E_b]; ``right``: is a
-    variation δg = η g, and Z = ġ g⁻¹? ``covariance``: is an element followed in the state by the
-    upper triangle of a covariance, not by a velocity?  There are no ``factors`` where one does
-    something else than turn and shift.
+    ``entries``: row and column of each number of an element that is an entry of its matrix, and
+    which number it is; ``quaternions``: the first number of each, and the first of the three rows
+    that it turns; ``origin``: the matrix of the identity, with what never varies; ``read``: of each
+    coordinate the terms (coefficient, row, column) that it is read by; ``brackets``: the
+    coordinates of [E_a, E_b]; ``right``: is a variation δg = η g, and Z = ġ g⁻¹? ``covariance``: is
+    an element followed in the state by the upper triangle of a covariance, not by a velocity?
+    There are no ``factors`` where one does something else than turn and shift.
     """
 
-    entries: tuple[tuple[int, int], ...]
+    entries: tuple[tuple[int, int, int], ...]
+    quaternions: tuple[tuple[int, int], ...]
     origin: Matrix
     read: tuple[tuple[tuple[Fraction, int, int], ...], ...]
     brackets: tuple[Matrix, ...]
@@ -94,19 +98,19 @@ class GroupFunctions:
     @classmethod
     def of(cls, space: StateSpace) -> GroupFunctions:
         """Those of a state that :func:`refuse` does not refuse."""
-        return cls.of_group(space.group, space.slots, space.still, right=space.right)
+        return cls.of_group(space.group, space.held_of_g, space.still, right=space.right)
 
     @classmethod
     def of_group(
         cls,
         group: Group,
-        slots: Sequence[StateSlot],
+        held: Sequence[OfElement],
         still: Mapping[StateSlot, Fraction],
         *,
         right: bool,
         covariance: bool = False,
     ) -> GroupFunctions:
-        """Those of an element kept in ``slots``, without what is ``still``."""
+        """Those of an element as a state has it, ``held``, without what is ``still``."""
 
         def place(x: Any) -> tuple[int, int]:
             return x.row, group.n if x.letter == "T" else x.column
@@ -115,8 +119,16 @@ class GroupFunctions:
         for x, value in still.items():
             i, j = place(x)
             origin[i][j] = value
+        entries, quaternions, number = list[tuple[int, int, int]](), list[tuple[int, int]](), 0
+        for y in held:
+            if isinstance(y, FactorChart):
+                quaternions.append((number, y.offset))
+            else:
+                entries.append((*place(y), number))
+            number += len(y.names) if isinstance(y, FactorChart) else 1
         return cls(
-            tuple(map(place, slots)),
+            tuple(entries),
+            tuple(quaternions),
             tuple(map(tuple, origin)),
             tuple(tuple(group.coordinate_terms(a)) for a in range(group.dimension)),
             group.structure_constants,
@@ -131,26 +143,35 @@ class GroupFunctions:
         return OF_FILTER if self.covariance else FUNCTIONS
 
     @property
+    def numbers(self) -> int:
+        """How many numbers an element has."""
+        return len(self.entries) + 4 * len(self.quaternions)
+
+    @property
     def observed(self) -> list[int]:
         """The rows of a matrix of the group that vary."""
-        return sorted({i for i, _ in self.entries})
+        return sorted({i for i, _, _ in self.entries})
 
     def count(self, function: str, argument: str) -> int:
         """How many numbers an argument of a function has."""
-        element, d, seen = len(self.entries), len(self.read), len(self.observed)
+        element, d, seen = self.numbers, len(self.read), len(self.observed)
         state = element + (d * (d + 1) // 2 if self.covariance else d)
         twice = argument == "eta" and "x" in self.functions[function][0]  # with a velocity
         return {
             **{"g": element, "x": state, "y": state, "eta": 2 * d if twice else d, "J": d * d},
-            **{"o": len(self.origin), "Y": seen, "N": seen * seen},
+            **{"o": len(self.origin), "Y": seen, "z": seen, "N": seen * seen, "H": seen * d},
         }[argument]
 
 
-def refuse(d: Derivation, chosen: Options) -> None:
+def refuse(d: Derivation, group: Group, chosen: Options) -> None:
     """``LoweringError`` for a state for which these functions are not written."""
+    charts = factor_charts(group.in_user_basis, chosen.attitude).values()
     reduced = "advected" in d.problem or bool(d.problem.get("lagrangian", {}).get("held"))
     for on, what in (
-        (chosen.attitude != "matrix", f"not written with --attitude {chosen.attitude}"),
+        (
+            any(x.kind != QUATERNION for x in charts),
+            f"written for matrices and quaternions, not with --attitude {chosen.attitude}",
+        ),
         (chosen.velocity == "tangent", "not written with --velocity tangent"),
         (reduced, "not written for a state without all of g and Z"),
     ):
@@ -207,7 +228,8 @@ def _entries(matrices: Sequence[Matrix]) -> list[tuple[int, int, int, Any]]:
 def known(p: Program) -> dict[str, Any]:
     """What the algorithms know, whatever the language."""
     f: GroupFunctions = p.group_functions
-    d, element = p.dimension, len(f.entries)
+    d, element = p.dimension, f.numbers
+    turned = [row for _, row in f.quaternions]
     terms = ((a, x) for a, found in enumerate(f.read) for x in found)
     return {
         "SIZE": len(f.origin),
@@ -218,11 +240,17 @@ def known(p: Program) -> dict[str, Any]:
         "N_STATE": f.count("exp", "x"),
         "N_OBSERVED": len(f.observed),
         "N_NOISE": len(f.observed) ** 2,
+        "N_JACOBIAN_OBSERVED": len(f.observed) * d,
         "OBSERVED": f.observed,
         "N_TANGENT": 2 * d,
         "N_JACOBIAN": d * d,
         "N_FACTORS": len(f.factors),
+        "N_ENTRIES": len(f.entries),
         "ENTRIES": [[*x] for x in f.entries],
+        "N_QUATERNIONS": len(turned),
+        "QUATERNIONS": [at for at, _ in f.quaternions],
+        "TURNED": turned,
+        "N_LOGARITHMS": len(turned) if f.factors else 0,
         "ORIGIN": [[*map(float, row)] for row in f.origin],
         **_sparse("HAT", _entries(p.basis)),
         **_sparse("READ", ((i, j, a, c) for a, (c, i, j) in terms)),
@@ -234,6 +262,7 @@ def known(p: Program) -> dict[str, Any]:
         "ENDS": [x.end for x in f.factors],
         "IN_PLANE": [x.turns == 2 for x in f.factors],
         "IN_SPACE": [x.turns == 3 for x in f.factors],
+        "BY_QUATERNION": [x.start in turned for x in f.factors],
         "TERMS": TERMS,
         "SERIES": _series(),
         "RIGHT": f.right,
@@ -249,7 +278,7 @@ def known(p: Program) -> dict[str, Any]:
 def _conventions(p: Program) -> list[str]:
     """What a reader of the file must know, in lines."""
     f: GroupFunctions = p.group_functions
-    element = len(f.entries)
+    element = f.numbers
     text = "eta are coordinates in the basis below, exp(eta) = exp(eta_1 E_1 + ...). "
     if f.covariance:
         text += (
@@ -297,7 +326,8 @@ def printed_group(language: str, p: Program, fields: Mapping[str, Any]) -> dict[
         **({name: f"{name}_into" for name in f.functions} if language == "javascript" else {}),
     }
     source = Source()
-    for part in ("group_elements", "group_turns" if f.factors else "group_series", "group_maps"):
+    parts = ("group_elements", "group_quaternions")
+    for part in (*parts, "group_turns" if f.factors else "group_series", "group_maps"):
         source.read(text_of(part), given)
     if f.covariance:
         source.read(text_of("invariant_update"), given)

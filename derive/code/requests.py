@@ -154,7 +154,7 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
     if chosen.dynamics:
         watched_functions.refuse(d)
     if chosen.exponential:
-        group_functions.refuse(d, chosen)
+        group_functions.refuse(d, group, chosen)
     if "discrete" in chosen.step:
         discrete_step.refuse(d, group, chosen)
     if chosen.attitude != "matrix":

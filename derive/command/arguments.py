@@ -154,6 +154,8 @@ def add_trim_options(held: argparse.ArgumentParser) -> None:
     )
     about += "(default: all inputs that --at does not give)"
     held.add_argument("--free", action="append", metavar="NAME", help=about)
+    about = "what an input, or a number of the state, may be: a trim outside is refused; repeated"
+    held.add_argument("--bounds", action="append", type=bounds, metavar="NAME=LOW:HIGH", help=about)
     about = "a parameter, in place of its default; repeated"
     held.add_argument("--given", action="append", type=number, metavar="NAME=NUMBER", help=about)
 
@@ -348,6 +350,18 @@ def coordinate(words: str) -> tuple[str, Number]:
         return name, number_from(text)
     except NoEquilibriumError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def bounds(words: str) -> tuple[str, tuple[Number, Number]]:
+    """A name and two exact numbers from NAME=LOW:HIGH; ``ArgumentTypeError`` for any other text."""
+    form = "NAME=LOW:HIGH, as thrust=0:4, the lower number first"
+    name, text = named(words, form)
+    low, _, high = text.partition(":")
+    if low and high:
+        least, most = coordinate(f"{name}={low}")[1], coordinate(f"{name}={high}")[1]
+        if float(least) <= float(most):
+            return name, (least, most)
+    raise argparse.ArgumentTypeError(f"{words[:40]!r} is not {form}")
 
 
 def degree(words: str) -> int:

@@ -45,6 +45,7 @@ def command_list(_: argparse.Namespace) -> int:
 
 def command_walk(args: argparse.Namespace) -> int:
     """Print the walk of a problem."""
+    from ..algebra.groups import names_by_block
     from ..pipeline import both_trivialisations
 
     if args.discrete and args.trivialisation:
@@ -61,7 +62,8 @@ def command_walk(args: argparse.Namespace) -> int:
     with working(args.problem):
         problem, record = walked(args.problem, **allowed(args))
     if args.answer:
-        save_steps(record, (), args, answer=True)
+        own = names_by_block(problem.group) if problem.group else {}
+        save_steps(record, (), args, answer=True, by_block=own)
         return 0
     if args.trivialisation:
         if problem.fluid or problem.kinematics:
@@ -130,7 +132,8 @@ def command_trim(args: argparse.Namespace) -> int:
     at, given = each_once("--at", args.at), each_once("--given", args.given)
     free = [name for x in args.free or () for name in x.split(",")] or None
     with working(args.problem):
-        _, record = trim(doubted(args.problem, given=given), at, free, given)
+        problem = doubted(args.problem, given=given)
+        _, record = trim(problem, at, free, given, each_once("--bounds", args.bounds))
     save_found(record, args)
     return 0
 

@@ -164,11 +164,18 @@ def columns(out: str | None) -> int:
 
 
 def save_steps(
-    record: Derivation, steps: Sequence[Step], args: argparse.Namespace, *, answer: bool = False
+    record: Derivation,
+    steps: Sequence[Step],
+    args: argparse.Namespace,
+    *,
+    answer: bool = False,
+    by_block: Mapping[str, str] | None = None,
 ) -> None:
-    """Write some steps of a record, its answer, or all of it, as the options of a command ask."""
+    """Write some steps of a record, its answer with names ``by_block``, or all of it, as the
+    options of a command ask."""
     chosen = {"fragment": args.fragment, "steps": steps, "answer": answer, **notation(args)}
-    shown = render(record, args.format, args.lang, width=columns(args.out), **chosen)
+    wide = columns(args.out)
+    shown = render(record, args.format, args.lang, width=wide, by_block=by_block, **chosen)
     if args.format == "latex":
         warn_of_letters([record])
     save(shown, args.out, args.format, paged=not answer)

@@ -27,7 +27,7 @@ from ..motion.ensemble import (
 from ..motion.ensemble_files import writer
 from ..motion.first_numbers import MotionError
 from ..motion.native import AT_EVENT
-from ..motion.run import Array, Run, format_of, written
+from ..motion.run import Array, Run, format_of, shown, written
 from ..motion.simulate import beginning, run, some_turns
 from ..motion.start import state_file
 from ..motion.trajectory import STEPS, Method, instants, step_of
@@ -194,9 +194,9 @@ def summary(run: Run) -> list[str]:
     last = dict(zip(run.names, run.table[-1].tolist(), strict=True))
     state = [*run.of_kind("state")]
     largest = sorted(state, key=lambda x: -abs(last[x]))[:LARGEST]
-    shown = state if len(state) <= MANY else [x for x in state if x in largest]
-    told = [f"{x} = {last[x]:.6g}" for x in shown]
-    told += [f"… (the largest of {len(state)})"] * (len(shown) < len(state))
+    chosen = state if len(state) <= MANY else [x for x in state if x in largest]
+    told = [f"{shown(run.facts, x)} = {last[x]:.6g}" for x in chosen]
+    told += [f"… (the largest of {len(state)})"] * (len(chosen) < len(state))
     return [*lines, f"  at the end: {', '.join(told)}"]
 
 
@@ -216,11 +216,11 @@ def events(run: Run) -> list[str]:
         times.setdefault(one.name, []).append(one.t)
     lines = []
     for name, found in times.items():
-        shown = [f"{t:.12g}" for t in found]
+        told = [f"{t:.12g}" for t in found]
         often, rest = "once" if len(found) == 1 else f"{len(found)} times", ""
-        if len(shown) > TOLD:
-            shown, rest = [*shown[:3], "…", shown[-1]], f" ({ALL_EVENTS})"
-        lines.append(f"  event {name}: {often}, at t = {', '.join(shown)}{rest}")
+        if len(told) > TOLD:
+            told, rest = [*told[:3], "…", told[-1]], f" ({ALL_EVENTS})"
+        lines.append(f"  event {name}: {often}, at t = {', '.join(told)}{rest}")
     return lines
 
 
@@ -361,6 +361,6 @@ def ensemble_summary(many: EnsembleMotions, tally: Tally) -> list[str]:
     lines += [f"  {tally.count[k]} {text}" for k, text in many.said.items() if tally.count[k]]
     if tally.count[0]:
         pairs = zip(many.names, *(x.tolist() for x in tally.ends()), strict=True)
-        told = ", ".join(f"{name} = {mean:.6g} ± {off:.2g}" for name, mean, off in pairs)
+        told = ", ".join(f"{shown(facts, x)} = {mean:.6g} ± {off:.2g}" for x, mean, off in pairs)
         lines.append(f"  at the end, mean and deviation: {told}")
     return lines

@@ -277,7 +277,9 @@ class Balance:
         yield Term(of_w, lambda row: "ω × (ω × c)" if row == "force" else "ω × Iω")
         yield Term(of_v, _of(f"{SQUARES} v"))
         crossed = square(every) - of_w - of_v
-        yield Term(crossed, lambda row: "ω × Mv" if row == "force" else "the product of ω and v")
+        alone = np.abs(crossed[:, :turning]).max() <= EXACT * np.abs(crossed).max()
+        both = "ω × Mv" if alone else "the product of ω and v"
+        yield Term(crossed, lambda row: "ω × Mv" if row == "force" else both)
         if self.is_frame and turning == 3:
             yield from self._of_momenta()
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -212,6 +213,11 @@ def reports(c: Comparison, make: Made) -> tuple[bool, list[str]]:
     if others := _other_conventions(c):
         return False, lines + [f"  it agrees if {x}" for x in others]
     lines += _of_places(c, off, known)
+    words, turning = _of_transport(c, off)
+    if words:
+        lines.append(f"  {words}")
+        c, off = replace(c, dx=c.dx - turning), off - turning
+        worst = np.abs(off).max(axis=0) / size
     d = c.program.dimension
     if all(worst[place].max() <= AGREES for item, place in c.table.places() if _is_rate(c, item)):
         return False, lines
@@ -264,6 +270,37 @@ def _of_places(c: Comparison, off: Array, known: Array) -> list[str]:
         else:
             lines.append(f"  the rate of {item.name} is not that of its velocity")
     return lines
+
+
+def _of_transport(c: Comparison, off: Array) -> tuple[str, Array]:
+    """A term ω × v in the rate of the velocity, as axes that turn have it, that is one too many or
+    along other axes: in words, and what is too much; "" where there is none."""
+    more = np.zeros_like(off)
+    named = c.blocks.get("velocity", ())
+    there = [(x, y) for x, y in c.table.places() if x.name == "velocity" or x.name in named]
+    place = [i for _, y in there for i in range(y.start, y.stop)]
+    if len(place) < 3 or "matrix" not in c.blocks:
+        return "", more
+    x, state = c.ours(c.table)(c.given["x"]), c.program.state
+    A, w, v = (
+        x[:, [state.index(y) for y in c.blocks[name]]] for name in ("matrix", "omega", "velocity")
+    )
+    A = A.reshape(-1, 3, 3)
+    turned = {"the body": (w, v), "space": tuple(np.einsum("nij,nj->ni", A, y) for y in (w, v))}
+    in_space = there[0][0].said.get("frame") == "space"
+    own = 0 * v if in_space else -np.cross(w, v)
+    for of_w, of_v, sign in product(turned, turned, (-1, 1)):
+        term = sign * np.cross(turned[of_w][0], turned[of_v][1])
+        more[:, place] = (term - own) * [x.unit for x, y in there for _ in range(y.start, y.stop)]
+        same = np.abs(off - more)[:, place].max() <= AGREES * np.abs(more[:, place]).max()
+        if same and (in_space or not of_w == of_v == "the body"):
+            axes = f"ω along the axes of {of_w} and v along those of {of_v}"
+            called = f"{'−' * (sign < 0)}ω × v, {axes},"
+            end = "too many: of a velocity along the axes of space there is none"
+            if not in_space:
+                end = "where −ω × v along the axes of the body is meant"
+            return f"the rate of velocity has {called} {end}", more
+    return "", 0 * more
 
 
 def _block_of(item: Item) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import chain, combinations, product
 
@@ -76,7 +77,7 @@ def explained(b: Balance, terms: list[Term]) -> Explanation:
     if good:
         least = [x.words for x in good if x.rank <= max(1, good[0].rank)]
         first = [x for x in least if ABOUT not in x or x.replace(ABOUT, "") not in least]
-        return Explanation(tuple(dict.fromkeys(first)))
+        return Explanation(with_other_names(dict.fromkeys(first)))
     for found in (*(of_several(b, terms, x) for x in views(b)), of_tables(b)):
         if found:
             words = tuple(x for x, _ in found)
@@ -88,6 +89,24 @@ def explained(b: Balance, terms: list[Term]) -> Explanation:
     part = float(np.abs(nearest.left / size).max()) / whole
     near = f"{nearest.words}: this would leave {part:.0%} of the difference"
     return Explanation(nearest=near if part < NEARER else "")
+
+
+SAID = re.compile(r"(.*?) ((?:has|is|are|stands) .*)")
+"""What is changed, and what of it is said."""
+
+
+def with_other_names(changes: Iterable[str]) -> tuple[str, ...]:
+    """Changes of which the same is said in one line: it is one fault with several names."""
+    names: dict[str, list[str]] = {}
+    for words in changes:
+        found = SAID.fullmatch(words)
+        subject, said = found.groups() if found else (words, "")
+        names.setdefault(said, []).append(subject)
+    return tuple(
+        f"{first} {said}".rstrip()
+        + (f"; the same in numbers: {', '.join(others)}" if others else "")
+        for said, (first, *others) in names.items()
+    )
 
 
 Values = Mapping[str, float]
@@ -241,12 +260,14 @@ def of_term(
     back, d = np.linalg.inv(to).T, here.shape[1]
     sets = {"": [*range(d)], **(b.rows if len(b.rows) > 1 else {})}
     single = {f"row {i + 1}": [i] for i in range(d)}
+    seen: list[Array] = []
     for name, rows in (sets if factors else {**sets, **single}).items():
         part = np.zeros_like(here)
         part[:, rows] = values[:, rows]
         square = float((part * part).sum())
-        if not square:
-            continue
+        if not square or any(np.array_equal(part, x) for x in seen):
+            continue  # all of it is in the rows of which more has been said
+        seen.append(part)
         # M a = Σ terms with f times this one: what is left is (f − 1) times it
         own = factors or (1 + float((part * here).sum()) / square,)
         kind = b.kind(rows)

@@ -101,6 +101,12 @@ def called(facts: Mapping[str, Any], name: str) -> str:
     return str(facts.get("by_block", {}).get(name, name))
 
 
+def shown(facts: Mapping[str, Any], name: str) -> str:
+    """What a column is called where it is shown: in a product by its block, as ``w2_1``."""
+    own = {x: y for y, x in facts.get("by_block", {}).items()}
+    return str(own.get(name, name))
+
+
 # Runs as files: ``.npz`` of NumPy, ``.csv`` with its facts in a comment below the names of the
 # columns, ``.parquet``.
 #

@@ -65,3 +65,10 @@ class OnTheGroup:
     def update_right(self, x: Any, o: Any, Y: Any, N: Any) -> Array:
         """The same for A⁻¹ o + V."""
         return self._on_the_group("update_right", x, o, Y, np.reshape(N, -1))
+
+    def update(self, x: Any, z: Any, H: Any, N: Any) -> Array:
+        """The same for any observation h: z, (m,), is what is observed less h(g), H, (m, d), its
+        derivative, h(g exp ξ) = h(g) + H ξ, on the right h(exp(ξ) g).  With fewer than m numbers
+        the others of z and H are 0, and 1 on the diagonal of N."""
+        flat = (np.reshape(y, -1) for y in (H, N))
+        return self._on_the_group("update", x, z, *flat)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
 from typing import Any, ClassVar, Generic, TypeVar
@@ -56,9 +56,11 @@ class ShownEquation:
 
 @dataclass(frozen=True)
 class Answer:
-    """The equations of motion of a derivation, and what their letters are."""
+    """The equations of motion of a derivation, and what their letters are; ``by_block``: names of
+    the velocity of a product → those by its blocks."""
 
     record: Derivation
+    by_block: Mapping[str, str] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<answer of {self.record.name}: {len(self.equations)} equations>"
@@ -77,13 +79,13 @@ class Answer:
     def __str__(self) -> str:
         from ..views.rendering import render
 
-        return render(self.record, "text", answer=True)
+        return render(self.record, "text", answer=True, by_block=self.by_block)
 
     def markdown(self, lang: str = "en") -> str:
         """The same in Markdown, its formulas between dollars."""
         from ..views.rendering import render
 
-        return render(self.record, "markdown", lang, answer=True)
+        return render(self.record, "markdown", lang, answer=True, by_block=self.by_block)
 
     def _repr_markdown_(self) -> str:
         return self.markdown()

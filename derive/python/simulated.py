@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..motion.ensemble import Ensemble, Part
-from ..motion.run import Run
+from ..motion.run import Run, shown
 from .api import in_keywords
 
 
@@ -68,7 +68,8 @@ class Simulated(Run):
         ]
         for x in self.columns[1:]:
             y = self[x.name]
-            name = f"{x.name} [{x.unit}]" if x.unit else x.name
+            own = shown(self.facts, x.name)
+            name = f"{own} [{x.unit}]" if x.unit else own
             rows.append((name, *(f"{v:.6g}" for v in (y[0], y[-1], np.abs(y - y[0]).max()))))
         cells = ("".join(f"<td>{escape(cell)}</td>" for cell in row) for row in rows)
         return f"<table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"

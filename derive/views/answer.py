@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from unicodedata import normalize
 
+from ..language.reserved import by_letter
 from ..language.show import in_quotes, show
 from ..language.tree import Tree, add, coefficient, mul, names, neg, nodes
 from ..record.record import Derivation, Equation, Step
@@ -178,6 +179,18 @@ def _named(prose: Prose) -> Iterator[tuple[str, Sentence]]:
         yield from _named(tuple(x for x in places.values() if isinstance(x, Sentence)))
 
 
+def _runs(names: Iterable[str], of: Mapping[str, str]) -> tuple[str, str]:
+    """The coordinates of the velocity, first and last of each letter and block, and the same by
+    the names of the blocks."""
+    first = {own: name for name, own in of.items()}
+    spans = [(found[0], found[-1]) for found in by_letter(names).values()]
+
+    def listed(pairs: Iterable[tuple[str, str]]) -> str:
+        return ", ".join(a if a == b else f"{a} … {b}" for a, b in pairs)
+
+    return listed((first[a], first[b]) for a, b in spans), listed(spans)
+
+
 # The answer as every format shows it.
 
 
@@ -193,14 +206,19 @@ class Summary:
     source: str
 
 
-def summary(d: Derivation, language: Language = ENGLISH) -> Summary:
-    """The answer of a record in a language."""
+def summary(
+    d: Derivation, language: Language = ENGLISH, by_block: Mapping[str, str] | None = None
+) -> Summary:
+    """The answer of a record in a language; ``by_block``: names of the velocity → by the blocks."""
     told, motion = steps_of_answer(d), equations_of_motion(d)
     where = definitions(d, motion)
     whole = replace(told[-1], label=f"{d.name}.answer", equations=motion)
     defined = replace(whole, label=f"{d.name}.where", equations=where)
     blocks = (("", whole), (language.word("where"), defined))
     source = language.word("From {labels}.", labels=", ".join(s.label for s in told))
+    if by_block:
+        own, also = _runs(by_block.values(), by_block)
+        source += " " + language.word("In code {names} are {also}.", names=own, also=also)
     listed = tuple(letters(d, (*motion, *where), language))
     return Summary(d, language, blocks if where else blocks[:1], listed, source)
 

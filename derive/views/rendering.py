@@ -103,11 +103,13 @@ def render(
     fragment: bool = False,
     steps: Sequence[Step] = (),
     answer: bool = False,
+    by_block: Mapping[str, str] | None = None,
     width: int = WIDTH,
     **notation: str,
 ) -> str:
     """A record in one of the formats, in one of the languages; or some ``steps`` of it alone, or
-    its ``answer``; the lines of a text at most ``width`` columns wide.
+    its ``answer``, which tells names of the velocity ``by_block``, ζ_a → that of its block; the
+    lines of a text at most ``width`` columns wide.
 
     :class:`RenderError` for a format that is none, and for choices that do not go together.
     """
@@ -126,7 +128,7 @@ def render(
     if form not in LINKED and chosen != Notation():
         raise RenderError("--notation and --hat are for --format latex and html")
     if answer:
-        return _answer(d, form, language(lang), chosen, not fragment, width)
+        return _answer(d, form, language(lang), chosen, by_block or {}, not fragment, width)
     if steps:
         d = _of_steps(d, steps, linked=form in LINKED)
     if fragment and form == "html":
@@ -144,14 +146,20 @@ def render(
 
 
 def _answer(
-    d: Derivation, form: str, words: Language, notation: Notation, alone: bool, width: int
+    d: Derivation,
+    form: str,
+    words: Language,
+    notation: Notation,
+    by_block: Mapping[str, str],
+    alone: bool,
+    width: int,
 ) -> str:
     """The equations of motion of a record with what their letters are."""
     from . import answer, html, latex
 
     if form == "json":
         raise RenderError("--answer is to be read, the JSON is of a whole walk: leave out one")
-    told, made = answer.summary(d, words), {"latex": latex.answer, "html": html.answer}
+    told, made = answer.summary(d, words, by_block), {"latex": latex.answer, "html": html.answer}
     if form in made:
         return made[form](told, notation, alone=alone)
     return answer.answer_text(told, width) if form == "text" else answer.answer_markdown(told)

@@ -67,6 +67,8 @@ PROBLEMS = {
     "screw": lambda: of_basis(SCREW, "affine"),
     "line": lambda: of_basis(LINE),
     "right": lambda: lagrangian(squares(1, 2, 3, 1, 2, 3), "SE(3)", side="right"),
+    "quaternion": lambda: of_points("SO(3)", 3),
+    "quaternions": lambda: lagrangian(squares(*range(1, 11)), "SO(2) x SE(3) x SO(3)"),
 }
 GENERAL = {
     **{
@@ -78,9 +80,13 @@ GENERAL = {
     "UT(3)": lambda: of_basis([unit(3, 0, 1), unit(3, 1, 2), unit(3, 0, 2)]),
     "SO(3) x SL(2)": lambda: lagrangian(squares(1, 2, 3, 1, 2, 3), "SO(3) x SL(2)"),
     "right SL(2)": lambda: lagrangian(squares(1, 2, 3), "SL(2)", side="right"),
+    "quaternion, SL(2)": lambda: lagrangian(squares(1, 2, 3, 1, 2, 3), "SO(3) x SL(2)"),
 }
 """Groups that do more than turn and shift."""
 OPTIONS = {"SE(3)": {"layout": "col"}, "SE(2)": {"state": "moving"}, "SL(3)": {"layout": "col"}}
+OPTIONS |= {
+    x: {"attitude": "quaternion"} for x in ("quaternion", "quaternions", "quaternion, SL(2)")
+}
 
 
 @cache
@@ -95,9 +101,12 @@ def case(name):
     sizes = [x.size for x in group.factors or (group,)]
     places = []
     for entry in f.STATE[:-d]:
-        letter, block, i, j = re.fullmatch(r"([AT])(\d?)_(\d)(\d?)", entry).groups()
+        letter, block, i, j = re.fullmatch(r"([ATq])(\d?)_(\d)(\d?)", entry).groups()
         start = sum(sizes[: int(block or 1) - 1])
         end = start + sizes[int(block or 1) - 1]
+        if letter == "q":
+            places.append((f"q{i}", start))
+            continue
         places.append((start + int(i) - 1, start + int(j) - 1 if j else end - 1))
         assert letter == "T" or j
     matrices = [
@@ -122,15 +131,43 @@ def exp(M):
     return total
 
 
+def quaternion(G, at):
+    """The unit quaternion, scalar first and not negative, of a turn by less than π."""
+    R = G[at : at + 3, at : at + 3]
+    p = mpmath.sqrt(1 + R[0, 0] + R[1, 1] + R[2, 2]) / 2
+    return [p, *((R[j, i] - R[i, j]) / (4 * p) for i, j in ((1, 2), (2, 0), (0, 1)))]
+
+
+def rotation(q):
+    """The matrix of what a quaternion does to a vector."""
+    p, *v = (mpmath.mpf(float(x)) / mpmath.norm(mpmath.matrix([*map(float, q)])) for x in q)
+    j = mpmath.matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+    return mpmath.eye(3) + 2 * p * j + 2 * j * j
+
+
 def entries(G, places):
-    return np.array([float(G[i, j]) for i, j in places])
+    return np.array(
+        [float(quaternion(G, j)[int(i[1])] if isinstance(i, str) else G[i, j]) for i, j in places]
+    )
+
+
+def alike(g, places):
+    """The numbers of an element, of q and −q that with a scalar that is not negative."""
+    g = np.array(g)
+    for n, (i, _) in enumerate(places):
+        if i == "q0" and g[n] < 0:
+            g[n : n + 4] *= -1
+    return g
 
 
 def element(g, places, size):
     """The matrix of an element of doubles."""
     G = mpmath.eye(size)
-    for x, (i, j) in zip(g, places, strict=True):
-        G[i, j] = mpmath.mpf(float(x))
+    for n, (x, (i, j)) in enumerate(zip(g, places, strict=True)):
+        if i == "q0":
+            G[j : j + 3, j : j + 3] = rotation(g[n : n + 4])
+        elif not isinstance(i, str):
+            G[i, j] = mpmath.mpf(float(x))
     return G
 
 
@@ -191,7 +228,8 @@ def test_exp_beyond_half_a_turn(name, angle):
     """There the error grows as the angle does: to 2e-15 at 50."""
     with mpmath.workdps(DIGITS):
         f, E, places, eta = drawn(name, angle)
-        assert far(f.exp(eta), entries(exp(hat(E, eta)), places)) < 1e-16 * max(10, angle)
+        g = entries(exp(hat(E, eta)), places)
+        assert far(alike(f.exp(eta), places), g) < 1e-16 * max(10, angle)
 
 
 @CASES
@@ -212,12 +250,27 @@ def test_jacobians_are_those_of_differences(name, angle):
         assert far(f.log_jacobian(entries(exp(X), places)), inverse) < back(name)
 
 
+@pytest.mark.parametrize("name", ["SO(3)", "quaternion"])
 @pytest.mark.parametrize("angle", [1e-12, 1e-8])
-def test_small_turns_have_all_their_digits(angle):
+def test_small_turns_have_all_their_digits(angle, name):
     """Of what is small itself: the skew part of a rotation."""
-    f = case("SO(3)")[0]
+    f = case(name)[0]
     eta = angle * np.array([1.0, -2.0, 0.5])
     np.testing.assert_allclose(f.log(f.exp(eta)), eta, rtol=4e-16, atol=0)
+
+
+def test_a_quaternion_and_its_opposite_are_one_turn():
+    """In log, its Jacobian and local; half a turn, of scalar 0, is by either sign."""
+    f, rng = case("quaternion")[0], np.random.default_rng(9)
+    for q in rng.normal(size=(20, 4)):
+        g, h, w = q / np.linalg.norm(q), f.exp(rng.normal(size=3)), np.zeros(3)
+        np.testing.assert_allclose(f.log(-g), f.log(g), rtol=1e-15)
+        np.testing.assert_array_equal(f.log_jacobian(-g), f.log_jacobian(g))
+        eta = f.local([*g, *w], [*h, *w])
+        assert np.linalg.norm(eta) < np.pi + 1e-15
+        np.testing.assert_allclose(f.local([*-g, *w], [*h, *w]), eta, atol=2e-15)
+    for axis in np.eye(3):
+        np.testing.assert_allclose(np.abs(f.log([0, *axis])), np.pi * axis, rtol=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -278,7 +331,7 @@ def test_local_is_the_inverse_of_retract(name, angle):
         y, X = f.retract(x, moved), element(x[:-d], places, size)
         by = exp(hat(E, eta))
         wanted = by * X if "right" in name else X * by
-        assert far(y[:-d], entries(wanted, places)) < 2e-15
+        assert far(alike(y[:-d], places), entries(wanted, places)) < 2e-15
         np.testing.assert_array_equal(y[-d:], x[-d:] + moved[d:])
         assert far(f.local(x, y), moved) < 2 * back(name)
 
@@ -347,10 +400,10 @@ def in_rust(prefix, texts, calls):
 RUN = {"python": in_python, "julia": in_julia, "javascript": in_javascript, "rust": in_rust}
 
 
-ALIKE = ("SO(3) x SE(3)", "SE(2)", "right", "SAff(2)")
+ALIKE = ("SO(3) x SE(3)", "SE(2)", "right", "SAff(2)", "quaternions")
 COMPARED = [(name, x, "double") for name in ALIKE for x in RUN]
 COMPARED += [("SE(2)", x, "float") for x in RUN if x != "python"]  # where it is of doubles
-COMPARED += [("right SL(2)", x, "float") for x in RUN if x != "python"]
+COMPARED += [(y, x, "float") for x in RUN for y in ("right SL(2)", "quaternion") if x != "python"]
 
 
 @pytest.mark.parametrize(("name", "language", "real"), COMPARED)
@@ -380,11 +433,17 @@ COMPILERS = ("gcc -std=c99", "clang -std=c99", "g++ -xc++ -std=c++11", "clang++ 
 
 @pytest.mark.parametrize("real", ["double", "float"])
 @pytest.mark.parametrize("compiler", COMPILERS)
-@pytest.mark.parametrize("name", ["SO(3) x SE(3)", "SO(3) x SL(2)"])
+@pytest.mark.parametrize("name", ["SO(3) x SE(3)", "SO(3) x SL(2)", "quaternion"])
 def test_every_compiler_takes_the_header(name, compiler, real):
     words = compiler.split()
     need(words[0])
-    prefix, texts = emission({**PROBLEMS, **GENERAL}[name](), ("c",), exponential=True, real=real)
+    prefix, texts = emission(
+        {**PROBLEMS, **GENERAL}[name](),
+        ("c",),
+        exponential=True,
+        real=real,
+        **OPTIONS.get(name, {}),
+    )
     header = f"{prefix}_group.h"
     main = f'#include "{header}"\nint main(void) {{ return 0; }}\n'
     more = ["-Wdouble-promotion"] if real == "float" else []
@@ -413,7 +472,9 @@ def test_every_language_updates_as_c_does(language):
     x = [*f.exp(rng.normal(size=9)), *(root @ root.T)[np.triu_indices(9)]]
     given = [np.array(x), rng.normal(size=5), rng.normal(size=3), np.diag([1.0, 2, 3]).ravel()]
     calls = [(f"update_{side}", given, len(x)) for side in ("left", "right")]
+    own = [given[0], rng.normal(size=3), rng.normal(size=27), given[3]]
+    calls.append(("update", own, len(x)))
     prefix, texts = emission(problem, ("c", language), exponential=True)
     found = RUN[language](prefix, texts, calls)
-    for (function, _, _), there in zip(calls, found, strict=True):
+    for (function, given, _), there in zip(calls, found, strict=True):
         assert far(there, getattr(f, function)(*given)) < 1e-13, function

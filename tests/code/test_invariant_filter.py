@@ -121,15 +121,20 @@ def rates(x, u, side, Q):
 
 
 def updated(x, o, Y, N, side, seen):
-    """Kalman's update, its gain by an inverse; H by the definition of the error."""
-    g, P = unpacked(x)
+    """Kalman's update; H by the definition of the error."""
+    g, _ = unpacked(x)
     B = g if seen == "left" else np.linalg.inv(g)
     sign = 1 if seen == "left" else -1
     columns = [sign * (B @ hat(e) @ o if side == seen else hat(e) @ B @ o)[:3] for e in np.eye(D)]
-    H = np.array(columns).T
+    return corrected(x, Y - (B @ o)[:3], np.array(columns).T, N, side)
+
+
+def corrected(x, z, H, N, side):
+    """Kalman's update, its gain by an inverse, by the innovation z."""
+    g, P = unpacked(x)
     S = H @ P @ H.T + N
     K = P @ H.T @ np.linalg.inv(S)
-    change = series(hat(K @ (Y - (B @ o)[:3])))
+    change = series(hat(K @ z))
     moved = g @ change if side == "left" else change @ g
     return packed(moved, P - K @ S @ K.T)
 
@@ -164,6 +169,30 @@ def test_the_update_is_that_of_a_filter_with_numpy(side, seen):
         N = root @ root.T + np.eye(3)
         found = getattr(filtering, f"update_{seen}")(x, o, Y, N)
         wanted = updated(x, o, Y, N, side, seen)
+        assert np.allclose(found, wanted, rtol=0, atol=1e-12 * max(1, np.abs(wanted).max()))
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_an_update_by_any_observation(side):
+    """A distance and a speed, two numbers of three; their H by differences along the error."""
+    filtering = imu(side)
+
+    def h(g):
+        return np.array([np.linalg.norm(g[:3, 4] - [1, 2, 3]), np.linalg.norm(g[:3, 3])])
+
+    for seed in range(5):
+        random, x, _ = drawn(seed)
+        g, step = unpacked(x)[0], 1e-6
+        ends = [
+            [h(g @ series(hat(s * e)) if side == "left" else series(hat(s * e)) @ g)
+             for s in (step, -step)]
+            for e in np.eye(D)
+        ]  # fmt: skip
+        H = np.array([(a - b) / (2 * step) for a, b in ends]).T
+        z, N = random.normal(size=2), np.diag([0.1, 0.4])
+        wanted = corrected(x, z, H, N, side)
+        whole = np.vstack([H, np.zeros(D)])
+        found = filtering.update(x, [*z, 0], whole, np.diag([0.1, 0.4, 1]))
         assert np.allclose(found, wanted, rtol=0, atol=1e-12 * max(1, np.abs(wanted).max()))
 
 

@@ -340,3 +340,42 @@ def f(t, x):
     dv = (weight + drag) / m - w * turn @ (v + w * turn @ s) - a * turn @ s
     return np.concatenate([(w * A @ turn).ravel(), A @ v, [a], dv])
 """
+
+ROCKET = """
+name = "rocket"
+group = "SE(3)"
+[body]
+given = { m = 2, centre = [0, 0, 0], I_centre = [[0.3, 0, 0], [0, 0.4, 0], [0, 0, 0.6]] }
+[[potential]]
+kind = "gravity"
+g = [0, 0, -9.81]
+[[input]]
+name = "thrust"
+kind = "force"
+at = [0.1, 0, -0.5]
+frame = "body"
+direction = [0, 0, 1]
+"""
+
+ROCKET_CODE = """
+#include <math.h>
+
+void rocket(const double *x, const double *u, double *dx)
+{
+    const double I[3] = {0.3, 0.4, 0.6}, M[3] = {0, -0.1*u[0], 0};
+    double a = x[3], b = x[4], c = x[5], d = x[6];
+    const double *v = x + 7, *w = x + 10;
+    double o[3] = {w[0], w[1], w[2]};
+    double axis[3] = {2*(b*d + a*c), 2*(c*d - a*b), 1 - 2*(b*b + c*c)};
+    dx[3] = (-b*o[0] - c*o[1] - d*o[2])/2;
+    dx[4] = (a*o[0] + c*o[2] - d*o[1])/2;
+    dx[5] = (a*o[1] - b*o[2] + d*o[0])/2;
+    dx[6] = (a*o[2] + b*o[1] - c*o[0])/2;
+    for (int i = 0; i < 3; ++i) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        dx[i] = v[i];
+        dx[7 + i] = axis[i]*u[0]/2 - 9.81*(i == 2);
+        dx[10 + i] = (M[i] - (I[k] - I[j])*w[j]*w[k])/I[i];
+    }
+}
+"""

@@ -228,6 +228,24 @@ FAULTS = {
         (" * [1, *np.abs(through[1:])]", ""),
         "in the force 1 stands for |v_2|",
     ),
+    "axes that do not turn": (
+        "rocket",
+        (" - 9.81*", " - (w[j]*v[k] - w[k]*v[j]) - 9.81*"),
+        "the rate of velocity has −ω × v, ω along the axes of the body and v along those of space,",
+    ),
+    "quaternion by ω of space": (
+        "rocket",
+        ("c*o[2] - d*o[1]", "d*o[1] - c*o[2]"),
+        ("- b*o[2] + d*o[0]", "+ b*o[2] - d*o[0]"),
+        ("b*o[1] - c*o[0]", "c*o[0] - b*o[1]"),
+        "the rate of quaternion is right if omega has frame 'space'",
+    ),
+    "ω of space in the rate of a velocity of the body": (
+        "satellite",
+        ("- np.cross(w, v)", "- np.cross(A @ w, v)"),
+        "the rate of velocity has −ω × v, ω along the axes of space and v along those of the body",
+    ),
+    "one name for one term": ("satellite", ("- np.cross(w, v)", ""), "ω × Mv is missing"),
     "arm of a damping": (
         "drone",
         ("moment + np.cross(DAMPED, drag)", "moment"),

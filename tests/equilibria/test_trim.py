@@ -85,10 +85,28 @@ def test_other_groups_and_sides():
 
 
 def test_no_trim_says_which_rate_is_left():
-    with pytest.raises(ProblemError, match=r"no trim: dzeta_1/dt is -6, no input is free$"):
+    with pytest.raises(ProblemError, match=r"no trim: dzeta_1/dt is -6; no input is free$"):
         derive(problem_of(PENDULUM)).trim({**TURNED, "u": 0})
     with pytest.raises(ProblemError, match=r"dw_1/dt is -6, whatever u, v are"):
         drone().trim(TURNED)
+
+
+def test_of_a_given_state_all_rates_are_told():
+    """Forces 3 and 5 with arms of 1, against I = 3 and a weight of 20 on a mass of 2."""
+    with pytest.raises(ProblemError, match=r"trim: dzeta_1/dt is -2/3, dw_2/dt is -6, all other"):
+        drone().trim({"u": 3, "v": 5})
+    assert drone().trim({"u": 10, "v": 10}).found.free == ()
+
+
+def test_a_trim_out_of_bounds_is_refused():
+    with pytest.raises(ProblemError, match=r"u is 10, and --bounds allows 0 to 8$"):
+        drone().trim(bounds={"u": (0, 8), "v": (0, "21/2")})
+    assert drone().trim(bounds={"u": (0, 10)}).found.inputs["u"] == 10
+    with pytest.raises(ProblemError, match="uu is no number of the state"):
+        drone().trim(bounds={"uu": (0, 1)})
+    falling = heavy("112", "A_33/2", "")
+    with pytest.raises(ProblemError, match="zeta_3 is 2, and --bounds allows -1 to 1"):
+        derive(falling).trim({"zeta_3": 2}, bounds={"zeta_3": (-1, 1)})
 
 
 def test_of_a_family_its_dimension_is_said():

@@ -112,7 +112,12 @@ def test_the_speed_of_a_tilt_against_a_cubic_drag():
     ("more", "at", "free", "why"),
     [
         ({"force": [{"covector": ["sin(t)"]}]}, TURNED, None, "depends on the time"),
-        ({"force": [{"covector": ["sin(u)"]}]}, TURNED | {"u": 1}, [], "say by --free"),
+        (
+            {"force": [{"covector": ["sin(u)"]}]},
+            TURNED | {"u": 1},
+            [],
+            r"dzeta_1/dt is about -5\.0792645; no",
+        ),
         ({"force": [{"covector": ["sqrt(u - 13)"]}]}, TURNED, ["u"], "no trim is found"),
     ],
 )

@@ -48,6 +48,15 @@ def test_what_is_exact_is_not_drawn():
     assert "exact: linear momentum 1" in panel.get_legend_handles_labels()[1]
 
 
+def test_in_a_product_velocities_stand_by_their_blocks():
+    """A panel each, though their columns are numbered through; in the table of a notebook, too."""
+    run = derived("two_tops").simulate(1.0, points=20)
+    drawn = [x.get_ylabel() for x in figure_of(run, "state").get_axes()]
+    assert [x.partition(" [")[0] for x in drawn[-2:]] == [r"$\zeta1$", r"$\zeta2$"]
+    assert "<td>zeta2_3" in run._ends()
+    np.testing.assert_array_equal(run["zeta2_3"], run["zeta_6"])
+
+
 def test_where_all_is_exact_that_is_said_and_takes_little_room():
     t = np.linspace(0, 2, 40)
     exact = plain_run(np.stack([t, np.sin(t), 0 * t + 3], 1), x_1="state", energy="energy")

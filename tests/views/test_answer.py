@@ -59,6 +59,13 @@ def test_it_is_short(capsys):
     assert capsys.readouterr().out == PENDULUM
 
 
+def test_in_a_product_the_names_by_blocks_are_told():
+    told = derive.derive("two_tops").answer
+    assert "In code zeta_1 … zeta_3, zeta_4 … zeta_6 are" in " ".join(str(told).split())
+    assert "zeta2\\_1 … zeta2\\_3" in told.markdown()
+    assert "zeta1" not in str(derive.derive("top").answer)
+
+
 @pytest.mark.parametrize("name", ready_made())
 def test_it_is_of_the_record_and_as_wide_as_is_asked_for(name):
     """Its equations stand in the walk, each once; in every language it is of the width."""

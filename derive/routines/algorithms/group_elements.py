@@ -1,6 +1,7 @@
 """Elements of a group and of its algebra as matrices, before what is made of them."""
 
-entry: table[index, N_ELEMENT, 2] = ENTRIES
+if N_ENTRIES:
+    entry: table[index, N_ENTRIES, 3] = ENTRIES
 origin: table[real, SIZE, SIZE] = ORIGIN
 hat_at: table[index, N_HAT, 3] = HAT_PLACES
 hat_by: table[real, N_HAT] = HAT_VALUES
@@ -15,8 +16,15 @@ def matrix_of(g: real[N_ELEMENT], G: out[real[SIZE, SIZE]]):
     for row in range(SIZE):
         for column in range(SIZE):
             G[row][column] = origin[row][column]
-    for n in range(N_ELEMENT):
-        G[entry[n][0]][entry[n][1]] = g[n]
+    if N_ENTRIES:
+        for n in range(N_ENTRIES):
+            G[entry[n][0]][entry[n][1]] = g[entry[n][2]]
+    if N_QUATERNIONS:
+        q: real[4]
+    for i in unrolled(N_QUATERNIONS):
+        for m in range(4):
+            q[m] = g[QUATERNIONS[i] + m]
+        rotation_of(q, TURNED[i], G)
 
 
 def element_of(x: real[N_STATE], G: out[real[SIZE, SIZE]]):

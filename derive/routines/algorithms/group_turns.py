@@ -101,7 +101,7 @@ def space_log(G: real[SIZE, SIZE], at: index, X: out[real[SIZE, SIZE]]):
 
 def log_of(G: real[SIZE, SIZE], eta: out[real[N_ALGEBRA]]):
     """The coordinates of the logarithm of a matrix: in each factor V = S - W S/2 + e W^2 S, where
-    e = (1 - (t/2) cot(t/2))/t^2."""
+    e = (1 - (t/2) cot(t/2))/t^2.  A factor that is kept by a quaternion has W in the place of R."""
     f: real[6]
     X: real[SIZE, SIZE]
     once: real[SIZE, SIZE]
@@ -113,7 +113,12 @@ def log_of(G: real[SIZE, SIZE], eta: out[real[N_ALGEBRA]]):
         if IN_PLANE[i]:
             plane_log(G, STARTS[i], X)
         if IN_SPACE[i]:
-            space_log(G, STARTS[i], X)
+            if BY_QUATERNION[i]:
+                for row in range(STARTS[i], STARTS[i] + 3):
+                    for column in range(STARTS[i], STARTS[i] + 3):
+                        X[row][column] = G[row][column]
+            else:
+                space_log(G, STARTS[i], X)
     product(X, G, once)
     product(X, once, again)
     for i in unrolled(N_FACTORS):

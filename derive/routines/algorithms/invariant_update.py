@@ -47,22 +47,26 @@ def slopes(
             H[r][a] = sign * change[observed[r]]
 
 
+def innovation(A: real[SIZE, SIZE], o: real[SIZE], Y: real[N_OBSERVED], z: out[real[N_OBSERVED]]):
+    """z = Y - A o, of what varies."""
+    seen: real[SIZE]
+    applied(A, o, seen)
+    for r in range(N_OBSERVED):
+        z[r] = Y[r] - seen[observed[r]]
+
+
 def corrected(
     x: real[N_STATE],
-    A: real[SIZE, SIZE],
-    o: real[SIZE],
+    z: out[real[N_OBSERVED]],
     H: real[N_OBSERVED, N_ALGEBRA],
-    Y: real[N_OBSERVED],
     N: real[N_NOISE],
     y: out[real[N_STATE]],
 ):
-    """y = x after the observation Y of A o, which changes by H xi; its noise has the covariance N."""
+    """y = x after an observation that is z from what x says, which changes by H xi; its noise has the covariance N."""
     P: real[N_ALGEBRA, N_ALGEBRA]
     W: real[N_ALGEBRA, N_OBSERVED]
     L: real[N_OBSERVED, N_OBSERVED]
-    z: real[N_OBSERVED]
     xi: real[N_ALGEBRA]
-    seen: real[SIZE]
     E: real[SIZE, SIZE]
     X: real[SIZE, SIZE]
     G: real[SIZE, SIZE]
@@ -70,9 +74,7 @@ def corrected(
         for b in range(a, N_ALGEBRA):
             P[a][b] = x[place_of(a, b)]
             P[b][a] = P[a][b]
-    applied(A, o, seen)
     for r in range(N_OBSERVED):
-        z[r] = Y[r] - seen[observed[r]]
         for a in range(N_ALGEBRA):
             W[a][r] = 0.0
             for b in range(N_ALGEBRA):
@@ -128,12 +130,14 @@ def update_left(
     definite, by rows."""
     G: real[SIZE, SIZE]
     H: real[N_OBSERVED, N_ALGEBRA]
+    z: real[N_OBSERVED]
     element_of(x, G)
     if RIGHT:
         slopes(G, o, 1.0, True, H)
     else:
         slopes(G, o, 1.0, False, H)
-    corrected(x, G, o, H, Y, N, y)
+    innovation(G, o, Y, z)
+    corrected(x, z, H, N, y)
 
 
 def update_right(
@@ -148,10 +152,31 @@ def update_right(
     G: real[SIZE, SIZE]
     B: real[SIZE, SIZE]
     H: real[N_OBSERVED, N_ALGEBRA]
+    z: real[N_OBSERVED]
     element_of(x, G)
     inverse_of(G, B)
     if RIGHT:
         slopes(B, o, -1.0, False, H)
     else:
         slopes(B, o, -1.0, True, H)
-    corrected(x, B, o, H, Y, N, y)
+    innovation(B, o, Y, z)
+    corrected(x, z, H, N, y)
+
+
+def update(
+    x: real[N_STATE],
+    z: real[N_OBSERVED],
+    H: real[N_JACOBIAN_OBSERVED],
+    N: real[N_NOISE],
+    y: out[real[N_STATE]],
+):
+    """y = the state x after any observation h of at most N_OBSERVED numbers: z = what is observed - h(g), H by rows with
+    h(PRODUCT) = h(g) + H eta to the first order, N the covariance of its noise; of fewer numbers, rows of H and entries
+    of z that are 0, 1 on the diagonal of N."""
+    slope: real[N_OBSERVED, N_ALGEBRA]
+    seen: real[N_OBSERVED]
+    for r in range(N_OBSERVED):
+        seen[r] = z[r]
+        for a in range(N_ALGEBRA):
+            slope[r][a] = H[N_ALGEBRA * r + a]
+    corrected(x, seen, slope, N, y)

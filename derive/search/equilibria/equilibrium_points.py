@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import comb
+from typing import Any
 
 from ...language import rational as q
 from ...language.expression import parse
@@ -63,6 +64,23 @@ class About:
         """A number, or a function of letters, as a tree."""
         known = isinstance(x, (int, Fraction, Quadratic))
         return number_tree(x) if known else scaled(self.algebra.number_tree(x))
+
+    def number(self, f: Polynomial) -> Number:
+        """The value of a polynomial at the point: few of its terms have one where most coordinates
+        are 0."""
+        zero = [i for i, x in enumerate(self.at) if x == 0]
+        own = ((e, c) for e, c in f.items() if not any(e[i] for i in zero))
+        total: Number = Fraction(0)
+        for e, c in own:
+            term: Any = c if self.algebra.letters else Fraction(plain(c))
+            for x, k in zip(self.at, e, strict=True):
+                term = term * x**k if k else term
+            total = total + term
+        return total
+
+    def moving(self) -> list[Number]:
+        """The rates of the variables at the point."""
+        return [self.number(self.algebra.flow.get(i, {})) for i, _ in enumerate(self.at)]
 
     def terms(self, f: Polynomial) -> dict[tuple[int, ...], Number]:
         """A polynomial with coefficients in the field, in powers of y, by their exponents."""
@@ -147,9 +165,9 @@ def given(
     if reason := off_the_group(about, kept, on):
         raise NoEquilibriumError(f"no element of the group has these entries: {reason}")
     moving = [
-        f"the rate of {name} is {e.value}"
-        for name, e in zip(names, about.rates, strict=True)
-        if e.value
+        f"the rate of {name} is {rate}"
+        for name, rate in zip(names, about.moving(), strict=True)
+        if rate
     ]
     if moving:
         raise NoEquilibriumError(f"no equilibrium: {', '.join(moving)}")
@@ -161,7 +179,7 @@ def off_the_group(about: About, kept: Sequence[Polynomial], on: Elements) -> str
     group, as a Casimir of them alone, has another, or rows of g are dependent, or what is positive
     is not; "" where nothing is found."""
     for f in (*kept, *(f for x in on for f in x.constant)):
-        here = about.expansion(f).value
+        here = about.number(f)
         there = group_value(about.system, f, here)
         if here != there:
             return f"of {casimir_text(about, f)} it makes {there}, not {here}"
@@ -189,7 +207,7 @@ def group_value(system: LiePoisson, f: Polynomial, else_: Number) -> Number:
         Fraction(int(x[2] == x[3])) if isinstance(x, tuple) and x[1] == "A" else Fraction(0)
         for x in system.variables
     )
-    return About(system, one).expansion(f).value
+    return About(system, one).number(f)
 
 
 def _has_entries(system: LiePoisson) -> bool:
@@ -214,6 +232,9 @@ def tried(system: LiePoisson, kept: Sequence[Polynomial], on: Elements) -> Itera
             chosen = {a: 1, b: sign}
             at = tuple(Fraction(chosen.get(i, 0)) for i in range(n))
             about = About(system, at)
-            moving = any(e.value for e in about.rates)
-            if (any(at) or entries) and not moving and not off_the_group(about, kept, on):
+            if (
+                (any(at) or entries)
+                and not any(about.moving())
+                and not off_the_group(about, kept, on)
+            ):
                 yield about

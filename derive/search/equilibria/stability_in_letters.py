@@ -217,7 +217,7 @@ def families(whole: IntegralsFound, names: Sequence[str], on: Elements) -> Itera
         chosen = tuple(x for x, y in zip(names, one, strict=True) if y)
         at = (*(x * y if y else y for x, y in zip(own, one, strict=True)), *rest)
         there = About(system, at)
-        moving = any(e.value for e in there.rates)
+        moving = any(there.moving())
         if attained(about, on) and not moving and leaf(there).free:
             yield judged(whole, there, chosen, apart, known)
 

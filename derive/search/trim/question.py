@@ -209,6 +209,14 @@ class Question:
         entries = found[len(self.program.state) :]
         return tuple(tuple(entries[n * i : n * i + n]) for i in range(n))
 
+    def require_rest(self, told: Sequence[str]) -> None:
+        """``NoTrimError`` where nothing is free and rates ζ̇ are not 0; ``told``: each as text, ""
+        for 0."""
+        pairs = zip(self.program.state[-self.d :], told, strict=True)
+        if moved := [f"d{name}/dt is {x}" for name, x in pairs if x]:
+            others = "" if len(moved) == self.d else ", all other rates of the velocity are 0"
+            raise NoTrimError(f"no trim: {', '.join(moved)}{others}; no input is free")
+
     # -- the group ---------------------------------------------------------------------------------
 
     def element(self, x: Sequence[Any] | None = None) -> Matrix:

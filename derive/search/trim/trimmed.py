@@ -138,7 +138,10 @@ class ExactQuestion(Question):
     def solved(self, columns: Matrix, held: Sequence[Number]) -> dict[str, Number]:
         """The free inputs by name, of which each moves ζ̇ by a row of ``columns``."""
         velocity = self.program.state[-self.d :]
-        for row in q.nullspace(columns) if columns else q.identity(self.d):
+        if not columns:
+            self.require_rest([str(x) if x else "" for x in held])
+            return {}
+        for row in q.nullspace(columns):
             if left := q.dot(row, held):
                 scale = next(x for x in row if x)
                 terms = " + ".join(
@@ -146,12 +149,9 @@ class ExactQuestion(Question):
                     for x, n in zip(row, velocity, strict=True)
                     if x
                 )
-                free = ", ".join(self.free)
                 verb = "are" if len(self.free) > 1 else "is"
-                whatever = f"whatever {free} {verb}" if free else "no input is free"
+                whatever = f"whatever {', '.join(self.free)} {verb}"
                 raise NoTrimError(f"no trim: {terms} is {left / scale}, {whatever}")
-        if not columns:
-            return {}
         if many := q.nullspace(q.transposed(columns)):
             along = "; ".join(f"({', '.join(map(str, x))})" for x in many)
             raise NoTrimError(
@@ -183,9 +183,14 @@ class EnclosedQuestion(Question):
         """The trim; ``NoTrimError`` where none is proved, with ``why`` it is not exact."""
         f = self.unknown()
         if not f.names:
-            raise NoTrimError(
-                f"{why}: such a trim is found within bounds; say by --free what may change"
-            )
+            rates = [*map(Interval.of, self.rates({}))]
+            self.require_rest([f"about {float(x.middle):.8g}" if x.sign else "" for x in rates])
+            rest = "the rates of the velocity are 0 there, and its stability is not told"
+            if exactly := all(x.size == 0 for x in rates):
+                self.require_element()
+                self.require_steady(self.x, self.u)
+            within = "such a trim is found within bounds; say by --free what may change"
+            raise NoTrimError(f"{rest}: {why}" if exactly else f"{why}: {within}")
         try:
             self.require_element()
             y = approximately(f, self.near)
@@ -292,12 +297,46 @@ def _told(x: Any, radius: Fraction) -> Any:
     return _decimal(x.middle, radius / 10) if isinstance(x, Interval) else x
 
 
+Bounds = Mapping[str, tuple[Number, Number]]
+
+
 def trimmed(
-    problem: Problem, program: Program, at: Mapping[str, Number], free: Sequence[str] | None = None
+    problem: Problem,
+    program: Program,
+    at: Mapping[str, Number],
+    free: Sequence[str] | None = None,
+    bounds: Bounds | None = None,
 ) -> Trim:
     """The inputs, velocities and turns of g ``free``, or all inputs that are not given, for a state
     and other inputs: those ``at`` has, else g = 1 and 0; ``program``: with its jacobian.
-    ``NoTrimError`` where there is none, or several."""
+    ``NoTrimError`` where there is none, or several, or one outside of ``bounds``."""
+    question = Question(problem, program, at, free)
+    bounds = program.by_state(bounds or {}, NoTrimError)
+    question.require_names(bounds, ())
+    found = _found(problem, program, at, free)
+    numbers = {**found.state, **found.inputs}
+    radius = found.radius if isinstance(found, EnclosedTrim) else 0
+    outside = [
+        f"{name} is {_as_decimals(numbers[name], found)}, and --bounds allows {low} to {high}"
+        for name, (low, high) in bounds.items()
+        if float(numbers[name] - low) < -radius or float(numbers[name] - high) > radius
+    ]
+    if outside:
+        raise NoTrimError(f"the trim is out of bounds: {'; '.join(outside)}")
+    return found
+
+
+def _as_decimals(x: Number, found: Trim) -> str:
+    """A number with its decimals, of an enclosed trim these alone."""
+    if isinstance(found, EnclosedTrim):
+        return f"about {float(x):.6g}"
+    return str(x) if float(x).is_integer() else f"{x}, about {float(x):.6g}"
+
+
+def _found(
+    problem: Problem, program: Program, at: Mapping[str, Number], free: Sequence[str] | None
+) -> Trim:
+    """The trim, exact or enclosed, wherever it is."""
     try:
         return ExactQuestion(problem, program, at, free).answered()
     except (NotExactError, RootError) as error:

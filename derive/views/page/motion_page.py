@@ -248,6 +248,7 @@ def data(
     """What the script is told of the motion, as JSON has it."""
     made = code.program
     group = problem.group if problem.advected is None else None
+    state = made.state_by_block or made.state
     entries = element(group, made.state)
     velocity = [s for s in range(len(made.state)) if s not in {at for *_, at in entries}]
     largest = sorted(range(len(made.state)), key=lambda s: -abs(float(begin.x[s])))[:CURVES]
@@ -263,6 +264,8 @@ def data(
     unsaid |= {x for x, has in there.items() if not has}
     unsaid |= {"velocities", "polhode"} if made.outputs else {"readings"}
     units = {x.name: _unit(x.unit) for x in code.columns()}
+    pairs = zip(made.state, state, strict=True)
+    of_state = [(y, _meaning(x, record, language), units[x]) for x, y in pairs]
     words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
     if body["turns"] and not made.outputs:
         words["polhode"] = language.word(WORDS["ellipsoid" if is_free(record.problem) else "now"])
@@ -278,7 +281,7 @@ def data(
             for E in basis
         ],
         "order": len(basis[0]) if basis else 0,
-        "names": {s: made.state[s] for s in {*adjusted, *curves}},
+        "names": {s: state[s] for s in {*adjusted, *curves}},
         "adjusted": adjusted,
         **({"lost": True} if lost else {}),
         "curves": curves,
@@ -286,7 +289,7 @@ def data(
         "body": body,
         "labels": {
             **_labels([(x, meaning, unit) for x, _, unit, meaning in made.parameters], language),
-            **_labels([(x, _meaning(x, record, language), units[x]) for x in made.state], language),
+            **_labels(of_state, language),
         },
         "kept": {
             x: (in_words(x, language.word), units[x]) for x in made.conserved if x != "energy"

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...language.reserved import did_you_mean, near_name
 from ...motion.ensemble import Ensemble
-from ...motion.run import MARK, Array, Run, called, read
+from ...motion.run import MARK, Array, Run, called, read, shown
 from .body_pictures import ATTITUDE
 from .plot_sheet import COLOURS, PlotError, ending, label, look, sheet, written
 from .time_series import with_unit
@@ -61,7 +61,7 @@ def differing(e: Ensemble, chosen: Sequence[str], most: int) -> list[str]:
 
 def named(e: Ensemble, name: str) -> str:
     """A column, what is varied or the time, with its unit."""
-    return with_unit(label(name), e.facts.get("units", {}).get(name, ""))
+    return with_unit(label(shown(e.facts, name)), e.facts.get("units", {}).get(name, ""))
 
 
 def _differs(end: Array) -> bool:

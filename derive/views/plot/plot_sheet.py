@@ -122,10 +122,11 @@ def laid_out(figure: Any) -> None:
 def label(name: str) -> str:
     """The name of a column as a formula: ``zeta_1`` → ζ with the index 1."""
     letter, index = letter_and_suffix(name)
-    shown = f"\\{letter}" if letter in GREEK else letter
+    stem = letter.rstrip("0123456789")  # zeta2 is ζ of block 2
+    shown = f"\\{letter}" if stem in GREEK else letter
     if not re.fullmatch(r"\\?[A-Za-z]+[0-9]*", shown) or not re.fullmatch(r"\w*", index, re.A):
         return name.replace("$", r"\$")
-    if len(letter) > 2 and letter not in GREEK:
+    if len(letter) > 2 and stem not in GREEK:
         return name.replace("_", " ")
     lower = index.replace("_", ",")
     return f"${shown}_{{{lower}}}$" if lower else f"${shown}$"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import permutations
 from textwrap import wrap
 from typing import Any
@@ -14,7 +14,7 @@ import numpy as np
 
 from ...language.reserved import by_letter, letter_and_suffix
 from ...motion.emitted_code import KEPT, Column, in_words, parts
-from ...motion.run import Array, Run
+from ...motion.run import Array, Run, shown
 from .body_pictures import attitude, paths
 from .plot_sheet import COLOURS, label
 
@@ -36,11 +36,12 @@ period, too few for a curve; unless it is even but for so much of its panel."""
 
 def letters(run: Run, kind: str = "state") -> list[tuple[str, list[Column]]]:
     """The columns of the state, or of another kind, by their letters, of many the first."""
-    known = {x.name: x for x in run.columns if x.kind == kind}
+    named = (replace(x, name=shown(run.facts, x.name)) for x in run.columns if x.kind == kind)
+    known = {x.name: x for x in named}
     grouped = by_letter(known) if kind == "state" else {}
     for name in known if kind != "state" else ():
         grouped.setdefault(parts(name)[0], []).append(name)
-    most = 6 if kind == "state" else MOST
+    most = 8 if kind == "state" else MOST
     return [(key, [known[x] for x in names]) for key, names in grouped.items()][:most]
 
 
@@ -85,18 +86,18 @@ def state(figure: Any, run: Run, word: Any, kind: str = "state") -> None:
     groups = letters(run, kind)
     panels = figure.subplots(len(groups), 1, sharex=True, squeeze=False)[:, 0]
     for panel, (key, members) in zip(panels, groups, strict=True):
-        shown = turned(run, key, members, word) if kind == "state" else None
-        if shown is None:
+        drawn = turned(run, key, members, word) if kind == "state" else None
+        if drawn is None:
             units = {x.unit for x in members}
             unit = units.pop() if len(units) == 1 else ""
-            shown = Panel(label(key), unit, {label(x.name): run[x.name] for x in members})
-        size, fast = max(float(np.abs(y).max()) for y in shown.curves.values()), []
-        for k, (name, y) in enumerate([*shown.curves.items()][:MOST]):
+            drawn = Panel(label(key), unit, {label(x.name): run[x.name] for x in members})
+        size, fast = max(float(np.abs(y).max()) for y in drawn.curves.values()), []
+        for k, (name, y) in enumerate([*drawn.curves.items()][:MOST]):
             if _is_too_fast(y, size):
                 fast.append(name)
                 continue
             panel.plot(run.t, y, **_style(k), label=name)
-        panel.set_ylabel(with_unit(shown.name, shown.unit))
+        panel.set_ylabel(with_unit(drawn.name, drawn.unit))
         _legend(panel, run, _named(f"{word('too few instants:')}\n", fast))
     panels[-1].set_xlabel(time_label(run))
 
@@ -188,12 +189,12 @@ def energy(figure: Any, run: Run, word: Any) -> None:
     errors where damping, an input or the time changes what is kept."""
     panel, exact, found = figure.subplots(), [], changes(run)
     for k, (name, (away, scale)) in enumerate(found.items()):
-        shown = in_words(name, word)
+        drawn = in_words(name, word)
         if not away.any():
-            exact.append(shown)
+            exact.append(drawn)
             continue
-        shown += "" if scale else f" ({word('absolute')})"
-        _curve(panel, run.t, away, k, relative=bool(scale), label=shown)
+        drawn += "" if scale else f" ({word('absolute')})"
+        _curve(panel, run.t, away, k, relative=bool(scale), label=drawn)
     _with_floor(panel, word)
     panel.set_xlabel(time_label(run))
     vectors = any(abs(run[x][0]) < scale for x, (_, scale) in found.items())
@@ -210,18 +211,18 @@ def energies(figure: Any, runs: Sequence[tuple[str, Run]], word: Any) -> None:
     for k, (name, run) in enumerate(runs):
         y = run["energy"]
         away = np.abs(y - y[0]) / (abs(y[0]) or 1.0)
-        shown = method_in_words(run, word) + f"\n{name}".replace("$", r"\$")
-        shown += "" if y[0] else f" ({word('absolute')})"
+        drawn = method_in_words(run, word) + f"\n{name}".replace("$", r"\$")
+        drawn += "" if y[0] else f" ({word('absolute')})"
         if not away.any():
-            exact.append(shown)
+            exact.append(drawn)
             continue
-        _curve(panel, run.t, away, k, relative=bool(y[0]), lw=0.8, label=shown)
+        _curve(panel, run.t, away, k, relative=bool(y[0]), lw=0.8, label=drawn)
     _with_floor(panel, word)
     panel.set_xlabel(time_label(runs[0][1]))
     driven = any(run.facts.get("drives") for _, run in runs)
     change, error = "relative change of the energy", "relative error of the energy"
     panel.set_ylabel(word(change if driven else error))
-    _legend(panel, runs[0][1], "\n".join(f"{word('exact:')} {shown}" for shown in exact))
+    _legend(panel, runs[0][1], "\n".join(f"{word('exact:')} {drawn}" for drawn in exact))
 
 
 def method_in_words(run: Run, word: Any) -> str:
@@ -263,9 +264,9 @@ def time_label(run: Run) -> str:
     return with_unit("$t$", run.columns[0].unit)
 
 
-def with_unit(shown: str, unit: str) -> str:
+def with_unit(text: str, unit: str) -> str:
     """A label with its unit, if there is one."""
-    return f"{shown} [{unit}]" if unit else shown
+    return f"{text} [{unit}]" if unit else text
 
 
 # The effective potential of what the symmetries leave, with the run in it.
