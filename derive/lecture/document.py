@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import groupby
 
 from ..language.read import FormulaError
@@ -55,6 +54,7 @@ class Medium:
 
     text: Callable[[str], str]
     emphasis: str
+    command: str
     reference: str
     inline: Callable[[typeset.Formula], str]
     display: Callable[[typeset.Formula], str]
@@ -66,7 +66,7 @@ class Medium:
 AMONG = 60
 """The most letters of a formula of a record that stands among words."""
 SIGNS = re.compile(r"\s*[.,;:]")
-WIDTH = 34.0
+WIDTH = 35.6
 """The width of a display in em."""
 
 
@@ -74,9 +74,22 @@ def _lines(x: typeset.Formula) -> str:
     """A display as LaTeX; one that is too wide in several lines."""
     first, *others = broken(x.tex, WIDTH)
     if not others:
-        return first.text
+        return _sized(first.text)
     rows = [f"&{first.text}", *("&" + indented(line, 1) for line in others)]
-    return "\n".join((r"\begin{aligned}", " \\\\\n".join(rows), r"\end{aligned}"))
+    return _sized("\n".join((r"\begin{aligned}", " \\\\\n".join(rows), r"\end{aligned}")))
+
+
+def _sized(tex: str) -> str:
+    """A display whose brackets about a fraction, if both are in one row, are as tall as it."""
+    found, opened = [*tex], []
+    for k, c in enumerate(tex):
+        if c == "(":
+            opened.append(k)
+        elif c == ")" and opened:
+            inside = tex[(at := opened.pop()) : k]
+            if "frac" in inside and "&" not in inside:
+                found[at], found[k] = r"\mathopen{}\left(", r"\right)\mathclose{}"
+    return "".join(found)
 
 
 SHORT = 7.0
@@ -95,7 +108,7 @@ def _blocks(equations: Sequence[Equation]) -> str:
     found: list[str] = []
     for wide, run in groupby(equations, lambda e: measure(plain(_sides(e).tex)) > WIDTH):
         alike = [*run]
-        found += [_lines(_sides(e)) for e in alike] if wide else [aligned(alike, ())]
+        found += [_lines(_sides(e)) for e in alike] if wide else [_sized(aligned(alike, ()))]
     return "\\]\n\\[".join(found)
 
 
@@ -106,6 +119,7 @@ def _sides(e: Equation) -> typeset.Formula:
 LATEX = Medium(
     tex_text,
     r"\emph{{{}}}",
+    r"\texttt{{{}}}",
     r"\ref{{{label}}}",
     _inline,
     _lines,
@@ -115,19 +129,15 @@ LATEX = Medium(
 )
 
 
-def _one_by_one(equations: Sequence[Equation]) -> str:
-    """Equations of a record as displays of a page, one below the other."""
-    return "\n".join(map(PAGE.display, map(_sides, equations)))
-
-
-PAGE = Medium(
+PAGE: Medium = Medium(
     escaped,
     "<em>{}</em>",
+    "<code>{}</code>",
     '<a href="#{label}">{number}</a>',
     lambda x: x.mathml(),
     lambda x: x.mathml().replace("<math>", '<math display="block">'),
     svg,
-    _one_by_one,
+    lambda equations: "\n".join(PAGE.display(_sides(e)) for e in equations),
     '<span class="display">{}</span>',
 )
 
@@ -216,12 +226,14 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
     figures = {**FIGURES, **{label: y for c in chapters for label, y in c.figures.items()}}
     setter = _Setter(language, medium, labels | NUMBERS, claims_of(chapters), figures)
     if x.solutions == "none":
-        chapters = [replace(c, blocks=(*filter(_asked, c.blocks),)) for c in chapters]
-    listed, placed = letters(chapters, x.records, language), partial(_placed, language)
+        asked = [tuple(b for b in c.blocks if b.kind != "solution") for c in chapters]
+        chapters = [replace(c, blocks=x) for c, x in zip(chapters, asked, strict=True)]
+    listed = letters(chapters, x.records, language)
     table = [setter.letter(letter, k) for k, letter in enumerate(listed)]
+    works = [(*by, ", ".join(map(language.word, where.split(", ")))) for *by, where in WORKS]
     return {
         "language": language.name,
-        "word": partial(_word, language, medium.text),
+        "word": lambda word: medium.text(language.word(word)),
         "title": medium.text(front.title or language.word(TITLE)),
         "author": medium.text(front.author),
         "front": [*map(medium.text, front.lines)],
@@ -229,23 +241,8 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
         "chapters": [setter.chapter(c, numbers) for c in chapters],
         "letters": table,
         "homes": homes(chapters, x.records),
-        "works": [
-            (key.lower(), *map(medium.text, (*by, placed(where)))) for key, *by, where in WORKS
-        ],
+        "works": [(key.lower(), *map(medium.text, told)) for key, *told in works],
     }
-
-
-def _asked(block: Block) -> bool:
-    return block.kind != "solution"
-
-
-def _placed(language: Language, where: str) -> str:
-    """Where a work is to be found, its edition in the language."""
-    return ", ".join(map(language.word, where.split(", ")))
-
-
-def _word(language: Language, escape: Callable[[str], str], message: str) -> str:
-    return escape(language.word(message))
 
 
 COUNTED = {**dict.fromkeys(STATED, "statement"), "solution": "exercise"}
@@ -362,7 +359,7 @@ class _Setter:
         if not isinstance(x, Given):
             return self.plain(x)
         words = self.medium.text(x)
-        return self.medium.emphasis.format(words) if isinstance(x, Typed) else words
+        return self.medium.command.format(words) if isinstance(x, Typed) else words
 
     def plain(self, words: str) -> str:
         """Words with their emphasis and their numbers of blocks; spaces at their ends stay."""
@@ -371,7 +368,9 @@ class _Setter:
             before = words[at : mark.start()]
             found.append(self.spaced(TIED.sub(NO_BREAK[0], before) if mark[2] else before))
             if mark[1]:
-                found.append(self.medium.emphasis.format(self.medium.text(mark[1])))
+                named = mark[1].startswith("derive ")
+                shown = self.medium.command if named else self.medium.emphasis
+                found.append(shown.format(self.medium.text(mark[1])))
             else:
                 where = {"label": mark[2], "number": self.numbers[mark[2]]}
                 found.append(self.medium.reference.format(**where))

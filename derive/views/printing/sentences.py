@@ -144,6 +144,8 @@ def _open(f: Formula, mark: str) -> Formula:
 
 def _word(letters: str, after: str) -> Formula:
     """The formula of several letters: a differential as dx, or an operator as Tr."""
+    if letters in ("SO", "SE", "SL", "GL"):
+        return upright(letters)
     if len(letters) == 2 and letters != "Tr":
         return upright("d") + literal(letters[1]) if letters[0] == "d" else literal(letters)
     return operator(letters, near=after in ("", "(", "_", *RAISED, *LOWERED))
