@@ -91,6 +91,7 @@ OWN = {
     ("any_group", "G"): "the group, of matrices",
     ("any_group", "𝔤"): "Lie algebra of the group",
     ("any_group", "Π"): "momentum, derivative of L̃ with respect to Z",
+    ("any_group", "Π_o"): "momentum seen from space",
     ("any_group", "Φ"): "force, derivative of L̃ along the group at constant Z",
     ("volume", "K"): "symmetric matrix of the springs: their energy is ½ Tr AKĀ",
     ("volume", "‘rho’"): "density of the fluid",

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 from ..language.read import FormulaError
 from ..language.templating import environment
@@ -194,12 +193,14 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
     figures = {**FIGURES, **{label: y for c in chapters for label, y in c.figures.items()}}
     setter = _Setter(language, medium, labels | NUMBERS, claims_of(chapters), figures)
     if x.solutions == "none":
-        chapters = [replace(c, blocks=(*filter(_asked, c.blocks),)) for c in chapters]
-    listed, placed = letters(chapters, x.records, language), partial(_placed, language)
+        asked = [tuple(b for b in c.blocks if b.kind != "solution") for c in chapters]
+        chapters = [replace(c, blocks=x) for c, x in zip(chapters, asked, strict=True)]
+    listed = letters(chapters, x.records, language)
     table = [setter.letter(letter, k) for k, letter in enumerate(listed)]
+    works = [(*by, ", ".join(map(language.word, where.split(", ")))) for *by, where in WORKS]
     return {
         "language": language.name,
-        "word": partial(_word, language, medium.text),
+        "word": lambda word: medium.text(language.word(word)),
         "title": medium.text(front.title or language.word(TITLE)),
         "author": medium.text(front.author),
         "front": [*map(medium.text, front.lines)],
@@ -207,23 +208,8 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
         "chapters": [setter.chapter(c, numbers) for c in chapters],
         "letters": table,
         "homes": homes(chapters, x.records),
-        "works": [
-            (key.lower(), *map(medium.text, (*by, placed(where)))) for key, *by, where in WORKS
-        ],
+        "works": [(key.lower(), *map(medium.text, told)) for key, *told in works],
     }
-
-
-def _asked(block: Block) -> bool:
-    return block.kind != "solution"
-
-
-def _placed(language: Language, where: str) -> str:
-    """Where a work is to be found, its edition in the language."""
-    return ", ".join(map(language.word, where.split(", ")))
-
-
-def _word(language: Language, escape: Callable[[str], str], message: str) -> str:
-    return escape(language.word(message))
 
 
 COUNTED = {**dict.fromkeys(STATED, "statement"), "solution": "exercise"}

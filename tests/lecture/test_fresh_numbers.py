@@ -128,8 +128,11 @@ def test_solids_in_space(exercises):
     given, (moment,) = exercises["arm"]
     assert np.allclose(moment, given["μ"] - np.cross(given["r_c"], given["F_b"]))
     given, (right, wrong) = exercises["exchanged"]
-    assert right == pytest.approx((given["δA"] @ given["c"]) @ given["τ"])
-    assert wrong == pytest.approx((given["δA"] @ given["τ"]) @ given["c"])
+    moved = given["δA = j(Ω)"]
+    assert np.array_equal(moved, -moved.T)  # tangent to the rotations at 1
+    assert np.array_equal(moved @ given["c"], np.cross(given["Ω"], given["c"]))
+    assert right == pytest.approx((moved @ given["c"]) @ given["τ"])
+    assert wrong == pytest.approx((moved @ given["τ"]) @ given["c"])
     given, (turning, moving, *zeros) = exercises["casimirs"]
     ell, p, zeta, w = (given[x] for x in ("ℓ_b", "p_b", "ζ", "w"))
     assert np.allclose(turning, np.cross(ell, zeta) + np.cross(p, w))
@@ -155,6 +158,8 @@ def test_steps_of_time(exercises):
     given, (before, after, wrong) = exercises["turned"]
     J, W, h = given["J"], given["W₀"], given["h"]
     assert np.allclose(W.T @ W, np.eye(3))
+    assert np.linalg.det(W) > 0
+    assert np.trace(W) > 2  # the turn of a short step
     assert np.allclose(before, (W @ J - J @ W.T) / h)
     # in space the momentum stays: g₁ = W for g₀ = 1
     assert np.allclose(W @ after @ W.T, before)

@@ -6,6 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.special import ellipk
 
 from derive.command.lecturing import records_of
 from derive.lecture import document, figures, motion_figures
@@ -235,6 +236,24 @@ def test_a_caption_says_the_numbers_of_its_figure():
     said = {x.text for x in tilts.entries[1].formulas}
     drawn = motion_figures.PARAMETERS | {"𝒥₂": motion_figures.SPIN}
     assert {f"{x} = {Fraction(str(y))}" for x, y in drawn.items()} <= said
+
+
+def test_after_how_many_turns_the_racket_flips():
+    """A quarter of the period of ζ₂, K(m)/rate, as in Landau and Lifshitz, § 37, for the deviations
+    that the caption tells."""
+    (caption,) = (e for b in FIGURES if b.label == "polhodes" for e in b.entries[2:])
+    words = "".join(x for x in caption.texts[0] if isinstance(x, str))
+    i1, i2, i3 = figures.RACKET.moments
+
+    def turns(tilt):
+        twice, square = i1 * tilt**2 + i2, (i1 * tilt) ** 2 + i2**2
+        assert square < twice * i2
+        rate = np.sqrt((i2 - i1) * (twice * i3 - square) / (i1 * i2 * i3))
+        m = (i3 - i2) * (square - twice * i1) / ((i2 - i1) * (twice * i3 - square))
+        return ellipk(m) / rate / (2 * np.pi)
+
+    told = [*map(float, re.findall(r"(?<=after )[0-9.]+(?= turns)|(?<=every )[0-9.]+(?=;)", words))]
+    assert told == [round(x, 1) for x in (turns(1 / 250), 2 * turns(1 / 250), turns(1 / 10))]
 
 
 def test_a_figure_without_a_description_is_refused():

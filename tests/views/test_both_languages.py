@@ -143,8 +143,12 @@ TERMS = {
 }
 
 
+A_STEP = re.compile(r"\b(?:un(?: même)?|du|des|les?|deux|par|à) pas\b", re.I)
+
+
 def negations(french):
-    """How often a French sentence says no; *ne … que* says *only*."""
+    """How often a French sentence says no; *ne … que* says *only*, *un pas* is a step."""
+    french = A_STEP.sub("", french)
     alone = len(re.findall(r"\bpas\b", french, re.I)) - len(NE_PAS.findall(french))
     denied = len(re.findall(NE, french, re.I)) - len(ONLY.findall(french))
     return denied + alone + len(SAYING_NO.findall(french))
