@@ -12,6 +12,7 @@ import pickle
 import re
 import shutil
 import sys
+import tomllib
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from itertools import repeat
@@ -45,7 +46,7 @@ from derive.schema.motion_kinds import Event, Signal
 from derive.schema.table import Table
 from derive.views.language import LANGUAGES as SPOKEN
 from derive.views.language import language
-from derive.views.outline import system, title
+from derive.views.outline import title
 from derive.views.page.motion_page import SCRIPTS
 from derive.views.paper.findings import amendments
 from playground.shelves import picture, shelves
@@ -83,34 +84,31 @@ def library(name: str, out: Path) -> None:
 
 
 def problems() -> list[dict[str, str]]:
-    """The ready-made problems: name, text; group, title and sentence in both languages."""
+    """The ready-made problems: name, text; group and title in both languages."""
     found, things = [], {x["name"]: x for shelf in shelves() for x in shelf["things"]}
     for name in ready_made():
         record = derive.derive(name).record
         told = {"name": name, "text": (READY / f"{name}.toml").read_text(encoding="utf-8")}
         for lang in SPOKEN:
             words = language(lang)
-            told[f"title_{lang}"] = plain(title(record, words))
-            told[f"about_{lang}"] = plain(system(record, words))
+            told[f"title_{lang}"] = title(record, words).replace("^2", "²")
         own = str(record.problem.get("group") or "").replace(" x ", " × ")
         told["group_en"] = things[name].get("group", own)
         found.append(told | {"group_fr": things[name].get("group_fr", told["group_en"])})
     return found
 
 
-def plain(text: str) -> str:
-    """A sentence without the marks of its formulas."""
-    return text.replace("$", "").replace("`", "").replace("^2", "²")
-
-
 def options() -> dict[str, object]:
     """Those of ``derive emit``."""
+    about = {x: y for x, (_, y) in (CHOICES | DEPENDENT | REPEATED).items()} | ADDED
     return {
+        "emission": EMISSION,
         "languages": [*LANGUAGES],
         "choices": {x: [*values] for x, (values, _) in (CHOICES | DEPENDENT).items()},
         "repeated": {x: [*values] for x, (values, _) in REPEATED.items()},
         "added": [*ADDED],
-        "about": {x: y for x, (_, y) in (CHOICES | DEPENDENT | REPEATED).items()} | ADDED,
+        "about": {to: {x: language(to).word(y) for x, y in about.items()} for to in SPOKEN},
+        "values": tomllib.loads((HERE / "values.toml").read_text(encoding="utf-8")),
     }
 
 
@@ -176,7 +174,6 @@ def stored(out: Path) -> set[str]:
     there is Python; the names of those that move."""
     folder = out.with_name("stored")
     folder.mkdir()
-    (folder / "amendments.pickle").write_bytes(pickle.dumps(amendments(AMENDED)))
     names = ready_made()
     with ProcessPoolExecutor() as pool:
         moves = pool.map(stored_of, names, repeat(out), repeat(folder))
@@ -189,7 +186,7 @@ def stored_of(name: str, out: Path, folder: Path) -> bool:
     sys.path.insert(0, str(HERE / "python"))
     import play
 
-    play.FOLDER, play.STORED = folder / name, folder / "amendments.pickle"
+    play.FOLDER, play.STORED = folder / name, out.with_name("first") / "amendments.pickle"
     heard: list[tuple[str, Any]] = []
     played = play.Play(lambda kind, news: heard.append((kind, json.loads(news))))
     text = (READY / f"{name}.toml").read_text(encoding="utf-8")
@@ -204,6 +201,10 @@ def stored_of(name: str, out: Path, folder: Path) -> bool:
         moves |= any(kind == "motion" for kind, _ in told["motion"])
         made = json.dumps(told, ensure_ascii=False, separators=(",", ":")).encode()
         (out / f"{name}.{lang}.json.gz").write_bytes(gzip.compress(made, 9, mtime=0))
+    heard.clear()
+    played.files(text, EMISSION)
+    code = json.dumps({"files": heard}, ensure_ascii=False).encode()
+    (out / f"{name}.code.json.gz").write_bytes(gzip.compress(code, 9, mtime=0))
     return moves
 
 
@@ -225,6 +226,8 @@ def once(told: dict[str, list[tuple[str, Any]]]) -> None:
         del kept["source"]
 
 
+EMISSION = "emit FILE --lang c --lang python --out out"
+"""The code that is shown before anything is chosen."""
 STORED = ("walk", "motion", "kept")
 """What is asked of a ready-made problem before it is changed."""
 
@@ -250,7 +253,14 @@ def main(out: Path) -> None:
         library(name, later / name)
     for module in ("play", "places"):
         shutil.copy(HERE / "python" / f"{module}.py", first)
-    told = {"version": derive.__version__, "problems": problems(), **options(), "schema": schema()}
+    (first / "amendments.pickle").write_bytes(pickle.dumps(amendments(AMENDED)))
+    told = {
+        "version": derive.__version__,
+        "problems": problems(),
+        "emission": EMISSION,
+        **options(),
+        "schema": schema(),
+    }
     (out / "motion.js").write_text(drawing(), encoding="utf-8")
     (out / "ready").mkdir()
     shown = gallery(stored(out / "ready"))

@@ -10,7 +10,6 @@ import compileall
 import gzip
 import io
 import os
-import pickle
 import re
 import sys
 import tarfile
@@ -79,12 +78,6 @@ def compiled(folder: Path, optimize: int = 0) -> None:
 def walked() -> set[str]:
     """The files that walks load."""
     sys.path.insert(0, str(FIRST))
-    from derive.record.record import AMENDED
-    from derive.views.paper.findings import amendments
-
-    (FIRST / "amendments.pickle").write_bytes(pickle.dumps(amendments(AMENDED)))
-    for name in [x for x in sys.modules if x.startswith("derive")]:
-        del sys.modules[name]
     import play
 
     own = play.Play(lambda kind, news: None)

@@ -98,19 +98,23 @@ class Play:
         from derive.views.html import fragment
         from derive.views.language import language
         from derive.views.latex import anchor
+        from derive.views.outline import system, title
         from derive.views.stations import told as road
 
         with self.refusals():
             self.read(text)
+            words = language(lang)
             told = {"steps": len(self.record.steps), "name": self.record.name}
+            about = system(self.record, words) or title(self.record, words)
+            told["about"] = re.sub("[$`]", "", about).replace("^2", "²")
             seen = arrows(self.record)
             shown = answer_mathml(self.record, marks(seen))
             told["answer"] = [{"id": anchor(label), "shown": x} for label, x in shown]
-            told["arrows"] = legend(self.record, seen, language(lang))
+            told["arrows"] = legend(self.record, seen, words)
             told["road"] = [*road(self.record, anchor)]
             self.tell("derived", told)
             found = corrections(self.record)
-            for piece in fragment([self.record], language=language(lang), findings=found):
+            for piece in fragment([self.record], language=words, findings=found):
                 self.tell("piece", piece)
             for line in faults(self.problem):
                 message = f"derive: {self.path.name}: {line}"

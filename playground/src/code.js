@@ -11,8 +11,7 @@ export class Code {
 
   /* files: { name: text } */
   show(files, words) {
-    const texts = new Map(Object.entries(files));
-    for (const [name, text] of snippets(texts)) texts.set(name, text);
+    const made = Object.entries(files), texts = new Map([...snippets(made), ...made]); // the program first: it says how it is run
     const shown = make("pre", { tabindex: "0", translate: "no" }), lines = make("span", { class: "told" });
     const select = make("select", { "aria-label": words.file, change: () => {
       shown.textContent = texts.get(select.value);

@@ -12,6 +12,9 @@ export function make(tag, given = {}, ...inside) {
 
 export const the = (id) => document.getElementById(id);
 
+/* what the command line refuses, without its name and that of the problem */
+export const plainly = (message) => message.replace(/^derive: (\w+: )?/, "");
+
 /* let the reader save bytes as a file */
 export function save(name, content, type = "application/octet-stream") {
   const url = URL.createObjectURL(new Blob([content], { type }));

@@ -18,21 +18,21 @@ export class Gallery {
     this.dialog.showModal();
     this.file ??= fetch("gallery.json").then((x) => x.json());
     try {
-      this.#show(await this.file, lang);
+      this.#show(await this.file, words, lang);
     } catch {
       this.file = null;
       this.place.replaceChildren(make("p", { class: "fault", role: "alert" }, words.nogallery));
     }
   }
 
-  #show(shelves, lang) {
+  #show(shelves, words, lang) {
     const now = this.chosen();
     this.place.replaceChildren(...shelves.map((shelf) => make("section", {}, make("h3", {}, shelf[lang]),
-      make("ul", {}, ...shelf.things.map((x) => make("li", {}, this.#thing(x, lang, x.name === now)))))));
+      make("ul", {}, ...shelf.things.map((x) => make("li", {}, this.#thing(x, words, lang, x.name === now)))))));
     (this.place.querySelector("[aria-current]") ?? this.place.querySelector("a"))?.focus();
   }
 
-  #thing({ name, picture, moves, ...called }, lang, current) {
+  #thing({ name, picture, moves, ...called }, words, lang, current) {
     const problem = this.ready(name), moved = problem[`group_${lang}`], shown = make("span", { class: "picture" });
     if (picture) shown.innerHTML = picture; // made with the page
     else shown.append(moved);
@@ -44,7 +44,8 @@ export class Gallery {
         this.dialog.close();
         this.choose(name, moves);
       },
-    }, shown, make("span", { class: "name" }, called[lang]), ...(picture ? [make("small", {}, moved)] : []));
+    }, shown, make("span", { class: "name" }, called[lang]), ...(picture ? [make("small", {}, moved)] : []),
+    ...(moves ? [] : [make("small", {}, words.wide)]));
   }
 
   /* the arrows go from thing to thing, up and down to the nearest of the next row */

@@ -24,12 +24,19 @@ export function withBody(text, made) {
   return withTable(text, made, ["", "parameters"]);
 }
 
-/* a problem whose body has the moments of a mesh of some density; a new one where it has none in space */
-export function meshed(text, { m, c, J }, schema) {
+/* the line of a body that has the moments of a mesh, of some density */
+export function stated({ m, c, J }) {
+  const of = (x) => (x ? `"${x}*rho"` : "0");
+  return `given = { m = ${of(m)}, c = [${c.map(of).join(", ")}], J = [${J.map((row) => `[${row.map(of).join(", ")}]`).join(", ")}] }`;
+}
+
+/* a problem called by a file, with the body of its line; a new one where the text has none in space */
+export function meshed(text, line, schema, file) {
   const group = shown(raw(text, tables(text)[0], "group")), stated = tables(text).some((x) => OTHERS.includes(x.name));
-  const before = schema.groups[group]?.n === 3 && !stated ? text : schema.scaffold, of = (x) => (x ? `"${x}*rho"` : "0");
-  const given = `[body]\ngiven = { m = ${of(m)}, c = [${c.map(of).join(", ")}], J = [${J.map((row) => `[${row.map(of).join(", ")}]`).join(", ")}] }`;
-  return declared(before, withBody(before, given), new Map([["rho", '{ default = 1000, unit = "kg/m^3", meaning = "density" }']]));
+  const before = schema.groups[group]?.n === 3 && !stated ? text : schema.scaffold;
+  const name = file.replace(/\.\w+$/, "").replace(/\W+/g, "_").replace(/^[^A-Za-z]*/, "").slice(0, 60);
+  const named = name ? put(put(before, 0, "name", JSON.stringify(name)), 0, "title") : before;
+  return declared(before, withBody(named, `[body]\n${line}`), new Map([["rho", '{ default = 1000, unit = "kg/m^3", meaning = "density" }']]));
 }
 
 /* what the body of a text is: a kind of these, or "given" */

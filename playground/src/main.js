@@ -1,6 +1,6 @@
 /* The playground: the problem on one side, what is derived of it on the other. */
 import { Arrows } from "./arrows.js";
-import { copy, kept, make, the } from "./dom.js";
+import { copy, kept, make, plainly, the } from "./dom.js";
 import { editor } from "./editor.js";
 import { Engine } from "./engine.js";
 import { Equations, power } from "./equations.js";
@@ -9,7 +9,7 @@ import { Gallery } from "./gallery.js";
 import { Places } from "./history.js";
 import { Found } from "./found.js";
 import { asked, spoken } from "./link.js";
-import { meshed } from "./made.js";
+import { meshed, stated } from "./made.js";
 import { menu } from "./menu.js";
 import { opens } from "./opened.js";
 import { Motion } from "./see.js";
@@ -21,7 +21,7 @@ import { Tabs } from "./tabs.js";
 import { Take } from "./take.js";
 import { WORDS, inWords } from "./words.js";
 
-const WAIT = 500, MOVED = 150, SECONDS = 60;
+const WAIT = 500, MOVED = 150, SECONDS = 60, TRIANGLES = 6000;
 
 let lang = spoken(location.search) ?? kept("lang") ?? (navigator.language?.startsWith("fr") ? "fr" : "en");
 let words = WORDS[lang] ?? WORDS[lang = "en"];
@@ -83,24 +83,24 @@ const tabs = new Tabs(["walk", "see", "find", "take"], (name) => {
   passed();
   if (name === "see") see();
   if (name === "find") find();
-  if (name === "take") take.weigh();
+  if (name === "take" && walked) take.opened();
 });
 
 async function unzipped(file) {
   const found = await fetch(file);
   if (!found.ok) return null;
   const told = await new Response(found.body.pipeThrough(new DecompressionStream("gzip"))).json();
-  const source = told.motion.find(([kind]) => kind === "motion")?.[1].source;
-  for (const [kind, news] of told.kept) if (kind === "kept") news.source = source; // it stands once
+  const source = told.motion?.find(([kind]) => kind === "motion")?.[1].source;
+  for (const [kind, news] of told.kept ?? []) if (kind === "kept") news.source = source; // it stands once
   return told;
 }
 
 /* the news of a ready-made problem that were made with the page, by its name and language */
 const made = new Map();
-async function stored({ ask, text: asking, lang: spoken }) {
-  const name = names.find((x) => ready(x).text === asking);
-  if (!name || !["walk", "motion", "kept"].includes(ask)) return null;
-  const file = `ready/${name}.${spoken}.json.gz`;
+async function stored({ ask, text: asking, lang: spoken, words: command, zip }) {
+  const name = names.find((x) => ready(x).text === asking), code = ask === "files";
+  if (!name || zip || !(code ? command === data.emission : ["walk", "motion", "kept"].includes(ask))) return null;
+  const file = `ready/${name}.${code ? "code" : spoken}.json.gz`;
   if (!made.has(file)) made.set(file, unzipped(file).catch(() => null));
   return (await made.get(file))?.[ask] ?? null;
 }
@@ -127,7 +127,7 @@ function say(state, instead = told) {
 function onstate() {
   const { busy } = engine;
   the("stop").hidden = the("progress").hidden = !busy;
-  if (!busy) take.weigh();
+  if (!busy) setTimeout(() => take.weigh()); // behind a question that waits
 }
 
 function faults(list) {
@@ -175,7 +175,7 @@ async function derive() {
     await check();
   } else if (tabs.now === "see") await see();
   else if (tabs.now === "find") await find();
-  else take.weigh();
+  else if (tabs.now === "take") take.opened();
 }
 
 async function walk() {
@@ -188,6 +188,7 @@ async function walk() {
   const how = await engine.ask({ ask: "walk", text: asking, lang }, (kind, news) => {
     if (kind === "derived") {
       count = news.steps;
+      the("about").textContent = news.about;
       answer(news.answer, news.arrows);
       road.show(news.road, words, news.name);
     }
@@ -270,19 +271,19 @@ async function find() {
   if (walked && !running && !timer) await searches.of(walked, words, chosen() ?? `${problem_name()}.toml`);
 }
 
-/* the files of a command, { files: name → text, zip }, or what it { refused }; a walk that runs is waited for */
-async function files(command) {
+/* the files of a command, { files: name → text }, and a zip where it is asked for, or what it { refused }; behind a walk that runs */
+async function files(command, zip) {
   let refused = "";
   const found = {};
   await running;
   say(words.emitting);
-  const how = await engine.ask({ ask: "files", text: text.text, words: command }, (kind, news) => {
-    if (kind === "error") refused = news.message;
+  const how = await engine.ask({ ask: "files", text: text.text, words: command, zip }, (kind, news) => {
+    if (kind === "error") refused = plainly(news.message);
     else if (["files", "zip"].includes(kind)) found[kind] = news;
   });
   if (ended(how)) say("");
   else refused = how === "superseded" ? words.overtaken : told;
-  return found.zip ? found : { refused };
+  return found.files ? found : { refused };
 }
 
 /* why options of the code cannot be added to others; null while something else is asked, or is to be derived */
@@ -306,6 +307,7 @@ function later(does, after) {
 function edited() {
   motion.stale();
   about();
+  the("taken").replaceChildren();
   the("walk").setAttribute("aria-busy", "true");
   later(async () => {
     motion.forget();
@@ -315,11 +317,7 @@ function edited() {
   }, WAIT);
 }
 
-function about() {
-  const name = chosen(), own = ready(name);
-  the("about").textContent = own ? own[`about_${lang}`] || own[`title_${lang}`] : "";
-  the("ready").value = name ?? "";
-}
+function about() { the("ready").value = chosen() ?? ""; }
 
 /* go to a step, which gets an entry of its own in the history; `again`: in the place of the last one's */
 function go(id, again = false) {
@@ -369,6 +367,15 @@ async function choose(now, tab) {
   later(null);
   await places.problem(lang, chosen(), now, true);
   await visit(tab);
+}
+
+/* a mesh becomes the body, until that is undone; one of many triangles is drawn as the ellipsoid of its inertia */
+function embody(mesh, file) {
+  const before = text.text, line = stated(mesh), many = mesh.faces.length > TRIANGLES;
+  motion.mesh = many ? null : { line, faces: mesh.faces };
+  choose(meshed(before, line, data.schema, file), "see");
+  const undo = make("button", { type: "button", click: () => choose(before, tabs.now) }, words.undo);
+  the("taken").replaceChildren(words.taken(file, many), " ", undo);
 }
 
 function speak() {
@@ -423,7 +430,7 @@ the("link").addEventListener("click", async (e) => {
   places.see(lang, places.word, places.named, { tab: tabs.now, ...seen });
   await copy(location.href, e.target, words.linked);
 });
-opens(the("open"), { open: (now) => choose(now), body: (moments) => choose(meshed(text.text, moments, data.schema)), say: (line) => say(line), words: () => words });
+opens(the("open"), { open: (now) => choose(now), body: embody, say: (line) => say(line), words: () => words });
 the("wide").addEventListener("click", () => widen(!document.body.classList.contains("wide")));
 const project = () => places.stands && projector.enter(tabs.now === "walk" ? equations.at()?.id : places.named);
 the("project").addEventListener("click", project);

@@ -22,7 +22,7 @@ function triangles(kind, bytes) {
   return faces.flatMap((f) => f.slice(2).map((_, i) => [f[0], f[i + 1], f[i + 2]].map((k) => points[k]?.slice(0, 3) ?? [NaN])));
 }
 
-/* { m, c, J } of density 1; null where its triangles do not close up: of 0abc, with D = det(a, b, c) and s = a + b + c, they are D/6,
+/* { m, c, J } of density 1, and its triangles, outwards; null where its triangles do not close up: of 0abc, with D = det(a, b, c) and s = a + b + c, they are D/6,
  * D s/24 and D (a ā + b b̄ + c c̄ + s s̄)/120 */
 export function moments(kind, bytes) {
   const all = triangles(kind, bytes), edges = new Map(), c = [0, 0, 0], J = [[0, 0, 0], [0, 0, 0], [0, 0, 0]];
@@ -44,5 +44,6 @@ export function moments(kind, bytes) {
   if (!m || [...edges.values()].some(Boolean)) return null;
   const size = Math.sqrt(Math.abs((J[0][0] + J[1][1] + J[2][2]) / m)), outwards = Math.sign(m);
   const rounded = (x, k) => (Math.abs(x) < 1e-13 * Math.abs(m) * size ** k ? 0 : Number((outwards * x).toPrecision(14)));
-  return { m: rounded(m, 0), c: c.map((x) => rounded(x, 1)), J: J.map((row) => row.map((x) => rounded(x, 2))) };
+  const faces = outwards > 0 ? all : all.map((t) => t.toReversed());
+  return { m: rounded(m, 0), c: c.map((x) => rounded(x, 1)), J: J.map((row) => row.map((x) => rounded(x, 2))), faces };
 }

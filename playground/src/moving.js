@@ -87,12 +87,12 @@ addEventListener("message", async ({ data, source, origin }) => {
       return;
     }
     home.replaceChildren();
-    home.motion = globalThis.drawing.mount(home, { ...data.page, ...data.moving, module, pointed: (lit) => tell({ lit }) }, { ...chosen(data.pieces), graph: globalThis.drawing.graph, second: globalThis.drawing.second_motion });
+    home.motion = globalThis.drawing.mount(home, { ...data.page, ...data.moving, repeats: true, module, pointed: (lit) => tell({ lit }) }, { ...chosen(data.pieces), graph: globalThis.drawing.graph, second: globalThis.drawing.second_motion });
     const into = document.createElement("button");
     Object.assign(into, { type: "button", className: "into", textContent: data.into });
     into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module) }));
     home.querySelector(".values").append(into);
-    home.querySelector(".stage").append(saving(home, data.name, data.saves));
+    home.querySelector(".controls").append(saving(home, data.name, data.saves));
     first = new Map(rows().map((x) => [x.dataset.name, said(x)]));
     if (data.restored) restore(data.restored, home.motion);
     tell({ moved: "" });

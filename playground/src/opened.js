@@ -7,7 +7,7 @@ const LARGEST = 500_000, MESH = 50_000_000;
 /* what a file is by the end of its name, but for a record, which is told by what is in it */
 const OTHERS = { stl: "mesh", obj: "mesh", off: "mesh", csv: "run", npz: "run" };
 
-/* button: what asks for a file; open(text): of a problem file; body({ m, c, J }): of a mesh; say(line): why another is not; words(): of the language */
+/* button: what asks for a file; open(text): of a problem file; body({ m, c, J, faces }, file): of a mesh; say(line): why another is not; words(): of the language */
 export function opens(button, { open, body, say, words }) {
   const choice = make("input", { type: "file", accept: ".toml, .stl, .obj, .off", hidden: true, "aria-hidden": "true", change: () => {
     read(choice.files[0]);
@@ -24,7 +24,7 @@ export function opens(button, { open, body, say, words }) {
     if (file.size > (is === "mesh" ? MESH : LARGEST)) return say(words().opened.large(file.name));
     if (is === "mesh") {
       const found = moments(kind, await file.arrayBuffer());
-      return found ? body(found) : say(words().opened.mesh(file.name));
+      return found ? body(found, file.name) : say(words().opened.mesh(file.name));
     }
     try {
       open(new TextDecoder("utf-8", { fatal: true }).decode(await file.arrayBuffer()));

@@ -19,12 +19,12 @@ export class Options {
     ].join(" ");
   }
 
-  show(words) {
-    const { data } = this, about = (name) => words.about[name] ?? data.about[name];
+  show(words, lang) {
+    const { data } = this, about = (name) => data.about[lang][name];
     this.choices = new Map(); // words of the command line, "step gauss" → what chooses them
     this.places = {}; // option → where it is told why some of its values cannot be chosen
     this.fault = make("p", { class: "fault", role: "status" });
-    const called = (name, x) => [x, words.values[name]?.[x]].filter(Boolean).join(" – ");
+    const called = (name, x) => [x, data.values[name]?.[x]?.[lang]].filter(Boolean).join(" – ");
     const told = (name, ...inside) => make("div", { class: "option" }, ...inside, make("p", { id: `about-${name}` }, about(name)), this.#why(name));
     const one = ([name, values]) => told(name, make("label", {}, `${name} `, this.#select(name, values, (x) => called(name, x), words.default)));
     const several = ([name, values]) => told(name, make("fieldset", { "aria-describedby": `about-${name} why-${name}` },

@@ -1,7 +1,7 @@
 /* The motion as a picture and as a film: its canvas, on the colour of the page. */
 import { make, save } from "./dom.js";
 
-const RATE = 30, LONGEST = 60_000, FINER = 2, LINE = 18;
+const RATE = 30, LONGEST = 60_000, LAST = 500, FINER = 2, LINE = 18;
 const short = (x) => Number(x.toFixed(2));
 
 /* what stands on a canvas that lets the page through, on one that does not */
@@ -59,20 +59,22 @@ async function pictured(canvas, scene) {
   return on;
 }
 
-/* a film of what is seen from now on, { stop }; done(its bytes) when it is stopped, or long enough */
-function filmed(canvas, done) {
+/* a film of what is seen from now on, { stop }, until the motion ends; told(seconds) meanwhile, done(its bytes) at the end */
+function filmed(canvas, motion, told, done) {
   const on = painted(canvas, document.createElement("canvas")), parts = [];
   const film = new MediaRecorder(on.captureStream(RATE), { mimeType: "video/webm" });
   const draw = () => {
     if (film.state !== "recording") return;
     painted(canvas, on);
+    told(Math.floor((performance.now() - begin) / 1000));
+    if (!motion.playing) return setTimeout(stop, LAST);
     requestAnimationFrame(draw);
   };
   film.addEventListener("dataavailable", ({ data }) => parts.push(data));
   film.addEventListener("stop", () => done(new Blob(parts, { type: "video/webm" })));
+  const begin = performance.now(), stop = () => film.state === "recording" && film.stop();
   film.start();
   draw();
-  const stop = () => film.state === "recording" && film.stop();
   setTimeout(stop, LONGEST);
   return { stop };
 }
@@ -89,13 +91,15 @@ export function saving(home, name, words) {
   let running = null;
   const film = button(words.film, () => {
     if (running) return running.stop();
-    film.textContent = words.stop;
-    running = filmed(canvas, (blob) => {
+    const { motion } = home;
+    motion.scene.once = true;
+    motion.play();
+    running = filmed(canvas, motion, (s) => { film.textContent = `● ${s} s, ${words.stop}`; }, (blob) => {
       running = null;
+      motion.scene.once = false;
       film.textContent = words.film;
       save(`${name}.webm`, blob, "video/webm");
     });
-    home.motion.play();
   });
   return make("div", { class: "saves" }, ...pictures, film);
 }

@@ -1,6 +1,12 @@
 /* The motion of the problem, in a frame: a new one for every problem, so that nothing of the last is left. */
-import { make } from "./dom.js";
+import { make, plainly } from "./dom.js";
 import { written } from "./numbers.js";
+
+/* a mesh as a solid of the body, with a place behind each of its triangles */
+const drawn = (faces) => ({ shift: [], vertices: faces.flat(), faces: faces.map((_, k) => [3 * k, 3 * k + 1, 3 * k + 2]), closed: true });
+
+/* what has nothing to move, by its text */
+const STILL = { fluid: /^\[fluid\]/m, filter: /^\[kinematics\]/m, family: /^group\s*=\s*"any"/m };
 
 export class Motion {
   /* text: () → { text }, which takes the numbers that the reader has set; engine: what is asked; say(state, instead) tells, and
@@ -25,7 +31,7 @@ export class Motion {
 
   /* the motion of a walk, { text, lang }, unless it is there, and then what it keeps */
   async of(walk, words) {
-    const mark = `${walk.lang} ${walk.text}`;
+    const mark = `${walk.lang} ${walk.text}`, still = Object.keys(STILL).find((x) => STILL[x].test(walk.text));
     if (this.moved !== mark) {
       this.moved = mark;
       this.keeping = null;
@@ -33,7 +39,8 @@ export class Motion {
       this.say(words.emitting);
       const how = await this.engine.ask({ ask: "motion", ...walk }, (kind, news) => {
         if (kind === "motion") this.show(words, walk.lang, news);
-        else if (kind === "error") this.fail(`${words.nomotion} ${news.message}`);
+        else if (kind === "error" && still) this.clear(make("p", { class: "note" }, words.still[still]));
+        else if (kind === "error") this.fail(`${words.nomotion} ${plainly(news.message)}`);
       });
       if (how !== "end") this.forget();
       if (!this.ended(how)) return;
@@ -86,6 +93,8 @@ export class Motion {
   show(words, lang, told) {
     this.words = words;
     this.told = { ...told, lang, title: words.motion, into: words.into, moving: words.moving, restored: this.restored, saves: words.saves };
+    const { line, faces } = this.mesh ?? {}, [part] = told.page.body.parts;
+    if (line && part && this.text().text.includes(line)) part.solids = [drawn(faces)];
     this.told.name = this.text().text.match(/^\s*name\s*=\s*"(\w+)"/m)?.[1] ?? "motion";
     this.more = this.restored = null;
     this.frame = make("iframe", { src: "moving.html", title: words.motion });

@@ -103,12 +103,12 @@ end
 const alone = (program, name, state) => program.replace(` ${name}.c`, "").replace(`${name}_state_names`, "names")
   .replace("int main", `static const char *const names[] = {${state.map((x) => `"${x}"`).join(", ")}};\n\nint main`);
 
-/* files: name → text, of one emission → [name, text] of programs that call them */
+/* files: [[name, text]], of one emission → [name, text] of programs that call them */
 export function snippets(files) {
-  return [...files].flatMap(([file, text]) => {
+  return files.flatMap(([file, text]) => {
     const [, name, end] = file.match(/^(\w+)\.(\w+)$/) ?? [], { state, parameters, real } = about(text);
     if (!PROGRAMS[end] || !state.length || (end === "h" && name.endsWith("_cvode"))) return [];
     const [called, program] = PROGRAMS[end](name, rows(parameters.map(([, v]) => v)), rows(state.map(start)), real);
-    return [[called, end === "h" && !files.has(`${name}.c`) ? alone(program, name, state) : program]];
+    return [[called, end === "h" && !files.some(([x]) => x === `${name}.c`) ? alone(program, name, state) : program]];
   });
 }

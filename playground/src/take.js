@@ -18,10 +18,14 @@ export class Take {
 
   show(words, lang) {
     this.words = words;
-    this.weighed = null;
+    this.weighed = this.seen = null;
     const speaks = option(lang);
     this.tells = [];
     this.place.replaceChildren(
+      make("h2", {}, words.code), this.options.show(words, lang),
+      this.emission = this.row(() => `emit FILE ${this.options.command} --out out`, [words.show, ({ files }) => this.code.show(files, words)],
+        [words.save(".zip"), ({ zip }) => save(`${this.file().name}.zip`, zip, "application/zip"), true]),
+      this.code.place,
       make("h2", {}, words.write),
       make("div", { class: "row" }, this.own((x) => `${x.name}.toml`, ".toml", (x) => x.text), make("span", { class: "told" }, words.reads)),
       make("h2", {}, words.notes),
@@ -29,10 +33,6 @@ export class Take {
       this.row(() => `notes FILE${speaks} --out out/NAME.html`, this.saves(words.page, ".html")),
       this.row(() => "walk FILE --format json --out out/NAME.json", this.saves(words.record, ".json")),
       make("div", { class: "row" }, this.own(() => `${words.notebook} .ipynb`, ".ipynb", (x) => notebook(x.name, x.text, x.title)), make("span", { class: "told" }, words.runs)),
-      make("h2", {}, words.code), this.options.show(words),
-      this.row(() => `emit FILE ${this.options.command} --out out`, [words.show, ({ files }) => this.code.show(files, words)],
-        [words.save(".zip"), ({ zip }) => save(`${this.file().name}.zip`, zip, "application/zip")]),
-      this.code.place,
     );
     this.told();
   }
@@ -52,21 +52,29 @@ export class Take {
     return [this.words.save(`${title} ${end}`), ({ files }) => save(`${this.file().name}${end}`, Object.values(files)[0], TYPES[end])];
   }
 
-  /* buttons that do something with the files of a command, the command itself, and what it refuses */
+  /* the tab is seen: its code, once, then what could not be added to it */
+  opened() {
+    if (this.seen === this.file().text) return this.weigh();
+    this.seen = this.file().text;
+    this.emission.firstChild.click();
+  }
+
+  /* buttons that do something with the files of a command, of some with a zip of them; the command itself, and what it refuses */
   row(command, ...does) {
     const shown = make("code", {}), fault = make("p", { class: "fault", role: "alert" }), { words } = this;
     this.tells.push(() => {
       shown.textContent = this.athome(command());
       fault.textContent = "";
     });
-    const buttons = does.map(([text, does]) => {
+    const buttons = does.map(([text, does, zip = false]) => {
       const button = make("button", { type: "button", click: async () => {
         fault.textContent = "";
         button.disabled = true;
-        const found = await this.ask(command().replaceAll("NAME", this.file().name));
+        const found = await this.ask(command().replaceAll("NAME", this.file().name), zip);
         button.disabled = false;
-        if (found.zip) does(found);
+        if (found.files) does(found);
         else fault.textContent = found.refused;
+        this.weigh();
       } }, text);
       return button;
     });

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from derive.problem.mesh import mesh_moments
+from tests.playground.test_moving import MOTION
 from tests.support import in_node
 from tests.support.played import PENDULUM
 from tests.support.playground_site import opened, text_in, visit, walked
@@ -123,3 +124,16 @@ def test_a_mesh_becomes_the_body(page):
     assert made["potential"] == tomllib.loads(PENDULUM)["potential"]
     assert "point" not in made
     assert not {"l", "m"} & {*made["parameters"]}
+    assert made["name"] == "box"
+    # it moves as it is, by its triangles; that is told, and can be undone
+    page.wait_for_selector("iframe[data-moved]", timeout=90_000)
+    (part,) = page.frames[-1].evaluate(f"{MOTION}.scene.page.body.parts")
+    (solid,) = part["solids"]
+    assert len(solid["faces"]) == len(FACES)
+    seen = {tuple(x) for x in solid["vertices"]}
+    assert seen == {tuple(map(float, CORNERS[k])) for face in FACES for k in face}
+    assert "box.STL" in page.inner_text("#taken")
+    page.click("#taken button")
+    walked(page, "own")
+    assert text_in(page) == PENDULUM
+    assert not page.is_visible("#taken")

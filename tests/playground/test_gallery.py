@@ -83,9 +83,16 @@ def test_things_are_chosen_by_mouse_and_by_keys(fresh, site):
     fresh.keyboard.press("Escape")
     assert not fresh.is_visible("#gallery")
     fresh.click("#things")
+    assert fresh.locator(".shelves a:has-text('Equations only')").count() == sum(
+        not x["moves"] for x in made()
+    )
     with rewalked(fresh, "ideal_fluid"):
         fresh.click("text=Water")
     assert fresh.get_attribute("#tab-walk", "aria-selected") == "true"
+    fresh.click("#tab-see")
+    assert "field" in fresh.inner_text("#see .note")
+    assert not fresh.locator("#see .fault").count()
+    fresh.click("#tab-walk")
     with rewalked(fresh, "kovalevskaya_top"):
         fresh.go_back()
 

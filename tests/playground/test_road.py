@@ -114,6 +114,20 @@ def test_a_line_of_the_answer_leads_to_its_step(fresh, site):
     )
 
 
+def test_the_last_line_leads_to_the_last_step(fresh, site):
+    """Below which little stands: it is the one that is read, and so the list and the road say."""
+    visit(fresh, f"{site}#pendulum&tab=see", "pendulum")
+    fresh.locator("#answer p a").last.focus()
+    fresh.keyboard.press("Enter")
+    top = "document.querySelector('#walk').shadowRoot.activeElement.getBoundingClientRect().top"
+    bar = "document.querySelector('.read .bar').getBoundingClientRect().bottom"
+    fresh.wait_for_function(f"() => Math.abs({top} - {bar}) < 30")
+    fresh.wait_for_timeout(300)
+    assert fresh.input_value("#steps") == "pendulum.explicit"
+    road = "#road [aria-current=step]"
+    assert fresh.get_attribute(road, "data-to") == "pendulum.explicit"
+
+
 def test_a_station_leads_to_its_step_and_is_ticked(fresh, site):
     visit(fresh, f"{site}#so3")
     stations = fresh.locator("#road button")

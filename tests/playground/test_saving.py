@@ -63,6 +63,12 @@ def test_a_picture_and_a_film_are_saved(fresh, site):
     assert name == "top.webm"
     assert frame.evaluate(f"{MOTION}.time") > 0.5
     frame.wait_for_selector("button:has-text('Film')")
+    shown_at(frame, 19.95)  # it ends with the motion
+    assert saved(fresh, frame, "Film")[0] == "top.webm"
+    assert frame.evaluate(f"[{MOTION}.time, {MOTION}.playing]") == [20, False]
+    shown_at(frame, 19.95)  # which begins again where none is made
+    frame.evaluate(f"{MOTION}.play()")
+    frame.wait_for_function(f"() => {MOTION}.time < 10 && {MOTION}.playing")
     now = "(({ width, height }) => [width, height])(document.querySelector('canvas'))"
     assert frame.evaluate(now) == size
     with opened(fresh.context.browser) as other:  # whose policy lets a film be shown

@@ -14,7 +14,7 @@ from derive.code.options import CHOICES, REPEATED
 from derive.command.showing import READY, ready_made
 from derive.problem.toml import load
 from playground.site import ROOT, built
-from playground.stage import schema
+from playground.stage import options, schema
 from tests.support import in_node
 from tests.support.library import module_of
 from tests.support.needs import need
@@ -129,14 +129,12 @@ def test_names_of_the_velocity_are_the_emitted_ones(name):
 
 
 def test_values_are_told_in_words_in_both_languages():
-    words = 'import { WORDS } from "./src/words.js";'
-    found = in_node.told(words, "[WORDS.en.values, WORDS.fr.values]")
-    values = CHOICES | REPEATED
-    for words in found:
-        assert {x: [*y] for x, y in words.items()} == {x: [*values[x][0]] for x in words}
-        assert {"jacobian", "step", "frame", "velocity"} <= {*words}
-    english, french = found
-    assert all(english[x] != french[x] for x in ("jacobian", "step", "frame"))
+    words, values = options()["values"], CHOICES | REPEATED
+    assert {x: [*y] for x, y in words.items()} == {x: [*values[x][0]] for x in words}
+    assert {"jacobian", "step", "frame", "velocity"} <= {*words}
+    said = [x for y in words.values() for x in y.values()]
+    assert all(x["en"] and x["fr"] for x in said)
+    assert all(x["en"] != x["fr"] for y in ("jacobian", "step") for x in words[y].values())
 
 
 # ---- the notebook

@@ -15,7 +15,7 @@ from tests.support.read_julia import LANGUAGE, Module
 
 IMPORTS = """
 import { about, snippets } from "./src/snippets.js";
-const told = (files) => ({ programs: snippets(new Map(Object.entries(files))),
+const told = (files) => ({ programs: snippets(Object.entries(files)),
     about: Object.fromEntries(Object.entries(files).map(([name, text]) => [name, about(text)])) });
 """
 RUNS = {

@@ -184,7 +184,8 @@ def test_it_opens_on_a_body_that_moves_and_its_equations(fresh, site):
     assert not own & PYTHON
     assert size({x or "index.html" for x in own}) < LIGHT
     made = [*(built() / "ready").iterdir()]
-    assert {x.name for x in made} == {f"{x}.{y}.json.gz" for x in ready_made() for y in LANGUAGES}
+    kinds = (*LANGUAGES, "code")
+    assert {x.name for x in made} == {f"{x}.{y}.json.gz" for x in ready_made() for y in kinds}
     assert max(x.stat().st_size for x in made) / 1e6 < EACH
     stored = fresh.evaluate(WALK)
     fresh.own.clear()
@@ -383,7 +384,7 @@ def test_an_option_that_would_be_refused_cannot_be_chosen(fresh, site):
             with rewalked(fresh, "so3"):
                 fresh.click("[data-lang=en]")
         offered(fresh)
-        for name, english in data["about"].items():
+        for name, english in data["about"]["en"].items():
             about = fresh.locator(f"#about-{name}")
             assert about.is_visible(), name
             assert (about.inner_text() == english) == (lang == "en"), name
@@ -457,16 +458,19 @@ def test_what_is_taken_is_shown_and_what_is_refused_is_told_beside(fresh, site):
 
     visit(fresh, f"{site}#so3")
     fresh.click("#tab-take")
+    fresh.wait_for_selector(".code pre")  # at once: it was made with the page
+    assert fresh.input_value(".code select") == "main.c"
+    assert fresh.inner_text(".code pre").startswith("/* cc -std=c99 main.c so3.c -lm")
+    assert f"{site}ready/so3.code.json.gz" in fresh.own
     imports = 'import { notebook } from "./src/notebook.js";'
     call = 'notebook("so3", given, "The solid about a fixed point")'
     book = saved("#take button:has-text('.ipynb')")
     assert book == ("so3.ipynb", in_node.told(imports, call, text_of("so3")))
     typed(fresh, NUMBERS)
     assert saved("#take button:has-text('mine.toml')") == ("mine.toml", NUMBERS)
-    fresh.click("#take button:has-text('Show the code')")
-    fresh.wait_for_selector(".code pre")
+    fresh.wait_for_selector(".code option[value='mine.py']", state="attached")
     listed = fresh.locator(".code option").all_inner_texts()
-    assert listed == ["mine.c", "mine.h", "mine.py", "main.c", "main.py"]
+    assert listed == ["main.c", "main.py", "mine.c", "mine.h", "mine.py"]
     assert '#include "mine.h"' in fresh.inner_text(".code pre")
     fresh.select_option(".code select", "mine.py")
     code = fresh.evaluate("document.querySelector('.code pre').textContent")

@@ -320,7 +320,7 @@ def test_every_entry_is_used():
         "lecture/*.py",
     )
     sources |= {p.remark for p in PAPER if p.remark}
-    used = sources | strings("pipeline.py") | titles_and_meanings()
+    used = sources | strings("pipeline.py") | strings("code/options.py") | titles_and_meanings()
     used |= {meaning for meaning, _ in meanings()}  # of which some are made of parts
     used |= {x["en"] for x in texts.entries()}  # tests/prose
     used = {*map(texts.unmarked, used)}

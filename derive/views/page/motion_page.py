@@ -19,6 +19,8 @@ from ...motion.energy_sources import drives, is_free, weight
 from ...motion.first_numbers import FirstNumbers
 from ...problem.problem import Problem
 from ...record.record import Derivation
+from ..answer import PLANE
+from ..arrows import TURNING
 from ..html import visible
 from ..language import ENGLISH, Language
 from ..outline import capitalised, subtitle, title
@@ -47,16 +49,16 @@ WORDS = {
     "velocities": "The velocity in time",
     "readings": "What is read off the motion",
     "start": "The velocity at the start",
-    "element": "The element at the start",
+    "element": "The configuration at the start",
     "turned": "It is multiplied by exp(θ₁E₁ + θ₂E₂ + …), E the basis of the Lie algebra.",
     "parameters": "Parameters",
     "inputs": "Inputs, held",
-    "reset": "As it was",
+    "reset": "Reset the numbers",
     "kept": "What is kept",
     "change": "change",
     "others": "What is not kept",
     "energy": "energy",
-    "defect": "off the group by",
+    "defect": "distance to the group",
     "multiplier": "multiplier",
     "singular": "No body has these numbers",
     "no_number": "This is no number.",
@@ -304,6 +306,8 @@ def data(
 def _meaning(name: str, record: Derivation, language: Language) -> str:
     """What the letter of a velocity, or of what is advected, means; empty for any other."""
     letter = GREEK.get(name.partition("_")[0], name.partition("_")[0])
+    if letter == "ζ" and record.problem and record.problem.get("group") in PLANE:
+        return language.word(TURNING)  # of the walk it is a coordinate in the Lie algebra
     meanings = [language.of(x.meaning) for x in record.symbols if x.name == letter]
     return meanings[0] if meanings and letter in VELOCITIES else ""
 

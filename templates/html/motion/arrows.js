@@ -7,7 +7,7 @@ const LENGTHS = { turning: 1.35, momentum: 1.15, sliding: 1, torque: 0.85, force
 
 function arrows_of(scene, view) {
   const { arrows, module, pointed, body: { planar } } = scene.page;
-  let seen = null, hues = [], written = [], drawn = []; // of each line that is drawn the number of its arrow and its ends in the picture
+  let seen = null, hues = [], drawn = []; // of each line that is drawn the number of its arrow and its ends in the picture
 
   /* the one that passes near a place of the picture: its number, else 0 */
   const near = (x, y) => {
@@ -35,8 +35,10 @@ function arrows_of(scene, view) {
     const widths = runs.map(([part, f]) => font(f) && view.pen.measureText(part).width);
     const wide = widths.reduce((a, b) => a + b);
     let from = x - side * wide, y = beside;
-    while (written.some(([a, b, w]) => abs(b - y) < 14 && a < from + wide && from < a + w)) y += 14; // below those that are there
-    written.push([from, y, wide]);
+    const taken = (at) => at > view.height - 6 || pic.written.some(([a, b, w]) => abs(b - at) < 14 && a < from + wide && from < a + w);
+    for (let k = 1; taken(y) && k < 20; ++k) y = beside + (k % 2 ? 7 : -7) * (k + 1); // below or above those that are there
+    pic.written.push([from, y, wide]);
+    if (abs(y - beside) > 14) view.stroke([[x, beside], [x, y + (y < beside ? 6 : -6)]], colour, 0.6); // to its place
     runs.forEach(([part, f], i) => {
       pic.text(part, from, f < 1 ? y + 4 : y, colour, "left", 13 * f);
       from += widths[i];
@@ -81,7 +83,6 @@ function arrows_of(scene, view) {
       seen = colours;
       const all = sized(time, x, parts, spots);
       drawn = scene.drawn = [];
-      written = [];
       for (const { number, from, v, long, scale, label: name, part: k, matrix, first } of all) {
         if (!(long > 0.01 * most[scale])) continue;
         const { reach } = parts[k], far = (0.3 + 0.11 * number) * reach;

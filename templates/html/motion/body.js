@@ -28,6 +28,11 @@ function convex(faces) {
   return faces.map((f) => ({ ...f, inside }));
 }
 
+/* a face of a closed surface, whose corners go round it as they are seen from outside, with a place behind it */
+function backed({ v, ...face }) {
+  return { ...face, v, inside: plus(v[0], cross(plus(v[1], v[0], -1), plus(v[2], v[0], -1)), -1) };
+}
+
 /* the parts of the body in the state x; pieces: the shapes that it has, and what makes them */
 function built(scene, x, pieces) {
   const { page: { body, module }, p } = scene, { number, vector } = valued(module, p);
@@ -38,7 +43,8 @@ function built(scene, x, pieces) {
     for (const solid of part.solids) {
       const shift = vector(solid.shift);
       if (solid.faces) {
-        faces.push(...solid.faces.map((f) => ({ tone: 0, v: f.map((i) => solid.vertices[i]) })));
+        const made = solid.faces.map((f) => ({ tone: 0, v: f.map((i) => solid.vertices[i]) }));
+        faces.push(...(solid.closed ? made.map(backed) : made));
         continue;
       }
       const columns = solid.quadric

@@ -26,7 +26,10 @@ function chart(scene, label, places, names = scene.page.names, values = (t, x) =
       pen.setLineDash([]);
       view.stroke([[left, 8], [left, foot], [right, foot]], colours.line, 1);
       if (least < 0 && most > 0) view.stroke([[left, Y(0)], [right, Y(0)]], colours.line, 1);
-      for (const v of [most, least]) write(short(v), left - 5, most - least < half ? Y(middle) : Y(v), "right");
+      const large = max(abs(least), abs(most)), range = most - least;
+      const digits = range > 1e-9 * large ? min(7, max(3, 2 + ceil(log10(large / range)))) : 3; // so that the two differ
+      const ends_of = [...new Set([most, least].map((v) => shown(v, page, digits, large)))];
+      ends_of.forEach((what, k) => write(what, left - 5, ends_of[1] ? min(max(Y(k ? least : most), 6 + 14 * k), foot - 14 + 14 * k) : Y(middle), "right"));
       write(`t = ${short(t0)}`, left, foot + 10, "left");
       write(`${short(t1)} ${page.units.t}`, right, foot + 10, "right");
       const ends = places.map((s, i) => [Y(trail.at(-1)[1][s]), s, i]).sort((a, b) => a[0] - b[0]), at = [];

@@ -30,7 +30,7 @@ function mount(element, page, pieces) {
   const energy = module.energy ?? (module.CONSERVED?.includes("energy")
     && ((t, x, k) => module.conserved(t, x, k)[module.CONSERVED.indexOf("energy")]));
   const scene = { page, p, u, velocity, energy, ask, run: null, other: null, trail: [], states, get time() { return time; }, redraw: () => scene.run && show(scene.run.at(time).slice(), before) };
-  let run, time = 0, until = page.t, wanted = null, playing = false, cells = [], each = 0, first = {}, told = 0;
+  let run, time = 0, until = page.t, wanted = null, playing = false, cells = [], each = 0, first = {}, noise = {}, told = 0;
   let keeping = module, k = null;  // what gives the numbers that are kept, and its constants
   let moved;  // what gravity moves
 
@@ -69,6 +69,11 @@ function mount(element, page, pieces) {
     k = keeping === module ? run.k : keeping.constants(p);
     moved = page.weight?.some((t) => valued(module, p).number(t)) && page.weightless;
     first = invariants(0, run.at(0));
+    noise = {};
+    for (const name of Object.keys(page.kept).filter((x) => x in first)) {
+      const alike = Object.keys(first).filter((x) => page.kept[x]?.[1] === page.kept[name][1]).map((x) => abs(first[x]));
+      noise[name] = max(page.tol * max(...alike), 1e-12 * max(...Object.values(first).map(abs)));
+    }
   }
 
   function invariants(t, x) {
@@ -77,7 +82,8 @@ function mount(element, page, pieces) {
     const values = keeping.conserved?.(t, x, k);
     values?.forEach((v, i) => {
       const name = keeping.CONSERVED[i];
-      if (v === v && !(moved && moved.includes(name))) found[name] = v;  // a component along what is 0 is none
+      const said = page.kept[name] ?? words[name];  // the module may keep more than the page has words for yet
+      if (said && v === v && !(moved && moved.includes(name))) found[name] = v;  // a component along what is 0 is none
     });
     if (module.defect) found.defect = module.defect(x);
     if (module.multiplier) found.multiplier = module.multiplier(t, x, run.k, u);
@@ -111,7 +117,8 @@ function mount(element, page, pieces) {
       const next = min(time + by, until);
       reach(next, late);
       time = min(next, last() >= next ? next : max(time, last()));
-      if (time >= until || over()) pause();
+      if (time >= until && page.repeats && !scene.once) time = 0; // it begins again
+      else if (time >= until || over()) pause();
     } else if (wanted !== null) {
       const ready = reach(wanted, late);
       time = min(wanted, last());
@@ -163,7 +170,7 @@ function mount(element, page, pieces) {
       told = now;
       for (const [name, v] of Object.entries(invariants(time, x))) {
         const [value, change] = rows[name];
-        value.textContent = shown(v, page, name === "defect" ? 2 : 5, first[name]);
+        value.textContent = name in noise && abs(v) < noise[name] ? "0" : shown(v, page, name === "defect" ? 2 : 5, first[name]);
         value.classList.toggle("wrong", name === "multiplier" && !(v > 0));
         if (change) {
           const by = abs(v - first[name]);
@@ -197,12 +204,14 @@ function mount(element, page, pieces) {
     before = NaN;
     toggle.textContent = "❚❚";
     toggle.setAttribute(aria, toggle.title = words.pause);
+    toggle.className = "runs";
     ask();
   }
   function pause() {
     playing = false;
     toggle.textContent = "▶";
     toggle.setAttribute(aria, toggle.title = words.play);
+    toggle.className = "rests";
   }
   function seek(t) {
     pause();
@@ -406,7 +415,7 @@ function mount(element, page, pieces) {
     tabulate();
     ask();
   }
-  return { given: { x: x0, p, u, theta }, get trail() { return scene.trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, second, get until() { return until; }, set until(t) {
+  return { given: { x: x0, p, u, theta }, get trail() { return scene.trail; }, get time() { return time; }, get playing() { return playing; }, get state() { return run.at(time); }, get run() { return run; }, second, get until() { return until; }, set until(t) {
     lengths.value = [...lengths.options].map((x) => +x.value).find((v) => v >= t) ?? lengths.options[lengths.length - 1].value;
     until = +lengths.value;
     ask();
