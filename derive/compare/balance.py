@@ -224,8 +224,14 @@ class Balance:
     def terms(self) -> Iterator[Term]:
         """What stands in M a = Σ terms: inputs, forces, damping, potentials, then what is left, by
         its degree in the velocity."""
+        yield from self._given_terms()
+        rest = self.without({"forces": (), "damping": (), "potentials": ()}, "all")
+        if rest is not None:
+            yield from self._by_degree(rest)
+
+    def _given_terms(self) -> Iterator[Term]:
+        """What acts by each input and by each table of the problem."""
         problem = self.opened.problem
-        d = self.a.shape[1]
         for i, name in enumerate(self.code.INPUTS):
             u = self.u.copy()
             u[:, i] = 0
@@ -236,7 +242,6 @@ class Balance:
             table = next((x for x in problem.inputs if name in problem.numbers_of(x)), None)
             word, arm = _of(f"the input {name}"), self.arm(table)
             yield Term(pushed(self.x), word, at=pushed, arm=arm, is_input=True)
-        bare = self.u * 0
         for key in ("forces", "damping", "potentials"):
             listed: tuple[Any, ...] = getattr(problem, key)
             for i, table in enumerate(listed):
@@ -254,9 +259,10 @@ class Balance:
                 yield Term(acting(self.x), _of(name), about, at=acting, arm=arm, of=part)
                 if key != "potentials":
                     yield from self._by_velocities(code, name)
-        rest = self.without({"forces": (), "damping": (), "potentials": ()}, "all")
-        if rest is None:
-            return
+
+    def _by_degree(self, rest: ModuleType) -> Iterator[Term]:
+        """What is left where nothing acts, by its degree in the velocity."""
+        d, bare = self.a.shape[1], self.u * 0
 
         def at(part: slice, sign: float = 1.0) -> Array:
             return self.bias(self._moving(part, sign), bare, rest)

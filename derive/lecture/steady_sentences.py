@@ -59,11 +59,11 @@ def steady(steps: Sequence[Step]) -> Iterator[Entry]:
     letters = dict.fromkeys(y for s in steps for y in _letters(s.prose))
 
     def told(spoken: Language) -> str:
-        found = [spoken.word(TRIED, variables=variables)]
+        found = [spoken.word(TRIED, variables=spoken.formula(variables))]
         if positive:
             found.append(spoken.word(POSITIVE, **_places(positive, spoken)))
         if letters:
-            found.append(spoken.word(LETTERS, letters=", ".join(letters)))
+            found.append(spoken.word(LETTERS, letters=spoken.formula(", ".join(letters))))
         return " ".join(found)
 
     yield sentence(told)
@@ -88,7 +88,10 @@ def _letters(prose: Sequence[Sentence]) -> Iterator[str]:
 
 
 def _places(x: Sentence, spoken: Language) -> Mapping[str, str]:
-    return {name: y if isinstance(y, str) else spoken.sentence(y) for name, y in x.places}
+    return {
+        name: spoken.formula(y) if isinstance(y, str) else spoken.sentence(y)
+        for name, y in x.places
+    }
 
 
 def _of_one(said: Sequence[Sentence], spoken: Language) -> str:
@@ -102,4 +105,5 @@ def _of_one(said: Sequence[Sentence], spoken: Language) -> str:
     first, *others = dict.fromkeys(verdicts or [spoken.word(OPEN)])
     for other in others:
         first = spoken.word("{first}; {second}", first=first, second=other)
-    return spoken.word(AT, point=str(at) or spoken.word("all variables 0"), verdict=first)
+    where = spoken.formula(str(at)) or spoken.word("all variables 0")
+    return spoken.word(AT, point=where, verdict=first)

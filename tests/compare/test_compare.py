@@ -351,7 +351,7 @@ def test_a_body_without_mass_explains_nothing(capsys, tmp_path):
     words = ["compare", "pendulum", "--with", str(tmp_path / "users.py")]
     assert main([*words, "--as", str(tmp_path / "as.toml")]) == 1
     told = capsys.readouterr().out
-    assert "gravity has the factor 1.3\n" in told
+    assert "g of gravity has the factor 1.3; the same in numbers: gravity\n" in told
     assert "missing" not in told
 
 

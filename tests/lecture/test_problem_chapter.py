@@ -189,7 +189,8 @@ def test_each_steady_motion_is_a_sentence_with_its_conditions():
 def test_what_the_record_says_of_stability_is_said():
     """But that a form is indefinite and roots imaginary, which proves nothing."""
     kinds = ("equilibrium", "family", "enclosure")
-    listed = {k: x[0] for k, x in texts.sentences().items() if k.partition(".")[0] in kinds}
+    told = {k: texts.unmarked(x[0]) for k, x in texts.sentences().items()}
+    listed = {k: x for k, x in told.items() if k.partition(".")[0] in kinds}
     telling = {k for k, x in listed.items() if re.search("stab(?:le|ility)|on the leaf is", x)}
     silent = {"family.open", "family.imaginary"}  # said of all at once, or of no use alone
     assert len(telling) > 15
@@ -198,7 +199,8 @@ def test_what_the_record_says_of_stability_is_said():
 
 def test_a_number_in_brackets_before_a_parameter_is_of_the_formula():
     """Or the bracket is closed in the formula, and no line of it breaks."""
-    told = words_of_record("unstable where (1) (30 ‘M’³ + 8 ‘m’) ‘R’ < 0; (2) 3 ‘m’ > ‘M’")
+    cases = language("en").marked.formula("(1) (30 ‘M’³ + 8 ‘m’) ‘R’ < 0; (2) 3 ‘m’ > ‘M’")
+    told = words_of_record(f"unstable where {cases}")
     formulas = [x.text for x in told if isinstance(x, Formula)]
     assert formulas == ["(30 ‘M’³ + 8 ‘m’) ‘R’ < 0", "3 ‘m’ > ‘M’"]
 

@@ -63,6 +63,12 @@ def emissions():
         yield from (f"file {language.name} {x}" for names in language.files.values() for x in names)
 
 
+def about_options():
+    """What the help of a command says of options of the emitted code: plain text, without marks."""
+    told = {about for _, about in (CHOICES | REPEATED | DEPENDENT).values()}
+    return told | {*ADDED.values()}
+
+
 def records():
     """Each rule of a record, each ready-made problem."""
     yield from (f"rule {name}" for name in RULES)

@@ -163,7 +163,10 @@ MUTATIONS = {
 
 
 HARD = say(
-    "Where A₁₂² ≠ 0, δ′h̃ ≤ ½ + √(21), ‘x1’ ‘sn’ > −‘x₁’ and ∇_η′ u ≈ 4.58, P′ = 0, there is g⁻¹δ′g."
+    "Where {cases} and {other}, there is {that}.",
+    cases="A₁₂² ≠ 0, δ′h̃ ≤ ½ + √(21), ‘x1’ ‘sn’ > −‘x₁’",
+    other="∇_η′ u ≈ 4.58, P′ = 0",
+    that="g⁻¹δ′g",
 )
 """A sentence that has what is rare in sentences."""
 

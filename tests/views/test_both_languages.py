@@ -9,6 +9,7 @@ from pathlib import Path
 from derive import lecture
 from derive.record.prose import unmarked
 from derive.views.language import catalogue_entries
+from tests.support.capabilities import about_options
 
 ENTRIES = [(unmarked(x["en"]), unmarked(x["fr"])) for x in catalogue_entries()]
 
@@ -78,7 +79,8 @@ def wrong(english: str, french: str) -> list[str]:
 
 
 def test_both_languages_have_the_same_formulas():
-    assert [(english, x) for english, french in ENTRIES for x in wrong(english, french)] == []
+    told = [(english, french) for english, french in ENTRIES if english not in about_options()]
+    assert [(english, x) for english, french in told for x in wrong(english, french)] == []
 
 
 def test_what_stands_in_another_order_is_listed():

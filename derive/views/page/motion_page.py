@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ...code.emit import emit
 from ...code.options import Options
+from ...code.program import Program
 from ...language.reserved import GREEK
 from ...language.templating import environment, folder
 from ...motion.emitted_code import EmittedCode, in_words
@@ -240,6 +241,18 @@ def pieces(body: Data, *, read: bool = False) -> dict[str, str]:
     return {"stage": "solid_stage"} | side | turned | {x: x for x in sorted(names)}
 
 
+def _unsaid(made: Program, body: Mapping[str, Any], element: bool, lost: bool) -> set[str]:
+    """The words for what this motion has not; ``lost``: something acts by which energy goes."""
+    unsaid = {"ellipsoid", "now", "velocities" if body["polhode"] else "polhode"}
+    unsaid |= {x for x in ("defect", "multiplier") if x not in made.functions}
+    unsaid |= set() if lost or "multiplier" in made.functions else {"others"}
+    there = {"flat": body["stretches"], "inputs": made.inputs, "element": element}
+    there |= {"turned": element, "within": body["parts"] and not body["parts"][0]["deforms"]}
+    unsaid |= {x for x, has in there.items() if not has}
+    unsaid |= {"velocities", "polhode"} if made.outputs else {"readings"}
+    return unsaid
+
+
 def data(
     code: EmittedCode,
     problem: Problem,
@@ -258,16 +271,10 @@ def data(
     adjusted, curves = velocity[:MOST], [] if body["parts"] else sorted(largest)
     basis, heavy = made.basis if entries else (), weight(record.problem or {})
     lost = bool(drives(record.problem, {}))
-    unsaid = {"ellipsoid", "now", "velocities" if body["polhode"] else "polhode"}
-    unsaid |= {x for x in ("defect", "multiplier") if x not in made.functions}
-    unsaid |= set() if lost or "multiplier" in made.functions else {"others"}
-    there = {"flat": body["stretches"], "inputs": made.inputs, "element": entries}
-    there |= {"turned": entries, "within": body["parts"] and not body["parts"][0]["deforms"]}
-    unsaid |= {x for x, has in there.items() if not has}
-    unsaid |= {"velocities", "polhode"} if made.outputs else {"readings"}
     units = {x.name: _unit(x.unit) for x in code.columns()}
     pairs = zip(made.state, state, strict=True)
     of_state = [(y, _meaning(x, record, language), units[x]) for x, y in pairs]
+    unsaid = _unsaid(made, body, bool(entries), lost)
     words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
     if body["turns"] and not made.outputs:
         words["polhode"] = language.word(WORDS["ellipsoid" if is_free(record.problem) else "now"])
