@@ -70,20 +70,8 @@ def as_read(block: Block, reading: Reading) -> Block:
 ENERGY = "L̃ is invariant under {kind}: the energy {kept} is constant."
 EXACT = "L̃ is invariant under {kind}: {kept} is constant."
 UP_TO = "Under {kind}, L̃ changes by the derivative of a function alone: {kept} is constant."
-REDUCED = "It is reduced by {kind}, whose momentum is {kept}."
 AXIS = {2: "{kind} about {axis}", 1: "{kind} along {axis}"}
 """How many entries of the matrix of a field are not 0 → the field with its axis."""
-
-
-def reduced_by(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
-    """A sentence of each symmetry by which a problem is reduced."""
-    for step in steps:
-        for e in step.equations:
-            if isinstance(e.lhs, tuple) and e.lhs[:2] == ("at", "𝒥"):
-                momentum = f"{show(e.lhs)} = {in_sentence(e.rhs)}"
-                marked = [x.marked for x in SPOKEN]
-                texts = (_sentence(REDUCED, momentum, kind_of(d, step, x), x) for x in marked)
-                yield in_each(*texts, labels=(step.label,))
 
 
 def kept_by(step: Step) -> Tree:
@@ -100,11 +88,12 @@ def conserved(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
         exact = step.prose[0].message == message("symmetries.exact")
         told = (ENERGY if kept == "h̃" else EXACT) if exact else UP_TO
         marked = [x.marked for x in SPOKEN]
-        texts = (_sentence(told, in_sentence(kept), kind_of(d, step, x), x) for x in marked)
+        texts = (with_kept(told, in_sentence(kept), kind_of(d, step, x), x) for x in marked)
         yield in_each(*texts, labels=(step.label,))
 
 
-def _sentence(told: str, kept: str, kind: str, spoken: Language) -> Words:
+def with_kept(told: str, kept: str, kind: str, spoken: Language) -> Words:
+    """A sentence of a symmetry and of what it keeps, a formula as it is typed."""
     before, _, after = spoken.word(told, kind=kind, kept="\0").partition("\0")
     apart = () if after.startswith(".") else (" ",)
     return (*words(before), " ", Formula(kept, condition=True), *apart, *words(after))
@@ -151,8 +140,8 @@ UNSHOWN = "No motion is shown: {reason}."
 OVER = "the search takes more than {seconds} seconds (--seconds)"
 REASONS = (
     OVER,
-    "the Lagrangian couples {velocities} velocities by terms with {letters} letters in all: the "
-    "inverse of its metric is too long; give numbers, or --at-defaults",
+    "the Lagrangian has a metric whose inverse is too long; it couples {velocities} velocities by "
+    "terms with {letters} letters in all: give numbers, or --at-defaults",
     "the Lagrangian depends on the time, so that H is no integral",
     "the Lagrangian is not quadratic in the velocity: ∂²L/∂Z² depends on it",
     "the Lagrangian is not quadratic in the velocity, so that its momenta are not solved for "
