@@ -14,21 +14,11 @@ from ..language.tree import replaced
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Sentence
-from ..views.language import Language
+from ..views.language import Language, told
 from .lecture_text import Entry, chapters
 from .recorded_text import sentence
 
-TRIED = (
-    "The variables are {variables}; those that are not named are 0. Points were tried with at most "
-    "one momentum and at most one other coordinate other than 0. Stable means in the sense of "
-    "Lyapunov, for these variables, by the energy–Casimir method; unstable, by an eigenvalue with "
-    "a positive real part. Where neither is said, it is not decided here."
-)
-SAME_TOP = (
-    "This is the top of chapter 2, under other names or the same: its nutation is that of "
-    "proposition @effective, and where {momentum}, upright, with {weight}, it is stable as well, "
-    "by proposition @asleep."
-)
+TRIED, SAME_TOP = told("lecture:tried"), told("lecture:same_top")
 TOP = ("I_1", "I_3", "mgl")
 """The parameters of the top in its chapter."""
 POSITIVE = "The kinetic energy is taken to be positive definite: {positive}."
@@ -69,7 +59,7 @@ def steady(steps: Sequence[Step]) -> Iterator[Entry]:
     positive = supposed.get(message("family.positive"))
     letters = dict.fromkeys(y for s in steps for y in _letters(s.prose))
 
-    def told(spoken: Language) -> str:
+    def said_first(spoken: Language) -> str:
         found = [spoken.word(TRIED, variables=spoken.formula(variables))]
         if positive:
             found.append(spoken.word(POSITIVE, **_places(positive, spoken)))
@@ -77,7 +67,7 @@ def steady(steps: Sequence[Step]) -> Iterator[Entry]:
             found.append(spoken.word(LETTERS, letters=spoken.formula(", ".join(letters))))
         return " ".join(found)
 
-    yield sentence(told)
+    yield sentence(said_first)
     for s in at:
         number = s.label.rpartition("_")[2]
         both = [x for x in steps if x.label.rpartition("_")[2] == number]
@@ -105,8 +95,8 @@ def as_top(d: Derivation) -> tuple[str, ...]:
     given = d.problem["parameters"]
     if step is None or d.problem["group"] != "SO(3)" or len(given) != len(TOP):
         return ()
-    told = (x for c in chapters() if c.name == "top" for e in c.entries for x in e.equations)
-    lagrangian = next(x.rhs for x in told if x.lhs == "L̃")
+    claimed = (x for c in chapters() if c.name == "top" for e in c.entries for x in e.equations)
+    lagrangian = next(x.rhs for x in claimed if x.lhs == "L̃")
     for k, name in enumerate(TOP):
         lagrangian = replaced(lagrangian, ("par", name), ("at", "par", k))
     checker = checker_of(d.problem)
