@@ -155,6 +155,7 @@ def _value(d: Derivation, t: Tree, ran: Ran) -> float:
     """The value of an expression at the start of a motion; not a number where it has none."""
     momenta = (s for s in d.steps if s.label == f"{d.name}.momenta")
     for e in (e for s in momenta for e in s.equations if isinstance(e.lhs, tuple)):
+        assert isinstance(e.lhs, tuple)
         if e.lhs[:2] == ("at", "Π") and isinstance(e.lhs[2], int):
             t = replaced(t, e.lhs, e.rhs)
     start = dict(ran.start)

@@ -44,7 +44,7 @@ def _space(step: Step, spoken: Language) -> str:
 
 def momenta(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
     """A sentence of each symmetry by which a problem is reduced, with its momentum."""
-    found = [(s, e) for s in steps for e in s.equations if _of_momentum(e.lhs)]
+    found = [(s, e) for s in steps for e in s.equations if of_momentum(e.lhs)]
     if len(found) > 1:
         yield sentence(lambda x: x.word(ALONG), [s.label for s, _ in found])
     for step, e in found:
@@ -53,7 +53,8 @@ def momenta(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
         yield in_each(*texts, labels=(step.label,))
 
 
-def _of_momentum(t: Tree) -> bool:
+def of_momentum(t: Tree) -> bool:
+    """Is it one of the momenta of a reduction?"""
     return isinstance(t, tuple) and t[:2] == ("at", "𝒥")
 
 
