@@ -21,6 +21,7 @@ from ..views.language import ENGLISH, Language, told
 from .lecture_text import Block, Entry, Formula, Typed, Words, words_of
 from .ran_figure import Ran, written
 from .recorded_text import SPOKEN, alone, display, in_each, kept_by, kind_of, sentence, words
+from .search_sentences import of_momentum
 
 HAND, MISTAKE, WATCH = "By hand.", "Find the mistake.", "Predict, then watch."
 KEPT = "Show that this is constant along every motion:"
@@ -124,7 +125,7 @@ def _on_motion(d: Derivation, steps: Sequence[Step], ran: Ran, command: str) -> 
 
 def _constants(d: Derivation, steps: Sequence[Step], ran: Ran) -> dict[Tree, float]:
     """The energy and the momenta of a reduction at the start."""
-    momenta = (e for s in steps for e in s.equations if (*e.lhs,)[:2] == ("at", "𝒥"))
+    momenta = (e for s in steps for e in s.equations if of_momentum(e.lhs))
     return {"h̃": ran.energy[0]} | {e.lhs: _value(d, e.rhs, ran) for e in momenta}
 
 
