@@ -148,7 +148,7 @@ def between(d: Derivation, step: Step, constants: Mapping[Tree, float], ran: Ran
         if low - CLOSE < first < high + CLOSE and inside > 0:
             said = ", ".join(f"{show(x)} = {written(y)}" for x, y in constants.items())
             ends = {x: f"{y:.3f}".replace("-", "−") for x, y in (("low", low), ("high", high))}
-            return {**ends, "letter": show(u), "constants": said}
+            return {**ends, "letter": show(u), "given": said}
     return {}
 
 
