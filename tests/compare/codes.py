@@ -284,6 +284,16 @@ def f(x, u):
     return np.concatenate([(A @ hat(w)).ravel(), A @ v, dw, dv])
 """
 
+BRAKED = DRONE.replace("[[damping]]", '[[damping]]\nkind = "quadratic"') + """
+[[damping]]
+kind = "rotational"
+coefficient = 0.19
+"""
+BRAKED_CODE = DRONE_CODE.replace(
+    "-kappa * (v + np.cross(w, DAMPED))",
+    "v + np.cross(w, DAMPED)\n    drag = -kappa * np.linalg.norm(drag) * drag",
+).replace("(DAMPED, drag)", "(DAMPED, drag) - 0.19 * w")
+
 CAR = """
 name = "car"
 group = "SE(2)"

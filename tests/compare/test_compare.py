@@ -251,6 +251,19 @@ FAULTS = {
         ("moment + np.cross(DAMPED, drag)", "moment"),
         "the moment of the damping is missing",
     ),
+    "twice the drag": ("braked", ("= -kappa", "= -2 * kappa"), "kappa has the factor 2"),
+    "arm of a drag by the square": (
+        "braked",
+        ("moment + np.cross(DAMPED, drag)", "moment + np.cross(-DAMPED, drag)"),
+        "the moment of damping 1 has the other sign",
+    ),
+    "place of a drag by the square": (
+        "braked",
+        ("DAMPED = np.array([0.07", "DAMPED = np.array([-0.07"),
+        "at_1 of damping 1 has the other sign",
+    ),
+    "twice the drag of turning": ("braked", ("0.19", "0.38"), "coefficient of"),
+    "drag of turning, in space": ("braked", ("0.19 * w", "0.19 * A @ w"), "damping 2"),
 }
 
 
