@@ -15,6 +15,7 @@ from ..code.program import Program
 from ..language.limits import Refused
 from ..language.values import approximate
 from ..problem.problem import Problem
+from ..schema.kind import Acting
 from .opened import ADDED, Opened, Slot, called
 from .users_code import Array
 
@@ -49,7 +50,8 @@ class Balance:
     """Our equations with a parameter for every number, at the states of a comparison.
 
     ``x`` (N, state), ``u`` (N, inputs), ``t`` (N,), ``a`` (N, d): the user's rates of the velocity.
-    ``parameters``: those of the problem by name; ``rows``: names of sets of rows → which.
+    ``parameters``: those of the problem by name; ``rows``: names of sets of rows → which;
+    ``moving``: where the velocity stands in the state.
     ``changed``: numbers that are others in a hypothesis; ``more``: what it leaves besides.
     """
 
@@ -62,6 +64,7 @@ class Balance:
     u: Array
     a: Array
     rows: Mapping[str, list[int]]
+    moving: slice
     changed: Mapping[str, float] = field(default_factory=dict)
     more: Array | float = 0.0
     codes: dict[str, ModuleType | None] = field(default_factory=dict)
@@ -144,12 +147,14 @@ class Balance:
 
     def velocities(self) -> tuple[Array, Array]:
         """ω and v of a body at each state."""
-        w, v = np.split(self.x[:, -self.a.shape[1] :], [len(self.rows["moment"])], axis=1)
+        w, v = np.split(self.x[:, self.moving], [len(self.rows["moment"])], axis=1)
         return w, v
 
     def with_velocities(self, w: Array, v: Array) -> Array:
         """The states with others."""
-        return np.hstack([self.x[:, : -self.a.shape[1]], w, v])
+        x = self.x.copy()
+        x[:, self.moving] = np.hstack([w, v])
+        return x
 
     def kind(self, rows: list[int]) -> str:
         """Of which set some rows are, where there are two."""
@@ -208,7 +213,7 @@ class Balance:
         """The size of the terms of each row, (d,)."""
         k = self.k(self.values())
         M, b = self.code.mass_matrix(self.t, self.x, k), self.bias(self.x, self.u)
-        known = self.code.rhs(self.t, self.x, k, self.u)[:, -self.a.shape[1] :]
+        known = self.code.rhs(self.t, self.x, k, self.u)[:, self.moving]
         found = np.abs(b) + np.einsum("...ij,...j->...i", np.abs(M), np.abs(self.a) + np.abs(known))
         size: Array = np.maximum(found.max(axis=0), 1e-3 * found.max())
         return size
@@ -225,7 +230,7 @@ class Balance:
         """What stands in M a = Σ terms: inputs, forces, damping, potentials, then what is left, by
         its degree in the velocity."""
         yield from self._given_terms()
-        rest = self.without({"forces": (), "damping": (), "potentials": ()}, "all")
+        rest = self._bare()
         if rest is not None:
             yield from self._by_degree(rest)
 
@@ -245,7 +250,8 @@ class Balance:
         for key in ("forces", "damping", "potentials"):
             listed: tuple[Any, ...] = getattr(problem, key)
             for i, table in enumerate(listed):
-                code = self.without({key: (*listed[:i], *listed[i + 1 :])}, f"{key} {i}")
+                idle = (_idle(table),) if key == "forces" else ()
+                code = self.without({key: (*listed[:i], *idle, *listed[i + 1 :])}, f"{key} {i}")
                 if code is None:
                     continue
                 name = called(problem, table)
@@ -307,10 +313,15 @@ class Balance:
 
     def of_momentum(self) -> Part | None:
         """What is left of b without inputs, forces and potentials."""
-        rest = self.without({"forces": (), "damping": (), "potentials": ()}, "all")
+        rest = self._bare()
         if rest is None:
             return None
         return lambda values: rest.bias(self.t, self.x, self.k(values, rest), 0 * self.u)
+
+    def _bare(self) -> ModuleType | None:
+        """The code of the problem on which nothing acts."""
+        idle = tuple(map(_idle, self.opened.problem.forces))
+        return self.without({"forces": idle, "damping": (), "potentials": ()}, "all")
 
     def without(self, fewer: Any, key: str, problem: Problem | None = None) -> ModuleType | None:
         """The code of the problem that lacks something, made once; none where it has no walk."""
@@ -345,15 +356,15 @@ class Balance:
     def _of_momenta(self) -> Iterator[Term]:
         """Two of these by the momenta that there are."""
         M = self.code.mass_matrix(self.t, self.x, self.k(self.values()))
-        momenta = np.einsum("...ij,...j->...i", M, self.x[:, -6:])
+        momenta = np.einsum("...ij,...j->...i", M, self.x[:, self.moving])
         for letters, values in [*self.coadjoint(momenta).items()][:2]:
             yield Term(-values, _of(f"{letters} of the momenta π = ∂ℓ/∂ω, p = ∂ℓ/∂v"), part=True)
 
     def _moving(self, part: slice, sign: float = 1.0) -> Array:
         """The states with some of the velocity alone."""
-        x, d = self.x.copy(), self.a.shape[1]
-        x[:, -d:] = 0
-        x[:, -d:][:, part] = sign * self.x[:, -d:][:, part]
+        x, own = self.x.copy(), self.x[:, self.moving]
+        x[:, self.moving] = 0
+        x[:, self.moving][:, part] = sign * own[:, part]
         return x
 
     def _by_velocities(self, without: ModuleType, name: str) -> Iterator[Term]:
@@ -388,6 +399,12 @@ def turning(w: Array, r: Array) -> Array:
     if r.shape[-1] == 3:
         return np.asarray(np.cross(w, r))
     return np.asarray(w * np.stack([-r[..., 1], r[..., 0]], axis=-1))
+
+
+def _idle(force: Acting) -> Acting:
+    """A force that is 0: where inputs are numbers of forces alone, a record has one."""
+    own: dict[str, Any] = {key: (0,) * len(getattr(force, key)) for key in force.expressed}
+    return replace(force, **own)
 
 
 SQUARES = "what is quadratic in"

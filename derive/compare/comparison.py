@@ -104,7 +104,8 @@ def comparison(
     if function and len(table.calls) == 1:
         table = replace(table, calls=(replace(table.calls[0], name=function),))
     known = {name: x.default for name, x in problem.parameters.items()} | dict(table.parameters)
-    if missing := [x[0] for x in program.parameters if known[x[0]] is None]:
+    needed = [*(x[0] for x in program.parameters), *problem.stored]
+    if missing := [x for x in needed if known[x] is None]:
         raise CompareError(
             f"{problem.name}: no value for {', '.join(missing)}: give it in [parameters] of a "
             "table for --as"
@@ -143,10 +144,17 @@ def _state(c: Comparison, random: np.random.Generator) -> Array:
     program = c.program
     exponent = random.normal(size=program.dimension if program.blocks else 0).tolist()
     # where a group moves matrices, exp says where they are
-    kept = program.state[-program.dimension :] if program.blocks else program.state
+    kept = program.state[_moving(c.problem, program)] if program.blocks else program.state
     moving = dict(zip(kept, random.normal(size=len(kept)).tolist(), strict=True))
     moving |= {x[0]: c.parameters[x[0]] for x in program.parameters}
+    moving |= {x: c.parameters[x] * random.uniform(0.5, 1.5) for x in c.problem.stored}
     return np.asarray(first_numbers(program, c.problem, moving, exponent).x)
+
+
+def _moving(problem: Problem, program: Program) -> slice:
+    """Where the velocity stands in our state, before masses that are numbers of it."""
+    end = len(program.state) - len(problem.stored)
+    return slice(end - program.dimension, end)
 
 
 def _default(problem: Problem, program: Program, path: Path, function: str) -> Table:
@@ -164,7 +172,9 @@ def _blocks(problem: Problem, program: Program, code: ModuleType) -> dict[str, t
         return {}
     if problem.lagrangian and problem.lagrangian.trivialisation != "left":
         return {}
-    own: dict[str, tuple[str, ...]] = own_blocks(program.state, program.state[-program.dimension :])
+    own: dict[str, tuple[str, ...]] = own_blocks(
+        program.state, program.state[_moving(problem, program)]
+    )
     usual = np.zeros((program.dimension, *code.BASIS.shape[1:]))
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
@@ -194,7 +204,7 @@ def _rates_of(c: Comparison, path: Path) -> Array:
 
 def _is_rate(c: Comparison, item: Item) -> bool:
     """Is an item of the state a velocity?"""
-    return item.name in RATES or item.name in c.program.state[-c.program.dimension :]
+    return item.name in RATES or item.name in c.program.state[_moving(c.problem, c.program)]
 
 
 def reports(c: Comparison, make: Made) -> tuple[bool, list[str]]:
@@ -268,7 +278,8 @@ def _of_places(c: Comparison, off: Array, known: Array) -> list[str]:
                 lines.append(f"  the rate of {item.name} is right if {words}")
                 break
         else:
-            lines.append(f"  the rate of {item.name} is not that of its velocity")
+            of = "flow" if item.name in c.problem.stored else "velocity"
+            lines.append(f"  the rate of {item.name} is not that of its {of}")
     return lines
 
 
@@ -315,8 +326,11 @@ def _explained(c: Comparison, make: Made, off: Array, d: int) -> Explanation:
         if not _is_rate(c, item):
             own[:, place] -= off[:, place]
     to, x = c.ours(c.table), c.given["x"]
-    a = rates(to, x, own)[:, -d:]
-    whole = opened(c.problem, c.parameters)
+    moving = _moving(c.problem, c.program)
+    a = rates(to, x, own)[:, moving]
+    # what has a mass of the state in it is no number
+    parameters = {name: x for name, x in c.parameters.items() if name not in c.problem.stored}
+    whole = opened(c.problem, parameters)
     for part in (whole, Opened(whole.given, (), whole.given)):
         try:
             _, code = make(part.problem, True)
@@ -334,7 +348,7 @@ def _explained(c: Comparison, make: Made, off: Array, d: int) -> Explanation:
     ]
     turns = [i for i in range(d) if i not in moves]
     rows = {"moment": turns, "force": moves} if moves and turns else {"moment": turns}
-    b = Balance(code, part, make, c.parameters, c.given["t"], to(x), c.u, a, rows)
+    b = Balance(code, part, make, parameters, c.given["t"], to(x), c.u, a, rows, moving)
     terms = list(b.terms())
     found = explained(b, terms)
     return found if found.changes and found.telling else of_two(b, terms) or found

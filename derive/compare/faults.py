@@ -290,7 +290,7 @@ def _powers(b: Balance, term: Term, name: str, part: Array, here: Array) -> Iter
         return
     d = here.shape[1]
     turning = len(b.rows.get("moment", ())) or d
-    velocity = b.x[:, -d:]
+    velocity = b.x[:, b.moving]
     about = {"|ω|": velocity[:, :turning], "|v|": velocity[:, turning:]}
     if term.centre is not None:
         about = {"r, the distance from the centre": term.centre, **about}

@@ -223,7 +223,9 @@ def called(problem: Problem, table: Table) -> str:
     """A force of a problem in words."""
     if table in problem.inputs:
         return f"the input {table.plain()['name']}"
-    for word, tables in (("force", problem.forces), ("damping", problem.damping)):
+    acting = (*problem.forces, *problem.damping)
+    for word in ("force", "damping", "flow"):
+        tables = [x for x in acting if (getattr(x, "table", "") or x.section).startswith(word)]
         if table in tables and (name := getattr(table, "name", None)):
             return f"the {word} {name}"
         if table in tables:

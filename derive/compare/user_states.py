@@ -132,7 +132,8 @@ def read(
     known = ("call", "state", "inputs", "units", "parameters", *WORDS)
     _require_known(told, known, str(path))
     state = tuple(x.name for x in default.items)
-    listed = _texts(told.get("state", [*(blocks or state)]), f"{path}: state")
+    apart = [x for x in state if all(x not in own for own in blocks.values())]
+    listed = _texts(told.get("state", [*blocks, *apart]), f"{path}: state")
     if not blocks and any(x in WORDS for x in listed):
         raise CompareError(f"{path}: state: blocks are of SO(3) and SE(3); give names")
     _require_known(listed, (*state, *(WORDS if blocks else ())), f"{path}: state")

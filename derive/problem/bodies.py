@@ -223,13 +223,14 @@ def outputs(
 
 def as_forces(
     damping: Sequence[AnyDamping], reader: FileReader
-) -> tuple[tuple[Damping, ...], tuple[StatedForce, ...], tuple[int, ...]]:
+) -> tuple[tuple[Damping, ...], tuple[StatedForce, ...]]:
     """The damping that is linear, and the other, what has a name, and beside a Lagrangian all, as
-    forces of the state, in the frame of ζ, with the number, from 1, of the table of each; a moment
-    is at a place of its own, the origin of the body."""
+    forces of the state, in the frame of ζ; a moment is at a place of its own, the origin of the
+    body."""
     on_the_left = reader.pointless and not reader.on_the_right
-    found, kept = list[tuple[int, StatedForce]](), list[Damping]()
+    found, kept = list[StatedForce](), list[Damping]()
     for k, d in enumerate(damping, 1):
+        own: dict[str, Any] = {"name": d.name, "table": f"damping {k}"}
         if isinstance(d, Damping) and not (d.name or reader.pointless):
             kept.append(d)
         elif isinstance(d, QuadraticDamping | Damping):
@@ -245,7 +246,7 @@ def as_forces(
                 size = (hypot(*v),) if isinstance(d, QuadraticDamping) else ()
                 force = tuple(neg(mul(d.coefficient, *size, x)) for x in v)
                 frame = "body" if turned else "space"
-                found.append((k, StatedForce(name=d.name, on=i, frame=frame, force=force)))
+                found.append(StatedForce(**own, on=i, frame=frame, force=force))
         elif isinstance(d, RotationalDamping):
             _, factor = reader.moving().places[d.block - 1]
             reader.places.append(Place(at=(0,) * factor.n, block=d.block))
@@ -253,8 +254,8 @@ def as_forces(
             turning = angular_velocity(reader.moving(), d.block, reader.pointless)
             moment = tuple(neg(mul(d.coefficient, x)) for x in turning)
             on = len(reader.listed_places)
-            found.append((k, StatedForce(name=d.name, on=on, frame=frame, moment=moment)))
-    return tuple(kept), tuple(x for _, x in found), tuple(k for k, _ in found)
+            found.append(StatedForce(**own, on=on, frame=frame, moment=moment))
+    return tuple(kept), tuple(found)
 
 
 def negative_stiffness_of(

@@ -123,12 +123,13 @@ def flow_forces(
         )
     found = [
         StatedForce(
+            table=f"flow {k}",
             name=x.name,
             on=x.on,
             frame="body",
             force=tuple(product(x.rate, u) for u in x.velocity),
         )
-        for x in flows
+        for k, x in enumerate(flows, 1)
         if x.mass or any(x.velocity)  # a mass of the state has its rate beside what acts
     ]
     within = _within(flows, moments, reader, rates, inputs)
@@ -217,7 +218,8 @@ def _within(
 def _at_origin(reader: FileReader, force: Row, moment: Row = ()) -> StatedForce:
     """A force and a moment at the origin of the body, a place of its own."""
     reader.places.append(Place(at=(0,) * reader.moving().places[0][1].n))
-    return StatedForce(on=len(reader.listed_places), frame="body", force=force, moment=moment)
+    on = len(reader.listed_places)
+    return StatedForce(table="flow", on=on, frame="body", force=force, moment=moment)
 
 
 def _collected(t: Tree) -> Tree:

@@ -62,8 +62,7 @@ class Problem:
     ``advected``: what the algebra carries along, where the state has no element of the group; the
     last blocks of the group's matrices. ``fluid``: of a problem whose group has no matrices.
     ``torus``: su(N) in the basis of the torus, where there is no table of the group.
-    ``flows``: of mass that leaves or comes; ``flow_forces``: how it pushes, the last of ``forces``.
-    ``damped``: the tables of damping, from 1, of which the forces before these are.
+    ``flows``: of mass that leaves or comes; how it pushes is among ``forces``.
     ``kinematics``: ġ as a function of g, where there is no Lagrangian.
     ``initial``, ``events``, ``signals``: of motions that are followed; the record of the equations
     has none of them.
@@ -88,8 +87,6 @@ class Problem:
     torus: TorusLattice | None = None
     fluid: Fluid | None = None
     flows: tuple[Flow, ...] = ()
-    flow_forces: tuple[StatedForce, ...] = ()
-    damped: tuple[int, ...] = ()
     kinematics: Kinematics | None = None
     initial: Initial = field(default_factory=Initial)
     events: tuple[Event, ...] = ()
@@ -172,18 +169,15 @@ class Problem:
     @property
     def stated_forces(self) -> tuple[Acting, ...]:
         """The forces of the state without those of flows."""
-        return self.forces[: len(self.forces) - len(self.flow_forces)]
+        return tuple(x for x in self.forces if not x.table.startswith("flow"))
 
     @property
     def force_tables(self) -> list[dict[str, Any]]:
         """Of each force of the state but those of flows the ``table`` of the file, as "damping 1",
         and the ``wind`` that its v is relative to, which a record has in the expressions."""
-        forces = self.stated_forces
-        titles = [f"force {k}" for k in range(1, len(forces) - len(self.damped) + 1)]
-        titles += [f"damping {k}" for k in self.damped]
         return [
-            {"table": table, "wind": getattr(x, "relative_to", ())}
-            for table, x in zip(titles, forces, strict=True)
+            {"table": x.table or f"force {k}", "wind": getattr(x, "relative_to", ())}
+            for k, x in enumerate(self.stated_forces, 1)
         ]
 
     @property

@@ -149,7 +149,7 @@ def problem_of(
     potentials, inputs, damping, stated = forces(data, reader)
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
-    linear, damped, numbers_of_damping = as_forces(damping, reader)
+    linear, damped = as_forces(damping, reader)
     flows, pushed = flows_of(data, its_body, reader, inputs)
     require_known(inputs, (*stated, *flows))
     reader.knows_acting(inputs, (*stated, *damped, *pushed), linear)
@@ -168,8 +168,6 @@ def problem_of(
         (*stated, *damped, *pushed),
         observed,
         flows=flows,
-        flow_forces=pushed,
-        damped=numbers_of_damping,
         signed=negative_mass,
         **motion_fields(data, reader),
     )
@@ -244,7 +242,7 @@ def _without_points(
     require_known(inputs, of_state)
     if not negative_stiffness:
         _positive(negative_stiffness_of((), damping, parameters), "stiffness")
-    stated = (*of_state, *(damped := as_forces(damping, reader))[1])
+    stated = (*of_state, *as_forces(damping, reader)[1])
     others = [x for x in OUTPUTS if x not in (*OF_MASSES, ExpressionOutput.kind)]
     for k, x in enumerate(tables(data, "output"), 1):
         placed = "y" not in x or {*ATTACHED} & {*x}
@@ -263,7 +261,6 @@ def _without_points(
         inputs=inputs,
         places=tuple(reader.places),
         forces=stated,
-        damped=damped[2],
         outputs=observed,
         lagrangian=lagrangian(data, group, reader),
         advected=advected,

@@ -193,8 +193,9 @@ Stated = Annotated[Row, Key("stated", 1, trees=True)]
 Torque = Annotated[Row, Key("stated_couple", 1, trees=True)]
 Wind = Annotated[Row, Key("wind", 1, trees=True, told=False)]
 Dual = Annotated[Row, Key("stated_covector", 1, trees=True)]
+Origin = Annotated[str, Key("text", keys=(), told=False)]
 """A name or none; expressions of the state, t, inputs and parameters; a moment of these; a velocity
-in space, of t and the place; a covector of the Lie algebra."""
+in space, of t and the place; a covector of the Lie algebra; which other table this is made of."""
 
 
 class Nameable(Table):
@@ -210,9 +211,11 @@ class Nameable(Table):
 
 
 class Acting(Nameable):
-    """What acts as a function of the state."""
+    """What acts as a function of the state; ``table``: of a damping or a flow that acts so, as
+    "damping 1"."""
 
     section = "force"
+    table: Origin = ""
     expressed: ClassVar[tuple[str, ...]]
     """The keys that have expressions of the state."""
 

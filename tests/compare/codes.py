@@ -284,6 +284,78 @@ def f(x, u):
     return np.concatenate([(A @ hat(w)).ravel(), A @ v, dw, dv])
 """
 
+BRAKED = (
+    DRONE.replace("[[damping]]", '[[damping]]\nkind = "quadratic"')
+    + """
+[[damping]]
+kind = "rotational"
+coefficient = 0.19
+"""
+)
+BRAKED_CODE = DRONE_CODE.replace(
+    "-kappa * (v + np.cross(w, DAMPED))",
+    "v + np.cross(w, DAMPED)\n    drag = -kappa * np.linalg.norm(drag) * drag",
+).replace("(DAMPED, drag)", "(DAMPED, drag) - 0.19 * w")
+
+LANDER = """
+name = "lander"
+group = "SE(3)"
+[parameters]
+fuel = 6
+b = 1.5
+[[point]]
+mass = "fuel"
+at = [0, 0, -0.5]
+[[point]]
+mass = 2
+at = [0.3, 0.1, 0]
+[[point]]
+mass = 2
+at = [-0.3, 0, 0.2]
+[[point]]
+mass = 3
+at = [0, 0, 2]
+[[input]]
+name = "throttle"
+kind = "scalar"
+[[flow]]
+on = 1
+mass = "fuel"
+rate = "-b*throttle"
+velocity = [1, 0, -25]
+[[potential]]
+kind = "gravity"
+g = [0, 0, -1.62]
+"""
+
+LANDER_CODE = """
+import numpy as np
+
+AT = np.array([[0, 0, -0.5], [0.3, 0.1, 0], [-0.3, 0, 0.2], [0, 0, 2]])
+
+
+def hat(v):
+    return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def f(x, u):
+    A, w, v, fuel = x[:9].reshape(3, 3), x[12:15], x[15:18], x[18]
+    points = np.array([fuel, 2, 2, 3])
+    rate = -1.5 * u[0]
+    forces = np.outer(points, A.T @ [0, 0, -1.62])
+    forces[0] += rate * np.array([1, 0, -25])
+    M, load = np.zeros((6, 6)), np.zeros(6)
+    for m, r, force in zip(points, AT, forces):
+        D = np.hstack([-hat(r), np.eye(3)])  # its velocity is D (w, v)
+        M += m * D.T @ D
+        load += D.T @ (force - m * np.cross(w, v))
+    gyroscopic = np.concatenate([np.cross(w, M[:3, :3] @ w), np.cross(w, np.cross(w, points @ AT))])
+    return np.concatenate(
+        [(A @ hat(w)).ravel(), A @ v, np.linalg.solve(M, load - gyroscopic), [rate]]
+    )
+"""
+"""Its fuel is a number of the state."""
+
 CAR = """
 name = "car"
 group = "SE(2)"

@@ -251,6 +251,35 @@ FAULTS = {
         ("moment + np.cross(DAMPED, drag)", "moment"),
         "the moment of the damping is missing",
     ),
+    "twice the drag": ("braked", ("= -kappa", "= -2 * kappa"), "kappa has the factor 2"),
+    "arm of a drag by the square": (
+        "braked",
+        ("moment + np.cross(DAMPED, drag)", "moment + np.cross(-DAMPED, drag)"),
+        "the moment of damping 1 has the other sign",
+    ),
+    "place of a drag by the square": (
+        "braked",
+        ("DAMPED = np.array([0.07", "DAMPED = np.array([-0.07"),
+        "at_1 of damping 1 has the other sign",
+    ),
+    "twice the drag of turning": ("braked", ("0.19", "0.38"), "damping 2 has the factor 2"),
+    "sign of ω × Iω where fuel is of the state": (
+        "lander",
+        ("concatenate([np.cross(w, M", "concatenate([-np.cross(w, M"),
+        "ω × Iω has the other sign",
+    ),
+    "thrust by half the rate": ("lander", ("+= rate", "+= rate / 2"), "b has the factor 1/2"),
+    "rate of fuel": ("lander", ("[rate]]", "[2 * rate]]"), "the rate of fuel has the factor 2"),
+    "rate of fuel that no input says": (
+        "lander",
+        ("[rate]]", "[-1.5]]"),
+        "the rate of fuel is not that of its flow",
+    ),
+    "drag of turning, in space": (
+        "braked",
+        ("0.19 * w", "0.19 * A @ w"),
+        "the velocity in damping 2 is along the axes of space instead",
+    ),
 }
 
 
@@ -262,6 +291,11 @@ def test_a_fault_is_named(fault, capsys, tmp_path):
     first = next(x for x in told.out.splitlines() if x[:1] == " ")
     assert code == 1
     assert first.strip().startswith(words), told.out
+
+
+def test_the_rate_of_a_mass_of_the_state_has_its_name(capsys, tmp_path):
+    _, told = compared(capsys, tmp_path, "lander", ("[rate]]", "[-rate]]"))
+    assert "in the rate of fuel (2)\n  the rate of fuel has the other sign\n" in told.out
 
 
 BAD = {
