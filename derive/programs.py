@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from .code.program import Program
     from .language.univariate import Number
     from .motion.emitted import Emitted, OneDegree
+    from .search.trim.question import Bounds
     from .search.trim.trim import Trim
-    from .search.trim.trimmed import Bounds
 
 
 def motion_of(

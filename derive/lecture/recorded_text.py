@@ -215,8 +215,10 @@ REASONS = (
     "no trim: {terms} is {rate}, whatever {free} is",
     "many trims: a family of dimension {size}, for multiples of {along} of {free} change "
     "nothing; give {many} of these by --at",
-    "many trims: near {place} there are others, to the first order a family of dimension {size}; "
-    "free {many} fewer of these",
+    "many trims: near {place} there are others, as {other}, to the first order a family of "
+    "dimension {size}; free {many} fewer of these",
+    "at {place} all rates are 0, and their derivatives by these are dependent, as at a double "
+    "root: that there are no others near is not proved; give these numbers by --at, or free fewer",
     "no trim is found: from no start does Newton's method lead to one; give numbers near it by "
     "--at for {names}, or free others",
     "several trims: {places}; say near which by --at, too",

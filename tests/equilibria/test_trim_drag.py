@@ -227,9 +227,9 @@ def moved(*covector):
         (lambda: falling(potential=[]), {}, ["w_1", "w_2"], "w_1 = 0, w_2 = 0"),
         (lambda: moved(DOUBLE), {"zeta_1": 3}, ["zeta_1"], "zeta_1 = 3"),
         (lambda: moved("(zeta_1^2 - 1)^2"), {"zeta_1": 2}, ["zeta_1"], "zeta_1 = 1"),
-        # Newton's step leaves out 10⁻⁸ζ₂² beside 10⁶: it is not 0 for that
+        # Newton’s step leaves out 10⁻¹³ζ₂² beside 1: it is not 0 for that
         (
-            lambda: moved("10^6*(zeta_1 - 1)", "zeta_2^2/10^8"),
+            lambda: moved("zeta_1 - 1", "zeta_2^2/10^13"),
             {"zeta_1": 1, "zeta_2": 0},
             ["zeta_1", "zeta_2"],
             "zeta_1 = 1, zeta_2 = 0",
