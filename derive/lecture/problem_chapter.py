@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import groupby
+from itertools import combinations_with_replacement, groupby
 
 from ..language.show import show
 from ..language.tree import Tree, nodes
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Prose, Sentence
+from ..record.sentence import Sentence
 from ..views.answer import definitions, equations_of_motion, steps_of_answer
 from ..views.as_read import Reading
 from ..views.figure.scene import scene
@@ -32,12 +32,12 @@ from .recorded_text import (
     in_each,
     kept_by,
     reason,
-    reduced_by,
     sentence,
     without_advice,
     words,
 )
-from .steady_sentences import steady, variables_of
+from .search_sentences import around, momenta, space
+from .steady_sentences import asleep, steady
 
 SEARCHES = {
     "symmetries": "What the motion keeps.",
@@ -49,19 +49,14 @@ SEARCHES = {
 }
 """What is told of a problem after its equations, under which heading."""
 TOLD = {
-    "symmetries": {"conserved_": True},
-    "integrals": {"casimirs": True, "first_integrals": True},
-    "reduction": {"locked": True, "effective": True, "quadrature": True},
-    "trim": {"trim": False},
+    "symmetries": ("conserved_",),
+    "integrals": ("casimirs", "first_integrals"),
+    "reduction": ("locked", "effective", "quadrature"),
+    "trim": ("trim",),
 }
-"""Search → how the labels of the steps begin that a text for people tells, and whether with their
-equations; the record has all."""
+"""Search → how the labels of the steps begin that a text for people tells; the record has all."""
 
 STEADY = ("equilibria", "families")
-REDUCED = (
-    "The motion of {variables} is told by these variables alone, with the Poisson bracket of "
-    "Lie and Poisson."
-)
 NONE = dict.fromkeys(
     STEADY,
     "Only points with one momentum were tried, and none was found; there may be others.",
@@ -70,6 +65,7 @@ NONE = dict.fromkeys(
 HELD = "mass.held"
 TITLE = "{title}: equations, what is kept, steady motions"
 BODY = "The body of the problem, with the axes of its frame."
+LEFT_OUT = "The expression of {what} is too long for this page: the step in the margin has it."
 LISTED = {"en": ", ", "fr": "\u202f; "}
 """What is between two parameters with their numbers."""
 LONGEST, SHORT = 6, 2
@@ -116,7 +112,7 @@ def chapter_of(
         d,
         [(e, home[e]) for e in equations_of_motion(d)],
         kept,
-        found.get("integrals", Found()).steps,
+        [s for x in ("integrals", "reduction") for s in found.get(x, Found()).steps],
         ran if isinstance(ran, Ran) else None,
         command,
         lambda e: _rows(e) <= SHORT,
@@ -212,28 +208,24 @@ def _valued(rows: Sequence[tuple[str, str, str, str]], spoken: Language) -> Word
 def _told(d: Derivation, search: str, found: Found) -> list[Entry]:
     """The steps that a search tells; nothing where it was refused, or found none."""
     if search in STEADY:
-        return [*steady(found.steps)]
-    begins = {x: f"{d.name}.{x}" for x in TOLD[search]}
-    told = [(s, x) for s in found.steps for x, y in begins.items() if s.label.startswith(y)]
+        told_of = [*steady(found.steps)]
+        return [*told_of, *(asleep(d) if told_of else ())]
+    begins = tuple(f"{d.name}.{x}" for x in TOLD[search])
+    told = [s for s in found.steps if s.label.startswith(begins)]
     if search == "symmetries":
-        kept = [s for s, _ in told if kept_by(s)]
+        kept = [s for s in told if kept_by(s)]
         return [*(_momenta(d) if any("Π" in s.names for s in kept) else ()), *conserved(d, kept)]
-    entries = [*reduced_by(d, found.steps)] if search == "reduction" else [*_reduced(found.steps)]
-    for (prose, begin), run in groupby(told, lambda x: (x[0].prose, x[1])):
-        steps = [step for step, _ in run]
-        with_equations = TOLD[search][begin]
-        labels = () if with_equations else _labels(steps)
-        entries.append(sentence(partial(_prose, prose), labels))
-        if with_equations:
-            entries += _displays(steps)
+    if search == "trim":
+        alike = groupby(told, lambda s: s.prose)
+        return [sentence(partial(_prose, x), _labels([*run])) for x, run in alike]
+    entries = [*momenta(d, found.steps)] if search == "reduction" else [*space(found.steps)]
+    for step in told:
+        before, after = around(step)
+        entries.append(sentence(partial(_prose, before)))
+        entries += _displays([step])
+        if after:
+            entries.append(sentence(partial(_prose, after), [step.label]))
     return entries
-
-
-def _reduced(steps: Sequence[Step]) -> Iterator[Entry]:
-    """Of which variables the integrals are."""
-    for step in (s for s in steps if s.label.endswith(".poisson")):
-        told = (x.word(REDUCED, variables=", ".join(variables_of(step))) for x in SPOKEN)
-        yield in_each(*map(words, told), labels=[step.label])
 
 
 def _labels(steps: Sequence[Step]) -> list[str]:
@@ -280,7 +272,7 @@ def _pictured(problem: str, ran: Ran | Sentence) -> Iterator[Block]:
 
 def _displays(steps: Sequence[Step]) -> Iterator[Entry]:
     """What steps say; of what is too long, where it is."""
-    told = [(e, step.label) for step in steps for e in step.equations]
+    told = [(x, step.label) for step in steps for e in step.equations for x in _entries(e)]
     for long, run in groupby(told, lambda x: _rows(x[0]) > LONGEST):
         equations, labels = zip(*run, strict=True)
         places = [*dict.fromkeys(labels)]
@@ -290,6 +282,18 @@ def _displays(steps: Sequence[Step]) -> Iterator[Entry]:
             yield sentence(partial(_left_out, equations), places)
 
 
+def _entries(e: Equation) -> list[Equation]:
+    """An equation; of a symmetric matrix that is too long, those of its entries."""
+    t = e.rhs
+    if _rows(e) <= LONGEST or not isinstance(t, tuple) or t[0] != "matrix":
+        return [e]
+    rows = [row[1:] for row in t[1:] if isinstance(row, tuple)]
+    if any(row != column for row, column in zip(rows, zip(*rows, strict=True), strict=True)):
+        return [e]
+    places = combinations_with_replacement(range(len(rows)), 2)
+    return [Equation(("entry", e.lhs, i + 1, j + 1), rows[i][j]) for i, j in places]
+
+
 def _rows(e: Equation) -> int:
     """Over how many lines an equation is set."""
     return aligned([e], ()).count("\\\\\n") + 1
@@ -297,8 +301,8 @@ def _rows(e: Equation) -> int:
 
 def _left_out(equations: Sequence[Equation], words: Language) -> str:
     what = words.formula(", ".join(show(e.lhs) for e in equations))
-    return words.word("{what} (a long expression: see the step)", what=what) + "."
+    return words.word(LEFT_OUT, what=what)
 
 
-def _prose(told: Prose, words: Language) -> str:
-    return words.of(told)
+def _prose(told: Sequence[Sentence], words: Language) -> str:
+    return words.of((*told,))

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
+from itertools import permutations
 from unicodedata import normalize
 
+from ..check.checker import checker_of
 from ..language.show import show
+from ..language.tree import replaced
 from ..record.prose import message
-from ..record.record import Step
+from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Sentence
-from ..views.language import Language
-from .lecture_text import Entry
+from ..views.language import Language, told
+from .lecture_text import Entry, chapters
 from .recorded_text import sentence
 
-TRIED = (
-    "The variables are {variables}; those that are not named are 0. Points were tried with at most "
-    "one momentum and at most one other coordinate other than 0. Stable means in the sense of "
-    "Lyapunov, for these variables, by the energy–Casimir method; unstable, by an eigenvalue with "
-    "a positive real part. Where neither is said, it is not decided here."
-)
+TRIED, SAME_TOP = told("lecture:tried"), told("lecture:same_top")
+TOP = ("I_1", "I_3", "mgl")
+"""The parameters of the top in its chapter."""
 POSITIVE = "The kinetic energy is taken to be positive definite: {positive}."
 LETTERS = "Any values but 0: {letters}."
 AT = "{point}: {verdict}."
@@ -58,7 +59,7 @@ def steady(steps: Sequence[Step]) -> Iterator[Entry]:
     positive = supposed.get(message("family.positive"))
     letters = dict.fromkeys(y for s in steps for y in _letters(s.prose))
 
-    def told(spoken: Language) -> str:
+    def said_first(spoken: Language) -> str:
         found = [spoken.word(TRIED, variables=spoken.formula(variables))]
         if positive:
             found.append(spoken.word(POSITIVE, **_places(positive, spoken)))
@@ -66,12 +67,46 @@ def steady(steps: Sequence[Step]) -> Iterator[Entry]:
             found.append(spoken.word(LETTERS, letters=spoken.formula(", ".join(letters))))
         return " ".join(found)
 
-    yield sentence(told)
+    yield sentence(said_first)
     for s in at:
         number = s.label.rpartition("_")[2]
         both = [x for x in steps if x.label.rpartition("_")[2] == number]
         said = [x for step in both for x in step.prose]
         yield sentence(partial(_of_one, said), [x.label for x in both])
+
+
+def asleep(d: Derivation) -> Iterator[Entry]:
+    """Of the heavy top of the lecture, by what its chapter proves: the case of equality, which no
+    search decides."""
+    names = as_top(d)
+    if names:
+        across, _, weight = (f"‘{x}’" for x in names)
+        bound, heavy = f"ℓ₃² = 4 {across} {weight}", f"{weight} > 0"
+        yield sentence(
+            lambda x: x.word(SAME_TOP, momentum=x.formula(bound), weight=x.formula(heavy)),
+            [f"{d.name}.lagrangian"],
+        )
+
+
+def as_top(d: Derivation) -> tuple[str, ...]:
+    """The parameters of a problem in the place of those of the heavy top, where the Lagrangian of
+    the lecture's chapter on it is that of the problem; else empty."""
+    step = next((s for s in d.steps if s.label == f"{d.name}.lagrangian"), None)
+    given = d.problem["parameters"]
+    if step is None or d.problem["group"] != "SO(3)" or len(given) != len(TOP):
+        return ()
+    claimed = (x for c in chapters() if c.name == "top" for e in c.entries for x in e.equations)
+    lagrangian = next(x.rhs for x in claimed if x.lhs == "L̃")
+    for k, name in enumerate(TOP):
+        lagrangian = replaced(lagrangian, ("par", name), ("at", "par", k))
+    checker = checker_of(d.problem)
+    for names in permutations(given):
+        t = lagrangian
+        for k, name in enumerate(names):
+            t = replaced(t, ("at", "par", k), ("par", name))
+        if checker.check(replace(step, equations=(Equation("L̃", t),))).holds:
+            return names
+    return ()
 
 
 def variables_of(step: Step) -> Iterator[str]:

@@ -182,14 +182,15 @@ def require_mass(
 
 def require_mass_left(code: Emitted, problem: Problem, run: Run) -> None:
     """``MotionError`` where a mass that is of the state went below 0 in a run."""
-    masses = [x.mass for x in points_of(problem.body)] if problem.stored else []
-    for i, t in enumerate(run.t.tolist() if masses else ()):
+    masses = [(f"{show(x.mass)} of a point", x.mass) for x in points_of(problem.body)]
+    masses += [(x, ("par", x)) for x in problem.stored]
+    for i, t in enumerate(run.t.tolist() if problem.stored else ()):
         known = {**run.facts["parameters"]} | {x: float(run[x][i]) for x in problem.stored}
-        for mass in masses:
+        for told, mass in masses:
             left = approximate(replaced(mass, "t", Fraction(t)), known, float) or 0.0
             if left < -NEGLIGIBLE:
                 raise MotionError(
-                    f"{code.name}: the mass {show(mass)} of a point is used up before t = {t:.6g}: "
+                    f"{code.name}: the mass {told} is used up before t = {t:.6g}: "
                     "let an input be 0 then, or a terminal [[event]] end the motion, as when = "
                     f'"{next(iter(problem.stored))}"'
                 )

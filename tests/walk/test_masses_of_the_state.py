@@ -288,6 +288,19 @@ def test_a_mass_that_is_used_up_is_told(tmp_path):
         followed(ROCKET, tmp_path, 50, start={"throttle": 1.0})
 
 
+GIVEN = """
+[body]
+given = { m = "60 + fuel", c = [0, 0, "-fuel/2"], J = [[9, 0, 0], [0, 9, 0], [0, 0, 9]] }
+"""
+
+
+def test_a_mass_of_a_given_body_is_used_up_too(tmp_path):
+    head, _, flow = ROCKET.partition("[[flow]]")
+    text = head.partition("[[point]]")[0] + GIVEN + "[[flow]]" + flow
+    with pytest.raises(ValueError, match=r"the mass fuel is used up before t = 40\.1"):
+        followed(text.replace("on = 1", "at = [0, 0, -0.5]"), tmp_path, 50, start={"throttle": 1.0})
+
+
 WRONG = {
     'mass = "fuel"\nrate -> rate': "flow 1, rate: 'throttle' is an input, so that the mass",
     'mass = "fuel"\nrate -> mass = "fule"\nrate': "flow 1, mass: 'fule' is not declared",

@@ -214,7 +214,7 @@ def derivative(eta: real[N_ALGEBRA], inverse: flag, J: out[real[N_JACOBIAN]]):
             J[N_ALGEBRA * a + b] = F[a][b] if regular else none
 
 
-def largest(G: real[SIZE, SIZE]) -> real:
+def largest_entry(G: real[SIZE, SIZE]) -> real:
     """The size of the largest entry."""
     found: var[real] = 0.0
     for row in range(SIZE):
@@ -234,12 +234,12 @@ def log_of(G: real[SIZE, SIZE], eta: out[real[N_ALGEBRA]]):
     W: real[SIZE, SIZE]
     J: real[N_JACOBIAN]
     inverse_of(G, S)
-    sign: real = -1.0 if largest(S) < largest(G) else 1.0
+    sign: real = -1.0 if largest_entry(S) < largest_entry(G) else 1.0
     for row in range(SIZE):
         for column in range(SIZE):
             S[row][column] = S[row][column] if sign < 0.0 else G[row][column]
     log_by_roots(S, eta)
-    steps: index = 2 if largest(S) < 1e4 else 0
+    steps: index = 2 if largest_entry(S) < 1e4 else 0
     for m in range(steps):
         for a in range(N_ALGEBRA):
             back[a] = -eta[a]

@@ -241,8 +241,9 @@ class _Symbolic:
             factors = sum(sum(m) for x in entries for m in x.numer)
             if len(block) > 1 and factors > FACTORS:
                 self.refuse(
-                    f"couples {len(block)} velocities by terms with {factors} letters in all: the "
-                    "inverse of its metric is too long; give numbers, or --at-defaults"
+                    "has a metric whose inverse is too long; it couples "
+                    f"{len(block)} velocities by terms with {factors} letters in all: give "
+                    "numbers, or --at-defaults"
                 )
 
     def polynomial(self, t: Tree, own: Mapping[Any, Any], ring: Any) -> Any:

@@ -1,0 +1,86 @@
+"""What searches find of first integrals and of the reduction of a problem, in sentences of a text
+for people: what is sought and where, its equations, what follows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import partial
+
+from ..language.show import in_sentence, show
+from ..language.tree import Tree
+from ..record.prose import message
+from ..record.record import Derivation, Equation, Step
+from ..record.sentence import Sentence
+from ..views.language import Language, labelled, told
+from .lecture_text import Entry
+from .recorded_text import SPOKEN, in_each, kind_of, sentence, with_kept
+from .steady_sentences import variables_of
+
+SPACE, SPACE_OF_GROUP = told("lecture:space"), told("lecture:space_of_group")
+ALONG, MOMENTUM = told("lecture:along"), told("lecture:momentum")
+LECTURE = "lecture."
+RETOLD = [x.removeprefix(LECTURE) for x in labelled() if x.startswith(LECTURE)]
+"""Labels of sentences of the record instead of which the lecture has one of the same places."""
+SAID_AGAIN = {message(x): told(f"{LECTURE}{x}") for x in RETOLD}
+FREE, DIVIDED = message("reduction.free"), message("reduction.divided")
+NAMED = message("reduction.named")
+
+
+def space(steps: Sequence[Step]) -> Iterator[Entry]:
+    """Of which variables the integrals are, in which bracket, and how degrees are counted."""
+    for step in (s for s in steps if s.label.endswith(".poisson")):
+        yield sentence(partial(_space, step), [step.label])
+
+
+def _space(step: Step, spoken: Language) -> str:
+    first, *others = step.prose
+    where = SPACE_OF_GROUP if first.message == message("poisson.group") else SPACE
+    variables = spoken.formula(", ".join(variables_of(step)))
+    return " ".join(
+        (spoken.word(where, variables=variables), *map(spoken.sentence, map(retold, others)))
+    )
+
+
+def momenta(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
+    """A sentence of each symmetry by which a problem is reduced, with its momentum."""
+    found = [(s, e) for s in steps for e in s.equations if of_momentum(e.lhs)]
+    if len(found) > 1:
+        yield sentence(lambda x: x.word(ALONG), [s.label for s, _ in found])
+    for step, e in found:
+        kept = f"{show(e.lhs)} = {in_sentence(e.rhs)}"
+        texts = (with_kept(MOMENTUM, kept, kind_of(d, step, x.marked), x.marked) for x in SPOKEN)
+        yield in_each(*texts, labels=(step.label,))
+
+
+def of_momentum(t: Tree) -> bool:
+    """Is it one of the momenta of a reduction?"""
+    return isinstance(t, tuple) and t[:2] == ("at", "𝒥")
+
+
+def around(step: Step) -> tuple[list[Sentence], list[Sentence]]:
+    """What is said of a step before its equations, and what behind them."""
+    said = {x.message for x in step.prose}
+    left_out = {NAMED, *({DIVIDED} if FREE in said else ())}
+    first, *others = [retold(x, step.equations) for x in step.prose if x.message not in left_out]
+    return [first], others
+
+
+def retold(x: Sentence, equations: Sequence[Equation] = ()) -> Sentence:
+    """A sentence as the lecture says it; integrals, which the record numbers, by themselves."""
+    places = [(name, _named(name, y, equations)) for name, y in x.places]
+    return replace(x, message=SAID_AGAIN.get(x.message, x.message), places=tuple(places))
+
+
+def _named(name: str, value: Sentence | str, equations: Sequence[Equation]) -> Sentence | str:
+    """The integrals of some numbers; any other value as it is."""
+    if name not in ("number", "numbers") or not isinstance(value, str):
+        return value
+    return ", ".join(_constant(equations, int(x)) for x in value.split(", "))
+
+
+def _constant(equations: Sequence[Equation], number: int) -> str:
+    """An integral, by the equation that its rate is 0; of the first one, the energy, its name."""
+    lhs = equations[number - 1].lhs
+    assert isinstance(lhs, tuple)
+    return in_sentence(lhs[-1] if number > 1 else "h̃")
