@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from .code.program import Program
     from .language.univariate import Number
     from .motion.emitted import Emitted, OneDegree
+    from .search.trim.question import Bounds
     from .search.trim.trim import Trim
-    from .search.trim.trimmed import Bounds
 
 
 def motion_of(
@@ -158,6 +158,12 @@ def untrimmed(problem: Problem) -> str:
         return "a trim is of forces, and [kinematics] has none: its velocity is given"
     if problem.fluid or problem.torus:
         return "a trim is of a body with inputs, and a fluid has none"
+    if problem.stored:
+        mass = next(iter(problem.stored))
+        return (
+            f"a trim is by linearised equations of g and its velocity, and this state has the mass "
+            f"{mass}, too; leave out its [[flow]], and give what it pushes as an [[input]]"
+        )
     if problem.advected is not None:
         return (
             "a trim is at an element of a group, and equations on an algebra alone have none; "

@@ -154,7 +154,10 @@ def add_trim_options(held: argparse.ArgumentParser) -> None:
     )
     about += "(default: all inputs that --at does not give)"
     held.add_argument("--free", action="append", metavar="NAME", help=about)
-    about = "what an input, or a number of the state, may be: a trim outside is refused; repeated"
+    about = (
+        "what an input, or a number of the state, may be: of several trims one within is taken, "
+        "one outside is refused; repeated"
+    )
     held.add_argument("--bounds", action="append", type=bounds, metavar="NAME=LOW:HIGH", help=about)
     about = "a parameter, in place of its default; repeated"
     held.add_argument("--given", action="append", type=number, metavar="NAME=NUMBER", help=about)

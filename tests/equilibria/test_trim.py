@@ -109,6 +109,11 @@ def test_a_trim_out_of_bounds_is_refused():
         derive(falling).trim({"zeta_3": 2}, bounds={"zeta_3": (-1, 1)})
 
 
+def test_at_rest_all_of_the_velocity_is_told():
+    said = english(derive("euler_top").trim().record.steps[-1].prose)
+    assert "stays 0 with ζ₁ = 0, ζ₂ = 0, ζ₃ = 0, and" in said
+
+
 def test_of_a_family_its_dimension_is_said():
     third = {"name": "z", "kind": "torque"}
     many = drone(input=[*DRONE["input"], third])

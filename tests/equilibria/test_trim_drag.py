@@ -1,6 +1,7 @@
 """Trims with roots of the state, as of a quadratic drag, and velocities that are found: beside
 closed forms, and eigenvalues by finite differences of equations written by hand."""
 
+import re
 from dataclasses import replace
 from fractions import Fraction
 
@@ -206,6 +207,50 @@ def test_at_a_double_root_it_is_said_what_is_proved():
     assert holds(made.trim({"zeta_1": 2}))
     other = made.trim({"zeta_1": -5}, ["zeta_1"]).found.state["zeta_1"]
     assert float(other) == pytest.approx(-2 - 2 * np.sqrt(2), rel=1e-14)
+
+
+DOUBLE = "-(zeta_1 - 3)^2*(zeta_1 + 1)"
+
+
+def moved(*covector):
+    """A body on a line, or in a space, of mass 1, with these forces along its axes."""
+    n = len(covector)
+    point = [{"mass": 1, "at": [0] * n}]
+    problem = {"name": "moved", "group": f"R({n})", "point": point}
+    return derive(problem_of(problem | {"force": [{"covector": [*covector]}]}))
+
+
+@pytest.mark.parametrize(
+    ("made", "at", "free", "where"),
+    [
+        (lambda: falling(potential=[]), {}, ["w_2"], "w_2 = 0"),
+        (lambda: falling(potential=[]), {}, ["w_1", "w_2"], "w_1 = 0, w_2 = 0"),
+        (lambda: moved(DOUBLE), {"zeta_1": 3}, ["zeta_1"], "zeta_1 = 3"),
+        (lambda: moved("(zeta_1^2 - 1)^2"), {"zeta_1": 2}, ["zeta_1"], "zeta_1 = 1"),
+        # Newton’s step leaves out 10⁻¹³ζ₂² beside 1: it is not 0 for that
+        (
+            lambda: moved("zeta_1 - 1", "zeta_2^2/10^13"),
+            {"zeta_1": 1, "zeta_2": 0},
+            ["zeta_1", "zeta_2"],
+            "zeta_1 = 1, zeta_2 = 0",
+        ),
+    ],
+)
+def test_a_double_root_is_no_family(made, at, free, where):
+    with pytest.raises(ProblemError, match=f"at {where} all rates are 0, and") as error:
+        made().trim(at, free)
+    assert "that there are no others near is not proved" in str(error.value)
+
+
+def test_of_a_family_another_is_told_which_is_one():
+    """Of 25 − ζ₁² − ζ₂² and 0: a circle."""
+    circle = moved("25 - zeta_1^2 - zeta_2^2", "0*zeta_1")
+    with pytest.raises(ProblemError, match=r"many trims: near .* a family of dimension 1") as error:
+        circle.trim({"zeta_1": 3, "zeta_2": 4}, ["zeta_1", "zeta_2"])
+    words = re.findall(r"zeta_\d = ([-.\d]+)", str(error.value))
+    a, b, c, d = map(float, words)
+    assert (a, b) != pytest.approx((c, d), abs=0.5)
+    assert np.allclose([np.hypot(a, b), np.hypot(c, d)], 5, atol=1e-4)
 
 
 def test_numbers_in_functions_are_enclosed():

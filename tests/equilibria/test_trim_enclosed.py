@@ -218,6 +218,39 @@ def test_an_input_whose_square_acts_is_found_on_either_side():
         assert holds(found)
 
 
+def test_bounds_choose_a_solution():
+    made = derive(problem_of(ROTOR))
+    found = made.trim(bounds={"n": (0, 100)})
+    assert is_near(found, "n", 20)
+    assert holds(found)
+    assert is_near(made.trim(bounds={"n": (-100, 0)}), "n", -20)
+    with pytest.raises(ProblemError, match="several trims: n = 20; n = -20"):
+        made.trim(bounds={"n": (-100, 100)})
+    with pytest.raises(ProblemError, match="all trims that are found are out of bounds: n = 20; n"):
+        made.trim(bounds={"n": (30, 100)})
+
+
+def test_within_bounds_it_begins():
+    """(u + 1)(u − 5) = 0: −1 is nearer to 0.  −(ζ − 3)²(ζ + 1) has a double root within."""
+    pushed = PENDULUM | {"force": [{"covector": ["12 + (u + 1)*(u - 5) - u"]}]}
+    made = derive(problem_of(pushed))
+    assert is_near(made.trim(TURNED), "u", -1)
+    assert is_near(made.trim(TURNED, bounds={"u": (0, 10)}), "u", 5)
+    assert is_near(made.trim(TURNED | {"u": 0}, ["u"], bounds={"u": (0, 10)}), "u", 5)
+    with pytest.raises(ProblemError, match="u is about 5, and --bounds allows 6 to 9"):
+        made.trim(TURNED | {"u": 7}, ["u"], bounds={"u": (6, 9)})
+    slowed = {"name": "s", "group": "R(1)", "point": [{"mass": 1, "at": [0]}]}
+    slowed["force"] = [{"covector": ["-(zeta_1 - 3)^2*(zeta_1 + 1)"]}]
+    with pytest.raises(ProblemError, match="at zeta_1 = 3 all rates are 0"):
+        derive(problem_of(slowed)).trim({}, ["zeta_1"], bounds={"zeta_1": (2, 4)})
+
+
+def test_without_gravity_a_rotor_has_one_trim_and_it_is_double():
+    made = derive(problem_of(ROTOR | {"potential": []}))
+    with pytest.raises(ProblemError, match=r"at n = 0 all rates are 0, and .* is not proved"):
+        made.trim()
+
+
 def test_numbers_at_which_rates_only_tend_to_0_are_no_trim():
     """v₁² and v₁v₂ + 10 vanish together nowhere: small where v₁ tends to 0 and v₂ grows."""
     falling = {

@@ -20,7 +20,7 @@ from ...language.univariate import Number, root
 from ...problem.fields import entries, state_names
 from ...problem.problem import Problem
 from ...schema.table import nearest
-from .steady_velocity import FLOATS, Arithmetic, NoTrimError, Rates
+from .steady_velocity import FLOATS, SAME, Arithmetic, NoTrimError, Rates
 
 
 def turned(group: Group, g: Matrix, eta: Sequence[Any], *, right: bool) -> Matrix:
@@ -50,6 +50,7 @@ def _halves(group: Group, eta: Sequence[Any]) -> tuple[Matrix, Matrix]:
 
 
 Numbers = Mapping[str, Number]
+Bounds = Mapping[str, tuple[Number, Number]]
 ROUNDING = 1e-9
 """A sum of floats that is smaller, beside its terms, is 0."""
 
@@ -66,6 +67,7 @@ class Question:
         program: Program,
         at: Mapping[str, Number],
         free: Sequence[str] | None,
+        bounds: Bounds,
     ):
         assert problem.group
         self.group: Group = problem.group.in_user_basis
@@ -78,7 +80,8 @@ class Question:
         own = program.by_block
         at = program.by_state(at, NoTrimError)
         free = [own.get(x, x) for x in free or ()]
-        self.require_names(at, ())
+        self.bounds = program.by_state(bounds, NoTrimError)
+        self.require_names((*at, *self.bounds), ())
         self.require_names(free, self.turns)
         wanted = free or [x for x in program.inputs if x not in at]
         self.free = tuple(x for x in wanted if x in program.inputs)
@@ -133,7 +136,21 @@ class Question:
         turns = [x for x in self.sought if x in self.turns]
         names = (*self.velocities, *turns, *self.free)
         sizes = len(self.velocities), len(turns)
-        return Rates(names, *sizes, self._free_rates, self._free_slopes)
+        between = {x: (float(a), float(b)) for x, (a, b) in self.bounds.items() if x in names}
+        return Rates(names, *sizes, self._free_rates, self._free_slopes, between, self._allowed)
+
+    def _allowed(self, y: Sequence[float]) -> bool:
+        numbers = (z for part in self.at(y) for z in part)
+        names = (*self.program.state, *self.program.inputs)
+        return not self.outside(dict(zip(names, numbers, strict=True)), SAME)
+
+    def outside(self, numbers: Mapping[str, Any], radius: Any) -> list[str]:
+        """The names of which numbers are out of bounds, by more than a radius."""
+        return [
+            name
+            for name, (low, high) in self.bounds.items()
+            if float(numbers[name] - low) < -radius or float(numbers[name] - high) > radius
+        ]
 
     def at(self, y: Sequence[Any]) -> tuple[list[Any], list[Any]]:
         """The state and the inputs with these velocities, turns of g and inputs in them."""

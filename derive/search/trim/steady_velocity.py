@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 from math import isqrt
+from random import Random
 from typing import Any
 
 from ...language import rational as q
@@ -32,6 +33,17 @@ SAME, SMALL, ROUNDING = 1e-6, 1e-10, 1e-12
 """Two solutions so near are one; a step of this part of a number is none; sums are so exact."""
 LARGEST = 10**15
 """Of fractions and coefficients."""
+SIMPLE = 1000
+"""Fractions with a divisor of at most this are tried where digits are few."""
+BETWEEN = 8
+"""From so many numbers between the bounds it begins, the middle and random ones."""
+AWAY = (0.25, 0.5, -0.25, -0.5)
+"""How far others of a family are looked for, beside 1 and the numbers; two are taken for one."""
+
+DEPENDENT = (
+    ", and their derivatives by these are dependent, as at a double root: that there are no others "
+    "near is not proved; give these numbers by --at, or free fewer"
+)
 
 
 @dataclass(frozen=True)
@@ -51,13 +63,16 @@ class NoTrimError(Refused, ValueError):
 class Rates:
     """Functions of what is unknown, ``names``, first the ``velocities``, then the ``turns`` of g,
     which begin at 0, then inputs: ``values(y, numbers)``, all 0 where it is found, and ``slopes(y,
-    numbers)``, a row of derivatives for each of them."""
+    numbers)``, a row of derivatives for each of them.  ``bounds``: the least and the largest of
+    some names; ``allowed``: is a solution within all bounds that are given?"""
 
     names: tuple[str, ...]
     velocities: int
     turns: int
     values: Callable[[Sequence[Any], Arithmetic], list[Any]]
     slopes: Callable[[Sequence[Any], Arithmetic], list[list[Any]]]
+    bounds: Mapping[str, tuple[float, float]]
+    allowed: Callable[[Sequence[float]], bool]
 
 
 class NotExactError(NoTrimError):
@@ -66,21 +81,27 @@ class NotExactError(NoTrimError):
 
 def solutions(f: Rates, near: Mapping[str, float]) -> list[Fraction]:
     """The one solution, as :func:`approximately` has it, to many digits."""
-    return _in_fractions(f, approximately(f, near))
+    return _in_fractions(f, approximately(f, near, DIGITS))
 
 
-def approximately(f: Rates, near: Mapping[str, float]) -> list[float]:
-    """The one solution ``near`` some numbers, or that to which some starts lead; ``NoTrimError``
-    for none or several."""
+def approximately(f: Rates, near: Mapping[str, float], numbers: Arithmetic) -> list[float]:
+    """The one solution within bounds ``near`` some numbers, or that to which some starts lead, else
+    one out of bounds; ``NoTrimError`` for none or several.  ``numbers``: with many digits."""
     found = _reached(f, near, inputs=(0.0,)) or _reached(f, near, inputs=INPUTS)
-    isolated = [y for y in found if _rank(f, y) == len(y)]
-    if found and not isolated:
-        free = len(found[0]) - _rank(f, found[0])
-        raise NoTrimError(
-            f"many trims: near {describe(f, found[0])} there are others, to the first order a "
-            f"family of dimension {free}; free {free} fewer of these"
-        )
-    if not found:
+    allowed = [y for y in found if f.allowed(y)]
+    random = Random(3)
+    for k in range(BETWEEN if f.bounds and not (near and allowed) else 0):
+        parts = ((x, random.random() if k else 0.5, *f.bounds[x]) for x in f.bounds)
+        begin = {x: low + part * (high - low) for x, part, low, high in parts}
+        more = _reached(f, {**near, **begin}, inputs=((0.0, *INPUTS)[k % 4],))
+        allowed += [y for y in more if f.allowed(y) and not any(_same(x, y) for x in allowed)]
+    isolated = [y for y in allowed or found if _rank(f, y) == len(y)]
+    if found and not allowed and len(isolated) != 1:
+        several = "; ".join(describe(f, y) for y in isolated or found)
+        raise NoTrimError(f"all trims that are found are out of bounds: {several}")
+    if allowed and not isolated:
+        raise NoTrimError(_dependent(f, allowed[0], numbers))
+    if not isolated:
         started = [*f.names[: f.velocities], *f.names[f.velocities + f.turns :]]
         what = ", ".join([*started, *["g"] * bool(f.turns)])
         raise NoTrimError(
@@ -93,6 +114,50 @@ def approximately(f: Rates, near: Mapping[str, float]) -> list[float]:
     return isolated[0]
 
 
+def _dependent(f: Rates, y: Sequence[float], numbers: Arithmetic) -> str:
+    """What is said of a solution where derivatives are dependent: that there are others, where they
+    are found; of a double root that it is one, and what is not proved."""
+    if others := _others(f, y, numbers):
+        free = len(y) - _rank(f, y)
+        return (
+            f"many trims: near {describe(f, y)} there are others, as {describe(f, others[0])}, to "
+            f"the first order a family of dimension {free}; free {free} fewer of these"
+        )
+    simple = [Fraction(x).limit_denominator(SIMPLE) for x in y]
+    near = all(abs(a - b) < 1 / SIMPLE**2 for a, b in zip(simple, y, strict=True))
+    if near and not any(f.values(simple, numbers)):
+        told = f"at {describe(f, [*map(float, simple)])} all rates are 0"
+    else:
+        told = f"near {describe(f, y)} all rates are 0 to rounding"
+    return told + DEPENDENT
+
+
+def _others(f: Rates, y: Sequence[float], numbers: Arithmetic) -> list[list[float]]:
+    """Solutions well away from one, along which derivatives are dependent, too; none where fewer
+    than two are found.  To a double root Newton's method leads back."""
+    import numpy as np
+
+    slopes = np.array(f.slopes(y, FLOATS), dtype=float)
+    size, along = 1 + max(map(abs, y)), np.linalg.svd(slopes)[2][_rank(f, y) :]
+    found: list[list[float]] = []
+    for v, part in product(along, AWAY):
+        other = _newton(f, [*map(float, np.array(y) + size * part * v)])
+        if not other or np.linalg.norm(np.array(other) - y) < size * abs(part) / 2:
+            continue
+        dependent = _rank(f, other) < len(y) and _is_zero(f, other, numbers)
+        if dependent and not any(_same(x, other) for x in found):
+            found.append(other)
+    return found if len(found) > 1 else []
+
+
+def _is_zero(f: Rates, y: Sequence[float], numbers: Arithmetic) -> bool:
+    """Is each rate 0 beside what a small step changes of it, in numbers with many digits?  A rate
+    that is itself small there is not."""
+    exactly, size = [*map(Fraction, y)], 1 + max(map(abs, y))
+    pairs = zip(f.values(exactly, numbers), f.slopes(y, FLOATS), strict=True)
+    return all(abs(float(x)) <= SMALL * size * sum(map(abs, row)) for x, row in pairs)
+
+
 def _reached(f: Rates, near: Mapping[str, float], inputs: Sequence[float]) -> list[list[float]]:
     """Solutions, each once, from the numbers that are given, else from velocities of some sizes and
     signs, and inputs of these values."""
@@ -100,11 +165,11 @@ def _reached(f: Rates, near: Mapping[str, float], inputs: Sequence[float]) -> li
     signs = product((1.0, -1.0), repeat=m) if m <= SIGNED else [(1.0,) * m, (-1.0,) * m]
     starts = [[a * x for x in s] for s in signs for a in STARTS]
     if all(x in near for x in own):
-        starts = [[near[x] for x in own]]
+        starts = [[0.0] * m]
     found: list[list[float]] = []
     for start, value in product(starts, inputs):
-        others = f.names[m + f.turns :]
-        y = _newton(f, [*start, *[0.0] * f.turns, *(near.get(x, value) for x in others)])
+        first = [*start, *[0.0] * f.turns, *[value] * (len(f.names) - m - f.turns)]
+        y = _newton(f, [near.get(x, v) for x, v in zip(f.names, first, strict=True)])
         if y and not any(_same(x, y) for x in found):
             found.append(y)
     return found

@@ -129,7 +129,7 @@ def _rows(
     state: Numbers, trim: Trim, group: Group, near: Collection[str]
 ) -> list[tuple[Tree, Number]]:
     """The exact numbers that are not those of g = 1, and 0, and all inputs that were found; where
-    there are none, the first of the velocity, else of g."""
+    there are none, those of the velocity, else the first of g."""
     places, d = entries_of(group), group.dimension
     found: list[tuple[Tree, Number]] = []
     for name, x in state.items():
@@ -138,9 +138,8 @@ def _rows(
             found.append((_named(name, group, trim), x))
     inputs = {n: u for n, u in trim.inputs.items() if n not in near}
     found += [(("par", n), u) for n, u in inputs.items() if u or n in trim.free]
-    exact = (x for x in [*[*state][-d:], *state] if x not in near)
-    first = next(exact)
-    return found or [(_named(first, group, trim), state[first])]
+    still = [x for x in [*state][-d:] if x not in near] or [*state][:1]
+    return found or [(_named(x, group, trim), state[x]) for x in still]
 
 
 def _named(name: str, group: Group, trim: Trim) -> Tree:

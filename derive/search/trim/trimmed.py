@@ -30,9 +30,11 @@ from ...language.intervals import Interval, UnknownSignError, function, krawczyk
 from ...language.rational import Matrix
 from ...language.univariate import Number, Quadratic, RootError
 from ...problem.problem import Problem
-from .question import EXACTLY, Question, function_with_corner
+from .question import EXACTLY, Bounds, Question, function_with_corner
 from .steady_velocity import (
+    DEPENDENT,
     FLOATS,
+    SIMPLE,
     Arithmetic,
     NotExactError,
     NoTrimError,
@@ -46,8 +48,6 @@ from .trim import EnclosedTrim, Trim
 
 EXACT = 2**40
 """A number of a program with a larger power of two below is one that has no fraction, as π."""
-SIMPLE = 1000
-"""Fractions with a divisor of at most this are tried where digits are few."""
 PRIME = 2**61 - 1
 """p, in the place of a root that is 0: F(x, p) − F(x, 0) is 0 modulo p² where ∂F/∂s is 0."""
 
@@ -106,11 +106,7 @@ class ExactQuestion(Question):
         if any(self.rates({})):
             raise NotExactError(f"near {told} a rate is small, and not 0 in numbers of a root")
         if q.rank(q.matrix(f.slopes(y, EXACTLY))) < len(y):
-            raise NoTrimError(
-                f"at {told} all rates are 0, and their derivatives by these are dependent: one of "
-                "a family of trims or a double root, where others near it are not excluded; give "
-                "these numbers by --at, or free fewer"
-            )
+            raise NoTrimError(f"at {told} all rates are 0{DEPENDENT}")
         for name in self.free:  # they are found once more, linearly
             self.u[self.program.inputs.index(name)] = Fraction(0)
 
@@ -193,7 +189,7 @@ class EnclosedQuestion(Question):
             raise NoTrimError(f"{rest}: {why}" if exactly else f"{why}: {within}")
         try:
             self.require_element()
-            y = approximately(f, self.near)
+            y = approximately(f, self.near, INTERVALS)
             radius = _radius(y)
             near = [_decimal(x, radius / 10) for x in y]
             box = self.enclosed(f, near, radius)
@@ -275,7 +271,7 @@ def _newton_step(f: Rates, box: Box, rows: Sequence[int]) -> Box:
     slopes = f.slopes(box, INTERVALS)
     found = krawczyk(box, [there[i] for i in rows], [slopes[i] for i in rows])
     if found is None:
-        raise NoTrimError("many trims: others may be near this one; free fewer")
+        raise NoTrimError("that there are no others near is not proved; free fewer")
     return found
 
 
@@ -297,9 +293,6 @@ def _told(x: Any, radius: Fraction) -> Any:
     return _decimal(x.middle, radius / 10) if isinstance(x, Interval) else x
 
 
-Bounds = Mapping[str, tuple[Number, Number]]
-
-
 def trimmed(
     problem: Problem,
     program: Program,
@@ -310,18 +303,21 @@ def trimmed(
     """The inputs, velocities and turns of g ``free``, or all inputs that are not given, for a state
     and other inputs: those ``at`` has, else g = 1 and 0; ``program``: with its jacobian.
     ``NoTrimError`` where there is none, or several, or one outside of ``bounds``."""
-    question = Question(problem, program, at, free)
-    bounds = program.by_state(bounds or {}, NoTrimError)
-    question.require_names(bounds, ())
-    found = _found(problem, program, at, free)
+    question = ExactQuestion(problem, program, at, free, bounds or {})
+    try:
+        found = question.answered()
+    except (NotExactError, RootError) as error:
+        again = EnclosedQuestion(problem, program, at, free, bounds or {})
+        found = again.answered(str(error))
+    except ZeroDivisionError:
+        raise NoTrimError("what acts has no value in this state: it divides by 0") from None
     numbers = {**found.state, **found.inputs}
     radius = found.radius if isinstance(found, EnclosedTrim) else 0
-    outside = [
-        f"{name} is {_as_decimals(numbers[name], found)}, and --bounds allows {low} to {high}"
-        for name, (low, high) in bounds.items()
-        if float(numbers[name] - low) < -radius or float(numbers[name] - high) > radius
-    ]
-    if outside:
+    if outside := [
+        f"{name} is {_as_decimals(numbers[name], found)}, and --bounds allows "
+        + " to ".join(map(str, question.bounds[name]))
+        for name in question.outside(numbers, radius)
+    ]:
         raise NoTrimError(f"the trim is out of bounds: {'; '.join(outside)}")
     return found
 
@@ -331,15 +327,3 @@ def _as_decimals(x: Number, found: Trim) -> str:
     if isinstance(found, EnclosedTrim):
         return f"about {float(x):.6g}"
     return str(x) if float(x).is_integer() else f"{x}, about {float(x):.6g}"
-
-
-def _found(
-    problem: Problem, program: Program, at: Mapping[str, Number], free: Sequence[str] | None
-) -> Trim:
-    """The trim, exact or enclosed, wherever it is."""
-    try:
-        return ExactQuestion(problem, program, at, free).answered()
-    except (NotExactError, RootError) as error:
-        return EnclosedQuestion(problem, program, at, free).answered(str(error))
-    except ZeroDivisionError:
-        raise NoTrimError("what acts has no value in this state: it divides by 0") from None
