@@ -300,12 +300,27 @@ def test_brackets_about_fractions_are_as_tall():
     )
 
 
+def page_of(chapter, records, lang):
+    """The page of a chapter alone, without what it refers to in others."""
+
+    def alone(entry):
+        texts = (
+            tuple(re.sub("@[a-z]+", "", x) if isinstance(x, str) else x for x in text)
+            for text in entry.texts
+        )
+        return replace(entry, texts=tuple(texts))
+
+    blocks = (replace(b, entries=tuple(map(alone, b.entries))) for b in chapter.blocks)
+    alone_here = replace(chapter, blocks=tuple(blocks))
+    return document.page(document.Lecture([alone_here], language(lang), records))
+
+
 def test_parameters_have_a_table_and_the_body_a_figure():
     chapter, records, _ = chapter_on("lagrange_top")
     (table,) = [b for b in chapter.blocks if b.kind == "table"]
     given = records["lagrange_top"].problem["parameters"]
     assert len(table.entries) == 3 * len(given)
-    page = document.page(document.Lecture([chapter], language("fr"), records))
+    page = page_of(chapter, records, "fr")
     for about in given.values():
         assert language("fr").word(about["meaning"]) in page
     assert len(chapter.figures) == page.count("<svg") == 2

@@ -107,7 +107,8 @@ def test_steps_of_one_size_are_the_same_with_events(tmp_path, step, compiled):
     assert np.array_equal(run.t, other.t)
     assert np.abs(run.states - other.states).max() < 1e-12
     few, many = (x.facts["evaluations"] for x in (other, run))
-    assert many <= 1.05 * few + 200  # the parts of an event's step
+    # the parts of an event's step, each of which gauss, in C, solves by itself
+    assert many <= (1.5 if step == "gauss" else 1.05) * few + 200
 
 
 @pytest.mark.parametrize("N", [3, 5, 9])

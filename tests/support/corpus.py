@@ -180,7 +180,7 @@ LAGRANGIANS = {
 # -- steps in time --------------------------------------------------------------------------------
 
 DRIVEN = """
-name = "driven"
+name = "pushed"
 group = "GROUP"
 parameters = { k = {}, m_3 = {} }
 point = [

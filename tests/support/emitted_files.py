@@ -5,6 +5,7 @@ from functools import cached_property
 from types import ModuleType
 
 from derive.code.emit import emit
+from derive.code.naming import own_prefix
 from derive.code.options import Options
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
@@ -28,7 +29,7 @@ class Emission:
         data = problem_of(data) if isinstance(data, dict) else data
         self.problem = walks.problem(given) if ready else data
         self.record = walks.record(given) if ready else walk(self.problem)
-        self.name, self.options = prefix or self.problem.name, Options(**options)
+        self.name, self.options = prefix or own_prefix(self.problem.name), Options(**options)
         self.program = program(self.problem, self.record, self.options)
         self.files = emit(self.program, self.record, languages, self.name, self.options)
         self.chart = Chart(*(options.get(x, y) for x, y in vars(Chart()).items()))
