@@ -170,7 +170,7 @@ def command_lecture(args: argparse.Namespace) -> int:
 def command_notes(args: argparse.Namespace) -> int:
     """The whole record of problems as notes: .tex, .pdf, .html; or .sty, the macros of their
     fragments."""
-    from .lecturing import command_notes
+    from .noting import command_notes
 
     return command_notes(args)
 
