@@ -83,7 +83,7 @@ def test_text_and_code_call_an_input_alike():
     """F are the forces on the points as well: in quotes."""
     p = driven("SE(3)")
     d = walk(p)
-    (solved,) = (x for x in text(d).split("\n\n") if x.startswith("pushed.explicit"))
+    (solved,) = (x for x in text(d).split("\n\n") if x.startswith("driven.explicit"))
     assert "thrust₂" in solved
     assert "‘F₅’" in solved
     assert meaning(d, "u").endswith("in the body frame, ‘F₁’, ‘F₂’, ‘F₃’")
