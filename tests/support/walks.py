@@ -6,7 +6,9 @@ import pytest
 
 from derive.check.checker import Checker
 from derive.command.showing import derive, load_problem, ready_made
+from derive.pipeline import walk
 from derive.python.derived import Derived
+from derive.record.as_json import from_json, to_json
 from derive.record.record import ANY_GROUP
 from tests.support.cached import on_disk
 
@@ -49,3 +51,14 @@ def own_verdicts(found, seed=SEED):
     """Of the steps about the problem's group; those about any group are the same in all records."""
     checker = Checker(found.problem, seed)
     return [checker.check(step) for step in found.steps if step.scope != ANY_GROUP]
+
+
+def record_that_holds(problem):
+    """The record of a problem, as another program reads it, with every step checked."""
+    made = walk(problem)
+    again = from_json(to_json(made))
+    assert again == made
+    verdicts = own_verdicts(again)
+    assert [f"{v.label}: {v.reason}" for v in verdicts if not v.holds] == []
+    assert max(v.bound for v in verdicts) < 1e-30
+    return made
