@@ -166,7 +166,7 @@ def test_on_the_oldest_libraries(base, installed, tmp_path):
     for name, oldest in BOUNDS.items():
         assert re.search(rf"^{name}=={re.escape(oldest)}(\.0)*$", frozen, flags=re.M)
     assert everything(python, tmp_path, tmp_path, PYTHONHASHSEED=5)[1] == base
-    tests = ("emitted", "as_sympy", "arrays", "compiled", "api", "principal_axes")
+    tests = ("emitted", "as_sympy", "arrays", "compiled", "api", "frame")
     files = [next(ROOT.glob(f"tests/*/test_{x}.py")) for x in tests]
     run(python, "-m", "pytest", "-p", "no:cacheprovider", *files, cwd=ROOT)
 
