@@ -119,6 +119,11 @@ def trace(a: Matrix) -> Any:
     return sum((a[i][i] for i in range(len(a))), Fraction(0))
 
 
+def contraction(a: Matrix, b: Matrix) -> Any:
+    """Tr a b̄ = Σ a_ij b_ij, of matrices of one shape."""
+    return dot(flatten(a), flatten(b))
+
+
 def bracket(a: Matrix, b: Matrix) -> Matrix:
     """The commutator [a, b] = ab − ba of square matrices."""
     return minus(times(a, b), times(b, a))

@@ -140,7 +140,7 @@ def _inner(a: Value, b: Value, metric: Value | None = None) -> Value:
         return a * b
     if len(a[0]) == 1:
         return _times(q.transposed(a), b if metric is None else q.times(metric, b))
-    return q.trace(q.times(a if metric is None else q.times(a, metric), q.transposed(b)))
+    return q.contraction(a if metric is None else q.times(a, metric), b)
 
 
 def wedge(a: Value, b: Value) -> Value:

@@ -168,7 +168,7 @@ def test_on_the_oldest_libraries(base, installed, tmp_path):
     assert everything(python, tmp_path, tmp_path, PYTHONHASHSEED=5)[1] == base
     tests = ("emitted", "as_sympy", "arrays", "compiled", "api", "frame")
     files = [next(ROOT.glob(f"tests/*/test_{x}.py")) for x in tests]
-    run(python, "-m", "pytest", "-p", "no:cacheprovider", *files, cwd=ROOT)
+    run(python, "-m", "pytest", "--quick", "-p", "no:cacheprovider", *files, cwd=ROOT)
 
 
 # ---------------------------------------------------------------- as the pages say

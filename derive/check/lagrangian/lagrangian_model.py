@@ -209,11 +209,11 @@ class LagrangianModel(GivenForces):
             names = {**self.expressions.names, **known, **place, "t": t, "ζ": zeta}
             env = Environment(self.n, names, parameters=self.parameters, elementary=self.elementary)
             return evaluate(tree, env)
-        square = q.trace(q.times(q.times(Z, self.quadratic), q.transposed(Z)))
+        square = q.contraction(q.times(Z, self.quadratic), Z)
         product = Fraction(1)
         for constant, later, at, moving in self.weights:
             linear = constant + later * (t - self.t)
-            linear = linear + q.trace(q.times(g, at)) + q.trace(q.times(Z, moving))
+            linear = linear + q.contraction(g, at) + q.contraction(Z, moving)
             product = product * linear
         return square * Fraction(1, 2) + product
 

@@ -212,7 +212,7 @@ def solution_values(model: Model) -> Values:
         left = q.minus(s.moment_of_inertia_forces(q.plus(Z_dot, q.times(Z, Z))), s.applied_moment)
         direction = group.normal_direction
         values["Λ"] = direction
-        values["θ"] = _trace_product(left, direction) / _trace_product(direction, direction)
+        values["θ"] = q.contraction(left, direction) / q.contraction(direction, direction)
     return values
 
 
@@ -220,11 +220,6 @@ def load(model: Model, e: Matrix) -> Fraction:
     """The work of forces and inputs in the displacement g e."""
     powers = zip(model.input, model.group.nearest(e), strict=True)
     return sum((u * x for u, x in powers), Fraction(0)) - model.work(q.times(model.g, e))
-
-
-def _trace_product(a: Matrix, b: Matrix) -> Any:
-    """Tr a b̄."""
-    return q.trace(q.times(a, q.transposed(b)))
 
 
 # A continuous body at its point masses: integrals over it, and functions of a place in it.
