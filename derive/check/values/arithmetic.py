@@ -242,6 +242,22 @@ class Nilpotent(FieldElement):
                         vs.append(v)
         return Nilpotent({mask: dot(us, vs) for mask, (us, vs) in factors.items()})
 
+    @staticmethod
+    def product(rows: Sequence[Sequence[Any]], columns: Sequence[Sequence[Any]]) -> Matrix:
+        """Each row times each column: products of the matrices of their parts."""
+        found: dict[int, Matrix] = {}
+        left, right = _matrices_of_parts(rows), _matrices_of_parts(columns)
+        for m, a in left.items():
+            for k, b in right.items():
+                if not m & k:
+                    product, mask = q.times(a, q.transposed(b)), m | k
+                    found[mask] = q.plus(found[mask], product) if mask in found else product
+        span = range(len(columns))
+        return tuple(
+            tuple(Nilpotent({mask: x[i][j] for mask, x in found.items()}) for j in span)
+            for i in range(len(rows))
+        )
+
     def __add__(self, other: Any) -> Nilpotent:
         if not isinstance(other, Nilpotent):
             if other == 0:
@@ -273,6 +289,13 @@ class Nilpotent(FieldElement):
             power = power * small
             result = result + power
         return result
+
+
+def _matrices_of_parts(rows: Sequence[Sequence[Any]]) -> dict[int, Matrix]:
+    """Mask → the matrix of the coefficients of its product of nilpotents, 0 where it is none."""
+    entries = [[x.parts if isinstance(x, Nilpotent) else {0: x} for x in row] for row in rows]
+    masks = dict.fromkeys(mask for row in entries for parts in row for mask in parts)
+    return {m: tuple(tuple(x.get(m, q.ZERO) for x in row) for row in entries) for m in masks}
 
 
 def part(x: Any, mask: int) -> Any:

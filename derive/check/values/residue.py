@@ -270,6 +270,14 @@ class Graded(FieldElement):
             return NotImplemented
         return self if other else Fraction(0)
 
+    @staticmethod
+    def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
+        """Σ a_i b_i: of terms of one degree, one is enough."""
+        pairs = ((x, y) for x, y in zip(a, b, strict=True) if _is_there(x) and _is_there(y))
+        terms = dict.fromkeys(tuple(degrees(pair)) for pair in pairs)
+        sums = dict.fromkeys(_degree_of_product(x, y) for x, y in terms)
+        return Graded(reduce(_degree_of_sum, sums)) if sums else Fraction(0)
+
     def __neg__(self) -> Graded:
         return self
 
@@ -298,6 +306,11 @@ class Graded(FieldElement):
         slots, loops = top.slots + other.slots, top.loops + other.loops
         found = _degree_of(Grade((size - 1) * top.degree + other.degree, slots, loops), powers)
         return tuple(tuple(Graded(found) for _ in b[0]) for _ in a)
+
+
+def _is_there(x: Any) -> bool:
+    """Is it no plain 0?"""
+    return isinstance(x, Graded) or x != 0
 
 
 def common_degree(entries: Iterable[Any]) -> Degree:
