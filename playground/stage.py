@@ -41,8 +41,8 @@ from derive.schema.kind import (
     StatedAlgebra,
     StatedGroup,
 )
-from derive.schema.kinds import kinds
 from derive.schema.motion_kinds import Event, Signal
+from derive.schema.potential_kinds import kinds
 from derive.schema.table import Table
 from derive.views.language import LANGUAGES as SPOKEN
 from derive.views.language import language

@@ -299,7 +299,7 @@ def _trial_text(v: Verdict) -> str:
 
 def command_compare(args: argparse.Namespace) -> int:
     """Hold a right-hand side of your own, in C or Python, against that of a problem."""
-    from .comparing import command_compare
+    from .simulating import command_compare
 
     return command_compare(args)
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..code.typed_names import plain_text, typed
+from ..code.naming import plain_text, typed
 from ..language.show import show
 from ..language.tree import Tree, nodes, replaced, sized
 from ..problem.fields import velocity_at_place

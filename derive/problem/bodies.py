@@ -42,8 +42,8 @@ from ..schema.kind import (
     StatedGroup,
     TorqueInput,
 )
-from ..schema.kinds import kinds
-from ..schema.output_kinds import OUTPUTS, ExpressionOutput, Output, PowerOutput
+from ..schema.motion_kinds import OUTPUTS, ExpressionOutput, Output, PowerOutput
+from ..schema.potential_kinds import kinds
 from ..schema.table import ACTIONS, Slot, Table
 from .fields import angular_velocity, one_body, tables, velocity_at_place
 from .file_reader import FileReader

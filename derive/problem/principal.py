@@ -24,8 +24,7 @@ from ..algebra.groups import Group
 from ..language.tree import Tree, mul
 from ..schema.body_kinds import GivenBody, Moments, Place, Point
 from ..schema.kind import Damping, ForceInput, Input, Parameter, Potential
-from ..schema.kinds.gravity import Gravity, gravity
-from ..schema.kinds.spring import Spring, quadratic
+from ..schema.potential_kinds import Gravity, Spring, gravity, quadratic
 from ..schema.table import Key
 from .problem import Problem, ProblemError
 

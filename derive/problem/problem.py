@@ -30,8 +30,7 @@ from ..schema.kind import (
     StatedForce,
     TorqueInput,
 )
-from ..schema.motion_kinds import Event, Signal
-from ..schema.output_kinds import Output
+from ..schema.motion_kinds import Event, Output, Signal
 from ..schema.table import Table
 
 

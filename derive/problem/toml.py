@@ -18,7 +18,7 @@ from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, 
 from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
 from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
-from ..schema.output_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
+from ..schema.motion_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
 from ..schema.table import ATTACHED, Table, nearest
 from . import inertia
 from .bodies import (
@@ -44,9 +44,8 @@ from .fields import (
 from .file_reader import FileReader
 from .flows import flows_of, require_bodies_own
 from .inertia import impossible, negative_kinetic_energy, negative_mass
-from .kinematics_tables import kinematics_problem
 from .lagrangian_tables import group_of_algebra, lagrangian, on_torus, torus_problem
-from .motion_tables import KEYS, faults, motion_fields, named, named_twice
+from .motion_tables import KEYS, faults, kinematics_problem, motion_fields, named, named_twice
 from .problem import Problem, ProblemError
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}

@@ -30,8 +30,8 @@ from ..schema.kind import (
     StatedForce,
     Torus,
 )
-from ..schema.kinds import kinds
-from ..schema.output_kinds import OF_MASSES, OUTPUTS
+from ..schema.motion_kinds import OF_MASSES, OUTPUTS
+from ..schema.potential_kinds import kinds
 from ..schema.table import ACTIONS, DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
 from .record import CONVENTIONS

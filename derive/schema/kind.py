@@ -29,7 +29,7 @@ from .table import (
 
 # What a kind of potential is: a table, its words, and what the others must know of it.
 #
-# The kinds are in ``schema.kinds``.
+# The kinds are in ``schema.potential_kinds``.
 
 
 class Potential(Table):

@@ -17,9 +17,8 @@ from .kind import (
     StatedTorus,
     TorusInertia,
 )
-from .kinds import kinds
-from .motion_kinds import Event, Signal
-from .output_kinds import ExpressionOutput
+from .motion_kinds import Event, ExpressionOutput, Signal
+from .potential_kinds import kinds
 from .table import Table
 
 

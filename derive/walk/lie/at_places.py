@@ -15,7 +15,7 @@ from ...problem.lagrangian_tables import quotient_of
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Equation, Step
 from ...schema.kind import TorqueInput
-from ...schema.output_kinds import (
+from ...schema.motion_kinds import (
     AccelerationOutput,
     DirectionOutput,
     DistanceOutput,
