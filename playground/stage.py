@@ -30,11 +30,10 @@ from derive.problem.motion_tables import of_points
 from derive.problem.toml import TOP
 from derive.record.record import AMENDED
 from derive.schema.body_kinds import SOLIDS, Point
+from derive.schema.force_kinds import INPUTS, Damping
 from derive.schema.kind import (
-    INPUTS,
     REPRESENTATIONS,
     SECTIONS,
-    Damping,
     Fluid,
     Parameter,
     StatedAdvected,

@@ -16,20 +16,8 @@ from ..language.limits import BASIS, CARRIED, LAYERS, TORUS
 from ..language.reserved import acting_names, taken
 from ..language.tree import Tree, nodes, replaced
 from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
-from ..schema.kind import (
-    GROUP,
-    INPUTS,
-    Acting,
-    Advected,
-    Damping,
-    Flow,
-    Fluid,
-    Kinematics,
-    Lagrangian,
-    StatedCovector,
-    StatedForce,
-    Torus,
-)
+from ..schema.force_kinds import INPUTS, Acting, Damping, Flow, StatedCovector, StatedForce
+from ..schema.kind import GROUP, Advected, Fluid, Kinematics, Lagrangian, Torus
 from ..schema.motion_kinds import OF_MASSES, OUTPUTS
 from ..schema.potential_kinds import kinds
 from ..schema.table import ACTIONS, DETERMINANT, Rows, Slot, Table

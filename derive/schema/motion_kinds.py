@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, ClassVar
 
 from ..language.tree import Tree
-from .kind import TurningBlock
+from .force_kinds import TurningBlock
 from .table import ATTACHED, Block, End, Frame, Key, Name, Number, Row, Table, place
 
 Watched = Annotated[Tree, Key("watched", trees=True)]

@@ -1,10 +1,9 @@
-"""The kinds of potentials, each a table that says what acts."""
+"""The kinds of potentials: each a table, its words, and what the others must know of it."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any, ClassVar
 
 from ..language.tree import Tree, add
-from .kind import Potential
 from .table import (
     Charges,
     End,
@@ -18,9 +17,43 @@ from .table import (
     Scalar,
     Stiffness,
     Symmetric,
+    Table,
     Vector,
     place,
 )
+
+
+class Potential(Table):
+    """One potential of a problem.
+
+    ``rank``: in which order kinds are told. ``phrase``, ``several``: what acts, in words.
+    ``drawn``: is it in the figure? ``legend``: what the figure says of it. ``unturned``: what
+    ``--frame principal`` cannot carry into its frame; empty where its vectors may be turned with
+    space, its points put to new places, and one factor of each term of U is a key with ``mass``,
+    which is scaled. ``alone``: there is one of the kind. ``linear``: is the force per mass linear
+    in the place, at each point of a body?
+    """
+
+    section, timed = "potential", True
+    rank: ClassVar[int] = 100
+    phrase: ClassVar[str]
+    several: ClassVar[str] = ""
+    legend: ClassVar[str] = ""
+    drawn: ClassVar[bool] = False
+    unturned: ClassVar[str] = "a potential of this kind"
+    alone: ClassVar[bool] = False
+    linear: ClassVar[bool] = False
+
+    @property
+    def summed(self) -> bool:
+        """Is this potential a sum with a term for every point?"""
+        return any(about.type == "masses" for about in self.keys().values())
+
+    def points(self) -> Iterator[int]:
+        """The points and places that it names by their numbers."""
+        for _, about, value in self.values():
+            if about.type in ("pair", "end", "points"):
+                yield from (value,) if about.type == "end" else value
 
 
 class Gravity(Potential):

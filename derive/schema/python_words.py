@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from .body_kinds import Moments, Point, Solid
+from .force_kinds import INPUTS, Damping, Flow, StatedCovector, StatedForce
 from .kind import (
-    INPUTS,
     SECTIONS,
-    Damping,
-    Flow,
     Fluid,
     Kinematics,
     StatedAdvected,
     StatedAlgebra,
-    StatedCovector,
-    StatedForce,
     StatedTorus,
     TorusInertia,
 )

@@ -16,9 +16,18 @@ from typing import Any
 
 from ...language.tree import nodes
 from ..ellipsoid import INTEGRALS, is_integral
-from ..languages import SectionValues, SourcePrinter, Statements, blocks, names
+from ..languages import SourcePrinter, Statements
 from ..options import Options
-from ..program import EmittedFunction, Expression, KeptByGauss, Load, Program
+from ..program import (
+    EmittedFunction,
+    Expression,
+    KeptByGauss,
+    Load,
+    Program,
+    SectionValues,
+    blocks,
+    names,
+)
 from .collocation import Collocation
 from .tableaux import GROWTH as EXPLICIT_GROWTH
 from .tableaux import METHODS, explicit, fields_of
