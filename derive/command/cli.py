@@ -346,21 +346,22 @@ FILES = {"text": "txt", "latex": "tex", "json": "json"}
 COMMANDS = {
     "list": command_list,
     "walk": command_walk,
+    "symmetries": command_symmetries,
+    "reduction": command_reduction,
     "integrals": command_integrals,
     "equilibria": command_equilibria,
     "trim": command_trim,
-    "symmetries": command_symmetries,
-    "reduction": command_reduction,
     "notes": command_notes,
-    "lecture": command_lecture,
     "emit": command_emit,
+    "check": command_check,
     "simulate": command_simulate,
     "plot": command_plot,
-    "check": command_check,
     "compare": command_compare,
+    "lecture": command_lecture,
     "paper": command_paper,
     "build": command_build,
 }
+"""In the order of the help."""
 
 
 def _discard_stdout() -> None:
@@ -405,10 +406,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             status = run(parser(COMMANDS, ABOUT), argv)
             sys.stdout.flush()
         return status
-    except Refused as error:
-        print(f"derive: {one_line(error)}", file=sys.stderr)
-        return 2
-    except StoppedError as error:
+    except (Refused, StoppedError) as error:
         print(f"derive: {one_line(error)}", file=sys.stderr)
         return 2
     except ModuleNotFoundError as error:
