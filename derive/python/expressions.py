@@ -160,7 +160,20 @@ def _rational(x: Fraction) -> sympy.Rational:
     return sympy.Rational(x.numerator, x.denominator)
 
 
-class Member(sympy.MatrixExpr):  # type: ignore[misc]
+class _OfASize(sympy.MatrixExpr):  # type: ignore[misc]
+    """What has a name, what it is of, rows and columns for its arguments."""
+
+    @property
+    def shape(self) -> tuple[Any, Any]:
+        """Rows and columns."""
+        _, _, rows, columns = self.args
+        return rows, columns
+
+    def _entry(self, i: Any, j: Any, **_: Any) -> Any:
+        return MatrixElement(self, i, j)
+
+
+class Member(_OfASize):
     """Member of a family of matrices of rows × columns, by its index: r_i, r_i(t).
 
     ``template`` is its name, with {} for the index.  A member by a number is a ``MatrixSymbol``.
@@ -172,15 +185,6 @@ class Member(sympy.MatrixExpr):  # type: ignore[misc]
         if index.is_Integer:
             return sympy.MatrixSymbol(str(template).format(index), rows, columns)
         return super().__new__(cls, Str(str(template)), index, *map(sympy.sympify, (rows, columns)))
-
-    @property
-    def shape(self) -> tuple[Any, Any]:
-        """Rows and columns."""
-        _, _, rows, columns = self.args
-        return rows, columns
-
-    def _entry(self, i: Any, j: Any, **_: Any) -> Any:
-        return MatrixElement(self, i, j)
 
     def _sympystr(self, printer: Any) -> str:
         return str(self.args[0]).format(printer.doprint(self.args[1]))
@@ -202,22 +206,13 @@ def scalar_member(template: str) -> Any:
     return type(template.format("").strip("_"), (sympy.Function,), own)
 
 
-class FunctionValue(sympy.MatrixExpr):  # type: ignore[misc]
+class FunctionValue(_OfASize):
     """Value of a function that is a matrix of rows × columns: δ(r), ξ(X)."""
 
     def __new__(cls, name: Any, arguments: Any, rows: Any, columns: Any) -> Any:
         """The value of the function of that name at its arguments."""
         arguments = sympy.Tuple(*arguments)
         return super().__new__(cls, Str(str(name)), arguments, *map(sympy.sympify, (rows, columns)))
-
-    @property
-    def shape(self) -> tuple[Any, Any]:
-        """Rows and columns."""
-        _, _, rows, columns = self.args
-        return rows, columns
-
-    def _entry(self, i: Any, j: Any, **_: Any) -> Any:
-        return MatrixElement(self, i, j)
 
     def _sympystr(self, printer: Any) -> str:
         return f"{self.args[0]}({', '.join(map(printer.doprint, self.args[1]))})"
