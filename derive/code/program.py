@@ -243,7 +243,7 @@ class Program:
     reduced: int = 0
     """The variables of the Poisson tensor."""
     loops: Any = None
-    """On the torus the tables of its loops (``torus.torus_program.Loops``), where it has them."""
+    """On the torus the tables of its loops (``torus_program.Loops``), where it has them."""
     on_torus: bool = False
     mass_fault: str = "singular or not positive"
     """What ``constants`` says that the mass matrix is."""

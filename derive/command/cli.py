@@ -28,8 +28,14 @@ from .showing import (
     save_steps,
     steps_of,
 )
-from .terminal import working
-from .writing import StoppedError, one_line, replacing_unencodable, time_limit, with_progress
+from .writing import (
+    StoppedError,
+    one_line,
+    replacing_unencodable,
+    time_limit,
+    with_progress,
+    working,
+)
 
 if TYPE_CHECKING:
     from ..check.form.hypotheses_checked import Verdict

@@ -23,7 +23,6 @@ from ..code.program import Program
 from ..compare.comparison import MOST, STATES, comparison, reports
 from ..motion.emitted import python_of
 from ..motion.emitted_code import parts
-from ..motion.energy_sources import DAMPING, FORCES, INPUTS, is_weightless
 from ..motion.ensemble import (
     EnsembleMotions,
     Part,
@@ -33,7 +32,7 @@ from ..motion.ensemble import (
     require_steps_of_an_ensemble,
 )
 from ..motion.ensemble_files import writer
-from ..motion.first_numbers import MotionError
+from ..motion.first_numbers import DAMPING, FORCES, INPUTS, MotionError, is_weightless
 from ..motion.native import AT_EVENT
 from ..motion.run import Array, Run, format_of, shown, written
 from ..motion.simulate import beginning, run, some_turns
@@ -47,8 +46,7 @@ from ..views.language import language
 from ..views.page.motion_page import motion_page
 from ..views.plot.pictures import plot
 from .showing import UsageError, allowed, columns, derive, doubted, each_once
-from .terminal import filled, working
-from .writing import growing, heard, one_line, require_place, with_progress, write
+from .writing import filled, growing, heard, one_line, require_place, with_progress, working, write
 
 
 def made(problem: Problem, dynamics: bool) -> tuple[Program, ModuleType]:

@@ -20,8 +20,7 @@ from ..schema.body_kinds import GivenBody, PointBody
 from ..schema.potential_kinds import Attraction, Spring
 from .emitted import Emitted
 from .emitted_code import Column
-from .energy_sources import drives
-from .first_numbers import MotionError
+from .first_numbers import MotionError, drives
 from .native import CompileError, Motion
 from .run import Array, Run
 from .signals import Given, InputsInTime, inputs_in_time
