@@ -6,11 +6,11 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from contextvars import copy_context
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..language.limits import LISTENER, Refused
 from .showing import (
@@ -39,6 +39,8 @@ from .writing import (
 
 if TYPE_CHECKING:
     from ..check.form.hypotheses_checked import Verdict
+    from ..problem.problem import Problem
+    from ..record.record import Derivation
 
 
 def command_list(_: argparse.Namespace) -> int:
@@ -148,20 +150,21 @@ def command_symmetries(args: argparse.Namespace) -> int:
     """All symmetries of a problem's Lagrangian, and what the motion keeps by each."""
     from ..searches import symmetries
 
-    problem, walked = derive(args.problem, **allowed(args))
-    with working(args.problem):
-        record = symmetries(problem, walked).record
-    save_found(record, args)
-    return 0
+    return _searched(args, symmetries)
 
 
 def command_reduction(args: argparse.Namespace) -> int:
     """Routh's reduction by symmetries that commute: effective potential, what is left to solve."""
     from ..searches import reduction
 
+    return _searched(args, reduction)
+
+
+def _searched(args: argparse.Namespace, search: Callable[[Problem, Derivation], Any]) -> int:
+    """Tell what a search finds in the walk of a problem."""
     problem, walked = derive(args.problem, **allowed(args))
     with working(args.problem):
-        record = reduction(problem, walked).record
+        record = search(problem, walked).record
     save_found(record, args)
     return 0
 

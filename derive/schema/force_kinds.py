@@ -48,6 +48,7 @@ class ForceInput(Table):
     """
 
     kind, section, called = "force", "input", "Force"
+    may = ("direction", "moment")
     name: Name
     on: End
     frame: Frame = "space"
@@ -56,10 +57,10 @@ class ForceInput(Table):
 
     @classmethod
     def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
-        """A direction and a moment are where a table says them, the second beside the first."""
+        """A moment is beside a direction alone."""
         if "moment" in table and "direction" not in table:
             return "a 'moment' goes with a 'direction'; alone it is an input of kind \"torque\""
-        return _said(super().chosen(table, last), table)
+        return super().chosen(table, last)
 
     @classmethod
     def word(
@@ -82,15 +83,11 @@ class TorqueInput(Table):
     """A torque on a body that turns, of one number with a ``direction`` and in the plane."""
 
     kind, section, called = "torque", "input", "Torque"
+    may = ("direction",)
     name: Name
     block: TurningBlock
     frame: Frame = "space"
     direction: Along = None
-
-    @classmethod
-    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
-        """A direction where a table says one."""
-        return _said(super().chosen(table, last), table)
 
     @classmethod
     def word(
@@ -117,11 +114,6 @@ class ScalarInput(Table):
         return {"name": name}
 
 
-def _said(keys: tuple[str, ...] | str, table: Mapping[str, Any]) -> tuple[str, ...]:
-    """The keys of an input, without the direction and the moment that a table does not say."""
-    return tuple(x for x in keys if x not in ("direction", "moment") or x in table)
-
-
 Named = Annotated[str | None, Key("name")]
 Stated = Annotated[Row, Key("stated", 1, trees=True)]
 Torque = Annotated[Row, Key("stated_couple", 1, trees=True)]
@@ -135,13 +127,8 @@ in space, of t and the place; a covector of the Lie algebra; which other table t
 class Nameable(Table):
     """What may have a ``name``, by which the equations and the code call its numbers."""
 
+    may = ("name",)
     name: Named = None
-
-    @classmethod
-    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
-        """A name where a table has one."""
-        own = super().chosen(table, last)
-        return own if isinstance(own, str) else tuple(x for x in own if x != "name" or x in table)
 
 
 class Acting(Nameable):
@@ -227,17 +214,11 @@ class Flow(Nameable):
     leaves, and its ``velocity`` relative to the body, along the axes of this; ``mass``: the number
     of the state that the mass is, where inputs say the rate."""
 
-    section, timed = "flow", True
+    section, timed, may = "flow", True, ("name", "mass")
     on: End
     rate: Scalar
     velocity: Vector
     mass: Named = None
-
-    @classmethod
-    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
-        """A mass of the state where a table has one."""
-        own = super().chosen(table, last)
-        return own if isinstance(own, str) else tuple(x for x in own if x != "mass" or x in table)
 
     @classmethod
     def word(
