@@ -40,7 +40,7 @@ def pty_size(terminal, lines, columns):
     import struct
     import termios
 
-    fcntl.ioctl(writing, termios.TIOCSWINSZ, struct.pack("HHHH", lines, columns, 0, 0))
+    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", lines, columns, 0, 0))
 
 
 def test_weight_where_there_is_a_terminal(tmp_path):
