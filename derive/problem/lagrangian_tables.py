@@ -85,7 +85,7 @@ class Quotient:
         ⟨v, [n, E_a]⟩, on the right −⟨v, [n, E_a]⟩."""
         table, span = self.group.structure_constants, range(self.group.dimension)
 
-        def term(i: int, j: int, k: int) -> Fraction:
+        def term(i: int, j: int, k: int) -> Any:
             return table[j][k][i] if dual else table[i][j][k]
 
         return [

@@ -127,7 +127,7 @@ in space, of t and the place; a covector of the Lie algebra; which other table t
 class Nameable(Table):
     """What may have a ``name``, by which the equations and the code call its numbers."""
 
-    may = ("name",)
+    may: ClassVar[tuple[str, ...]] = ("name",)
     name: Named = None
 
 
@@ -214,7 +214,8 @@ class Flow(Nameable):
     leaves, and its ``velocity`` relative to the body, along the axes of this; ``mass``: the number
     of the state that the mass is, where inputs say the rate."""
 
-    section, timed, may = "flow", True, ("name", "mass")
+    section, timed = "flow", True
+    may: ClassVar[tuple[str, ...]] = ("name", "mass")
     on: End
     rate: Scalar
     velocity: Vector
