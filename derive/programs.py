@@ -198,7 +198,7 @@ def program(
     require_program(problem, record, options)
     events = watched(problem.name, problem.events, options) if options else ()
     if problem.torus:
-        from .code.torus.torus_program import torus_program
+        from .code.torus_program import torus_program
 
         return torus_program(record, problem.torus, options, events)
     assert problem.group
@@ -228,7 +228,7 @@ def require_program(problem: Problem, record: Derivation, options: Options | Non
     ``LoweringError``, or ``ProblemError`` where it has no code, or no such frame."""
     from .code.options import Options
     from .code.requests import require_written
-    from .code.torus.torus_program import require_on_torus
+    from .code.torus_program import require_on_torus
     from .code.watched_functions import watched
 
     chosen = options or Options()

@@ -193,7 +193,7 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
 
 def conserved_without_gravity(problem: Problem) -> dict[str, Tree]:
     """Name → what the motion keeps where gravity is 0; nothing of a problem without gravity."""
-    from .schema.kinds.gravity import Gravity
+    from .schema.potential_kinds import Gravity
 
     left = tuple(x for x in problem.potentials if not isinstance(x, Gravity))
     if len(left) == len(problem.potentials):

@@ -30,19 +30,18 @@ from derive.problem.motion_tables import of_points
 from derive.problem.toml import TOP
 from derive.record.record import AMENDED
 from derive.schema.body_kinds import SOLIDS, Point
+from derive.schema.force_kinds import INPUTS, Damping
 from derive.schema.kind import (
-    INPUTS,
     REPRESENTATIONS,
     SECTIONS,
-    Damping,
     Fluid,
     Parameter,
     StatedAdvected,
     StatedAlgebra,
     StatedGroup,
 )
-from derive.schema.kinds import kinds
 from derive.schema.motion_kinds import Event, Signal
+from derive.schema.potential_kinds import kinds
 from derive.schema.table import Table
 from derive.views.language import LANGUAGES as SPOKEN
 from derive.views.language import language

@@ -16,12 +16,12 @@ from ..language.rational import Matrix
 from ..language.show import show
 from ..record.as_json import decode
 from .languages import TargetLanguage, comment
+from .naming import law, plain_text
 from .options import Options
 from .program import Program
 from .reader import RecordReader
 from .slots import order, still_slots
 from .state import StateSpace
-from .typed_names import law, plain_text
 
 
 def conventions(

@@ -326,8 +326,8 @@ def printed_group(language: str, p: Program, fields: Mapping[str, Any]) -> dict[
         **({name: f"{name}_into" for name in f.functions} if language == "javascript" else {}),
     }
     source = Source()
-    parts = ("group_elements", "group_quaternions")
-    for part in (*parts, "group_turns" if f.factors else "group_series", "group_maps"):
+    exponential = "group_turns" if f.factors else "group_series"
+    for part in ("group_elements", exponential, "group_maps"):
         source.read(text_of(part), given)
     if f.covariance:
         source.read(text_of("invariant_update"), given)

@@ -12,7 +12,7 @@ from ..algebra.groups import Group
 from ..language.show import show
 from ..language.tree import Tree, add, mul, neg, nodes, replaced, sized
 from ..record.as_json import decode
-from .typed_names import LONGEST_LAW, plain_text, typed
+from .naming import LONGEST_LAW, plain_text, typed
 
 OF_RATES = ("acceleration", "specific_force", "power")
 """The outputs in which all is that acts."""

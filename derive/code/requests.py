@@ -132,14 +132,7 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
         raise LoweringError(f"{d.name}: there are no inputs to linearise in")
     if "outputs" in chosen.jacobian and not d.problem.get("outputs"):
         raise LoweringError(f"{d.name}: there are no outputs to linearise; give [[output]] tables")
-    if "advected" in d.problem:
-        _refused_without_element(d, chosen)
-    if d.problem.get("lagrangian", {}).get("held"):
-        _refused_where_held(d, chosen)
-    if d.problem.get("lagrangian", {}).get("trivialisation") == "right":
-        _refused_on_the_right(d, group, chosen)
-    if masses := stored_masses(d.problem):
-        _refused_with_masses(d, masses[0], chosen)
+    _refused_forms(d, group, chosen)
     if chosen.multiplier and d.definition("θ") is None:
         raise LoweringError(
             f"{d.name}: --multiplier is for a group with one relation, as SL(n) or SAff(n) that "
@@ -195,52 +188,42 @@ def _refused_with_charts(d: Derivation, group: Group, chosen: Options) -> None:
         raise LoweringError(f"{d.name}: {what} is of the body as given: leave out --frame")
 
 
-def _refuse(d: Derivation, options: Iterable[tuple[object, str]], why: str) -> None:
-    """``LoweringError`` for the first option that is on, and why it is not written."""
-    for on, option in options:
-        if on:
-            raise LoweringError(f"{d.name}: {option} is for {why}: leave it out")
-
-
-def _refused_with_masses(d: Derivation, mass: str, chosen: Options) -> None:
-    """What is written for a state of g and its velocity alone."""
-    options = (
-        (chosen.varied, f"--jacobian {' '.join(chosen.varied)}"),
-        (chosen.exponential, "--exponential"),
+def _refused_forms(d: Derivation, group: Group, chosen: Options) -> None:
+    """``LoweringError`` for an option that is not written for a state of this form."""
+    lagrangian, masses = d.problem.get("lagrangian", {}), stored_masses(d.problem)
+    right = lagrangian.get("trivialisation") == "right"
+    charts = factor_charts(group, chosen.attitude).values() if right else ()
+    tangent = (chosen.velocity == "tangent", "--velocity tangent")
+    attitude = f"--attitude {chosen.attitude}"
+    varied = (chosen.varied, f"--jacobian {' '.join(chosen.varied)}")
+    of_element = (chosen.attitude != "matrix", attitude), (chosen.layout == "col", "--layout col")
+    forms: tuple[tuple[object, str, tuple[tuple[object, str], ...]], ...] = (
+        (
+            "advected" in d.problem,
+            "a state with an element of the group, and [algebra] has none",
+            (tangent, *of_element, (chosen.state == "moving", "--state moving"), varied),
+        ),
+        (
+            lagrangian.get("held"),
+            "motions on the whole group, and these are on a quotient of it",
+            (tangent, varied),
+        ),
+        (
+            right,
+            "Z = g^-1 dg/dt, and this Lagrangian is trivialised on the right",
+            (tangent, (any(x.kind == QUATERNION for x in charts), attitude)),
+        ),
+        (
+            masses,
+            f"a state of g and its velocity, and this has the mass {', '.join(masses[:1])}, too "
+            "(--jacobian raw is by all numbers of a state)",
+            (varied, (chosen.exponential, "--exponential")),
+        ),
     )
-    why = f"a state of g and its velocity, and this has the mass {mass}, too (--jacobian raw is by "
-    _refuse(d, options, f"{why}all numbers of a state)")
-
-
-def _refused_without_element(d: Derivation, chosen: Options) -> None:
-    """What is written for a state with an element of the group."""
-    options = (
-        (chosen.velocity == "tangent", "--velocity tangent"),
-        (chosen.attitude != "matrix", f"--attitude {chosen.attitude}"),
-        (chosen.layout == "col", "--layout col"),
-        (chosen.state == "moving", "--state moving"),
-        (chosen.varied, f"--jacobian {' '.join(chosen.varied)}"),
-    )
-    _refuse(d, options, "a state with an element of the group, and [algebra] has none")
-
-
-def _refused_where_held(d: Derivation, chosen: Options) -> None:
-    """What is written for a motion that the whole velocity tells."""
-    options = (
-        (chosen.velocity == "tangent", "--velocity tangent"),
-        (chosen.varied, f"--jacobian {' '.join(chosen.varied)}"),
-    )
-    _refuse(d, options, "motions on the whole group, and these are on a quotient of it")
-
-
-def _refused_on_the_right(d: Derivation, group: Group, chosen: Options) -> None:
-    """What is written for Z = g⁻¹ġ alone."""
-    charts = factor_charts(group, chosen.attitude).values()
-    options = (
-        (chosen.velocity == "tangent", "--velocity tangent"),
-        (any(x.kind == QUATERNION for x in charts), f"--attitude {chosen.attitude}"),
-    )
-    _refuse(d, options, "Z = g^-1 dg/dt, and this Lagrangian is trivialised on the right")
+    for has_it, why, options in forms:
+        for on, option in options if has_it else ():
+            if on:
+                raise LoweringError(f"{d.name}: {option} is for {why}: leave it out")
 
 
 # Emitted names kept apart from the identifiers that a language's templates use themselves.

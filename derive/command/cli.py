@@ -6,11 +6,11 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from contextvars import copy_context
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..language.limits import LISTENER, Refused
 from .showing import (
@@ -28,11 +28,19 @@ from .showing import (
     save_steps,
     steps_of,
 )
-from .terminal import working
-from .writing import StoppedError, one_line, replacing_unencodable, time_limit, with_progress
+from .writing import (
+    StoppedError,
+    one_line,
+    replacing_unencodable,
+    time_limit,
+    with_progress,
+    working,
+)
 
 if TYPE_CHECKING:
     from ..check.form.hypotheses_checked import Verdict
+    from ..problem.problem import Problem
+    from ..record.record import Derivation
 
 
 def command_list(_: argparse.Namespace) -> int:
@@ -142,20 +150,21 @@ def command_symmetries(args: argparse.Namespace) -> int:
     """All symmetries of a problem's Lagrangian, and what the motion keeps by each."""
     from ..searches import symmetries
 
-    problem, walked = derive(args.problem, **allowed(args))
-    with working(args.problem):
-        record = symmetries(problem, walked).record
-    save_found(record, args)
-    return 0
+    return _searched(args, symmetries)
 
 
 def command_reduction(args: argparse.Namespace) -> int:
     """Routh's reduction by symmetries that commute: effective potential, what is left to solve."""
     from ..searches import reduction
 
+    return _searched(args, reduction)
+
+
+def _searched(args: argparse.Namespace, search: Callable[[Problem, Derivation], Any]) -> int:
+    """Tell what a search finds in the walk of a problem."""
     problem, walked = derive(args.problem, **allowed(args))
     with working(args.problem):
-        record = reduction(problem, walked).record
+        record = search(problem, walked).record
     save_found(record, args)
     return 0
 
@@ -299,7 +308,7 @@ def _trial_text(v: Verdict) -> str:
 
 def command_compare(args: argparse.Namespace) -> int:
     """Hold a right-hand side of your own, in C or Python, against that of a problem."""
-    from .comparing import command_compare
+    from .simulating import command_compare
 
     return command_compare(args)
 
@@ -346,21 +355,22 @@ FILES = {"text": "txt", "latex": "tex", "json": "json"}
 COMMANDS = {
     "list": command_list,
     "walk": command_walk,
+    "symmetries": command_symmetries,
+    "reduction": command_reduction,
     "integrals": command_integrals,
     "equilibria": command_equilibria,
     "trim": command_trim,
-    "symmetries": command_symmetries,
-    "reduction": command_reduction,
     "notes": command_notes,
-    "lecture": command_lecture,
     "emit": command_emit,
+    "check": command_check,
     "simulate": command_simulate,
     "plot": command_plot,
-    "check": command_check,
     "compare": command_compare,
+    "lecture": command_lecture,
     "paper": command_paper,
     "build": command_build,
 }
+"""In the order of the help."""
 
 
 def _discard_stdout() -> None:
@@ -405,10 +415,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             status = run(parser(COMMANDS, ABOUT), argv)
             sys.stdout.flush()
         return status
-    except Refused as error:
-        print(f"derive: {one_line(error)}", file=sys.stderr)
-        return 2
-    except StoppedError as error:
+    except (Refused, StoppedError) as error:
         print(f"derive: {one_line(error)}", file=sys.stderr)
         return 2
     except ModuleNotFoundError as error:

@@ -10,8 +10,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..code.emit import EmitError, emit, included, planned
-from ..code.fmu import archives
+from ..code.emit import EmitError, archives, emit, included, planned
 from ..code.languages import LANGUAGES
 from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 from ..code.program import Program

@@ -20,8 +20,7 @@ from ..schema.table import nearest
 from ..search import FIRST
 from ..views.printing.line_breaking import WIDTH
 from ..views.rendering import render, unprinted
-from .terminal import show
-from .writing import as_in_a_file, one_line
+from .writing import as_in_a_file, one_line, show
 
 # The list of groups and ready-made problems that ``derive list`` prints.
 

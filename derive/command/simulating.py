@@ -1,4 +1,6 @@
-"""``derive simulate``: a run or an ensemble in one command."""
+"""``derive simulate``: a run or an ensemble in one command; and ``derive compare``: someone's
+right-hand side beside ours.
+"""
 
 from __future__ import annotations
 
@@ -9,13 +11,18 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 
 from ..algebra.groups import names_by_block
+from ..code.naming import own_prefix
+from ..code.options import Options
+from ..code.program import Program
+from ..compare.comparison import MOST, STATES, comparison, reports
+from ..motion.emitted import python_of
 from ..motion.emitted_code import parts
-from ..motion.energy_sources import DAMPING, FORCES, INPUTS, is_weightless
 from ..motion.ensemble import (
     EnsembleMotions,
     Part,
@@ -25,21 +32,44 @@ from ..motion.ensemble import (
     require_steps_of_an_ensemble,
 )
 from ..motion.ensemble_files import writer
-from ..motion.first_numbers import MotionError
+from ..motion.first_numbers import DAMPING, FORCES, INPUTS, MotionError, is_weightless
 from ..motion.native import AT_EVENT
 from ..motion.run import Array, Run, format_of, shown, written
 from ..motion.simulate import beginning, run, some_turns
 from ..motion.start import state_file
 from ..motion.trajectory import STEPS, Method, instants, step_of
+from ..pipeline import walk
 from ..problem.problem import Problem
-from ..programs import motion_of, motion_of_many
+from ..programs import motion_of, motion_of_many, program
 from ..record.record import Derivation
 from ..views.language import language
 from ..views.page.motion_page import motion_page
 from ..views.plot.pictures import plot
-from .showing import allowed, columns, derive, each_once
-from .terminal import filled, working
-from .writing import growing, heard, one_line, require_place, with_progress, write
+from .showing import UsageError, allowed, columns, derive, doubted, each_once
+from .writing import filled, growing, heard, one_line, require_place, with_progress, working, write
+
+
+def made(problem: Problem, dynamics: bool) -> tuple[Program, ModuleType]:
+    """The program of a problem, with its dynamics or without, and its Python."""
+    record, options = walk(problem), Options(dynamics=dynamics)
+    found = program(problem, record, options)
+    return found, python_of(found, record, own_prefix(problem.name), options)
+
+
+def command_compare(args: argparse.Namespace) -> int:
+    """Hold a right-hand side of your own, in C or Python, against that of a problem."""
+    problem = doubted(args.problem)
+    table = None if args.table is None else Path(args.table)
+    states = STATES if args.states is None else args.states
+    if not 1 <= states <= MOST:
+        raise UsageError(f"--states {states}: from 1 to {MOST}")
+    seed = args.seed or 0
+    with working(args.problem):
+        held = comparison(problem, made, Path(args.file), args.function, table, seed, states)
+        agrees, lines = reports(held, made)
+    print(*map(one_line, lines), sep="\n")
+    return 0 if agrees else 1
+
 
 # ``derive simulate``: from a problem to a run in one command.
 

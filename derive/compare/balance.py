@@ -15,7 +15,7 @@ from ..code.program import Program
 from ..language.limits import Refused
 from ..language.values import approximate
 from ..problem.problem import Problem
-from ..schema.kind import Acting
+from ..schema.force_kinds import Acting
 from .opened import ADDED, Opened, Slot, called
 from .users_code import Array
 

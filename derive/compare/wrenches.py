@@ -13,11 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from ..code.typed_names import plain_text, typed
+from ..code.naming import plain_text, typed
 from ..language.show import show
 from ..language.tree import Tree, nodes, replaced, sized
 from ..problem.fields import velocity_at_place
-from ..schema.kind import StatedForce
+from ..schema.force_kinds import StatedForce
 from .balance import EXACT, Balance, Term, cross, turning
 from .opened import called
 from .told import FACTORS, SIMPLE, Hypothesis, possible

@@ -17,12 +17,10 @@ from ..language.values import approximate
 from ..problem.inertia import fault_of_quadrics
 from ..problem.problem import Problem, points_of
 from ..schema.body_kinds import GivenBody, PointBody
-from ..schema.kinds.attraction import Attraction
-from ..schema.kinds.spring import Spring
+from ..schema.potential_kinds import Attraction, Spring
 from .emitted import Emitted
 from .emitted_code import Column
-from .energy_sources import drives
-from .first_numbers import MotionError
+from .first_numbers import MotionError, drives
 from .native import CompileError, Motion
 from .run import Array, Run
 from .signals import Given, InputsInTime, inputs_in_time

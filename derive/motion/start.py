@@ -20,8 +20,7 @@ from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..schema.body_kinds import Body
 from ..schema.kind import Lagrangian
-from .energy_sources import TIME, drives
-from .first_numbers import MotionError, first_numbers
+from .first_numbers import TIME, MotionError, drives, first_numbers
 from .run import Array, Run, known, read
 
 __all__ = ("OFF_THE_GROUP", "MotionError", "Start", "continued", "start", "state_file")

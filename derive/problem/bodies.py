@@ -22,9 +22,8 @@ from ..schema.body_kinds import (
     PointBody,
     Solid,
 )
-from ..schema.kind import (
+from ..schema.force_kinds import (
     DAMPING,
-    GROUP,
     INPUTS,
     Acting,
     AnyDamping,
@@ -32,18 +31,16 @@ from ..schema.kind import (
     Damping,
     ForceInput,
     Input,
-    Parameter,
-    Potential,
     QuadraticDamping,
     RotationalDamping,
     ScalarInput,
     StatedCovector,
     StatedForce,
-    StatedGroup,
     TorqueInput,
 )
-from ..schema.kinds import kinds
-from ..schema.output_kinds import OUTPUTS, ExpressionOutput, Output, PowerOutput
+from ..schema.kind import GROUP, Parameter, StatedGroup
+from ..schema.motion_kinds import OUTPUTS, ExpressionOutput, Output, PowerOutput
+from ..schema.potential_kinds import Potential, kinds
 from ..schema.table import ACTIONS, Slot, Table
 from .fields import angular_velocity, one_body, tables, velocity_at_place
 from .file_reader import FileReader

@@ -34,7 +34,7 @@ from ..schema.body_kinds import (
     Place,
     PointBody,
 )
-from ..schema.kind import Flow, Input, StatedForce
+from ..schema.force_kinds import Flow, Input, StatedForce
 from .entries_on_orbit import vanishes
 from .fields import angular_velocity, names_in_forces, one_body, tables
 from .file_reader import FileReader

@@ -11,7 +11,9 @@ from ..language.reserved import PLACE, acting_names
 from ..language.tree import Tree, nodes, replaced
 from ..language.values import approximate
 from ..schema.body_kinds import Place, Point
-from ..schema.kind import Acting, Advected, Damping, Input, Potential
+from ..schema.force_kinds import Acting, Damping, Input
+from ..schema.kind import Advected
+from ..schema.potential_kinds import Potential
 from ..schema.table import DETERMINANT, Slot
 from ..schema.table_reader import TableReader
 from .fields import (

@@ -80,16 +80,21 @@ class Quotient:
         self.zeta: list[Tree] = coordinates(group)
         self.rates: list[Tree] = [("entry", "ζ̇", a + 1) for a in range(group.dimension)]
 
-    def bracket(self, values: Sequence[Tree], n: Direction) -> list[Tree]:
-        """The coordinates of [v, n], on the right of [n, v]."""
+    def bracket(self, values: Sequence[Tree], n: Direction, *, dual: bool = False) -> list[Tree]:
+        """The coordinates of [v, n], on the right of [n, v]; or, ``dual``, of the covector
+        ⟨v, [n, E_a]⟩, on the right −⟨v, [n, E_a]⟩."""
         table, span = self.group.structure_constants, range(self.group.dimension)
+
+        def term(i: int, j: int, k: int) -> Any:
+            return table[j][k][i] if dual else table[i][j][k]
+
         return [
             add(
                 *(
-                    mul(plain(self.sign * x * table[b][a][k]), values[b])
-                    for a, x in enumerate(n)
-                    for b in span
-                    if x and table[b][a][k]
+                    mul(plain(self.sign * x * term(i, j, k)), values[i])
+                    for j, x in enumerate(n)
+                    for i in span
+                    if x and term(i, j, k)
                 )
             )
             for k in span
@@ -125,18 +130,7 @@ class Quotient:
     def laws(self, Q: Sequence[Tree], n: Direction) -> list[tuple[Tree, Tree]]:
         """What is so of a covector that acts on the quotient: ⟨Q, n⟩ = 0; and it goes on with g,
         δQ_a = s ⟨Q, [n, E_a]⟩, on the right −s ⟨Q, [n, E_a]⟩."""
-        table, span = self.group.structure_constants, range(self.group.dimension)
-        carried = [
-            add(
-                *(
-                    mul(plain(self.sign * x * table[b][a][k]), Q[k])
-                    for b, x in enumerate(n)
-                    for k in span
-                    if x and table[b][a][k]
-                )
-            )
-            for a in span
-        ]
+        carried = self.bracket(Q, n, dual=True)
         return [(along(Q, n), 0), *zip([self.variation(x, n) for x in Q], carried, strict=True)]
 
     def bears(self, Q: Sequence[Tree]) -> bool:

@@ -1,4 +1,6 @@
-"""[initial], [[event]] and [[signal]] of a problem file, and the names that they need."""
+"""[initial], [[event]] and [[signal]] of a problem file, and the names that they need; and
+problems of kinematics of first order: [kinematics], ġ as a function of the element g.
+"""
 
 from __future__ import annotations
 
@@ -7,19 +9,86 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ..algebra.factor_charts import chart_names
+from ..algebra.families import on_homogeneous
 from ..algebra.groups import Group, names_by_block
+from ..language.derivatives import weight
 from ..language.expression import names
+from ..language.limits import LEAVES
 from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
+from ..schema.kind import Kinematics, Parameter
 from ..schema.motion_kinds import Event, Signal
 from ..schema.table import hint, nearest
-from . import rotations
-from .fields import entries, known_in_lagrangian, state_names, tables
-from .file_reader import FileReader
+from .fields import entries, is_entry, known_in_lagrangian, state_names, tables, undeclared
+from .file_reader import ROTATION_KEYS, FileReader, turn_in
+from .inertia import is_negative
 from .problem import Initial, Problem, ProblemError
 
+SECTIONS_KNOWN = ("name", "title", "group", "action", "parameters", "kinematics")
+"""The keys of such a file."""
+
+
+def kinematics_problem(
+    data: Mapping[str, Any], moved: Group | None, parameters: Mapping[str, Parameter]
+) -> Problem:
+    """The problem of a file, on the matrices of its group, which act on (r, 1) where it is affine;
+    ``ProblemError`` for what else the file says."""
+    for key in data:
+        if key not in SECTIONS_KNOWN:
+            raise ProblemError(f"key {key!r}: [kinematics] says all of the motion; leave this out")
+    if moved is None:
+        raise ProblemError("key 'kinematics': a text about any group has none of its own")
+    group = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
+    if not group.has_inner_samples:
+        raise ProblemError(
+            f"kinematics: no exact elements of {group.name} are known, on which f_u is tried"
+        )
+    reader = FileReader()
+    reader.moves(group)
+    reader.carries(None, parameters)
+    name = reader.name_of(data)
+    if not isinstance(data["kinematics"], dict):
+        raise ProblemError("key 'kinematics' must be a table [kinematics]")
+    found = reader.typed(Kinematics, data["kinematics"], "kinematics")
+    _declared(found, group, reader)
+    return Problem(
+        name,
+        group,
+        title=reader.title_of(data, name),
+        parameters=parameters,
+        kinematics=found,
+    )
+
+
+def _declared(found: Kinematics, group: Group, reader: FileReader) -> None:
+    """Every name that is used is a parameter or an input, every one of these is used, and the
+    expressions are not too many."""
+    leaves = sum(weight(t).leaves for t in found.trees())
+    if leaves > LEAVES:
+        raise ProblemError(f"{leaves} names and numbers in expressions; at most {LEAVES}")
+    rates = {x for row in found.rate for t in row for x in names(t)}
+    used = rates | {x for t in found.noise for x in names(t)}
+    inputs = {*found.inputs}
+    for name in sorted(used - inputs):
+        if name not in reader.parameters:
+            known = {x: t for x, t in reader.state_names.items() if is_entry(t)}
+            raise ProblemError(undeclared(name, "kinematics", reader.parameters, group, known))
+    if within := sorted(inputs & {x for t in found.noise for x in names(t)}):
+        raise ProblemError(f"kinematics, noise: {within[0]!r} is an input; give parameters alone")
+    for name, density in zip(found.inputs, found.noise, strict=False):
+        if is_negative(density, reader.parameters):
+            raise ProblemError(
+                f"kinematics, noise of {name!r}: a density is not negative, and this one is, for "
+                "the defaults of the parameters"
+            )
+    if left := next((x for x in found.inputs if x not in rates), ""):
+        raise ProblemError(f"kinematics, inputs: {left!r} is not used in 'rate'; leave it out")
+    if left := next((x for x in reader.parameters if x not in used), ""):
+        raise ProblemError(f"parameter {left!r} is declared but not used; leave it out")
+
+
 KEYS = ("initial", "event", "signal")
-TURNED = re.compile(rf"({'|'.join(rotations.KEYS)})[1-9]?")
+TURNED = re.compile(rf"({'|'.join(ROTATION_KEYS)})[1-9]?")
 """The keys of [initial] that turn a body, or a block of a product by its number."""
 
 
@@ -88,7 +157,7 @@ def _initial(table: Any, reader: FileReader) -> Initial:
             raise ProblemError(f"{where}: a parameter has its default in [parameters]")
         if isinstance(value, list):
             first, second = (f"{name[:40]}_{k} = …" for k in (1, 2))
-            lists = f"exp, {', '.join(rotations.KEYS)}"
+            lists = f"exp, {', '.join(ROTATION_KEYS)}"
             known = f"one number each, {first}, {second}; lists are {lists}{hint(name, ())}"
             raise ProblemError(f"{where}: {known}")
         called = str(reader.by_block.get(name, name))
@@ -129,13 +198,13 @@ def _turned(table: Mapping[str, Any], reader: FileReader) -> dict[str, Tree]:
     marks = [str(k) for k in range(1, len(places) + 1)] if len(places) > 1 else [""]
     found: dict[str, Tree] = {}
     for k, mark in enumerate(marks):
-        own = {x: table[x + mark] for x in rotations.KEYS if x + mark in table}
-        name, said = rotations.turn_in(own, f"initial{f', block {mark}' if mark else ''}")
+        own = {x: table[x + mark] for x in ROTATION_KEYS if x + mark in table}
+        name, said = turn_in(own, f"initial{f', block {mark}' if mark else ''}")
         if name:
             turns = bool(places) and places[k][1].turns_space
             found |= _entries_turned(table, name, mark, said, reader, turns=turns)
     for name in table:
-        if len(marks) > 1 and name in rotations.KEYS:
+        if len(marks) > 1 and name in ROTATION_KEYS:
             blocks = f"{name}1 … {name}{marks[-1]}"
             raise ProblemError(f"initial, {name}: say of which block of the product, {blocks}")
     return found

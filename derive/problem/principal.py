@@ -23,9 +23,9 @@ from typing import Any
 from ..algebra.groups import Group
 from ..language.tree import Tree, mul
 from ..schema.body_kinds import GivenBody, Moments, Place, Point
-from ..schema.kind import Damping, ForceInput, Input, Parameter, Potential
-from ..schema.kinds.gravity import Gravity, gravity
-from ..schema.kinds.spring import Spring, quadratic
+from ..schema.force_kinds import Damping, ForceInput, Input
+from ..schema.kind import Parameter
+from ..schema.potential_kinds import Gravity, Potential, Spring, gravity, quadratic
 from ..schema.table import Key
 from .problem import Problem, ProblemError
 

@@ -12,26 +12,20 @@ from ..language.limits import Refused
 from ..language.reserved import numbers_of_input, numbers_of_output, rate_of_mass
 from ..language.tree import Tree, add
 from ..schema.body_kinds import AnyBody, Body, MomentBody, NoBody, Place, Point
-from ..schema.kind import (
-    GROUP,
+from ..schema.force_kinds import (
     Acting,
-    Advected,
     CovectorInput,
     Damping,
     Flow,
-    Fluid,
     ForceInput,
     Input,
-    Kinematics,
-    Lagrangian,
-    Parameter,
-    Potential,
     StatedCovector,
     StatedForce,
     TorqueInput,
 )
-from ..schema.motion_kinds import Event, Signal
-from ..schema.output_kinds import Output
+from ..schema.kind import GROUP, Advected, Fluid, Kinematics, Lagrangian, Parameter
+from ..schema.motion_kinds import Event, Output, Signal
+from ..schema.potential_kinds import Potential
 from ..schema.table import Table
 
 

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from inspect import Parameter, Signature, getmodule, signature
+from inspect import Parameter, Signature, signature
 from typing import Any, TypeVar
 
 from ..algebra.families import FAMILIES
@@ -99,7 +99,7 @@ def _word(name: str) -> Callable[..., Table | list[Table]]:
         return Table(own.section, **kind | said)
 
     vars(build)["__signature__"] = taken
-    return _called(build, name, (own.word or getmodule(own) or own).__doc__)
+    return _called(build, name, (own.word or own).__doc__)
 
 
 def _arguments(own: type[schema.Table]) -> Signature:

@@ -30,7 +30,7 @@ from ..record.vocabulary import (
 )
 from ..views.outline import named_numbers
 from ..views.text import clashing
-from .sympy_matrices import FunctionValue, Hat, MatrixSum, Member, scalar_member
+from .expressions import FunctionValue, Hat, MatrixSum, Member, scalar_member
 
 OF_A_FLUID = (FIELD, FUNCTION_ON_SPACE, OPERATOR, TENSOR)
 OF_ITS_ARGUMENT = ("δ", "δ′", "∫", "d/dt")

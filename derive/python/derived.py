@@ -235,9 +235,8 @@ class Derived:
         ``vary``, drawn by (low, high) or ("normal", mean, deviation) from a ``seed`` (0); kept is
         the end, or ``points`` instants.  ``MotionError``, a ``ValueError``, says what is wrong.
         """
-        from ..motion.energy_sources import is_weightless
         from ..motion.ensemble import require_an_ensemble
-        from ..motion.first_numbers import MotionError, require_numbers
+        from ..motion.first_numbers import MotionError, is_weightless, require_numbers
         from ..motion.simulate import run
         from ..motion.trajectory import Method, step_of
         from ..programs import motion_of

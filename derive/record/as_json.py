@@ -16,6 +16,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from ..language.derivatives import DERIVATIVES
 from ..language.limits import RECORD_BYTES, TREE
 from ..language.tree import OPERATORS, Tree
 from . import sentence
@@ -35,7 +36,7 @@ from .record import (
     step_of,
 )
 from .sentence import CLAIMS, Claim, Prose, english
-from .shape import ShapeError, deepest, problem_shape, tree_shape
+from .shape import ShapeError, problem_shape
 from .vocabulary import ROLES, RULES, VOCABULARY, Type, Use
 
 
@@ -384,3 +385,33 @@ def read(path: Path) -> Derivation:
         raise RecordError(f"{path}: not UTF-8 text") from None
     except RecordError as error:
         raise RecordError(f"{path}: {error}") from None
+
+
+def tree_shape(t: tuple[Any, ...]) -> str:
+    """What is wrong with the operands of an operator that takes names or numbers; else empty."""
+    if t[0] == "fun":
+        return "" if isinstance(t[1], str) and t[1] in DERIVATIVES else "unknown function"
+    if t[0] == "pow":
+        return "" if type(t[2]) is int else "an exponent must be an integer"
+    if t[0] in ("par", "sum", "at"):
+        named = isinstance(t[1], str) and all(isinstance(i, (str, int)) for i in t[2:3])
+        return "" if named or (t[0] == "sum" and isinstance(t[1], str)) else "expected a name"
+    if t[0] == "entry":
+        return "" if all(isinstance(i, (str, int)) for i in t[2:]) else "expected indices"
+    if t[0] == "matrix":
+        lengths = {len(x) if isinstance(x, tuple) and x[0] == "row" else 0 for x in t[1:]}
+        return "" if len(lengths) == 1 and 0 not in lengths else "expected rows of one length"
+    return ""
+
+
+def deepest(data: Any) -> int:
+    """How many lists and objects lie in one another at most; found without recursion."""
+    level, inside = 0, [data]
+    while inside := [
+        x
+        for y in inside
+        if isinstance(y, (list, dict))
+        for x in (y.values() if isinstance(y, dict) else y)
+    ]:
+        level += 1
+    return level

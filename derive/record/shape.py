@@ -7,31 +7,18 @@ and can be drawn.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
-from ..language.derivatives import DERIVATIVES
 from ..language.laurent import LEVEL, degree_in_level
 from ..language.limits import BASIS, CARRIED, LAYERS, TORUS
 from ..language.reserved import acting_names, taken
 from ..language.tree import Tree, nodes, replaced
 from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
-from ..schema.kind import (
-    GROUP,
-    INPUTS,
-    Acting,
-    Advected,
-    Damping,
-    Flow,
-    Fluid,
-    Kinematics,
-    Lagrangian,
-    StatedCovector,
-    StatedForce,
-    Torus,
-)
-from ..schema.kinds import kinds
-from ..schema.output_kinds import OF_MASSES, OUTPUTS
+from ..schema.force_kinds import INPUTS, Acting, Damping, Flow, StatedCovector, StatedForce
+from ..schema.kind import GROUP, Advected, Fluid, Kinematics, Lagrangian, Torus
+from ..schema.motion_kinds import OF_MASSES, OUTPUTS
+from ..schema.potential_kinds import kinds
 from ..schema.table import ACTIONS, DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
 from .record import CONVENTIONS
@@ -51,34 +38,11 @@ def problem_shape(data: Mapping[str, Any], tree: Callable[[Any, str], Tree]) -> 
     _RecordReader(data, tree).problem()
 
 
-def tree_shape(t: tuple[Any, ...]) -> str:
-    """What is wrong with the operands of an operator that takes names or numbers; else empty."""
-    if t[0] == "fun":
-        return "" if isinstance(t[1], str) and t[1] in DERIVATIVES else "unknown function"
-    if t[0] == "pow":
-        return "" if type(t[2]) is int else "an exponent must be an integer"
-    if t[0] in ("par", "sum", "at"):
-        named = isinstance(t[1], str) and all(isinstance(i, (str, int)) for i in t[2:3])
-        return "" if named or (t[0] == "sum" and isinstance(t[1], str)) else "expected a name"
-    if t[0] == "entry":
-        return "" if all(isinstance(i, (str, int)) for i in t[2:]) else "expected indices"
-    if t[0] == "matrix":
-        lengths = {len(x) if isinstance(x, tuple) and x[0] == "row" else 0 for x in t[1:]}
-        return "" if len(lengths) == 1 and 0 not in lengths else "expected rows of one length"
-    return ""
-
-
-def deepest(data: Any) -> int:
-    """How many lists and objects lie in one another at most; found without recursion."""
-    level, inside = 0, [data]
-    while inside := [
-        x
-        for y in inside
-        if isinstance(y, (list, dict))
-        for x in (y.values() if isinstance(y, dict) else y)
-    ]:
-        level += 1
-    return level
+def number(t: Tree, where: str, is_known: bool) -> Tree:
+    """The tree of a number, where it is made of what is known; else ``ShapeError``."""
+    if not is_known:
+        raise ShapeError(f"{where}: expected the expression of a number")
+    return t
 
 
 class _RecordReader(TableReader):
@@ -165,12 +129,10 @@ class _RecordReader(TableReader):
     def lagrangian(self) -> None:
         """A Lagrangian that no points give is beside no body, and all that acts but covectors."""
         data = self.data
-        if "fluid" in data:
-            self.fluid()
-            return
-        if "kinematics" in data:
-            self.kinematics()
-            return
+        for key, own in (("fluid", self.fluid), ("kinematics", self.kinematics)):
+            if key in data:
+                own()
+                return
         if data["group"] == GROUP:
             raise ShapeError(f"fluid: the problem of {GROUP} has this key")
         if ("lagrangian" in data) != (data["body"]["kind"] == "none"):
@@ -181,9 +143,8 @@ class _RecordReader(TableReader):
                     "advected, torus: they are of a problem with a Lagrangian of its own"
                 )
             return
-        for key in ("potentials", "damping", "flows"):
-            if data.get(key):
-                raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
+        if key := next((x for x in ("potentials", "damping", "flows") if data.get(x)), ""):
+            raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
         if "advected" in data or "torus" in data:
             self.covectors_alone()
         if any(x["kind"] in OF_MASSES for x in data.get("outputs", ())):
@@ -214,24 +175,25 @@ class _RecordReader(TableReader):
             raise ShapeError(f"fluid: its group is {GROUP}, its n any, and it has no body")
         if "lagrangian" in data or data["homogeneous"] or data["action"] != "linear":
             raise ShapeError("fluid: nothing else says its Lagrangian or its action")
-        for key in ("advected", "frame", "masses", "forces", "flows", "outputs"):
-            if key in data:
-                raise ShapeError(f"fluid: it has no key {key!r}")
-        for key in ("potentials", "places", "damping", "inputs", "parameters", "basis"):
-            if data[key]:
-                raise ShapeError(f"fluid: {key} must be empty")
+        absent = ("advected", "frame", "masses", "forces", "flows", "outputs")
+        self.without("fluid: it has", absent, ("parameters", "basis"))
+
+    def without(self, begin: str, absent: Sequence[str], empty: Sequence[str] = ()) -> None:
+        """``ShapeError`` for a key that a problem without points has not, or not filled."""
+        for key in absent:
+            if key in self.data:
+                raise ShapeError(f"{begin} no key {key!r}")
+        for key in ("potentials", "places", "damping", "inputs", *empty):
+            if self.data[key]:
+                raise ShapeError(f"{begin.partition(':')[0]}: {key} must be empty")
 
     def kinematics(self) -> None:
         """ġ says all of the motion, on the matrices of a group."""
         data = self.data
         if data["body"]["kind"] != "none" or not data["basis"] or data["action"] != "linear":
             raise ShapeError("kinematics: they are of a group of matrices, without a body")
-        for key in ("lagrangian", "advected", "frame", "masses", "forces", "outputs", "torus"):
-            if key in data:
-                raise ShapeError(f"kinematics: they have no key {key!r}")
-        for key in ("potentials", "places", "damping", "inputs"):
-            if data[key]:
-                raise ShapeError(f"kinematics: {key} must be empty")
+        absent = ("lagrangian", "advected", "frame", "masses", "forces", "outputs", "torus")
+        self.without("kinematics: they have", absent)
         self.typed(Kinematics, data["kinematics"], "kinematics")
 
     def meaning_of(self, name: str) -> str:
@@ -250,9 +212,8 @@ class _RecordReader(TableReader):
             plain = t
             for name in inputs:
                 plain = replaced(plain, ("par", name), 1)
-            if "ζ" in nodes(t) or not self.is_scalar(plain, False, False, len(self.data["basis"])):
-                raise ShapeError(f"{slot.path}: expected the expression of a number")
-            return t
+            known = self.is_scalar(plain, False, False, len(self.data["basis"]))
+            return number(t, slot.path, known and "ζ" not in nodes(t))
 
         return tuple(tuple(map(one, row)) for row in listed)
 
@@ -271,9 +232,7 @@ class _RecordReader(TableReader):
     def lettered(self, slot: Slot) -> Tree:
         """An expression in the time, the entries of g and ζ."""
         t = self.read(self.value(slot), slot.path)
-        if not self.is_scalar(t, False, True, len(self.data["basis"])):
-            raise ShapeError(f"{slot.path}: expected the expression of a number")
-        return t
+        return number(t, slot.path, self.is_scalar(t, False, True, len(self.data["basis"])))
 
     def held(self, slot: Slot) -> tuple[int, ...]:
         """Numbers of coordinates, in order, or none."""
@@ -356,9 +315,8 @@ class _RecordReader(TableReader):
         degree = degree_in_level(t)
         if degree is None or degree > (LAYERS if slot.table["kind"] in LAYERED else 0):
             raise ShapeError(f"{slot.path}: expected a polynomial in the level, or no level")
-        if not self.is_scalar(replaced(t, LEVEL, 1), placed=False, timed=False):
-            raise ShapeError(f"{slot.path}: expected the expression of a number")
-        return t
+        known = self.is_scalar(replaced(t, LEVEL, 1), placed=False, timed=False)
+        return number(t, slot.path, known)
 
     def energy(self, slot: Slot) -> Tree:
         """The same, of t and coordinates of points."""
@@ -367,16 +325,13 @@ class _RecordReader(TableReader):
     def of_volume(self, slot: Slot) -> Tree:
         """The same, of t and the volume."""
         t = self.read(self.value(slot), slot.path)
-        if not self.is_scalar(replaced(t, DETERMINANT, "t"), placed=False, timed=True):
-            raise ShapeError(f"{slot.path}: expected the expression of a number")
-        return t
+        known = self.is_scalar(replaced(t, DETERMINANT, "t"), placed=False, timed=True)
+        return number(t, slot.path, known)
 
     def made_of(self, value: Any, where: str, placed: bool = False, timed: bool = False) -> Tree:
         """The tree of a number."""
         t = self.read(value, where)
-        if not self.is_scalar(t, placed, timed or placed):
-            raise ShapeError(f"{where}: expected the expression of a number")
-        return t
+        return number(t, where, self.is_scalar(t, placed, timed or placed))
 
     def is_scalar(self, t: Tree, placed: bool, timed: bool, coordinates: int = 0) -> bool:
         """Is it made of what is known, by what keeps to numbers?  ``coordinates``: how many entries
@@ -433,13 +388,12 @@ class _RecordReader(TableReader):
 
         def one(value: Any, where: str) -> Tree:
             t = self.read(value, where)
-            if not self.is_scalar(lettered(t), placed=False, timed=True):
-                raise ShapeError(f"{where}: expected the expression of a number")
-            return t
+            return number(t, where, self.is_scalar(lettered(t), placed=False, timed=True))
 
         return self.listed(self.value(slot), None, slot.path, one)
 
     stated_couple = stated_covector = observed = stated
+    first = TableReader.vector
     flowing = False
 
     def is_spring(self, k: int) -> bool:
@@ -467,10 +421,6 @@ class _RecordReader(TableReader):
     def turned(self, value: Any, n: int, where: str) -> Rows:
         """Rows of trees."""
         return self.rows(value, n, n, where)
-
-    def first(self, slot: Slot) -> tuple[Tree, ...]:
-        """A vector."""
-        return self.vector(slot)
 
     def second(self, slot: Slot) -> Rows:
         """A matrix."""

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from unicodedata import normalize
 
-from ..schema.kinds import kinds
+from ..schema.potential_kinds import kinds
 from .prose import read, unmarked
 
 Type = str | tuple[Any, ...]

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any, ClassVar
 
 from .printer import ATOM, SUM, Lines, Printer
-from .source import LANES, Type, arguments, is_stub
+from .source import LANES, Type, arguments, by_rows, is_stub
 
 STEPS = {"Step": "real", "Steps": "count"}
 """Functions that are handed over: the type of their last argument, after a size of steps."""
@@ -124,17 +124,12 @@ class C(Printer):
 
     def table(self, name: str, kind: Type, values: Any, depth: int = 0) -> str:
         sizes = "".join(f"[{n}]" for n in self.sizes(kind))
-        return f"static const {self.kind(kind)} {name}{sizes} = {self.braced(values, depth)}"
+        text = by_rows(values, depth, self.entry_text, "{}")
+        return f"static const {self.kind(kind)} {name}{sizes} = {text}"
 
-    def braced(self, values: Any, depth: int) -> str:
-        """Numbers, by rows, each on lines of its own."""
-        if not isinstance(values, (list, tuple)):
-            return str(values) if isinstance(values, str) else self.constant(values)
-        inner = [self.braced(x, depth + 1) for x in values]
-        if not any(isinstance(x, (list, tuple)) for x in values):
-            return "{" + ", ".join(inner) + "}"
-        pad = "\n" + "    " * (depth + 1)
-        return "{" + pad + ("," + pad).join(inner) + "}"
+    def entry_text(self, value: Any) -> str:
+        """A number of a table, or what stands for one."""
+        return value if isinstance(value, str) else self.constant(value)
 
     def copied(self, to: ast.expr, of: ast.expr) -> str:
         t = self.type_of(to)
@@ -228,12 +223,8 @@ class C(Printer):
         yield from more.splitlines()
         yield f"}} {self.kind(Type(name))};"
 
-    def tables(self) -> Lines:
-        """The tables of numbers, known in the whole file."""
-        self.types, self.arguments = {}, {}
-        for name, kind in self.source.tables.items():
-            values = self.given[self.source.values[name]]
-            yield from self.wrapped(self.table(self.name(name), kind, values) + ";")
+    def known_table(self, name: str, kind: Type, values: Any) -> Lines:
+        return self.wrapped(self.table(name, kind, values) + ";")
 
     def remark(self, text: str) -> str:
         return f"/* {text} */"

@@ -7,8 +7,8 @@ import ast
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
-from .printer import PRODUCT, Lines, Printer, flat
-from .source import LANES, Type
+from .printer import PRODUCT, Lines, Printer
+from .source import LANES, Type, flat
 
 
 class JavaScript(Printer):
@@ -63,11 +63,7 @@ class JavaScript(Printer):
         yield " */"
 
     def head(self, f: ast.FunctionDef, returns: Type | None) -> Lines:
-        plain = [None] * (len(f.args.args) - len(f.args.defaults))
-        given = [
-            self.argument(a.arg) + (f" = {self.bare(value)}" if value else "")
-            for a, value in zip(f.args.args, [*plain, *f.args.defaults], strict=True)
-        ]
+        given = self.with_defaults(f, self.argument)
         public = f.name in self.given["public"]
         name = self.given.get(f.name, f.name)
         given += [*self.lane_given] * self.of_lanes
@@ -196,14 +192,10 @@ class JavaScript(Printer):
         yield "    };"
         yield "}"
 
-    def tables(self) -> Lines:
-        """The tables of numbers, known in the whole file."""
-        self.types, self.arguments, self.hoisted = {}, {}, {}
-        for name, kind in self.source.tables.items():
-            values = self.given[self.source.values[name]]
-            halved = _halved(values) if kind.name in LANES and kind.sizes else None
-            text = f"{halved[0]}({', '.join(map(self.constant, halved[1]))})" if halved else ""
-            yield from self.wrapped(f"const {name} = {text or self.rows(values, kind)};")
+    def known_table(self, name: str, kind: Type, values: Any) -> Lines:
+        halved = _halved(values) if kind.name in LANES and kind.sizes else None
+        text = f"{halved[0]}({', '.join(map(self.constant, halved[1]))})" if halved else ""
+        return self.wrapped(f"const {name} = {text or self.rows(values, kind)};")
 
 
 def _halved(rows: Sequence[Sequence[float]]) -> tuple[str, list[float]] | None:

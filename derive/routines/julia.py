@@ -8,8 +8,8 @@ import re
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
-from .printer import ATOM, COMPARE, COMPARED, SUM, WIDTH, Lines, Printer, flat
-from .source import LANES, Type, arguments, is_matrix
+from .printer import ATOM, COMPARE, SUM, WIDTH, Lines, Printer
+from .source import COMPARED, LANES, Type, arguments, flat, is_matrix
 
 KEYWORDS = ("begin", "end")
 """Names of the algorithms that are words of Julia."""
@@ -102,11 +102,7 @@ class Julia(Printer):
 
     def signature(self, f: ast.FunctionDef) -> str:
         """The name of a routine and its arguments; inputs by their name in what is public."""
-        plain = [None] * (len(f.args.args) - len(f.args.defaults))
-        given = [
-            self.name(a.arg) + (f" = {self.bare(value)}" if value else "")
-            for a, value in zip(f.args.args, [*plain, *f.args.defaults], strict=True)
-        ]
+        given = self.with_defaults(f, self.name)
         inputs = ""
         if f.name in self.given["public"]:
             given.remove("u")
@@ -276,12 +272,8 @@ class Julia(Printer):
             yield f"    {field}::{kind} = {self.made(t)}" + f" # {told}" * bool(told)
         yield "end"
 
-    def tables(self) -> Lines:
-        """The tables of numbers, known in the whole file."""
-        self.types, self.arguments, self.hoisted = {}, {}, {}
-        for name, kind in self.source.tables.items():
-            values = self.given[self.source.values[name]]
-            yield from self.wrapped(f"const {name} = {self.entries(values, kind)}")
+    def known_table(self, name: str, kind: Type, values: Any) -> Lines:
+        return self.wrapped(f"const {name} = {self.entries(values, kind)}")
 
     def remark(self, text: str) -> str:
         return f"# {text}"

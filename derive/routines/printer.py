@@ -7,27 +7,11 @@ import itertools
 import re
 import textwrap
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
-from .source import LANES, Given, Source, Type, arguments
+from .source import COMPARED, LANES, OPERATORS, Given, PatternArgument, Source, Type, arguments
 
-OPERATORS = {
-    ast.Add: "+",
-    ast.Sub: "-",
-    ast.Mult: "*",
-    ast.Div: "/",
-    ast.FloorDiv: "//",
-    ast.Mod: "%",
-}
-COMPARED = {
-    ast.Lt: "<",
-    ast.LtE: "<=",
-    ast.Gt: ">",
-    ast.GtE: ">=",
-    ast.Eq: "==",
-    ast.NotEq: "!=",
-}
 CHOICE, OR, AND, COMPARE, SUM, PRODUCT, UNARY, ATOM = range(8)
 """How closely an expression binds, from the least."""
 LEVELS = {"*": PRODUCT, "/": PRODUCT, "//": PRODUCT, "%": PRODUCT, "+": SUM, "-": SUM}
@@ -120,9 +104,26 @@ class Printer(ABC):
     def record(self, name: str, more: str = "") -> Lines:
         """The type of a record, or what makes one; ``more``: fields that no algorithm reads."""
 
-    @abstractmethod
     def tables(self) -> Lines:
         """The tables of numbers, known in the whole file."""
+        self.types, self.arguments, self.hoisted = {}, {}, {}
+        for name, kind in self.source.tables.items():
+            values = self.given[self.source.values[name]]
+            yield from self.known_table(self.name(name), kind, values)
+
+    @abstractmethod
+    def known_table(self, name: str, kind: Type, values: Any) -> Lines:
+        """A table that is known in the whole file."""
+
+    def with_defaults(
+        self, f: ast.FunctionDef, name: Callable[[str], str], sign: str = " = "
+    ) -> list[str]:
+        """The arguments of a routine by their names, with the values that some have."""
+        plain = [None] * (len(f.args.args) - len(f.args.defaults))
+        return [
+            name(a.arg) + (sign + self.bare(value) if value else "")
+            for a, value in zip(f.args.args, [*plain, *f.args.defaults], strict=True)
+        ]
 
     def unread(self, name: str) -> str:
         """What keeps a compiler quiet about an argument that is not read."""
@@ -163,21 +164,7 @@ class Printer(ABC):
 
     def type_of(self, x: ast.expr) -> Type | None:
         """The type of an expression, where that is stated."""
-        match x:
-            case ast.Name(id=name):
-                return self.types.get(name) or self.source.tables.get(name)
-            case ast.Attribute(value=value, attr=field) if t := self.type_of(value):
-                return self.source.fields(t.name).get(field)
-            case ast.Subscript(value=value) if t := self.type_of(value):
-                return t if isinstance(x.slice, ast.Slice) else t.element
-            case ast.BinOp(left=left, right=right):
-                found = map(self.type_of, (left, right))
-                return next((t for t in found if t and t.is_lanes), None)
-            case ast.Call(func=ast.Name(id="fused")):
-                return Type("lanes")
-            case ast.Call(func=ast.Name(id=name)) if f := self.source.routines.get(name):
-                return Type.of(f.returns) if f.returns else None
-        return None
+        return self.source.type_of(x, self.types)
 
     def closed(self, depth: int) -> Lines:
         """The end of a block."""
@@ -330,7 +317,7 @@ class Printer(ABC):
         """A call; nothing where a language has nothing of it."""
         if name in self.builtin:
             pattern = self.builtin[name]
-            return pattern.format(*(_Given(self.bare(y), self.at(y, ATOM)) for y in given))
+            return pattern.format(*(PatternArgument(self.bare(y), self.at(y, ATOM)) for y in given))
         if name not in self.source.routines:
             return f"{name}({', '.join(map(self.outside, given))})"  # one that is handed over
         f = self.source.routines[name]
@@ -444,23 +431,6 @@ class Printer(ABC):
                 yield x[:at].rstrip()
                 x = pad + x[at:].lstrip()
             yield x
-
-
-class _Given:
-    """An argument of a pattern: {} between commas or parentheses, {:.} within an expression."""
-
-    def __init__(self, bare: str, atom: str):
-        self.bare, self.atom = bare, atom
-
-    def __format__(self, spec: str) -> str:
-        return self.atom if spec else self.bare
-
-
-def flat(values: Any) -> list[float]:
-    """All numbers of rows."""
-    if not isinstance(values, (list, tuple)):
-        return [values]
-    return [x for row in values for x in flat(row)]
 
 
 def _break(line: str) -> int:

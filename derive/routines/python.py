@@ -44,24 +44,20 @@ class Python(Printer):
         return iter(())
 
     def head(self, f: ast.FunctionDef, returns: Type | None) -> Lines:
-        plain = [None] * (len(f.args.args) - len(f.args.defaults))
-        given = [
-            a.arg + (f"={self.bare(value)}" if value else "")
-            for a, value in zip(f.args.args, [*plain, *f.args.defaults], strict=True)
-        ]
+        given = self.with_defaults(f, str, "=")
         yield f"def {self.given.get(f.name, self.name(f.name))}({', '.join(given)}):"
         public = f.name in self.given["public"]
         text = self.with_numbers(ast.get_docstring(f) or "")
         text += "  " + self.given["status"] if public else ""
-        yield from self.docstring(text, "    ")
+        yield from self.docstring(text)
         if public:
             yield from self.given["entry"]
 
-    def docstring(self, text: str, pad: str) -> Lines:
+    def docstring(self, text: str) -> Lines:
         """What something is for."""
         lines = self.paragraph(text)
         for i, line in enumerate(lines):
-            yield pad + '"""' * (i == 0) + line + '"""' * (line is lines[-1])
+            yield "    " + '"""' * (i == 0) + line + '"""' * (line is lines[-1])
 
     def function(self, f: ast.FunctionDef) -> Lines:
         """A routine; of those that are public without warnings."""
@@ -318,19 +314,15 @@ class Python(Printer):
     def record(self, name: str, more: str = "") -> Lines:
         """The class of a record; ``more``: fields that no algorithm reads."""
         yield f"class {'_' * (name != 'Motion')}{name}:"
-        yield from self.docstring(self.doc_of(name), "    ")
+        yield from self.docstring(self.doc_of(name))
         yield ""
         yield "    def __init__(self):"
         for field, t, told in self.fields(name):
             yield f"        self.{field} = {self.made(t)}" + f"  # {told}" * bool(told)
         yield from more.splitlines()
 
-    def tables(self) -> Lines:
-        """The tables of numbers, known in the whole file."""
-        self.types, self.arguments = {}, {}
-        for name in self.source.tables:
-            values = self.rows_of(self.given[self.source.values[name]])
-            yield from self.wrapped(f"{self.name(name)} = numpy.array({values})")
+    def known_table(self, name: str, kind: Type, values: Any) -> Lines:
+        return self.wrapped(f"{name} = numpy.array({self.rows_of(values)})")
 
     def remark(self, text: str) -> str:
         return f"# {text}"

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any, ClassVar
 
 from .printer import Lines, Printer
-from .source import LANES, Type
+from .source import LANES, Type, by_rows
 
 STEPS = {"Step": ("{real}", "bool"), "Steps": ("usize", "Result<(), Stopped>")}
 """Functions that are handed over: the type of their last argument, and what they return."""
@@ -105,18 +105,9 @@ class Rust(Printer):
         return found
 
     def table(self, name: str, kind: Type, values: Any, depth: int = 0) -> str:
-        return f"let {name}: {self.kind(kind)} = {self.rows(values, depth, kind)}"
-
-    def rows(self, values: Any, depth: int, kind: Type) -> str:
-        """Numbers, by rows, each on lines of its own."""
-        if not isinstance(values, (list, tuple)):
-            whole = kind.name in ("index", "sign", "count")
-            return self.constant(int(values) if whole else float(values))
-        inner = [self.rows(x, depth + 1, kind) for x in values]
-        if not any(isinstance(x, (list, tuple)) for x in values):
-            return "[" + ", ".join(inner) + "]"
-        pad = "\n" + "    " * (depth + 1)
-        return "[" + pad + ("," + pad).join(inner) + "]"
+        whole = kind.name in ("index", "sign", "count")
+        text = by_rows(values, depth, lambda x: self.constant(int(x) if whole else float(x)))
+        return f"let {name}: {self.kind(kind)} = {text}"
 
     def copied(self, to: ast.expr, of: ast.expr) -> str:
         left, right = self.outside(to), self.outside(of)
@@ -172,10 +163,6 @@ class Rust(Printer):
             yield f"            {field}: {self.zero(t)},"
         yield from ("        }", "    }", "}")
 
-    def tables(self) -> Lines:
-        """The tables of numbers, known in the whole file."""
-        self.types, self.arguments = {}, {}
-        for name, kind in self.source.tables.items():
-            text = self.table(self.name(name), kind, self.given[self.source.values[name]])
-            yield "#[rustfmt::skip]"
-            yield from self.wrapped("const" + text.removeprefix("let") + ";")
+    def known_table(self, name: str, kind: Type, values: Any) -> Lines:
+        yield "#[rustfmt::skip]"
+        yield from self.wrapped("const" + self.table(name, kind, values).removeprefix("let") + ";")

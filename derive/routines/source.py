@@ -16,7 +16,7 @@ from __future__ import annotations
 import ast
 import io
 import tokenize
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -68,6 +68,23 @@ INDICES = ("i", "j")
 LANES = ("lanes", "eight")
 """Eight numbers, one for each stage: in registers where a language has such, and in memory."""
 
+OPERATORS = {
+    ast.Add: "+",
+    ast.Sub: "-",
+    ast.Mult: "*",
+    ast.Div: "/",
+    ast.FloorDiv: "//",
+    ast.Mod: "%",
+}
+COMPARED = {
+    ast.Lt: "<",
+    ast.LtE: "<=",
+    ast.Gt: ">",
+    ast.GtE: ">=",
+    ast.Eq: "==",
+    ast.NotEq: "!=",
+}
+
 
 @dataclass
 class Source:
@@ -111,6 +128,24 @@ class Source:
             return {}
         stated = (x for x in self.records[record].body if isinstance(x, ast.AnnAssign))
         return {ast.unparse(x.target): Type.of(x.annotation) for x in stated}
+
+    def type_of(self, x: ast.expr, types: Mapping[str, Type]) -> Type | None:
+        """The type of an expression, where that is stated; ``types``: of the names of a routine."""
+        match x:
+            case ast.Name(id=name):
+                return types.get(name) or self.tables.get(name)
+            case ast.Attribute(value=value, attr=field) if t := self.type_of(value, types):
+                return self.fields(t.name).get(field)
+            case ast.Subscript(value=value) if t := self.type_of(value, types):
+                return t if isinstance(x.slice, ast.Slice) else t.element
+            case ast.BinOp(left=left, right=right):
+                found = (self.type_of(y, types) for y in (left, right))
+                return next((t for t in found if t and t.is_lanes), None)
+            case ast.Call(func=ast.Name(id="fused")):
+                return Type("lanes")
+            case ast.Call(func=ast.Name(id=name)) if f := self.routines.get(name):
+                return Type.of(f.returns) if f.returns else None
+        return None
 
     def written(self, roots: Sequence[str]) -> Iterator[ast.FunctionDef]:
         """The routines that some of them need, in the order of the sources; not those that the file
@@ -274,3 +309,31 @@ def _duplicate(x: ast.AST) -> ast.AST:
         else:
             fields[name] = _duplicate(value) if isinstance(value, ast.AST) else value
     return ast.copy_location(type(x)(**fields), x)
+
+
+def flat(values: Any) -> list[float]:
+    """All numbers of rows."""
+    if not isinstance(values, (list, tuple)):
+        return [values]
+    return [x for row in values for x in flat(row)]
+
+
+def by_rows(values: Any, depth: int, number: Callable[[Any], str], ends: str = "[]") -> str:
+    """The text of numbers, by rows, each on lines of its own, between two brackets."""
+    if not isinstance(values, (list, tuple)):
+        return number(values)
+    inner = [by_rows(x, depth + 1, number, ends) for x in values]
+    if not any(isinstance(x, (list, tuple)) for x in values):
+        return ends[0] + ", ".join(inner) + ends[1]
+    pad = "\n" + "    " * (depth + 1)
+    return ends[0] + pad + ("," + pad).join(inner) + ends[1]
+
+
+class PatternArgument:
+    """An argument of a pattern: {} between commas or parentheses, {:.} within an expression."""
+
+    def __init__(self, bare: str, atom: str):
+        self.bare, self.atom = bare, atom
+
+    def __format__(self, spec: str) -> str:
+        return self.atom if spec else self.bare

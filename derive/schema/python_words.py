@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 from .body_kinds import Moments, Point, Solid
+from .force_kinds import INPUTS, Damping, Flow, StatedCovector, StatedForce
 from .kind import (
-    INPUTS,
     SECTIONS,
-    Damping,
-    Flow,
     Fluid,
     Kinematics,
     StatedAdvected,
     StatedAlgebra,
-    StatedCovector,
-    StatedForce,
     StatedTorus,
     TorusInertia,
 )
-from .kinds import kinds
-from .motion_kinds import Event, Signal
-from .output_kinds import ExpressionOutput
+from .motion_kinds import Event, ExpressionOutput, Signal
+from .potential_kinds import kinds
 from .table import Table
 
 

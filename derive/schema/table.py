@@ -252,7 +252,8 @@ class Table:
 
     ``kind``: its name, where there are several kinds; ``needs``: what the problem must be;
     ``section``: the key of a file under which such tables stand; ``timed``: do its expressions know
-    the time?  ``called``: its word in Python;
+    the time?  ``may``: keys that it has only where a file says them; ``called``: its word in
+    Python;
     ``word``: what that makes of arguments, a table or a list of them, where they are not its keys.
     """
 
@@ -260,6 +261,7 @@ class Table:
     needs: ClassVar[tuple[str, ...]] = ()
     section: ClassVar[str] = ""
     timed: ClassVar[bool] = False
+    may: ClassVar[tuple[str, ...]] = ()
     called: ClassVar[str] = ""
     word: ClassVar[Any] = None
 
@@ -285,8 +287,9 @@ class Table:
 
         ``last``: points are numbered up to this.
         """
-        del table, last
-        return tuple(cls.keys())
+        del last
+        known = cls.keys()
+        return tuple(x for x in known if x not in cls.may or x in table)
 
     @classmethod
     def read(cls, table: Mapping[str, Any], where: str, reader: Any) -> Self:

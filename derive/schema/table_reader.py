@@ -13,8 +13,9 @@ from typing import Any, ClassVar, TypeVar
 from ..language.limits import MAGNITUDE, SAMPLES, TEXT, TORUS
 from ..language.reserved import COLUMNS, WORDS, numbers_of_input, taken
 from ..language.tree import Tree
-from .kind import Acting, Input, Parameter
-from .output_kinds import Output
+from .force_kinds import Acting, Input
+from .kind import Parameter
+from .motion_kinds import Output
 from .table import Rows, Slot, Table, hint, nearest
 
 UNIT = re.compile(r"[\w^*/.·°%⁰¹²³⁴-⁹⁻ -]{0,30}")

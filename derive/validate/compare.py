@@ -14,7 +14,6 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from ..algebra.groups import names_by_block
 from ..check.lagrangian.lagrangian_model import LagrangianModel
 from ..check.trials.model import Model
 from ..language import rational as q
@@ -29,10 +28,10 @@ from .functions_of_state import (
     compare_attitude,
     compare_conserved,
     compare_drift,
+    compare_names,
     each_moved,
     exact_root,
     is_named,
-    plain,
     slopes,
 )
 from .straight_line import (
@@ -44,43 +43,6 @@ from .straight_line import (
     with_roots,
 )
 from .terms import Array, CodeError, DiffersError, Literals, Machine, Module, run
-
-
-def compare_names(m: Module, claims: Claims) -> None:
-    """``DiffersError`` where one of the lists is not what record and chart make it."""
-    called = names_by_block(claims.group)
-    own = (
-        ("state", claims.state.names),
-        ("state_by_block", tuple(called.get(x, x) for x in claims.state.names)),
-        ("inputs", claims.inputs),
-        ("outputs", claims.outputs),
-    )
-    for what, names in own:
-        if (getattr(m, what) or names) != names:
-            raise DiffersError(f"the names of {what} are not {', '.join(names) or 'none'}")
-    declared, listed = claims.record.problem["parameters"], m.parameters or ()
-    if listed != tuple(x for x in declared if x in listed):
-        raise DiffersError("the parameters are not those of the record, in its order")
-    sizes = {
-        "STATE": len(claims.state.names),
-        "INPUTS": len(claims.inputs),
-        "PARAMETERS": len(listed),
-        "ALGEBRA": claims.group.dimension,
-    }
-    if claims.outputs:
-        sizes["OUTPUTS"] = len(claims.outputs)
-    if claims.state.on_the_group:
-        sizes["MATRIX"] = len(plain(claims.state).names)
-    for what, size in sizes.items():
-        if m.sizes.get(what, size) != size:
-            raise DiffersError(f"the size {what} is {m.sizes[what]}, not {size}")
-    recorded = {x: declared[x]["default"] for x in listed}
-    defaults = {x: value for x, value in recorded.items() if value is not None}
-    if m.defaults is not None and {x: float(y) for x, y in m.defaults.items()} != defaults:
-        raise DiffersError("the defaults of the parameters are not those of the record")
-    if m.basis is not None and m.basis != claims.state.group.basis:
-        raise DiffersError("the basis is not that of the record")
-
 
 SIZE = 2**128
 """The random integers of a point are of at most this absolute value."""
@@ -222,8 +184,7 @@ class Comparison:
             found.append("rhs_batch")
         if "inertia" in self.module.functions:
             names = tuple(f"I_{i}{j}" for i in range(1, 4) for j in range(i, 4))
-            self._compared("inertia", arguments, "value", names, point.inertia)
-            found.append("inertia")
+            found.append(self._compared("inertia", arguments, "value", names, point.inertia))
         if "project" in self.module.functions:
             drift = partial(self._drift_numbers, arguments)
             found.append(compare_drift(drift, self._draw, self.claims.state, point))
@@ -234,15 +195,13 @@ class Comparison:
             found += compare_attitude(*own, point)
         if "multiplier" in self.module.functions:
             theta = (point.named.names["θ"],)
-            self._compared("multiplier", arguments, "value", ("theta",), theta)
-            found.append("multiplier")
+            found.append(self._compared("multiplier", arguments, "value", ("theta",), theta))
         if "conserved" in self.module.functions:
             found.append(self._conserved(arguments))
         if "outputs" in self.module.functions:
             names = self.claims.outputs
             wanted = [point.named.parameters[name] for name in names]
-            self._compared("outputs", arguments, "out", names, wanted)
-            found.append("outputs")
+            found.append(self._compared("outputs", arguments, "out", names, wanted))
         if "bias" in self.module.functions:
             found += self._dynamics(arguments)
         found += self._discrete(arguments)
@@ -295,10 +254,11 @@ class Comparison:
         array: str,
         names: Sequence[str],
         wanted: Sequence[Any],
-    ) -> None:
-        """``DiffersError`` where an array that a function writes is not the one that is wanted."""
+    ) -> str:
+        """The name of a function that writes the array that is wanted; else ``DiffersError``."""
         found = self._call(name, arguments, **{array: len(wanted)})[array]
         self._require_equal(name, names, found, wanted)
+        return name
 
     def _measure(self, values: Iterable[Any]) -> None:
         """Take the degrees of these values into account."""
@@ -358,8 +318,7 @@ class Comparison:
         there = {**arguments, "x": self._array(x, "x", self.claims.entry_degree)}
         D = [y for row in zip(*columns, strict=True) for y in row]
         names = [f"entry {i}" for i in range(len(D))]
-        self._compared("jacobian_project", there, "D", names, D)
-        return "jacobian_project"
+        return self._compared("jacobian_project", there, "D", names, D)
 
     def _attitude(self, name: str, x: Sequence[Any], size: int) -> Sequence[Any]:
         """The numbers of ``to_matrix`` at the state x, or of ``from_matrix`` at z."""

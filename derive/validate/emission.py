@@ -166,8 +166,7 @@ class FilterComparison(Comparison):
             found.append("rhs_batch")
         for name, wanted in (("error_generator", point.generator), ("error_noise", point.noise)):
             told = [f"number {k} of D" for k, _ in enumerate(wanted)]
-            self._compared(name, arguments, "D", told, wanted)
-            found.append(name)
+            found.append(self._compared(name, arguments, "D", told, wanted))
         return (*found,)
 
 

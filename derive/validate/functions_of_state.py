@@ -1,5 +1,6 @@
 """The functions of a state beside the equations, by what they mean: ``project`` and ``defect``,
-``to_matrix`` and ``from_matrix``, ``conserved``, the Jacobians, and the functions in momenta.
+``to_matrix`` and ``from_matrix``, ``conserved``, the Jacobians, the functions in momenta; and its
+names.
 
 If ``project``, a Newton step back to the group, keeps every state of the group, and its derivative
 there takes any change of a state to one that is tangent to the group, then of an error ε it leaves
@@ -33,16 +34,16 @@ from typing import Any
 
 from ..algebra.factor_charts import QUATERNION, FactorChart
 from ..algebra.families import group
-from ..algebra.groups import Group
+from ..algebra.groups import Group, names_by_block
 from ..check.claims.modular_values import residues
 from ..check.trials.phase_point import PhasePoint
 from ..check.values.arithmetic import EPS, part
 from ..language import rational as q
 from ..language.rational import Matrix
 from .chart import EPSILON, ReducedChart, StateChart
-from .exact_points import Point
+from .exact_points import Claims, Point
 from .straight_line import Measured
-from .terms import Array, CodeError, DiffersError, Machine
+from .terms import Array, CodeError, DiffersError, Machine, Module
 
 PRIME = 2**61 - 1
 """The prime modulo which ranks are counted: they are no larger than the true ones."""
@@ -329,3 +330,39 @@ class MomentumFunctions(FunctionsCalled):
 
     def _plain(self, name: str, **changed: Any) -> list[Any]:
         return self.plain.numbers(name, {**self.given, **changed}, len(self.point.rates))
+
+
+def compare_names(m: Module, claims: Claims) -> None:
+    """``DiffersError`` where one of the lists is not what record and chart make it."""
+    called = names_by_block(claims.group)
+    own = (
+        ("state", claims.state.names),
+        ("state_by_block", tuple(called.get(x, x) for x in claims.state.names)),
+        ("inputs", claims.inputs),
+        ("outputs", claims.outputs),
+    )
+    for what, names in own:
+        if (getattr(m, what) or names) != names:
+            raise DiffersError(f"the names of {what} are not {', '.join(names) or 'none'}")
+    declared, listed = claims.record.problem["parameters"], m.parameters or ()
+    if listed != tuple(x for x in declared if x in listed):
+        raise DiffersError("the parameters are not those of the record, in its order")
+    sizes = {
+        "STATE": len(claims.state.names),
+        "INPUTS": len(claims.inputs),
+        "PARAMETERS": len(listed),
+        "ALGEBRA": claims.group.dimension,
+    }
+    if claims.outputs:
+        sizes["OUTPUTS"] = len(claims.outputs)
+    if claims.state.on_the_group:
+        sizes["MATRIX"] = len(plain(claims.state).names)
+    for what, size in sizes.items():
+        if m.sizes.get(what, size) != size:
+            raise DiffersError(f"the size {what} is {m.sizes[what]}, not {size}")
+    recorded = {x: declared[x]["default"] for x in listed}
+    defaults = {x: value for x, value in recorded.items() if value is not None}
+    if m.defaults is not None and {x: float(y) for x, y in m.defaults.items()} != defaults:
+        raise DiffersError("the defaults of the parameters are not those of the record")
+    if m.basis is not None and m.basis != claims.state.group.basis:
+        raise DiffersError("the basis is not that of the record")

@@ -12,7 +12,7 @@ from ..language.tree import names as names_in
 from ..record.as_json import decode
 from ..record.record import AMENDED, ANY_GROUP, FIELDS, Derivation, Equation, Step
 from ..record.sentence import Sentence, listed, phrase
-from ..schema.kinds import kinds
+from ..schema.potential_kinds import kinds
 from .language import ENGLISH, Language, entries, told
 from .printing.letters import names_of
 

@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 from derive import derive
-from derive.code.languages import LANGUAGES, blocks, names
+from derive.code.languages import LANGUAGES
 from derive.code.options import Options
+from derive.code.program import blocks, names
 from derive.command.cli import main
 from derive.programs import program
 from tests.support.exercise import PROBLEMS, emit_forms, some_parameters

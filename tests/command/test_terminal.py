@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.command import terminal
+from derive.command import writing
 from derive.command.cli import main
 from derive.views.printing.line_breaking import display_width
 from derive.views.rendering import FORMATS
@@ -46,8 +46,8 @@ def pty_size(terminal, lines, columns):
 def test_weight_where_there_is_a_terminal(tmp_path):
     """Labels and equations; without their escapes the text is that of a file."""
     shown = seen("walk", "top", "kernel", cwd=tmp_path)
-    assert f"{terminal.BLUE}top.kernel{terminal.PLAIN}" in shown
-    assert terminal.BOLD in shown
+    assert f"{writing.BLUE}top.kernel{writing.PLAIN}" in shown
+    assert writing.BOLD in shown
     plain = seen("walk", "top", "kernel", cwd=tmp_path, NO_COLOR="1")
     assert ESCAPES.sub("", shown) == plain
     assert "\x1b" not in plain
@@ -92,8 +92,8 @@ class Screen:
 def test_work_that_takes_long_is_told_and_wiped(monkeypatch):
     screen = Screen()
     monkeypatch.setattr(sys, "stderr", screen)
-    monkeypatch.setattr(terminal, "PATIENCE", 0.001)
-    with terminal.working("top"):
+    monkeypatch.setattr(writing, "QUIET", 0.001)
+    with writing.working("top"):
         while "top: 0 s" not in screen.text:
             time.sleep(0.001)
     assert screen.text.endswith(" " * len("top: 0 s") + "\r")
@@ -102,7 +102,7 @@ def test_work_that_takes_long_is_told_and_wiped(monkeypatch):
 def test_short_work_says_nothing(monkeypatch):
     screen = Screen()
     monkeypatch.setattr(sys, "stderr", screen)
-    with terminal.working("top"):
+    with writing.working("top"):
         pass
     assert screen.text == ""
 

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from derive.command.comparing import made
 from derive.command.showing import load_problem
+from derive.command.simulating import made
 from derive.compare.comparison import comparison, reports
 from derive.compare.user_states import SIZES, WORDS
 from tests.compare import codes

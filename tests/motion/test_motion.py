@@ -12,8 +12,7 @@ from derive.code.step.collocation import Collocation
 from derive.command.cli import main
 from derive.command.simulating import at_first, negative
 from derive.motion.emitted_code import Column, in_order
-from derive.motion.energy_sources import drives
-from derive.motion.first_numbers import MotionError, exponential
+from derive.motion.first_numbers import MotionError, drives, exponential
 from derive.motion.run import Run, read
 from derive.motion.start import inertia_of
 from derive.motion.trajectory import Method, instants, taken_to_group

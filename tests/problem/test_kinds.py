@@ -26,7 +26,7 @@ from derive.record.vocabulary import (
     VOCABULARY,
     add_letters,
 )
-from derive.schema.kinds import kinds
+from derive.schema.potential_kinds import kinds
 from derive.schema.python_words import words
 from derive.validate.chart import Chart
 from derive.validate.compare import compare

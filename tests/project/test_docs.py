@@ -16,7 +16,7 @@ from derive.command.cli import COMMANDS, main
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.schema.body_kinds import SOLIDS
-from derive.schema.kinds import kinds
+from derive.schema.potential_kinds import kinds
 from derive.schema.python_words import words
 from derive.views.rendering import FORMATS
 from tests.project.test_layers import ALLOWED, FILES, room_of

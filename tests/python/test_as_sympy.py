@@ -23,7 +23,7 @@ from derive.check.values.evaluate import _range, evaluate
 from derive.language.derivatives import DERIVATIVES
 from derive.language.expression import parse
 from derive.python.as_sympy import Translation
-from derive.python.sympy_matrices import FunctionValue
+from derive.python.expressions import FunctionValue
 from tests.support.library import module_of
 from tests.support.walks import NAMES, OTHERS
 

@@ -19,7 +19,7 @@ from derive.record.as_json import from_json, to_json
 from derive.record.sentence import PLACE
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, RULES, VOCABULARY, meanings
 from derive.schema.body_kinds import SOLIDS, MomentBody
-from derive.schema.kinds import kinds
+from derive.schema.potential_kinds import kinds
 from derive.searches import families, symmetries
 from derive.views import outline
 from derive.views.language import (
@@ -316,7 +316,7 @@ def test_every_entry_is_used():
     sources = strings("walk/*.py", "walk/*/*.py", "record/record.py")
     sources |= {x for pair in (*vocabulary.names(), *labelled().values()) for x in pair}
     sources |= strings(
-        *("views/*.py", "views/*/*.py", "schema/kinds/*.py", "motion/emitted_code.py"),
+        *("views/*.py", "views/*/*.py", "schema/potential_kinds.py", "motion/emitted_code.py"),
         "lecture/*.py",
     )
     sources |= {p.remark for p in PAPER if p.remark}

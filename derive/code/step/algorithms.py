@@ -276,21 +276,37 @@ INPUTS_IN_C = """\
     void *data;"""
 
 
-def in_rust(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
-    """The same in Rust."""
+def _given(p: Program, fields: Mapping[str, Any]) -> dict[str, Any]:
+    """What the printers of other languages than C are given, but where they say it otherwise."""
     steps, functions = fields["steps"], fields["functions"]
-    moving = ("t", "t_low", "x", "low", "h", "start", "evaluations", "event", "rising")
-    given = known(p, steps) | {
+    return known(p, steps) | {
         **{of: functions[x]["name"] for x, of in CALLED.items() if x in functions},
         "project": functions["project"]["name"] if "project" in functions else "",
         "real": fields["real"],
-        **{f"N_{x}": f"N_{x}" for x in (p.discrete.sizes if p.discrete else ())},
-        "INPUT_FUNCTIONS": False,
         "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] else 0,
-        "NO_EVENT": 0,
-        "public": {*roots(steps), *moving} - {"towards", "begin", "dense"},
+        "NO_EVENT": -1,
+        "public": {*roots(steps)} - {"towards", "begin", "dense"},
         "begin": "begin_at",
         "dense": "dense_at",
+    }
+
+
+def _sizes(p: Program) -> dict[str, int]:
+    """The sizes of a file, as numbers."""
+    state, constants, inputs = len(p.state), len(p.constants), len(p.inputs)
+    named = {"N_STATE": state, "N_CONSTANTS": constants, "N_INPUTS": inputs}
+    return named | {"N_EVENTS": len(p.events), "SIZE_U": inputs, "SIZE_K": constants}
+
+
+def in_rust(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
+    """The same in Rust."""
+    steps, given = fields["steps"], _given(p, fields)
+    given |= {
+        **{f"N_{x}": f"N_{x}" for x in (p.discrete.sizes if p.discrete else ())},
+        "INPUT_FUNCTIONS": False,
+        "NO_EVENT": 0,
+        "public": given["public"]
+        | {"t", "t_low", "x", "low", "h", "start", "evaluations", "event", "rising"},
         "item": [
             "#[allow(dead_code, non_snake_case, unused, clippy::all, clippy::pedantic)]",
             "#[rustfmt::skip]",
@@ -302,25 +318,14 @@ def in_rust(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
 
 def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in JavaScript."""
-    steps, functions, prefix = fields["steps"], fields["functions"], fields["prefix"]
-    sizes = {"STATE": len(p.state), "CONSTANTS": len(p.constants), "INPUTS": len(p.inputs)}
+    steps, prefix = fields["steps"], fields["prefix"]
     lengths = {"k": len(p.constants)} | ({"u": len(p.inputs)} if p.inputs else {})
     wrong = " || ".join(f"{x}.length !== {n}" for x, n in lengths.items())
     right = ", ".join(f"{x} has {n} numbers" for x, n in lengths.items())
-    given = known(p, steps) | {
-        **{of: functions[x]["name"] for x, of in CALLED.items() if x in functions},
-        **{f"N_{name}": n for name, n in sizes.items()},
-        "N_EVENTS": len(p.events),
-        "SIZE_U": len(p.inputs),
-        "SIZE_K": len(p.constants),
-        "project": functions["project"]["name"] if "project" in functions else "",
-        "real": fields["real"],
-        # a page shows what is kept: there the iteration goes to rounding
-        "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] and not fields["short"] else 0.0,
-        "NO_EVENT": -1,
-        "public": {*roots(steps)} - {"towards", "begin", "dense"},
-        "begin": "begin_at",
-        "dense": "dense_at",
+    given = _given(p, fields) | _sizes(p)
+    if fields["short"]:  # a page shows what is kept: there the iteration goes to rounding
+        given["ENOUGH"] = 0.0
+    given |= {
         "status": "OK, or why not: then the motion stands where the last good step ended",
         "entry": [
             *["    u ??= ZERO_INPUTS;"] * bool(p.inputs),
@@ -360,13 +365,9 @@ def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         f"    {' && '.join(right)} ||",
         f'        throw(DimensionMismatch("{prefix}: {said}"))',
     ]
-    given = known(p, steps) | {
+    given = _given(p, fields) | {
         "functions": {of: functions[x]["name"] for x, of in had.items() if x in functions}
         | {x: x for x in functions if x.startswith(STEPPING)},
-        "real": fields["real"],
-        "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] else 0,
-        "NO_EVENT": -1,
-        "public": {*roots(steps)} - {"towards", "begin", "dense"},
         **{f"{x}_jacobian": f"{x}_varied!" for x in steps["varied"]},
         "KINKS": "",  # which the function around it says
         "begin": "begin_at!",
@@ -385,17 +386,12 @@ def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in Python."""
     steps, functions = fields["steps"], fields["functions"]
     had = {"rhs": "rhs", "project": "projected", **CALLED}
-    sizes = {"STATE": len(p.state), "CONSTANTS": len(p.constants), "INPUTS": len(p.inputs)}
-    given = known(p, steps) | {
-        **{f"N_{name}": n for name, n in sizes.items()},
-        "N_EVENTS": len(p.events),
-        "SIZE_U": len(p.inputs),
-        "SIZE_K": len(p.constants),
+    given = _given(p, fields) | {
+        **_sizes(p),
         "returned": {of: f"{functions[x]['name']}(" for x, of in had.items() if x in functions}
         | {x: f"_of_numbers(_{x}, " for x in functions if x.startswith(STEPPING)},
         "ENOUGH": "ENOUGH",
         "NO_EVENT": "None",
-        "public": {*roots(steps)} - {"begin", "dense", "towards"},
         "named": {"towards", "gauss_step", "vern9_step", "first_step"},
         **{f"{x}_jacobian": f"_{x}_jacobian" for x in steps["varied"]},
         "KINKS": "",  # which the function around it says

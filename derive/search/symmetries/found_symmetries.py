@@ -21,7 +21,7 @@ from ...problem.problem import Problem, ProblemError
 from ...record.record import Derivation
 from ...schema.body_kinds import Place, Point
 from ...schema.kind import Lagrangian
-from ...schema.kinds.self_gravity import SelfGravity
+from ...schema.potential_kinds import SelfGravity
 from .conditions import SymmetryConditions, TangentField, values
 from .scalar_lagrangian import (
     Integrand,

@@ -17,7 +17,7 @@ from ...language.values import approximate
 from ...record.as_json import decode
 from ...record.record import Derivation
 from ...record.sentence import Prose, say
-from ...schema.kinds import kinds
+from ...schema.potential_kinds import kinds
 from .drawing import Box, Label, Point, Scene, arrow, from_segment
 from .drawn_body import (
     FLAT,

@@ -16,8 +16,7 @@ from ...code.program import Program
 from ...language.reserved import GREEK
 from ...language.templating import environment, folder
 from ...motion.emitted_code import EmittedCode, in_words
-from ...motion.energy_sources import drives, is_free, weight
-from ...motion.first_numbers import FirstNumbers
+from ...motion.first_numbers import FirstNumbers, drives, is_free, weight
 from ...problem.problem import Problem
 from ...record.record import Derivation
 from ..answer import PLANE

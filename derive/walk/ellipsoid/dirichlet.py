@@ -29,7 +29,7 @@ from ...problem.problem import Problem
 from ...problem.solids import integral_above, quadric_about_origin
 from ...record.record import Equation, Step
 from ...schema.body_kinds import GivenBody, Solid
-from ...schema.kinds.volume import Volume
+from ...schema.potential_kinds import Volume
 from ..chapter import Chapter, Draft, say
 from ..given.potentials import Potentials
 from ..kinds.self_gravity_walked import GradientLetter

@@ -16,7 +16,7 @@ from ...language.tree import Tree, add, mul, neg, nodes, plain, replaced
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
-from ...schema.kind import ForceInput, ScalarInput, StatedForce, TorqueInput
+from ...schema.force_kinds import ForceInput, ScalarInput, StatedForce, TorqueInput
 from ..chapter import Chapter, Draft, phrase, say
 from ..spine.alphabet import Alphabet
 from ..spine.cartan import body_rule

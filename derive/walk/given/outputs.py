@@ -14,9 +14,7 @@ from ...problem.fields import angular_velocity
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, Sentence, listed
-from ...schema.kinds.gravity import Gravity, gravity
-from ...schema.kinds.spring import Spring
-from ...schema.output_kinds import (
+from ...schema.motion_kinds import (
     AccelerationOutput,
     DirectionOutput,
     DistanceOutput,
@@ -30,6 +28,7 @@ from ...schema.output_kinds import (
     TensionOutput,
     VelocityOutput,
 )
+from ...schema.potential_kinds import Gravity, Spring, gravity
 from ..chapter import Chapter, Draft, Steps, phrase, say
 from ..spine.alphabet import Alphabet
 from ..spine.lagrangian import sum_over

@@ -11,7 +11,7 @@ from functools import cache
 from importlib import import_module
 from typing import Any
 
-from ...schema.kinds import kinds
+from ...schema.potential_kinds import kinds
 
 
 @cache

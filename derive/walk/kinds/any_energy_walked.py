@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...problem.problem import Problem
-from ...schema.kinds.any_energy import Expression
+from ...schema.potential_kinds import Expression
 from ..given.potentials import PointPotentials
 
 KIND = Expression

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...language.derivatives import product
 from ...language.tree import Tree, add, neg
 from ...problem.problem import Problem
-from ...schema.kinds.attraction import Attraction
+from ...schema.potential_kinds import Attraction
 from ..given.potentials import PointPotentials, column, place
 
 KIND = Attraction

@@ -16,7 +16,7 @@ from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
 from ...record.record import Equation
-from ...schema.kinds.far_centre import FarCentre
+from ...schema.potential_kinds import FarCentre
 from ..chapter import Chapter, say
 from ..given.potentials import PotentialLetter, Words, column, power_letter
 from ..spine.alphabet import Alphabet

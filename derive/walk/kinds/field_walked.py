@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...language.tree import add, mul
 from ...problem.problem import Problem
-from ...schema.kinds.field import Field
+from ...schema.potential_kinds import Field
 from ..given.potentials import PointPotentials, in_space
 
 KIND = Field

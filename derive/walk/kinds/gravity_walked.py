@@ -7,7 +7,7 @@ from ...language.tree import neg
 from ...problem.problem import Problem
 from ...record.record import Equation
 from ...schema.body_kinds import PointBody
-from ...schema.kinds.gravity import Gravity, gravity
+from ...schema.potential_kinds import Gravity, gravity
 from ..chapter import Chapter, say
 from ..given.potentials import Words, column
 from ..spine.alphabet import Alphabet

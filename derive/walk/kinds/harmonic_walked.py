@@ -8,7 +8,7 @@ from ...algebra.words import Letter, inner, word
 from ...language.tree import Tree, add
 from ...problem.problem import Problem
 from ...record.record import Equation
-from ...schema.kinds.harmonic import Harmonic
+from ...schema.potential_kinds import Harmonic
 from ..chapter import Chapter
 from ..given.potentials import Words
 from ..spine.alphabet import Alphabet

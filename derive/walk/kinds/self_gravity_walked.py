@@ -27,7 +27,7 @@ from ...algebra.words import Expr, Factor, Letter, number, one, trace, word
 from ...language.tree import Tree, add, mul
 from ...problem.problem import Problem
 from ...record.record import Equation
-from ...schema.kinds.self_gravity import SelfGravity
+from ...schema.potential_kinds import SelfGravity
 from ..chapter import say
 from ..given.potentials import PotentialLetter, Words
 from ..spine.alphabet import Alphabet, inverse_letter

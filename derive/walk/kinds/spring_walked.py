@@ -8,7 +8,7 @@ from ...algebra.words import Letter, inner, word
 from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
 from ...record.record import Equation
-from ...schema.kinds.spring import Spring, quadratic
+from ...schema.potential_kinds import Spring, quadratic
 from ..chapter import Chapter, say
 from ..given.potentials import PointPotentials, Words, column, in_space, place
 from ..spine.alphabet import Alphabet

@@ -8,7 +8,7 @@ from ...algebra.words import Letter, one, trace, word
 from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
 from ...record.record import Equation
-from ...schema.kinds.torsion import Torsion
+from ...schema.potential_kinds import Torsion
 from ..given.potentials import PotentialLetter, Words
 from ..spine.alphabet import Alphabet
 

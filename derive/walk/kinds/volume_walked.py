@@ -10,7 +10,7 @@ from ...language.derivatives import derivative, product
 from ...language.tree import Tree, add, replaced
 from ...problem.problem import Problem
 from ...record.record import Equation
-from ...schema.kinds.volume import Volume
+from ...schema.potential_kinds import Volume
 from ...schema.table import DETERMINANT
 from ..chapter import say
 from ..given.potentials import FunctionLetter, Words

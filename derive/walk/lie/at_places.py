@@ -14,8 +14,8 @@ from ...problem.fields import coordinates, velocity_at_place
 from ...problem.lagrangian_tables import quotient_of
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Equation, Step
-from ...schema.kind import TorqueInput
-from ...schema.output_kinds import (
+from ...schema.force_kinds import TorqueInput
+from ...schema.motion_kinds import (
     AccelerationOutput,
     DirectionOutput,
     DistanceOutput,

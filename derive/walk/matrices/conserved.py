@@ -16,11 +16,7 @@ from ...problem.entries_on_orbit import vanishes
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ...record.sentence import Prose
-from ...schema.kinds.attraction import Attraction
-from ...schema.kinds.far_centre import FarCentre
-from ...schema.kinds.gravity import gravity
-from ...schema.kinds.harmonic import Harmonic
-from ...schema.kinds.spring import Spring
+from ...schema.potential_kinds import Attraction, FarCentre, Harmonic, Spring, gravity
 from ..chapter import Chapter, enumerated, phrase, say
 from ..given.potentials import U_Q, Potentials, column, displaced_letters
 from ..spine.alphabet import Alphabet

@@ -15,7 +15,7 @@ from ...language.values import Value, value
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ...record.sentence import Prose
-from ...schema.kinds.gravity import gravity
+from ...schema.potential_kinds import gravity
 from ..chapter import Chapter, say, say_signed
 from ..given.inputs import External
 from ..given.potentials import Potentials, virtual_work

@@ -17,19 +17,19 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any, NamedTuple
 
-from ...algebra.structure import Place, TorusLattice
-from ...language.tree import Tree, mul
-from ...record.record import Derivation
-from ...routines.source import Source as RoutineSource
-from ..factor import factored
-from ..graph import Graph, Node
-from ..naming import ClaimedNames
-from ..options import Options
-from ..program import EmittedFunction, Load, LoweringError, Program
-from ..requests import require_options
-from ..schedule import Scheduler, Source, frontier
-from ..step.algorithms import PRINTERS, real_of_work, text_of
-from ..watched_functions import EmittedEvent, table, values_of
+from ..algebra.structure import Place, TorusLattice
+from ..language.tree import Tree, mul
+from ..record.record import Derivation
+from ..routines.source import Source as RoutineSource
+from .factor import factored
+from .graph import Graph, Node
+from .naming import ClaimedNames
+from .options import Options
+from .program import EmittedFunction, Load, LoweringError, Program
+from .requests import require_options
+from .schedule import Scheduler, Source, frontier
+from .step.algorithms import PRINTERS, real_of_work, text_of
+from .watched_functions import EmittedEvent, table, values_of
 
 
 def names(torus: TorusLattice) -> tuple[str, ...]:
