@@ -122,6 +122,8 @@ def group_of(data: Mapping[str, Any], reader: FileReader) -> tuple[Group | None,
         if "action" in data:
             raise ProblemError("key 'action' belongs into the table [group]")
         return moved, moved.action
+    if isinstance(which, list):
+        raise ProblemError("key 'group' is one name; that of a product is \"SE(2) x SO(2)\"")
     which = reader.text(Slot(data, "group", "file"))
     if which.casefold() == GROUP.casefold():
         raise ProblemError(f"key 'group': {GROUP} is that of a table [fluid]; leave this out")
