@@ -242,7 +242,7 @@ def test_arrows_in_a_plane_of_two_bodies_and_of_points(fresh, site):
     """An arc out of the plane, one arrow a body, and one at each point."""
     for name, expected in {
         "pendulum": [1] * 16 + [2] * 16,
-        "two_tops": [1, 1, 2, 2],
+        "two_tops": [1, 2, 3, 3],  # the velocity of each, their torques
         "sl3": [1] * 4 + [2] * 4 + [3] * 4 + [4] * 4,
     }.items():
         visit(fresh, f"{site}#{name}", name)
