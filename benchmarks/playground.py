@@ -93,7 +93,7 @@ def figures(address: str, browser: Any) -> dict[str, float]:
     page.add_init_script(WATCH)
     asked.clear()
     page.on("request", lambda x: asked.add(x.url))
-    page.goto(f"{address}#p={packed(text_of('so3') + chr(10))}")
+    page.goto(f"{address}#p={packed(text_of('so3') + chr(10))}&tab=walk")
     walked(page, "own")
     first = first_walk(asked, address)
     found["first equation of a problem of one's own, s"] = page.evaluate("begun") / 1000

@@ -21,7 +21,7 @@ const files = (folder) => readdirSync(folder, { withFileTypes: true, recursive: 
 
 /* Python packs its own modules: pack.py */
 async function pack() {
-  const python = await loadPyodide({ env: { PYTHONHASHSEED: "0" } });
+  const python = await loadPyodide({ env: { PYTHONHASHSEED: "0", PYTHONNODEBUGRANGES: "1" } });
   for (const file of ["first", "later"].flatMap((x) => files(join(stage, x)))) {
     const name = `/${relative(stage, file)}`;
     python.FS.mkdirTree(dirname(name));

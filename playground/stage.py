@@ -1,6 +1,6 @@
 """What the playground is built of, from the checkout and its environment: the package, the
 libraries in pure Python that it needs, ``data.json``: ready-made problems, keys, options, and
-``gallery.json``: their pictures.
+``gallery.json``: their pictures, by name.
 
 ``python -m playground.stage DIR``
 """
@@ -62,13 +62,13 @@ UNUSED = {
 """Folders of a library that its other modules import for tasks alone that nobody has here."""
 
 
-WITH_PROCESSES = ("compare", "comparing.py")
-"""What starts processes, which a page has not."""
+LEFT_OUT = ("compare", "comparing.py", "lecture", "lecturing.py")
+"""What starts processes, which a page has not, and what it has no button for."""
 
 
 def package(out: Path) -> None:
     """The package as its wheel has it, without what a page cannot do."""
-    skip = shutil.ignore_patterns("__pycache__", *WITH_PROCESSES)
+    skip = shutil.ignore_patterns("__pycache__", *LEFT_OUT)
     shutil.copytree(HERE.parent / "derive", out / "derive", ignore=skip)
     shutil.copytree(HERE.parent / "templates", out / "derive" / "templates")
 
@@ -83,17 +83,19 @@ def library(name: str, out: Path) -> None:
 
 
 def problems() -> list[dict[str, str]]:
-    """The ready-made problems: name, text; group and title in both languages."""
-    found, things = [], {x["name"]: x for shelf in shelves() for x in shelf["things"]}
-    for name in ready_made():
-        record = derive.derive(name).record
-        told = {"name": name, "text": (READY / f"{name}.toml").read_text(encoding="utf-8")}
+    """The ready-made problems in the order of the gallery: name, text; shelf, what it is as a
+    thing, title and group in both languages."""
+    found = []
+    things = [(shelf, x) for shelf in shelves() for x in shelf["things"]]
+    for own, x in things:
+        record = derive.derive(x["name"]).record
+        told = {"name": x["name"], "text": (READY / f"{x['name']}.toml").read_text("utf-8")}
+        group = x.get("group", str(record.problem.get("group") or "").replace(" x ", " × "))
         for lang in SPOKEN:
-            words = language(lang)
-            told[f"title_{lang}"] = title(record, words).replace("^2", "²")
-        own = str(record.problem.get("group") or "").replace(" x ", " × ")
-        told["group_en"] = things[name].get("group", own)
-        found.append(told | {"group_fr": things[name].get("group_fr", told["group_en"])})
+            called = title(record, language(lang)).replace("^2", "²")
+            told |= {lang: x[lang], f"shelf_{lang}": own[lang], f"title_{lang}": called}
+            told[f"group_{lang}"] = x.get(f"group_{lang}", group)
+        found.append(told)
     return found
 
 
@@ -168,20 +170,17 @@ def moved(g: Group, meaning: str) -> dict[str, object]:
     return {"n": g.n, "d": g.dimension, "w": w, "meaning": meaning}
 
 
-def stored(out: Path) -> set[str]:
+def stored(out: Path) -> None:
     """What the worker tells of the ready-made problems, so that these are read, and move, before
-    there is Python; the names of those that move."""
+    there is Python."""
     folder = out.with_name("stored")
     folder.mkdir()
-    names = ready_made()
     with ProcessPoolExecutor() as pool:
-        moves = pool.map(stored_of, names, repeat(out), repeat(folder))
-        return {name for name, moving in zip(names, moves, strict=True) if moving}
+        [*pool.map(stored_of, ready_made(), repeat(out), repeat(folder))]
 
 
-def stored_of(name: str, out: Path, folder: Path) -> bool:
-    """A file of a problem in each language, with the news of the worker in their order; does the
-    problem move?"""
+def stored_of(name: str, out: Path, folder: Path) -> None:
+    """A file of a problem in each language, with the news of the worker in their order."""
     sys.path.insert(0, str(HERE / "python"))
     import play
 
@@ -189,7 +188,6 @@ def stored_of(name: str, out: Path, folder: Path) -> bool:
     heard: list[tuple[str, Any]] = []
     played = play.Play(lambda kind, news: heard.append((kind, json.loads(news))))
     text = (READY / f"{name}.toml").read_text(encoding="utf-8")
-    moves = False
     for lang in SPOKEN:
         told: dict[str, list[tuple[str, Any]]] = {}
         for ask in STORED:
@@ -197,23 +195,19 @@ def stored_of(name: str, out: Path, folder: Path) -> bool:
             getattr(played, ask)(text, lang)
             told[ask] = [*heard]
         once(told)
-        moves |= any(kind == "motion" for kind, _ in told["motion"])
         made = json.dumps(told, ensure_ascii=False, separators=(",", ":")).encode()
         (out / f"{name}.{lang}.json.gz").write_bytes(gzip.compress(made, 9, mtime=0))
     heard.clear()
     played.files(text, EMISSION)
     code = json.dumps({"files": heard}, ensure_ascii=False).encode()
     (out / f"{name}.code.json.gz").write_bytes(gzip.compress(code, 9, mtime=0))
-    return moves
 
 
-def gallery(moving: set[str]) -> list[dict[str, Any]]:
-    """The shelves of things, each with its picture; does it move?"""
-    found = shelves()
-    for thing in (thing for shelf in found for thing in shelf["things"]):
-        record = derive.derive(thing.get("like", thing["name"])).record
-        thing |= {"picture": picture(record), "moves": thing["name"] in moving}
-    return found
+def pictures() -> dict[str, str]:
+    """Of the things that have one."""
+    things = [x for shelf in shelves() for x in shelf["things"]]
+    drawn = {x["name"]: picture(derive.derive(x.get("like", x["name"])).record) for x in things}
+    return {name: x for name, x in drawn.items() if x}
 
 
 def once(told: dict[str, list[tuple[str, Any]]]) -> None:
@@ -254,16 +248,14 @@ def main(out: Path) -> None:
         shutil.copy(HERE / "python" / f"{module}.py", first)
     (first / "amendments.pickle").write_bytes(pickle.dumps(amendments(AMENDED)))
     told = {
-        "version": derive.__version__,
         "problems": problems(),
-        "emission": EMISSION,
         **options(),
         "schema": schema(),
     }
     (out / "motion.js").write_text(drawing(), encoding="utf-8")
     (out / "ready").mkdir()
-    shown = gallery(stored(out / "ready"))
-    (out / "gallery.json").write_text(json.dumps(shown, ensure_ascii=False))
+    stored(out / "ready")
+    (out / "gallery.json").write_text(json.dumps(pictures()))
     (out / "data.json").write_text(json.dumps(told, ensure_ascii=False, sort_keys=True))
 
 

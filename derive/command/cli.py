@@ -241,6 +241,9 @@ def command_plot(args: argparse.Namespace) -> int:
     from .writing import write
 
     paths, words = [Path(x) for x in args.run_file], language(args.lang)
+    for x in (x for x in paths if not x.exists()):
+        wanted = x.with_suffix(x.suffix or ".npz")
+        raise UsageError(f"{x}: No such file; derive simulate PROBLEM --out {wanted} writes one")
     out = Path(args.out) if args.out else Path(paths[0].with_suffix(".svg").name)
     ending(str(out))
     word, mark = words.word, words.mark

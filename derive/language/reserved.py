@@ -6,7 +6,7 @@ import difflib
 import keyword
 import re
 import unicodedata
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import takewhile
 from typing import Any
 
@@ -182,6 +182,15 @@ def letter_and_suffix(name: str) -> tuple[str, str]:
     """What such a name is of, and the rest: ``("zeta", "1")``, ``("re", "m1_2")``."""
     letter, _, suffix = name.partition("_")
     return letter, suffix
+
+
+def waves(names: Sequence[str]) -> list[list[int]]:
+    """Of the coefficients re_n, im_n of a fluid on the torus: n₁, n₂, the places of the real part
+    and of the imaginary one; ``m1`` stands for −1."""
+    at = {x: k for k, x in enumerate(names)}
+    modes = [letter_and_suffix(x)[1] for x in by_letter(names).get("re", ())]
+    numbers = ([int(k.replace("m", "-")) for k in x.split("_")] for x in modes)
+    return [[*n, at[f"re_{x}"], at[f"im_{x}"]] for n, x in zip(numbers, modes, strict=True)]
 
 
 def by_letter(names: Iterable[str]) -> dict[str, list[str]]:

@@ -18,6 +18,17 @@ KEPT = {
     "body_momentum": "linear momentum in the body",
     "body_angular_momentum": "angular momentum in the body",
     "circulation": "circulation in the body",
+    "orbital_angular_momentum": "orbital angular momentum",
+    "screw_momentum": "screw momentum",
+    "body_screw_momentum": "screw momentum in the body",
+    "deformation_momentum": "momentum of the deformation",
+    "body_deformation_momentum": "momentum of the deformation in the body",
+    "combined_momentum": "combined momentum",
+    "centre": "centre of mass, by boosts",
+    "time_dependent_integral": "integral that depends on the time",
+    "integral": "first integral",
+    "casimir": "Casimir function",
+    "trace": "moment of the vorticity",
 }
 
 

@@ -314,7 +314,8 @@ def answer_mathml(
 
     def marked_term(e: Equation) -> bool:
         inside = nodes(turned(e.rhs))
-        return any(x in marked for x in inside if isinstance(x, tuple) and x[0] != "entry")
+        terms = {"β", *(x for x in inside if isinstance(x, tuple) and x[0] != "entry")}
+        return any(x in marked for x in inside if x in terms)
 
     def shown(e: Equation) -> Iterator[str]:
         planar = d.problem.get("group") in PLANE and e.lhs == "Ȧ"

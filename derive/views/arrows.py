@@ -70,8 +70,9 @@ def arrows(d: Derivation) -> tuple[Arrow, ...]:
     found = [x for x in _velocities(d) if there & {*x.trees}]
     if not any(x.scale == "turning" for x in found):
         found += _in_letters(d, "Z", TURNING, "turning")
-    loads = _in_letters(d, "β", WHOLE, "torque") if "β" in told else ()
     terms = {x.trees: x for x in _terms(d) if there & {*x.trees}}
+    bodies = len(_factors(d)) > 1
+    loads = _in_letters(d, "β", WHOLE, "torque") if "β" in (there if bodies else told) else ()
     return (*found, *loads, *terms.values())[:MOST]
 
 

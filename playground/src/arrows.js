@@ -32,7 +32,9 @@ export class Arrows {
       return make("p", {}, link);
     }));
     if (!arrows.length) return;
-    this.place.append(make("ul", { class: "legend" }, ...arrows.map(({ shown, meaning }, i) => {
+    // behind the equations in vectors, where many components would hide it
+    const last = answer.length > 6 ? answer.findLastIndex(({ id }) => id === answer[0].id) : answer.length - 1;
+    this.place.children[last].after(make("ul", { class: "legend" }, ...arrows.map(({ shown, meaning }, i) => {
       const button = make("button", { type: "button", "data-arrow": i + 1, "aria-pressed": "false" });
       button.innerHTML = shown;
       button.append(` ${meaning}`);

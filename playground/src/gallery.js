@@ -1,12 +1,13 @@
 /* The gallery: every ready-made problem as a thing, shelf by shelf, with a small picture. */
 import { make } from "./dom.js";
 import { placed } from "./link.js";
+import { shelved } from "./menu.js";
+import { still } from "./see.js";
 
 export class Gallery {
-  /* dialog: where it opens; ready(name): a ready-made problem; chosen(): the name of the one that is there;
-   * choose(name, moves) */
-  constructor(dialog, { ready, chosen, choose }) {
-    Object.assign(this, { dialog, ready, chosen, choose });
+  /* dialog: where it opens; problems: the ready-made ones; chosen(): the name of the one that is there; choose(text) */
+  constructor(dialog, { problems, chosen, choose }) {
+    Object.assign(this, { dialog, problems, chosen, choose });
     this.place = dialog.querySelector(".shelves");
     dialog.querySelector(".close").addEventListener("click", () => dialog.close());
     dialog.addEventListener("click", (e) => { if (e.target === dialog) dialog.close(); }); // beside it
@@ -25,27 +26,26 @@ export class Gallery {
     }
   }
 
-  #show(shelves, words, lang) {
-    const now = this.chosen();
-    this.place.replaceChildren(...shelves.map((shelf) => make("section", {}, make("h3", {}, shelf[lang]),
-      make("ul", {}, ...shelf.things.map((x) => make("li", {}, this.#thing(x, words, lang, x.name === now)))))));
+  #show(pictures, words, lang) {
+    this.place.replaceChildren(...shelved(this.problems, lang).map(([shelf, things]) => make("section", {}, make("h3", {}, shelf),
+      make("ul", {}, ...things.map((x) => make("li", {}, this.#thing(x, pictures[x.name], words, lang)))))));
     (this.place.querySelector("[aria-current]") ?? this.place.querySelector("a"))?.focus();
   }
 
-  #thing({ name, picture, moves, ...called }, words, lang, current) {
-    const problem = this.ready(name), moved = problem[`group_${lang}`], shown = make("span", { class: "picture" });
+  #thing(problem, picture, words, lang) {
+    const { name, text } = problem, moved = problem[`group_${lang}`], shown = make("span", { class: "picture" });
     if (picture) shown.innerHTML = picture; // made with the page
     else shown.append(moved);
     return make("a", {
-      href: placed(lang, name), title: problem[`title_${lang}`], "aria-current": current && "true",
+      href: placed(lang, name), title: problem[`title_${lang}`], "aria-current": name === this.chosen() && "true",
       click: (e) => {
         if (e.ctrlKey || e.metaKey || e.shiftKey) return; // in a page of its own
         e.preventDefault();
         this.dialog.close();
-        this.choose(name, moves);
+        this.choose(text);
       },
-    }, shown, make("span", { class: "name" }, called[lang]), ...(picture ? [make("small", {}, moved)] : []),
-    ...(moves ? [] : [make("small", {}, words.wide)]));
+    }, shown, make("span", { class: "name" }, problem[lang]), ...(picture ? [make("small", {}, moved)] : []),
+    ...(still(text) ? [make("small", {}, words.wide)] : []));
   }
 
   /* the arrows go from thing to thing, up and down to the nearest of the next row */

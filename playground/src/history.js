@@ -1,5 +1,5 @@
 /* Where the reader was: an entry of the browser's history for each problem and each step that is gone to. */
-import { packed, placed, spoken } from "./link.js";
+import { packed, placed, spoken, tabbed } from "./link.js";
 
 export class Places {
   /* does the walk of the entry that is shown stand in the page? */
@@ -35,7 +35,7 @@ export class Places {
     if (word === before && lang === spoken(location.search)) return;
     if (word !== before) this.stands = false;
     const changed = !name && !before.startsWith("p=");
-    this.#enter(anew || changed, placed(lang, word, word === before ? this.named : "", { tab: this.tab }));
+    this.#enter(anew || changed, placed(lang, word, word === before ? this.named : "", anew ? {} : { tab: this.tab }));
   }
 
   /* the entry of a step; `again`: in the place of another step's, which was passed; seen: see link.js */
@@ -46,7 +46,7 @@ export class Places {
 
   /* the same entry, which says what is seen */
   see(lang, word, step, seen) {
-    this.tab = seen.tab ?? "walk";
+    this.tab = seen.tab ?? tabbed(step);
     history.replaceState(history.state, "", placed(lang, word, step, seen));
   }
 

@@ -1,6 +1,6 @@
-/* A problem as an address: #so3 for a ready-made one, #p=… for a text, compressed; #so3/linear.kernel for a step of it,
- * ?lang=fr for the language; nothing for the top, which moves. Behind it what is seen:
- * &tab=see&t=1.5&until=40&second=zeta_1:0.001&eye=0.5,0.3,1&set=m:2,g:0, or &projected, a step on the whole screen,
+/* A problem as an address: #so3 for a ready-made one, #p=… for a text, compressed, nothing for the top: it moves;
+ * #so3/linear.kernel for a step of its walk; ?lang=fr for the language. Behind it what is seen:
+ * &tab=find, or &t=1.5&until=40&second=zeta_1:0.001&eye=0.5,0.3,1&set=m:2,g:0, or &projected, a step on the whole screen,
  * and &projected=answer, the last of the screens. */
 const LARGEST = 400_000;
 
@@ -40,7 +40,7 @@ export async function asked(hash, names) {
 
 async function problem(place, names) {
   const [word, ...rest] = place.split("/"), step = plain(rest.join("/"));
-  if (!word) return { name: "top", step, first: true };
+  if (!word) return { name: "top", step };
   const name = names.find((x) => x === word) ?? names.find((x) => x.toLowerCase() === word.toLowerCase());
   if (name) return { name, step };
   if (!word.startsWith("p=")) return { name: "so3", step: "", missing: plain(word) };
@@ -66,17 +66,20 @@ export const spoken = (search) => new URLSearchParams(search).get("lang");
 export const option = (lang) => (lang === "en" ? "" : ` --lang ${lang}`);
 
 /* the address of a problem, which is a name or a packed text, and of a step of it, in a language, and of what is seen of it */
-export const placed = (lang, word, step = "", seen = {}) => `?lang=${lang}#${word}${step && `/${encodeURIComponent(step)}`}${written(seen)}`;
+export const placed = (lang, word, step = "", seen = {}) => `?lang=${lang}#${word}${step && `/${encodeURIComponent(step)}`}${written(seen, tabbed(step))}`;
+
+/* the tab that an address shows which names none: the motion, or the step that it names */
+export const tabbed = (step) => (step ? "walk" : "see");
 
 const TABS = ["walk", "see", "find", "take"];
 const short = (v) => String(Number(v.toPrecision(7)));
 
 /* what is seen: { tab, projected: "" or "answer", t, until, second: [name, ε], eye: [azimuth, elevation, zoom], set: { name:
  * number } }, what is there of it */
-function written({ tab, projected, t, until, second, eye, set = {} }) {
+function written({ tab, projected, t, until, second, eye, set = {} }, home) {
   const numbers = Object.entries(set).map(([name, v]) => `${name}:${v}`);
   return [
-    tab && tab !== "walk" && `&tab=${tab}`, projected !== undefined && `&projected${projected && `=${projected}`}`,
+    tab && tab !== home && `&tab=${tab}`, projected !== undefined && `&projected${projected && `=${projected}`}`,
     t !== undefined && `&t=${short(t)}`, until && `&until=${short(until)}`, second && `&second=${second[0]}:${short(second[1])}`,
     eye && `&eye=${eye.map(short)}`, numbers.length && `&set=${numbers}`,
   ].filter(Boolean).join("");

@@ -8,11 +8,11 @@ import { Form } from "./form.js";
 import { Gallery } from "./gallery.js";
 import { Places } from "./history.js";
 import { Found } from "./found.js";
-import { asked, spoken } from "./link.js";
+import { asked, spoken, tabbed } from "./link.js";
 import { meshed, stated } from "./made.js";
 import { menu } from "./menu.js";
 import { opens } from "./opened.js";
-import { Motion } from "./see.js";
+import { Motion, still } from "./see.js";
 import { Projector } from "./projector.js";
 import { Road } from "./road.js";
 import { Sentence } from "./sentence.js";
@@ -71,9 +71,7 @@ const searches = new Found(the("find"), css, document.querySelector(".read .bar"
     return how;
   },
 });
-const gallery = new Gallery(the("gallery"), {
-  ready, chosen: () => chosen(), choose: (name, moves) => choose(ready(name).text, moves ? "see" : "walk"),
-});
+const gallery = new Gallery(the("gallery"), { problems: data.problems, chosen: () => chosen(), choose: (now) => choose(now) });
 const tabs = new Tabs(["walk", "see", "find", "take"], (name) => {
   the("steps").parentElement.hidden = name !== "walk";
   const below = the(name).getBoundingClientRect().top - document.querySelector(".read .bar").getBoundingClientRect().bottom;
@@ -206,6 +204,7 @@ async function walk() {
   the("walk").removeAttribute("aria-busy");
   if (!begun || fault) answer([]);
   if (!begun || fault) equations.clear(make("p", { class: "fault" }, fault ? found.at(-1).message : told));
+  if (fault && tabs.now === "see" && !motion.frame) tabs.show("walk"); // which says it
   faults(notice ? [{ message: notice, line: 1, severity: "warning" }, ...found] : found);
   notice = "";
   walked = null;
@@ -340,7 +339,7 @@ async function visit(tab) {
   aim = { ...(places.left ?? (found.step && { step: found.step })), projected: found.seen.projected };
   places.stands &&= Boolean(notice);
   if (!notice) places.see(lang, found.name ?? places.word, found.step, found.seen);
-  tab ??= found.seen.tab ?? (found.first ? "see" : "walk");
+  tab ??= found.seen.tab ?? (still(now) ? "walk" : tabbed(found.step));
   if (tab === "see") motion.restore(found.seen);
   if (now === walked?.text && now === text.text && lang === walked.lang && !notice) {
     later(null);
@@ -360,13 +359,13 @@ async function visit(tab) {
   await derive();
 }
 
-/* another problem, in an entry of its own, and in a tab */
+/* another problem, in an entry of its own, and in a tab, by default that of its address */
 async function choose(now, tab) {
   places.keep();
   text.text = now;
   later(null);
   await places.problem(lang, chosen(), now, true);
-  await visit(tab);
+  await visit(tab === "see" && still(now) ? "walk" : tab);
 }
 
 /* a mesh becomes the body, until that is undone; one of many triangles is drawn as the ellipsoid of its inertia */
@@ -405,7 +404,7 @@ function widen(wide) {
   if (at?.id) equations.back(at);
 }
 
-the("ready").addEventListener("change", (e) => choose(e.target.value ? ready(e.target.value).text : data.schema.scaffold));
+the("ready").addEventListener("change", (e) => choose(e.target.value ? ready(e.target.value).text : data.schema.scaffold, still(text.text) ? undefined : tabs.now));
 for (const button of document.querySelectorAll("[data-lang]")) {
   button.addEventListener("click", async () => {
     lang = button.dataset.lang;

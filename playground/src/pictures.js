@@ -34,6 +34,7 @@ function vectors(canvas, scene) {
     lineTo: (x, y) => { path += `L${short(x)} ${short(y)}`; },
     closePath: () => { path += "Z"; },
     arc: (x, y, r) => { path += `M${short(x - r)} ${short(y)}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0`; },
+    drawImage: (image, x, y, wide, high) => made.push(`<image x="${short(x)}" y="${short(y)}" width="${wide}" height="${high}" href="${image.toDataURL()}"/>`),
     fill: () => shape(`fill="${pen.fillStyle}"`),
     stroke: () => shape(`fill="none" stroke="${pen.strokeStyle}" stroke-width="${pen.lineWidth}"${pen.getLineDash().length ? ` stroke-dasharray="${pen.getLineDash()}"` : ""}`),
     fillText: (what, x, y) => text(what, x, y, `fill="${pen.fillStyle}" style="font: ${pen.font}" dy=".35em" text-anchor="${anchor[pen.textAlign] ?? "start"}"`),

@@ -7,6 +7,7 @@ const drawn = (faces) => ({ shift: [], vertices: faces.flat(), faces: faces.map(
 
 /* what has nothing to move, by its text */
 const STILL = { fluid: /^\[fluid\]/m, filter: /^\[kinematics\]/m, family: /^group\s*=\s*"any"/m };
+export const still = (text) => Object.keys(STILL).find((x) => STILL[x].test(text));
 
 export class Motion {
   /* text: () → { text }, which takes the numbers that the reader has set; engine: what is asked; say(state, instead) tells, and
@@ -31,7 +32,7 @@ export class Motion {
 
   /* the motion of a walk, { text, lang }, unless it is there, and then what it keeps */
   async of(walk, words) {
-    const mark = `${walk.lang} ${walk.text}`, still = Object.keys(STILL).find((x) => STILL[x].test(walk.text));
+    const mark = `${walk.lang} ${walk.text}`, why = still(walk.text);
     if (this.moved !== mark) {
       this.moved = mark;
       this.keeping = null;
@@ -39,7 +40,7 @@ export class Motion {
       this.say(words.emitting);
       const how = await this.engine.ask({ ask: "motion", ...walk }, (kind, news) => {
         if (kind === "motion") this.show(words, walk.lang, news);
-        else if (kind === "error" && still) this.clear(make("p", { class: "note" }, words.still[still]));
+        else if (kind === "error" && why) this.clear(make("p", { class: "note" }, words.still[why]));
         else if (kind === "error") this.fail(`${words.nomotion} ${plainly(news.message)}`);
       });
       if (how !== "end") this.forget();

@@ -9,6 +9,7 @@ import pytest
 import derive
 from derive.command.showing import ready_made
 from derive.problem.toml import problem_of
+from derive.programs import moving_program
 from tests.page.test_motion_page import PAGELESS
 from tests.support.motion_pages import BAD, STARTS, page
 from tests.support.walks import derived
@@ -130,6 +131,35 @@ def test_a_curve_ends_where_its_time_does(opened):
     assert np.all(np.diff(ends) > 0)
     span = (ends[0] - ends[-1]) / (max(state) - min(state))
     assert ends == pytest.approx([ends[0] + span * (v - max(state)) for v in sorted(state)[::-1]])
+
+
+COLOURS = """(places) => {
+    const c = document.querySelector("canvas"), f = c.width/c.clientWidth;
+    const { data } = c.getContext("2d").getImageData(0, 0, c.width, c.height);
+    const long = Math.min(c.clientWidth - 130, c.clientHeight - 40);
+    const [X, Y] = [(c.clientWidth - long)/2, (c.clientHeight - long)/2 - 8];
+    const at = ([x, y]) => Math.floor(f*(Y + long*(1 - y)))*c.width + Math.floor(f*(X + long*x));
+    return places.map((x) => [...data.slice(4*at(x), 4*at(x) + 3)]);
+}"""
+
+
+def test_vorticity_is_seen_where_it_is(opened):
+    """On the square of one period, the second coordinate up: where it is positive more red."""
+    shown = opened(page("zeitlin"))
+    seek(shown, 0.1)
+    d = derived("zeitlin")
+    names = moving_program(d.problem, d.record, sought=False)[0].state
+    state = dict(zip(names, shown.evaluate(STATE), strict=True))
+    places = np.random.default_rng(1).uniform(0.02, 0.98, (400, 2))
+    field = np.zeros(len(places))
+    for name, re_n in state.items():
+        letter, *n = name.replace("m", "-").split("_")
+        phase = 2 * np.pi * places @ [*map(int, n)]
+        field += 2 * (re_n * np.cos(phase) if letter == "re" else -re_n * np.sin(phase))
+    red, _, blue = np.transpose(shown.evaluate(COLOURS, places.tolist()))
+    strong = np.abs(field) > 0.3 * np.abs(field).max()
+    assert 150 < strong.sum() < 400
+    assert np.all((red > blue)[strong] == (field > 0)[strong])
 
 
 # ---------------------------------------------------------------- what moves

@@ -8,14 +8,17 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
+from benchmarks.playground import packed
 from tests.playground.test_moving import MOTION, STATE, adjuster, until
 from tests.support import in_node
+from tests.support.played import text_of
 from tests.support.playground_site import chosen, moving, opened, visit, walked
 
 LINK = 'import { asked, placed } from "./src/link.js";'
 SEEN = [
     {},
     {"tab": "take"},
+    {"tab": "see"},
     {"projected": ""},
     {"projected": "answer"},
     {"tab": "see", "t": 30, "until": 80, "second": ["zeta_1", 1e-3]},
@@ -33,8 +36,8 @@ def test_what_is_seen_goes_through_an_address():
         console.log(JSON.stringify(told));"""
     found = json.loads(in_node.printed(script))
     numbers = [x | {"set": {k: float(v) for k, v in x["set"].items()}} for x in SEEN[-1:]]
-    assert [x["step"] for x in found] == ["so3.kernel"] * 6
-    assert [x["name"] for x in found] == ["so3"] * 6
+    assert [x["step"] for x in found] == ["so3.kernel"] * len(SEEN)
+    assert [x["name"] for x in found] == ["so3"] * len(SEEN)
     told = [x["seen"] for x in found]
     told[-1]["set"] = {k: float(v) for k, v in told[-1]["set"].items()}
     assert told == SEEN[:-1] + numbers
@@ -72,7 +75,7 @@ def test_a_copied_link_shows_another_reader_the_same(fresh, site):
     fresh.wait_for_selector("#link:has-text('Lien copié')")
     link = fresh.evaluate("navigator.clipboard.readText()")
     assert link == fresh.url
-    assert link.startswith(f"{site}?lang=fr#top&tab=see&t=0.625&eye=")
+    assert link.startswith(f"{site}?lang=fr#top&t=0.625&eye=")
     assert link.endswith("&set=zeta_3:123.5")
     with opened(fresh.context.browser) as other:
         visit(other, link, "top")
@@ -85,7 +88,7 @@ def test_a_copied_link_shows_another_reader_the_same(fresh, site):
         assert shown.evaluate(EYE) == pytest.approx(eye, rel=1e-6)
         # another problem leaves it behind
         chosen(other, "so3")
-        assert other.url == f"{site}?lang=fr#so3&tab=see"
+        assert other.url == f"{site}?lang=fr#so3"
 
 
 def test_an_address_of_a_step_on_the_whole_screen(fresh, site):
@@ -99,25 +102,45 @@ def test_an_address_of_a_step_on_the_whole_screen(fresh, site):
     walked(fresh)
     assert fresh.locator(".screen p math").count() == fresh.locator("#answer p math").count() > 0
     fresh.keyboard.press("Escape")
-    assert fresh.url == f"{site}?lang=en#so3&tab=see"
+    assert fresh.url == f"{site}?lang=en#so3"
 
 
 def test_the_address_is_the_tab_that_is_seen(fresh, site):
     """Of the first visit, too; a page that is loaded again, and Back, show it."""
     fresh.goto(f"{site}?lang=en")
     walked(fresh, "top")
-    assert fresh.url == f"{site}?lang=en#top&tab=see"
+    assert fresh.url == f"{site}?lang=en#top"
     fresh.reload()
     walked(fresh, "top")
     assert fresh.is_visible("#see")
-    for tab, end in (("find", "&tab=find"), ("walk", ""), ("see", "&tab=see")):
+    for tab, end in (("find", "&tab=find"), ("walk", "&tab=walk"), ("see", "")):
         fresh.click(f"#tab-{tab}")
         assert fresh.url == f"{site}?lang=en#top{end}"
     fresh.select_option("#steps", index=2, force=True)
     assert "&tab" not in fresh.url
     fresh.go_back()
     fresh.wait_for_function("() => !document.getElementById('see').hidden")
-    assert fresh.url.endswith("#top&tab=see")
+    assert fresh.url.endswith("#top")
+
+
+def test_a_problem_alone_moves_and_what_cannot_is_read(fresh, site):
+    """A ready-made one, by its address and by the list, and one's own, in which a fault is read."""
+    for where in ("pendulum", "ideal_fluid", "jelly"):
+        fresh.goto(f"{site}#{where}")
+        walked(fresh, where)
+        assert fresh.is_visible("#walk" if where == "ideal_fluid" else "#see")
+    chosen(fresh, "ideal_fluid")
+    assert fresh.is_visible("#walk")
+    chosen(fresh, "jelly")
+    fresh.wait_for_selector("iframe[data-moved]")
+    own = packed(f"{text_of('pendulum')}\n")
+    with opened(fresh.context.browser) as other:
+        other.goto(f"{site}#p={own}")
+        other.wait_for_selector("iframe[data-moved]", timeout=90_000)
+    with opened(fresh.context.browser) as other:
+        other.goto(f"{site}#p={packed('group = 1')}")
+        walked(other, "fault")
+        assert other.is_visible("#walk .fault")
 
 
 VIEW = f"""() => {{

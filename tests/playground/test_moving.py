@@ -242,7 +242,7 @@ def test_arrows_in_a_plane_of_two_bodies_and_of_points(fresh, site):
     """An arc out of the plane, one arrow a body, and one at each point."""
     for name, expected in {
         "pendulum": [1] * 16 + [2] * 16,
-        "two_tops": [1, 1, 2, 2],
+        "two_tops": [1, 2, 3, 3],  # the velocity of each, their torques
         "sl3": [1] * 4 + [2] * 4 + [3] * 4 + [4] * 4,
     }.items():
         visit(fresh, f"{site}#{name}", name)
@@ -273,13 +273,13 @@ CURVE = """() => {
 
 
 def test_a_graph_of_what_is_chosen(fresh, site):
-    """The tilt goes with A₃₃, and what is kept is level."""
+    """The tilt goes with A₃₃, and what is kept is level; what starts at 0 is offered later."""
     visit(fresh, f"{site}#top", "top")
     frame = moving(fresh)
     fresh.wait_for_selector("iframe[data-kept]", state="attached")
     offered = frame.locator(".graph option").all_text_contents()
     assert offered[0] == "cosine of the tilt of the third axis"
-    assert [x.split()[0] for x in offered[1:5]] == ["ζ₁", "ζ₂", "ζ₃", "energy"]
+    assert [x.split()[0] for x in offered[1:5]] == ["ζ₃", "ζ₁", "ζ₂", "energy"]
     frame.evaluate(CURVE)
 
     def heights(k):

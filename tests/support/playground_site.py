@@ -91,8 +91,10 @@ def rewalked(page, what="own"):
 
 
 def visit(page, address, what="so3"):
-    """Go to an address, and wait until its problem is walked; a page that is there stays, where
-    nothing but the problem is another."""
+    """Go to an address, of a problem alone to its walk, and wait until that is there; a page that
+    is there stays, where nothing but the problem is another."""
+    place = address.partition("#")[2]
+    address += "&tab=walk" * bool(place and not {*place} & {"/", "&"})
     if page.url.partition("#")[0] != address.partition("#")[0]:
         page.goto(address)
         walked(page, what)

@@ -310,4 +310,4 @@ def test_what_no_points_are_relabelled_by_is_no_circulation():
     assert "deformation_body" in {x.kind for x in own.symmetries()}
     names = conserved_quantities(own.problem, own.record)
     assert not any(x.startswith("circulation") for x in names)
-    assert any(x.startswith("deformation_body") for x in names)
+    assert any(x.startswith("body_deformation_momentum") for x in names)

@@ -311,11 +311,18 @@ NAMES = {
     "time": "energy",
     "translation_space": "momentum",
     "rotation_space": "angular_momentum",
+    "displacement_space": "screw_momentum",
+    "deformation_space": "deformation_momentum",
     "boost": "centre",
     "translation_body": "body_momentum",
     "rotation_body": "body_angular_momentum",
+    "displacement_body": "body_screw_momentum",
+    "deformation_body": "body_deformation_momentum",
+    "rotation_alone": "orbital_angular_momentum",
+    "both": "combined_momentum",
+    "moving": "time_dependent_integral",
 }
-"""What is kept by a symmetry of a kind; by another it has the name of the kind."""
+"""What is kept by a symmetry of a kind."""
 
 CIRCULATION = "circulation"
 """What is kept by a relabelling of a body that its group deforms, be it a turn or not."""
@@ -328,7 +335,7 @@ def named(found: SymmetriesFound) -> dict[str, Tree]:
     """
     relabelled = [found.of_points and relabels(x) for x in found.symmetries]
     bases = [
-        CIRCULATION if is_one else NAMES.get(x.kind, x.kind)
+        CIRCULATION if is_one else NAMES[x.kind]
         for x, is_one in zip(found.symmetries, relabelled, strict=True)
     ]
     many = Counter(bases)

@@ -20,7 +20,7 @@ from ...motion.first_numbers import FirstNumbers, drives, is_free, weight
 from ...problem.problem import Problem
 from ...record.record import Derivation
 from ..answer import PLANE
-from ..arrows import TURNING
+from ..arrows import ORIGIN, TURNING
 from ..html import visible
 from ..language import ENGLISH, Language
 from ..outline import capitalised, subtitle, title
@@ -47,6 +47,7 @@ WORDS = {
     "now": "The angular velocity in the body, and the ellipsoid of its kinetic energy now",
     "ellipsoid": "The angular velocity in the body: its path, the polhode, on the energy ellipsoid",
     "velocities": "The velocity in time",
+    "coefficients": "The largest coefficients of the vorticity",
     "readings": "What is read off the motion",
     "start": "The velocity at the start",
     "element": "The configuration at the start",
@@ -105,6 +106,7 @@ SCRIPTS = (
     "arrows",
     "stage",
     "chart",
+    "vorticity",
     "second",
     "polhode",
     "mount",
@@ -215,8 +217,9 @@ def plain(source: str) -> str:
 
 
 def lean(source: str) -> str:
-    """A script without comments, indentation and empty lines."""
-    return re.sub(r"\n\s+", "\n", plain(source))
+    """A script without comments, indentation, empty lines, and spaces about the arrows of
+    functions, which stand in no text of it."""
+    return re.sub(r"\n\s+", "\n", plain(source)).replace(" => ", "=>")
 
 
 def pieces(body: Data, *, read: bool = False) -> dict[str, str]:
@@ -226,7 +229,8 @@ def pieces(body: Data, *, read: bool = False) -> dict[str, str]:
     turned = {"turned_start": "turned_start"}
     readings = {"side": "readings"} if read else {}
     if not body["parts"]:
-        return {"stage": "chart_stage"} | readings | turned
+        on_torus = {"stage": "vorticity_stage", "side": "coefficients"}
+        return (on_torus if "waves" in body else {"stage": "chart_stage"}) | readings | turned
     solids = [x for part in body["parts"] for x in part["solids"]]
     names = {x["shape"] for x in solids if "shape" in x}
     names |= {"quadric" for x in solids if "quadric" in x}
@@ -246,6 +250,7 @@ def _unsaid(made: Program, body: Mapping[str, Any], element: bool, lost: bool) -
     unsaid |= {x for x in ("defect", "multiplier") if x not in made.functions}
     unsaid |= set() if lost or "multiplier" in made.functions else {"others"}
     there = {"flat": body["stretches"], "inputs": made.inputs, "element": element}
+    there["coefficients"] = "waves" in body
     there |= {"turned": element, "within": body["parts"] and not body["parts"][0]["deforms"]}
     unsaid |= {x for x, has in there.items() if not has}
     unsaid |= {"velocities", "polhode"} if made.outputs else {"readings"}
@@ -268,13 +273,18 @@ def data(
     largest = sorted(range(len(made.state)), key=lambda s: -abs(float(begin.x[s])))[:CURVES]
     body = moving_body(record.problem, group, made.state)
     adjusted, curves = velocity[:MOST], [] if body["parts"] else sorted(largest)
+    if "waves" in body:  # most others stay as small as they begin
+        curves = [s for s in curves if begin.x[s]] or curves
     basis, heavy = made.basis if entries else (), weight(record.problem or {})
     lost = bool(drives(record.problem, {}))
     units = {x.name: _unit(x.unit) for x in code.columns()}
     pairs = zip(made.state, state, strict=True)
-    of_state = [(y, _meaning(x, record, language), units[x]) for x, y in pairs]
+    turning = bool(body["polhode"]) or record.problem.get("group") in PLANE
+    of_state = [(y, _meaning(x, record, language, turning), units[x]) for x, y in pairs]
     unsaid = _unsaid(made, body, bool(entries), lost)
     words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
+    if "waves" in body:
+        words["stage"] = language.word("vorticity")
     if body["turns"] and not made.outputs:
         words["polhode"] = language.word(WORDS["ellipsoid" if is_free(record.problem) else "now"])
     if made.inputs:
@@ -309,13 +319,16 @@ def data(
     }
 
 
-def _meaning(name: str, record: Derivation, language: Language) -> str:
-    """What the letter of a velocity, or of what is advected, means; empty for any other."""
-    letter = GREEK.get(name.partition("_")[0], name.partition("_")[0])
-    if letter == "ζ" and record.problem and record.problem.get("group") in PLANE:
-        return language.word(TURNING)  # of the walk it is a coordinate in the Lie algebra
-    meanings = [language.of(x.meaning) for x in record.symbols if x.name == letter]
-    return meanings[0] if meanings and letter in VELOCITIES else ""
+def _meaning(name: str, record: Derivation, language: Language, turning: bool) -> str:
+    """What the letter of a velocity, or of what is advected, means; empty for any other; of
+    coordinates in the Lie algebra, as the walk has them, whether they are of a turn."""
+    stem = name.partition("_")[0].rstrip("0123456789")
+    letter = GREEK.get(stem, stem)
+    meanings = [x.meaning for x in record.symbols if x.name == letter and letter in VELOCITIES]
+    said = ENGLISH.of(meanings[0]) if meanings else ""
+    if said.startswith("coordinates of Z"):
+        return language.word(TURNING if turning else "velocity along the basis of the group")
+    return language.word(ORIGIN) if said == "A⁻¹τ" else language.of(meanings[0]) if said else ""
 
 
 def _unit(text: str) -> str:

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ...algebra.groups import Group
+from ...language.reserved import waves
 from ...problem.fields import state_names
 from ..figure.drawn_body import UNITS, ExpressionValues
 from ..figure.scene import along, shifts, turns
@@ -24,9 +25,12 @@ def moving_body(problem: Mapping[str, Any], group: Group | None, state: Sequence
     """What is drawn of the problem of a record: ``parts``, one for each factor of the group that
     moves points of the plane or of space, none where one of them does not; ``springs`` between
     them; ``gravity``; ``polhode``, the places of an angular velocity in the state; ``stretches``:
-    can it become flat, as volumes are not kept?"""
+    can it become flat, as volumes are not kept? ``waves``: the coefficients of the vorticity of a
+    fluid on the torus, where there is one."""
     none = {"parts": [], "springs": [], "gravity": [0, 0, 0], "polhode": [], "turns": False}
     none["stretches"] = False
+    if "torus" in problem:
+        none["waves"] = waves(state)
     if group is None or any(factor.n not in (2, 3) for _, factor in group.places):
         return none
     group = group.in_user_basis

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ...language.reserved import by_letter, letter_and_suffix
+from ...language.reserved import by_letter, letter_and_suffix, waves
 from ...motion.emitted_code import KEPT, Column, in_words, parts
 from ...motion.run import Array, Run, shown
 from .body_pictures import attitude, paths
@@ -379,19 +379,19 @@ ROUNDING = 1e-32
 
 
 def amplitudes(run: Run) -> tuple[Array, Array]:
-    """The waves n, (count, 2), and ω_n at the last instant, of the columns re_n, im_n; ``m1``
-    stands for −1."""
-    names = [letter_and_suffix(x)[1] for x in by_letter(run.of_kind("state"))["re"]]
-    waves = [[int(k.replace("m", "-")) for k in x.split("_")] for x in names]
-    return np.array(waves), np.array([run[f"re_{x}"][-1] + 1j * run[f"im_{x}"][-1] for x in names])
+    """The waves n, (count, 2), and ω_n at the last instant, of the columns re_n, im_n."""
+    names = [*run.of_kind("state")]
+    found: Array = np.array(waves(names))
+    x = np.array([run[name][-1] for name in names])
+    return found[:, :2], x[found[:, 2]] + 1j * x[found[:, 3]]
 
 
 def vorticity(figure: Any, run: Run, word: Any) -> None:
     """ω(x, y) = Σ ω_n e^{in·x}, with ω_−n the conjugate; the enstrophy Σ |ω_n|², its sum over the n
     whose |n| is nearest to each whole number, but for what is rounding alone."""
-    waves, amplitude = amplitudes(run)
+    modes, amplitude = amplitudes(run)
     grid = np.linspace(0, 2 * np.pi, 129)
-    along = [np.exp(1j * np.outer(waves[:, k], grid)) for k in (0, 1)]
+    along = [np.exp(1j * np.outer(modes[:, k], grid)) for k in (0, 1)]
     field = 2 * np.einsum("n,nx,ny->yx", amplitude, *along).real
     left, right = figure.subplots(1, 2)
     most = float(np.abs(field).max()) or 1.0
@@ -399,7 +399,7 @@ def vorticity(figure: Any, run: Run, word: Any) -> None:
                             rasterized=True)  # fmt: skip
     left.set(aspect="equal", xlabel="$x$", ylabel="$y$", title=f"$t = {run.t[-1]:g}$")
     figure.colorbar(image, ax=left, label=word("vorticity"))
-    shell = np.rint(np.hypot(*waves.T)).astype(int)
+    shell = np.rint(np.hypot(*modes.T)).astype(int)
     spectrum = 2 * np.bincount(shell, np.abs(amplitude) ** 2)
     seen = np.flatnonzero(spectrum > ROUNDING * spectrum.max())
     right.loglog(seen, spectrum[seen], "o-", c=COLOURS[0], ms=3)

@@ -28,6 +28,8 @@ from .substitution import UNKNOWN, PutIn, element, symbols
 LARGEST = 6
 """The dimension of the largest group for which the answer is stated."""
 RULE = "evaluation"
+MOMENTS = ("N_P", "N_Q")
+"""Of forces on points; where these are long the answer is by their entries."""
 RATE_OF = {"A": "Ȧ", "T": "Ṫ", "Γ": "Γ̇"}
 Steps = tuple[Step, ...]
 
@@ -89,8 +91,8 @@ def of_matrices(
         rates += [("entry", "ẇ", i) for i in range(1, n + 1)]
     values = PutIn(known | {"u": symbols("u", group.dimension)}, n)
     own.learnt_by(values, motion)
-    for metric in (values.names["C"], _symmetric("C", n)):  # by A, or by what of A enters
-        values.names["C"] = metric
+    for letters in ({}, {"C": _symmetric("C", n)}, _moments_of_forces(values)):
+        values.names |= letters  # by A; by what of A enters; by what of the forces does
         try:
             inertial, load, work = (_along(group, map(values.of, x)) for x in (left, right, pulled))
             rows = [x - y for x, y in zip(inertial, load, strict=True)]
@@ -101,6 +103,18 @@ def of_matrices(
         if found := _explicit_step(draft, stage, values, idle, group):
             return found
     return ()
+
+
+def _moments_of_forces(values: PutIn) -> dict[str, Value]:
+    """The moments of forces on points by their entries, those that are 0 but for 0."""
+    found = {x: y for x, y in values.names.items() if x in MOMENTS and isinstance(y, tuple)}
+    return {
+        name: tuple(
+            tuple(Laurent.symbol(("entry", name, i, j)) if x else x for j, x in enumerate(row, 1))
+            for i, row in enumerate(m, 1)
+        )
+        for name, m in found.items()
+    }
 
 
 def _symmetric(name: str, n: int) -> Value:

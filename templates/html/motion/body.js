@@ -75,18 +75,16 @@ function built(scene, x, pieces) {
     }
     const every = [...faces.flatMap((f) => f.v), ...Object.values(points).map((x) => x.at)];
     const reach = max(...every.map(size), 0) || 1;
-    const tips = [0, 1, 2].slice(0, part.n).map((k) => {
-      const e = [0, 0, 0];
-      e[k] = max(0.5 * reach, ...every.map((r) => r[k])) + 0.28 * reach;
-      return e;
-    });
+    const axes = [0, 1, 2].slice(0, part.n), along = (k, v) => [0, 1, 2].map((j) => (j === k ? v : 0));
+    const tips = axes.map((k) => along(k, max(0.5 * reach, ...every.map((r) => r[k])) + 0.28 * reach));
+    const backs = axes.map((k) => along(k, min(0, ...every.map((r) => r[k]))));
     const heavy = max(...matter.map((x) => x.mass), 0) || 1;
     /* about a fixed place the centre of mass, or the tip of the last axis where that goes through it */
     const pole = part.fixed && centre[part.n - 1] >= 0.999 * size(centre) ? tips.at(-1) : centre;
     const traced = part.deforms ? matter.slice(0, 4).map((x) => x.at) : [pole];
     const centres = part.attractions.map((a) => ({ at: vector(a.centre), on: a.on }));
     const anchors = part.anchors.map((a) => ({ on: a.on, at: vector(a.at) }));
-    const ends = [...tips, ...Object.values(points).map((x) => x.at)];
+    const ends = [...tips, ...backs, ...Object.values(points).map((x) => x.at)];
     return { ...part, points, faces, edges, centre, reach, tips, ends, heavy, traced, centres, anchors };
   });
   return { parts, reach: max(...parts.map((x) => x.reach)) };

@@ -356,7 +356,7 @@ function mount(element, page, pieces) {
     const [part] = page.body.parts, tilt = part?.n === 3 && !part.deforms ? part.map[2][2] : -1;
     graph?.offer([
       ...(tilt < 0 ? [] : [[page.tilt, (t, x) => x[tilt]]]),
-      ...page.adjusted.map((s) => [`${called(page.names[s])} ${about(page.names[s])[0]}`.trim(), (t, x) => x[s]]),
+      ...[...page.adjusted].sort((a, b) => !page.x[a] - !page.x[b]).map((s) => [`${called(page.names[s])} ${about(page.names[s])[0]}`.trim(), (t, x) => x[s]]),
       ...Object.keys(first).filter((name) => rows[name][1]).map((name) => [(page.kept[name] ?? [words[name]])[0], (t, x) => invariants(t, x)[name]]),
     ]);
   }

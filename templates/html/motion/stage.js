@@ -1,11 +1,13 @@
 /* The body on the stage, with gravity and the ground; pieces: see built. A plane is seen as it is. */
 /* of all trails: what a frame has time for */
 const PIECES = 480;
+/* the height of the eye at first */
+const HIGH = 0.33;
 function solid_stage(scene, pieces) {
   const { page } = scene, { body } = page;
   const stage = canvas(scene, page.words.stage);
   const falling = () => valued(page.module, scene.p).vector(body.gravity);
-  const eye = scene.eye = camera(scene, stage, ...(body.planar ? [[0, 0, 1], -PI / 2, PI / 2] : [scaled(-1, falling()), 0.55, 0.33]));
+  const eye = scene.eye = camera(scene, stage, ...(body.planar ? [[0, 0, 1], -PI / 2, PI / 2] : [scaled(-1, falling()), 0.55, HIGH]));
   const vectors = pieces.arrows?.(scene, stage);
   let drawn, reached = 0, furthest = [], seen_within;
 
@@ -42,19 +44,27 @@ function solid_stage(scene, pieces) {
     return free || scene.within ? spots[0](parts[0].centre) : drawn.middle;
   };
   /* how far from it what is seen reaches, and so far has reached: at instants that do not depend on what was played */
+  const about = (far) => drawn.parts.flatMap((part) => [...part.centres, ...part.anchors].map((c) => min(far(c.at), 4 * drawn.reach)));
   const extent = (all) => {
-    const { parts } = drawn, from = middle(all[0]);
-    const ends = all.flatMap((places) => places.flatMap((at, i) => parts[i].ends.map((r) => size(plus(at(r), from, -1)))));
-    const about = parts.flatMap((part) => [...part.centres, ...part.anchors].map((c) => min(size(plus(c.at, from, -1)), 4 * drawn.reach)));
-    return max(drawn.reach, ...ends, ...about);
+    const from = middle(all[0]), far = (r) => size(plus(r, from, -1));
+    return max(drawn.reach, ...all.flatMap((places) => places.flatMap((at, i) => drawn.parts[i].ends.map((r) => far(at(r))))), ...about(far));
+  };
+  /* the same in the height of the picture, as it is seen at first: less where it is flat */
+  const height = (all) => {
+    const from = middle(all[0]);
+    const high = (r) => {
+      const v = plus(r, from, -1), up = abs(dot(eye.above, v));
+      return sqrt(max(0, dot(v, v) - up * up)) * sin(HIGH) + up * cos(HIGH);
+    };
+    return max(...all.flatMap((places) => places.map((at, i) => high(at([0, 0, 0])) + 1.3 * drawn.parts[i].reach)), ...about(high));
   };
   const so_far = () => {
     const each = page.t / 1024;
     if (seen_within !== scene.within) furthest = [];
     seen_within = scene.within;
     while (furthest.length * each <= scene.time) {
-      const t = furthest.length * each, [far, longest] = furthest.at(-1) ?? [0, {}], states = scene.states(t), all = placed_at(states);
-      furthest.push([max(far, extent(all)), vectors?.longest(longest, t, states[0], drawn.parts, all[0])]);
+      const t = furthest.length * each, [far, tall, longest] = furthest.at(-1) ?? [0, 0, {}], states = scene.states(t), all = placed_at(states);
+      furthest.push([max(far, extent(all)), max(tall, height(all)), vectors?.longest(longest, t, states[0], drawn.parts, all[0])]);
     }
     return furthest[floor(scene.time / each)] ?? furthest.at(-1);
   };
@@ -80,9 +90,10 @@ function solid_stage(scene, pieces) {
       const y = scene.other?.at(scene.time).slice(), [spots, others = []] = placed_at([x, ...(y ? [y] : [])]);
       const target = middle(spots);
       eye.along = scene.within && ((v) => plus(spots[0](v), spots[0]([0, 0, 0]), -1));
-      const [far, longest] = so_far();
-      reached = max(far, extent([spots, others]));
-      const scale = 0.42 * min(stage.width, stage.height) / reached * eye.zoom;
+      const [far, tall, longest] = so_far(), now = [spots, others];
+      reached = max(far, extent(now));
+      const least = min(reached, max(tall, height(now))), over = max(0, (abs(sin(eye.elevation)) - sin(HIGH)) / (1 - sin(HIGH)));
+      const scale = 0.42 * min(stage.width / reached, stage.height / (least + over * (reached - least))) * eye.zoom;
       const pic = picture(scene, stage, eye, target, scale);
       ground(pic, target);
       parts.forEach((part, i) => {
