@@ -319,6 +319,11 @@ FAULTS = {
         (" + np.cross(w, np.cross(w, r))", ""),
         "ω × (ω × c) about the centre of mass is missing",
     ),
+    "a tank that stays full": (
+        "sprung",
+        ("np.array([fuel, 2, 2, 3])", "np.array([6, 2, 2, 3])"),
+        "fuel is 6, and not what is left of it",
+    ),
     "half the stiffness of what loses mass": (
         "sprung",
         ("d * 2.5 *", "d * 1.25 *"),
