@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from ..algebra.groups import Group
+from ..algebra.groups import Group, names_by_block
 from ..language.reserved import SPELT, WORDS, suffixed
 from ..language.show import show
 from ..language.tree import Tree, mul, plain, sized
@@ -171,7 +171,7 @@ def law(components: Sequence[Any], group: Group | None = None) -> str:
 
 def typed(t: Tree, group: Group | None) -> Tree:
     """Entries as names: those of the velocity of the place as v_1, of A as A_12, in the second
-    block of a product as A2_12 or T2_1, of Z as the coordinate that it is."""
+    block of a product as A2_12 or T2_1, of Z as the coordinate that it is, zeta2_1 or w2_1."""
     if not isinstance(t, tuple):
         return t
     if t[0] != "entry":
@@ -187,7 +187,8 @@ def typed(t: Tree, group: Group | None) -> Tree:
         return ("par", _of_block(group, row, *more))
     if group and letter == "Z" and (found := _coordinate(group, row, *more)):
         return found
-    return ("par", suffixed(plain_text(letter), row, *more))
+    name = suffixed(plain_text(letter), row, *more)
+    return ("par", names_by_block(group).get(name, name) if group else name)
 
 
 def _block(group: Group | None, row: int) -> tuple[int, int, Group | None]:
@@ -210,5 +211,7 @@ def _coordinate(group: Group, row: int, column: int) -> Tree | None:
     for a in range(group.dimension):
         for x, i, j in group.coordinate_terms(a)[:1]:
             if (i, j) == (row - 1, column - 1) and len(group.coordinate_terms(a)) == 1:
-                return mul(plain(Fraction(1) / x), ("par", suffixed("zeta", a + 1)))
+                name = suffixed("zeta", a + 1)
+                name = names_by_block(group).get(name, name)
+                return mul(plain(Fraction(1) / x), ("par", name))
     return None

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from fractions import Fraction
+from functools import cache, cached_property
 from types import ModuleType
 from typing import Any
 
@@ -13,6 +14,7 @@ import numpy as np
 
 from ..code.program import Program
 from ..language.limits import Refused
+from ..language.tree import nodes, replaced
 from ..language.values import approximate
 from ..problem.problem import Problem
 from ..schema.force_kinds import Acting
@@ -102,12 +104,15 @@ class Balance:
         found: Array = self.of_mass(values) + b + self.more
         return found
 
-    def checked(self, left: Array, of_mass: Mapping[str, float]) -> Array:
-        """What is left, by the rates that it stands for; ∞ for a mass that is near 0, which
-        explains nothing."""
-        M, own = (
-            self.code.mass_matrix(self.t, self.x, self.k(x)) for x in (self.values(), of_mass)
-        )
+    def mass(self, values: Mapping[str, float]) -> Array:
+        """The mass matrix at each state for all parameters by name."""
+        found: Array = self.code.mass_matrix(self.t, self.x, self.k(values))
+        return found
+
+    def checked(self, left: Array, own: Array) -> Array:
+        """What is left with another mass matrix, by the rates that it stands for; ∞ for a mass that
+        is near 0, which explains nothing."""
+        M = self.mass(self.values())
         least, known = (np.linalg.svd(x, compute_uv=False).min() for x in (own, M))
         if not least > FLAT * known:
             return np.full_like(left, np.inf)
@@ -120,22 +125,40 @@ class Balance:
         return [*self.rows.values()] in ([[0, 1, 2], [3, 4, 5]], [[0], [1, 2]])
 
     def centre(self) -> Array | None:
-        """The centre of mass of a body that moves in space or in the plane."""
-        body = self.opened.problem.body
-        if body is None or not self.is_frame:
-            return None
-        own, known = body.moments(), self.values()
-        m, *c = (approximate(x, known, float) for x in (own.m, *own.c))
-        return None if not m or None in c else np.array(c, float) / m
+        """The centre of mass of a body that moves in space or in the plane, at each state."""
+        return self.mass_and_centre()[1] if self.is_frame else None
+
+    def mass_and_centre(self, **masses: float) -> tuple[Array, Array | None]:
+        """The mass of the body, (N,), and where its centre is along its axes, (N, n), at each
+        state; ``masses``: numbers of the state that are others."""
+        problem = self.opened.problem
+        if problem.body is None or (problem.group and problem.group.factors):
+            return np.zeros(0), None
+        own, known = problem.body.moments(), self.values()
+        trees, columns = (own.m, *own.c), {x: self.code.STATE.index(x) for x in problem.stored}
+        timed = any("t" in nodes(x) for x in trees)
+
+        @cache
+        def at(t: float, *stored: float) -> list[float | None]:
+            now = [replaced(x, "t", Fraction(t)) for x in trees] if timed else trees
+            here = {**known, **dict(zip(columns, stored, strict=True)), **masses}
+            return [approximate(x, here, float) for x in now]
+
+        rows = zip(self.t * timed, self.x[:, [*columns.values()]], strict=True)
+        found = [at(float(t), *x.tolist()) for t, x in rows]
+        if any(None in x or not x[0] for x in found):
+            return np.zeros(0), None
+        m, *c = np.array(found, float).T
+        return m, np.stack(c, axis=1) / m[:, None]
 
     def about_centre(self) -> Array | None:
-        """What takes M a = Σ terms of a body in space to moments about its centre of mass, (6, 6);
-        ``None`` where these are the same."""
+        """What takes M a = Σ terms of a body in space to moments about its centre of mass, at each
+        state (N, 6, 6); ``None`` where these are the same."""
         r = self.centre()
-        if r is None or not r.any() or len(r) != 3:
+        if r is None or not r.any() or r.shape[1] != 3:
             return None
-        found = np.eye(6)
-        found[:3, 3:] = np.cross(np.eye(3), r).T  # less r × force
+        found = np.tile(np.eye(6), (len(r), 1, 1))
+        found[:, :3, 3:] = -hats(r)  # less r × force
         return found
 
     def turns(self) -> Array:
@@ -189,9 +212,9 @@ class Balance:
 
     def arm(self, table: Any) -> Array | None:
         """Where a force acts, along the axes of the body; none where it is not at one place."""
-        if table in self.opened.problem.potentials:
-            return self.centre() if table.kind == "gravity" else None
-        on = getattr(table, "on", ())
+        if table in self.opened.problem.potentials and table.kind == "gravity":
+            return self.centre()
+        on = getattr(table, "on", None) or ()
         ends = on if isinstance(on, tuple) else (on,)
         listed = (*self.opened.problem.points, *self.opened.problem.places)
         if len(ends) != 1 or not self.is_frame:
@@ -307,9 +330,7 @@ class Balance:
 
     def of_mass(self, values: Mapping[str, float]) -> Array:
         """M a."""
-        M = self.code.mass_matrix(self.t, self.x, self.k(values))
-        found: Array = np.einsum("...ij,...j->...i", M, self.a)
-        return found
+        return through(self.mass(values), self.a)
 
     def of_momentum(self) -> Part | None:
         """What is left of b without inputs, forces and potentials."""
@@ -399,6 +420,16 @@ def turning(w: Array, r: Array) -> Array:
     if r.shape[-1] == 3:
         return np.asarray(np.cross(w, r))
     return np.asarray(w * np.stack([-r[..., 1], r[..., 0]], axis=-1))
+
+
+def through(to: Any, vectors: Array) -> Array:
+    """Vectors, (N, d) or (d,), as a matrix takes them, one for all or one for each state."""
+    return np.asarray(np.einsum("...ij,...j->...i", to, vectors))
+
+
+def hats(r: Array) -> Array:
+    """The matrices of r × of vectors in space, (N, 3, 3)."""
+    return np.asarray(np.cross(r[:, None, :], np.eye(3)).transpose(0, 2, 1))
 
 
 def _idle(force: Acting) -> Acting:

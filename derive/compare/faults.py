@@ -9,7 +9,7 @@ from itertools import chain, combinations, product
 
 import numpy as np
 
-from .balance import Balance, Part, Term, exact
+from .balance import Balance, Part, Term, exact, hats, through
 from .told import ABOUT, NEAR, Changed, Hypothesis, changed, possible, told
 from .users_code import Array
 from .wrenches import of_added_mass, of_axes, of_sizes, of_wrenches
@@ -28,6 +28,7 @@ def hypotheses(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
             yield Hypothesis(x.words, x.rank, left)
     yield from of_vectors(b)
     yield from of_the_point(b)
+    yield from of_masses_held(b)
     yield from of_terms(b, terms)
 
 
@@ -43,7 +44,8 @@ def of_terms(
 
 
 def views(b: Balance) -> list[tuple[str, Array]]:
-    """M a = Σ terms as it stands, and with moments about the centre of mass: words, a matrix."""
+    """M a = Σ terms as it stands, and with moments about the centre of mass: words, a matrix, or
+    one for each state."""
     centred = b.about_centre()
     plain = [("", np.eye(b.a.shape[1]))]
     return plain if centred is None else [*plain, (ABOUT, centred)]
@@ -121,7 +123,7 @@ def fitted(
     try:
         found = newton(lambda x: b.unexplained + part(values(x)) - own, start)
         if found and part in (b.left, b.of_mass):
-            return found[0], b.checked(found[1], values(found[0]))
+            return found[0], b.checked(found[1], b.mass(values(found[0])))
         return found
     except (ValueError, np.linalg.LinAlgError):  # no body has this number
         return None
@@ -226,28 +228,40 @@ def of_vectors(b: Balance) -> Iterator[Hypothesis]:
 
 
 def of_the_point(b: Balance) -> Iterator[Hypothesis]:
-    """The tensor of inertia is about another point: the origin, or the centre of mass."""
-    base = b.values()
-    named = {x.words: x.name for x in b.opened.slots}
-    letter, first = ("I_centre", "centre") if b.opened.central else ("I", "c")
-    if f"{letter}_11" not in named:
+    """The tensor of inertia of a body in space is about another point: the origin, or the centre of
+    mass."""
+    m, r = b.mass_and_centre()
+    if r is None or not r.any() or r.shape[1] != 3 or len(b.rows["moment"]) != 3:
         return
-    r = np.array([base[named[f"{first}_{i}"]] for i in (1, 2, 3)])
-    mass = base.get(named.get("the mass m", ""), 1.0)
-    r = r if b.opened.central else r / mass
-    shift = mass * (r @ r * np.eye(3) - np.outer(r, r))
-    upper = [(i, j, named[f"{letter}_{i + 1}{j + 1}"]) for i in range(3) for j in range(i, 3)]
+    w, d = b.x[:, b.moving][:, :3], b.a.shape[1]
+    shift = np.zeros((len(m), d, d))
+    shift[:, :3, :3] = -m[:, None, None] * hats(r) @ hats(r)
+    of_mass, spun = through(shift, b.a), np.zeros_like(b.a)
+    spun[:, :3] = np.cross(w, through(shift[:, :3, :3], w))
+    for where, more in (("", of_mass + spun), (IN_MASS, of_mass), (" in ω × Iω alone", spun)):
+        s = -float((more * b.unexplained).sum() / (more * more).sum())
+        left = b.unexplained + s * more
+        if more is not spun:
+            left = b.checked(left, b.mass(b.values()) + s * shift)
+        simple = min(abs(abs(s) - x) for x in (1, 2)) <= NEAR
+        words = f"the tensor of inertia{where} is about another point: it is ours with "
+        words += f"{s:+.6g} times the term of parallel axes, m(r²1 − r r̄)"
+        yield Hypothesis(words.replace("-", "−"), 0 if simple else 4, left)
 
-    def shifted(s: float) -> Values:
-        return {**base, **{name: base[name] + s * shift[i, j] for i, j, name in upper}}
 
-    parts = {"": b.left, IN_MASS: b.of_mass, " in ω × Iω alone": b.of_momentum()}
-    for where, part in parts.items():
-        if part and r.any() and (found := fitted(b, shifted, 0.0, part)):
-            simple = min(abs(abs(found[0]) - x) for x in (1, 2)) <= NEAR
-            words = f"the tensor of inertia{where} is about another point: it is ours with "
-            words += f"{found[0]:+.6g} times the term of parallel axes, m(r²1 − r r̄)"
-            yield Hypothesis(words.replace("-", "−"), 0 if simple else 4, found[1])
+def of_masses_held(b: Balance) -> Iterator[Hypothesis]:
+    """A mass that is a number of the state stays what it is at the start."""
+    own, problem = b.values(), b.opened.problem
+    for name in problem.stored:
+        if (first := problem.parameters[name].default) is None:
+            continue
+        x = b.x.copy()
+        x[:, b.code.STATE.index(name)] = first
+        held = replace(b, x=x)
+        pairs = {"": (b.left, held.left), IN_MASS: (b.of_mass, held.of_mass)}
+        for where, (here, there) in pairs.items():
+            left = b.unexplained + there(own) - here(own)
+            yield Hypothesis(f"{name} is {first:g}{where}, and not what is left of it", 0, left)
 
 
 def of_term(
@@ -256,8 +270,8 @@ def of_term(
     """A term has another factor, in all rows or in some, or another power of a distance or of a
     speed; or has the ``factors`` alone, in all rows of a kind."""
     about, to = view
-    here, values = b.unexplained @ to.T, term.values @ to.T
-    back, d = np.linalg.inv(to).T, here.shape[1]
+    here, values = through(to, b.unexplained), through(to, term.values)
+    back, d = np.linalg.inv(to), here.shape[1]
     sets = {"": [*range(d)], **(b.rows if len(b.rows) > 1 else {})}
     single = {f"row {i + 1}": [i] for i in range(d)}
     seen: list[Array] = []
@@ -274,10 +288,11 @@ def of_term(
         called = f"{term.name(kind)}{about}" + (f" in {name}" if name in single else "")
         for factor in own:
             words, rank = changed(called, factor, b.named)
-            yield Hypothesis(words, rank + (name in single), (here - (factor - 1) * part) @ back)
+            left = through(back, here - (factor - 1) * part)
+            yield Hypothesis(words, rank + (name in single), left)
         if name in sets and not factors:
             for x in _powers(b, term, called, part, here):
-                yield replace(x, left=x.left @ back)
+                yield replace(x, left=through(back, x.left))
 
 
 def _powers(b: Balance, term: Term, name: str, part: Array, here: Array) -> Iterator[Hypothesis]:
@@ -317,8 +332,9 @@ def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> Told:
     """Factors of several terms, row by row, where these explain all; terms that cannot be told
     apart are said to be so."""
     about, to = view
-    here, size = b.unexplained @ to.T, b.size() @ np.abs(to).T
-    whole = [(x, x.values @ to.T) for x in terms if not x.part]
+    here = through(to, b.unexplained)
+    size = np.atleast_2d(through(np.abs(to), b.size())).max(axis=0)
+    whole = [(x, through(to, x.values)) for x in terms if not x.part]
     found: dict[str, dict[int, float]] = {}
     said: Told = []
     for row in range(here.shape[1]):
@@ -377,7 +393,7 @@ def of_tables(b: Balance) -> Told:
             if there is None:
                 break
             here = there
-            if exact(here, size) and exact(b.checked(here, values), size):
+            if exact(here, size) and exact(b.checked(here, b.mass(values)), size):
                 changed = [x for x in own if abs(values[x] - base[x]) > NEAR * max(abs(base[x]), 1)]
                 every = {words[x]: base[x] + more[x] for x in own}
                 two = {x: (base[x] + more[x], values[x] + more[x]) for x in changed}

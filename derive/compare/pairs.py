@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .balance import Balance, Term, exact
+from .balance import Balance, Term, exact, through
 from .faults import NEARER, Explanation, named_vector, of_exchanges, of_terms, views
 from .told import ABOUT, FACTORS, NEAR, Changed, changed, possible, told
 from .wrenches import of_axes, of_wrenches
@@ -29,7 +29,7 @@ def pairs(b: Balance, terms: list[Term]) -> list[tuple[str, str]]:
     numbers = [x for x in of_numbers(b) if _is_body(b, x.balance)]
 
     def noted(one: Changed, words: str, rank: int, is_all: bool) -> None:
-        if is_all:
+        if is_all and words != one.words:
             found.setdefault(frozenset((one.words, words)), (one.rank + rank, (one.words, words)))
 
     for i, one in enumerate(numbers):
@@ -68,7 +68,8 @@ class Reach:
         for view in views(b):
             to = view[1]
             masks = [np.isin(range(d), own) for own in rows]
-            along += [((values @ to.T) * mask) @ np.linalg.inv(to).T for mask in masks]
+            seen, back = through(to, values), np.linalg.inv(to)
+            along += [through(back, seen * mask) for mask in masks]
             for term in (*terms, *b.together()):
                 turned += of_axes(b, term, view)
         self.apart = np.array([(b.unexplained - x.left).ravel() for x in turned])
@@ -89,7 +90,9 @@ def _is_body(b: Balance, other: Balance) -> bool:
     """Has a body the numbers of another balance, one that moves?"""
     left = possible(other)
     try:
-        return left is not None and bool(np.isfinite(b.checked(left, other.values())).all())
+        if left is None:
+            return False
+        return bool(np.isfinite(b.checked(left, other.mass(other.values()))).all())
     except np.linalg.LinAlgError:
         return False
 

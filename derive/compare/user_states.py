@@ -106,6 +106,11 @@ class Table:
             for words, other in item.others():
                 items = (*self.items[:i], other, *self.items[i + 1 :])
                 yield f"{item.name} has {words}", replace(self, items=items)
+        turning = [x for x in self.items if x.name in ("euler", "omega")]
+        for word in ("degrees", "turns") if len(turning) > 1 else ():
+            unit = UNITS[word]
+            items = tuple(replace(x, unit=unit * x.unit) if x in turning else x for x in self.items)
+            yield f"euler and omega have the unit {unit:.17g}, {word}", replace(self, items=items)
 
 
 def own_blocks(state: Sequence[str], rates: Sequence[str]) -> dict[str, tuple[str, ...]]:

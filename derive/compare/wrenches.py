@@ -18,7 +18,7 @@ from ..language.show import show
 from ..language.tree import Tree, nodes, replaced, sized
 from ..problem.fields import velocity_at_place
 from ..schema.force_kinds import StatedForce
-from .balance import EXACT, Balance, Term, cross, turning
+from .balance import EXACT, Balance, Term, cross, through, turning
 from .opened import called
 from .told import FACTORS, SIMPLE, Hypothesis, possible
 from .users_code import Array
@@ -29,7 +29,7 @@ View = tuple[str, Array]
 def of_wrenches(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     """All of these, of the terms by themselves and of all inputs together."""
     yield from of_attitude(b, terms)
-    yield from of_arms(b)
+    yield from of_arms(b, terms)
     if b.is_frame:
         inputs = [x for x in terms if x.is_input]
         for term in terms:
@@ -42,7 +42,7 @@ def of_wrenches(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
 def of_axes(b: Balance, term: Term, view: View) -> Iterator[Hypothesis]:
     """The numbers of a force or a moment are taken along the axes of the other frame."""
     (about, to), A = view, b.turns()
-    here, values, back = b.unexplained @ to.T, term.values @ to.T, np.linalg.inv(to).T
+    here, values, back = through(to, b.unexplained), through(to, term.values), np.linalg.inv(to)
     for rows in b.rows.values():
         if len(rows) != A.shape[1]:
             continue
@@ -57,7 +57,7 @@ def of_axes(b: Balance, term: Term, view: View) -> Iterator[Hypothesis]:
         for words, R in turns.items():
             left = here.copy()
             left[:, rows] -= turned(R)(own) - own
-            yield Hypothesis(f"{called} {words}", 0, left @ back)
+            yield Hypothesis(f"{called} {words}", 0, through(back, left))
 
 
 def of_attitude(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
@@ -65,14 +65,17 @@ def of_attitude(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     here, there = b.unexplained, b.transposed()
     for term in terms:
         if there is not None and term.at is not None:
-            words = f"{term.name('')} is turned by A and not by Ā, the transpose of the attitude"
-            yield Hypothesis(words, 0, here - (term.at(there) - term.values))
+            left = here - (term.at(there) - term.values)
+            yield Hypothesis(f"{term.name('')} {BY_A}", 0, left)
+
+
+BY_A = "is turned by A and not by Ā, the transpose of the attitude"
 
 
 def changed_force(values: Array, arm: Array, to: Callable[[Array], Array]) -> Array:
     """A force with its moment, (N, d), whose force at an arm is another and whose couple, which
     no arm makes, is turned with it in space."""
-    n = len(arm)
+    n = arm.shape[-1]
     force, moment = values[:, -n:], values[:, :-n]
     couple = moment - cross(arm, force)
     other = to(force)
@@ -109,12 +112,16 @@ def of_frames(b: Balance, terms: list[Term], name: Callable[[str], str]) -> Iter
                 values = np.stack([changed_force(x, arm, turn) for x, (_, _, arm) in both])
             left = b.unexplained - (values - own).sum(axis=0)
             yield Hypothesis(f"{words} along the axes of {frame} instead", 0, left)
+    turn, other = turned(A @ A), np.zeros_like(b.a)
+    for values, (_, _, arm) in zip(own, placed, strict=True):
+        other += changed_force(values, arm, turn) - values
+    yield Hypothesis(f"{name('')} {BY_A}", 0, b.unexplained - other)
 
 
 def moving(b: Balance, arm: Array, R: Array) -> Array:
     """The states in which the velocities of a place, and of turning, are turned by R."""
     w, v = b.velocities()
-    n = len(arm)
+    n = arm.shape[-1]
     of_place = turned(R)(v + turning(w, arm))
     w = turned(R)(w) if n == 3 else w
     return b.with_velocities(w, of_place - turning(w, arm))
@@ -133,7 +140,7 @@ def of_speeds(b: Balance, term: Term) -> Iterator[Hypothesis]:
         values = term.at(b.with_velocities(w, velocity - turning(w, term.arm)))
         words = f"{name} is made of the velocity of {place}, not of its place"
         yield Hypothesis(words, 0, b.unexplained - (values - term.values))
-    n = len(term.arm)
+    n = term.arm.shape[-1]
     own = term.values[:, -n:]
     by_arm = cross(term.arm, own)
     if np.abs(term.values[:, :-n] - by_arm).max() > EXACT * np.abs(term.values).max():
@@ -200,11 +207,19 @@ BY_AXES = {
 }
 
 
-def of_arms(b: Balance) -> Iterator[Hypothesis]:
+def of_arms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     """An arm, or all arms, are taken from the centre of mass; or moments are about it."""
     r, base = b.centre(), b.values()
     if r is None or not r.any():
         return
+    if np.ptp(r, axis=0).max() > 0:  # an arm is no number then
+        for term in terms:
+            for sign, told in TAKEN.items() if term.arm is not None and term.at else ():
+                said = f"the lever arm of {term.name('')} is {told} the centre of mass"
+                left = b.unexplained - (_at_arm(b, term, sign * r) - term.values)
+                yield Hypothesis(f"{said} instead of the body's origin", 0, left)
+        return
+    r = r[0]
     arms = {x.key: b.opened.entries(x.key) for x in b.opened.slots if x.key.startswith("at of")}
     known = {key: own for key, own in arms.items() if len(own) == len(r)}
     listed = [(f"the lever arm ({key}) is", own) for key, own in known.items()]
@@ -213,12 +228,25 @@ def of_arms(b: Balance) -> Iterator[Hypothesis]:
         if len(keys) > 1:
             listed.append((f"{words} are", [x for key in keys for x in known[key]]))
     for words, own in listed:
-        for sign, told in ((1, "taken from"), (-1, "of moments about")):
-            shifted = {x: base[x] + sign * r[i % len(r)] for i, x in enumerate(own)}
+        for sign, told in TAKEN.items():
+            shifted = {x: base[x] + sign * float(r[i % len(r)]) for i, x in enumerate(own)}
             other = possible(replace(b, changed={**b.changed, **shifted}))
             if other is not None:
                 said = f"{words} {told} the centre of mass instead of the body's origin"
                 yield Hypothesis(said, 0, other)
+
+
+TAKEN = {1: "taken from", -1: "of moments about"}
+
+
+def _at_arm(b: Balance, term: Term, further: Array) -> Array:
+    """A force with its moment that acts further along the axes of the body, made of the velocity of
+    its place there."""
+    assert term.at is not None
+    assert term.arm is not None
+    w, v = b.velocities()
+    own, n = term.at(b.with_velocities(w, v + turning(w, further))), term.arm.shape[-1]
+    return np.hstack([own[:, :-n] + cross(further, own[:, -n:]), own[:, -n:]])
 
 
 def of_added_mass(b: Balance) -> Iterator[Hypothesis]:

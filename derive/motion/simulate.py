@@ -11,12 +11,13 @@ from typing import Any
 import numpy as np
 
 from ..code.step.step_numbers import parts
+from ..language.expression import names
 from ..language.show import show
 from ..language.tree import Tree, nodes, replaced
 from ..language.values import approximate
 from ..problem.inertia import fault_of_quadrics
 from ..problem.problem import Problem, points_of
-from ..schema.body_kinds import GivenBody, PointBody
+from ..schema.body_kinds import GivenBody, PointBody, by_block
 from ..schema.potential_kinds import Attraction, Spring
 from .emitted import Emitted
 from .emitted_code import Column
@@ -166,9 +167,10 @@ def require_mass(
     if not problem.flows:
         return math.inf
     assert isinstance(problem.body, PointBody | GivenBody)
-    total = problem.body.moments().m
     found = [(_used_up(x.mass, begin, duration), show(x.mass)) for x in points_of(problem.body)]
-    when, mass = min([*found, (_used_up(total, begin, duration, whole=True), "")])
+    whole = [x.moments().m for x in by_block(problem.body).values()]
+    found += [(_used_up(x, begin, duration, whole=True), "") for x in whole]
+    when, mass = min(found)
     if when <= duration and not (ends and any(x.terminal for x in code.events)):
         told = f"the mass {mass} of a point" if mass else "the mass of the body"
         raise MotionError(
@@ -195,12 +197,13 @@ def require_mass_left(code: Emitted, problem: Problem, run: Run) -> None:
 
 
 def _used_up(mass: Tree, begin: Start, duration: float, *, whole: bool = False) -> float:
-    """The first time at which a mass is negative, or, of the ``whole``, 0; infinite for none."""
+    """The first time at which a mass is negative, or, of the ``whole``, 0; infinite for none, and
+    where masses of the state are in it."""
 
     def left(t: float) -> float:
         return approximate(replaced(mass, "t", Fraction(t)), begin.parameters, float) or 0.0
 
-    if "t" not in nodes(mass):
+    if "t" not in nodes(mass) or not {*names(mass)} <= {*begin.parameters}:
         return math.inf
     least = 0.0 if whole else -NEGLIGIBLE * abs(left(0.0))
     times: list[float] = np.linspace(0.0, duration, INSTANTS).tolist()

@@ -42,7 +42,7 @@ from ..schema.kind import GROUP, Parameter, StatedGroup
 from ..schema.motion_kinds import OUTPUTS, ExpressionOutput, Output, PowerOutput
 from ..schema.potential_kinds import Potential, kinds
 from ..schema.table import ACTIONS, Slot, Table
-from .fields import angular_velocity, one_body, tables, velocity_at_place
+from .fields import angular_velocity, tables, velocity_at_place
 from .file_reader import FileReader
 from .inertia import is_negative
 from .moments import SolidError
@@ -64,8 +64,6 @@ def body(data: Mapping[str, Any], reader: FileReader) -> Body | None:
     if table is not None and (not isinstance(table, dict) or solids):
         raise ProblemError("give either one table [body] or the tables [[solid]]")
     if moved.factors:
-        if len(moved.factors) > 1 and tables(data, "flow"):
-            raise ProblemError(one_body(moved))
         what = "a product" if len(moved.factors) > 1 else moved.name
         raise ProblemError(f"body: {what} moves [[point]] tables alone, no solids and no moments")
     if table is not None and "solid" not in table:

@@ -29,14 +29,6 @@ def tables(data: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
     return tables
 
 
-def one_body(group: Group) -> str:
-    """That mass flows in one body, and not in a group, in words."""
-    return (
-        "flow 1: mass flows in one body that turns in the plane or in R^3, as in SO(3) or SE(3), "
-        f"or shifts, as in R(3), and not in {group.name}; give a [lagrangian] of t, and a [[force]]"
-    )
-
-
 TOLD = ("name", "title", "kind", "unit", "meaning")
 """Keys that have no expression."""
 

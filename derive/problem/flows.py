@@ -6,7 +6,8 @@ rate ṁ (dm/dt, < 0 leaves) at the place r, with the velocity u there, by the t
 to there through the body, of the moments p = Σ ρ v = ċ − Σ ṁ r and Q = Σ ρ (v r̄ + r v̄) =
 J̇ − Σ ṁ r r̄ by continuity, by Coriolis' forces −2ζ ∧ v and by −dv/dt: together the force
 −2ζ ∧ p − ṗ at the body's origin, and the moment −((Tr Q) 1 − Q) ζ, the jet damping; this where what
-flows has no angular momentum of its own about the origin (no swirl). A rate that inputs say has
+flows has no angular momentum of its own about the origin (no swirl). In a product this is said of
+the body of each block. A rate that inputs say has
 no rate of its own: the mass is a number of the state then, and ṗ may not depend on such a rate, as
 where mass leaves from where it is. It is the balance of momentum
 of a control volume (W. T. Thomson, Equations of motion for the variable mass system, AIAA J. 4
@@ -20,7 +21,6 @@ from collections.abc import Collection, Mapping, Sequence
 from itertools import product as pairs
 from typing import Any
 
-from ..algebra.groups import Group
 from ..language.derivatives import product, rate
 from ..language.expression import names
 from ..language.laurent import shortened
@@ -33,10 +33,11 @@ from ..schema.body_kinds import (
     Moments,
     Place,
     PointBody,
+    by_block,
 )
 from ..schema.force_kinds import Flow, Input, StatedForce
 from .entries_on_orbit import vanishes
-from .fields import angular_velocity, names_in_forces, one_body, tables
+from .fields import angular_velocity, names_in_forces, tables
 from .file_reader import FileReader
 from .problem import Problem, ProblemError, masses_of_state, points_of
 
@@ -92,9 +93,6 @@ def flow_forces(
             )
         return ()
     group = reader.moving()
-    turns = "orthogonal" in group.relations and not group.factors and group.n in (2, 3)
-    if not turns and not _translates(group):
-        raise ProblemError(one_body(group))
     if not isinstance(body, PointBody | GivenBody):
         raise ProblemError(
             'flow 1: moments = "symbolic" do not say how they change; give them, of t, in [body] '
@@ -113,14 +111,6 @@ def flow_forces(
                 f"flow {k}, key 'rate': {of_state[0]!r} is of the state, and a rate knows t alone, "
                 "inputs and masses"
             )
-    moments = body.moments()
-    whole = add(*(x.rate for x in flows))
-    if not vanishes(add(rate(moments.m, rates), neg(whole))):
-        raise ProblemError(
-            "flow 1, rate: the rates of all [[flow]] tables must add up to dm/dt of the body; give "
-            "its mass as that expression of t, as m0 - b*t for the rate -b"
-            + (f", or as what has {next(iter(stored))} in it" if stored else "")
-        )
     found = [
         StatedForce(
             table=f"flow {k}",
@@ -132,13 +122,45 @@ def flow_forces(
         for k, x in enumerate(flows, 1)
         if x.mass or any(x.velocity)  # a mass of the state has its rate beside what acts
     ]
-    within = _within(flows, moments, reader, rates, inputs)
-    return (*found, *within)
+    for b, _ in enumerate(group.places, 1):
+        found += _of_block(b, flows, by_block(body).get(b), reader, rates, inputs)
+    return tuple(found)
 
 
-def _translates(group: Group) -> bool:
-    """Does a group shift one body, and turn nothing?"""
-    return len(group.factors) == 1 and not group.factors[0].linear_basis
+def _of_block(
+    b: int,
+    flows: Sequence[Flow],
+    own: Body | None,
+    reader: FileReader,
+    rates: Mapping[Tree, Tree],
+    inputs: Sequence[Input],
+) -> tuple[StatedForce, ...]:
+    """What flows inside the body, if any, that a block (from 1) moves."""
+    listed = {k: x for k, x in enumerate(flows, 1) if reader.listed_places[x.on - 1].block == b}
+    if listed and own is None:
+        raise ProblemError(f"flow {min(listed)}: in block {b} no [[point]] has a mass")
+    if own is None:
+        return ()
+    factor, moments = reader.moving().places[b - 1][1], own.moments()
+    if not listed and not any(rate(x, rates) for x in moments.trees()):
+        return ()
+    first = min(listed, default=1)
+    if factor.linear_basis and not ("orthogonal" in factor.relations and factor.n in (2, 3)):
+        raise ProblemError(
+            f"flow {first}: mass flows in a body that turns in the plane or in R^3, as in SO(3) or "
+            f"SE(3), or shifts, as in R(3), and not in {factor.name}; give a [lagrangian] of t, "
+            "and a [[force]]"
+        )
+    whole = add(*(x.rate for x in listed.values()))
+    if not vanishes(add(rate(moments.m, rates), neg(whole))):
+        stored = [x.mass for x in listed.values() if x.mass]
+        where = f", of block {b}" if len(reader.moving().places) > 1 else ""
+        raise ProblemError(
+            f"flow {first}, rate: the rates of all [[flow]] tables must add up to dm/dt of the "
+            f"body{where}; give its mass as that expression of t, as m0 - b*t for the rate -b"
+            + (f", or as what has {stored[0]} in it" if stored else "")
+        )
+    return _within(b, [*listed.values()], moments, reader, rates, inputs)
 
 
 def _of_inputs(name: str, inputs: Sequence[Input]) -> bool:
@@ -163,15 +185,16 @@ def _depends_on_time(body: Body, rates: Collection[Tree]) -> bool:
 
 
 def _within(
+    b: int,
     flows: Sequence[Flow],
     moments: Moments,
     reader: FileReader,
     rates: Mapping[Tree, Tree],
     inputs: Sequence[Input],
 ) -> tuple[StatedForce, ...]:
-    """What flows inside the body, as a force at its origin and a moment; none where nothing
-    does. ``rates``: of what the moments depend on."""
-    group, span = reader.moving(), range(len(moments.c))
+    """What flows inside the body of a block, as a force at its origin and a moment; none where
+    nothing does. ``rates``: of what the moments depend on."""
+    factor, span = reader.moving().places[b - 1][1], range(len(moments.c))
     places = [reader.listed_places[x.on - 1].at for x in flows]
     leaving = [(x.rate, at) for x, at in zip(flows, places, strict=True)]
 
@@ -180,8 +203,8 @@ def _within(
         gone = (product(-1, x, r[k], 1 if j is None else r[j]) for x, r in leaving)
         return _collected(add(rate(moment, rates), *gone))
 
-    shifts = _translates(group)
-    p = [left(moments.c[k], k) if group.affine or shifts else 0 for k in span]
+    shifts = not factor.linear_basis
+    p = [left(moments.c[k], k) if factor.affine else 0 for k in span]
     Q = {(i, j): left(moments.J[i][j], i, j) for i, j in pairs(span, span) if not shifts}
     if not any(p) and not any(Q.values()):
         return ()
@@ -193,8 +216,8 @@ def _within(
                 "its point, or give rates as expressions of t"
             )
     if shifts:
-        return (_at_origin(reader, tuple(neg(_collected(rate(y, rates))) for y in p)),)
-    turning = angular_velocity(group, 1)
+        return (_at_origin(reader, b, tuple(neg(_collected(rate(y, rates))) for y in p)),)
+    turning = angular_velocity(reader.moving(), b)
     trace = _collected(add(*(Q[i, i] for i in span)))
     if len(span) == 2:
         (w,) = turning
@@ -212,12 +235,12 @@ def _within(
     force = tuple(
         add(mul(-2, x), neg(_collected(rate(y, rates)))) for x, y in zip(across, p, strict=True)
     )
-    return (_at_origin(reader, force if any(p) else (), moment if any(Q.values()) else ()),)
+    return (_at_origin(reader, b, force if any(p) else (), moment if any(Q.values()) else ()),)
 
 
-def _at_origin(reader: FileReader, force: Row, moment: Row = ()) -> StatedForce:
-    """A force and a moment at the origin of the body, a place of its own."""
-    reader.places.append(Place(at=(0,) * reader.moving().places[0][1].n))
+def _at_origin(reader: FileReader, b: int, force: Row, moment: Row = ()) -> StatedForce:
+    """A force and a moment at the origin of the body of a block, a place of its own."""
+    reader.places.append(Place(at=(0,) * reader.moving().places[b - 1][1].n, block=b))
     on = len(reader.listed_places)
     return StatedForce(table="flow", on=on, frame="body", force=force, moment=moment)
 

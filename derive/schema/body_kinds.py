@@ -239,5 +239,15 @@ def is_ellipsoid(body: Table | None) -> bool:
 
 
 Body = PointBody | MomentBody | GivenBody
+
+
+def by_block(body: Body) -> dict[int, Body]:
+    """What each block of a product moves, by its number from 1: points; of other groups all."""
+    if not isinstance(body, PointBody):
+        return {1: body}
+    blocks = sorted({p.block for p in body.points})
+    return {b: PointBody(points=tuple(p for p in body.points if p.block == b)) for b in blocks}
+
+
 _ALL: tuple[type[Table], ...] = (PointBody, GivenBody, MomentBody, AnyBody, NoBody)
 BODIES: dict[str, type[Table]] = {x.kind: x for x in _ALL}

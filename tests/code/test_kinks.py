@@ -71,6 +71,26 @@ def test_at_kinks_and_elsewhere(law):
                 assert np.abs(sided(x, s) - D).max() < 1e-4
 
 
+POINTS = {
+    "point": [
+        {"mass": 1, "at": at, "block": block} for block in (1, 2) for at in ([0, 0], [1, 0], [0, 1])
+    ]
+}
+
+
+@pytest.mark.parametrize("name", ["zeta1_1", "w1_2", "zeta2_1", "w2_2", "zeta_6", "T2_1"])
+@pytest.mark.parametrize("source", ["points", "lagrangian"])
+def test_in_a_product_they_have_the_names_of_the_blocks(name, source):
+    """Of a body of points, whose velocity is entries of Z, and of a Lagrangian, where it is ζ."""
+    energy = " + ".join(f"zeta_{k}^2/2" for k in range(1, 7))
+    body = POINTS if source == "points" else {"lagrangian": {"L": energy}}
+    force = {"covector": [0, 0, 0, f"abs({name})", 0, 0]}
+    files = emitted({"group": "SE(2) x SE(2)", **body, "force": [force]}, "state").files
+    called = {"zeta_6": "w2_2"}.get(name, name)
+    for end in ENDINGS:
+        assert told(files[f"test{end}"]) == [f"in force 1 {called} = 0 (abs)"], end
+
+
 @pytest.mark.parametrize("law", ["-abs(v_1)*v_1", "-v_1"])
 def test_the_derivatives_of_steps_say_them_and_gauss_what_it_does_not_see(law):
     """That is, each of the two steps, in each language; and no file of a problem without one."""

@@ -356,6 +356,43 @@ def f(x, u):
 """
 """Its fuel is a number of the state."""
 
+SPRUNG = f"""{LANDER}
+[[potential]]
+kind = "spring"
+at = [0.2, 0.1, 0.3]
+anchor = [1, 2, 3]
+stiffness = 2.5
+length = 0.7
+"""
+
+SPRUNG_CODE = """
+import numpy as np
+
+AT = np.array([[0, 0, -0.5], [0.3, 0.1, 0], [-0.3, 0, 0.2], [0, 0, 2]])
+HOOK, ANCHOR = np.array([0.2, 0.1, 0.3]), np.array([1, 2, 3])
+
+
+def hat(v):
+    return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def f(x, u):
+    A, T, w, v, fuel = x[:9].reshape(3, 3), x[9:12], x[12:15], x[15:18], x[18]
+    masses = np.array([fuel, 2, 2, 3])
+    m, rate = masses.sum(), -1.5 * u[0]
+    r = masses @ AT / m
+    inertia = sum(q * hat(p).T @ hat(p) for q, p in zip(masses, AT)) - m * hat(r).T @ hat(r)
+    push = rate * np.array([1, 0, -25])
+    d = ANCHOR - T - A @ HOOK
+    pull = A.T @ d * 2.5 * (1 - 0.7 / np.linalg.norm(d))
+    moment = np.cross(AT[0] - r, push) + np.cross(HOOK - r, pull)
+    dw = np.linalg.solve(inertia, moment - np.cross(w, inertia @ w))
+    dv = (push + pull) / m + A.T @ [0, 0, -1.62]
+    dv -= np.cross(w, v) + np.cross(dw, r) + np.cross(w, np.cross(w, r))
+    return np.concatenate([(A @ hat(w)).ravel(), A @ v, dw, dv, [rate]])
+"""
+"""The same on a spring, by Newton and Euler about the centre of mass, which moves with the fuel."""
+
 CAR = """
 name = "car"
 group = "SE(2)"

@@ -269,6 +269,66 @@ FAULTS = {
         "ω × Iω has the other sign",
     ),
     "thrust by half the rate": ("lander", ("+= rate", "+= rate / 2"), "b has the factor 1/2"),
+    "lever arm of a jet from a moving centre": (
+        "sprung",
+        ("cross(AT[0] - r, push)", "cross(AT[0], push)"),
+        "the lever arm of the flow is taken from the centre of mass instead of the body's origin",
+    ),
+    "lever arm of a jet of the other sign about a moving centre": (
+        "sprung",
+        ("cross(AT[0] - r, push)", "cross(r - AT[0], push)"),
+        "the moment of the input throttle about the centre of mass has the other sign",
+    ),
+    "lever arm of a spring from a moving centre": (
+        "sprung",
+        ("cross(HOOK - r, pull)", "cross(HOOK, pull)"),
+        "the lever arm of spring is taken from the centre of mass instead of the body's origin",
+    ),
+    "a spring by A": (
+        "sprung",
+        ("pull = A.T @ d", "pull = A @ d"),
+        "spring is turned by A and not by Ā, the transpose of the attitude",
+    ),
+    "a spring in space": (
+        "sprung",
+        ("pull = A.T @ d", "pull = d"),
+        "the force of spring, with its moment by the arm, has its numbers along the axes of the",
+    ),
+    "weight by A of what loses mass": (
+        "sprung",
+        ("A.T @ [0, 0, -1.62]", "A @ [0, 0, -1.62]"),
+        "gravity is turned by A and not by Ā, the transpose of the attitude",
+    ),
+    "inertia about the origin, of points": (
+        "sprung",
+        (" - m * hat(r).T @ hat(r)", ""),
+        "the tensor of inertia is about another point: it is ours with +1 times",
+    ),
+    "sign of parallel axes, of points": (
+        "sprung",
+        (" - m * hat(r).T @ hat(r)", " + m * hat(r).T @ hat(r)"),
+        "the tensor of inertia is about another point: it is ours with +2 times",
+    ),
+    "missing ω × Iω about a moving centre": (
+        "sprung",
+        (" - np.cross(w, inertia @ w)", ""),
+        "ω × Iω about the centre of mass is missing",
+    ),
+    "centripetal acceleration of a moving centre": (
+        "sprung",
+        (" + np.cross(w, np.cross(w, r))", ""),
+        "ω × (ω × c) about the centre of mass is missing",
+    ),
+    "a tank that stays full": (
+        "sprung",
+        ("np.array([fuel, 2, 2, 3])", "np.array([6, 2, 2, 3])"),
+        "fuel is 6, and not what is left of it",
+    ),
+    "half the stiffness of what loses mass": (
+        "sprung",
+        ("d * 2.5 *", "d * 1.25 *"),
+        "stiffness of spring has the factor 1/2",
+    ),
     "rate of fuel": ("lander", ("[rate]]", "[2 * rate]]"), "the rate of fuel has the factor 2"),
     "rate of fuel that no input says": (
         "lander",
@@ -296,6 +356,39 @@ def test_a_fault_is_named(fault, capsys, tmp_path):
 def test_the_rate_of_a_mass_of_the_state_has_its_name(capsys, tmp_path):
     _, told = compared(capsys, tmp_path, "lander", ("[rate]]", "[-rate]]"))
     assert "in the rate of fuel (2)\n  the rate of fuel has the other sign\n" in told.out
+
+
+SPUN = """
+name = "spun"
+group = "SO(3)"
+[body]
+given = { m = 1, c = [0, 0, 0], I = [[1, 0, 0], [0, 2, 0], [0, 0, 2.5]] }
+"""
+SPUN_CODE = """
+import numpy as np
+
+def f(x):
+    (_, b, c), (p, q, r) = np.radians(x[:3]), np.radians(x[3:])
+    # roll, pitch and yaw, A = Rz(c) Ry(b) Rx(a), by ω along the axes of the body
+    a = np.radians(x[0])
+    turned = q * np.sin(a) + r * np.cos(a)
+    angles = [p + turned * np.tan(b), q * np.cos(a) - r * np.sin(a), turned / np.cos(b)]
+    return np.degrees([*angles, -q * r / 2, 1.5 * p * r / 2, -p * q / 2.5])
+"""
+
+
+@pytest.mark.parametrize("said", ["", "degrees"])
+def test_angles_and_their_rates_are_both_in_degrees(said, capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr(codes, "SPUN", SPUN, raising=False)
+    monkeypatch.setattr(codes, "SPUN_CODE", SPUN_CODE, raising=False)
+    unit = 57.29577951308232
+    units = f"[units]\neuler = {unit}\nomega = {unit}\n" if said else ""
+    table = 'call = "f(x) -> dx"\nstate = ["euler", "omega"]\neuler.sequence = "xyz"\n'
+    code, told = compared(capsys, tmp_path, "spun", table=table + units)
+    assert (code == 0) == bool(said)
+    if not said:
+        _, second = told.out.splitlines()
+        assert second == f"  it agrees if euler and omega have the unit {unit:.17g}, degrees"
 
 
 BAD = {

@@ -155,7 +155,7 @@ def test_bounds_without_the_solution_are_refused():
 def test_bounds_with_several_are_refused():
     """(u³ − 2)(u − 3/2) = 0 has two solutions within 99/100 of either."""
     bent = PENDULUM | {"force": [{"covector": ["12 + (u^3 - 2)*(u - 3/2) - u"]}]}
-    found = derive(problem_of(bent)).trim(TURNED, ["u"])
+    found = derive(problem_of(bent)).trim(TURNED | {"u": 1}, ["u"])
     assert holds(found)
     assert changed(found, "trim.near_rest", radius=Fraction(99, 100))
 
@@ -231,10 +231,13 @@ def test_bounds_choose_a_solution():
 
 
 def test_within_bounds_it_begins():
-    """(u + 1)(u − 5) = 0: −1 is nearer to 0.  −(ζ − 3)²(ζ + 1) has a double root within."""
+    """(u + 1)(u − 5) = 0 has two, which are told; −1 is nearer to 0.  −(ζ − 3)²(ζ + 1) has a double
+    root within."""
     pushed = PENDULUM | {"force": [{"covector": ["12 + (u + 1)*(u - 5) - u"]}]}
     made = derive(problem_of(pushed))
-    assert is_near(made.trim(TURNED), "u", -1)
+    with pytest.raises(ProblemError, match="several trims: u = -1; u = 5; say near which"):
+        made.trim(TURNED)
+    assert is_near(made.trim(TURNED | {"u": 0}, ["u"]), "u", -1)
     assert is_near(made.trim(TURNED, bounds={"u": (0, 10)}), "u", 5)
     assert is_near(made.trim(TURNED | {"u": 0}, ["u"], bounds={"u": (0, 10)}), "u", 5)
     with pytest.raises(ProblemError, match="u is about 5, and --bounds allows 6 to 9"):
@@ -243,6 +246,82 @@ def test_within_bounds_it_begins():
     slowed["force"] = [{"covector": ["-(zeta_1 - 3)^2*(zeta_1 + 1)"]}]
     with pytest.raises(ProblemError, match="at zeta_1 = 3 all rates are 0"):
         derive(problem_of(slowed)).trim({}, ["zeta_1"], bounds={"zeta_1": (2, 4)})
+
+
+BOAT = {
+    "name": "boat",
+    "group": "SE(2)",
+    "body": {"given": {"m": 20, "centre": [0, 0], "I_centre": 5}},
+    "input": [
+        {"name": "thrust", "kind": "force", "at": [-1, 0], "frame": "body", "direction": [1, 0]},
+        {"name": "rudder", "kind": "force", "at": [-1, 0], "frame": "body", "direction": [0, 1]},
+    ],
+    "force": [
+        {
+            "at": [0, 0],
+            "frame": "body",
+            "force": ["-2*abs(v_1)*v_1", "-40*v_2"],
+            "moment": ["-6*zeta_1"],
+        }
+    ],
+}
+
+
+def test_a_boat_that_turns_has_its_trim_within_bounds():
+    """At a rate r: 20 r s = 2|v|v − T, −20 r v = 40 s − R along its axes, and R = −6 r; of its two
+    speeds the one that is ahead."""
+    made, r = derive(problem_of(BOAT)), Fraction(1, 2)
+    asked = {"zeta_1": r, "thrust": Fraction(12)}, ["w_1", "w_2", "rudder"]
+    bounds = {"w_1": (0, 9), "rudder": (-4, 4)}
+    found = made.trim(*asked, bounds=bounds)
+    assert holds(found)
+    at = {**found.found.state, **found.found.inputs}
+    v, s, R = (float(at[x]) for x in ("w_1", "w_2", "rudder"))
+    assert R + 6 * float(r) == 0
+    assert v > 0
+    assert 40 * s == pytest.approx(R - 20 * float(r) * v, rel=1e-9)
+    assert 2 * v * v - 20 * float(r) * s == pytest.approx(12, rel=1e-9)
+    with pytest.raises(ProblemError, match="out of bounds"):
+        made.trim(*asked, bounds=bounds | {"rudder": (-2, 2)})
+
+
+TILTED = {"A_22": "4/5", "A_23": "-3/5", "A_32": "3/5", "A_33": "4/5"}
+
+
+def test_a_quadrotor_that_turns_has_its_trim_within_bounds():
+    """It flies a circle, tilted by φ, sin φ = 3/5: w₁ Ω = −g tan φ, and the thrusts are mg/cos φ in
+    all; out of what a rotor can do it is refused, with its number."""
+    names = ("front", "left", "back", "right")
+    arms = [[0.2, 0, 0], [0, 0.2, 0], [-0.2, 0, 0], [0, -0.2, 0]]
+    drone = {
+        "name": "drone",
+        "group": "SE(3)",
+        "body": {
+            "given": {"m": "6/5", "centre": [0, 0, 0], "I_centre": np.diag([2, 2, 3]).tolist()}
+        },
+        "potential": [{"kind": "gravity", "g": [0, 0, -10]}],
+        "input": [
+            {
+                "name": name,
+                "kind": "force",
+                "at": at,
+                "frame": "body",
+                "direction": [0, 0, 1],
+                "moment": [0, 0, 0.02 * (-1) ** k],
+            }
+            for k, (name, at) in enumerate(zip(names, arms, strict=True))
+        ],
+    }
+    made = derive(problem_of(drone))
+    turning = {x: Fraction(y) for x, y in TILTED.items()}
+    turning |= {"zeta_2": Fraction(3, 5), "zeta_3": Fraction(4, 5)}
+    bounds = dict.fromkeys(names, (0, 6))
+    found = made.trim(turning, ["w_1", *names], bounds=bounds)
+    assert holds(found)
+    assert found.found.state["w_1"] == Fraction(-15, 2)
+    assert sum(found.found.inputs.values()) == 15
+    with pytest.raises(ProblemError, match=r"out of bounds: .* and --bounds allows 0 to 3"):
+        made.trim(turning, ["w_1", *names], bounds=dict.fromkeys(names, (0, 3)))
 
 
 def test_without_gravity_a_rotor_has_one_trim_and_it_is_double():

@@ -165,8 +165,8 @@ OWN = [
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT},
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT, "force": [{"covector": ["-zeta_1", 0, "t"]}]},
     {
-        "group": "SO(2)",
-        "point": [{"mass": "2 - t", "at": [1, 0]}],
+        "group": "SO(2) x SO(2)",
+        "point": [{"mass": "2 - t", "at": [1, 0]}, {"mass": 1, "at": [0, 1], "block": 2}],
         "flow": [{"at": [2, 0], "rate": -1, "velocity": [0, 1]}],
     },
     {

@@ -301,6 +301,63 @@ def test_a_mass_of_a_given_body_is_used_up_too(tmp_path):
         followed(text.replace("on = 1", "at = [0, 0, -0.5]"), tmp_path, 50, start={"throttle": 1.0})
 
 
+GRAIN = {
+    "name": "grain",
+    "group": "SE(3)",
+    "parameters": {"fuel": 6.0, "b": 0.3},
+    "body": {
+        "given": {
+            "m": "8 + fuel",
+            "c": [0, 0, "-fuel/2"],
+            "J": [["2 + fuel^2/9", 0, 0], [0, "3 + fuel^3/90", 0], [0, 0, "4 + sqrt(1 + fuel)"]],
+        }
+    },
+    "input": [{"name": "throttle", "kind": "scalar"}],
+    "flow": [{"at": [0, 0, -0.5], "mass": "fuel", "rate": "-b*throttle", "velocity": [0, 0, -9]}],
+}
+"""It burns from its surface: J is no linear function of what is left."""
+
+
+def test_a_second_moment_may_be_any_function_of_the_fuel():
+    """The balances of a control volume, of which c and J are known: d(m v + ω × c)/dt = ṁ(v + ω × r
+    + u), and that of Iω + c × v with the moments of these at r, along axes that turn."""
+    problem = problem_of(GRAIN)
+    assert all(v.holds for v in own_verdicts(derive.derive(problem).record))
+    m, rng = module_of(problem), np.random.default_rng(7)
+    x, _, velocity = drawn(m, "SE(3)", rng, 0)
+    w, v, fuel, lost = velocity[:3], velocity[3:], x[-1], -0.3 * 0.7
+    found = m.rhs(0.0, x, m.constants([0.3]), [0.7])
+    dw, dv = found[-7:-4], found[-4:-1]
+    r, u, h = np.array([0, 0, -0.5]), np.array([0, 0, -9]), 1e-30
+
+    def momenta(s):
+        left, spin, speed = fuel + s * lost, w + s * dw, v + s * dv
+        J = np.diag([2 + left**2 / 9, 3 + left**3 / 90, 4 + np.sqrt(1 + left)])
+        c = np.array([0, 0, -left / 2])
+        inside = (np.trace(J) * np.eye(3) - J) @ spin + np.cross(c, speed)
+        return np.array([inside, (8 + left) * speed + np.cross(spin, c)])
+
+    (H, P), (dH, dP) = momenta(0), momenta(1j * h).imag / h
+    leaving = lost * (v + np.cross(w, r) + u)
+    assert dP + np.cross(w, P) == pytest.approx(leaving, rel=1e-11)
+    assert dH + np.cross(w, H) + np.cross(v, P) == pytest.approx(np.cross(r, leaving), rel=1e-11)
+
+
+def test_at_a_rate_of_time_so_may_the_first():
+    text = json.dumps(GRAIN | {"input": []})
+    text = text.replace("-fuel/2", "-fuel^2/9").replace("-b*throttle", "-b*(1 + t)")
+    by_state = json.loads(text)
+    timed = text.replace("fuel^", "(6 - b*(t + t^2/2))^").replace("fuel)", "6 - b*(t + t^2/2))")
+    timed = json.loads(timed.replace("8 + fuel", "14 - b*(t + t^2/2)"))
+    timed["parameters"], timed["flow"][0] = {"b": 0.3}, timed["flow"][0] | {"mass": None}
+    timed["flow"][0] = {k: y for k, y in timed["flow"][0].items() if y is not None}
+    m, old = module_of(problem_of(by_state)), module_of(problem_of(timed))
+    x, t = drawn(m, "SE(3)", np.random.default_rng(8), 0)[0][:-1], 0.9
+    left = 6 - 0.3 * (t + t**2 / 2)
+    found = m.rhs(t, [*x, left], m.constants([0.3]))
+    assert relative_error(found[:-1], old.rhs(t, x, old.constants([0.3]))) < 1e-13
+
+
 WRONG = {
     'mass = "fuel"\nrate -> rate': "flow 1, rate: 'throttle' is an input, so that the mass",
     'mass = "fuel"\nrate -> mass = "fule"\nrate': "flow 1, mass: 'fule' is not declared",

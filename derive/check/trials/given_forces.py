@@ -25,7 +25,7 @@ from ...language.reserved import (
 )
 from ...record.as_json import decode
 from ..values.arithmetic import EPS, ETA, Nilpotent, nilpotent
-from ..values.draws import Draws, integral, onward
+from ..values.draws import integral, onward
 from ..values.evaluate import Environment, evaluate
 from .phase_point import PhasePoint
 from .point_masses import Body, Vector, damping_members, outer_sum, scaled_each
@@ -200,52 +200,76 @@ class GivenForces(PhasePoint):
 
 
 class Flowing(NamedTuple):
-    """Forces in the body on its points, by their numbers from 1, and a matrix N of moments."""
+    """Forces in the body on its points, by their numbers from 1, those of the thrusts first, and a
+    matrix N of moments."""
 
     forces: list[tuple[int, Matrix]]
     moments: Matrix
 
 
 def flowing(model: Body, Z: Matrix) -> Flowing:
-    """What flows with the velocity ``Z`` of the body, its linear part.
+    """What flows with the velocity ``Z`` of the body, its linear part, in every block."""
+    flows = model.problem["flows"]
+    env = onward(model.expressions, flows, model.t, nilpotent(ETA) + nilpotent(EPS))
+    thrusts, within = [], []
+    for x in flows:
+        rate = _value(x["rate"], env)
+        u = [rate * _value(y, env) for y in x["velocity"]]
+        push = q.column(model.group.in_block(model.blocks[x["on"] - 1], u))
+        thrusts.append((x["on"], _part(push, 0)))
+    moments = q.scaled(Fraction(0), q.identity(model.n))
+    for block in dict.fromkeys(model.blocks):
+        found = _flowing_inside(model, block, Z, env)
+        within += found.forces
+        moments = q.plus(moments, found.moments)
+    return Flowing([*thrusts, *within], moments)
+
+
+def _flowing_inside(model: Body, block: int, Z: Matrix, env: Environment) -> Flowing:
+    """What flows inside the body of a block, its force on the first point there.
 
     A particle of the flow inside has Coriolis' acceleration 2Zv and its own rate; with Σ ρ v = p
     and Σ ρ (v r̄ + r v̄) = Q their moments are ZQ, less what is symmetric: −½ (ZQ + QZ).
     """
-    flows, step = model.problem["flows"], nilpotent(ETA) + nilpotent(EPS)
-    env = onward(model.expressions, flows, model.t, step)
-    first, second = _moments(model, env)
-    push, forces = q.scaled(Fraction(-1), first), []
-    for x in flows:
-        rate, place = _value(x["rate"], env), model.points[x["on"] - 1]
-        gone = integral(rate, step)
-        push = q.plus(push, q.scaled(gone, q.column(place)))
-        second = q.minus(second, q.scaled(gone, outer_sum([place], [place])))
-        u = q.column(model.group.in_block(1, [_value(y, env) for y in x["velocity"]]))
-        forces.append((x["on"], _part(q.scaled(rate, u), 0)))
+    group, step = model.group, nilpotent(ETA) + nilpotent(EPS)
+    at = group.of_block(block) if group.factors else slice(None)
+    own = tuple(row[at] for row in Z[at])
+    first, second = _moments(model, block, env)
+    push, on = q.scaled(Fraction(-1), first), 1 + model.blocks.index(block)
+    for x in model.problem["flows"]:
+        if model.blocks[x["on"] - 1] == block:
+            place = model.points[x["on"] - 1][at]
+            gone = integral(_value(x["rate"], env), step)
+            push = q.plus(push, q.scaled(gone, q.column(place)))
+            second = q.minus(second, q.scaled(gone, outer_sum([place], [place])))
     p, Q = q.scaled(Fraction(-1), _part(push, ETA)), _part(second, ETA)
-    within = q.plus(q.scaled(Fraction(-2), q.times(Z, p)), _part(push, ETA | EPS))
-    on = flows[0]["on"]  # carried from the origin to there
-    origin = model.group.in_block(1, [0] * model.group.places[0][1].n, 1)
-    arm = tuple(x - y for x, y in zip(model.points[on - 1], origin, strict=True))
-    back = q.times(within, q.transposed(q.column(arm)))
-    turning = q.scaled(Fraction(-1, 2), q.plus(q.times(Z, Q), q.times(Q, Z)))
-    if model.group.factors:  # of translations: nothing turns, and C is not 1
-        turning = q.scaled(Fraction(0), turning)
+    inside = q.plus(q.scaled(Fraction(-2), q.times(own, p)), _part(push, ETA | EPS))
+    turning = q.scaled(Fraction(-1, 2), q.plus(q.times(own, Q), q.times(Q, own)))
+    within, moments = (
+        q.transposed(tuple(group.in_block(block, x) for x in q.transposed(y)))
+        for y in (inside, turning)
+    )
+    moments = tuple(group.in_block(block, row) for row in moments)
+    # carried from the origin to the point
+    arm = group.in_block(block, model.points[on - 1][at])
+    back = q.times(within, (arm,))
+    if group.factors:  # C is not 1
         g: Matrix = model.g  # type: ignore[attr-defined]
         back = q.times(q.times(q.transposed(g), g), back)
-    return Flowing([*forces, (on, within)], q.minus(turning, back))
+    return Flowing([(on, within)], q.minus(moments, back))
 
 
-def _moments(model: Draws, env: Environment) -> tuple[Matrix, Matrix]:
-    """Σ m r and Σ m r r̄ in an environment, of listed points or as they are given."""
+def _moments(model: Body, block: int, env: Environment) -> tuple[Matrix, Matrix]:
+    """Σ m r and Σ m r r̄ of a block in an environment, of listed points or as they are given."""
     body: Mapping[str, Any] = model.problem["body"]
     if body["kind"] == "given":
         given = body["given"]
         rows = tuple(tuple(_value(x, env) for x in row) for row in given["J"])
         return q.column(tuple(_value(x, env) for x in given["c"])), rows
-    masses = [_value(x["mass"], env) for x in body["points"]]
-    places: list[Vector] = model.points[: len(masses)]  # type: ignore[attr-defined]
+    at = model.group.of_block(block) if model.group.factors else slice(None)
+    listed = [k for k, _ in enumerate(body["points"]) if model.blocks[k] == block]
+    masses = [_value(body["points"][k]["mass"], env) for k in listed]
+    places = [model.points[k][at] for k in listed]
     weighted = scaled_each(masses, places)
     return outer_sum(weighted, [(Fraction(1),)] * len(masses)), outer_sum(weighted, places)
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from copy import copy
 from fractions import Fraction
 from functools import cached_property
+from itertools import chain, repeat
 from typing import Any
 
 from ...algebra.groups import Group
@@ -126,8 +127,8 @@ class Model(Body, GivenForces):
     def flow_forces(self, name: str) -> list[tuple[int, Matrix]]:
         """Those of a name, with what flows inside among those without one."""
         names = [x.get("name", "") for x in self.problem["flows"]] if self.flow else []
-        pairs = zip((*names, ""), self.flow.forces if self.flow else (), strict=False)
-        return [force for own, force in pairs if (own or UNNAMED_FORCE) == name]
+        pairs = zip(self.flow.forces if self.flow else (), chain(names, repeat("")), strict=False)
+        return [force for force, own in pairs if (own or UNNAMED_FORCE) == name]
 
     @cached_property
     def onward_body(self) -> Model:

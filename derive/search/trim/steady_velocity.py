@@ -28,7 +28,7 @@ STARTS = (1.0, 10.0)
 """The sizes of velocities from which it begins, with all signs where these are few."""
 SIGNED = 4
 INPUTS = (1.0, -1.0, 10.0)
-"""Those of inputs, where from 0 nothing is found, as their squares act."""
+"""Those of inputs beside 0, where they act other than linearly, as by their squares."""
 SAME, SMALL, ROUNDING = 1e-6, 1e-10, 1e-12
 """Two solutions so near are one; a step of this part of a number is none; sums are so exact."""
 LARGEST = 10**15
@@ -87,7 +87,7 @@ def solutions(f: Rates, near: Mapping[str, float]) -> list[Fraction]:
 def approximately(f: Rates, near: Mapping[str, float], numbers: Arithmetic) -> list[float]:
     """The one solution within bounds ``near`` some numbers, or that to which some starts lead, else
     one out of bounds; ``NoTrimError`` for none or several.  ``numbers``: with many digits."""
-    found = _reached(f, near, inputs=(0.0,)) or _reached(f, near, inputs=INPUTS)
+    found = _reached(f, near, inputs=(0.0,) if _linear_in_inputs(f, near) else (0.0, *INPUTS))
     allowed = [y for y in found if f.allowed(y)]
     random = Random(3)
     for k in range(BETWEEN if f.bounds and not (near and allowed) else 0):
@@ -173,6 +173,17 @@ def _reached(f: Rates, near: Mapping[str, float], inputs: Sequence[float]) -> li
         if y and not any(_same(x, y) for x in found):
             found.append(y)
     return found
+
+
+def _linear_in_inputs(f: Rates, near: Mapping[str, float]) -> bool:
+    """Are the derivatives the same whatever the free inputs are?"""
+    free = len(f.names) - f.velocities - f.turns
+    first = [near.get(x, 1.0) for x in f.names[: f.velocities]] + [0.0] * f.turns
+    try:
+        none, *others = (f.slopes([*first, *[u] * free], FLOATS) for u in (0.0, *INPUTS))
+    except (ValueError, ArithmeticError):
+        return False
+    return all(x == none for x in others)
 
 
 def _same(x: Sequence[float], y: Sequence[float]) -> bool:

@@ -87,6 +87,8 @@ def where_given(problem: Problem) -> Prose:
         names = {"name": ", ".join(called)} if called else {}
         given += say("input.named_covector" if called else "input.covector", **names)
     given += say("input.flow") if problem.flows else ()
+    several = problem.group and len(problem.group.factors) > 1
+    given += say("input.flow_blocks") if problem.flows and several else ()
     stored = [phrase("input.stored_mass", mass=x, rate=rate_of_mass(x)) for x in problem.stored]
     if stored:
         given += say("input.stored", masses=listed("{first}; {second}", stored))
