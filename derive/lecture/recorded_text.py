@@ -16,6 +16,7 @@ from ..views.as_read import Reading
 from ..views.language import LANGUAGES, Language, labelled, language, told
 from ..views.printing.sentences import FORMULA, QUOTED
 from .lecture_text import Block, Entry, Formula, Tie, Words
+from .named_sums import NamedSums
 
 SPOKEN: tuple[Language, ...] = tuple(map(language, LANGUAGES))
 
@@ -54,13 +55,13 @@ def display(
     return Entry((formula,) * len(LANGUAGES), ties, display=True, line=0)
 
 
-def as_read(block: Block, reading: Reading) -> Block:
-    """A block of a chapter as it is read."""
+def as_read(block: Block, reading: Reading, sums: NamedSums) -> Block:
+    """A block of a chapter as it is read, with letters for sums where it would be too wide."""
 
     def part(x: str | Formula) -> str | Formula:
         if not isinstance(x, Formula):
             return x
-        shown = tuple(map(reading.equation, x.recorded))
+        shown = sums.equations([*map(reading.equation, x.recorded)])
         return replace(x, text=reading.text(x.text), shown=shown)
 
     entries = (replace(x, texts=tuple(tuple(map(part, y)) for y in x.texts)) for x in block.entries)
