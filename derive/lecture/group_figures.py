@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ..language.tree import Tree
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
 from .lecture_text import tree
 from .motion_figures import hat, value
@@ -99,11 +100,10 @@ def on_orbit(claims: Claims, orbit: Orbit) -> Callable[[Vector], Vector]:
     rows = np.array([e.ravel() for e in orbit.basis])
     dual = np.linalg.solve(rows @ rows.T, rows).reshape(np.shape(orbit.basis))
     (equation,) = claims["left.coadjoint"]
-    known = {"Φ": np.zeros_like(dual[0])}
+    known: dict[Tree, Any] = {"Φ": np.zeros_like(dual[0])}
 
     def entry(momentum: Any, velocity: Any, element: Any) -> float:
-        at = {**known, "Π": momentum, "Z": velocity, "ξ′": element}
-        return float(value(equation.rhs, at))
+        return float(value(equation.rhs, known | {"Π": momentum, "Z": velocity, "ξ′": element}))
 
     # it is linear in the momentum and in the velocity: its values on both bases tell it
     table = np.array([[[entry(p, z, e) for z in orbit.basis] for p in dual] for e in orbit.basis])

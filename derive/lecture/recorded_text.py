@@ -141,6 +141,7 @@ UNSHOWN = "No motion is shown: {reason}."
 REASONS = [told(x) for x in labelled() if x.startswith("refused.")]
 """Why a search is refused, or a motion, with places, where the text says it in its language."""
 OVER = told("refused.search_takes")
+ROOT = re.compile(r"\bsqrt\b")
 
 
 def reason(told: str, words: Language) -> str:
@@ -148,7 +149,7 @@ def reason(told: str, words: Language) -> str:
     for one in REASONS:
         pattern = re.sub(r"\\{(\w+)\\}", r"(?P<\1>.+)", re.escape(one))
         if match := re.fullmatch(pattern, told):
-            return words.word(one, **match.groupdict())
+            return words.word(one, **{x: ROOT.sub("√", y) for x, y in match.groupdict().items()})
     return told
 
 
