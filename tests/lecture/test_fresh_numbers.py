@@ -155,6 +155,10 @@ def test_what_keeps_its_volume_and_the_fluid(exercises):
 
 
 def test_steps_of_time(exercises):
+    given, (momentum, grown) = exercises["simplest"]
+    rate = np.cross(momentum, given["ζ"])
+    assert np.allclose(momentum, given["I"] @ given["ζ"])
+    assert grown == pytest.approx(given["h"] ** 2 * rate @ rate)
     given, (before, after, wrong) = exercises["turned"]
     J, W, h = given["J"], given["W₀"], given["h"]
     assert np.allclose(W.T @ W, np.eye(3))
