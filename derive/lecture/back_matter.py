@@ -98,6 +98,7 @@ OWN = {
     ("volume", "‖r‖²_Q_r"): "⟨r, Q_r r⟩",
     ("fluid", "g"): "diffeomorphism of the vessel that keeps volumes",
     ("fluid", "ω"): "angular velocity, in space",
+    ("fluid", "Ψ"): "stream function of a plane flow",
     ("steps", "y₀"): "first place of a point; y₁ and y₂ are the next two",
 }
 """Chapter and letter → what it means there, where no record says it, or with letters that the text

@@ -8,13 +8,18 @@ from itertools import groupby
 
 from ..record.record import Equation
 from ..views.layout import broken, indented
+from ..views.printing.letters import NAMES
 from ..views.printing.line_breaking import measure
 from ..views.printing.tex import formula
 from ..views.printing.typeset import Formula, literal, plain
-from ..views.text import formula as aligned
+from ..views.text import aligned
 
 WIDTH, TALL = 36.0, 14
 """The width of a display in em; the most rows of one that no page parts."""
+
+
+LETTERS = NAMES | {"free rho": r"\rho"}
+"""Name → LaTeX; in the walks of the text ρ means nothing else: it is free for a parameter."""
 
 
 def displayed(x: Formula) -> str:
@@ -34,7 +39,7 @@ def blocks(equations: Sequence[Equation]) -> str:
         if wide:
             found += [displayed(sides(e)) for e in run]
         else:
-            found += [tall(aligned(x, ())) for x in _parted([*run])]
+            found += [tall(y) for x in _parted([*run]) for y in aligned(x, LETTERS)]
     return "\\]\n\\[".join(found)
 
 
@@ -56,7 +61,7 @@ def _parted(equations: Sequence[Equation]) -> Iterator[list[Equation]]:
 
 def sides(e: Equation) -> Formula:
     """An equation as a formula."""
-    return formula(e.lhs) + literal(" = ") + formula(e.rhs)
+    return formula(e.lhs, LETTERS) + literal(" = ") + formula(e.rhs, LETTERS)
 
 
 def tall(tex: str) -> str:

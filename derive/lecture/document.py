@@ -15,14 +15,14 @@ from ..views.language import LANGUAGES, Language
 from ..views.language import typeset as typeset_french
 from ..views.latex import DELIMITERS
 from ..views.printing import typeset
-from ..views.printing.letters import NAMES, definitions
+from ..views.printing.letters import definitions
 from ..views.printing.line_breaking import measure
 from ..views.printing.sentences import prose, spelt
 from ..views.printing.signs import NO_BREAK, SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
 from ..views.printing.typeset import literal, plain
 from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, homes, letters
-from .displays import blocks, displayed, sides
+from .displays import LETTERS, blocks, displayed, sides
 from .figures import FIGURES, Figure
 from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Given, Typed, Words
 from .lecture_text import tree as tree_of
@@ -368,10 +368,6 @@ def formula_of_value(value: str) -> typeset.Formula:
     """What stands behind a formula: a relation and a value; nothing where there is none."""
     sign, _, text = value.strip().partition(" ")
     return literal(f" {SYMBOLS.get(sign, sign)} ") + _side(text) if value else literal("")
-
-
-LETTERS = NAMES | {"free rho": r"\rho"}
-"""Name → LaTeX; in the walks of the text ρ means nothing else: it is free for a parameter."""
 
 
 def _side(text: str) -> typeset.Formula:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
+from .group_figures import carried_curve, hammer_thrown, momenta_in_steps, momenta_on_orbits
 from .motion_figures import ellipse, poinsot, tetrahedron, tilts, top_paths
 from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, euler, panel, solved
 
@@ -179,5 +180,9 @@ FIGURES: dict[str, Figure] = {
     "paths": top_paths,
     "tetrahedron": tetrahedron,
     "ellipse": ellipse,
+    "three_groups": momenta_on_orbits,
+    "thrown": hammer_thrown,
+    "carried": carried_curve,
+    "stepped": momenta_in_steps,
 }
 """The figures by the labels of their blocks."""

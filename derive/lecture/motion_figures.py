@@ -147,7 +147,8 @@ TIMES = (0.0, 1.0, 2.0)
 
 
 def value(t: Tree, of: Mapping[Tree, Any]) -> Any:
-    """The value of an expression of numbers and square matrices, by those ``of`` its letters."""
+    """The value of an expression of numbers, vectors and square matrices, by those ``of`` its
+    letters; ``⟨a, b⟩`` is the sum of the products of the components of both."""
     if not isinstance(t, tuple):
         return of[t] if t in of else float(t)
     if t[0] == "pow":
@@ -161,12 +162,25 @@ def value(t: Tree, of: Mapping[Tree, Any]) -> Any:
         case "div":
             return parts[0] / parts[1]
         case "inv":
-            return np.linalg.inv(parts[0])
+            return np.linalg.inv(parts[0]) if np.ndim(parts[0]) else 1 / parts[0]
         case "T":
             return parts[0].T
         case "tr":
             return np.trace(parts[0])
+        case "wedge":
+            return np.cross(*parts)
+        case "hat":
+            return hat(parts[0])
+        case "bracket":
+            return parts[0] @ parts[1] - parts[1] @ parts[0]
+        case "inner":
+            return np.sum(parts[0] * parts[1])
     raise ValueError(f"no value for the operator {t[0]!r}")
+
+
+def hat(x: Any) -> Any:
+    """j(x), the matrix of the vector product with x on the left."""
+    return np.array([np.cross(x, e) for e in np.eye(3)]).T
 
 
 def moments() -> dict[Tree, Any]:

@@ -18,9 +18,10 @@ from ..views.as_read import Reading
 from ..views.figure.scene import scene
 from ..views.language import Language, language
 from ..views.outline import declared, system, title
-from ..views.text import formula as aligned
+from ..views.text import formula
 from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
+from .named_sums import NamedSums
 from .problem_exercises import exercises
 from .ran_figure import DESCRIBED, FLAT, Ran, label_of, raised
 from .recorded_text import (
@@ -118,7 +119,9 @@ def chapter_of(
         lambda e: _rows(e) <= SHORT,
     )
     reading = Reading(str(d.problem["group"]))
-    blocks = [as_read(x, reading) for x in blocks]
+    steps = (*d.steps, *(s for x in found.values() for s in x.steps))
+    sums = NamedSums((*d.problem["parameters"], *(x for s in steps for x in s.names)))
+    blocks = [as_read(x, reading, sums) for x in blocks]
     whole = kept and any(told.get(x) for x in STEADY)
     titles = tuple(
         Given(x.word(TITLE, title=title(d, x)) if whole else title(d, x)) for x in SPOKEN
@@ -296,7 +299,7 @@ def _entries(e: Equation) -> list[Equation]:
 
 def _rows(e: Equation) -> int:
     """Over how many lines an equation is set."""
-    return aligned([e], ()).count("\\\\\n") + 1
+    return formula([e], ()).count("\\\\\n") + 1
 
 
 def _left_out(equations: Sequence[Equation], words: Language) -> str:

@@ -131,7 +131,10 @@ def _constants(d: Derivation, steps: Sequence[Step], ran: Ran) -> dict[Tree, flo
 
 def between(d: Derivation, step: Step, constants: Mapping[Tree, float], ran: Ran) -> dict[str, str]:
     """The roots of the polynomial of a quadrature on both sides of the first value of its
-    coordinate, with what else the sentences on them say; empty where there are none."""
+    coordinate, with what else the sentences on them say; empty where there are none, or where no
+    number is known of a constant."""
+    if not all(map(math.isfinite, constants.values())):
+        return {}
     degree = [int(str(y)) for x in step.prose for name, y in x.places if name == "degree"]
     t = step.equations[0].rhs
     (u,) = {x for x in nodes(t) if isinstance(x, tuple) and x[0] == "entry"}

@@ -57,11 +57,11 @@ class Ran:
         """Which curve is which."""
         coloured = zip(COLOURS, self.curves, strict=False)
         named = ((colour, words.formula(letter_of(x))) for colour, (x, _) in coloured)
-        curves = ", ".join(words.word(colour, name=x) for colour, x in named)
+        curves = words.listed([words.word(colour, name=x) for colour, x in named])
         units = {self.units.get(x, "") for x, _ in self.curves}
         if "" in units or len(units) > 1 or self.units.get("t") != "s":
-            return words.word("The motion: {curves} over time.", curves=curves)
-        told = "The motion: {curves}, in {unit}, over time, in seconds."
+            return words.word("The curves show {curves} over time.", curves=curves)
+        told = "The curves show {curves}, in {unit}, over the time in seconds."
         return words.word(told, curves=curves, unit=raised(units.pop()))
 
     def told(self, words: Language) -> str:

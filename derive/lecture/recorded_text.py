@@ -16,6 +16,7 @@ from ..views.as_read import Reading
 from ..views.language import LANGUAGES, Language, labelled, language, told
 from ..views.printing.sentences import FORMULA, QUOTED
 from .lecture_text import Block, Entry, Formula, Tie, Words
+from .named_sums import NamedSums
 
 SPOKEN: tuple[Language, ...] = tuple(map(language, LANGUAGES))
 
@@ -54,13 +55,13 @@ def display(
     return Entry((formula,) * len(LANGUAGES), ties, display=True, line=0)
 
 
-def as_read(block: Block, reading: Reading) -> Block:
-    """A block of a chapter as it is read."""
+def as_read(block: Block, reading: Reading, sums: NamedSums) -> Block:
+    """A block of a chapter as it is read, with letters for sums where it would be too wide."""
 
     def part(x: str | Formula) -> str | Formula:
         if not isinstance(x, Formula):
             return x
-        shown = tuple(map(reading.equation, x.recorded))
+        shown = sums.equations([*map(reading.equation, x.recorded)])
         return replace(x, text=reading.text(x.text), shown=shown)
 
     entries = (replace(x, texts=tuple(tuple(map(part, y)) for y in x.texts)) for x in block.entries)
@@ -140,6 +141,7 @@ UNSHOWN = "No motion is shown: {reason}."
 REASONS = [told(x) for x in labelled() if x.startswith("refused.")]
 """Why a search is refused, or a motion, with places, where the text says it in its language."""
 OVER = told("refused.search_takes")
+ROOT = re.compile(r"\bsqrt\b")
 
 
 def reason(told: str, words: Language) -> str:
@@ -147,7 +149,7 @@ def reason(told: str, words: Language) -> str:
     for one in REASONS:
         pattern = re.sub(r"\\{(\w+)\\}", r"(?P<\1>.+)", re.escape(one))
         if match := re.fullmatch(pattern, told):
-            return words.word(one, **match.groupdict())
+            return words.word(one, **{x: ROOT.sub("√", y) for x, y in match.groupdict().items()})
     return told
 
 

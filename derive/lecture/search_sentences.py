@@ -11,7 +11,7 @@ from ..language.show import in_sentence, show
 from ..language.tree import Tree
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Sentence
+from ..record.sentence import Sentence, phrase
 from ..views.language import Language, labelled, told
 from .lecture_text import Entry
 from .recorded_text import SPOKEN, in_each, kind_of, sentence, with_kept
@@ -25,6 +25,8 @@ RETOLD = [x.removeprefix(LECTURE) for x in labelled() if x.startswith(LECTURE)]
 SAID_AGAIN = {message(x): told(f"{LECTURE}{x}") for x in RETOLD}
 FREE, DIVIDED = message("reduction.free"), message("reduction.divided")
 NAMED = message("reduction.named")
+WORDS = {"2": "two", "3": "three", "4": "four"}
+BOTH = "{first} and {second}"
 
 
 def space(steps: Sequence[Step]) -> Iterator[Entry]:
@@ -73,10 +75,15 @@ def retold(x: Sentence, equations: Sequence[Equation] = ()) -> Sentence:
 
 
 def _named(name: str, value: Sentence | str, equations: Sequence[Equation]) -> Sentence | str:
-    """The integrals of some numbers; any other value as it is."""
-    if name not in ("number", "numbers") or not isinstance(value, str):
+    """The integrals of some numbers, how many they are in a word; any other value as it is."""
+    if not isinstance(value, str):
         return value
-    return ", ".join(_constant(equations, int(x)) for x in value.split(", "))
+    if name == "half":
+        return phrase(WORDS[value]) if value in WORDS else value
+    if name not in ("number", "numbers"):
+        return value
+    *first, last = (_constant(equations, int(x)) for x in value.split(", "))
+    return phrase(BOTH, first=", ".join(first), second=last) if first else last
 
 
 def _constant(equations: Sequence[Equation], number: int) -> str:

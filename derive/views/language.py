@@ -108,6 +108,12 @@ class Language:
         told = {name: self.numbers(x) for name, x in places.items()}
         return filled(self.messages.get(message, message), told)
 
+    def listed(self, words: Sequence[str]) -> str:
+        """Words one after the other, with "and" before the last."""
+        *first, last = words
+        joined = ", ".join(first)
+        return self.word("{first} and {second}", first=joined, second=last) if first else last
+
 
 ENGLISH = Language("en")
 

@@ -309,7 +309,7 @@ def _step_in_markdown(step: Step, names: Mapping[str, str], language: Language) 
     used = ", ".join(map(code, step.uses))
     from_these = f" ({language.word('from')} {used})" if used else ""
     yield told(language.marked.of(step.prose)) + from_these
-    for block in _aligned(step.equations, names, language):
+    for block in aligned(step.equations, names, language):
         yield f"$$\n{block}\n$$"
 
 
@@ -317,12 +317,13 @@ def formula(
     equations: Sequence[Equation], symbols: Iterable[Symbol], *, language: Language = ENGLISH
 ) -> str:
     """Equations as aligned LaTeX, without dollars."""
-    return "\n".join(_aligned(equations, names_of(symbols), language))
+    return "\n".join(aligned(equations, names_of(symbols), language))
 
 
-def _aligned(
-    equations: Sequence[Equation], names: Mapping[str, str], language: Language
+def aligned(
+    equations: Sequence[Equation], names: Mapping[str, str], language: Language = ENGLISH
 ) -> Iterator[str]:
+    """Alignments of equations, by the LaTeX of their names."""
     for block in blocks(equations, names, language):
         body = " \\\\\n".join(row for equation in block for row in equation)
         yield standard(f"\\begin{{aligned}}\n{body}\n\\end{{aligned}}")

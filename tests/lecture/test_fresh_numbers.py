@@ -60,7 +60,7 @@ def exercises(request):
 def test_the_same_seed_gives_the_same_numbers_and_another_others():
     assert drawn(RAW, 3, CLAIMS) == drawn(RAW, 3, CLAIMS)
     letters = [{k: str(x) for k, (x, _) in told(seed).items()} for seed in SEEDS]
-    assert len(letters[0]) == 14
+    assert len(letters[0]) == 15
     for k in range(len(SEEDS)):
         same = sum(x == y for x, y in zip(*(letters[j - k].values() for j in (0, 1)), strict=True))
         assert same < 7
@@ -155,6 +155,10 @@ def test_what_keeps_its_volume_and_the_fluid(exercises):
 
 
 def test_steps_of_time(exercises):
+    given, (momentum, grown) = exercises["simplest"]
+    rate = np.cross(momentum, given["ζ"])
+    assert np.allclose(momentum, given["I"] @ given["ζ"])
+    assert grown == pytest.approx(given["h"] ** 2 * rate @ rate)
     given, (before, after, wrong) = exercises["turned"]
     J, W, h = given["J"], given["W₀"], given["h"]
     assert np.allclose(W.T @ W, np.eye(3))

@@ -5,11 +5,14 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+import sympy
 from scipy.integrate import solve_ivp
+from scipy.optimize import fsolve
+from scipy.spatial.transform import Rotation
 from scipy.special import ellipk
 
 from derive.command.lecturing import records_of
-from derive.lecture import document, figures, motion_figures
+from derive.lecture import document, figures, group_figures, motion_figures
 from derive.lecture.lecture_text import LectureError, chapters, parsed
 from derive.lecture.sheets import View
 from derive.problem.toml import problem_of
@@ -260,3 +263,89 @@ def test_a_figure_without_a_description_is_refused():
     text = "chapter c\n  A\n  B\nrecords so3\nfigure polhodes\n  Curves.\n  Courbes.\n"
     with pytest.raises(LectureError, match="line 5: a figure begins with a description"):
         parsed(text, "c.txt")
+
+
+def test_the_momentum_stays_on_an_orbit_and_a_level_as_the_structure_of_its_algebra_says():
+    """By Poisson's tensor of the commutators, and on surfaces that are known of each group."""
+    constant = {"SO(3)": (1, 1, 1), "SE(2)": (1, 1, 0), "SL(2)": (1, 1, -1)}
+    for orbit in group_figures.ORBITS:
+        basis, metric = np.array(orbit.basis), np.array(orbit.metric)
+        rows = basis.reshape(3, -1).T
+        products = np.einsum("aij,bjk->abik", basis, basis)
+        brackets = (products - products.transpose(1, 0, 2, 3)).reshape(9, -1)
+        structure = np.linalg.lstsq(rows, brackets.T, rcond=None)[0].reshape(3, 3, 3)
+        rate = group_figures.on_orbit(CLAIMS, orbit)
+        for p in np.eye(3)[:, None] + np.array([[0.3, -1.1, 0.7]]):
+            found = np.einsum("c,cab,a->b", p[0], structure, p[0] / metric)
+            assert np.allclose(rate(tuple(p[0])), found, rtol=0, atol=1e-12)
+        closed = 0
+        for role, angle, height in orbit.starts:
+            path = np.array(group_figures.path_on_orbit(CLAIMS, orbit, angle, height))
+            assert np.ptp(path**2 @ constant[orbit.name]) < 1e-4
+            assert np.ptp(path**2 @ (1 / metric)) < 1e-4
+            closed += np.array_equal(path[0], path[-1])
+            assert role == "second" or np.array_equal(path[0], path[-1])
+        assert closed >= 8
+
+
+def test_the_centre_of_mass_of_the_hammer_falls_as_a_point_and_its_handle_moves_as_a_solid():
+    run = group_figures.flight(CLAIMS, group_figures.FLIGHT, 240)
+    m, c, inertia = group_figures.hammer()
+    times = np.array([t for t, *_ in run])[:, None]
+    centre = np.array([A @ c / m + T for _, A, T in run])
+    fall = times * group_figures.THROWN + times**2 / 2 * group_figures.GRAVITY
+    assert np.allclose(centre - centre[0], fall, rtol=0, atol=1e-6)
+    turned = [np.arctan2(A[1, 0], A[0, 0]) for _, A, _ in run]
+    rate = group_figures.TURNING[2]
+    assert np.allclose(np.unwrap(turned), rate * times[:, 0], rtol=0, atol=1e-6)
+    length, sides = group_figures.HANDLE[0], group_figures.HEAD[0]
+    masses = (group_figures.HANDLE[1], group_figures.HEAD[1])
+    assert m == pytest.approx(sum(masses))
+    about = masses[0] * length**2 / 3
+    about += masses[1] * ((sides[0] ** 2 + sides[1] ** 2) / 12 + (length + sides[0] / 2) ** 2)
+    assert inertia[2, 2] == pytest.approx(about)
+
+
+def test_the_flow_of_the_figure_satisfies_eulers_equation_and_keeps_the_circulation():
+    """By SymPy, from the stream function and the pressure that the exercise tells."""
+    x, y = sympy.symbols("x y")
+    (exercise,) = (b for c in CHAPTERS for b in c.blocks if b.label == "cells")
+    told = exercise.entries[0].formulas[0].text.partition(" = ")[2]
+    psi = sympy.sympify(re.sub(r"(?<=[)\d]) (?=[\w])", "*", told), locals={"x": x, "y": y})
+    u, v = psi.diff(y), -psi.diff(x)
+    p = -(u**2 + v**2) / 2 - sympy.Rational(5, 2) * psi**2
+    for rate, place in ((u, x), (v, y)):
+        assert sympy.simplify(u * rate.diff(x) + v * rate.diff(y) + p.diff(place)) == 0
+    at = np.random.default_rng(5).uniform(0, np.pi, (2, 9))
+    wanted = sympy.lambdify((x, y), (u, v))(*at)
+    assert np.allclose(group_figures.velocity(*at), wanted, rtol=0, atol=1e-12)
+    assert all(psi.subs(z, end) == 0 for z in (x, y) for end in (0, sympy.pi))
+    told = [group_figures.along(*z) for _, *z in group_figures.carried(1.6, 160)]
+    lengths, circulation = np.array(told).T
+    assert np.allclose(circulation, circulation[0], rtol=1e-6, atol=0)
+    assert 3 < lengths[-1] / lengths[0] < 4
+    assert abs(circulation[0]) > 1
+
+
+def test_the_steps_of_the_figure_are_those_of_moser_and_veselov():
+    """From the momenta alone: the rotation that each step is keeps the momentum in space, and is
+    what the momentum h⁻¹(W J − J W̄) belongs to."""
+    moments, h = np.array(group_figures.INERTIA), group_figures.STEP
+    J = np.diag(moments.sum() / 2 - moments)
+    first = group_figures.ORBITS[0].surface(*group_figures.STARTED[0])
+    run = group_figures.in_steps(CLAIMS, first, h, 25)
+    g, spaces = np.eye(3), []
+    for momentum in run[:-1]:
+        M = np.array([np.cross(momentum, e) for e in np.eye(3)]).T
+        spaces.append(g @ M @ g.T)
+
+        def missing(x, M=M):
+            W = Rotation.from_rotvec(x).as_matrix()
+            return ((W @ J - J @ W.T) / h - M)[[2, 0, 1], [1, 2, 0]]
+
+        turn = fsolve(missing, h * np.array(momentum) / moments, xtol=1e-13)
+        g = g @ Rotation.from_rotvec(turn).as_matrix()
+    assert np.allclose(spaces, spaces[0], rtol=0, atol=1e-9)
+    squares = np.array(run) ** 2
+    assert np.ptp(squares.sum(axis=1)) < 1e-12
+    assert np.ptp(squares @ (1 / moments)) < 1e-11

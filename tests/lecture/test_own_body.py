@@ -18,7 +18,7 @@ from derive.lecture.ran_figure import Ran, label_of
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.views.language import LANGUAGES, language
-from tests.lecture.test_problem_chapter import page_of
+from tests.lecture.test_problem_chapter import alone
 from tests.support.library import module_of
 
 CHAPTERS = chapters()
@@ -185,12 +185,12 @@ def test_both_drawings_are_of_one_size_and_turned():
 def test_its_chapter_says_that_it_has_the_place():
     chapter, records, body = chapter_on("euler_top")
     assert body is not None
-    page = page_of(chapter, records, "en")
+    page = alone(chapter, records, "en")
     assert "In the first chapter its body has the place of the racket." in page
     assert page.count("<figure") == 2
     assert isinstance(chapter.title[0], Given)
     other = chapter_on("euler_top", taken=True).chapter
-    page = page_of(other, records, "en")
+    page = alone(other, records, "en")
     assert "another body has the place of the racket already" in page
 
 

@@ -80,18 +80,33 @@ def test_a_changed_equation_is_refused(made):
         list(tried(changed, records, SEED))
 
 
+def alone(chapter, records, lang, shown=document.page):
+    """A chapter by itself, without what it refers to in others."""
+
+    def without(entry):
+        texts = (
+            tuple(re.sub("@[a-z_]+", "", x) if isinstance(x, str) else x for x in text)
+            for text in entry.texts
+        )
+        return replace(entry, texts=tuple(texts))
+
+    blocks = (replace(b, entries=tuple(map(without, b.entries))) for b in chapter.blocks)
+    here = replace(chapter, blocks=tuple(blocks))
+    return shown(document.Lecture([here], language(lang), records))
+
+
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_each_search_has_a_heading_and_something_to_say(made, lang):
     _, chapter, records = made
     words = language(lang)
     assert all(b.entries for b in chapter.blocks)
-    page = document.page(document.Lecture([chapter], words, records))
+    page = alone(chapter, records, lang)
     headings = [x for search, x in SEARCHES.items() if search not in ("trim", "families")]
     for heading in (*headings, "A motion."):
         assert page.count(words.word(heading)) == 1
     assert "‘" not in re.sub("<[^>]*>", "", page)  # parameters are set, not quoted
     said = tex_text(words.word("Its equations of motion are"))
-    assert said in document.latex(document.Lecture([chapter], words, records))
+    assert said in alone(chapter, records, lang, document.latex)
 
 
 def test_a_search_that_is_refused_says_why():
@@ -300,27 +315,12 @@ def test_brackets_about_fractions_are_as_tall():
     )
 
 
-def page_of(chapter, records, lang):
-    """The page of a chapter alone, without what it refers to in others."""
-
-    def alone(entry):
-        texts = (
-            tuple(re.sub("@[a-z]+", "", x) if isinstance(x, str) else x for x in text)
-            for text in entry.texts
-        )
-        return replace(entry, texts=tuple(texts))
-
-    blocks = (replace(b, entries=tuple(map(alone, b.entries))) for b in chapter.blocks)
-    alone_here = replace(chapter, blocks=tuple(blocks))
-    return document.page(document.Lecture([alone_here], language(lang), records))
-
-
 def test_parameters_have_a_table_and_the_body_a_figure():
     chapter, records, _ = chapter_on("lagrange_top")
     (table,) = [b for b in chapter.blocks if b.kind == "table"]
     given = records["lagrange_top"].problem["parameters"]
     assert len(table.entries) == 3 * len(given)
-    page = page_of(chapter, records, "fr")
+    page = alone(chapter, records, "fr")
     for about in given.values():
         assert language("fr").word(about["meaning"]) in page
     assert len(chapter.figures) == page.count("<svg") == 2

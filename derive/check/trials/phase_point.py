@@ -250,13 +250,13 @@ class PhasePoint(Draws):
         """The brackets of the momenta on the basis, by flows: that of Π_b moves g to gh, or hg,
         h = 1 + sE_b, and takes the covector along, so that ⟨p, gE_a⟩ becomes ⟨p, ghE_ah⁻¹⟩. No
         structure constant."""
+        flows = [self.displaced((nilpotent(EPS), y)) for y in self.group.basis]
 
-        def turned(x: Matrix, y: Matrix) -> Any:
-            h, back = self.displaced((nilpotent(EPS), y))
+        def turned(x: Matrix, h: Matrix, back: Matrix) -> Any:
             rate = part(self.ordered(self.ordered(h, x), back), EPS)
             return part(self.momentum(self.t, self.g, self.Z, rate), 0)
 
-        return tuple(tuple(turned(x, y) for y in self.group.basis) for x in self.group.basis)
+        return tuple(tuple(turned(x, *flow) for flow in flows) for x in self.group.basis)
 
     # -- the motion ----------------------------------------------------------------------------
 
