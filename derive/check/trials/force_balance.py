@@ -18,8 +18,7 @@ from ..values.arithmetic import EvaluationError, plus, times
 from ..values.evaluate import Environment, evaluate
 from .equimomental import LayeredDensity, volume_of
 from .model import Model
-from .momenta import axial
-from .point_masses import Vector, damping_members, outer_sum, scaled_each
+from .point_masses import Vector, axial, damping_members, outer_sum, scaled_each
 
 # Names of the potentials, inputs and damping of a problem, from its points.
 
@@ -83,7 +82,7 @@ def force_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     """k, s, d, σ, Q and κ by their indices."""
     families: dict[str, dict[tuple[int, ...], Any]] = {}
     for account, members in model.applied.members():
-        if hasattr(account, "families"):
+        if account.families:
             families |= account.families(model, members)
     places = model.images(model.g)
     for e, (d, sigma) in enumerate(model.applied.radial(places, model.masses), 1):

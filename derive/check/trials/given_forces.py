@@ -232,7 +232,7 @@ def flowing(model: Body, Z: Matrix) -> Flowing:
     turning = q.scaled(Fraction(-1, 2), q.plus(q.times(Z, Q), q.times(Q, Z)))
     if model.group.factors:  # of translations: nothing turns, and C is not 1
         turning = q.scaled(Fraction(0), turning)
-        g: Matrix = model.g  # type: ignore[attr-defined]
+        g: Matrix = model.g
         back = q.times(q.times(q.transposed(g), g), back)
     return Flowing([*forces, (on, within)], q.minus(turning, back))
 

@@ -12,7 +12,7 @@ from ...language.tree import Tree
 from ..values.arithmetic import EPS, EPS_PRIME, EvaluationError, derivative_in, part
 from ..values.evaluate import Environment, point_index
 from .model import Model
-from .point_masses import Vector, outer_sum, scaled_each
+from .point_masses import Vector, axial, outer_sum, scaled_each
 
 # The names of R³ for rotations, Ω, ζ, φ, μ and the tensors of inertia, from the points.
 
@@ -49,11 +49,6 @@ def rigid_body_values(model: Model) -> Values:
     if model.at.principal:  # else the diagonal of I is not its eigenvalues
         values["λ"] = q.column(values["I"][i][i] for i in range(3))
     return values
-
-
-def axial(x: Matrix) -> Matrix:
-    """The vector X (3 × 1) of a skew matrix j(X), or of the rotation part of a larger one."""
-    return ((x[2][1],), (x[0][2],), (x[1][0],))
 
 
 def _inertia_tensor(model: Model, origin: tuple[Fraction, ...]) -> Matrix:

@@ -19,7 +19,7 @@ from ...schema.body_kinds import GivenBody, MomentBody, Moments, PointBody, Soli
 from ..chapter import Chapter, Draft, phrase, say, say_signed
 from ..spine.alphabet import Alphabet
 from ..spine.lagrangian import PointLagrangian, of_moments
-from .potentials import column, embedded
+from .potential_terms import column, embedded
 
 # The numbers of the body: moments as parameters, given or integrated, or points; other places.
 

@@ -23,7 +23,8 @@ from ..spine.cartan import body_rule
 from ..spine.lagrangian import sum_over
 from ..spine.principle import AND
 from ..vectors.isomorphism import OMEGA_P, ZETA, HatMap, anticommute, inertia_of, vector_sum
-from .potentials import Applied, applied, column, embedded
+from .potential_terms import column, embedded
+from .potentials import Applied, applied
 
 INPUTS = phrase("input.forces")
 DRAG = phrase("input.damping")

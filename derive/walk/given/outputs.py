@@ -34,7 +34,7 @@ from ..chapter import Chapter, Draft, Steps, phrase, say
 from ..spine.alphabet import Alphabet
 from ..spine.lagrangian import sum_over
 from ..vectors.isomorphism import ZETA, ZETA_DOT, HatMap
-from .potentials import column, in_space, place
+from .potential_terms import column, in_space, place
 
 Images = Mapping[Letter, Expr]
 RATES = (ZETA_DOT, Letter("ẇ", 3))

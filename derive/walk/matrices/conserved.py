@@ -22,7 +22,8 @@ from ...schema.kinds.gravity import gravity
 from ...schema.kinds.harmonic import Harmonic
 from ...schema.kinds.spring import Spring
 from ..chapter import Chapter, enumerated, phrase, say
-from ..given.potentials import U_Q, Potentials, column, displaced_letters
+from ..given.potential_terms import column, displaced_letters
+from ..given.potentials import U_Q, Potentials
 from ..spine.alphabet import Alphabet
 from ..vectors.isomorphism import anticommute, vector_sum
 
