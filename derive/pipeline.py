@@ -19,12 +19,12 @@ from .record.record import Derivation
 from .walk.chapter import Chapter, Stage, Values, follow, naming_steps
 from .walk.discrete import discrete_blocks, discrete_forces, discrete_group, discrete_road
 from .walk.discrete.discrete_road import DiscreteAlphabet
-from .walk.ellipsoid import dirichlet
+from .walk.fluid import dirichlet
 from .walk.fluid import circulation, fluid_forms, fluid_kernel
 from .walk.fluid.fluid_forms import FluidAlphabet
 from .walk.given import body, inputs, outputs, potentials, power
 from .walk.given.inputs import acts, by_name
-from .walk.kinematics import invariant_errors
+from .walk.lie import invariant_errors
 from .walk.lie import any_lagrangian, at_places, expressed, momentum_side
 from .walk.matrices import (
     conserved, coordinates, explicit, isometry, separation, solution, specialisation,
@@ -33,7 +33,7 @@ from .walk.matrices.specialisation import turns_whole
 from .walk.spine import alphabet, cartan, kernel, lagrangian, orbit, principle
 from .walk.spine.alphabet import Alphabet
 from .walk.spine.head import recorded
-from .walk.torus import vorticity
+from .walk.fluid import vorticity
 from .walk.vectors import by_momenta, euler, isomorphism, rotation
 # isort: on
 

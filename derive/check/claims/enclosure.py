@@ -19,8 +19,10 @@ from ...record.record import Equation, RecordError, Step
 from ...record.sentence import Claim
 from .entries_checked import Entries, invertible
 from .equilibrium_claims import coordinates, not_from, others_squared, silent
-from .exact_spectra import DIGITS as PRECISION
-from .exact_spectra import (
+from .integral_claims import Judge
+from .reduced_system import ReducedSystem
+from .spectra_and_residues import DIGITS as PRECISION
+from .spectra_and_residues import (
     all_roots,
     characteristic,
     decimal,
@@ -29,8 +31,6 @@ from .exact_spectra import (
     signature,
     size,
 )
-from .integral_claims import Judge
-from .reduced_system import ReducedSystem
 
 # The claim of a step of rule "enclosure": a critical point of h̃ on a level of what is kept.
 #

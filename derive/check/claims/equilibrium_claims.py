@@ -15,21 +15,25 @@ from ...record.record import RecordError, Step
 from ...record.sentence import Claim
 from ..values.residue import Residue
 from .entries_checked import Decision, decided
-from .exact_spectra import (
+from .integral_claims import Judge, listed
+from .reduced_system import ReducedSystem, ResiduePoint
+from .spectra_and_residues import (
     DIGITS,
+    about,
     are_roots_rounded,
     characteristic,
     decimal,
     distinct_roots,
+    expansion,
+    gradient,
     grows,
     hermite,
     real_and_not_positive,
     roots_near,
+    second_derivatives,
     signature,
+    value_there,
 )
-from .integral_claims import Judge, listed
-from .modular_values import about, expansion, gradient, second_derivatives, value_there
-from .reduced_system import ReducedSystem, ResiduePoint
 
 Coordinates = tuple[tuple[Tree, Number], ...]
 POINTS = ("equilibrium.at", "equilibrium.origin")

@@ -15,10 +15,9 @@ from ...language.univariate import Number, coefficients_of, value_of
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
 from .equilibrium_claims import ClaimedEquilibrium, has_multiples, kept
-from .exact_spectra import signature
 from .integral_claims import Judge, listed
-from .modular_values import gradient, second_derivatives, value_there
 from .reduced_system import ReducedSystem, substituted
+from .spectra_and_residues import gradient, second_derivatives, signature, value_there
 
 Numbers = Mapping[Tree, Fraction]
 DRAWS = 8

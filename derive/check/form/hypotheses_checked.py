@@ -16,7 +16,7 @@ from ...language.tree import Tree, names, nodes, replaced
 from ...language.values import approximate
 from ...record import mass_signs
 from ...record.record import ANY_GROUP, OF_MASSES, Equation, Hypothesis, RecordError, Step
-from ..lagrangian.reduced_by_symmetries import concludes_velocity, unforced_velocity
+from ..lagrangian.lagrangian_values import concludes_velocity, unforced_velocity
 from ..trials.meaning import parts_of
 from ..trials.phase_point import PhasePoint
 from ..trials.point_masses import axial

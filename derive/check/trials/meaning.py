@@ -32,8 +32,10 @@ from .force_balance import (
     solution_values,
 )
 from .model import Model
-from .momenta import (
+from .momenta_and_outputs import (
     ON_TANGENT,
+    Observed,
+    accelerations,
     action_varied,
     basis_families,
     moments_about,
@@ -43,7 +45,6 @@ from .momenta import (
     rigid_body_values,
     space_values,
 )
-from .output_values import Observed, accelerations
 from .point_masses import axial, listed_count, outer_sum
 
 # The mapping from names to exact values that an environment reads.

@@ -12,10 +12,10 @@ from ...language.tree import Tree, add, neg, nodes, plain, terms
 from ...problem.entries_on_orbit import EntriesOfElement, element
 from ...problem.fields import coordinates
 from ...problem.problem import ProblemError
-from ..symmetries.found_symmetries import SymmetriesFound
-from ..symmetries.scalar_lagrangian import full
-from ..symmetries.symmetry import Symmetry
+from .found_symmetries import SymmetriesFound
+from .scalar_lagrangian import full
 from .state_functions import Element, StateFunctions, entries_in
+from .symmetry import Symmetry
 
 Vector = list[Element]
 

@@ -30,7 +30,6 @@ from ...language.intervals import Interval, UnknownSignError, function, krawczyk
 from ...language.rational import Matrix
 from ...language.univariate import Number, Quadratic, RootError
 from ...problem.problem import Problem
-from .question import EXACTLY, Bounds, Question, function_with_corner
 from .steady_velocity import (
     DEPENDENT,
     FLOATS,
@@ -44,7 +43,7 @@ from .steady_velocity import (
     exact,
     solutions,
 )
-from .trim import EnclosedTrim, Trim
+from .trim import EXACTLY, Bounds, EnclosedTrim, Question, Trim, function_with_corner
 
 EXACT = 2**40
 """A number of a program with a larger power of two below is one that has no fraction, as π."""

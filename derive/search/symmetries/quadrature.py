@@ -10,11 +10,11 @@ from typing import Any
 
 from ...language.tree import Tree
 from ...problem.problem import ProblemError
-from ..symmetries.found_symmetries import SymmetriesFound, axis, named
-from ..symmetries.scalar_lagrangian import full
-from ..symmetries.symmetry import Symmetry
+from .found_symmetries import SymmetriesFound, axis, named
 from .routhian import Routhian
+from .scalar_lagrangian import full
 from .state_functions import Element, entries_in
+from .symmetry import Symmetry
 
 # Which symmetries a reduction is by: of L̃ itself, without time, each commuting with the others.
 

@@ -12,8 +12,8 @@ from ...algebra.exact_kernel import PRIMES, ResidueVectorSource, kernel, rationa
 from ...algebra.groups import Group
 from ...language.tree import Tree, add, mul, nodes
 from ...language.values import arithmetic
-from ..symmetries.conditions import EXTRA
-from ..symmetries.scalar_lagrangian import entries
+from .conditions import EXTRA
+from .scalar_lagrangian import entries
 
 Element = Any
 """An element of the field."""

@@ -18,14 +18,7 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from ...record.as_json import decode
-from ..values.arithmetic import (
-    EPS,
-    EPS_PRIME,
-    ETA,
-    EvaluationError,
-    nilpotent,
-    part,
-)
+from ..values.arithmetic import EPS, EPS_PRIME, ETA, EvaluationError, nilpotent, part
 from ..values.draws import Draws, Locus
 from ..values.evaluate import Environment, evaluate
 
