@@ -312,13 +312,19 @@ def homogeneous(f: Function) -> dict[int, Function]:
 
 
 def inverse_laplacian(p: Function, degree: int) -> Function:
-    """A q with Δq = p, homogeneous of a degree: as Δ(‖x‖²ᵏ⁺² Δᵏp) is (2k + 2)(2m − 2k + d) ‖x‖²ᵏ
-    Δᵏp + ‖x‖²ᵏ⁺² Δᵏ⁺¹p, a sum in which all but the first cancels."""
+    """A q with Δq = p, p homogeneous of a degree."""
+    found: Function = p.space.square * _times_square(p, degree)
+    return found
+
+
+def _times_square(p: Function, degree: int) -> Function:
+    """The q for which Δ(‖x‖² q) = p, homogeneous of a degree: as Δ(‖x‖²ᵏ⁺² Δᵏp) is
+    (2k + 2)(2m − 2k + d) ‖x‖²ᵏ Δᵏp + ‖x‖²ᵏ⁺² Δᵏ⁺¹p, a sum in which all but the first cancels."""
     space, factor = p.space, Fraction(-1)
     found: Function = space.zero
     for k in range(degree // 2 + 1):
         factor /= -(2 * k + 2) * (2 * degree - 2 * k + space.dimension)
-        found = found + space.power_of_square(k + 1) * p * factor
+        found = found + space.power_of_square(k) * p * factor
         p = laplacian(p)
     return found
 
@@ -338,13 +344,7 @@ def harmonics(f: Function) -> Iterator[tuple[int, Function]]:
 
 def inner_part(p: Function, degree: int) -> Function:
     """The q for which p − ‖x‖² q is harmonic, p homogeneous of a degree."""
-    space, factor = p.space, Fraction(-1)
-    found: Function = space.zero
-    for k in range(1, degree // 2 + 1):
-        p = laplacian(p)
-        factor /= -2 * k * (2 * degree + space.dimension - 2 - 2 * k)
-        found = found + space.power_of_square(k - 1) * p * factor
-    return found
+    return _times_square(laplacian(p), degree - 2)
 
 
 def on_boundary(f: Function) -> Function:

@@ -13,6 +13,7 @@ from functools import cache, cached_property, lru_cache
 from random import Random
 from typing import Any
 
+from ...algebra.groups import Group
 from ...algebra.samplers import Source
 from ...algebra.structure import Place, TorusLattice
 from ...language import rational as q
@@ -21,8 +22,17 @@ from ...language.tree import Tree
 from ..values.arithmetic import EvaluationError
 from ..values.evaluate import Environment, evaluate
 from ..values.residue import DegreeSource, _residue
-from .elements import Drawn, Elements, LatticeTerm, Places, Wave
-from .residues import LatticeResidues, Multiples, RootsOfUnity, Turns
+from .lattice_values import (
+    Drawn,
+    Elements,
+    LatticeResidues,
+    LatticeTerm,
+    Multiples,
+    Places,
+    RootsOfUnity,
+    Turns,
+    Wave,
+)
 
 KEPT = 64
 """The most T(n) that are kept."""
@@ -237,3 +247,20 @@ class _Lazily(dict[str, Any]):
     def __missing__(self, name: str) -> Any:
         self[name] = self.later[name]()
         return self[name]
+
+
+# The torus of a record's problem, and its group.
+
+
+def torus_of(problem: Mapping[str, Any]) -> TorusLattice:
+    """The torus of a record's problem."""
+    return TorusLattice(problem["torus"]["N"])
+
+
+def group_of_torus(torus: TorusLattice) -> Group:
+    """SU(N) by its name and size, without a table of a basis, or elements."""
+
+    def none(random: Source, size: int) -> Matrix:
+        raise EvaluationError(f"no elements of {torus.name} are drawn")
+
+    return Group(torus.name, torus.N, "linear", (), none)

@@ -19,7 +19,8 @@ from ...language.tree import Tree, nodes
 from ...record.record import ANY_GROUP, Equation, RecordError, Step
 from ...record.shape import IDENTIFIER
 from ..fluid import torus_model
-from ..fluid.elements import WEIGHTS, group_of_torus, torus_of
+from ..fluid.lattice_values import WEIGHTS
+from ..fluid.torus_model import group_of_torus, torus_of
 from ..lagrangian import kinematics_model, lagrangian_values
 from ..lagrangian.lagrangian_model import LagrangianModel
 from ..values.draws import Locus, claim_grade, locus_of
