@@ -26,9 +26,7 @@ from .walk.given import body, inputs, outputs, potentials, power
 from .walk.given.inputs import acts, by_name
 from .walk.lie import invariant_errors
 from .walk.lie import any_lagrangian, at_places, expressed, momentum_side
-from .walk.matrices import (
-    conserved, coordinates, explicit, isometry, separation, solution, specialisation,
-)
+from .walk.matrices import (conserved, coordinates, explicit, specialisation, separation, solution)
 from .walk.matrices.specialisation import turns_whole
 from .walk.spine import alphabet, cartan, kernel, lagrangian, orbit, principle
 from .walk.spine.alphabet import Alphabet
@@ -98,7 +96,7 @@ MATRICES = (
 
 VECTORS = (
     Stage("body", "problem lagrangian a c", "Steps", body.body_step),
-    Stage("isometry", "trivial momenta a group.n c", "Isometry", isometry.isometry),
+    Stage("isometry", "trivial momenta a group.n c", "Isometry", specialisation.isometry),
     Stage("rigid", "distances isometry.C isometry.letters c", "Step", orbit.rigid),
     Stage("unaligned", "lagrangian isometry.C isometry.letters c", "Step", orbit.unaligned),
     Stage("held", "kernel isometry.C group.n c", "Step", orbit.held, "linear"),

@@ -13,10 +13,9 @@ from ...language.tree import Tree, add, mul, neg
 from ...record.record import Equation, Step
 from ..chapter import Chapter, Draft, say
 from ..given.inputs import External
-from ..matrices.isometry import without_cauchy_green
 from ..matrices.separation import Barycentric, central_moments
 from ..matrices.solution import MULTIPLIERS, basis_member, direction_of
-from ..matrices.specialisation import AnyGroup, KernelOnGroup
+from ..matrices.specialisation import AnyGroup, KernelOnGroup, without_cauchy_green
 from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
 from ..spine.kernel import MomentumForm
 from .euler import CENTRAL, VectorForm, from_centre, pairs_of, simplified, spun, vector_tree

@@ -15,8 +15,8 @@ from ...record.record import Equation, Step
 from ...record.sentence import Sentence, listed
 from ..chapter import Chapter, say, say_signed
 from ..matrices.coordinates import at_constant_time
-from ..matrices.isometry import Isometry, halved, momenta_prose, motion_prose
 from ..matrices.separation import central_moments
+from ..matrices.specialisation import Isometry, halved, momenta_prose, motion_prose
 from ..spine.alphabet import (
     AlgebraPart,
     Alphabet,
@@ -210,7 +210,8 @@ def vector_form(general: MomentumForm, stage: Isometry, hat_map: HatMap, c: Chap
 def body_momenta(stage: Isometry, hat_map: HatMap) -> dict[Letter, Expr]:
     """The values of ℓ_b and p_b, by their letters: ⟨Π, j(Ω)⟩ = ⟨ℓ_b, Ω⟩, and p_b in vectors.
 
-    Π and p_b are those of the isometries, which :mod:`derive.walk.matrices.isometry` reads off p̃.
+    Π and p_b are those of the isometries, which :mod:`derive.walk.matrices.specialisation` reads
+    off p̃.
     """
     b, found = stage.letters, dict[Letter, Expr]()
     for dual, part, (d, f) in zip(b.duals, b.algebra_parts, pairs_of(b), strict=True):

@@ -19,7 +19,7 @@ from ...schema.kinds.gravity import gravity
 from ..chapter import Chapter, say, say_signed
 from ..given.inputs import External
 from ..given.potentials import Potentials, virtual_work
-from ..matrices.isometry import Isometry
+from ..matrices.specialisation import Isometry
 from ..spine.alphabet import Alphabet
 from ..spine.cartan import body_rule, rates
 from .euler import CENTRAL, Eliminated, VectorForm, from_centre, pairing, vector_tree
@@ -49,9 +49,9 @@ Rows = tuple[tuple[Tree, ...], ...]
 Tensor = tuple[tuple[Laurent, ...], ...]
 
 
-def letters(name: str) -> tuple[tuple[Laurent], ...]:
-    """The 3 × 1 column of the entries of the vector ``name``, each a symbol."""
-    return tuple((Laurent.symbol(("entry", name, i)),) for i in AXES)
+def symbols(whole: Tree, size: int = 3) -> tuple[tuple[Laurent], ...]:
+    """The column of the entries of a vector, each a symbol."""
+    return tuple((Laurent.symbol(("entry", whole, i)),) for i in range(1, size + 1))
 
 
 def square(name: str) -> tuple[tuple[Laurent, ...], ...]:
@@ -68,12 +68,23 @@ def diagonal(entries: Sequence[Tree]) -> tuple[tuple[Laurent, ...], ...]:
     )
 
 
+def is_diagonal(m: Value) -> bool:
+    """Is what is not on the diagonal 0?"""
+    return not any(x for i, row in enumerate(m) for j, x in enumerate(row) if i != j)
+
+
+def principal(name: str, m: Value) -> list[Tree]:
+    """The moments of a diagonal tensor: equal ones are one, so that what they cancel is seen."""
+    same = (next(j for j in AXES if m[j - 1][j - 1] == m[i - 1][i - 1]) for i in AXES)
+    return [("entry", name, j, j) for j in same]
+
+
 def components(t: Tree, known: Mapping[str, Value], moments: Sequence[Tree]) -> list[Tree]:
     """The components of a vector tree; a name that is not ``known`` is a vector.
 
     Terms of the same velocities stand together, over the one of the ``moments`` that divides them.
     """
-    vectors = {x: letters(x) for x in names(t) if x not in known}
+    vectors = {x: symbols(x) for x in names(t) if x not in known}
     found = value(t, {**vectors, **known})
     return [grouped(x, {*moments}.__contains__, _is_rate) for (x,) in found]
 
@@ -99,7 +110,7 @@ def tensor_steps(
         return ()
     if found is None or max(len(x.terms) for row in found for x in row) > LONGEST:
         return ()
-    diagonal_tensor = not any(found[i][j] for i in range(3) for j in range(3) if i != j)
+    diagonal_tensor = is_diagonal(found)
     order = [(i, j) for i in AXES for j in AXES[i - 1 :]]
     if diagonal_tensor:  # the products of inertia, which vanish, together
         order.sort(key=lambda x: x[0] != x[1])
@@ -124,15 +135,12 @@ def _motion(
         numbers = _numbers(problem)
     except OverlongError:
         return ()
-    moments: list[Tree] = []
-    for i in range(3):  # equal moments are one, so that what they cancel is seen
-        same = next(j for j in range(3) if found[j][j] == found[i][i]) + 1
-        moments.append(("entry", name, same, same))
+    moments = principal(name, found)
     known: dict[str, Value] = {
         "A": square("A"),
         name: diagonal(moments),
         "m": Laurent.symbol("m"),
-        **{x: letters(x) for x in ("ζ", "w", "w_c", "u", "f_u", "ζ̇")},
+        **{x: symbols(x) for x in ("ζ", "w", "w_c", "u", "f_u", "ζ̇")},
         **numbers,
     }
     rates = [e for e in motion.equations if e.lhs in ("ζ̇", "ẇ")]
@@ -157,7 +165,7 @@ def _numbers(problem: Problem) -> dict[str, Value]:
     mass, first, _ = moments_of(problem)
     found["c"] = _by_mass(_column(first), polynomial(mass))
     centred = all(not x for (x,) in found["c"])
-    return found | {"r_c": found["c"] if centred else letters("r_c")}
+    return found | {"r_c": found["c"] if centred else symbols("r_c")}
 
 
 def _by_mass(c: Value, mass: Laurent) -> Value:
