@@ -15,9 +15,8 @@ from ...language.tree import add, neg, replaced
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ..chapter import Chapter, WalkError, enumerated, say
-from ..given.body import body_step
+from ..given.body_and_potentials import Potentials, body_step, potentials
 from ..given.inputs import acts, damping_coefficients, external_matrices, where_given
-from ..given.potentials import Potentials, potentials
 from ..matrices.conserved import ConservedMomentum, kept_momenta
 from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
 from ..spine.lagrangian import sum_over

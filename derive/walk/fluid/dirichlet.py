@@ -31,8 +31,8 @@ from ...record.record import Equation, Step
 from ...schema.body_kinds import GivenBody, Solid
 from ...schema.kinds.volume import Volume
 from ..chapter import Chapter, Draft, say
+from ..given.body_and_potentials import Potentials
 from ..given.potential_kinds import GradientLetter
-from ..given.potentials import Potentials
 from ..matrices.solution import MULTIPLIER, Solution
 from ..matrices.specialisation import KernelOnGroup
 from ..spine.alphabet import cancel_scalar, cancelling, inverse_letter

@@ -19,13 +19,13 @@ from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
 from ...schema.kind import ForceInput, ScalarInput, StatedForce, TorqueInput
 from ..chapter import Chapter, Draft, phrase, say
+from ..matrices.isomorphism import OMEGA_P, ZETA, HatMap, anticommute, inertia_of, vector_sum
 from ..spine.alphabet import Alphabet
 from ..spine.cartan import body_rule
 from ..spine.lagrangian import sum_over
 from ..spine.principle import AND
-from ..vectors.isomorphism import OMEGA_P, ZETA, HatMap, anticommute, inertia_of, vector_sum
+from .body_and_potentials import Applied, applied
 from .potential_terms import column, embedded
-from .potentials import Applied, applied
 
 INPUTS = phrase("input.forces")
 DRAG = phrase("input.damping")

@@ -31,9 +31,9 @@ from ...schema.output_kinds import (
     VelocityOutput,
 )
 from ..chapter import Chapter, Draft, Steps, phrase, say
+from ..matrices.isomorphism import ZETA, ZETA_DOT, HatMap
 from ..spine.alphabet import Alphabet
 from ..spine.lagrangian import sum_over
-from ..vectors.isomorphism import ZETA, ZETA_DOT, HatMap
 from .potential_terms import column, in_space, place
 
 Images = Mapping[Letter, Expr]

@@ -28,7 +28,7 @@ from ..chapter import Chapter, enumerated, phrase, say
 from ..given.inputs import pushes
 from ..matrices.coordinates import basis_equations
 from .any_lagrangian import AnyLagrangian
-from .at_places import from_outside, named_forces, with_numbers
+from .from_outside import from_outside, named_forces, with_numbers
 
 # The basis of 𝔤 in which a Lagrangian is expressed: coordinates, brackets, and how what it
 # depends on moves with the group.

@@ -25,8 +25,8 @@ from ...schema.kind import Advected
 from ..chapter import Chapter, say
 from ..spine.alphabet import Alphabet
 from .any_lagrangian import SIDES, AnyLagrangian, sign_of
-from .at_places import from_outside
 from .expressed import Basis, Expressed, brackets, coadjoint_terms, member, tidied
+from .from_outside import from_outside
 
 # The motion told by momenta: the velocity from them, and the Poisson tensor of the variables.
 #

@@ -22,10 +22,10 @@ from ...schema.kinds.gravity import gravity
 from ...schema.kinds.harmonic import Harmonic
 from ...schema.kinds.spring import Spring
 from ..chapter import Chapter, enumerated, phrase, say
+from ..given.body_and_potentials import U_Q, Potentials
 from ..given.potential_terms import column, displaced_letters
-from ..given.potentials import U_Q, Potentials
 from ..spine.alphabet import Alphabet
-from ..vectors.isomorphism import anticommute, vector_sum
+from .isomorphism import anticommute, vector_sum
 
 # The line through the origin about which space may be turned without moving what a potential is
 # given by: the acceleration of gravity, anchors, centres, the axes of harmonic forces; where

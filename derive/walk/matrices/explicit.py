@@ -25,10 +25,10 @@ from ...record.record import Equation, Step
 from ...record.sentence import Prose
 from ...schema.body_kinds import MomentBody
 from ..chapter import Chapter, Draft, say
+from ..given.body_and_potentials import Potentials
 from ..given.inputs import External
-from ..given.potentials import Potentials
-from ..vectors.rotation import AXES, Torque, diagonal, is_diagonal, principal, symbols
 from .coordinates import Balance, short_rates, solved
+from .rotation import AXES, Torque, diagonal, is_diagonal, principal, symbols
 from .separation import constant, linear
 from .specialisation import KernelOnGroup
 

@@ -19,8 +19,8 @@ from ...problem.inertia import EVERY, Bodies
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose
 from ..chapter import Chapter, Draft, say
+from ..given.body_and_potentials import Potentials, virtual_work
 from ..given.inputs import External
-from ..given.potentials import Potentials, virtual_work
 from ..spine.alphabet import Alphabet
 from ..spine.cartan import (
     DOMEGA,

@@ -17,9 +17,8 @@ from ...record.record import Equation, Step
 from ...record.sentence import Prose
 from ...schema.kinds.gravity import gravity
 from ..chapter import Chapter, say, say_signed
+from ..given.body_and_potentials import Potentials, virtual_work
 from ..given.inputs import External
-from ..given.potentials import Potentials, virtual_work
-from ..matrices.specialisation import Isometry
 from ..spine.alphabet import Alphabet
 from ..spine.cartan import body_rule, rates
 from .euler import CENTRAL, Eliminated, VectorForm, from_centre, pairing, vector_tree
@@ -35,6 +34,7 @@ from .isomorphism import (
     fold_moment,
     vector_sum,
 )
+from .specialisation import Isometry
 
 # Vector equations component by component: (35), and the motion with a body's own numbers.
 

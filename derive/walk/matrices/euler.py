@@ -14,9 +14,6 @@ from ...record import sentence
 from ...record.record import Equation, Step
 from ...record.sentence import Sentence, listed
 from ..chapter import Chapter, say, say_signed
-from ..matrices.coordinates import at_constant_time
-from ..matrices.separation import central_moments
-from ..matrices.specialisation import Isometry, halved, momenta_prose, motion_prose
 from ..spine.alphabet import (
     AlgebraPart,
     Alphabet,
@@ -28,6 +25,7 @@ from ..spine.alphabet import (
 from ..spine.cartan import DOMEGA, primed
 from ..spine.kernel import MomentumForm, along_motion, contact
 from ..spine.principle import AND, Contraction, rate, steps_of
+from .coordinates import at_constant_time
 from .isomorphism import (
     BRACKET,
     D_SPIN,
@@ -47,6 +45,8 @@ from .isomorphism import (
     inertia_of,
     vector_sum,
 )
+from .separation import central_moments
+from .specialisation import Isometry, halved, momenta_prose, motion_prose
 
 # SE(3): the translation is eliminated; the inertia about the centre of mass appears.
 #

@@ -13,14 +13,14 @@ from ...language.tree import Tree, add, mul, neg
 from ...record.record import Equation, Step
 from ..chapter import Chapter, Draft, say
 from ..given.inputs import External
-from ..matrices.separation import Barycentric, central_moments
-from ..matrices.solution import MULTIPLIERS, basis_member, direction_of
-from ..matrices.specialisation import AnyGroup, KernelOnGroup, without_cauchy_green
 from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
 from ..spine.kernel import MomentumForm
 from .euler import CENTRAL, VectorForm, from_centre, pairs_of, simplified, spun, vector_tree
 from .isomorphism import INERTIA, MU, OMEGA_P, PHI, SPIN, ZETA, anticommute
 from .rotation import Torque
+from .separation import Barycentric, central_moments
+from .solution import MULTIPLIERS, basis_member, direction_of
+from .specialisation import AnyGroup, KernelOnGroup, without_cauchy_green
 
 Balance = Mapping[Letter, Expr]
 
