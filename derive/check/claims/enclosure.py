@@ -213,13 +213,10 @@ Numbers = Sequence[Fraction]
 
 def _near(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The equations are in powers of the distance from the point, which is enclosed."""
-    if not any(step.label in s.uses and _says_within(s) for s in system.record.steps):
+    using = (s for s in system.record.steps if step.label in s.uses)
+    if not any(x.kind == "enclosure.within" for s in using for x in s.claims):
         return "no step encloses it"
     return not_from(step, coordinates(claim), constants=True)
-
-
-def _says_within(step: Step) -> bool:
-    return any(x.kind == "enclosure.within" for x in step.claims)
 
 
 def enclosed(system: ReducedSystem, step: Step) -> Enclosure:

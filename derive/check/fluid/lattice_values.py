@@ -150,15 +150,12 @@ def prime_with_roots(random: Random, order: int) -> tuple[int, int]:
         p = order * random.getrandbits(BITS - order.bit_length()) + 1
         if p > order and all(_passes_miller_rabin(p, random) for _ in range(ROUNDS)):
             break
-    factors = [q for q in range(2, order + 1) if order % q == 0 and _is_prime(q)]
+    divisors = [q for q in range(2, order + 1) if order % q == 0]
+    factors = [q for q in divisors if all(q % k for k in range(2, q))]
     while True:
         root = pow(random.randrange(2, p), (p - 1) // order, p)
         if all(pow(root, order // q, p) != 1 for q in factors):
             return p, root
-
-
-def _is_prime(q: int) -> bool:
-    return all(q % k for k in range(2, q))
 
 
 class RootsOfUnity:

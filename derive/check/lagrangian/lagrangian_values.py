@@ -16,7 +16,7 @@ from ...algebra.user_groups import block
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, nodes
-from ...record.record import Equation, Step
+from ...record.record import Step
 from ..trials.meaning import NameValues, Values
 from ..trials.momenta_and_outputs import Observed
 from ..trials.phase_point import Family, PhasePoint, TangentVector
@@ -370,14 +370,9 @@ def member(found: list[Any], head: Any, env: Environment | None = None) -> Any:
 # metric, so that the kernel of this pairing is {ξ(X) = Z} where the metric is not degenerate.
 
 
-def states_velocity(equation: Equation) -> bool:
-    """Does the equation say what part of the velocity of X is, as δA(X) = α?"""
-    return bool(part_of_velocity(equation.lhs, equation.rhs))
-
-
 def concludes_velocity(step: Step) -> bool:
     """Does a step conclude a part of the velocity of X, which is then put in?"""
-    return any(states_velocity(e) and e in step.given for e in step.equations)
+    return any(part_of_velocity(e.lhs, e.rhs) and e in step.given for e in step.equations)
 
 
 def unforced_velocity(model: PhasePoint) -> str:

@@ -211,7 +211,8 @@ def solution_values(model: Model) -> Values:
         left = q.minus(s.moment_of_inertia_forces(q.plus(Z_dot, q.times(Z, Z))), s.applied_moment)
         direction = group.normal_direction
         values["Λ"] = direction
-        values["θ"] = _trace_product(left, direction) / _trace_product(direction, direction)
+        normal = q.transposed(direction)
+        values["θ"] = q.trace(q.times(left, normal)) / q.trace(q.times(direction, normal))
     return values
 
 
@@ -219,11 +220,6 @@ def load(model: Model, e: Matrix) -> Fraction:
     """The work of forces and inputs in the displacement g e."""
     powers = zip(model.input, model.group.nearest(e), strict=True)
     return sum((u * x for u, x in powers), Fraction(0)) - model.work(q.times(model.g, e))
-
-
-def _trace_product(a: Matrix, b: Matrix) -> Any:
-    """Tr a b̄."""
-    return q.trace(q.times(a, q.transposed(b)))
 
 
 # A continuous body at its point masses: integrals over it, and functions of a place in it.
@@ -253,8 +249,8 @@ def integral(model: Model, form: Tree, env: Environment) -> Any:
     for m, at in zip(model.masses, model.points, strict=True):
         r = q.column(at)
         here = {"r": r, "v": image(model, model.nu, r)}
-        if form == "p_r":
-            here["p_r"] = pressure_at(r, env.names["Q_r"], env.names["p_0"])
+        if form == "p_r":  # of a uniform density, quadratic, and 0 at the boundary
+            here["p_r"] = env.names["p_0"] * (1 - _form(env.names["Q_r"], r))
         there = replace(env, names=ChainMap(here, env.names))  # type: ignore[arg-type]
         terms.append(times(m, evaluate(form, there)))
     return reduce(plus, terms)
@@ -322,11 +318,6 @@ def _pressures(model: Model, solid: Any, Q: Matrix, rate: Matrix, r: Matrix) -> 
         "p_0": pushed * layers.above(Fraction(0)),
         "p_r": pushed * above,
     }
-
-
-def pressure_at(r: Matrix, Q: Matrix, middle: Any) -> Any:
-    """p_r of a uniform density, quadratic, and 0 at the boundary."""
-    return middle * (1 - _form(Q, r))
 
 
 def over_volume(model: Model, name: str, middle: Any) -> Any:

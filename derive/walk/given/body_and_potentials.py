@@ -275,18 +275,14 @@ def potentials(problem: Problem, a: Alphabet, c: Chapter, C: Expr | None = None)
         Equation("U", add(*shown, *([U_Q.name] if found.energies else []))),
         Equation("Ũ", draft.tree(energy)),
     ]
-    prose = sum((w.prose for w in parts), _opening(over_points))
+    prose = sum(
+        (w.prose for w in parts), say("potential.pulled_back" if over_points else "potential.none")
+    )
     steps = [draft.step((*definitions, *energies), prose)]
     if found.energies:
         steps.append(point_forces_step(found, forces, a, c, C))
     own = tuple(x for w in parts for x in w.own)
     return Potentials(draft.mark(energy), tuple(steps), forces.work, found, own)
-
-
-def _opening(over_points: list[Tree]) -> Prose:
-    if not over_points:
-        return say("potential.none")
-    return say("potential.pulled_back")
 
 
 def virtual_work(

@@ -207,7 +207,7 @@ class Places:
         moving = isinstance(x, VelocityOutput | AccelerationOutput)
         vector = self._along(self.zeta, r) if moving else _times(self.A, r)
         if isinstance(x, AccelerationOutput):
-            again = [_dot(row, vector) for row in self._velocity_matrix()]
+            again = _times(combined(self.group.basis, self.zeta, self.group.n), vector)
             rated = zip(self._along(self.rates, r), again, strict=True)
             vector = [add(*y) for y in rated]
         at = self.group.of_block(block)
@@ -218,14 +218,6 @@ class Places:
         if moving and self.left and "orthogonal" in factor.relations:
             return vector[at]
         return self._turned_back(in_space[at], block)
-
-    def _velocity_matrix(self) -> list[Trees]:
-        """Z by ζ."""
-        span = range(self.group.n)
-        return [
-            [_dot([plain(e[i][j]) for e in self.group.basis], self.zeta) for j in span]
-            for i in span
-        ]
 
     def _turned_back(self, vector: Sequence[Tree], block: int) -> Trees:
         """Ā on a vector of a block; a rate in the plane is the same in both frames."""
@@ -254,6 +246,12 @@ def _dot(a: Iterable[Tree], b: Iterable[Tree]) -> Tree:
 
 def _times(a: Sequence[Sequence[Tree]], b: Sequence[Tree]) -> Trees:
     return [_dot(row, b) for row in a]
+
+
+def combined(basis: Sequence[Matrix], zeta: Sequence[Tree], n: int) -> list[Trees]:
+    """Σ ζ_a E_a, the first n rows and columns."""
+    span = range(n)
+    return [[_dot([plain(e[i][j]) for e in basis], zeta) for j in span] for i in span]
 
 
 def _transposed(a: Sequence[Sequence[Tree]]) -> list[Trees]:
@@ -300,7 +298,7 @@ def of_points(
     sums = [s for s in moments if any(e.lhs == b.J.name for e in s.equations)]
     stored: dict[Tree, Tree] = {("par", x): ("par", rate_of_mass(x)) for x in problem.stored}
     known = _rates([*body, *sums], stored) if problem.flows else {}
-    in_time = _in_time(b, found.steps[0], known)
+    in_time = _rates([found.steps[0]], known).get(b.U.name, 0)  # ∂ₜŨ
     timed: list[Tree] = [b.dU_dt.name] if problem.timed or in_time != 0 else []
     own = [Equation(b.dU_dt.name, in_time)] if timed else []
     if problem.flows:
@@ -324,11 +322,6 @@ def _power_of_moments(external: External, b: Alphabet) -> Expr:
     if (moments.rows, moments.cols) == (3, 1):
         return inner(moments, word(ZETA))
     return trace(word(b.Z.velocity) * moments.bar)
-
-
-def _in_time(b: Alphabet, potential: Step, moments: Mapping[Tree, Tree]) -> Tree:
-    """∂ₜŨ, from the equations of Ũ and of what stands in it, by the rates of the moments."""
-    return _rates([potential], moments).get(b.U.name, 0)
 
 
 def _rates(steps: Sequence[Step], known: Mapping[Tree, Tree] | None = None) -> dict[Tree, Tree]:

@@ -162,8 +162,9 @@ def _numbers(problem: Problem) -> dict[str, Value]:
     found: dict[str, Value] = {}
     if (g := gravity(problem.potentials)) is not None:
         found["γ"] = _column(g)
-    mass, first, _ = moments_of(problem)
-    found["c"] = _by_mass(_column(first), polynomial(mass))
+    assert problem.body is not None
+    moments = problem.body.moments()
+    found["c"] = _by_mass(_column(moments.c), polynomial(moments.m))
     centred = all(not x for (x,) in found["c"])
     return found | {"r_c": found["c"] if centred else symbols("r_c")}
 
@@ -187,27 +188,18 @@ def _tensor(problem: Problem, inertia: Step) -> Tensor | None:
     body."""
     if problem.body is None:
         return None
-    _, first, second = moments_of(problem)
+    moments = problem.body.moments()
     known: dict[str, Value] = {
         UNIT: q.identity(3),
         "m": Laurent.symbol("m"),
-        "c": _column(first),
-        "J": tuple(tuple(polynomial(x) for x in row) for row in second),
+        "c": _column(moments.c),
+        "J": tuple(tuple(polynomial(x) for x in row) for row in moments.J),
     }
     name = "I_c" if problem.affine else "I"
     for x in ("J_c", name) if problem.affine else (name,):
         rhs = [e.rhs for e in inertia.equations if e.lhs == x][-1]
         known[x] = value(replaced(rhs, ("one",), UNIT), known, number=Laurent.of)
     return known[name]  # type: ignore[no-any-return]
-
-
-def moments_of(problem: Problem) -> tuple[Tree, tuple[Tree, ...], Rows]:
-    """m, c (3 entries) and J (3 × 3) of all that the body is made of, as trees in the
-    parameters."""
-    body = problem.body
-    assert body is not None
-    own = body.moments()
-    return own.m, own.c, own.J
 
 
 # SO(3) and SE(3), the end of the road: torque, principal axes (35), motion with input, energy.
