@@ -19,22 +19,24 @@ from .record.record import Derivation
 from .walk.chapter import Chapter, Stage, Values, follow, naming_steps
 from .walk.discrete import discrete_blocks, discrete_forces, discrete_group, discrete_road
 from .walk.discrete.discrete_road import DiscreteAlphabet
-from .walk.ellipsoid import dirichlet
+from .walk.fluid import dirichlet
 from .walk.fluid import circulation, fluid_forms, fluid_kernel
 from .walk.fluid.fluid_forms import FluidAlphabet
-from .walk.given import body, inputs, outputs, potentials, power
+from .walk.given import (body_and_potentials, inputs, outputs)
+from .walk.lie import from_outside
 from .walk.given.inputs import acts, by_name
-from .walk.kinematics import invariant_errors
-from .walk.lie import any_lagrangian, at_places, expressed, momentum_side
-from .walk.matrices import (
-    conserved, coordinates, explicit, isometry, separation, solution, specialisation,
-)
+from .walk.lie import invariant_errors
+from .walk.lie import (any_lagrangian, expressed, momentum_side)
+from .walk.matrices import (conserved, coordinates, explicit, specialisation, separation, solution)
 from .walk.matrices.specialisation import turns_whole
 from .walk.spine import alphabet, cartan, kernel, lagrangian, orbit, principle
 from .walk.spine.alphabet import Alphabet
 from .walk.spine.head import recorded
-from .walk.torus import vorticity
-from .walk.vectors import by_momenta, euler, isomorphism, rotation
+from .walk.fluid import vorticity
+from .walk.matrices import by_momenta
+from .walk.matrices import euler
+from .walk.matrices import isomorphism
+from .walk.matrices import rotation
 # isort: on
 
 ANY_GROUP = (
@@ -59,13 +61,13 @@ ANY_GROUP = (
 MATRICES = (
     Stage("general", "a pullback.moment_work trivial derivative momenta",
           "AnyGroup", specialisation.AnyGroup),
-    Stage("body", "problem lagrangian a c", "Steps", body.body_step),
+    Stage("body", "problem lagrangian a c", "Steps", body_and_potentials.body_step),
     Stage("brackets", "group c", "Steps", coordinates.bracket_step),
     Stage("bodies", "problem", "Bodies", inertia.invariant),
     Stage("relation", "group bodies? c", "Steps", specialisation.relation),
     Stage("plain", "group", "Alphabet", alphabet.of_matrices),
     Stage("tetrahedron", "problem group c", "Steps", orbit.tetrahedron),
-    Stage("potentials", "problem plain c", "Potentials", potentials.potentials),
+    Stage("potentials", "problem plain c", "Potentials", body_and_potentials.potentials),
     Stage("special", "general group potentials c bodies?",
           "KernelOnGroup", specialisation.specialise),
     Stage("external", "problem special.letters special.C c_u",
@@ -85,7 +87,7 @@ MATRICES = (
     Stage("conserved", "problem potentials space solution.motion special.letters c",
           "Steps", conserved.conserved_steps),
     Stage("power", "problem external? special.letters special.C trivial body pullback.steps "
-          "potentials conserved? solution.motion c_u", "Steps", power.of_points),
+          "potentials conserved? solution.motion c_u", "Steps", from_outside.of_points),
     Stage("by_momenta", "general driven centred? group c c_u",
           "Steps", by_momenta.of_matrices),
     Stage("outputs", "problem group special.letters special.C solution.steps power c_u",
@@ -97,8 +99,8 @@ MATRICES = (
 """Every group but those of VECTORS: its relations, dϖ and kernel, solved."""
 
 VECTORS = (
-    Stage("body", "problem lagrangian a c", "Steps", body.body_step),
-    Stage("isometry", "trivial momenta a group.n c", "Isometry", isometry.isometry),
+    Stage("body", "problem lagrangian a c", "Steps", body_and_potentials.body_step),
+    Stage("isometry", "trivial momenta a group.n c", "Isometry", specialisation.isometry),
     Stage("rigid", "distances isometry.C isometry.letters c", "Step", orbit.rigid),
     Stage("unaligned", "lagrangian isometry.C isometry.letters c", "Step", orbit.unaligned),
     Stage("held", "kernel isometry.C group.n c", "Step", orbit.held, "linear"),
@@ -108,7 +110,7 @@ VECTORS = (
     Stage("euler", "vectors isometry.letters c", "Step", rotation.euler_step, "linear"),
     Stage("principal", "euler c", "Step", rotation.principal_step),
     Stage("potentials", "problem isometry.letters c isometry.C",
-          "Potentials", potentials.potentials),
+          "Potentials", body_and_potentials.potentials),
     Stage("torque", "potentials isometry axial.hat_map c", "Torque", rotation.torque),
     Stage("external", "problem isometry.letters isometry.C axial.hat_map c_u",
           "External", inputs.external_vectors),
@@ -125,7 +127,7 @@ VECTORS = (
     Stage("conserved", "problem potentials space motion isometry.letters c",
           "Steps", conserved.conserved_steps),
     Stage("power", "problem external? isometry.letters isometry.C trivial body pullback.steps "
-          "potentials conserved? motion c_u", "Steps", power.of_points),
+          "potentials conserved? motion c_u", "Steps", from_outside.of_points),
     Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
           "Steps", by_momenta.of_rotations, "linear"),
     Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
@@ -153,10 +155,10 @@ EXPRESSED = (
     Stage("balance", "expressed problem group lagrangian basis c_u", "Steps", expressed.balance),
     Stage("conserved", "expressed problem group lagrangian balance c",
           "Steps", expressed.conserved),
-    Stage("power", "problem group lagrangian balance c_u", "Steps", power.of_lagrangian),
+    Stage("power", "problem group lagrangian balance c_u", "Steps", from_outside.of_lagrangian),
     Stage("by_momenta", "expressed problem group lagrangian basis balance c c_u",
           "Steps", momentum_side.by_momenta),
-    Stage("outputs", "problem group balance power c_u", "Steps", at_places.outputs),
+    Stage("outputs", "problem group balance power c_u", "Steps", from_outside.outputs),
     Stage("explicit", "problem group balance expressed.momenta_step c_u",
           "Steps", explicit.of_lagrangian),
 )

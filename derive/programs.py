@@ -22,8 +22,7 @@ if TYPE_CHECKING:
     from .code.program import Program
     from .language.univariate import Number
     from .motion.emitted import Emitted, OneDegree
-    from .search.trim.question import Bounds
-    from .search.trim.trim import Trim
+    from .search.equilibria.trim import Bounds, Trim
 
 
 def motion_of(
@@ -87,16 +86,16 @@ def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
     """The effective potential where the symmetries of a problem leave one degree of freedom, an
     entry of g; else ``None``."""
     from .motion.emitted import OneDegree
-    from .search.reduction.quadrature import leaves_one, momenta_of
-    from .search.reduction.reduction_steps import record_of
     from .search.symmetries.found_symmetries import symmetries_of
+    from .search.symmetries.quadrature import leaves_one, momenta_of
+    from .search.symmetries.symmetry_steps import reduction_record
 
     try:
         found = symmetries_of(problem, record)
         if not leaves_one(found):
             return None
         general = lagrangian_road(found.lagrangian.trivialisation)
-        reduced = record_of(found, general)
+        reduced = reduction_record(found, general)
     except Refused:
         return None
     left = reduced.quadrature
@@ -125,8 +124,8 @@ def trim(
     refused."""
     from .code.options import Options
     from .code.program import LoweringError
-    from .search.trim.trim import told
-    from .search.trim.trimmed import trimmed
+    from .search.equilibria.trim import told
+    from .search.equilibria.trimmed import trimmed
     from .walk.chapter import Chapter
     from .walk.spine.lagrangian import completed
 

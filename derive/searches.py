@@ -25,8 +25,7 @@ if TYPE_CHECKING:
     from .search.equilibria.stability import Equilibrium
     from .search.equilibria.stability_in_letters import Family
     from .search.integrals.all_integrals import IntegralsFound
-    from .search.reduction.reduction_steps import Reduction
-    from .search.symmetries.symmetry_steps import Symmetries
+    from .search.symmetries.symmetry_steps import Reduction, Symmetries
 
 
 def integrals(
@@ -99,7 +98,7 @@ def families(
     numbers for parameters, so that of the problem's own letters π alone may be left."""
     from .schema.kind import Parameter
     from .search.equilibria import stability_in_letters as letters
-    from .search.equilibria.family_steps import told_families
+    from .search.equilibria.equilibrium_steps import told_families
 
     whole, own, steps = _searched(problem, degree, at_defaults=at_defaults)
     names = letters.letters(whole.system, own.parameters)
@@ -158,21 +157,21 @@ def symmetries(problem: Problem, record: Derivation) -> Symmetries:
     """All symmetries of the Lagrangian of a problem, by its record, and a record of them;
     ``ProblemError`` where there is no Lagrangian of its own."""
     from .search.symmetries.found_symmetries import symmetries_of
-    from .search.symmetries.symmetry_steps import Symmetries, record_of
+    from .search.symmetries.symmetry_steps import Symmetries, symmetries_record
 
     found = symmetries_of(problem, record, of_integrand=True)
     general = lagrangian_road(found.lagrangian.trivialisation)
-    return Symmetries(found, record_of(found, general))
+    return Symmetries(found, symmetries_record(found, general))
 
 
 def reduction(problem: Problem, record: Derivation) -> Reduction:
     """Routh's reduction of a problem by symmetries that commute, by its record, and a record of it;
     ``ProblemError`` where there is nothing to reduce by."""
-    from .search.reduction.reduction_steps import record_of
     from .search.symmetries.found_symmetries import symmetries_of
+    from .search.symmetries.symmetry_steps import reduction_record
 
     found = symmetries_of(problem, record)
-    return record_of(found, lagrangian_road(found.lagrangian.trivialisation))
+    return reduction_record(found, lagrangian_road(found.lagrangian.trivialisation))
 
 
 def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree]:

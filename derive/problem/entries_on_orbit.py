@@ -161,7 +161,7 @@ def vanishes(tree: Tree) -> bool:
     return all(residue(tree, p) == 0 for p in DIVISOR_PRIMES)
 
 
-def along(values: Sequence[Tree], direction: Direction) -> Tree:
+def along(values: Sequence[Tree], direction: Sequence[Fraction]) -> Tree:
     """Σ x_a v_a."""
     return add(*(mul(plain(x), v) for x, v in zip(direction, values, strict=True) if x))
 

@@ -20,9 +20,9 @@ from ..search.equilibria.enclosed_points import Enclosed
 from ..search.equilibria.equilibrium_points import coordinate
 from ..search.equilibria.stability import Equilibrium
 from ..search.equilibria.stability_in_letters import Case, Family, inequality
+from ..search.equilibria.trim import Trim
 from ..search.integrals.all_integrals import Condition, IntegralsFound
-from ..search.reduction.routhian import Routhian
-from ..search.trim.trim import Trim
+from ..search.symmetries.routhian import Routhian
 from .api import in_keywords
 from .quoted import loaded
 from .shown import Finding, SeveralFound, Shown, ShownEquation

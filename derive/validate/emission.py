@@ -19,7 +19,7 @@ from random import Random
 from typing import Any
 
 from ..algebra.samplers import Source
-from ..check.kinematics.kinematics_model import KinematicsModel
+from ..check.lagrangian.kinematics_model import KinematicsModel
 from ..check.trials.trial_points import TrialPoints
 from ..check.values.arithmetic import EPS, nilpotent, part
 from ..check.values.draws import Locus

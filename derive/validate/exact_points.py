@@ -21,7 +21,7 @@ from typing import Any
 from ..algebra.factor_charts import QUATERNION, FactorChart
 from ..algebra.groups import Group
 from ..algebra.samplers import Sampler, Source, affine, blocks, by_cayley
-from ..check.kinds.self_gravity_checked import at_invariants, nodes
+from ..check.trials.potential_accounts import at_invariants, nodes
 from ..check.trials.trial_points import AnyModel, TrialPoints, model_at, names_at
 from ..check.values.arithmetic import EvaluationError
 from ..check.values.draws import Locus, largest_degree

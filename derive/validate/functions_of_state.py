@@ -35,7 +35,7 @@ from typing import Any
 from ..algebra.factor_charts import QUATERNION, FactorChart
 from ..algebra.families import group
 from ..algebra.groups import Group, names_by_block
-from ..check.claims.modular_values import residues
+from ..check.claims.spectra_and_residues import residues
 from ..check.trials.phase_point import PhasePoint
 from ..check.values.arithmetic import EPS, part
 from ..language import rational as q

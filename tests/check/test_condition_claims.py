@@ -7,9 +7,9 @@ from functools import cache
 
 import pytest
 
-from derive.check.claims import condition_claims
-from derive.check.claims.claim_checker import ClaimChecker
-from derive.check.claims.condition_claims import DIVISORS, OF_ROTATIONS
+from derive.check.checker import ClaimChecker
+from derive.check.claims import claims_by_ranks
+from derive.check.claims.claims_by_ranks import DIVISORS, OF_ROTATIONS
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.python.api import Aff, Points, Problem, Spring
@@ -68,7 +68,7 @@ def said_as(step, old, new):
 
 
 def test_every_condition_is_made_and_judged():
-    assert {*made()} == CONDITIONS == {*condition_claims.JUDGES}
+    assert {*made()} == CONDITIONS == {*claims_by_ranks.JUDGES}
 
 
 @pytest.mark.parametrize("name", RECORDS)
@@ -123,7 +123,7 @@ def test_equations_divide_by_what_the_sentence_says(kind):
 def test_another_number_of_places_is_refused(kind, count, monkeypatch):
     """One place, three, and two that are independent do not tell an inverse from none."""
     d, step, _ = made()[kind]
-    monkeypatch.setitem(condition_claims.NEEDED, DIVISORS[kind], count)
+    monkeypatch.setitem(claims_by_ranks.NEEDED, DIVISORS[kind], count)
     assert "under another condition" in judged(d, step)
 
 
@@ -140,7 +140,7 @@ def test_a_condition_of_one_problem_is_not_that_of_another(kind):
     """Of the group, of its translations, of the body."""
     _, step, claim = made()[kind]
     other = record(ELSEWHERE[kind])
-    assert condition_claims.JUDGES[kind](ClaimChecker(other, SEED), step, claim)
+    assert claims_by_ranks.JUDGES[kind](ClaimChecker(other, SEED), step, claim)
 
 
 def test_layers_are_told_from_a_density_that_is_one():

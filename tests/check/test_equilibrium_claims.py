@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from derive import derive
-from derive.check.claims.claim_checker import ClaimChecker
+from derive.check.checker import ClaimChecker
 from derive.check.claims.enclosure import (
     Enclosure,
     changes_of_coefficients,
@@ -19,7 +19,7 @@ from derive.check.claims.enclosure import (
     not_real_and_not_positive,
     slopes,
 )
-from derive.check.claims.exact_spectra import (
+from derive.check.claims.spectra_and_residues import (
     characteristic,
     distinct_roots,
     grows,

@@ -7,7 +7,7 @@ from functools import cache
 import pytest
 
 from derive import derive
-from derive.check.claims.claim_checker import ClaimChecker
+from derive.check.checker import ClaimChecker
 from derive.problem.toml import problem_of
 from derive.record.sentence import CLAIMS, Claim
 from tests.check.test_equilibrium_claims import exchanged

@@ -18,10 +18,10 @@ from derive.pipeline import general_road, walk
 from derive.problem.problem import ProblemError
 from derive.record.record import Equation
 from derive.walk.chapter import WalkError, naming_steps
+from derive.walk.matrices import rotation
 from derive.walk.spine import cartan, lagrangian
 from derive.walk.spine.alphabet import Alphabet
 from derive.walk.spine.kernel import restrict
-from derive.walk.vectors import rotation
 from tests.support.walks import SEED, record
 
 

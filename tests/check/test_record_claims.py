@@ -11,8 +11,8 @@ from random import Random
 import pytest
 
 from derive import derive, first_integrals
-from derive.check.claims import no_more
-from derive.check.claims.claim_checker import JUDGES, OBLIGATORY, ClaimChecker
+from derive.check.checker import JUDGES, OBLIGATORY, ClaimChecker
+from derive.check.claims import claims_by_ranks
 from derive.check.claims.symmetry_count import SymmetryCount
 from derive.check.trials.trial_points import group_of
 from derive.language.tree import add, mul
@@ -138,7 +138,7 @@ def small(request, monkeypatch):
     """The checker's limit, as low as that of what is said to be large."""
     named = getattr(request.node, "callspec", None)
     if named and str(named.params.get("name", "")).startswith("large"):
-        monkeypatch.setattr(no_more, "MONOMIALS", MONOMIALS)
+        monkeypatch.setattr(claims_by_ranks, "MONOMIALS", MONOMIALS)
 
 
 @cache

@@ -10,7 +10,7 @@ import pytest
 
 from derive.check.checker import Checker, check
 from derive.check.lagrangian.lagrangian_model import LagrangianModel
-from derive.check.lagrangian.reduced_by_symmetries import concludes_velocity, unforced_velocity
+from derive.check.lagrangian.lagrangian_values import concludes_velocity, unforced_velocity
 from derive.check.trials.model import Model
 from derive.check.trials.phase_point import TangentVector
 from derive.language import rational as q

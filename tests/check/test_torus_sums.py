@@ -7,7 +7,7 @@ from random import Random
 import pytest
 
 from derive.algebra.structure import TorusLattice
-from derive.check.torus.torus_model import TorusModel, environment
+from derive.check.fluid.torus_model import TorusModel, environment
 from derive.check.values.arithmetic import EvaluationError
 from derive.check.values.draws import difference, index_bindings
 from derive.check.values.evaluate import evaluate

@@ -8,7 +8,7 @@ import pytest
 
 from derive import ProblemError, derive
 from derive import compile as compiled
-from derive.check.claims.claim_checker import ClaimChecker
+from derive.check.checker import ClaimChecker
 from derive.problem.toml import problem_of
 from derive.record.sentence import Claim, english
 from tests.check.test_record_claims import said

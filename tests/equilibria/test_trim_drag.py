@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from derive import ProblemError, derive
-from derive.check.claims.claim_checker import ClaimChecker
+from derive.check.checker import ClaimChecker
 from derive.language.tree import add
 from derive.problem.toml import problem_of
 from derive.record.sentence import Claim, english

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from derive import ProblemError, derive
-from derive.check.claims.claim_checker import ClaimChecker
+from derive.check.checker import ClaimChecker
 from derive.problem.toml import problem_of
 from derive.record.prose import message
 from derive.record.sentence import Claim

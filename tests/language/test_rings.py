@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from derive.check.torus.residues import LatticeResidues, Multiples
+from derive.check.fluid.lattice_values import LatticeResidues, Multiples
 from derive.check.values.arithmetic import Nilpotent
 from derive.check.values.residue import Residue
 from derive.language.laurent import Laurent

@@ -13,8 +13,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 
-from derive.check.checker import Checker
-from derive.check.claims.claim_checker import ClaimChecker
+from derive.check.checker import Checker, ClaimChecker
 from derive.check.form import symbols
 from derive.check.form.function_signatures import RATES
 from derive.check.form.hypotheses_checked import missing_mass_hypotheses

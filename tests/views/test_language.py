@@ -266,7 +266,7 @@ def test_every_message_of_the_walk_is_reached(records):
     masses of any sign (tests/walk/test_signed_masses.py), and of searches that are too large to be
     checked and quadratures with a square factor (tests/check/test_record_claims.py)."""
     steps = texts.sentences().items()
-    written = strings("walk/*.py", "walk/kinds/*.py") & set(FRENCH.messages) - set(RULES)
+    written = strings("walk/*.py", "walk/given/potential*.py") & set(FRENCH.messages) - set(RULES)
     written |= {
         texts.unmarked(x[0])
         for key, x in steps
@@ -284,7 +284,7 @@ def test_every_word_of_the_tables_is_in_the_catalogue():
     words |= {p.remark for p in PAPER if p.remark}
     words |= {outline.CONVENTIONS, outline.FORMULAS_CONVENTIONS, outline.PAPER}
     assert {*map(texts.unmarked, words)} | titles_and_meanings() <= set(FRENCH.messages)
-    assert set(SOLIDS) <= strings("walk/given/body.py")
+    assert set(SOLIDS) <= strings("walk/given/body_and_potentials.py")
 
 
 ROOMS = ("walk", "views/figure", "views/plot", "views/page")

@@ -14,7 +14,7 @@ from derive.language.tree import add, mul, neg, nodes
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.record import Equation
-from derive.walk.kinematics.invariant_errors import Velocity, matrix, numbers
+from derive.walk.lie.invariant_errors import Velocity, matrix, numbers
 from tests.support.cached import ROOT
 from tests.support.walks import SEED, record
 

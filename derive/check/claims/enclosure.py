@@ -19,8 +19,10 @@ from ...record.record import Equation, RecordError, Step
 from ...record.sentence import Claim
 from .entries_checked import Entries, invertible
 from .equilibrium_claims import coordinates, not_from, others_squared, silent
-from .exact_spectra import DIGITS as PRECISION
-from .exact_spectra import (
+from .integral_claims import Judge
+from .reduced_system import ReducedSystem
+from .spectra_and_residues import DIGITS as PRECISION
+from .spectra_and_residues import (
     all_roots,
     characteristic,
     decimal,
@@ -29,8 +31,6 @@ from .exact_spectra import (
     signature,
     size,
 )
-from .integral_claims import Judge
-from .reduced_system import ReducedSystem
 
 # The claim of a step of rule "enclosure": a critical point of h̃ on a level of what is kept.
 #
@@ -213,13 +213,10 @@ Numbers = Sequence[Fraction]
 
 def _near(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The equations are in powers of the distance from the point, which is enclosed."""
-    if not any(step.label in s.uses and _says_within(s) for s in system.record.steps):
+    using = (s for s in system.record.steps if step.label in s.uses)
+    if not any(x.kind == "enclosure.within" for s in using for x in s.claims):
         return "no step encloses it"
     return not_from(step, coordinates(claim), constants=True)
-
-
-def _says_within(step: Step) -> bool:
-    return any(x.kind == "enclosure.within" for x in step.claims)
 
 
 def enclosed(system: ReducedSystem, step: Step) -> Enclosure:

@@ -14,7 +14,7 @@ from ...algebra.relations import relations
 from ...language import rational as q
 from ...language.tree import Tree
 from ...language.univariate import Number
-from .exact_spectra import characteristic, negative_or_zero
+from .spectra_and_residues import characteristic, negative_or_zero
 
 # Has an element of a group some given, exact entries?
 #

@@ -15,21 +15,25 @@ from ...record.record import RecordError, Step
 from ...record.sentence import Claim
 from ..values.residue import Residue
 from .entries_checked import Decision, decided
-from .exact_spectra import (
+from .integral_claims import Judge, listed
+from .reduced_system import ReducedSystem, ResiduePoint
+from .spectra_and_residues import (
     DIGITS,
+    about,
     are_roots_rounded,
     characteristic,
     decimal,
     distinct_roots,
+    expansion,
+    gradient,
     grows,
     hermite,
     real_and_not_positive,
     roots_near,
+    second_derivatives,
     signature,
+    value_there,
 )
-from .integral_claims import Judge, listed
-from .modular_values import about, expansion, gradient, second_derivatives, value_there
-from .reduced_system import ReducedSystem, ResiduePoint
 
 Coordinates = tuple[tuple[Tree, Number], ...]
 POINTS = ("equilibrium.at", "equilibrium.origin")
@@ -128,11 +132,7 @@ def form_of(system: ReducedSystem, step: Step) -> q.Matrix | None:
     """The second derivatives of what a step takes for the form; ``None`` where it has none."""
     if all(x.kind != "equilibrium.form" for x in step.claims):
         return None
-    point = point_of(system, step)
-    found = point.expansion(kept(system, step))
-    if any(gradient(found, point.n)):
-        raise RecordError("the derivative does not vanish at the equilibrium")
-    return second_derivatives(found, point.n)
+    return point_of(system, step).form_of(kept(system, step))
 
 
 def _form(system: ReducedSystem, step: Step, claim: Claim) -> str:
@@ -389,6 +389,13 @@ class ClaimedEquilibrium:
         return signature(killing) == (0, d)
 
     # -- forms ------------------------------------------------------------------------------------
+
+    def form_of(self, kept: Tree) -> q.Matrix:
+        """The second derivatives of what is kept; ``RecordError`` where it is not critical."""
+        found = self.expansion(kept)
+        if any(gradient(found, self.n)):
+            raise RecordError("the derivative does not vanish at the equilibrium")
+        return second_derivatives(found, self.n)
 
     def on_the_leaf(self, form: q.Matrix) -> q.Matrix:
         """P̄QP for columns P that span the tangent space."""

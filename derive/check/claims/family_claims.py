@@ -15,10 +15,9 @@ from ...language.univariate import Number, coefficients_of, value_of
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
 from .equilibrium_claims import ClaimedEquilibrium, has_multiples, kept
-from .exact_spectra import signature
 from .integral_claims import Judge, listed
-from .modular_values import gradient, second_derivatives, value_there
 from .reduced_system import ReducedSystem, substituted
+from .spectra_and_residues import second_derivatives, signature, value_there
 
 Numbers = Mapping[Tree, Fraction]
 DRAWS = 8
@@ -148,10 +147,7 @@ class EquilibriumInNumbers:
         """The second derivatives of the form; ``RecordError`` where it is not critical."""
         if self.step is None:
             return None
-        found = self.point.expansion(kept(self.point.system, self.step))
-        if any(gradient(found, self.point.n)):
-            raise RecordError("the derivative does not vanish at the equilibrium")
-        return second_derivatives(found, self.point.n)
+        return self.point.form_of(kept(self.point.system, self.step))
 
     @property
     def definite(self) -> bool:

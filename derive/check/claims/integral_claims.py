@@ -11,9 +11,7 @@ from ...language.values import approximate
 from ...record.record import RecordError, Step
 from ...record.sentence import Claim
 from ..values.residue import Residue
-from .exact_spectra import signature
-from .modular_values import value
-from .no_more import (
+from .claims_by_ranks import (
     Completeness,
     TooManyMonomialsError,
     along_every_field,
@@ -22,6 +20,7 @@ from .no_more import (
     monomials,
 )
 from .reduced_system import ReducedSystem, ResiduePoint, rates_of
+from .spectra_and_residues import signature, value
 
 Judge = Callable[[ReducedSystem, Step, Claim], str]
 

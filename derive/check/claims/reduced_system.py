@@ -18,7 +18,7 @@ from ..trials.trial_points import group_of
 from ..values.arithmetic import Varying
 from ..values.residue import Residue, random_prime
 from .entries_checked import constant_entries
-from .modular_values import Value, gradient, residues, value
+from .spectra_and_residues import Value, gradient, residues, value
 from .symmetry_count import SymmetryCount
 
 # The reduced equations of a record, read from its steps: variables, rates, energy, Casimirs and

@@ -28,8 +28,8 @@ from ..lagrangian.lagrangian_model import LagrangianModel
 from ..trials.trial_points import SIZE
 from ..values.draws import Locus
 from ..values.residue import Residue, random_prime
-from .modular_values import value
 from .reduced_system import ClaimedRecord
+from .spectra_and_residues import value
 
 Judge = Callable[[ClaimedRecord, Step, Claim], str]
 LARGEST = 24

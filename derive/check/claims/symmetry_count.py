@@ -29,7 +29,7 @@ from ...record.sentence import Claim
 from ..values.arithmetic import Varying, value_of
 from ..values.residue import Residue
 from .entries_checked import constant_entries
-from .modular_values import Functions, UnluckyError, gradient, value
+from .spectra_and_residues import Functions, UnluckyError, gradient, value
 
 Field = tuple[Matrix, Matrix]
 """Y and X."""

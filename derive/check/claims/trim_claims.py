@@ -28,8 +28,8 @@ from ..values.draws import Locus
 from ..values.residue import Residue, random_prime
 from .entries_checked import decided
 from .equilibrium_claims import Coordinates, coordinates, silent
-from .exact_spectra import all_negative, characteristic, grows
 from .reduced_system import ClaimedRecord
+from .spectra_and_residues import all_negative, characteristic, grows
 
 SIZE, BITS = 2**64, 128
 ELEMENTS, TRIES = 6, 400

@@ -1,1 +1,1 @@
-"""The checker's account of a fluid: exact fields on tori and on the disc, no rule of the walk."""
+"""A fluid: exact fields on tori and on the disc, su(N) over a prime field; no rule of the walk."""

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from ..values.arithmetic import EPS, EPS_PRIME, ETA, Nilpotent, nilpotent, part
+from ..values.arithmetic import EPS, EPS_PRIME, ETA, Nilpotent, derivative_in, nilpotent, part
 from ..values.residue import with_slots
 from .curves import curve
 from .exact_functions import ORDERS, Function, dot, shifted
@@ -169,7 +169,7 @@ class FluidModel:
     def eulerian(self, mask: int) -> Fields:
         """∂g/∂ε ∘ g⁻¹ for ε of ``mask``, to first order in the other parameter, in space."""
         other = EPS_PRIME if mask == EPS else EPS
-        moved = [_derived(x, mask) for x in self.displacement]
+        moved = [derivative_in(x, mask) for x in self.displacement]
         back = [nilpotent(other) * -part(x, other) for x in self.displacement]
         return tuple(_linear(shifted(x, back, 1), other) for x in moved)
 
@@ -196,7 +196,7 @@ class FluidModel:
     def momentum(self, nu: Sequence[Any], moved: Sequence[Any]) -> Any:
         """The derivative of L along ``moved``."""
         faster = [x + nilpotent(ETA) * y for x, y in zip(nu, moved, strict=True)]
-        return _derived(self.lagrangian(faster), ETA)
+        return derivative_in(self.lagrangian(faster), ETA)
 
     def energy(self, nu: Sequence[Any], mask: int = 0) -> Any:
         """⟨p, ν⟩ − L."""
@@ -216,7 +216,7 @@ class FluidModel:
     def cartan_varied(self, mask: int) -> Any:
         """δ[ϖ(δ′)] on the family, δ′[ϖ(δ)] for the other ``mask``."""
         other, varied = (EPS_PRIME, self.second) if mask == EPS else (EPS, self.first)
-        moved = [_linear(self.at_points(_derived(x, other)), mask) for x in self.displacement]
+        moved = [_linear(self.at_points(derivative_in(x, other)), mask) for x in self.displacement]
         nu = [_linear(x, mask) for x in self.nu]
         time = nilpotent(mask) * self.mixed.time + varied.time
         whole = self.momentum(nu, moved) - self.energy(nu, mask) * self.at_points(time)
@@ -227,7 +227,7 @@ class FluidModel:
         """δ[L̃ dt(X)] on a family of lifts, by the Lagrangian alone: on each of them the velocity is
         that along it, and t is no less its function."""
         later = nilpotent(EPS) * self.at_points(self.mixed.time)
-        moved = [self.at_points(_derived(x, EPS_PRIME)) for x in self.displacement]
+        moved = [self.at_points(derivative_in(x, EPS_PRIME)) for x in self.displacement]
         nu = [_linear(x, EPS) for x in moved]
         slowed = [x - x * later for x in nu]
         return part(self.lagrangian(slowed, EPS) * (later + self.at_points(self.one)), EPS)
@@ -320,11 +320,6 @@ def mean(f: Any) -> Any:
         parts: dict[int, Any] = f.parts
         return Nilpotent({mask: x.mean() for mask, x in parts.items()})
     return f.mean()
-
-
-def _derived(x: Any, mask: int) -> Any:
-    """∂x/∂ε for ε of ``mask``, at ε = 0."""
-    return Nilpotent({k ^ mask: y for k, y in Nilpotent.of(x).parts.items() if k & mask})
 
 
 def _linear(x: Any, mask: int) -> Any:

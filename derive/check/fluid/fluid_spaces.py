@@ -188,7 +188,7 @@ class Ball:
         boundary: Neumann's problem for polynomials."""
         found = Function(self, {})
         for degree, p in homogeneous(divergence(field)).items():
-            found = found + inverse_laplacian(p, degree)
+            found = found + self.square * _times_square(p, degree)  # whose Laplacian is p
         flux = self.outwards(field) - self.outwards([found.d(j) for j in range(self.dimension)])
         return sum((h * Fraction(1, n) for n, h in harmonics(flux) if n), found)
 
@@ -311,14 +311,14 @@ def homogeneous(f: Function) -> dict[int, Function]:
     return {n: Function(f.space, terms) for n, terms in found.items()}
 
 
-def inverse_laplacian(p: Function, degree: int) -> Function:
-    """A q with Δq = p, homogeneous of a degree: as Δ(‖x‖²ᵏ⁺² Δᵏp) is (2k + 2)(2m − 2k + d) ‖x‖²ᵏ
-    Δᵏp + ‖x‖²ᵏ⁺² Δᵏ⁺¹p, a sum in which all but the first cancels."""
+def _times_square(p: Function, degree: int) -> Function:
+    """The q for which Δ(‖x‖² q) = p, homogeneous of a degree: as Δ(‖x‖²ᵏ⁺² Δᵏp) is
+    (2k + 2)(2m − 2k + d) ‖x‖²ᵏ Δᵏp + ‖x‖²ᵏ⁺² Δᵏ⁺¹p, a sum in which all but the first cancels."""
     space, factor = p.space, Fraction(-1)
     found: Function = space.zero
     for k in range(degree // 2 + 1):
         factor /= -(2 * k + 2) * (2 * degree - 2 * k + space.dimension)
-        found = found + space.power_of_square(k + 1) * p * factor
+        found = found + space.power_of_square(k) * p * factor
         p = laplacian(p)
     return found
 
@@ -330,21 +330,10 @@ def harmonics(f: Function) -> Iterator[tuple[int, Function]]:
     for m in range(max(parts, default=-1), -1, -1):
         p = parts.get(m)
         if p is not None:
-            rest = inner_part(p, m)
+            rest = _times_square(laplacian(p), m - 2)
             yield m, p - p.space.square * rest
             if m > 1:
                 parts[m - 2] = parts[m - 2] + rest if m - 2 in parts else rest
-
-
-def inner_part(p: Function, degree: int) -> Function:
-    """The q for which p − ‖x‖² q is harmonic, p homogeneous of a degree."""
-    space, factor = p.space, Fraction(-1)
-    found: Function = space.zero
-    for k in range(1, degree // 2 + 1):
-        p = laplacian(p)
-        factor /= -2 * k * (2 * degree + space.dimension - 2 - 2 * k)
-        found = found + space.power_of_square(k - 1) * p * factor
-    return found
 
 
 def on_boundary(f: Function) -> Function:

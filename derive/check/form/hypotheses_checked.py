@@ -16,10 +16,10 @@ from ...language.tree import Tree, names, nodes, replaced
 from ...language.values import approximate
 from ...record import mass_signs
 from ...record.record import ANY_GROUP, OF_MASSES, Equation, Hypothesis, RecordError, Step
-from ..lagrangian.reduced_by_symmetries import concludes_velocity, unforced_velocity
+from ..lagrangian.lagrangian_values import concludes_velocity, unforced_velocity
 from ..trials.meaning import parts_of
-from ..trials.momenta import axial
 from ..trials.phase_point import PhasePoint
+from ..trials.point_masses import axial
 from ..trials.trial_points import inverted
 from ..values.arithmetic import EvaluationError, is_matrix, scalar
 from ..values.draws import index_bindings

@@ -8,6 +8,7 @@ from typing import Any
 from ...language.show import show
 from ...language.tree import Tree, names, nodes
 from ...record.record import FIELDS, Equation, Step
+from ...record.uses import paired
 from ..values.draws import TIME, Locus
 from ..values.evaluate import ELEMENTARY
 from .function_signatures import (
@@ -203,14 +204,6 @@ def lone_name(t: Tree) -> set[str]:
     if isinstance(t, tuple) and t[0] in ("hat", "at", "call", "T", "inv", "entry"):
         return lone_name(t[1])
     return set()
-
-
-def paired(t: Tree) -> set[str]:
-    """The names that a sum pairs each with a variation of its own: they are its coefficients."""
-    found = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
-    pairs = [x[1:] for x in found if isinstance(x, tuple) and x[0] == "inner"]
-    partners = [y for _, y in pairs]
-    return {x for x, y in pairs if isinstance(x, str) and partners.count(y) == 1}
 
 
 def introduced(equation: Equation, known: set[str]) -> set[str]:

@@ -1,1 +1,1 @@
-"""The checker's account of a Lagrangian that no points give: a function ℓ(t, g, Z)."""
+"""What no points give: a Lagrangian ℓ(t, g, Z), or two elements with the same ġ = f_u(g)."""

@@ -379,15 +379,10 @@ def _moments_of_quadric(model: Draws, data: Mapping[str, Any]) -> tuple[Any, Vec
     """The moments of ⟨r, Q r⟩ ≤ 1, with √det Q as the record writes it where Q is one of
     numbers."""
     told = data["sizes"]["quadric"]
-    Q = quadric_matrix(model, told)
+    Q = tuple(tuple(_value(model, x) for x in row) for row in told)
     written = all(isinstance(decode(x, "body"), (int, Fraction)) for row in told for x in row)
     take = model.elementary.written if written else model.elementary
     root = take("sqrt", q.determinant(Q))
     V, f, S = quadric_moments(Q, root, model.pi)
     density, outer = LayeredDensity.of(model, data).means
     return density * V, f, q.scaled(outer, S)
-
-
-def quadric_matrix(model: Draws, told: Any) -> Matrix:
-    """The matrix of a quadric, by its expressions."""
-    return tuple(tuple(_value(model, x) for x in row) for row in told)

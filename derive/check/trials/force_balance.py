@@ -18,8 +18,7 @@ from ..values.arithmetic import EvaluationError, plus, times
 from ..values.evaluate import Environment, evaluate
 from .equimomental import LayeredDensity, volume_of
 from .model import Model
-from .momenta import axial
-from .point_masses import Vector, damping_members, outer_sum, scaled_each
+from .point_masses import Vector, axial, damping_members, outer_sum, scaled_each
 
 # Names of the potentials, inputs and damping of a problem, from its points.
 
@@ -83,7 +82,7 @@ def force_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     """k, s, d, σ, Q and κ by their indices."""
     families: dict[str, dict[tuple[int, ...], Any]] = {}
     for account, members in model.applied.members():
-        if hasattr(account, "families"):
+        if account.families:
             families |= account.families(model, members)
     places = model.images(model.g)
     for e, (d, sigma) in enumerate(model.applied.radial(places, model.masses), 1):
@@ -249,8 +248,8 @@ def integral(model: Model, form: Tree, env: Environment) -> Any:
     for m, at in zip(model.masses, model.points, strict=True):
         r = q.column(at)
         here = {"r": r, "v": image(model, model.nu, r)}
-        if form == "p_r":
-            here["p_r"] = pressure_at(r, env.names["Q_r"], env.names["p_0"])
+        if form == "p_r":  # of a uniform density, quadratic, and 0 at the boundary
+            here["p_r"] = env.names["p_0"] * (1 - _form(env.names["Q_r"], r))
         there = replace(env, names=ChainMap(here, env.names))  # type: ignore[arg-type]
         terms.append(times(m, evaluate(form, there)))
     return reduce(plus, terms)
@@ -318,11 +317,6 @@ def _pressures(model: Model, solid: Any, Q: Matrix, rate: Matrix, r: Matrix) -> 
         "p_0": pushed * layers.above(Fraction(0)),
         "p_r": pushed * above,
     }
-
-
-def pressure_at(r: Matrix, Q: Matrix, middle: Any) -> Any:
-    """p_r of a uniform density, quadratic, and 0 at the boundary."""
-    return middle * (1 - _form(Q, r))
 
 
 def over_volume(model: Model, name: str, middle: Any) -> Any:

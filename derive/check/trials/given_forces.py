@@ -254,7 +254,7 @@ def _flowing_inside(model: Body, block: int, Z: Matrix, env: Environment) -> Flo
     arm = group.in_block(block, model.points[on - 1][at])
     back = q.times(within, (arm,))
     if group.factors:  # C is not 1
-        g: Matrix = model.g  # type: ignore[attr-defined]
+        g: Matrix = model.g
         back = q.times(q.times(q.transposed(g), g), back)
     return Flowing([(on, within)], q.minus(moments, back))
 

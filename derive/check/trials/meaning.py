@@ -32,10 +32,11 @@ from .force_balance import (
     solution_values,
 )
 from .model import Model
-from .momenta import (
+from .momenta_and_outputs import (
     ON_TANGENT,
+    Observed,
+    accelerations,
     action_varied,
-    axial,
     basis_families,
     moments_about,
     momentum_values,
@@ -44,8 +45,7 @@ from .momenta import (
     rigid_body_values,
     space_values,
 )
-from .output_values import Observed, accelerations
-from .point_masses import listed_count, outer_sum
+from .point_masses import axial, listed_count, outer_sum
 
 # The mapping from names to exact values that an environment reads.
 
@@ -228,7 +228,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
     def point(head: Any, _: tuple[Tree, ...], env: Environment) -> Matrix:
         return q.column(model.images(model.g)[point_index(head[2], env) - 1])
 
-    own = (x for x, _ in model.applied.members() if hasattr(x, "functions"))
+    own = (x for x, _ in model.applied.members() if x.functions)
     return {
         **{name: f for account in own for name, f in account.functions(model).items()},
         "dŨ": lambda _, a, env: model.work(tangent(a, env)),

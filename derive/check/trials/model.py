@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from fractions import Fraction
 from functools import cached_property
@@ -14,20 +14,77 @@ from ...algebra.samplers import Source
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.reserved import UNNAMED_FORCE
-from ..values.arithmetic import ETA, Nilpotent, nilpotent
+from ...record.record import RecordError
+from ..values.arithmetic import ETA, Nilpotent, nilpotent, part
 from ..values.draws import Locus, at_time
 from ..values.evaluate import Environment
 from .given_forces import Flowing, GivenForces, flowing
 from .phase_point import ENTRY
 from .point_masses import (
     AnyPotential,
-    AppliedForces,
     Body,
+    PotentialData,
     Vector,
     damping_members,
     listed_count,
+    minus_gradient,
     points_later,
 )
+from .potential_accounts import ACCOUNTS, Account, uses_body_axes
+
+
+class AppliedForces(PotentialData):
+    """The potentials of a problem and their forces."""
+
+    @cached_property
+    def single(self) -> list[Mapping[str, Any]]:
+        """Those that the walk does not sum up in words: the terms of U_Q."""
+        return [p for p in self.potentials if not self._summed(p)]
+
+    def _summed(self, p: Mapping[str, Any]) -> bool:
+        account = _account(p)
+        return account.values is not None and account.summed(self, p)
+
+    def members(self) -> Iterator[tuple[Any, list[Mapping[str, Any]]]]:
+        """The accounts of kinds of which some are summed up, with these."""
+        for kind, account in ACCOUNTS.items():
+            found = [p for p in self.potentials if p["kind"] == kind and self._summed(p)]
+            if found:
+                yield account, found
+
+    def potential(
+        self, t: Any, r: Sequence[Vector], masses: Sequence[Any], *, single: bool = False
+    ) -> Any:
+        """U(t, r); ``single``: U_Q, the part of it point by point."""
+        chosen, at = self.single if single else self.potentials, self.at_time(t)
+        return sum((_account(p).energy(at, p, r, masses) for p in chosen), Fraction(0))
+
+    def at_time(self, t: Any) -> AppliedForces:
+        """The same at another time."""
+        return AppliedForces(self.problem, self.group, self.blocks, at_time(self.env, t))
+
+    def forces(
+        self, t: Any, r: Sequence[Vector], masses: Sequence[Any], *, single: bool = False
+    ) -> list[Vector]:
+        """−∂U/∂r_i for every point, of all of U or of U_Q."""
+        return minus_gradient(lambda places: self.potential(t, places, masses, single=single), r)
+
+    def radial(self, r: Sequence[Vector], masses: Sequence[Any]) -> list[tuple[Vector, Fraction]]:
+        """d_e and σ_e = −2 dU/d‖d‖² of the elements that are functions of a distance, in order."""
+        eta = nilpotent(ETA)
+        return [
+            (d, -2 * part(Nilpotent.of(energy(q.dot(d, d) + eta)), ETA))
+            for p in self.single
+            if (radial := _account(p).radial)
+            for d, energy in radial(self, p, r, masses)
+        ]
+
+
+def _account(p: Mapping[str, Any]) -> Account:
+    """The checker's account of a potential."""
+    if p["kind"] not in ACCOUNTS:
+        raise RecordError(f"unknown potential {str(p['kind'])[:20]!r}")
+    return ACCOUNTS[p["kind"]]
 
 
 class Model(Body, GivenForces):
@@ -36,6 +93,8 @@ class Model(Body, GivenForces):
     ``generic``: the potential is any polynomial; ``few``: no more points than are needed, and each
     of them once; all that is ``drawn``: see :class:`Draws`.
     """
+
+    applied: AppliedForces
 
     def __init__(
         self,
@@ -48,7 +107,7 @@ class Model(Body, GivenForces):
     ):
         super().__init__(problem, group, random, size, **drawn)
         self.s = group.size
-        self.embody(principal=at.principal)
+        self.embody(principal=at.principal, axes=uses_body_axes(problem))
         self.stand(at, inside=at.inside and group.has_inner_samples)
         env = at_time(self.expressions, self.t)
         self.applied = AppliedForces({} if self.generic else problem, group, self.blocks, env)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 from fractions import Fraction
@@ -14,10 +14,8 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from ...record.as_json import decode
-from ...record.record import RecordError
-from ..kinds import accounts, uses_body_axes
 from ..values.arithmetic import EPS, ETA, Nilpotent, nilpotent, part
-from ..values.draws import Draws, at_time, onward
+from ..values.draws import Draws, onward
 from ..values.evaluate import Environment, evaluate
 from .equimomental import equimomental_points, moments_of, remaining_moments
 from .phase_point import ENTRY
@@ -130,6 +128,11 @@ def outer_sum(vectors: Sequence[Vector], arms: Sequence[Vector]) -> Matrix:
     return q.times(q.transposed(tuple(vectors)), tuple(arms))
 
 
+def axial(x: Matrix) -> Matrix:
+    """The vector X (3 × 1) of a skew matrix j(X), or of the rotation part of a larger one."""
+    return ((x[2][1],), (x[0][2],), (x[1][0],))
+
+
 def scaled_each(weights: Iterable[Any], vectors: Iterable[Vector]) -> list[Vector]:
     """The vectors m_i v_i."""
     return [tuple(m * x for x in v) for m, v in zip(weights, vectors, strict=True)]
@@ -141,14 +144,16 @@ class Body(Draws):
     masses: list[Any]
     points: list[Vector]
     blocks: list[int]
+    g: Matrix
+    applied: PotentialData
 
-    def embody(self, *, principal: bool) -> None:
-        """Draw the points, with a diagonal J if ``principal``; symbolic moments m, c, J get the
-        values that these points have."""
+    def embody(self, *, principal: bool, axes: bool) -> None:
+        """Draw the points, with a diagonal J if ``principal``, and those of the ``axes`` of the
+        body; symbolic moments m, c, J get the values that these points have."""
         self.masses, self.points, self.blocks = (
             principal_points(self) if principal else points_of(self)
         )
-        if not self.generic and uses_body_axes(self.problem):
+        if axes and not self.generic:
             self._axes()
         if self.problem.get("body", {}).get("kind") != "moments":
             return
@@ -246,8 +251,8 @@ def minus_gradient(energy: Callable[[Sequence[Vector]], Any], r: Sequence[Vector
     return found
 
 
-class AppliedForces:
-    """The potentials of a problem and their forces, for points in these blocks; ``env``: that of
+class PotentialData:
+    """What the potentials of a problem are given by, for points in these blocks; ``env``: that of
     their expressions, with a time."""
 
     def __init__(
@@ -255,20 +260,6 @@ class AppliedForces:
     ):
         self.problem, self.group, self.blocks, self.env = problem, group, blocks, env
         self.potentials = [*problem.get("potentials", [])]
-        self.single = [p for p in self.potentials if not self._summed(p)]
-
-    def _summed(self, p: Mapping[str, Any]) -> bool:
-        """Does the walk sum it up in words?"""
-        account = _account(p)
-        which = getattr(account, "summed", lambda *_: hasattr(account, "values"))
-        return bool(which(self, p))
-
-    def members(self) -> Iterator[tuple[Any, list[Mapping[str, Any]]]]:
-        """The accounts of kinds of which some are summed up, with these."""
-        for account in accounts().values():
-            found = [p for p in self.potentials if _account(p) is account and self._summed(p)]
-            if found:
-                yield account, found
 
     def number(self, tree: Any) -> Any:
         """The value of an expression of the problem."""
@@ -289,17 +280,6 @@ class AppliedForces:
         origin, *ends = r[-self.env.size - 1 :]
         return origin, [tuple(x - y for x, y in zip(e, origin, strict=True)) for e in ends]
 
-    def potential(
-        self, t: Any, r: Sequence[Vector], masses: Sequence[Any], *, single: bool = False
-    ) -> Any:
-        """U(t, r); ``single``: U_Q, the part of it point by point."""
-        chosen, at = self.single if single else self.potentials, self.at_time(t)
-        return sum((_account(p).energy(at, p, r, masses) for p in chosen), Fraction(0))
-
-    def at_time(self, t: Any) -> AppliedForces:
-        """The same at another time."""
-        return AppliedForces(self.problem, self.group, self.blocks, at_time(self.env, t))
-
     def root(self, x: Any) -> Any:
         """√x."""
         assert self.env.elementary is not None
@@ -314,33 +294,6 @@ class AppliedForces:
 
         env = replace(self.env, names={**self.env.names, **names}, functions={"r": point})
         return evaluate(decode(tree, "U"), env)
-
-    def forces(
-        self, t: Any, r: Sequence[Vector], masses: Sequence[Any], *, single: bool = False
-    ) -> list[Vector]:
-        """−∂U/∂r_i for every point, of all of U or of U_Q."""
-        return minus_gradient(lambda places: self.potential(t, places, masses, single=single), r)
-
-    def tension(self, energy: Any) -> Any:
-        """−2 dU/dq, from U at q + η."""
-        return -2 * part(Nilpotent.of(energy), ETA)
-
-    def radial(self, r: Sequence[Vector], masses: Sequence[Any]) -> list[tuple[Vector, Fraction]]:
-        """d_e and σ_e of the elements that are functions of a distance, in order."""
-        eta = nilpotent(ETA)
-        return [
-            (d, self.tension(energy(q.dot(d, d) + eta)))
-            for p in self.single
-            if hasattr(_account(p), "radial")
-            for d, energy in _account(p).radial(self, p, r, masses)
-        ]
-
-
-def _account(p: Mapping[str, Any]) -> Any:
-    """The checker's account of a potential."""
-    if p["kind"] not in accounts():
-        raise RecordError(f"unknown potential {str(p['kind'])[:20]!r}")
-    return accounts()[p["kind"]]
 
 
 def damping_members(model: Draws) -> dict[int, Fraction]:

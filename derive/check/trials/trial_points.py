@@ -18,11 +18,11 @@ from ...language.show import show
 from ...language.tree import Tree, nodes
 from ...record.record import ANY_GROUP, Equation, RecordError, Step
 from ...record.shape import IDENTIFIER
-from ..kinematics import kinematics_model
-from ..lagrangian import lagrangian_values
+from ..fluid import torus_model
+from ..fluid.lattice_values import WEIGHTS
+from ..fluid.torus_model import group_of_torus, torus_of
+from ..lagrangian import kinematics_model, lagrangian_values
 from ..lagrangian.lagrangian_model import LagrangianModel
-from ..torus import torus_model
-from ..torus.elements import WEIGHTS, group_of_torus, torus_of
 from ..values.draws import Locus, claim_grade, locus_of
 from ..values.evaluate import Environment
 from ..values.residue import DegreeSource, Grade, ResidueSource, random_prime

@@ -1,1 +1,1 @@
-"""Relative equilibria of reduced equations, and what is proved of their stability."""
+"""Relative equilibria, what is proved of their stability, and those under inputs."""

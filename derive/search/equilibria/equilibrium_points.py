@@ -17,7 +17,6 @@ from ...language.tree import Tree
 from ...language.univariate import Number, Quadratic, value_of
 from ...language.univariate import tree as number_tree
 from ..integrals.lie_poisson import (
-    ONE,
     LiePoisson,
     PoissonPolynomials,
     Polynomial,
@@ -115,13 +114,9 @@ class About:
     @cached_property
     def tensor(self) -> Matrix:
         """The Poisson tensor Λ at the point."""
-
-        def number(i: int, j: int) -> Number:
-            terms = self.system.bracket(i, j).items()
-            return sum((c * (1 if k == ONE else self.at[k]) for k, c in terms), Fraction(0))
-
         places = range(len(self.at))
-        return [[number(i, j) for j in places] for i in places]
+        forms = [[self.system.bracket(i, j) for j in places] for i in places]
+        return [[*row] for row in numbers(forms, self.at)]
 
 
 def _order(term: tuple[tuple[int, ...], Number]) -> tuple[int, ...]:

@@ -256,13 +256,13 @@ def grading(system: LiePoisson) -> Grading:
     """
     n = len(system.variables)
     rows = [*_bracket_rows(system)]
-    whole = [*rows, *_energy_rows(system.hamiltonian, n)]
+    whole = [*rows, *_energy_rows(system.hamiltonian)]
     others = [(x, 0) for x in _integral_weights(whole, n)]
     others += [(x, 2) for x in _reflections(whole, n)]
     degree = _degree(whole, system.momenta, n)
     if degree:
         return Grading(degree, True, tuple(others))
-    top = [*rows, *_energy_rows(_leading(system), n)]
+    top = [*rows, *_energy_rows(_leading(system))]
     degree = _degree(top, system.momenta, n) or (Fraction(1),) * n
     return Grading(degree, False, tuple(others))
 
@@ -284,7 +284,7 @@ def _bracket_rows(system: LiePoisson) -> Iterator[Row]:
             yield tuple(row)
 
 
-def _energy_rows(monomials: Iterable[Exponents], n: int) -> Iterator[Row]:
+def _energy_rows(monomials: Iterable[Exponents]) -> Iterator[Row]:
     return ((*e, 0, -1) for e in monomials if any(e))
 
 

@@ -1,1 +1,1 @@
-"""Symmetries of the Lagrangian of a problem, all of a kind, and what the motion keeps by them."""
+"""Symmetries of the Lagrangian of a problem, what the motion keeps by them, its reduction."""

@@ -24,8 +24,7 @@ from typing import Any
 import numpy as np
 
 from ...algebra.structure import Place, TorusLattice
-from ...check.torus.elements import torus_of
-from ...check.torus.torus_model import TorusModel, environment
+from ...check.fluid.torus_model import TorusModel, environment, torus_of
 from ...check.values.arithmetic import EvaluationError
 from ...check.values.evaluate import evaluate
 from ...check.values.residue import Residue

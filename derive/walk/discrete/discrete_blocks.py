@@ -11,9 +11,9 @@ from ...algebra.words import Dim, Expr, Factor, Letter, inner, number, one, word
 from ...language.tree import Tree
 from ...record.record import Equation, Step
 from ..chapter import Chapter, say
+from ..matrices.isomorphism import anticommute, inertia_of, vector_sum
 from ..matrices.separation import central_moments
 from ..spine.alphabet import Alphabet, cancel_scalar, inverse_letter, inverse_tree
-from ..vectors.isomorphism import anticommute, inertia_of, vector_sum
 from .discrete_road import DiscreteAlphabet, DiscreteMotion, bend, rewritten, stepped
 
 # An affine group in blocks: g = ιAῑ + (ιT + o)ō, for ι: r ↦ (r, 0) and o = (0, 1).

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
@@ -15,9 +14,8 @@ from ...language.tree import add, neg, replaced
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ..chapter import Chapter, WalkError, enumerated, say
-from ..given.body import body_step
+from ..given.body_and_potentials import Potentials, body_step, potentials
 from ..given.inputs import acts, damping_coefficients, external_matrices, where_given
-from ..given.potentials import Potentials, potentials
 from ..matrices.conserved import ConservedMomentum, kept_momenta
 from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
 from ..spine.lagrangian import sum_over
@@ -57,7 +55,10 @@ def forces(
     v = potentials(problem, a, c)
     heard = {f"{a.chapter}.action": named.label}
     heard[f"{a.chapter}.moments"] = Chapter(general.chapter).label("moments")
-    steps_of_potentials = tuple(_hearing(x, heard) for x in v.steps)
+    # a step of the continuous walk by the steps of this record that say what it uses
+    steps_of_potentials = tuple(
+        replace(s, uses=tuple(dict.fromkeys(heard.get(x, x) for x in s.uses))) for s in v.steps
+    )
     back, moved = inverse_letter(a.A.position), (a.A.d_position, a.T.d_position)
     eta = word(back) * word(moved[1]) if a.affine else None
     images = v.displaced(a, word(back) * word(moved[0]), eta)
@@ -79,11 +80,6 @@ def forces(
     )
     moments, resultant = acting.mark(moments), acting.mark(resultant)
     return DiscreteForces(moments, resultant, v, a, notation, at_element[back], named, steps)
-
-
-def _hearing(step: Step, heard: Mapping[str, str]) -> Step:
-    """A step of the continuous walk by the steps of this record that say what it uses."""
-    return replace(step, uses=tuple(dict.fromkeys(heard.get(x, x) for x in step.uses)))
 
 
 # Inputs and damping in the discrete motion, by d'Alembert's principle: their work in a step is

@@ -1,1 +1,1 @@
-"""An incompressible fluid: the note's last paragraph, by the words of the affine groups."""
+"""An incompressible fluid, by the words of the affine groups; on the torus; in an ellipsoid."""

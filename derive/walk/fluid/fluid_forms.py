@@ -12,7 +12,7 @@ from ...language.read import read
 from ...language.tree import add, neg
 from ...record.record import Equation, Step, stated
 from ..chapter import Chapter, say
-from ..given.body import integral
+from ..given.body_and_potentials import integral
 from ..matrices.coordinates import at_constant_time, factored_tree, solve_for
 from ..spine.alphabet import AlgebraPart, Alphabet, SpacePart, members
 from ..spine.cartan import (

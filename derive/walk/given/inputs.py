@@ -13,17 +13,19 @@ from ...algebra.word_trees import fold_inertia, normal_form, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.reserved import UNNAMED_DAMPING, UNNAMED_FORCE, rate_of_mass, suffixed
 from ...language.tree import Tree, add, mul, neg, nodes, plain, replaced
+from ...problem.entries_on_orbit import along
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
 from ...schema.force_kinds import ForceInput, ScalarInput, StatedForce, TorqueInput
 from ..chapter import Chapter, Draft, phrase, say
+from ..matrices.isomorphism import OMEGA_P, ZETA, HatMap, anticommute, inertia_of, vector_sum
 from ..spine.alphabet import Alphabet
 from ..spine.cartan import body_rule
 from ..spine.lagrangian import sum_over
 from ..spine.principle import AND
-from ..vectors.isomorphism import OMEGA_P, ZETA, HatMap, anticommute, inertia_of, vector_sum
-from .potentials import Applied, applied, column, embedded
+from .body_and_potentials import Applied, applied
+from .potential_terms import column, embedded
 
 INPUTS = phrase("input.forces")
 DRAG = phrase("input.damping")
@@ -295,13 +297,8 @@ def covectors(problem: Problem, group: Group) -> list[tuple[str, tuple[Tree, ...
     columns = [group.in_user_basis.nearest(e) for e in group.basis] if stated else []
     return [
         *((x.name, tuple(("entry", "u", a) for a in span)) for x in given),
-        *((x.name or UNNAMED_FORCE, tuple(_on(c, x.covector) for c in columns)) for x in stated),
+        *((x.name or UNNAMED_FORCE, tuple(along(x.covector, c) for c in columns)) for x in stated),
     ]
-
-
-def _on(c: Sequence[Fraction], own: Sequence[Tree]) -> Tree:
-    """The value of a covector on an element of 𝔤, by its coordinates."""
-    return add(*(mul(plain(x), q) for x, q in zip(c, own, strict=True) if x))
 
 
 def _matrix_of_covector(group: Group, b: Alphabet, covector: Sequence[Tree]) -> tuple[Tree, Tree]:

@@ -30,10 +30,10 @@ from ...schema.motion_kinds import (
 )
 from ...schema.potential_kinds import Gravity, Spring, gravity
 from ..chapter import Chapter, Draft, Steps, phrase, say
+from ..matrices.isomorphism import ZETA, ZETA_DOT, HatMap
 from ..spine.alphabet import Alphabet
 from ..spine.lagrangian import sum_over
-from ..vectors.isomorphism import ZETA, ZETA_DOT, HatMap
-from .potentials import column, in_space, place
+from .potential_terms import column, in_space, place
 
 Images = Mapping[Letter, Expr]
 RATES = (ZETA_DOT, Letter("ẇ", 3))

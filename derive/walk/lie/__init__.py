@@ -1,1 +1,1 @@
-"""Exercise 1 in full: any Lagrangian L̃(t, g, Z) on a group, trivialised on the left or right."""
+"""Exercise 1: any Lagrangian L̃(t, g, Z) on a group; and the errors of a motion ġ = f_u(g)."""

@@ -28,7 +28,7 @@ from ..chapter import Chapter, enumerated, phrase, say
 from ..given.inputs import pushes
 from ..matrices.coordinates import basis_equations
 from .any_lagrangian import AnyLagrangian
-from .at_places import from_outside, named_forces, with_numbers
+from .from_outside import from_outside, named_forces, with_numbers
 
 # The basis of 𝔤 in which a Lagrangian is expressed: coordinates, brackets, and how what it
 # depends on moves with the group.
@@ -83,7 +83,10 @@ def brackets(group: Group, c: Chapter, *, shown: bool = True) -> tuple[Step, ...
         if a < b and any(table[a][b])
     ]
     few = shown and group.dimension * group.size**2 <= MOST
-    basis = _matrices(group) if few else []
+    basis = [
+        Equation(member("E", a), ("matrix", *(("row", *map(plain, row)) for row in e)))
+        for a, e in enumerate(group.basis if few else ())
+    ]
     if not basis and not listed:
         return ()
     about = say("algebra.brackets" if listed else "algebra.abelian")
@@ -94,14 +97,6 @@ def brackets(group: Group, c: Chapter, *, shown: bool = True) -> tuple[Step, ...
 MOST = 160
 """So many entries have the matrices of a basis at most that are shown: those of SO(5) have 250,
 those of SE(3) 96, those of GL(3) 81."""
-
-
-def _matrices(group: Group) -> list[Equation]:
-    """E_a as matrices."""
-    return [
-        Equation(member("E", a), ("matrix", *(("row", *map(plain, row)) for row in e)))
-        for a, e in enumerate(group.basis)
-    ]
 
 
 def member(family: str, a: int) -> Tree:

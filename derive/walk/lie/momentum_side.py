@@ -25,8 +25,8 @@ from ...schema.kind import Advected
 from ..chapter import Chapter, say
 from ..spine.alphabet import Alphabet
 from .any_lagrangian import SIDES, AnyLagrangian, sign_of
-from .at_places import from_outside
 from .expressed import Basis, Expressed, brackets, coadjoint_terms, member, tidied
+from .from_outside import combined, from_outside
 
 # The motion told by momenta: the velocity from them, and the Poisson tensor of the variables.
 #
@@ -175,20 +175,8 @@ def reduced(
     moved = EntriesOfAdvected([block(e, rows) for e in group.basis], sign(a, side))
     if not size:
         return Basis(moved, (), place, told, (place, *told))
-    zeta: list[Tree] = [("entry", "ζ", k) for k in range(1, group.dimension + 1)]
-    by_velocity = [
-        [
-            add(
-                *(
-                    mul(plain(e[i][j]), z)
-                    for e, z in zip(moved.matrices, zeta, strict=True)
-                    if e[i][j]
-                )
-            )
-            for j in range(size)
-        ]
-        for i in range(size)
-    ]
+    zeta = coordinates(group)
+    by_velocity = combined(moved.matrices, zeta, size)
     rates = Equation("Γ̇", _column(_rate_of_entry(moved, zeta, i) for i in range(1, size + 1)))
     draft, names = c.draft("advected", "variation"), _names(problem.advected)
     draft.depends_on(place)

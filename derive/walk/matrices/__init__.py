@@ -1,1 +1,1 @@
-"""A problem on a group of matrices: its metric, the solved kernel, coordinates, the answer."""
+"""A problem on a group of matrices: its metric, the kernel solved, in vectors too, the answer."""

@@ -18,9 +18,10 @@ from ...record.record import Equation, Step
 from ...record.sentence import Prose
 from ...schema.potential_kinds import Attraction, FarCentre, Harmonic, Spring, gravity
 from ..chapter import Chapter, enumerated, phrase, say
-from ..given.potentials import U_Q, Potentials, column, displaced_letters
+from ..given.body_and_potentials import U_Q, Potentials
+from ..given.potential_terms import column, displaced_letters
 from ..spine.alphabet import Alphabet
-from ..vectors.isomorphism import anticommute, vector_sum
+from .isomorphism import anticommute, vector_sum
 
 # The line through the origin about which space may be turned without moving what a potential is
 # given by: the acceleration of gravity, anchors, centres, the axes of harmonic forces; where

@@ -16,7 +16,8 @@ from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, listed
 from ..chapter import Chapter, phrase, say, say_signed
-from ..given.potentials import U_Q, Potentials, column
+from ..given.body_and_potentials import U_Q, Potentials
+from ..given.potential_terms import column
 from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
 from ..spine.principle import AND
 from .coordinates import Balance, depends

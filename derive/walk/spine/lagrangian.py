@@ -25,7 +25,6 @@ from ...algebra.words import (
 from ...language.read import read
 from ...language.tree import Tree, add, neg, nodes, operands
 from ...record.record import Equation, Hypothesis, Step, stated
-from ...record.sentence import Prose
 from ..chapter import Chapter, say, say_signed, traced
 from .alphabet import Alphabet
 
@@ -178,7 +177,7 @@ def lagrangian(a: Alphabet, c: Chapter) -> PointLagrangian:
         ),
         acting.step(
             (Equation(POINT, indexed_tree(position, v_i, a)),),
-            _velocity_of_points(a),
+            say("action.affine" if a.affine else "action.linear"),
             (7, 8),
         ),
         varied.step(
@@ -186,24 +185,12 @@ def lagrangian(a: Alphabet, c: Chapter) -> PointLagrangian:
                 Equation(read("vᵢ"), indexed_tree(velocity, v_i, a)),
                 Equation(read("δ(rᵢ(t))"), indexed_tree(variation, v_i, a)),
             ),
-            _velocities(a) + say("velocity.independent"),
+            say(f"velocity.{'affine' if a.affine else 'linear'}") + say("velocity.independent"),
             (9, 10, 14),
         ),
     )
     velocity, variation = varied.mark(velocity), varied.mark(variation)
     return PointLagrangian(first.mark(kinetic), v_i, position, velocity, variation, steps)
-
-
-def _velocity_of_points(a: Alphabet) -> Prose:
-    if a.affine:
-        return say("action.affine")
-    return say("action.linear")
-
-
-def _velocities(a: Alphabet) -> Prose:
-    if a.affine:
-        return say("velocity.affine")
-    return say("velocity.linear")
 
 
 def indexed_tree(e: Expr, v_i: Letter, a: Alphabet, v: Tree = "") -> Tree:
@@ -216,11 +203,6 @@ def indexed_tree(e: Expr, v_i: Letter, a: Alphabet, v: Tree = "") -> Tree:
 def moving_tree(stage: PointLagrangian, a: Alphabet) -> Tree:
     """The tree of the summand ½ m_i ‖v_i‖², with the velocity of the motion for v_i."""
     return indexed_tree(stage.kinetic, stage.v_i, a, indexed_tree(stage.velocity, stage.v_i, a))
-
-
-def kinetic_of_motion(stage: PointLagrangian) -> Expr:
-    """The summand ½ m_i ⟨v_i, v_i⟩ on words, with the velocity of the motion for v_i."""
-    return substitute(stage.kinetic, {stage.v_i: stage.velocity})
 
 
 # Step 2. L̃, the Lagrangian pulled back to the group (11)–(22), and the force on the group (24).
@@ -252,7 +234,8 @@ class Pullback:
 
 def pulled_back(stage: PointLagrangian, moments: Moments, a: Alphabet) -> Expr:
     """L̃ + Ũ = Σ_i ½ m_i ‖α r_i + τ‖²: the velocities put in, and the sum carried out."""
-    return sum_over(kinetic_of_motion(stage), {a.m_i, a.r_i}, moments)
+    kinetic = substitute(stage.kinetic, {stage.v_i: stage.velocity})
+    return sum_over(kinetic, {a.m_i, a.r_i}, moments)
 
 
 def sum_over(e: Expr, members: set[Letter], moments: Moments) -> Expr:

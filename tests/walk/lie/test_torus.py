@@ -14,9 +14,9 @@ from derive.check.checker import Checker, check
 from derive.language.show import show
 from derive.language.tree import add, mul
 from derive.record.record import ANY_GROUP, Equation
+from derive.walk.fluid import vorticity
+from derive.walk.fluid.lattice import Coefficient, Unit, paired, traced
 from derive.walk.spine.alphabet import Alphabet
-from derive.walk.torus import vorticity
-from derive.walk.torus.lattice import Coefficient, Unit, paired, traced
 from tests.support import corpus
 from tests.support.walks import SEED
 

@@ -1,1 +1,0 @@
-"""The checker's account of the torus: su(N) over a prime field with roots of unity."""

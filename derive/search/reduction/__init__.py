@@ -1,1 +1,0 @@
-"""Routh reduction by symmetries that commute: the locked inertia, the effective potential."""

@@ -1,1 +1,0 @@
-"""Equilibria under inputs: which inputs keep a velocity, and what is proved of its stability."""

@@ -1,1 +1,0 @@
-"""A body of fluid in the form of an ellipsoid, moved by linear maps."""

@@ -1,1 +1,0 @@
-"""Kinematics of first order on a group: the errors of an estimate, and when they move linearly."""
