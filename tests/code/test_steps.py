@@ -486,8 +486,7 @@ def test_what_gauss_keeps_is_found(name, options, exact, group):
     [("so3", {}, 0.2), ("so3", QUATERNION, 0.5), ("kirchhoff", {}, 0.2), ("sl3", {}, 0.1)],
 )
 def test_so_it_is_over_coarse_steps(name, options, h, steps):
-    """To rounding, which adds up as by chance and is held to no more than a sum, and no other
-    integral."""
+    """To rounding, which adds up as by chance, and no other integral."""
     chosen = {"step": "gauss", "conserved": True, **options}
     code, made = module_of(name, **chosen), library("javascript", name, **chosen)
     p = np.array([TOP.get(x, code.DEFAULTS.get(x)) for x in code.PARAMETERS])
