@@ -25,6 +25,7 @@ from tests.oracles.rooted_trees import Weights, trees
 from tests.problems import thrown
 from tests.support.corpus import driven
 from tests.support.discrete_maps import DiscreteMap
+from tests.support.library import module_of
 from tests.support.needs import need
 
 SLOW = pytest.mark.dist
@@ -115,6 +116,19 @@ def test_it_is_the_motion_that_the_record_tells(name):
         found, _ = known.next(*states[:2])
         off = (abs(x) for row in q.minus(found, states[2]) for x in row)
         assert max(off) < 1e-14
+
+
+@pytest.mark.parametrize("name", ["so4", "sp4"])
+def test_a_turn_is_by_cayley_s_transform(name):
+    """(1 + V′)(1 − ½X) = (1 + V)(1 + ½X) of any V and X, by the emitted Python: a step converges
+    quickly, and stays in the group, by no other factor."""
+    code, rng = module_of(name, step="discrete"), np.random.default_rng(3)
+    one, basis = np.eye(4), np.array(code.BASIS)
+    V, turn = rng.normal(size=(4, 4)), rng.normal(size=len(basis)) / 4
+    X = np.tensordot(turn, basis, 1)
+    found = np.reshape(code._step_turn(np, V.ravel(), turn), (4, 4))
+    expected = (one + V) @ (one + X / 2)
+    assert np.abs((one + found) @ (one - X / 2) - expected).max() < 1e-13
 
 
 # ---------------------------------------------------------------- order

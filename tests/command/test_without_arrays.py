@@ -99,28 +99,22 @@ def test_symmetries_are_the_same(names, said):
     assert found == "".join(said("symmetries", x) for x in names)
 
 
-def test_checks_are_the_same(said):
-    command = "check so3 se3 zeitlin --seed 1"
-    assert without(command).stdout == said(*command.split())
-
-
-def test_forged_records_of_the_torus_are_refused_alike(said, tmp_path, capsys):
-    text = said("walk", "zeitlin", "--format", "json")
-    files = []
+def test_checks_are_the_same(said, tmp_path, capsys):
+    """Of points, and of a torus, three steps of which are forged and refused, and no other."""
+    record = json.loads(said("walk", "zeitlin", "--format", "json"))
     for label, (old, new) in FORGED.items():
-        record = json.loads(text)
         (step,) = (x for x in record["steps"] if x["label"] == f"zeitlin.{label}")
         equations = json.dumps(step["equations"], ensure_ascii=False)
         assert old in equations
         step["equations"] = json.loads(equations.replace(old, new))
-        files.append(str(tmp_path / f"{label}.json"))
-        (tmp_path / f"{label}.json").write_text(json.dumps(record), encoding="utf-8")
-    command = ["check", *files, "--seed", "1"]
+    file = tmp_path / "forged.json"
+    file.write_text(json.dumps(record), encoding="utf-8")
+    command = ["check", "so3", "se3", str(file), "--seed", "1"]
     found = without(" ".join(command), code=[1]).stdout
     assert main(command) == 1
     assert found == capsys.readouterr().out
     failed = [x.split()[1] for x in found.splitlines() if x.startswith("FAILS")]
-    assert failed == [f"zeitlin.{x}:" for x in FORGED]
+    assert sorted(failed) == sorted(f"zeitlin.{x}:" for x in FORGED)
 
 
 def test_what_needs_arrays_is_refused_in_a_line(tmp_path):

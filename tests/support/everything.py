@@ -1,7 +1,8 @@
 """All that derive writes, into one folder: tests/project/test_dist.py runs it everywhere.
 
-    python everything.py FOLDER [pdf]
+    python everything.py FOLDER [pdf] [checked]
 
+With the notes as a PDF, and with a record that is checked: each takes as long as much of the rest.
 It needs nothing but derive, which may be installed or beside it, and prints where derive is.
 """
 
@@ -18,7 +19,7 @@ FORMS = {
 }
 
 
-def commands(pdf):
+def commands(further):
     """The arguments of every run, and the file for its output."""
     from derive.code.languages import LANGUAGES
     from derive.views.rendering import FORMATS
@@ -40,13 +41,14 @@ def commands(pdf):
             yield f"{form}.{name}.emitted", ["emit", name, *chosen, "--out", out]
     yield "quaternion", ["emit", "se3", "--attitude", "quaternion", "--layout", "row", "--out", "q"]
     yield "tangent", ["emit", "sl3", "--velocity", "tangent", "--real", "float", "--out", "t"]
-    yield "checked", ["check", "heisenberg", "--seed", "20"]
-    for end in (".tex", ".html", *([".pdf"] if pdf else [])):
+    if "checked" in further:
+        yield "checked", ["check", "heisenberg", "--seed", "20"]
+    for end in (".tex", ".html", *([".pdf"] if "pdf" in further else [])):
         yield f"notes{end}.told", ["notes", "so3", "sl3", "--out", f"notes{end}"]
     yield "paper", ["paper", "--format", "json"]
 
 
-def main(folder, pdf):
+def main(folder, *further):
     """Run all of them there."""
     import derive
     from derive.command import showing
@@ -56,7 +58,7 @@ def main(folder, pdf):
 
     os.makedirs(folder, exist_ok=True)
     os.chdir(folder)
-    for name, arguments in commands(pdf):
+    for name, arguments in commands(further):
         text = io.StringIO()
         with contextlib.redirect_stdout(text):
             status = cli.main(arguments)
@@ -67,4 +69,4 @@ def main(folder, pdf):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], "pdf" in sys.argv)
+    main(*sys.argv[1:])

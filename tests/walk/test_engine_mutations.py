@@ -16,7 +16,7 @@ from tests.support.library import emission
 
 pytestmark = pytest.mark.no_cover
 SAMPLE, SEED = 15, 7
-WRONG = 8
+WRONG = 5
 FIRST = JOBS[:4]
 """The texts about any group, SL(3) by words and SO(3) by vectors, each with all its forces."""
 
