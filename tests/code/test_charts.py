@@ -6,16 +6,14 @@ from itertools import product
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 import derive
 from derive.algebra.factor_charts import factor_charts
 from derive.algebra.families import FAMILIES, group
-from tests.code.test_step_jacobian import close, derivative
 from tests.oracles.sampling import quaternion
 from tests.problems import MIXED
 from tests.support.emitted_files import Emission
-from tests.support.library import derived, library, module_of
+from tests.support.library import derived, module_of
 from tests.support.states import charted
 
 PLAIN = """
@@ -63,36 +61,42 @@ FOUR += "".join(
     for i, j in ((1, 6), (4, 5), (3, 8))
 )
 FOUR += '[[input]]\nname = "F"\nkind = "force"\non = 6\nframe = "body"\n'
+OWN_BASIS = f"""
+name = "own"
+[group]
+name = "Own"
+action = "affine"
+basis = [{MIXED}]
+[lagrangian]
+L = "zeta_1^2 + 2*zeta_2^2 + 3/2*zeta_3^2 + zeta_4^2 + zeta_5^2/2 + 3*zeta_6^2 \
+  + zeta_1*zeta_5/3 - T_3 - A_33*T_1"
+[[input]]
+name = "u"
+kind = "covector"
+"""
+"""In a basis of se(3) with a screw in it."""
 FORMS = {
-    "two tops": ("two_tops", "quaternion", ["q1_0", "q2_3"], 14),
-    "bar in the plane": ("hung_bar", "angle", ["theta_1", "T_1"], 6),
-    "screw": ("screw", "angle", ["theta_1"], 2),
-    "R(1) x SO(2)": (PLAIN, "angle", ["T1_1", "theta_2"], 4),
-    "by a basis": (BY_BASIS, "angle", ["s_1", "theta_2"], 4),
-    "four factors": (FOUR, "shortest", ["q1_0", "theta_4", "T3_2", "q4_3", "T4_3"], 26),
-    "and matrices": (FOUR, "quaternion", ["q1_0", "A2_22", "q4_3", "T4_3"], 29),
+    "two tops": ("two_tops", "quaternion", 14),
+    "bar in the plane": ("hung_bar", "angle", 6),
+    "screw": ("screw", "angle", 2),
+    "R(1) x SO(2)": (PLAIN, "angle", 4),
+    "by a basis": (BY_BASIS, "angle", 4),
+    "own basis": (OWN_BASIS, "quaternion", 13),
+    "four factors": (FOUR, "shortest", 26),
+    "and matrices": (FOUR, "quaternion", 29),
 }
-"""Problem, attitude, some numbers of its state, and how many this has."""
-
-
-@pytest.mark.parametrize("name", FORMS)
-def test_the_numbers_of_the_state(name):
-    """tests/code/test_forms.py has their rates, those of matrices."""
-    given, attitude, some, count = FORMS[name]
-    chart, plain = module_of(given, attitude=attitude), module_of(given)
-    assert len(chart.STATE) == len({*chart.STATE}) == count
-    assert {*some} <= {*chart.STATE}
-    assert len(chart.to_matrix(charted(chart))) == len(plain.STATE) > count
+"""Problem, attitude, and how many numbers its state has."""
 
 
 @pytest.mark.parametrize("name", FORMS)
 def test_the_header_has_their_places_and_what_they_are(name):
-    given, attitude, *_ = FORMS[name]
+    given, attitude, count = FORMS[name]
     d = derived(given)
     header = d.emit(languages=("c",), attitude=attitude)[f"{d.problem.name}.h"]
     names = re.findall(rf"^    {d.problem.name}_X_(\w+) = (\d+)", header, flags=re.M)
     kept = re.search(r"\* +x = \(([^)]*)\)", header)[1]
     assert names == [(x, str(k)) for k, x in enumerate(re.findall(r"\w+", kept))]
+    assert len(names) == count
     told = header.replace("\n * ", " ")
     for x, _ in names:
         if x[0] == "q":
@@ -103,64 +107,12 @@ def test_the_header_has_their_places_and_what_they_are(name):
 
 @pytest.mark.parametrize("name", FORMS)
 def test_it_equals_the_record(name):
-    given, attitude, *_, count = FORMS[name]
+    given, attitude, count = FORMS[name]
     small = count < 20
     more = {"jacobian": ("state", "raw"), "momenta": name != "by a basis"} if small else {}
     (report,) = Emission(given, ("c",), attitude=attitude, **more).reports()
     assert report.holds
     assert all(x in report.text for x in ("to_matrix", *(["jacobian_raw"] * small)))
-
-
-SIZES = {"gauss": 0.1, "rk4": 0.02, "vern9": 0.05}
-"""Steps, and how long each is."""
-
-
-def variations(f, x):
-    """What the numbers of a state change by along (eta, delta zeta): the rates of an element of
-    the group are those along its velocity, (d) in the last numbers."""
-    d = sum(name.startswith(("zeta", "w")) for name in f.STATE)
-    V = np.zeros((len(x), 2 * d))
-    V[-d:, d:] = np.eye(d)
-    for a, speed in enumerate(np.eye(d)):
-        V[:-d, a] = f(0.0, [*x[:-d], *speed])[:-d]
-    return V
-
-
-@pytest.mark.parametrize("name", FORMS)
-def test_derivatives_of_steps_are_differences_of_steps(name):
-    """To 1e-9, where the rates lead; those of gauss, which differ by rounding, are those of
-    matrices; of many factors, of which C takes long to compile, those of rk4 alone."""
-    given, attitude, _, count = FORMS[name]
-    sizes = SIZES if count < 20 else {"rk4": SIZES["rk4"]}
-    options = {"step": (*sizes,), "jacobian": "step"}
-    chart = derive.compile(derived(given), attitude=attitude, **options)
-    x, u = charted(chart), np.random.default_rng(4).normal(size=len(chart.INPUTS))
-    V = variations(chart, x)
-    for step, h in sizes.items():
-
-        def end(x, u, step=step, h=h):
-            if chart.STATE[0] == "q1_0":
-                x = chart.project(chart.project(x))
-            return chart.step_jacobian(0.3, x, h, u, n=2, step=step)[0]
-
-        there, phi, gamma = chart.step_jacobian(0.3, x, h, u, n=2, step=step)
-        path = solve_ivp(
-            chart.rhs, (0.3, 0.3 + 2 * h), x, "DOP853", args=(u,), rtol=1e-12, atol=1e-12
-        )
-        assert close(there, path.y[:, -1], 1e-7)
-        ahead = np.linalg.pinv(variations(chart, there))
-        assert close(phi, ahead @ derivative(lambda e: end(x + V @ e, u), V.shape[1]))
-        assert close(gamma, ahead @ derivative(lambda e: end(x, u + e), len(u)))
-        assert phi.any()
-        assert gamma.any() == bool(chart.INPUTS)
-    if "gauss" not in sizes:
-        return
-    plain, z = derive.compile(derived(given), **options), chart.to_matrix(x)
-    found, known = (
-        f.step_jacobian(0.3, y, 0.05, u, step="gauss") for f, y in ((chart, x), (plain, z))
-    )
-    for a, b in zip(found[1:], known[1:], strict=True):
-        assert close(a, b, 1e-10)
 
 
 def test_an_angle_counts_turns():
@@ -214,7 +166,6 @@ def test_which_factors_have_charts(name):
 # ---------------------------------------------------------------- there and back
 
 AXES = [v for v in product((-1.0, 0.0, 1.0), repeat=3) if any(v)]
-CARRIED = ("from_matrix", "to_matrix")
 BY = (0.0, 1e-9, 0.1, 1.0, 2.0, 3.0, np.pi - 1e-7, np.pi)
 
 
@@ -282,44 +233,3 @@ def test_a_matrix_that_is_off_gives_a_unit_quaternion_near_it(states, se3):
         x = se3.from_matrix(off)
         assert abs(np.linalg.norm(x[:4]) - 1) < 4e-16
         assert np.abs(se3.to_matrix(x) - off)[:9].max() < 2e-5
-
-
-@pytest.mark.parametrize("build", ["javascript", "rust2021", "g++17"])
-def test_other_languages_do_as_c(build, states, se3):
-    made = library(build, "se3", attitude="quaternion")
-    there, back = (next(x for x in made.calls if x.name == y) for y in CARRIED)
-    for z in states[::5]:
-        values = {"t": 0.0, "z": z, **dict.fromkeys("pkxyu", np.zeros(18))}
-        (x,) = made.shown(there, values, False)
-        assert np.abs(np.abs(x) - np.abs(se3.from_matrix(z))).max() < 1e-15
-        (found,) = made.shown(back, values | {"x": x}, False)
-        assert np.abs(found - z).max() < 2e-15
-
-
-def test_without_a_quaternion_there_are_none():
-    f = derive.compile("so3")
-    with pytest.raises(ValueError, match="attitude='quaternion'"):
-        f.to_matrix(np.zeros(12))
-
-
-OWN_BASIS = f"""
-name = "own"
-[group]
-name = "Own"
-action = "affine"
-basis = [{MIXED}]
-[lagrangian]
-L = "zeta_1^2 + 2*zeta_2^2 + 3/2*zeta_3^2 + zeta_4^2 + zeta_5^2/2 + 3*zeta_6^2 \
-  + zeta_1*zeta_5/3 - T_3 - A_33*T_1"
-[[input]]
-name = "u"
-kind = "covector"
-"""
-"""In a basis of se(3) with a screw in it."""
-
-
-def test_a_lagrangian_of_ones_own_equals_the_record():
-    options = {"attitude": "quaternion", "momenta": True, "jacobian": ("state", "inputs")}
-    reports = Emission(OWN_BASIS, **options).reports()
-    assert all(report.holds for report in reports), [x.text for x in reports]
-    assert "to_matrix, from_matrix, momentum, velocity, momentum_rhs" in reports[0].text

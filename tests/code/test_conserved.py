@@ -107,15 +107,6 @@ def test_kovalevskaya_s_own_integral():
     assert np.ptp(found - 16 * moment**4 * own) < 1e-8
 
 
-def test_names():
-    assert module_of("se3").CONSERVED[0] == "energy"
-    assert module_of("manakov").CONSERVED[-1] == "integral_1"
-    assert module_of("euler_poisson").CONSERVED == ("energy", "casimir_1", "casimir_2")
-    free = module_of("kirchhoff").CONSERVED
-    assert {*free} >= {f"momentum_{i}" for i in (1, 2, 3)}
-    assert {*free} >= {f"angular_momentum_{i}" for i in (1, 2, 3)}
-
-
 BASES = {
     "time": "energy",
     "translation_space": "momentum",
@@ -139,13 +130,6 @@ def test_one_order_in_all_languages_that_of_the_symmetries(name):
         found = [re.findall(r'"(\w+)"', text) for text in files.values()]
         within = [x for x in found for k in range(len(x)) if tuple(x[k : k + len(names)]) == names]
         assert within, language
-
-
-def test_nothing_else_changes():
-    name = "so3"
-    plain, kept = (derive(name).emit(conserved=x)[f"{name}.c"] for x in (False, True))
-    rhs = plain[plain.index("void so3_rhs") : plain.index("double so3_energy")]
-    assert rhs in kept
 
 
 TOP = """name = "top"

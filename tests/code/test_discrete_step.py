@@ -8,7 +8,6 @@ composition of parts γ_i h has the order p where its product is exp(h X_1) in a
 
 import tomllib
 from decimal import Decimal, localcontext
-from fractions import Fraction
 from functools import cache
 from math import factorial, log2
 
@@ -21,14 +20,13 @@ from derive.code.step.tableaux import rk4, vern9, weights
 from derive.language import rational as q
 from derive.pipeline import discrete
 from derive.problem.toml import problem_of
-from tests.oracles.rooted_trees import Weights, trees
+from tests.oracles.rooted_trees import Weights
 from tests.problems import thrown
-from tests.support.corpus import driven
-from tests.support.discrete_maps import DiscreteMap
+from tests.support.corpus import DRIVEN_ON, driven
+from tests.support.discrete_maps import DiscreteMap, real
 from tests.support.needs import need
 
 SLOW = pytest.mark.dist
-DRIVEN_ON = ("SO(3)", "SL(3)", "GL(3)", "SE(3)")
 BODY = {"m": 2, "J_11": 1.3, "J_12": 0.1, "J_13": 0, "J_22": 0.9, "J_23": 0.05, "J_33": 0.4}
 BODY |= {"c_1": 0.1, "c_2": 0.2, "c_3": 0.3, "g_1": 0.5, "g_2": 1, "g_3": -2}
 
@@ -81,11 +79,6 @@ def element(names, x, size):
             i, j = (*map(int, place[0]), size)[:2]
             g[i - 1, j - 1] = value
     return tuple(tuple(map(mpmath.mpf, row)) for row in g)
-
-
-def real(x):
-    """A number of mpmath."""
-    return mpmath.mpf(x.numerator) / x.denominator if isinstance(x, Fraction) else mpmath.mpf(x)
 
 
 # ---------------------------------------------------------------- the record's motion
@@ -234,11 +227,6 @@ def method(request):
     return METHODS[request.param]
 
 
-def test_the_trees_are_all_there():
-    """Their numbers are those of Cayley (OEIS A000081)."""
-    assert [len(trees(n)) for n in range(1, 11)] == [1, 1, 2, 4, 9, 20, 48, 115, 286, 719]
-
-
 def test_a_row_sums_to_its_node(method):
     """c_i = Σ_j a_ij, so that time may be a number of the state."""
     for c, row in zip(method.c, method.a, strict=True):
@@ -278,21 +266,6 @@ def test_the_conditions_see_a_wrong_digit():
     rows = [list(row) for row in method.a]
     rows[13][8] += Decimal(10) ** -30
     assert max(Weights(rows).defect(method.b, n) for n in range(1, 10)) > SMALL
-
-
-def test_the_pair_is_verner_s():
-    """Some of the numbers that he published, in 40 digits."""
-    method, close = vern9(), Decimal(10) ** -39
-    published = {
-        "0.6590650618730998549405331618649220295334": method.c[11],
-        "0.7404185470631561083004100761798676215811": method.c[17],
-        "-0.3915211862331339089410228267288242030810": method.b[7],
-        "-13.93734253810777678786523664804936051203": method.a[14][5],
-        "0.04834231373823958314376726739772871714902": -method.error[15],
-        "0.09517712399458336651642257453589397190702": method.a[20][7],
-    }
-    for text, found in published.items():
-        assert abs(Decimal(text) - found) < close * max(1, abs(found)) * 10, text
 
 
 # ---------------------------------------------------------------- compositions

@@ -111,25 +111,6 @@ def test_pinocchio(name):
         assert relative_error(found, articulated.acceleration(pin, name, x, body, u)) < 1e-12
 
 
-@by_name
-def test_batches_are_the_states_one_by_one(name):
-    """rhs and energy on states (5, 4, N), with one input for all and with one input for each."""
-    module, rng = module_of(name), np.random.default_rng([6, NAMES.index(name)])
-    _, p, _, _ = next(cases(name, 6, 1))
-    k, size = module.constants(p), len(module.INPUTS)
-    x = np.array([[sampling.random_state(name, rng) for _ in range(4)] for _ in range(5)])
-    energy = module.energy(0.0, x, k)
-    assert energy.shape == (5, 4)
-    each = rng.normal(size=(5, 4, size))
-    for u in (None, each[0, 0], each):
-        found = module.rhs(0.0, x, k, u)
-        assert found.shape == x.shape
-        for at in np.ndindex(5, 4):
-            own = each[at] if u is each else u
-            assert worst(name, found[at], module.rhs(0.0, x[at], k, own)) < 1e-14
-            assert relative_error(energy[at], module.energy(0.0, x[at], k)) < 1e-14
-
-
 # ---------------------------------------------------------------- bodies without an inverse
 
 
@@ -211,12 +192,3 @@ def test_a_thin_rod_along_an_axis_keeps_its_digits(name):
     x, u = sampling.random_state(name, np.random.default_rng(4)), np.ones(len(module.INPUTS))
     expected = by_gauss(name, x, body_at(name, points), u)
     assert worst(name, module.rhs(0.0, x, k, u), expected) < 1e-12
-
-
-@pytest.mark.parametrize("bad", [np.nan, np.inf])
-@by_name
-def test_c_and_python_refuse_a_parameter_that_is_not_finite(bad, name):
-    _, p, _, _ = next(cases(name, 10, 1))
-    for i in range(len(p)):
-        spoilt = np.where(np.arange(len(p)) == i, bad, p)
-        assert refused(name, spoilt), module_of(name).PARAMETERS[i]

@@ -2,7 +2,6 @@
 carried along by the map between their states, by a complex step; and derivatives of all kinds."""
 
 import json
-import re
 import tomllib
 from functools import cache
 
@@ -11,7 +10,6 @@ import pytest
 
 from derive import compile as compiled
 from derive import derive
-from derive.code.languages import LANGUAGES
 from derive.command.cli import main
 from derive.problem.toml import problem_of
 from tests.code.test_charts import FORMS as CHARTS
@@ -142,8 +140,6 @@ MOVING = {
     "screw": "screw",
     "heisenberg": "heisenberg",
 }
-LEFT = {"shifts": 6, "crane": 7, "engel": 12, "turned": 11, "screw": 6, "heisenberg": 6}
-"""How many numbers of the state vary."""
 
 TANGENT, COLUMNS = {"velocity": "tangent"}, {"layout": "col"}
 QUATERNION, FRAMED = {"attitude": "quaternion"}, {"frame": "principal"}
@@ -186,7 +182,7 @@ def given(name):
 def module(name, **options):
     """The Python of a problem; with the jacobians that there are where these are compared."""
     plain = module_of(given(name))
-    small = name in CHARTS and CHARTS[name][3] < 20
+    small = name in CHARTS and CHARTS[name][2] < 20
     if not (small or name in (*GROUPS, *MOVING)) or "frame" in options:
         return module_of(given(name), **options)
     there = {"inputs": plain.INPUTS, "parameters": plain.PARAMETERS} if not options else {}
@@ -381,14 +377,6 @@ def test_at_rest_a_quadratic_drag_has_the_derivative_zero():
 SIZED = DRAG.replace("hypot(v_1, v_2, v_3)", "abs(2*v_2)").replace("damping", "# damping")
 
 
-def test_a_size_is_one_operation_and_no_root():
-    _, texts = emission(problem_of(tomllib.loads(SIZED)), LANGUAGES, jacobian=("state",))
-    for ending in (".c", ".py", ".rs", ".jl", ".mjs"):
-        text = texts[f"test{ending}"]
-        assert "sqrt(" not in text
-        assert len(re.findall(r"size_\w*v_\w*(?:: f64)? = \S*abs\(\w*v_\w*\)", text)) >= 2
-
-
 @needs("the module jax")
 def test_jax_differentiates_a_drag_at_rest():
     import jax
@@ -401,17 +389,6 @@ def test_jax_differentiates_a_drag_at_rest():
     assert np.array_equal(D[12:, 12:], np.zeros((6, 6)))
 
 
-def test_the_jacobian_in_the_principal_frame():
-    """d(ζ̇)/dζ; the rest of the linearisation is tested without a frame."""
-    m = module_of(given("SE(3)"), jacobian=("state", "inputs"), **FRAMED)
-    p, x, u = started("SE(3)", {}, 1)
-    k, n = m.constants(p), len(m.BASIS)
-    _, D = m.jacobian(0.3, x, k, u)
-    for a in range(n):
-        e = np.eye(len(x))[len(x) - n + a]
-        assert near(D[n:, n + a], along(lambda x: m.rhs(0.3, x, k.astype(x.dtype), u), x, e)[-n:])
-
-
 @pytest.mark.parametrize("name", MOVING)
 def test_what_never_varies_is_left_out(name):
     """And nothing else is."""
@@ -422,7 +399,6 @@ def test_what_never_varies_is_left_out(name):
     assert at == sorted(at)
     assert np.ptp(drawn[:, still], axis=0).max(initial=0) < 1e-12
     assert np.ptp(drawn[:, at], axis=0).min() > 1e-6
-    assert len(at) == LEFT.get(name, len(at))
 
 
 def test_the_header_and_the_names_say_what_is_there(tmp_path, capsys):

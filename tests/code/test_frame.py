@@ -7,11 +7,9 @@ import pytest
 from derive import Covector, Gravity, Moments, Problem, derive
 from derive.code.emit import EmitError
 from derive.code.languages import LANGUAGES
-from derive.code.options import Options
 from derive.pipeline import walk
 from derive.problem.principal import principal
 from derive.problem.toml import problem_of
-from derive.programs import program
 from tests.code.test_forms import given, started
 from tests.support.library import STRICT, built, emission, library, module_of
 from tests.support.needs import CC, need, needs, present
@@ -47,17 +45,6 @@ def test_the_frame_is_principal(name):
 def test_the_problem_in_the_frame_is_checked_like_any_other(name):
     record = walk(principal(given(name)))
     assert all(v.holds for v in own_verdicts(record))
-
-
-@pytest.mark.parametrize(
-    ("name", "given", "framed"), [("p1", 91, 45), ("p2", 169, 102), ("p3", 196, 145)]
-)
-def test_what_the_frame_saves(name, given, framed):
-    """An upper bound on the operations of rhs, as measured when this was written."""
-    d = derive(f"benchmarks/problems/{name}.toml")
-    for frame, most in (("given", given), ("principal", framed)):
-        found = program(d.problem, d.record, Options(frame=frame))
-        assert sum(found.functions["rhs"].operations().values()) <= most
 
 
 def test_bodies_without_a_frame_are_refused_by_the_code():

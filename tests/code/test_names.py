@@ -245,34 +245,23 @@ def test_no_name_lies(name):
         assert not list(lies(files[f"{name}.py"])), form
 
 
-@pytest.mark.parametrize(
-    "statement",
-    [
-        "a_plus_b = b - a",
-        "a_minus_b = b - a",
-        "a_minus_b = a - 2.0*b",
-        "a_minus_2_b = a - b",
-        "a_times_b = a + b",
-        "c_a_plus_b = c*(a + b)",
-        "a_minus_b_plus_c = a - (b + c)",
-        "a_minus_b_plus_c_ = a - (b + c)",
-    ],
-)
-def test_a_lie_is_seen(statement):
-    module = f"def _rhs(xp, t, x, k, u):\n    (a, b, c, ) = x\n    {statement}\n"
-    assert list(lies(module)) == [statement.split()[0]]
+SAID = {
+    "a_plus_b = b - a": False,
+    "a_minus_b = b - a": False,
+    "a_minus_b = a - 2.0*b": False,
+    "a_minus_2_b = a - b": False,
+    "a_times_b = a + b": False,
+    "c_a_plus_b = c*(a + b)": False,
+    "a_minus_b_plus_c_ = a - (b + c)": False,
+    "a_plus_b = b + a": True,
+    "a_minus_2_b = a - 2.0*b": True,
+    "a_times_b = a*b": True,
+    "c_a_plus_b = c*a + b": True,
+    "a_minus_b_plus_c_ = a - b + c": True,
+}
 
 
-@pytest.mark.parametrize(
-    "statement",
-    [
-        "a_plus_b = b + a",
-        "a_minus_2_b = a - 2.0*b",
-        "a_times_b = a*b",
-        "c_a_plus_b = c*a + b",
-        "a_minus_b_plus_c_ = a - b + c",
-    ],
-)
-def test_the_truth_is_told(statement):
+@pytest.mark.parametrize("statement", SAID)
+def test_a_lie_is_seen_and_no_truth(statement):
     module = f"def _rhs(xp, t, x, k, u):\n    (a, b, c, ) = x\n    {statement}\n"
-    assert not list(lies(module))
+    assert list(lies(module)) == [statement.split()[0]] * (not SAID[statement])

@@ -8,10 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from derive.code.options import Options
-from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.programs import program
 from tests.oracles import relative_error, torus
 from tests.support.library import ONE_BUILD, STEPPED, built, emission, library, module_of
 from tests.support.needs import CC, need
@@ -72,12 +69,6 @@ def test_energy_and_traces_are_kept(N):
         assert np.abs(kept(0.0, last, k) - kept(0.0, x, k)).max() < 1e-9
 
 
-def test_one_header_and_a_prefix():
-    _, texts = emission(fluid(9), ("c",), "flow", form="header")
-    assert [*texts] == ["flow.h"]
-    assert "flow_FUNCTION void flow_transform(" in texts["flow.h"]
-
-
 def test_the_shift_of_the_header_has_its_bracket():
     """h e_j = e_(j-1), as the head of a file says, and not the other one."""
     said = re.search(r"h e_j = e_\(j([-+])1\)", emission(fluid(9), ("c",))[1]["fluid9.h"])[1]
@@ -93,14 +84,6 @@ def test_the_shift_of_the_header_has_its_bracket():
         found = T[1, 2] @ T[3, 1] - T[3, 1] @ T[1, 2]
         expected = -2j * np.sin(2 * np.pi * (1 * 1 - 2 * 3) / N) * T[4, 3]
         assert np.allclose(found, expected) == (sign == said)
-
-
-def test_written_out_up_to_five():
-    found = {N: program(fluid(N), walk(fluid(N))) for N in (3, 5, 7)}
-    assert [bool(p.loops) for p in found.values()] == [False, False, True]
-    assert found[3].functions["rhs"].operations()["mul"] <= 32
-    tables = program(fluid(5), walk(fluid(5)), Options(conserved=True)).loops
-    assert tables.names == {"conserved"}
 
 
 @pytest.mark.parametrize("build", [ONE_BUILD[x] for x in ("rust", "javascript", "julia")])

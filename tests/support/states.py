@@ -41,16 +41,17 @@ def element(module, rng):
 def element_names(module):
     """The names of the group element in the state, with their places in the matrix."""
     size, places = len(module.BASIS[0]), {}
-    marks = sorted({x[1:].split("_")[0] for x in module.STATE if x[0] in "AT"})
+    listed = [x for x in module.STATE if not x.endswith("_dot")]
+    marks = sorted({x[1:].split("_")[0] for x in listed if x[0] in "AT"})
     offset = 0
     for mark in marks:
-        rows = max(int(x[-1]) for x in module.STATE if x.startswith(f"A{mark}_"))
-        for name in module.STATE:
+        rows = max(int(x[-1]) for x in listed if x.startswith(f"A{mark}_"))
+        for name in listed:
             if name.startswith(f"A{mark}_"):
                 places[name] = (offset + int(name[-2]) - 1, offset + int(name[-1]) - 1)
             elif name.startswith(f"T{mark}_"):
                 places[name] = (offset + int(name[-1]) - 1, offset + rows)
-        offset += rows + any(x.startswith(f"T{mark}_") for x in module.STATE)
+        offset += rows + any(x.startswith(f"T{mark}_") for x in listed)
     assert offset == size
     return places
 

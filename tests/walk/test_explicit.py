@@ -1,42 +1,12 @@
 """The answer: equations in coordinates with a problem's own numbers, beside other roads."""
 
-from random import Random
-
-import numpy as np
 import pytest
 
-from derive.algebra.families import group
-from derive.algebra.groups import affine_entries
 from derive.language.show import show
-from derive.language.tree import nodes
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from tests.support.corpus import record
 from tests.support.walks import record as ready
-from tests.walk.test_power_apart import value
-
-SHIFTS = [[[0, 0, 1], [0, 0, 0], [0, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 0, 0]]]
-TRANSLATIONS = {
-    "name": "shifted",
-    "group": {"name": "R2", "action": "affine", "basis": SHIFTS},
-    "parameters": {"m": 1.0, "k": 2.0, "g": 9.81},
-    "point": [{"mass": "m", "at": [0, 0]}],
-    "potential": [
-        {"kind": "spring", "on": 1, "anchor": [2, 3], "stiffness": "k"},
-        {"kind": "gravity", "g": [0, "-g"]},
-    ],
-}
-
-
-def heavy(*places):
-    """Equal points about a fixed one, with their weight."""
-    return {
-        "name": "balanced",
-        "group": "SO(3)",
-        "parameters": {"m": 1.0, "g": 9.81},
-        "point": [{"mass": "m", "at": [*x]} for x in places],
-        "potential": [{"kind": "gravity", "g": [0, 0, "-g"]}],
-    }
 
 
 def answer(d):
@@ -69,60 +39,6 @@ def test_a_motion_by_a_one_parameter_group(side, motion):
     d = record(f"lagrangian free {side}")
     assert told(d) == [f"ζ̇{x} = 0" for x in "₁₂₃"]
     assert motion in said(d)
-
-
-def test_springs_on_translations_are_linear():
-    d = walk(problem_of(TRANSLATIONS))
-    assert told(d) == ["ζ̇₁ = 2k/m − k A₁₃/m", "ζ̇₂ = (3k − gm)/m − k A₂₃/m"]
-    assert "linear" in said(d)
-
-
-def test_a_body_without_a_first_moment_feels_no_gravity():
-    d = walk(problem_of(heavy((1, 0, 0), (0, 1, 1), (-1, -1, -1))))
-    assert "cannot act" in said(d)
-
-
-PLACES = ((1, 0, 0), (0, 1, 1), (1, 0, 1))
-
-
-def test_a_solid_with_products_of_inertia_is_solved():
-    """Beside Euler's equations in floating point, with the tensor from the points."""
-    d = walk(problem_of(heavy(*PLACES)))
-    random = np.random.default_rng(3)
-    A, _ = np.linalg.qr(random.normal(size=(3, 3)))
-    zeta, m, g = random.normal(size=3), 1.7, 9.81
-    r = np.array(PLACES)
-    inertia = m * sum((x @ x) * np.eye(3) - np.outer(x, x) for x in r)
-    torque = m * np.cross(r.sum(axis=0), A.T @ [0, 0, -g])
-    expected = np.linalg.solve(inertia, torque + np.cross(inertia @ zeta, zeta))
-    known = {("par", "m"): m, ("par", "g"): g}
-    known |= {("entry", "A", i + 1, j + 1): A[i, j] for i in range(3) for j in range(3)}
-    known |= {("entry", "ζ", i + 1): zeta[i] for i in range(3)}
-    found = [value(e.rhs, known) for e in answer(d).equations]
-    assert np.allclose(found, expected, rtol=1e-12)
-
-
-def test_no_answer_names_what_it_solves_for():
-    for name in ("gyrostat", "heisenberg", "rod", "su2"):
-        for e in answer(ready(name)).equations:
-            assert "ζ̇" not in {x for x in nodes(e.rhs) if isinstance(x, str)}
-
-
-@pytest.mark.parametrize("name", ["SO(2)", "SE(2)", "UT(3)", "SU(2)", "Sim(2)", "SO(3) x SE(2)"])
-def test_entries_are_told_by_the_free_ones(name):
-    g = group(name)
-    told_by = affine_entries(g)
-    random = Random(5)
-    for _ in range(3):
-        A = g.sample(random)
-        for i, row in enumerate(told_by):
-            for j, (constant, weights) in enumerate(row):
-                assert A[i][j] == constant + sum(w * A[k][m] for (k, m), w in weights.items())
-
-
-@pytest.mark.parametrize(("name", "free"), [("SO(2)", 2), ("UT(3)", 3), ("SU(2)", 4), ("SO(3)", 9)])
-def test_as_few_entries_are_free_as_can_be(name, free):
-    assert len({x for row in affine_entries(group(name)) for _, w in row for x in w}) == free
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import pytest
 
 from derive import pipeline, programs
 from derive.algebra.families import group, on_homogeneous
-from derive.algebra.relations import changes, for_every_body
+from derive.algebra.relations import for_every_body
 from derive.algebra.user_groups import group_of_basis, nilpotent
 from derive.language import rational as q
 from derive.language.laurent import OverlongError, vanishes
@@ -20,10 +20,7 @@ from derive.language.tree import names
 from derive.problem.inertia import EVERY, THIS, invariant
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
-from tests.problems import PROBLEMS, TRANSLATIONS, flat
-
-GRAVITY = '[[potential]]\nkind = "gravity"\ng = [0, 0, "-9.81"]\n'
-PLACES = ([1, 0, 0.5], [0, 1, 0], [0, 0.3, 1], [-1, 0.2, -0.4])
+from tests.problems import PROBLEMS, flat
 
 
 def read(text, **allowed):
@@ -41,11 +38,6 @@ def step_of(record, short):
 
 def said(record, short):
     return {x for e in step_of(record, short).equations for t in (e.lhs, e.rhs) for x in names(t)}
-
-
-def operations(problem):
-    rhs = programs.program(problem, pipeline.walk(problem)).functions["rhs"]
-    return rhs.operations()
 
 
 # -- the record ----------------------------------------------------------------------------------
@@ -80,17 +72,6 @@ def test_every_body_by_random_elements(name):
     A = np.array(g.sample(Random(1)), float)
     lost = np.allclose(Y[0].T @ A.T @ A @ Y[1], Y[0].T @ Y[1])
     assert lost == for_every_body(g)
-
-
-def test_the_changes_of_C_span_what_it_reaches():
-    g = group("UT(3)")
-    found = [q.flatten(x) for x in changes(g)]
-    assert q.rank(tuple(found)) == len(found) == 5  # C − 1 has no first entry
-    random, one = Random(2), q.identity(3)
-    for _ in range(9):
-        a = g.sample(random)
-        c = q.minus(q.times(q.transposed(a), a), one)
-        assert q.rank((*found, q.flatten(c))) == len(found)
 
 
 @pytest.mark.parametrize(
@@ -140,35 +121,6 @@ def test_elements_of_nilpotent_groups_are_exact():
 
 
 # -- what the code costs -------------------------------------------------------------------------
-
-
-def bodies(count):
-    lines = [f'name = "test"\ngroup = "{" x ".join(["SE(3)"] * count)}"\n[parameters]\n']
-    lines += [f"m{k}{i} = {1 + i / 4}\n" for k in range(count) for i in range(4)]
-    for k in range(count):
-        for i, at in enumerate(PLACES):
-            block = f"block = {k + 1}\n" if count > 1 else ""
-            lines.append(f'[[point]]\nmass = "m{k}{i}"\nat = {at}\n{block}')
-    return read("".join(lines) + GRAVITY)
-
-
-def test_two_bodies_cost_about_twice_what_one_does():
-    one, two = operations(bodies(1)), operations(bodies(2))
-    assert two["div"] == one["div"] == 0
-    assert two["mul"] <= 1.1 * 2 * one["mul"]
-    assert two["add"] <= 1.15 * 2 * one["add"]
-
-
-def test_a_falling_point_costs_its_velocity_and_its_weight():
-    table = f'[group]\nname = "Own"\naction = "affine"\nbasis = [{TRANSLATIONS}]\n'
-    point = '[parameters]\nm = 1.0\n[[point]]\nmass = "m"\nat = [1, 0, 0]\n'
-    plain = 'name = "test"\n' + point + GRAVITY + table
-    assert operations(read(plain)) == {"mul": 12, "add": 6, "div": 0, "call": 0}
-
-
-def test_a_constant_mass_matrix_is_inverted_once():
-    assert operations(read(PROBLEMS["a flat body"]))["div"] == 0
-    assert operations(read(PROBLEMS["a solid body"]))["div"] == 1
 
 
 # -- bodies without a centre ---------------------------------------------------------------------

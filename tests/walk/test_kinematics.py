@@ -18,9 +18,6 @@ from derive.walk.kinematics.invariant_errors import Velocity, matrix, numbers
 from tests.support.cached import ROOT
 from tests.support.walks import SEED, record
 
-STEPS = ("kinematics", "tangent", "errors", "affine", "error_rates", "log_linear", "noise")
-STEPS += ("observation",)
-
 
 def skew(n, i, j):
     """The matrix that turns axis i to axis j."""
@@ -86,12 +83,6 @@ def imu_with_bias():
 
 def short(label):
     return label.partition(".")[2]
-
-
-def test_the_road_of_an_imu():
-    d = record("imu")
-    assert tuple(short(s.label) for s in d.steps) == STEPS
-    assert all(v.holds for v in check(d))
 
 
 def test_the_generators_of_an_imu_are_those_of_the_article():

@@ -22,6 +22,7 @@ from tests.support.library import ONE_BUILD, arrange, library, module_of
 from tests.support.needs import needs
 from tests.support.walks import own_verdicts
 from tests.walk import test_flows as timed
+from tests.walk.test_flows import on
 
 GROUPS = ["SE(3)", "SO(3)", "SE(2)", "SO(2)", "moments"]
 NUMBERS = {"b": timed.RATE, "u": timed.SPEED}
@@ -44,40 +45,9 @@ TANK = timed.ROCKET | {
 """Of the fuel the rate is said by an input, of the mass at the second point by the time."""
 
 
-def on(what, rocket=TANK):
-    """A rocket on a group of R³ or of the plane, or by its moments."""
-    if what != "moments":
-        n = int(what[-2])
-        cut = [
-            {k: x[-n:] if isinstance(x, list) else x for k, x in table.items()}
-            for table in (*rocket["point"], *rocket["flow"], *rocket["potential"])
-        ]
-        points, flows = len(rocket["point"]), len(rocket["flow"])
-        return rocket | {
-            "group": what,
-            "point": cut[:points],
-            "flow": cut[points : points + flows],
-            "potential": cut[points + flows :],
-        }
-    told = [f"({x['mass']})" for x in rocket["point"]]
-
-    def summed(weights):
-        return " + ".join(f"{m}*({w})" for m, w in zip(told, weights, strict=True))
-
-    P = timed.PLACES
-    J = [[summed(P[:, i] * P[:, j]) for j in range(3)] for i in range(3)]
-    given = {"m": " + ".join(told), "c": [summed(P[:, i]) for i in range(3)], "J": J}
-    first, other = rocket["flow"]
-    at = first.get("at", rocket["point"][0]["at"])
-    flows = [{**x, "at": y} for x, y in ((first, at), (other, [0, 1, -1]))]
-    flows = [{k: y for k, y in x.items() if k != "on"} for x in flows]
-    rest = {k: v for k, v in rocket.items() if k not in ("point", "flow")}
-    return rest | {"body": {"given": given}, "flow": flows}
-
-
 @cache
 def made(what):
-    problem = problem_of(on(what))
+    problem = problem_of(on(what, TANK))
     return problem, module_of(problem, jacobian="raw")
 
 
@@ -178,7 +148,7 @@ def test_the_raw_jacobian_is_the_derivative_by_all_numbers(what):
 @pytest.mark.parametrize("what", ["SE(3)", "SO(3)", "SE(2)"])
 def test_what_acts_changes_the_energy_at_masses_that_are_held(what):
     told = [{"name": "whole", "kind": "power"}, {"name": "own", "kind": "power", "of": "jet"}]
-    m = module_of(problem_of(on(what) | {"output": told}))
+    m = module_of(problem_of(on(what, TANK) | {"output": told}))
     rng, k = np.random.default_rng(6), m.constants(arrange(m, NUMBERS))
     t, h, u = 1.3, 1e-5, [0.8, 0.3]
     x = drawn(m, what, rng, t)[0]
@@ -350,7 +320,7 @@ def test_a_trim_says_what_is_refused_and_leads_nowhere_else(tmp_path, capsys):
 
 
 def test_a_record_whose_mass_is_no_parameter_is_none():
-    record = derive.derive(problem_of(on("SO(2)"))).record
+    record = derive.derive(problem_of(on("SO(2)", TANK))).record
     data = to_data(record)
     assert from_json(json.dumps(data)).steps == record.steps
     data["problem"]["flows"][0]["mass"] = "other"

@@ -38,10 +38,6 @@ def test_the_total_mass_is_another_letter_than_a_parameter_m(m, latex):
     assert (r"\mathbf m" in render(d, "latex", "en")) == (m == "m")
 
 
-def test_moments_are_the_same_in_both_meanings():
-    assert latex_names(walked(group="SE(3)", body={"moments": "symbolic"}))["m"] == "m"
-
-
 PLACES = ([1, 0, 0], [-1, 0, 0], [0, 2, 0], [0, -2, 0], [0, 0, 3], [0, 0, -3])
 INPUTS = [
     {"name": "thrust", "kind": "force", "on": 1, "frame": "body"},
@@ -123,15 +119,6 @@ def test_forces_of_the_state_have_the_names_of_the_file():
     assert "‘drag’, ce qui agit en r_2" in language("fr").of(step.prose)
     _, texts = emission(p, ("c",))
     assert "drag_1 = " in texts["stated.c"]
-
-
-def test_without_a_name_nothing_is_said_of_it():
-    """The equations are those of the named, put in: the record of before."""
-    nameless = [{k: x for k, x in force.items() if k != "name"} for force in STATED["force"]]
-    d = walk(problem_of(STATED | {"force": nameless}))
-    assert all("name" not in x for x in d.problem["forces"])
-    parts = {x for e in d["stated.input"].equations for x in nodes(e.rhs)}
-    assert not [x for x in parts if isinstance(x, tuple) and x[0] == "par"]
 
 
 def test_a_record_with_another_force_under_the_name_is_seen():

@@ -44,20 +44,6 @@ def test_the_pendulum_is_a_point_on_a_sphere():
     assert np.abs(end[[2, 5, 8]] - wanted).max() < 1e-9
 
 
-def test_the_quaternion_moves_as_the_matrix():
-    found = module_of("spherical_pendulum", attitude="quaternion")
-    q = np.array([0.5, -0.5, 0.1, 0.7])
-    q /= np.linalg.norm(q)
-    s, x, y, z = q
-    skew = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    A = np.eye(3) + 2 * s * skew + 2 * skew @ skew
-    end = run(found, np.array([*q, 0.4, -1.1]), 2.0)
-    whole = run(module_of("spherical_pendulum"), np.array([*A.reshape(-1), 0.4, -1.1]), 2.0)
-    s, x, y, z = end[:4]
-    assert np.allclose([2 * (x * z + s * y), 2 * (y * z - s * x)], whole[[2, 5]], atol=1e-9)
-    assert np.allclose(end[4:], whole[9:], atol=1e-9)
-
-
 def test_the_rod_turns_and_falls():
     """Its axis goes round a great circle at a constant rate, its middle along a parabola."""
     found, zeta = module_of("rod"), np.array([0.9, -0.4])

@@ -1,22 +1,15 @@
 """Zeitlin's model: the sums that its steps write out, what is false of them, and the files."""
 
 from dataclasses import replace
-from fractions import Fraction
 from functools import cache
-from random import Random
 
 import numpy as np
 import pytest
 
-from derive.algebra.structure import TorusLattice
-from derive.algebra.words import Letter, trace, word
 from derive.check.checker import Checker, check
 from derive.language.show import show
 from derive.language.tree import add, mul
 from derive.record.record import ANY_GROUP, Equation
-from derive.walk.spine.alphabet import Alphabet
-from derive.walk.torus import vorticity
-from derive.walk.torus.lattice import Coefficient, Unit, paired, traced
 from tests.support import corpus
 from tests.support.walks import SEED
 
@@ -81,17 +74,6 @@ def test_the_modes_are_the_double_sum(N):
         assert abs(rate - N / (2 * np.pi) * total) < 1e-12 * (1 + abs(total))
 
 
-def test_larger_sums_are_not_written_out():
-    assert "fluid.modes" not in {s.label for s in own(9)}
-
-
-def test_the_equations_are_those_of_any_size():
-    summed = [s for s in own(3) if s.label != "fluid.modes"]
-    for three, seven in zip(summed, own(7), strict=True):
-        assert len(three.equations) == len(seven.equations)
-        assert len(show(three.equations[0].rhs)) <= len(show(seven.equations[0].rhs))
-
-
 def changed(label, number, new):
     step = record(7)[label]
     equations = list(step.equations)
@@ -136,90 +118,8 @@ def test_an_equation_that_is_true_at_half_of_the_places_is_refused(seed, true):
     assert not Checker(record(7).problem, seed).check(replace(step, equations=(wrong,))).holds
 
 
-def test_what_is_true_in_another_form_holds():
-    """The checker compares values, not trees: n ∧ m with the other sign."""
-
-    def turned(e):
-        unit, total = e.rhs[1:-1], e.rhs[-1]
-        swapped = put_wedge(total)
-        return Equation(e.lhs, mul(-1, *unit, swapped))
-
-    def put_wedge(t):
-        if isinstance(t, tuple) and t[0] == "wedge":
-            return ("wedge", *t[:0:-1])
-        return (t[0], *map(put_wedge, t[1:])) if isinstance(t, tuple) else t
-
-    assert changed("fluid.motion", 0, turned).holds
-
-
 def test_a_record_of_another_group_is_refused():
     d = record(5)
     for key, value in (("group", "SU(7)"), ("n", 7), ("torus", {"N": 7})):
         wrong = replace(d, problem={**d.problem, key: value})
         assert not all(v.holds for v in check(wrong, SEED))
-
-
-def test_coefficients_follow_from_the_inertia_operator(monkeypatch):
-    """With 2|n|² in its place: ω̂ and L̃ twice, P and h̃ by ω̂ half, and the motion half as fast."""
-    a = Alphabet("n", affine=False)
-    one = vorticity.fluid_of(TorusLattice(7), a)
-    monkeypatch.setattr(vorticity, "inertia", lambda x: x.times(2, 1))
-    two = vorticity.fluid_of(TorusLattice(7), a)
-    assert (two.slope, two.stream) == (one.slope.times(2), one.stream.times(Fraction(1, 2)))
-    assert two.lagrangian == one.lagrangian.times(2)
-    assert two.energy == one.energy.times(Fraction(1, 2))
-    assert (two.momentum, two.velocity) == (one.momentum, one.velocity)
-
-
-def test_forms_are_sums_over_the_lattice():
-    """δ, a gradient and a substitution, beside sums of numbers."""
-    random, places = Random(0), TorusLattice(5).places
-    square = {n: n[0] ** 2 + n[1] ** 2 for n in places}
-    values = {x: {n: random.randint(1, 99) for n in places} for x in ("a", "b", "c")}
-
-    def total(form, values):
-        return sum(
-            u.q * square[n] ** p * values[x][n] * values[y][-n[0], -n[1]]
-            for (x, y, p), u in form.terms.items()
-            for n in places
-        )
-
-    a, b, c = map(Coefficient, "abc")
-    form = paired(a.times(3, 1), a) - paired(a, b)
-    ahead, back = (
-        total(form, values | {"a": {n: x + s * values["c"][n] for n, x in values["a"].items()}})
-        for s in (1, -1)
-    )
-    assert total(form.varied("a", "c"), values) == (ahead - back) / 2
-    put = values | {"b": {n: 5 * square[n] * x for n, x in values["c"].items()}}
-    assert total(form.put("b", c.times(5, 1)), values) == total(form, put)
-    slope = paired(b.times(7, -1), c).gradient("c")
-    assert slope.solved_for("b") == Coefficient("b", Unit(Fraction(1, 7)), 1)
-    with pytest.raises(ValueError, match="multiple"):
-        paired(a, b).over(paired(a, c))
-
-
-def test_the_trace_form_is_that_of_matrices():
-    """Tr XY of elements of su(5), as products of the clock and of the shift, with numbers."""
-    N, rng = 5, np.random.default_rng(0)
-    clock, shift = np.diag(np.exp(4j * np.pi * np.arange(N) / N)), np.roll(np.eye(N), 1, axis=1)
-    power = np.linalg.matrix_power
-    values = {x: {n: rng.normal() for n in TorusLattice(N).places} for x in "XY"}
-
-    def element(x):
-        return sum(
-            v
-            * np.exp(2j * np.pi * n[0] * n[1] / N)
-            * power(clock, n[0] % N)
-            @ power(shift, n[1] % N)
-            for n, v in values[x].items()
-        )
-
-    X, Y = (Letter(x, "n", "n") for x in "XY")
-    form = traced(trace(word(X, Y)), {X: Coefficient("X"), Y: Coefficient("Y")}, N)
-    ((x, y, p), u), found = form.only, np.trace(element("X") @ element("Y"))
-    expected = float(u.q) * sum(
-        values[x][n] * values[y][-n[0], -n[1]] for n in TorusLattice(N).places
-    )
-    assert p == 0
-    assert abs(found - expected) < 1e-12 * abs(expected) + 1e-12
