@@ -10,13 +10,12 @@ import sympy
 
 from derive import derive
 from derive.check.checker import Checker
-from derive.command.cli import main
 from derive.language.expression import parse
 from derive.language.tree import add, replaced
 from derive.language.univariate import RootError, root, value_of
 from derive.record.as_json import from_json, to_json
 from derive.record.sentence import english
-from derive.search.equilibria.energy_casimir import along_the_orbit, kernel, restricted, solutions
+from derive.search.equilibria.energy_casimir import along_the_orbit, restricted
 from derive.search.equilibria.stability import roots_of_squares
 from tests.support.coadjoint_orbits import hat, match, orbit_signature
 from tests.support.lagrangians import disc, heavy, lagrangian, squares
@@ -84,14 +83,6 @@ def test_a_gyrostat_turns_aslant():
     assert found.verdict == ("unstable" if found.growth > 1e-9 else "stable")
 
 
-def test_a_free_solid_scales_with_its_momentum():
-    for spin in ("sqrt(2)", "3/5*sqrt(5) - 1"):
-        verdicts = [derive("euler_top").equilibria({f"Pi_{a}": spin})[0] for a in (1, 2, 3)]
-        assert [x.verdict for x in verdicts] == ["stable", "unstable", "stable"]
-        one = derive("euler_top").equilibria({"Pi_2": 1})[0].growth
-        assert verdicts[1].growth == pytest.approx(one * abs(float(value_of(parse(spin)))))
-
-
 CHANGES = {
     "another root": lambda t: replaced(t, ROOT, ("fun", "sqrt", 5)),
     "its square": lambda t: add(t, ROOT),
@@ -157,15 +148,6 @@ def test_roots_that_are_none():
         root(-2)
 
 
-def test_linear_algebra_over_a_quadratic_field():
-    two = root(2)
-    ((x, y),) = kernel([[two, Fraction(2)]], 2)
-    assert x / y == -two
-    start, free = solutions([[two], [Fraction(1)]], [Fraction(2)])
-    assert start[0] * two + start[1] == 2
-    assert len(free) == 1
-
-
 def random_roots(random):
     """Roots with their multiplicities, some of them 0, and pairs of complex ones; by name."""
     pool = [*map(Fraction, range(-4, 4)), Fraction(-1, 3), Fraction(2, 5)]
@@ -204,25 +186,6 @@ def test_roots_are_counted(scale):
     assert len(seen) == 4
 
 
-NAMED = {
-    "a disc in a fluid, edge-on": ((1, 0, "-2/3", 0, 0), 2, True),
-    "a ball beside Euler's top": ((1, 0, "-1/12", 0, 0), 2, True),
-    "three and a zero": ((1, 0, -3, 0, 0), 2, True),
-    "imaginary, and 0": ((1, 0, 5, 0, 0), 2, False),
-    "imaginary twice": ((1, 0, 2, 0, 1), 0, False),
-    "0 alone": ((1, 0, 0, 0, 0), 4, False),
-    "no root": ((1,), 0, False),
-}
-
-
-@pytest.mark.parametrize("name", NAMED)
-def test_a_root_0_is_no_other(name):
-    coefficients, zeros, grows = NAMED[name]
-    found = roots_of_squares([*map(Fraction, coefficients)])
-    assert (2 * found.at_zero, found.negative < found.distinct) == (zeros, grows)
-    assert grows == any(x.real > 1e-6 for x in np.roots([*map(float, map(Fraction, coefficients))]))
-
-
 BALL = squares("1/2", "1/2", "1/2", "1/2", 1, "3/2")
 UNSTABLE = {
     "disc": (disc(), {"Pi_4": 1}),
@@ -237,10 +200,3 @@ def test_unstable_beside_a_zero(name):
     assert (found[0].verdict, found[0].found.squares.at_zero) == ("unstable", 1)
     assert found[0].growth > 0.2
     assert "all eigenvalues are imaginary" not in english(found.record.steps[-1].prose)
-
-
-def test_the_eigenvalues_are_printed(capsys):
-    assert main(["equilibria", "euler_top", "--at", "Pi_2=sqrt(2)"]) == 0
-    shown = " ".join(capsys.readouterr().out.split())
-    assert "The eigenvalues are about ±" in shown
-    assert "Their squares are exactly" in shown

@@ -12,8 +12,6 @@ from derive.command.cli import main
 from derive.problem.toml import problem_of
 from derive.record.as_json import from_json
 from derive.record.sentence import english
-from derive.search.equilibria.energy_casimir import between_roots, diagonalised
-from derive.search.equilibria.stability import polynomial, roots_of_squares
 from tests.support.lagrangians import LINE, heavy, heisenberg, lagrangian, nilpotent
 from tests.support.walks import repeated
 
@@ -105,11 +103,6 @@ def test_every_step_is_checked(name):
     assert [v.reason for v in new if not v.holds] == []
 
 
-def test_points_and_solids_too():
-    (found,) = derive("su2").equilibria({"Pi_1": 1})
-    assert found.at == {"Pi_1": 1}
-
-
 def test_numbers_are_needed():
     with pytest.raises(ProblemError, match="has no default"):
         derive(heavy("123", "m*A_31", "m")).equilibria()
@@ -142,42 +135,6 @@ def test_pi_stays_a_letter_in_a_command(tmp_path, capsys):
     assert main(["check", str(tmp_path / "found.json")]) == 0
 
 
-def test_squares_by_lagrange():
-    rng = np.random.default_rng(3)
-    for n in (1, 3, 5):
-        a = rng.integers(-4, 5, size=(n, n))
-        q = [[Fraction(int(x)) for x in row] for row in a + a.T - 2 * np.diag(np.diag(a))]
-        squares = diagonalised(q)
-        whole = sum(
-            (float(d) * np.outer([*map(float, r)], [*map(float, r)]) for d, r in squares),
-            np.zeros((n, n)),
-        )
-        assert whole == pytest.approx(np.array(q, float))
-        positive = sum(np.linalg.eigvalsh(np.array(q, float)) > 1e-9)
-        assert positive == sum(d > 0 for d, _ in squares)
-
-
-def test_roots_and_what_is_between():
-    one, two = ([[Fraction(x), 0], [0, Fraction(y)]] for x, y in ((-1, -4), (1, 1)))
-    low, middle, high = sorted(between_roots(one, two))
-    assert low < 1 < middle < 4 < high
-
-
-@pytest.mark.parametrize(
-    ("matrix", "expected"),
-    [([[0, 1], [-1, 0]], False), ([[0, 1], [1, 0]], True), ([[0, 1], [0, 0]], False)],
-)
-def test_growth(matrix, expected):
-    found = roots_of_squares(polynomial([[Fraction(x) for x in row] for row in matrix]))
-    assert (found.negative < found.distinct) is expected
-
-
-def test_a_leaf_of_lower_rank_is_said():
-    """A free top at rest in space but for nothing: on so(3)* the origin is a leaf by itself."""
-    found = derive(lagrangian("zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2")).equilibria({"Pi_1": 2})
-    assert found[0].verdict == "stable"
-
-
 def test_the_degree_of_what_is_kept_is_an_option(capsys):
     """The Casimir of a top is of degree 2: of degree 1 nothing is known but the energy."""
     for degree, known in (("1", False), ("2", True)):
@@ -197,10 +154,6 @@ def test_entries_of_a_product_have_the_names_of_the_file():
 
 
 MOMENTS = [Fraction(k, 4) for k in range(1, 30)]
-
-
-def solid(text, **more):
-    return problem_of({"name": "own", "group": "SO(3)", **more, "lagrangian": {"L": text}})
 
 
 def swimming():
@@ -289,18 +242,6 @@ def test_a_sleeping_top_in_letters():
             assert (grown > 1e-4) is not above
 
 
-def test_the_search_in_numbers_says_the_same():
-    (x,) = [x for x in derive("lagrange_top").families() if x.at == {"Pi_3": "ell₃", "A_33": "1"}]
-    random = Random(2)
-    for _ in range(4):
-        I1, I3, mgl, ell = random.sample(MOMENTS, 4)
-        L = f"({I1}*(zeta_1^2 + zeta_2^2) + {I3}*zeta_3^2)/2 - {mgl}*A_33"
-        (there,) = derive(solid(L)).equilibria({"Pi_3": ell, "A_33": 1})
-        numbers = {"I1": I1, "I3": I3, "mgl": mgl, "ell_3": ell}
-        assert (there.verdict == "stable") is true(x.found, x.found.stable, numbers)
-        assert (there.verdict == "unstable") is true(x.found, x.found.unstable, numbers)
-
-
 def test_a_solid_that_swims_broadside_in_letters():
     """Along axis 3: stable where c₃ is the largest added mass, unstable if it is less than one."""
     (x,) = [x for x in swimming().families() if x.at == {"Pi_6": "ell₆"}]
@@ -339,12 +280,6 @@ def test_a_cone_of_a_density_in_letters():
     I1 = 3 * m * (values["R"] ** 2 + 4 * values["h"] ** 2) / 20
     threshold = 4 * I1 * m * values["g"] * 3 * values["h"] / 4
     assert weighed(more, pi) * threshold == weighed(less, pi) * 121
-
-
-@pytest.mark.parametrize("name", ["euler_top", "lagrange_top"])
-def test_every_family_is_checked(name):
-    found = derive(name).families()
-    assert [v.reason for v in found.check(1) if not v.holds] == []
 
 
 def corrupted(record, old, new):

@@ -70,14 +70,6 @@ def test_the_speed_is_found_at_which_a_tilt_is_balanced():
     assert holds(found)
 
 
-def test_of_the_thrust_alone_the_drag_determines_both_velocity_and_rotors():
-    """A body that climbs straight, 1/3 √30: c v² = u + v − mg with u = v = 11."""
-    found = flying().trim({"u": 11}, ["w_2", "v"])
-    assert found.found.inputs == {"u": 11, "v": 11}
-    assert float(found.found.state["w_2"]) == pytest.approx(np.sqrt(2 / 0.6), rel=1e-14)
-    assert holds(found)
-
-
 @pytest.mark.parametrize(
     ("damping", "c", "speed"),
     [
@@ -110,16 +102,6 @@ def test_in_a_wind_it_falls_at_the_speed_that_it_has_without():
     assert holds(found)
 
 
-def test_constants_may_have_a_root_where_a_velocity_is_found():
-    """Drag and weight have the factor √2 alike: ‖v‖v = 16, with m = 2 and g = 8√2."""
-    law = {"at": [0, 0], "frame": "space"}
-    law["force"] = [f"-sqrt(k)*hypot(v_1, v_2)*v_{i}" for i in (1, 2)]
-    more = {"parameters": {"k": 2}, "force": [law], "input": []}
-    found = drone(potential=[{"kind": "gravity", "g": [0, "-8*sqrt(k)"]}], **more).trim({}, ["w_2"])
-    assert "w₂ = −4" in told(found)
-    assert holds(found)
-
-
 def test_a_turn_in_a_wind_is_no_steady_motion():
     """Thrust holds it on a circle, and now the air beside it is at rest: a moment later it is not;
     the checker says so, too, of one who claims it."""
@@ -147,17 +129,6 @@ def test_an_absolute_value_is_that_of_an_expression_of_the_state():
     found = derive(problem_of(bent)).trim(TURNED)
     assert (found.found.inputs, found.found.characteristic) == ({"u": 12}, (1, 3, 8))
     assert (found.verdict, found.found.corner, holds(found)) == ("stable", True, True)
-
-
-def test_a_spring_with_a_length_and_a_tilt_by_60_degrees():
-    """Of the length 5/2 from (√3/2, 1/2)·1 m: roots of one field."""
-    spring = {"kind": "spring", "at": [0, -1], "anchor": [0, 0], "stiffness": 7, "length": "1/3"}
-    tilted = {"A_11": "1/2", "A_12": "-sqrt(3)/2", "A_21": "sqrt(3)/2", "A_22": "1/2"}
-    problem = PENDULUM | {"potential": [*PENDULUM["potential"], spring]}
-    found = derive(problem_of(problem)).trim(tilted)
-    assert float(found.found.inputs["u"]) == pytest.approx(20 * np.sqrt(3) / 2)
-    assert found.found.characteristic == (1, 3, 5)
-    assert (found.verdict, holds(found)) == ("stable", True)
 
 
 @pytest.mark.parametrize(
