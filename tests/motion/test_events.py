@@ -6,9 +6,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import derive
-from derive.command.cli import main
 from derive.motion import native
-from derive.motion.first_numbers import MotionError
 from derive.motion.native import CompileError
 from derive.motion.run import FORMATS, read, written
 from derive.problem.problem import ProblemError
@@ -162,34 +160,10 @@ def test_a_file_has_the_events(tmp_path, ending):
     assert len(found) == 2
 
 
-def test_the_command_tells_the_events(tmp_path, capsys):
-    assert main(["simulate", str(problem(tmp_path, QUARTERS)), "--t", "10"]) == 0
-    out, err = capsys.readouterr()
-    assert "  event quarter: 6 times, at t = 0.785398163397, 2.35619449019, 3.926" in out
-    assert ", 7.06858347058, 8.63937979737\n" in out
-    assert err == ""
-    assert main(["simulate", str(problem(tmp_path, QUARTERS)), "--t", "20"]) == 0
-    out, err = capsys.readouterr()
-    assert "  event quarter: 13 times, at t = 0.785398163397, 2.35619449019, 3.926" in out
-    assert ", …, 19.6349540849 (all are in the file of --out, and run.events in Python)\n" in out
-    assert main(["simulate", str(problem(tmp_path, FALL)), "--t", "10"]) == 0
-    out, err = capsys.readouterr()
-    assert f"  event ground: once, at t = {np.sqrt(6 / 9.81):.12g}\n" in out
-    assert err == ""
-
-
 def test_more_than_their_limit_are_refused(tmp_path):
     listed = "".join(f'[[event]]\nname = "e{k}"\nwhen = "t"\n' for k in range(51))
     with pytest.raises(ProblemError, match="more than 50 tables"):
         load(problem(tmp_path, SPIN + listed))
-
-
-def test_an_event_in_words():
-    body = derive.Moments(m=1, c=[0, 0, 0], J=[[2, 0, 0], [0, 1, 0], [0, 0, 1]])
-    event = derive.Event("e", "A_11", terminal=True)
-    p = derive.Problem("free", derive.SO(3), body, [event], initial={"zeta_3": 1})
-    run = derive.derive(p).simulate(5.0, points=3)
-    assert run.t[-1] == pytest.approx(np.pi / 2, abs=1e-12)
 
 
 # ---------------------------------------------------------------- methods
@@ -201,7 +175,6 @@ METHODS = [
     {"step": "vern9", "dt": 0.01},
     {"step": "rk4", "dt": 0.003},
 ]
-QUARTERED = f'{moving.STONE}[[event]]\nname = "quarter"\nwhen = "A_11"\n'
 
 
 def in_both(d, duration, **chosen):
@@ -221,28 +194,6 @@ def test_c_and_python_agree(name, start, method):
     # gauss of C ends its iterations where they are exact enough
     own = {"language": "", **({"evaluations": 0} if method["step"] == "gauss" else {})}
     assert in_c.facts | own == in_python.facts | own
-
-
-@pytest.mark.parametrize("method", METHODS, ids=str)
-def test_events_are_those_of_both(tmp_path, method):
-    found = in_both(derive.derive(problem(tmp_path, QUARTERED)), 2.0, points=5, **method)
-    lands, exact = np.sqrt(6 / 9.81), 1e-12 if method["step"] != "rk4" else 1e-9
-    for run in found:
-        assert run.ended == "event ground"
-        assert [x.name for x in run.events] == ["quarter", "ground"]
-        assert run.events[-1].t == pytest.approx(lands, rel=0, abs=exact)
-        assert np.array_equal(run.states[-1], run.events[-1].state)
-    assert found[0].events[0].t == pytest.approx(found[1].events[0].t, rel=0, abs=1e-12)
-
-
-@pytest.mark.parametrize("method", [{"step": "gauss"}, {"step": "vern9"}], ids=str)
-def test_a_collision_is_told_by_both(method):
-    fall = {"T_1": 0.0, "w_2": 0.0, "zeta_3": 0.0}
-    found = in_both(derive.derive("comet"), 1.0, start=fall, points=1000, **method)
-    for run in found:
-        assert "the steps become too short at t = 0.06471" in run.ended
-        assert 0.0638 < run.t[-1] < 0.0648
-    assert np.array_equal(found[0].t, found[1].t)
 
 
 @needs("cc")
@@ -272,16 +223,6 @@ def test_calls_of_c_end_so_that_ctrl_c_is_heard(monkeypatch):
         whole = d.simulate(1.0, points=1, compiled=True, **method)
         monkeypatch.setattr(native, "MANY", 3)
         assert np.array_equal(d.simulate(1.0, points=1, compiled=True, **method).table, whole.table)
-
-
-def test_the_discrete_step_of_an_order_is_told(tmp_path, capsys):
-    out = tmp_path / "run.csv"
-    given = ["simulate", "so3", "--t", "1", "--set", "zeta_1=1", "--dt", "0.1", "--step"]
-    assert main([*given, "discrete", "--order", "4", "--out", str(out)]) == 0
-    assert ", by discrete of order 4, dt 0.1, in " in capsys.readouterr().out
-    assert read(out).facts["method"] == "discrete of order 4, dt 0.1"
-    with pytest.raises(MotionError, match="the order must be one of 2, 4, 6, 8, not 3"):
-        derive.derive("so3").simulate(1.0, step="discrete", dt=0.1, order=3)
 
 
 SLIDER = """

@@ -12,10 +12,9 @@ from derive.motion.ensemble_files import read_either
 from derive.motion.run import Run, written
 from derive.views.language import language
 from derive.views.plot import kind_descriptions
-from derive.views.plot.body_pictures import VIEW, in_math, projected
 from derive.views.plot.kind_descriptions import OVERVIEW, PRECISION
 from derive.views.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
-from derive.views.plot.plot_sheet import FORMATS, PlotError, label, laid_out, look, with_mark
+from derive.views.plot.plot_sheet import FORMATS, PlotError, laid_out, look, with_mark
 from tests.support.drawn_runs import figure_of, fitting, run_of, simulated, texts, words_of
 from tests.support.motion_pictures import DRAWN, MADE, PICTURES, ROOT, RUNS, drawn, remade, unlike
 from tests.support.needs import need, needs
@@ -127,18 +126,6 @@ def test_the_quantities_speak_french_and_have_units():
         assert words in told
 
 
-def test_small_moments_are_powers_of_ten():
-    small, plain, large = (in_math(x) for x in (1.02e-5, 0.25, 1.5e7))
-    assert (small, plain, large) == (r"1.02 \cdot 10^{-5}", "0.25", r"1.5 \cdot 10^{7}")
-
-
-def test_the_view_is_a_projection():
-    square = projected(np.eye(3))
-    assert square.T @ square == pytest.approx(np.eye(2))
-    assert projected(VIEW) == pytest.approx(np.zeros(2))
-    assert (label("zeta_1"), label("energy")) == (r"$\zeta_{1}$", "energy")
-
-
 # ---------------------------------------------------------------- what is refused
 
 
@@ -216,12 +203,6 @@ def test_the_picture_of_each_problem_is_beside_and_shown(name, shown, problems, 
     for problem, picture in zip(problems, pictures, strict=True):
         run = derived(problem).simulate(3.0)
         assert (tmp_path / picture).read_bytes() == plot(run, picture)
-
-
-def test_without_it_nothing_is_shown(tmp_path):
-    assert main(["notes", "rod", "--out", str(tmp_path / "notes.tex")]) == 0
-    assert "graphic" not in (tmp_path / "notes.tex").read_text(encoding="utf-8")
-    assert len([*tmp_path.iterdir()]) == 1
 
 
 def test_in_a_pdf(tmp_path):
