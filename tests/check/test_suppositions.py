@@ -14,8 +14,7 @@ from derive.check.lagrangian.reduced_by_symmetries import concludes_velocity, un
 from derive.check.trials.model import Model
 from derive.check.trials.phase_point import TangentVector
 from derive.language import rational as q
-from derive.language.read import read
-from derive.record.as_json import encode, from_json, to_data, to_json
+from derive.record.as_json import from_json, to_data, to_json
 from derive.record.record import ANY_GROUP, Equation, Hypothesis, RecordError
 from tests.support.walks import SEED, record
 
@@ -170,13 +169,6 @@ def test_the_metric_tells_the_velocity_of_a_vector_of_the_kernel(name):
             assert found == -sum(x * y for x, y in zip(row, away, strict=True))
 
 
-def test_any_group_has_the_hypotheses_of_the_road():
-    found = {s.label: s.hypotheses for s in record("so3").steps if s.scope == ANY_GROUP}
-    regular = Hypothesis("nondegenerate", METRIC, "T_g G")
-    assert found["linear.gradient"] == found["linear.second_order"] == (regular,)
-    assert found["linear.pullback"] == (Hypothesis("positive", ("at", "m", "i")), regular)
-
-
 @pytest.mark.parametrize("name", ["so3", "se3", "lagrange_top"])
 def test_the_velocity_of_the_motion_is_forced(name, monkeypatch):
     """Where variations of the velocity alone did not see that of X, it would not be."""
@@ -234,15 +226,6 @@ def step(data, label):
     return next(s for s in data["steps"] if s["label"] == label)
 
 
-def put(data, label, place, text):
-    step(data, label)["equations"][place]["rhs"] = encode(read(text))
-
-
-def test_the_other_sign_of_the_bracket():
-    label = "left.structure"
-    assert refused("gyrostat", lambda d: put(d, label, 0, "−[ξ′, ξ]"), {label})
-
-
 def test_the_other_side():
     """What is said on the left is not so on the right."""
 
@@ -252,22 +235,3 @@ def test_the_other_side():
     labels = {f"left.{x}" for x in ("trivialisation", "structure", "coadjoint")}
     labels |= {f"gyrostat.{x}" for x in ("coordinates", "coadjoint", "mass")}
     assert refused("gyrostat", turn, labels) == labels
-
-
-@pytest.mark.parametrize(
-    ("label", "place", "text"),
-    [
-        ("left.exterior_momentum", 0, "⟨δΠ − Φ δt, ξ′ − Z δ′t⟩ − ⟨δ′Π − Φ δ′t, ξ − Z δt⟩"),
-        ("left.coadjoint", 0, "⟨Φ, ξ′⟩ − ⟨Π, [Z, ξ′]⟩"),
-        ("left.energy", 0, "⟨Π, Z⟩ + L̃"),
-        ("left.momenta", 0, "⟨Π, δZ⟩ + ⟨Φ, ξ⟩"),
-        ("charged_body.energy", 0, "L̃"),
-        ("charged_body.coadjoint", 0, "Φ₁ + ζ₂ Π₃ − ζ₃ Π₂"),
-        ("charged_body.momenta", 1, "ζ₁"),
-        ("charged_body.by_momenta", 0, "M⁻¹ [Π₁; Π₂; Π₃]"),
-        ("charged_body.poisson_tensor", 0, "[0, Π₃, −Π₂; −Π₃, 0, Π₁; Π₂, −Π₁, 0]"),
-        ("charged_body.poisson_tensor", 1, "[Φ₁; Φ₂; Φ₃] − 𝕁 [ζ₁; ζ₂; ζ₃]"),
-    ],
-)
-def test_a_term_that_is_false(label, place, text):
-    assert refused("charged_body", lambda d: put(d, label, place, text), {label})

@@ -47,11 +47,6 @@ def test_a_picture_has_no_letters_and_is_whole(name):
             assert 0 < y < height
 
 
-def test_groups_are_called_as_people_do():
-    assert all("_" not in x.get("group", "") for x in THINGS)
-    assert {x["name"]: x["group"] for x in THINGS if "group" in x}["imu"] == "SE₂(3)"
-
-
 def test_what_has_no_body_has_no_picture():
     assert picture(record("ideal_fluid")) == ""
 

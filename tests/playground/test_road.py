@@ -1,6 +1,5 @@
 """The road at the foot of the page: its stations are equations of the steps that they lead to."""
 
-import re
 from html.parser import HTMLParser
 
 import pytest
@@ -8,10 +7,6 @@ import pytest
 from derive.command.showing import ready_made
 from tests.support.played import Played, text_of
 from tests.support.playground_site import chosen, visit
-
-WHOLE = ["lagrangian", "group", "cartan", "exterior", "kernel", "body"]
-NOTE = {"lagrangian": 3, "group": 12, "cartan": 15, "exterior": 25, "kernel": 34}
-"""A number that the note has at each station of a solid about a point."""
 
 
 class Articles(HTMLParser):
@@ -58,29 +53,6 @@ def test_a_station_is_an_equation_of_its_step(played, name):
         shown = plain(x["shown"])
         assert len(shown) > 1
         assert shown in texts[x["id"]], (x["name"], shown)
-
-
-def listed(text):
-    """The numbers in a list with runs, (11)–(13), (17)."""
-    runs = (re.findall(r"\d+", run) for run in text.split(","))
-    return {n for run in runs for n in range(int(run[0]), int(run[-1]) + 1)}
-
-
-def names(stations):
-    return [x["name"] for x in stations]
-
-
-def test_which_stations_a_road_has(played):
-    for name in ("so3", "top", "se3", "sl3", "pendulum"):
-        assert names(road(played, name)[0]) == WHOLE, name
-    stated = ["group", "cartan", "exterior", "kernel", "body"]
-    assert names(road(played, "euler_top")[0]) == stated  # no points, so no L
-    assert names(road(played, "ideal_fluid")[0]) == WHOLE[:-1]
-    assert names(road(played, "linear")[0]) == WHOLE[:-1]  # any group has no body
-    assert names(road(played, "imu")[0]) == ["body"]  # a motion of first order
-    told = {x["name"]: x["paper"] for x in road(played, "so3")[0]}
-    for name, number in NOTE.items():
-        assert number in listed(told[name]), name
 
 
 COUNTED = """() => {

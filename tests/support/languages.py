@@ -7,25 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from derive.code.languages import LANGUAGES
-from tests.support.library import BUILDS, ONE_BUILD, emission, loaded, module
+from tests.support.library import BUILDS, emission, loaded, module
 from tests.support.needs import CC, need
 
 T = 0.3
 PIECES = ("cvode", "fmu")
 """Languages of one function, run by themselves."""
-REFERENCE = ("c", "python")
-OTHERS = tuple(x for x in LANGUAGES if x not in (*REFERENCE, *PIECES))
-
-
-def known(build, words):
-    """Leave out a test where the program of a build is absent, or knows too little."""
-    need(*(["Rust 2024"] if build == "rust2024" else words[:1]))
-
-
-def built(*, but=()):
-    """The first build of each language but C, and but for some."""
-    return [x for language, x in reversed(ONE_BUILD.items()) if language not in ("c", *but)]
 
 
 def command(*words, **options):

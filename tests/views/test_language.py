@@ -15,7 +15,6 @@ from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
 from derive.record import prose as texts
 from derive.record import vocabulary
-from derive.record.as_json import from_json, to_json
 from derive.record.sentence import PLACE
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, RULES, VOCABULARY, meanings
 from derive.schema.body_kinds import SOLIDS, MomentBody
@@ -32,7 +31,7 @@ from derive.views.language import (
 )
 from derive.views.paper.findings import PAPER
 from derive.views.printing.sentences import FORMULA
-from derive.views.text import markdown, step_markdown, step_text, text
+from derive.views.text import markdown, text
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
 from tests.support.kinds import examples
@@ -373,16 +372,3 @@ def test_no_english_is_left(name):
         shown = view(walks.record(name), language=FRENCH)
         found = re.findall(r"\b(?:the|of|with|is|are|for|from|and)\b", shown)
         assert found == [], view
-
-
-def test_records_read_back_say_the_same(records):
-    for d in records:
-        assert text(from_json(to_json(d)), language=FRENCH) == text(d, language=FRENCH)
-
-
-def test_a_step_alone_in_french():
-    d = walks.record("so3")
-    assert "D’après so3.momenta, so3.coadjoint." in step_text(d["kernel"], language=FRENCH)
-    assert "(d’après `so3.momenta`, `so3.coadjoint`)" in step_markdown(
-        d["kernel"], d.symbols, language=FRENCH
-    )
