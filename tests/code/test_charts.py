@@ -1,15 +1,12 @@
 """Charts of factors: quaternions, angles and coordinates in the place of their matrices; to_matrix
 and from_matrix: a state with a quaternion, and the same with its matrix."""
 
-import re
 from itertools import product
 
 import numpy as np
 import pytest
 
 import derive
-from derive.algebra.factor_charts import factor_charts
-from derive.algebra.families import FAMILIES, group
 from tests.oracles.sampling import quaternion
 from tests.problems import MIXED
 from tests.support.emitted_files import Emission
@@ -89,23 +86,6 @@ FORMS = {
 
 
 @pytest.mark.parametrize("name", FORMS)
-def test_the_header_has_their_places_and_what_they_are(name):
-    given, attitude, count = FORMS[name]
-    d = derived(given)
-    header = d.emit(languages=("c",), attitude=attitude)[f"{d.problem.name}.h"]
-    names = re.findall(rf"^    {d.problem.name}_X_(\w+) = (\d+)", header, flags=re.M)
-    kept = re.search(r"\* +x = \(([^)]*)\)", header)[1]
-    assert names == [(x, str(k)) for k, x in enumerate(re.findall(r"\w+", kept))]
-    assert len(names) == count
-    told = header.replace("\n * ", " ")
-    for x, _ in names:
-        if x[0] == "q":
-            assert f"{x[:-2]} is a unit quaternion" in told
-        elif x.startswith("theta"):
-            assert f"whole turns are counted in {x}" in told
-
-
-@pytest.mark.parametrize("name", FORMS)
 def test_it_equals_the_record(name):
     given, attitude, count = FORMS[name]
     small = count < 20
@@ -146,21 +126,6 @@ def test_project_takes_every_quaternion_back():
     assert f.defect(f.project(off)) < 1e-9
     kept = [k for k, name in enumerate(f.STATE) if name[0] != "q"]
     assert np.array_equal(f.project(off)[kept], off[kept])
-
-
-ANGLES = ("SO", "SE", "UT", "U")
-"""Families whose least members turn a plane, or have one parameter."""
-
-
-@pytest.mark.parametrize("name", FAMILIES)
-def test_which_factors_have_charts(name):
-    """By themselves, and in a product, where they are in other rows."""
-    least = group(f"{name}({FAMILIES[name].least})")
-    beside = group(f"SO(3) x {name}({FAMILIES[name].least})")
-    assert [*factor_charts(least, "angle")] == [0] * (name in ANGLES)
-    assert [*factor_charts(beside, "angle")] == [1] * (name in ANGLES)
-    assert [*factor_charts(beside, "quaternion")] == [0]
-    assert not factor_charts(beside, "matrix")
 
 
 # ---------------------------------------------------------------- there and back

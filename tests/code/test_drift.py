@@ -161,21 +161,6 @@ def test_a_velocity_that_leaves_the_group_is_made_tangent(name):
     assert m.defect(wild) > 1e-2
 
 
-@pytest.mark.parametrize(("name", "law"), [("so3", "SO"), ("se3", "SE"), ("sl3", "SL")])
-@pytest.mark.parametrize("velocity", ["body", "tangent"])
-def test_in_the_principal_frame_the_group_is_the_same(name, law, velocity):
-    """A state of the group taken there has no defect, and one beside it is taken back."""
-    m = module_of(name, frame="principal", velocity=velocity)
-    k = m.constants({x: m.DEFAULTS.get(x, 1.3) for x in m.PARAMETERS})
-    g, A = element(f"{law}(3)")
-    x = state_of(m, A)
-    moved = m.into_frame(x, k)
-    assert max(m.defect(x), m.defect(moved)) <= 1e-12
-    beside = moved + 1e-4 * np.random.default_rng(2).normal(size=len(x))
-    there = m.project(beside)
-    assert off(g, matrices(m, g, there)[0]) + m.defect(there) < 1e-5 < 0.1 * m.defect(beside)
-
-
 def test_where_nothing_keeps_the_group_there_is_nothing_to_project():
     _, files = emission("gl3", (*LANGUAGES,))
     for path, what in files.items():

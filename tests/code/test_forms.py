@@ -10,11 +10,10 @@ import pytest
 
 from derive import compile as compiled
 from derive import derive
-from derive.command.cli import main
 from derive.problem.toml import problem_of
 from tests.code.test_charts import FORMS as CHARTS
 from tests.problems import MIXED, SKEWED
-from tests.support.library import emission, module_of
+from tests.support.library import module_of
 from tests.support.needs import needs
 from tests.support.states import charted, drawn, element, element_names, hat, state
 
@@ -399,63 +398,6 @@ def test_what_never_varies_is_left_out(name):
     assert at == sorted(at)
     assert np.ptp(drawn[:, still], axis=0).max(initial=0) < 1e-12
     assert np.ptp(drawn[:, at], axis=0).min() > 1e-6
-
-
-def test_the_header_and_the_names_say_what_is_there(tmp_path, capsys):
-    words = ["emit", "screw", "--state", "moving", "--out", str(tmp_path), "--validate"]
-    assert main([*words, "--lang", "c", "--lang", "python"]) == 0
-    assert capsys.readouterr().err.count("equal the record") == 2
-    text = " ".join((tmp_path / "screw.h").read_text().replace("\n *", " ").split())
-    assert "never vary: A_13, A_23, A_31, A_32, T_1, T_2 = 0; A_33 = 1." in text
-    assert "x = (A_11, A_12, A_21, A_22, T_3, zeta_1)" in text
-
-
-ACTING = """
-name = "test"
-group = "SE(3)"
-point = [
-  { mass = "4 - t", at = [1, 0, 0] }, { mass = 2, at = [0, 1, 0] },
-  { mass = 1, at = [0, 0, 1] }, { mass = 3, at = [1, -1, 2] },
-]
-flow = [{ at = [1, 0, 2], rate = -1, velocity = [0, 0, -9] }]
-force = [{ at = [1, 2, 3], frame = "body", force = ["v_1", 0, 0], moment = [0, "v_2", 0] }]
-[parameters]
-b = 2
-[[damping]]
-coefficient = "3*b"
-on = [1, 4]
-"""
-BESIDE = """
-name = "test"
-group = "SE(2)"
-inertia = { operator = [[2, 0, 0], [0, 1, 0], [0, 0, 1]] }
-force = [{ name = "loads", covector = ["-zeta_1", 0, 0] }, { at = [1, 2], force = ["-v_1", 0] }]
-"""
-WINDY = """
-name = "test"
-group = "SE(2)"
-point = [{ mass = 1, at = [1, 0] }, { mass = 1, at = [0, 1] }]
-force = [{ on = 1, relative_to = [0, "r_1"], force = [0, "-v_2"] }]
-"""
-
-
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        (WINDY, "a force (0, -(v_2 - r_1)) on point 1, in the space frame; v is the velocity"),
-        (WINDY, "; r is where it is."),
-        (ACTING, "A_31 v_3, 0, 0) and a moment (0, A_12 v_1 + A_22 v_2 + A_32 v_3, 0) on the body"),
-        (ACTING, "Mass flows at (1, 0, 2), dm/dt = -1."),
-        (ACTING, "Damping: the force -kappa v on point 1, point 4, kappa = 3b."),
-        (BESIDE, "Force of the state loads: a covector of the Lie algebra."),
-        (BESIDE, "Force of the state: a force (-v_1, 0) on the body at (1, 2), in the space"),
-        (BESIDE, "frame; v is the velocity of the place in space."),
-    ],
-)
-def test_the_head_says_what_acts(text, told):
-    _, texts = emission(problem_of(tomllib.loads(text)), ("c", "python"))
-    for name in ("test.h", "test.py"):
-        assert told in " ".join(texts[name].replace("\n *", " ").split())
 
 
 def test_states_are_in_a_frame_of_their_own():

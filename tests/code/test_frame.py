@@ -11,8 +11,8 @@ from derive.pipeline import walk
 from derive.problem.principal import principal
 from derive.problem.toml import problem_of
 from tests.code.test_forms import given, started
-from tests.support.library import STRICT, built, emission, library, module_of
-from tests.support.needs import CC, need, needs, present
+from tests.support.library import library, module_of
+from tests.support.needs import need, present
 from tests.support.states import state
 from tests.support.walks import own_verdicts
 
@@ -58,16 +58,6 @@ def test_bodies_without_a_frame_are_refused_by_the_code():
     assert refused("so3", p, "singular") == 1
 
 
-@pytest.mark.parametrize("bad", [np.nan, np.inf])
-@pytest.mark.parametrize("name", ["SO(3)", "SL(3)", "GL(3)"])
-def test_numbers_that_are_not_finite_are_refused(name, bad):
-    """Also where they only tell the frame: a stiffness, gravity."""
-    for which in ("k", "g"):
-        p = started(name, {}, 1)[0]
-        p[module_of(given(name)).PARAMETERS.index(which)] = bad
-        assert refused(given(name), p, "not finite") == 2
-
-
 BODIES = {
     "top": ("SO(3)", {"given": {"m": 1, "c": [0, 0, 1], "J": np.diag([2, 1, 4]).tolist()}}),
     "ball": ("SE(3)", {"solid": "ball", "density": 2, "radius": 1}),
@@ -89,36 +79,10 @@ def test_gravity_of_any_size(body, gravity):
     assert np.allclose(found, expected, rtol=1e-11, atol=1e-12 * np.abs(expected).max())
 
 
-def test_a_batch_of_bodies():
-    framed = module_of(given("SE(3)"), frame="principal")
-    rows = [started("SE(3)", {}, seed) for seed in range(1, 5)]
-    p, x = (np.array([row[i] for row in rows]) for i in (0, 1))
-    p[:, 0] *= np.arange(1, 5)
-    k = framed.constants(p)
-    for i in range(4):
-        alone = framed.constants(p[i])
-        one = framed.rhs(0.0, framed.into_frame(x[i], alone), alone)
-        many = framed.rhs(0.0, framed.into_frame(x, k), k)[i]
-        assert np.allclose(
-            framed.out_of_frame(one, alone), framed.out_of_frame(many, k[i]), atol=1e-11
-        )
-
-
 @pytest.mark.parametrize("name", [name for name, x in LANGUAGES.items() if not x.framed])
 def test_some_languages_have_no_frame(name):
     with pytest.raises(EmitError, match=f"not in {name}"):
         derive("so3").emit(None, (name,), frame="principal")
-
-
-@needs("cc")
-@pytest.mark.parametrize("form", ["source", "header"])
-def test_floats_for_small_machines(form):
-    """Without a double where a float will do."""
-    name, texts = emission(given("SE(3)"), ("c",), frame="principal", real="float", form=form)
-    texts["use.c"] = f'#include "{name}.h"\nint main(void) {{ return 0; }}\n'
-    sources = [x for x in texts if x.endswith(".c")]
-    flags = (*STRICT, "-Wdouble-promotion", "-Wshadow", "-Wno-unused-function")
-    built([(CC, "-std=c99", *flags, *sources, "-o", "out", "-lm")], texts)
 
 
 # ---------------------------------------------------------------- equal moments
@@ -247,28 +211,8 @@ def test_the_motion_is_the_same(name, body):
     assert np.allclose(there, here @ R, rtol=1e-11, atol=1e-11)
 
 
-def test_the_axes_of_a_batch_of_bodies():
-    module, rng = module_of("so3"), np.random.default_rng(5)
-    batch = np.stack([parameters("so3", body, module, rng) for body in SOLIDS])
-    moments, R = module.principal_axes(batch)
-    turned = module.turned(batch, R)
-    for i, p in enumerate(batch):
-        assert np.allclose(moments[i], module.principal_axes(p)[0])
-        assert np.allclose(turned[i], module.turned(p, R[i]))
-
-
 def test_a_ball_has_its_moments():
     module = module_of("ellipsoid")
     p = dict.fromkeys(module.PARAMETERS, 1.0) | {"rho": 3.0, "a": 2.0, "b": 2.0, "c": 2.0}
     moments, _ = module.principal_axes([p[x] for x in module.PARAMETERS])
     assert np.allclose(moments, 0.4 * (3 * 4 / 3 * np.pi * 8) * 4, rtol=1e-14)
-
-
-def test_parameters_by_name():
-    """Wherever parameters are taken, a dictionary will do."""
-    so3 = module_of("so3")
-    named = {"J_12": 0.2, "c_3": 0.1}
-    p = np.array([named.get(x, so3.DEFAULTS.get(x)) for x in so3.PARAMETERS])
-    for function in (so3.constants, so3.inertia, lambda p: so3.principal_axes(p)[1]):
-        np.testing.assert_array_equal(function(named), function(p))
-    np.testing.assert_array_equal(so3.turned(named, np.eye(3)), p)

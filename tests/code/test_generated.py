@@ -60,28 +60,7 @@ def test_sources_say_nothing_of_the_machine(name):
             assert not re.search(r"\b20[0-9][0-9]-[01][0-9]-", text)
 
 
-def operations(name):
-    """Multiplications, additions and divisions of rhs, counted in the C text itself."""
-    text = (ROOT / "generated" / name / f"{name}.c").read_text(encoding="utf-8")
-    text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
-    body = text[text.index(f"void {name}_rhs") :]
-    body = body[body.index("{") : body.index(f"void {name}_rhs_batch")]
-    statements = [s.split("=", 1)[1] for s in body.split(";") if "=" in s]
-    return (
-        sum(s.count("*") for s in statements),
-        sum(len(re.findall(r" [+-] ", s)) for s in statements),
-        sum(s.count("/") for s in statements),
-    )
-
-
 # what a specialist writes by hand, with the constants staged: the code must not grow beyond this
-
-
-@pytest.mark.parametrize("name", SPECIAL)
-def test_the_header_counts_its_operations(name):
-    text = (ROOT / "generated" / name / f"{name}.h").read_text(encoding="utf-8")
-    said = re.search(r"rhs ([0-9]+) mul, ([0-9]+) add(?:, ([0-9]+) div)?;", text)
-    assert tuple(int(x or 0) for x in said.groups()) == operations(name)
 
 
 # ---------------------------------------------------------------- what is too large

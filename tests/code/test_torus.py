@@ -1,7 +1,6 @@
 """The emitted code of a fluid on the torus: C, Python and plain sums; what is kept; languages."""
 
 import re
-import subprocess
 from functools import cache
 
 import numpy as np
@@ -10,8 +9,8 @@ from scipy.integrate import solve_ivp
 
 from derive.problem.toml import problem_of
 from tests.oracles import relative_error, torus
-from tests.support.library import ONE_BUILD, STEPPED, built, emission, library, module_of
-from tests.support.needs import CC, need
+from tests.support.library import ONE_BUILD, STEPPED, emission, library, module_of
+from tests.support.needs import need
 
 SIZES = (3, 9, 31, 5, 7, 11)
 
@@ -110,34 +109,3 @@ def test_the_vorticity_is_measured_as_one(build):
         assert end.status == 0
         assert np.abs(end.x - path.y[:, -1]).max() < 20 * tol * np.abs(x).max()
     assert 1 <= coarse.h / fine.h < 6  # 1000^(1/9) = 2.2, but for where the last step ends
-
-
-def test_the_header_says_what_memory_a_step_takes():
-    """Without optimisation, in a process that has no more stack than that."""
-    need("cc")
-    _, texts = emission(fluid(31), ("c",), step=("gauss", "vern9"))
-    motion, within = map(int, re.findall(r"(\d+) kB", texts["fluid31_steps.h"]))
-    rhs = int(re.search(r"(\d+) kB", texts["fluid31.h"])[1])
-    words = (CC, "-O0", "main.c", "fluid31.c", "-o", "out", "-lm")
-    program = built([words], texts | {"main.c": MEMORY})
-    command = f"ulimit -s {within + rhs + 128} && {program}"
-    done = subprocess.run(["sh", "-c", command], check=True, capture_output=True)
-    assert abs(motion - int(done.stdout) / 1024) < 0.02 * motion
-
-
-MEMORY = """
-#include "fluid31_steps.h"
-#include <stdio.h>
-static fluid31_motion m;
-static double x[fluid31_N_STATE];
-int main(void)
-{
-    double k[fluid31_SIZE_K], nothing[1] = {0};
-    x[0] = x[61] = 1;
-    fluid31_constants(nothing, k);
-    fluid31_begin(&m, 0, x);
-    printf("%d\\n", (int)sizeof m);
-    return fluid31_gauss_to(&m, k, nothing, 0.1, 1e-9)
-        || fluid31_vern9_to(&m, k, nothing, 0.2, 1e-9);
-}
-"""

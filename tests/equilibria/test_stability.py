@@ -12,6 +12,7 @@ from derive.command.cli import main
 from derive.problem.toml import problem_of
 from derive.record.as_json import from_json
 from derive.record.sentence import english
+from derive.search.equilibria.energy_casimir import diagonalised
 from tests.support.lagrangians import LINE, heavy, heisenberg, lagrangian, nilpotent
 from tests.support.walks import repeated
 
@@ -133,6 +134,21 @@ def test_pi_stays_a_letter_in_a_command(tmp_path, capsys):
     assert "‘g’" not in english(upright.prose)
     (tmp_path / "found.json").write_text(told, encoding="utf-8")
     assert main(["check", str(tmp_path / "found.json")]) == 0
+
+
+def test_squares_by_lagrange():
+    rng = np.random.default_rng(3)
+    for n in (1, 3, 5):
+        a = rng.integers(-4, 5, size=(n, n))
+        q = [[Fraction(int(x)) for x in row] for row in a + a.T - 2 * np.diag(np.diag(a))]
+        squares = diagonalised(q)
+        whole = sum(
+            (float(d) * np.outer([*map(float, r)], [*map(float, r)]) for d, r in squares),
+            np.zeros((n, n)),
+        )
+        assert whole == pytest.approx(np.array(q, float))
+        positive = sum(np.linalg.eigvalsh(np.array(q, float)) > 1e-9)
+        assert positive == sum(d > 0 for d, _ in squares)
 
 
 def test_the_degree_of_what_is_kept_is_an_option(capsys):

@@ -90,25 +90,6 @@ def test_a_stone_meets_the_ground_and_the_run_ends(tmp_path, height):
     assert "never" not in {x.name for x in run.events}
 
 
-@pytest.mark.parametrize("step", ["gauss", "vern9", "rk4", "discrete"])
-@pytest.mark.parametrize("compiled", [True, False])
-def test_steps_of_one_size_are_the_same_with_events(tmp_path, step, compiled):
-    """Up to a last one that is shorter; and hardly more rates are asked for."""
-    watched = f'{FALL}[[event]]\nname = "over"\nwhen = "A_11"\n'.replace("terminal = true", "")
-    plain = watched[: watched.index("[[event]]")]
-    chosen = {"step": step, "dt": 0.05, "points": 7, "compiled": compiled}
-    run, other = (
-        derive.derive(problem(tmp_path, text)).simulate(1.52, **chosen) for text in (watched, plain)
-    )
-    assert [x.name for x in run.events] == ["over", "half", "ground"]
-    assert all(x.direction == "falling" for x in run.events)
-    assert np.array_equal(run.t, other.t)
-    assert np.abs(run.states - other.states).max() < 1e-12
-    few, many = (x.facts["evaluations"] for x in (other, run))
-    # the parts of an event's step, each of which gauss, in C, solves by itself
-    assert many <= (1.5 if step == "gauss" else 1.05) * few + 200
-
-
 @pytest.mark.parametrize("N", [3, 5, 9])
 @pytest.mark.parametrize("compiled", [True, False])
 def test_events_on_the_torus(tmp_path, N, compiled):
@@ -139,13 +120,6 @@ when = "re_1_0/(2 + im_0_1)^2 - sin(im_0_1 + t/2)/2"
     )  # fmt: skip
     assert len(run.events) > 3
     assert times(run, "e") == pytest.approx(found.t_events[0], rel=0, abs=1e-9)
-
-
-def test_an_event_at_the_start_is_none_and_one_at_an_instant_is_seen_once(tmp_path):
-    text = SPIN + '[[event]]\nname = "e"\nwhen = "t*(t - 1)*(t - 2)"\n'
-    run = derive.derive(problem(tmp_path, text)).simulate(3.0, points=3)
-    assert times(run, "e") == pytest.approx([1, 2], rel=0, abs=1e-13)
-    assert [x.direction for x in run.events] == ["falling", "rising"]
 
 
 @pytest.mark.parametrize("ending", FORMATS)

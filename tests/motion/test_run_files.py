@@ -5,7 +5,6 @@ motions that are done."""
 import os
 import signal
 import threading
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -104,16 +103,6 @@ def test_a_place_that_cannot_be_is_told_before_the_run(
     assert err.startswith(f"derive: {out}: ")
     assert "choose another --out" in err
     assert sorted(x.name for x in tmp_path.rglob("*")) == ["file", "folder.npz"]
-
-
-@pytest.mark.skipif(not Path("/proc/self").exists(), reason="there is no /proc")
-@pytest.mark.parametrize("option", ["--out", "--html"])
-def test_a_folder_that_takes_no_file_is_told(capsys, option):
-    file = "/proc/x.npz" if option == "--out" else "/proc/x.html"
-    assert main(["simulate", "so3", "--t", "1", option, file]) == 2
-    text, err = capsys.readouterr()
-    assert (text, err.count("\n")) == ("", 1)
-    assert err.startswith(f"derive: {file}: ")
 
 
 def test_a_place_that_can_be_is_left_as_it_is(tmp_path):

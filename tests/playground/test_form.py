@@ -207,19 +207,6 @@ def test_the_last_button_counts_while_python_works(page):
         page.click("#as-text")
 
 
-def test_the_form_is_in_french(form):
-    page = form(PENDULUM)
-    page.click("[data-lang=fr]")
-    page.wait_for_selector("text=pesanteur")
-    page.get_by_label("Ajouter une force").select_option("potential.spring")
-    words = page.inner_text("#form")
-    page.click("[data-lang=en]")
-    for word in ("pesanteur", "ressort", "raideur", "ancré en", "longueur", "Ajouter un point"):
-        assert word in words
-    for word in ("spring", "gravity", "stiffness", "anchor", "length"):
-        assert word not in words
-
-
 LABELS = "[...document.querySelectorAll('.cm-completionLabel')].map((x) => x.textContent)"
 
 

@@ -3,18 +3,15 @@ completed, numbers and names of a text, the notebook."""
 
 import json
 import runpy
-import subprocess
-import sys
 import tomllib
 
 import pytest
 
 from derive import derive as derived
-from derive.code.options import CHOICES, REPEATED
 from derive.command.showing import READY, ready_made
 from derive.problem.toml import load
 from playground.site import ROOT, built
-from playground.stage import options, schema
+from playground.stage import schema
 from tests.support import in_node
 from tests.support.library import module_of
 from tests.support.needs import need
@@ -126,15 +123,6 @@ def test_names_of_the_velocity_are_the_emitted_ones(name):
     velocity = [x for x in module_of(name).STATE if x.startswith(("zeta_", "w_"))]
     named = {*factors} <= {*schema()["groups"]}
     assert [x for x in found if x not in held] == (velocity if named else [])
-
-
-def test_values_are_told_in_words_in_both_languages():
-    words, values = options()["values"], CHOICES | REPEATED
-    assert {x: [*y] for x, y in words.items()} == {x: [*values[x][0]] for x in words}
-    assert {"jacobian", "step", "frame", "velocity"} <= {*words}
-    said = [x for y in words.values() for x in y.values()]
-    assert all(x["en"] and x["fr"] for x in said)
-    assert all(x["en"] != x["fr"] for y in ("jacobian", "step") for x in words[y].values())
 
 
 # ---- the notebook
@@ -267,14 +255,3 @@ def test_the_pages_of_the_site_have_its_addresses():
     read, own = in_node.told(imports, both, [conf["packed"](text), text])
     assert read == text
     assert len(conf["packed"](text)) <= len(own)
-
-
-@pytest.mark.parametrize("module", ["site", "serve"])
-def test_help_is_printed_and_nothing_done(module):
-    """By its module and by its file."""
-    for how in (["-m", f"playground.{module}"], [str(ROOT / "playground" / f"{module}.py")]):
-        done = subprocess.run(
-            [sys.executable, *how, "--help"], cwd=ROOT, capture_output=True, text=True, timeout=30
-        )
-        assert done.returncode == 0
-        assert done.stdout.startswith("usage:")

@@ -2,8 +2,7 @@
 
 import tomllib
 
-from tests.support.played import text_of
-from tests.support.playground_site import chosen, opened, text_in, violations, visit
+from tests.support.playground_site import text_in, violations, visit
 
 SAID = """() => {
     const seen = (x) => x.nodeType === 3 ? x.textContent
@@ -66,19 +65,3 @@ def test_a_problem_is_one_sentence_that_is_dragged_typed_and_chosen(fresh, site)
     fresh.wait_for_selector("#form > *")
     assert fresh.input_value("[data-mark='0.group']") == "SE(3)"
     assert fresh.locator("#sentence").is_hidden()
-
-
-def test_points_and_a_lagrangian_in_french(browser, site):
-    with opened(browser, locale="fr-FR", color_scheme="dark") as page:
-        visit(page, f"{site}#hung_bar", "hung_bar")
-        said = sentence(page)
-        assert said.startswith("Un corps avec un point de masse 1.0 kg en (-a, 0) et un point de ")
-        assert (
-            "se meut dans le plan, sous l’action de son poids (g = (0, -g)), d’un ressort (" in said
-        )
-        assert not violations(page)
-        chosen(page, "spherical_pendulum")
-        lagrangian = "() => document.querySelector('#sentence p').innerText.includes('lagrangien')"
-        page.wait_for_function(lagrangian)
-        assert page.evaluate(SAID).startswith("Un système de lagrangien ")
-        assert text_in(page) == text_of("spherical_pendulum")

@@ -11,9 +11,8 @@ from derive.command.cli import main
 from derive.motion.ensemble_files import read_either
 from derive.motion.run import Run, written
 from derive.views.language import language
-from derive.views.plot import kind_descriptions
-from derive.views.plot.kind_descriptions import OVERVIEW, PRECISION
-from derive.views.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
+from derive.views.plot.kind_descriptions import OVERVIEW
+from derive.views.plot.pictures import KINDS, plot
 from derive.views.plot.plot_sheet import FORMATS, PlotError, laid_out, look, with_mark
 from tests.support.drawn_runs import figure_of, fitting, run_of, simulated, texts, words_of
 from tests.support.motion_pictures import DRAWN, MADE, PICTURES, ROOT, RUNS, drawn, remade, unlike
@@ -22,16 +21,6 @@ from tests.support.walks import derived
 
 pytestmark = needs("the module matplotlib")
 FRENCH = language("fr").word
-
-
-def test_the_help_tells_every_kind(capsys):
-    assert [*kind_descriptions.KINDS] == [*KINDS]
-    assert [*kind_descriptions.ENSEMBLE_KINDS] == [*ENSEMBLE_KINDS]
-    with pytest.raises(SystemExit):
-        main(["plot", "--help"])
-    text = " ".join(capsys.readouterr().out.split())
-    for kind in (*KINDS, OVERVIEW, PRECISION):
-        assert f"{kind}: " in text
 
 
 @pytest.mark.parametrize("kind", [*KINDS, OVERVIEW])
@@ -203,15 +192,6 @@ def test_the_picture_of_each_problem_is_beside_and_shown(name, shown, problems, 
     for problem, picture in zip(problems, pictures, strict=True):
         run = derived(problem).simulate(3.0)
         assert (tmp_path / picture).read_bytes() == plot(run, picture)
-
-
-def test_in_a_pdf(tmp_path):
-    need("pdflatex")
-    bare, out = tmp_path / "bare.pdf", tmp_path / "notes.pdf"
-    assert main(["notes", "rod", "--out", str(bare)]) == 0
-    assert main(["notes", "rod", "--picture", "3", "--out", str(out)]) == 0
-    assert (tmp_path / "notes_rod_motion.pdf").stat().st_size > 2000
-    assert out.stat().st_size > bare.stat().st_size + 2000
 
 
 # ---------------------------------------------------------------- those that are committed

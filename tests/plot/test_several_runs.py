@@ -129,19 +129,6 @@ def test_of_a_turn_the_third_axis_is_drawn():
     assert differing(turned, ("A_11",), 12) == ["A_11"]
 
 
-def test_units_are_those_of_the_facts():
-    e = ensemble()
-    e = replace(e, facts={**e.facts, "units": {"t": "s", "x_1": "m", "k": "m/s"}})
-    (panel,) = drawn("spread", e).get_axes()
-    assert (panel.get_xlabel(), panel.get_ylabel()) == ("$t$ [s]", "$x_{1}$ [m]")
-    figure = drawn("ends", e)
-    assert [x.get_xlabel() for x in figure.get_axes()] == [
-        "$x_{1}$ [m], varied",
-        "$k$ [m/s], varied",
-    ]
-    assert figure.get_suptitle() == "$t = 2$ s – 45/50 motions to the end"
-
-
 def saved(folder, e, name="many.npz"):
     """The file of an ensemble."""
     with (folder / name).open("wb") as file, writer(file, name, e) as made:

@@ -48,16 +48,6 @@ def test_what_is_exact_is_not_drawn():
     assert "exact: linear momentum 1" in panel.get_legend_handles_labels()[1]
 
 
-def test_where_all_is_exact_that_is_said_and_takes_little_room():
-    t = np.linspace(0, 2, 40)
-    exact = plain_run(np.stack([t, np.sin(t), 0 * t + 3], 1), x_1="state", energy="energy")
-    assert KINDS["energy"].size(exact)[1] < 1.5 < KINDS["energy"].size(run_of())[1]
-    panel, words = panel_of(exact, "energy")
-    assert "exact: energy" in words
-    assert not curves(panel)
-    assert panel.get_xlim() == (0, 2)
-
-
 @pytest.mark.parametrize("rows", [2, 3, 5])
 def test_a_change_at_one_instant_alone_is_seen(rows):
     change = np.zeros(rows)

@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 import sympy
 
-from derive import Fluid, Problem
-from derive import derive as derived
 from derive.algebra import forms
 from derive.algebra.calculus import reduce
 from derive.algebra.words import word
@@ -301,10 +299,3 @@ def test_fields_with_a_divergence_break_what_rests_on_it(monkeypatch):
     assert {"skew", "divergence", "kernel", "divergence_along", "pressure_equation"} <= broken
     assert "structure" not in broken
     assert "chain" not in broken
-
-
-def test_sympy_has_no_fields():
-    found = derived(Problem("sea", Fluid()))
-    for label in ("kernel", "lagrangian", "pressure"):
-        with pytest.raises(ValueError, match="fluid"):
-            found[label].sympy()

@@ -10,7 +10,7 @@ from random import Random
 import numpy as np
 import pytest
 
-from derive import pipeline, programs
+from derive import pipeline
 from derive.algebra.families import group, on_homogeneous
 from derive.algebra.relations import for_every_body
 from derive.algebra.user_groups import group_of_basis, nilpotent
@@ -150,13 +150,3 @@ def test_rotations_in_any_basis_have_the_record_of_rotations(name, like):
     assert [(s.label, s.equations, s.uses) for s in own] == [
         (s.label, s.equations, s.uses) for s in other.steps
     ]
-
-
-def test_their_state_is_in_the_basis_that_is_stated():
-    """The same motion: ζ of the state x are the coordinates of the same Z."""
-    text = PROBLEMS["se(3) mixed"]
-    mine = read(text)
-    assert mine.group.user_basis == mine.group.in_user_basis.basis != mine.group.basis
-    program = programs.program(mine, pipeline.walk(mine))
-    assert program.basis == mine.group.user_basis
-    assert [x for x in program.state if x.startswith("zeta")] == [f"zeta_{i}" for i in range(1, 7)]

@@ -8,14 +8,12 @@ from functools import cache
 import pytest
 
 from derive.check.checker import Checker, check
-from derive.command.cli import main
 from derive.language.expression import parse
 from derive.language.tree import add, mul, neg, nodes
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.record import Equation
 from derive.walk.kinematics.invariant_errors import Velocity, matrix, numbers
-from tests.support.cached import ROOT
 from tests.support.walks import SEED, record
 
 
@@ -203,12 +201,3 @@ def test_a_counterexample_off_the_group_is_refused():
 
 
 # -- bad input ------------------------------------------------------------------------------------
-
-
-def test_a_density_that_is_negative_by_a_default_is_told_in_one_line(tmp_path, capsys):
-    text = (ROOT / "derive/problems/imu.toml").read_text(encoding="utf-8")
-    (tmp_path / "imu.toml").write_text(text.replace("default = 1e-4", "default = -1e-4"), "utf-8")
-    assert main(["walk", str(tmp_path / "imu.toml")]) == 2
-    out, err = capsys.readouterr()
-    assert (out, err.count("\n")) == ("", 1)
-    assert "noise of 'w_1': a density is not negative" in err

@@ -2,7 +2,6 @@
 of a control volume, masses that are expressions of the time, and known solutions."""
 
 import json
-import re
 from dataclasses import replace
 from functools import cache
 
@@ -18,8 +17,7 @@ from derive.record.as_json import from_json, to_data
 from derive.record.record import RecordError
 from tests.oracles import relative_error
 from tests.oracles.control_volume import Leaking
-from tests.support.library import ONE_BUILD, arrange, library, module_of
-from tests.support.needs import needs
+from tests.support.library import arrange, module_of
 from tests.support.walks import own_verdicts
 from tests.walk import test_flows as timed
 from tests.walk.test_flows import on
@@ -171,21 +169,6 @@ def test_every_form_and_language_is_read_back(form, tmp_path):
     assert main([*words, *(x for name in languages for x in ("--lang", name))]) == 0
 
 
-STEPS = [("gauss", 0.05, 4), ("vern9", 0.05, 4)]
-
-
-@needs("cc")
-@pytest.mark.parametrize("build", [ONE_BUILD[x] for x in ("python", "javascript", "rust")])
-def test_the_steps_of_other_languages_are_those_of_c(build):
-    start = np.concatenate([np.eye(3).ravel(), np.zeros(3), [0.1, 0.2, 0.3, 0, 0, 0], [60]])
-    given = start, [1.5, 2500.0], [0.7]
-    options = {"step": ("gauss", "vern9")}
-    found, known = (library(b, ROCKET, **options).follow(STEPS, *given) for b in (build, "c"))
-    for a, b in zip(found, known, strict=True):
-        assert relative_error(a.x, b.x) < 1e-13
-        assert b.x[-1] == pytest.approx(60 - 1.5 * 0.7 * b.t, rel=1e-13)
-
-
 ROCKET = """
 name = "rocket"
 group = "SE(3)"
@@ -245,14 +228,6 @@ def test_a_mass_that_says_its_own_rate_decays(tmp_path):
     assert np.abs(run["fuel"] - 60 * np.exp(-run.t * 1.5 / 60)).max() < 1e-8
 
 
-def test_where_nothing_leaves_fast_the_mass_has_its_rate(tmp_path):
-    """The body falls, and does not feel what it loses."""
-    text = ROCKET.replace('[0, 0, "-u"]', "[0, 0, 0]").replace(", u = 2500.0", "")
-    run = followed(text, tmp_path, 3, start={"throttle": 1.0})
-    assert run["fuel"][-1] == pytest.approx(60 - 4.5)
-    assert run["w_3"][-1] == pytest.approx(-9.81 * 3)
-
-
 def test_a_mass_that_is_used_up_is_told(tmp_path):
     with pytest.raises(ValueError, match=r"the mass fuel of a point is used up before t = 40\.1"):
         followed(ROCKET, tmp_path, 50, start={"throttle": 1.0})
@@ -291,17 +266,6 @@ def test_it_is_refused_in_one_line(change, tmp_path, capsys):
     assert main(["walk", str(path)]) == 2
     (told,) = capsys.readouterr().err.splitlines()
     assert WRONG[change] in told
-
-
-@pytest.mark.parametrize(
-    "option", ["--jacobian state", "--jacobian step --step rk4", "--exponential", "--momenta"]
-)
-def test_what_is_of_the_group_alone_is_refused(option, tmp_path, capsys):
-    path = tmp_path / "rocket.toml"
-    path.write_text(ROCKET, encoding="utf-8")
-    assert main(["emit", str(path), *option.split(), "--out", str(tmp_path)]) == 2
-    told = capsys.readouterr().err.splitlines()[-1]
-    assert re.search("the mass fuel, too|mass flows", told)
 
 
 def test_a_trim_says_what_is_refused_and_leads_nowhere_else(tmp_path, capsys):

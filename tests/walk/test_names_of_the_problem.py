@@ -12,8 +12,6 @@ from derive.problem.toml import problem_of
 from derive.programs import program
 from derive.record.sentence import english
 from derive.views.language import language
-from derive.views.outline import latex_names
-from derive.views.rendering import render
 from derive.views.text import text
 from tests.support.library import emission
 
@@ -24,18 +22,6 @@ def told(d, label):
 
 def meaning(d, name):
     return english(next(s.meaning for s in d.symbols if s.name == name))
-
-
-def walked(**data):
-    return walk(problem_of({"name": "masses", **data}))
-
-
-@pytest.mark.parametrize(("m", "latex"), [("m", r"\mathbf m"), ("k", "m")])
-def test_the_total_mass_is_another_letter_than_a_parameter_m(m, latex):
-    masses = [{"mass": x, "at": at} for x, at in zip((m, 2, 1), np.eye(3).tolist(), strict=True)]
-    d = walked(group="SO(3)", parameters={m: {}}, point=masses)
-    assert latex_names(d)["m"] == latex
-    assert (r"\mathbf m" in render(d, "latex", "en")) == (m == "m")
 
 
 PLACES = ([1, 0, 0], [-1, 0, 0], [0, 2, 0], [0, -2, 0], [0, 0, 3], [0, 0, -3])
