@@ -83,18 +83,6 @@ def plain_names(t):
         yield from (x for part in parts for x in plain_names(part))
 
 
-def defined_in(name):
-    """What the answer of a problem defines."""
-    _, (_, where) = summary(walk_of(name)).blocks
-    return {e.lhs for e in where.equations}
-
-
-def test_a_letter_is_defined_where_it_is_used_alone():
-    """The semi-axis c does not bring the first moment c, nor is m = m said of a parameter."""
-    for name, unused in (("ellipsoid", "c"), ("riemann_ellipsoid", "c"), ("se3", "m")):
-        assert unused not in defined_in(name)
-
-
 @pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("form", ["text", "markdown", "latex", "html"])
 def test_every_format_has_the_same(form, lang, capsys):

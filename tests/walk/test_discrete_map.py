@@ -1,7 +1,6 @@
 """The discrete motion as a map, from the equations of its record: symplectic in 40 digits, its
 momenta kept, of order 2; its steps make the action stationary, and its notes are of it alone."""
 
-import re
 import tomllib
 from dataclasses import replace
 from fractions import Fraction
@@ -13,7 +12,6 @@ import numpy as np
 import pytest
 
 from derive.check.checker import check
-from derive.command.cli import main
 from derive.language import rational as q
 from derive.pipeline import discrete
 from derive.problem.toml import problem_of
@@ -152,16 +150,3 @@ def test_steps_of_moser_and_veselov_make_the_action_stationary():
         assert abs(varied.imag / 1e-20) < 1e-11 * scale
     space = [a @ ((a.T @ b @ J - J @ b.T @ a) / h) @ a.T for a, b in ((g_0, g_1), (g_1, g_2))]
     assert np.abs(space[0] - space[1]).max() < 1e-11 * scale
-
-
-@pytest.mark.parametrize("lang", ["en", "fr"])
-def test_notes_are_of_discrete_motions(tmp_path, lang):
-    """Of both actions in one text, each step once."""
-    for end in (".tex", ".html"):
-        out = tmp_path / f"notes{end}"
-        assert main(["notes", "so3", "se3", "--discrete", "--lang", lang, "--out", str(out)]) == 0
-        text = out.read_text(encoding="utf-8")
-        label = r"\label{{{}}}" if end == ".tex" else 'id="{}"'
-        for step in ("discrete.balance", "discrete_affine.blocks", "so3.turning", "se3.centre"):
-            assert text.count(label.format(step)) == 1
-        assert r"\Theta^" not in re.sub(r'data-tex="[^"]*"', "", text) or end == ".tex"

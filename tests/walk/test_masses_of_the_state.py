@@ -268,21 +268,6 @@ def test_it_is_refused_in_one_line(change, tmp_path, capsys):
     assert WRONG[change] in told
 
 
-def test_a_trim_says_what_is_refused_and_leads_nowhere_else(tmp_path, capsys):
-    path = tmp_path / "rocket.toml"
-    path.write_text(ROCKET, encoding="utf-8")
-    assert main(["trim", str(path)]) == 2
-    (told,) = capsys.readouterr().err.splitlines()
-    assert "this state has the mass fuel, too; leave out its [[flow]]" in told
-    # what it says to do
-    pushed = ROCKET[: ROCKET.index("[[flow]]")].replace(
-        'kind = "scalar"', 'kind = "force", at = [0, 0, 0], frame = "body", direction = [0, 0, 1]'
-    )
-    path.write_text(pushed.replace(", b = 1.5, u = 2500.0", ""), encoding="utf-8")
-    assert main(["trim", str(path)]) == 0
-    assert "throttle = 5886/5" in capsys.readouterr().out
-
-
 def test_a_record_whose_mass_is_no_parameter_is_none():
     record = derive.derive(problem_of(on("SO(2)", TANK))).record
     data = to_data(record)

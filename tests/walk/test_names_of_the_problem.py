@@ -9,19 +9,13 @@ from derive.check.checker import Checker
 from derive.language.tree import mul, nodes
 from derive.pipeline import discrete, walk
 from derive.problem.toml import problem_of
-from derive.programs import program
 from derive.record.sentence import english
 from derive.views.language import language
-from derive.views.text import text
 from tests.support.library import emission
 
 
 def told(d, label):
     return english(d[f"{d.name}.{label}"].prose)
-
-
-def meaning(d, name):
-    return english(next(s.meaning for s in d.symbols if s.name == name))
 
 
 PLACES = ([1, 0, 0], [-1, 0, 0], [0, 2, 0], [0, -2, 0], [0, 0, 3], [0, 0, -3])
@@ -59,20 +53,6 @@ def test_the_numbers_of_inputs_have_the_names_of_the_file(road, group):
     named = {x[1] for x in parts if isinstance(x, tuple) and x[0] == "par"}
     assert named
     assert named <= given | {"P_thrust", "P_F"}  # the powers
-
-
-def test_text_and_code_call_an_input_alike():
-    """F are the forces on the points as well: in quotes."""
-    p = driven("SE(3)")
-    d = walk(p)
-    (solved,) = (x for x in text(d).split("\n\n") if x.startswith("driven.explicit"))
-    assert "thrust₂" in solved
-    assert "‘F₅’" in solved
-    assert meaning(d, "u").endswith("in the body frame, ‘F₁’, ‘F₂’, ‘F₃’")
-    assert {*program(p, d).inputs} == {
-        *(f"thrust_{k}" for k in (1, 2, 3)),
-        *(f"F_{k}" for k in range(1, 7)),
-    }
 
 
 STATED = {
