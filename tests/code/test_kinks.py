@@ -91,6 +91,32 @@ def test_the_derivatives_of_steps_say_them_and_gauss_what_it_does_not_see(law):
         assert ("the estimate of gauss does not see" in seen) == (bent and end != ".hpp"), end
 
 
+def test_the_names_are_those_of_the_file():
+    """A velocity along the axes of the body is v_1; what is carried along, and points, have their
+    own; outputs that have all that acts have its kinks, and others not."""
+    force = {"name": "drag", "at": [0, 0], "frame": "body", "force": ["-abs(v_1)*v_1", 0]}
+    data = {
+        "group": "SE(2)",
+        "point": [{"mass": 1, "at": [1, 0]}, {"mass": 1, "at": [0, 1]}],
+        "force": [force],
+        "potential": [{"kind": "expression", "U": "abs(r2_y)^3"}],
+        "output": [{"name": "y", "y": ["max(zeta_1, w_1)"]}],
+    }
+    acting = "in potential 1 r2_2 = 0 (abs); in force drag v_1 = 0 (abs)"
+    own = "in output y zeta_1 - w_1 = 0 (min or max)"
+    assert told(emitted(data, "state", "outputs").files["test.h"]) == [acting, own]
+    felt = {"name": "f", "kind": "specific_force", "at": [0, 0]}
+    made = emitted(data | {"output": [*data["output"], felt]}, "outputs")
+    assert told(made.files["test.h"]) == [f"{acting}; {own}"]
+    spun = {
+        "algebra": {"of": "SO(3)"},
+        "advected": [{"name": "up", "representation": "coadjoint"}],
+        "lagrangian": {"L": "(zeta_1^2 + zeta_2^2 + zeta_3^2)/2"},
+        "force": [{"covector": ["abs(up_2)", 0, 0]}],
+    }
+    assert told(emitted(spun, "raw").files["test.h"]) == ["in force 1 up_2 = 0 (abs)"]
+
+
 @pytest.mark.parametrize("frame", ["body", "space"])
 def test_the_velocity_less_that_of_a_wind_is_that_of_the_file(frame):
     force = {"name": "drag", "at": [0, 0], "frame": frame, "relative_to": ["abs(t - 1) + e", 0]}

@@ -771,22 +771,6 @@ def top():
 HEAVY = np.array([*np.eye(3).ravel(), 0.1, 0, 9])
 
 
-def test_wrong_words(top):
-    m = top.begin(HEAVY)
-    with pytest.raises(ValueError, match="no step 'euler' was compiled; there is gauss, vern9"):
-        m.move(0.1, step="euler")
-    for h, n in ((np.nan, 1), (np.inf, 1), (0.1, -1)):
-        with pytest.raises(ValueError, match=f"n = {n}, h = {h}"):
-            m.move(h, n)
-    for tol in (0, -1.0, np.nan):
-        with pytest.raises(ValueError, match="tol must be positive"):
-            m.move_to(1.0, tol)
-    with pytest.raises(ValueError, match="a state of 12 numbers"):
-        top.begin([1.0])
-    with pytest.raises(ValueError, match='step="gauss"'):
-        derive.compile("so3").begin(HEAVY)
-
-
 def test_a_start_is_on_the_group(top):
     """Up to what rounding, or some digits in a file, leave of it."""
     x = HEAVY.copy()

@@ -246,10 +246,3 @@ def test_that_others_turn_as_well_is_refused():
 def test_what_is_not_found_is_said(free, message):
     with pytest.raises(ProblemError, match=message):
         derive(blown(3, 4, 0)).trim({}, free)
-
-
-def test_an_attitude_that_is_no_element_is_refused():
-    """Of SL(2) Cayley's transforms are elements: exp would be, for all groups; of SL(3) not all."""
-    L = "(" + " + ".join(f"{k + 1}*zeta_{k + 1}^2" for k in range(8)) + ")/2 - (A_11 - 2)^2"
-    with pytest.raises(ProblemError):
-        derive(lagrangian(L, "SL(3)")).trim({}, ["eta_1"])

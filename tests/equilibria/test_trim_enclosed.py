@@ -15,8 +15,6 @@ from derive.record.sentence import Claim
 from tests.check.test_record_claims import said
 from tests.equilibria.test_trim import attitude, blown
 from tests.support.trims import (
-    ASIDE,
-    DRONE,
     PENDULUM,
     TURNED,
     cubed,
@@ -68,14 +66,6 @@ def test_on_the_right_the_displacement_stands_before_g():
     assert holds(found)
 
 
-def test_a_parameter_may_be_an_angle():
-    """The cosine of 0.3 in what acts: 12 + 5 cos 0.3."""
-    bent = {"parameters": {"a": 0.3}, "force": [{"covector": ["-5*cos(a)"]}]}
-    found = derive(problem_of(PENDULUM | bent)).trim(TURNED)
-    assert is_near(found, "u", 12 + 5 * np.cos(0.3))
-    assert holds(found)
-
-
 def test_a_drone_leans_into_a_wind_of_three_components():
     """The axis of the thrust is along what it must hold; the turn is about a horizontal axis."""
     wind = np.array([3.0, 2.0, 1.0])
@@ -86,18 +76,6 @@ def test_a_drone_leans_into_a_wind_of_three_components():
     assert np.allclose(A[:, 2], force / np.linalg.norm(force), atol=2 * float(found.found.radius))
     assert abs(A[0, 1] - A[1, 0]) <= 2 * found.found.radius
     assert holds(found)
-
-
-def test_the_speed_of_a_tilt_against_a_cubic_drag():
-    force = ["-0.1*v_1 - 0.05*v_1^3", "-0.1*v_2 - 0.05*v_2^3"]
-    drag = {"name": "drag", "frame": "space", "at": [0, 0], "force": force}
-    thrust = {"u": "25/2", "v": "25/2"}
-    made = derive(problem_of(DRONE | {"force": [drag]}))
-    found = made.trim(ASIDE | thrust, ["w_1", "w_2"])
-    v1, v2 = (float(mpmath.findroot(lambda v, F=F: 0.1 * v + 0.05 * v**3 - F, F)) for F in (15, 0))
-    body = np.array([[4, -3], [3, 4]]) @ [v1, v2] / 5
-    assert is_near(found, "w_1", body[0])
-    assert is_near(found, "w_2", body[1])
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,6 @@ from derive.motion.native import AT_EVENT
 from derive.motion.run import Run
 from derive.python.simulated import Simulated, SimulatedEnsemble
 from derive.views.language import language
-from derive.views.plot.body_pictures import ATTITUDE
 from derive.views.plot.ensemble_pictures import differing, of_runs, quantiles, table
 from derive.views.plot.kind_descriptions import PRECISION
 from derive.views.plot.pictures import ENSEMBLE_KINDS, plot, plot_energies
@@ -117,16 +116,6 @@ def test_the_columns_that_are_drawn():
     assert len(drawn("spread", e, ("x_2", "x_1")).get_axes()) == 2
     still = replace(e, states=np.ones_like(e.states))
     assert differing(still, (), 12) == ["x_1", "x_2"]
-
-
-def test_of_a_turn_the_third_axis_is_drawn():
-    names = (*ATTITUDE, "zeta_1")
-    states = np.random.default_rng(4).normal(size=(50, 20, 10))
-    turned = replace(ensemble(), names=names, states=states)
-    assert differing(turned, (), 12) == list(names)
-    turned = replace(turned, facts={**turned.facts, "group": "SO(3)"})
-    assert differing(turned, (), 12) == ["A_13", "A_23", "A_33", "zeta_1"]
-    assert differing(turned, ("A_11",), 12) == ["A_11"]
 
 
 def saved(folder, e, name="many.npz"):

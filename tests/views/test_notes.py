@@ -14,6 +14,9 @@ from derive.views.html import html
 from derive.views.language import language
 from derive.views.paper.findings import amendments
 from derive.views.printing.letters import DEFINED
+from derive.views.printing.sentences import spelt
+from derive.views.printing.signs import Notation
+from derive.views.printing.tex import formula
 from tests.problems import READY
 from tests.support.needs import need, needs
 from tests.support.playground_site import chromium
@@ -228,3 +231,14 @@ def test_nothing_of_a_stranger_is_markup(bad):
     assert Structure(
         html([replace(d, problem=hostile, symbols=symbols, steps=steps)])
     ).tags <= clean | {"mtext"}
+
+
+def test_other_notations():
+    top = Notation("top", "wedge")
+    assert '<mi mathvariant="normal">d</mi><mi>ϖ</mi>' in formula("dϖ").mathml()
+    assert "⊤" in formula(("T", "A"), None, top).mathml()
+    assert "⊤" in formula(("T", ("mul", "A", "Z")), None, top).mathml()
+    assert "<mo>∧</mo></msup>" in formula(("hat", "ζ"), None, top).mathml()
+    assert "⊤" in spelt("Ā", top).mathml()
+    with pytest.raises(ValueError, match="bar, top"):
+        Notation("dagger")
