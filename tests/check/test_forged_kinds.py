@@ -224,9 +224,3 @@ def test_an_equation_of_motion_is_no_identity(name, rule):
             assert "differ" in found.reason
             tried += 1
     assert tried > 3
-
-
-def test_nothing_is_remarked_of_good_defaults():
-    good = with_defaults(symbolic("SO(3)"), m=1.0, J_11=2.0)
-    own = [s for s in good.steps if s.scope != ANY_GROUP]
-    assert all(v.holds and not v.note for v in map(Checker(good.problem, SEED).check, own))

@@ -313,6 +313,16 @@ def test_motions_end_at_the_first_of_their_terminal_events(stones):
     assert np.abs(run.states[-1] - e.end[k, 1:]).max() < 1e-10
 
 
+@pytest.mark.parametrize("ending", [".npz", ".csv", ".parquet"])
+def test_a_file_has_the_ends(stones, tmp_path, ending):
+    if ending == ".parquet":
+        need("the module pyarrow")
+    _, e = stones
+    found = SimulatedEnsemble.read(e.save(tmp_path / f"stones{ending}"))
+    for name in ("varied", "status", "states", "end"):
+        assert np.array_equal(getattr(found, name), getattr(e, name), equal_nan=True)
+
+
 @needs("cc")
 def test_events_that_are_not_terminal_are_told_to_be_left_out(tmp_path, capsys):
     text = 'name = "e"\nwhen = "A_11"\n'

@@ -8,6 +8,7 @@ import pytest
 import derive
 from derive.code.step.collocation import Collocation
 from derive.command.cli import main
+from derive.command.simulating import negative
 from derive.motion.energy_sources import drives
 from derive.motion.first_numbers import MotionError
 from derive.motion.run import read
@@ -358,3 +359,11 @@ def test_a_reflection_is_no_rotation():
         compiled.from_matrix([1, 0, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1.0])
     with pytest.raises(ValueError, match="a reflection"):
         derive.compile("top", step="gauss").begin([-1, 0, 0, 0, -1, 0, 0, 0, -1, 0, 0, 1.0])
+
+
+def test_when_a_multiplier_is_negative():
+    t = np.linspace(0, 5, 501)
+    assert negative(t, t - 0.875) == "at t = 0 … 0.87, at 88 of 501 instants"
+    assert negative(t, np.cos(t)) == "at t = 1.58 … 4.71, at 314 of 501 instants"
+    assert negative(t, -np.sin(3 * t)).startswith("at t = 0.01 … 1.04 and later, at ")
+    assert negative(t, t) == negative(t, 0 * t) == negative(t, t - 1e-15) == ""

@@ -14,7 +14,6 @@ from tests.support.playground_site import (
     moving,
     opened,
     put,
-    rewalked,
     text_in,
     typed,
     violations,
@@ -202,37 +201,6 @@ def test_a_top(fresh, site):
     before, after = into_the_text(fresh, frame, g="3,5", zeta_3="40")
     assert after["parameters"]["g"] == before["parameters"]["g"] | {"default": 3.5}
     assert after["initial"] == before["initial"] | {"zeta_3": 40}
-
-
-def test_numbers_in_french_have_a_comma(browser, site):
-    """In the fields, typed with a comma or a point; in the text they have a point."""
-    with opened(browser, locale="fr-FR") as page:
-        visit(page, f"{site}#top", "top")
-        frame = moving(page)
-        row = adjuster(frame, "g")
-        assert row.locator("[role=slider]").inner_text() == "9,81"
-        for typed_, now in (("3,5", 3.5), ("−2.25", -2.25), (",5", 0.5), ("1e1", 10)):
-            set_to(frame, "g", typed_, "Enter")
-            assert float(row.locator("[role=slider]").get_attribute("aria-valuenow")) == now
-        row.locator("[role=slider]").press("4")  # a digit begins, a comma goes on
-        row.locator("input").press_sequentially(",25")
-        row.locator("input").press("Enter")
-        assert row.locator("[role=slider]").inner_text() == "4,25"
-        set_to(frame, "g", "4,,25", "Enter")
-        assert row.locator("input").get_attribute("aria-invalid") == "true"
-        assert "n’est pas un nombre" in row.inner_text()
-        set_to(frame, "g", "4,25", "Enter")
-        frame.locator(".two input[type=checkbox]").check()
-        set_to(frame, "epsilon", "0,002", "Enter")
-        assert frame.evaluate(f"{MOTION}.second.told")[1] == 0.002
-        _, after = into_the_text(page, frame, g="4,25")
-        assert after["parameters"]["g"]["default"] == 4.25
-        page.click("#as-form")
-        field = page.locator("[data-mark='1.g']")
-        field.fill("0,125")
-        with rewalked(page):
-            field.press("Tab")
-        assert tomllib.loads(text_in(page))["parameters"]["g"]["default"] == 0.125
 
 
 DRAWN = f"{MOTION}.scene.drawn.map(([number]) => number)"

@@ -10,6 +10,7 @@ from derive.motion.run import Run
 from derive.problem.toml import problem_of
 from derive.python.derived import derive
 from derive.views.language import language
+from derive.views.plot import body_pictures
 from derive.views.plot.body_pictures import _ellipsoid, drawn, levels, unstable
 from derive.views.plot.kind_descriptions import OVERVIEW
 from derive.views.plot.pictures import KINDS, plot
@@ -324,3 +325,18 @@ def test_what_falls_in_the_plane_has_a_potential_along_the_height():
     slope = np.gradient(told["V"], told["u"])
     assert told["entry"] == "T_2"
     assert slope == pytest.approx(np.full(len(slope), np.pi / 2 * 9.81), rel=1e-6)
+
+
+def test_tips_that_go_round_and_round_are_left_out():
+    """A top that spins: its axis alone; a slow turn has all three."""
+
+    def named(run):
+        return figure_of(run, "axes").get_axes()[0].get_legend_handles_labels()[1]
+
+    assert named(simulated("top", 0.3)) == ["$A e_3$"]
+    t = np.linspace(0, 1, 40)
+    slow = np.stack(
+        [np.cos(t), -np.sin(t), 0 * t, np.sin(t), np.cos(t), 0 * t, 0 * t, 0 * t, 1 + 0 * t]
+    )
+    run = plain_run(np.vstack([t, slow]).T, **dict.fromkeys(body_pictures.ATTITUDE, "state"))
+    assert named(run) == [f"$A e_{k}$" for k in (1, 2, 3)]

@@ -15,7 +15,7 @@ from derive.views.language import language
 from derive.views.latex import breakable, latex
 from derive.views.outline import printed
 from derive.views.printing.letters import names_of
-from derive.views.printing.line_breaking import display_width
+from derive.views.printing.line_breaking import Piece, display_width, fill
 from derive.views.printing.signs import tex_text
 from derive.views.printing.tex import FormulaPrinter, latex_tree
 from derive.views.rendering import FORMATS, NOTES, RenderError, notes, render
@@ -198,3 +198,19 @@ def test_what_is_nested_is_printed_once(operator, monkeypatch):
 
 def budget(shown):
     assert len(shown) < 30 * 20, "printed again and again"
+
+
+def test_an_inner_line_has_room_for_its_indent() -> None:
+    pieces = [Piece("a", 0), Piece(" + ⟨bbbbb", 0.25), Piece(" cccc", 1.0), Piece(" dddd⟩", 1.0)]
+    lines = fill(pieces, 10, display_width, 2)
+    assert [display_width(x.text) + 2 * x.inside for x in lines if x.inside] == [6, 7]
+
+
+def test_three_numbers_of_the_paper_are_a_run_and_two_are_not():
+    step = Step("a.b", "definition", (), (), (), ())
+    for paper, shown in {
+        (11, 12, 13): "(11)–(13)",
+        (11, 12): "(11), (12)",
+        (11, 13): "(11), (13)",
+    }.items():
+        assert printed(replace(step, paper=paper)) == shown

@@ -5,7 +5,6 @@ import pytest
 from derive.language.show import show
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from tests.support.corpus import record
 from tests.support.walks import record as ready
 
 
@@ -25,20 +24,6 @@ def test_a_nut_on_a_screw_falls_with_a_constant():
     """m(1 + h²) ζ̇ = −m g h for h = 1/10."""
     assert told(ready("screw")) == ["ζ̇₁ = −10/101 g"]
     assert "affine functions of the time" in said(ready("screw"))
-
-
-def test_a_spring_that_cannot_act():
-    d = ready("su2")
-    assert told(d) == ["dŨ(Aξ′) = 0", "ζ̇₁ = 0", "ζ̇₂ = 0", "ζ̇₃ = 0"]
-    assert "cannot act" in said(d)
-    assert "g₀ exp(tZ)" in said(d)
-
-
-@pytest.mark.parametrize(("side", "motion"), [("left", "g₀ exp(tZ)"), ("right", "exp(tZ) g₀")])
-def test_a_motion_by_a_one_parameter_group(side, motion):
-    d = record(f"lagrangian free {side}")
-    assert told(d) == [f"ζ̇{x} = 0" for x in "₁₂₃"]
-    assert motion in said(d)
 
 
 @pytest.mark.parametrize(
