@@ -325,3 +325,18 @@ def test_a_potential_takes_divergence_and_flux_away(dimension):
     normal = sympy.expand(expression(space.outwards(rest)))
     *others, last = COORDINATES[:dimension]
     assert sympy.rem(normal, last**2 - 1 + sum(x**2 for x in others), last) == 0
+
+
+@pytest.mark.parametrize("count", [3, 4, 5])
+def test_fields_have_modes_of_any_frequencies(count):
+    """n fields those of n that are any, n + 1 fields those of any with the sum 0."""
+    space = FlatTorus(tuple((Fraction(j), Fraction(j * j)) for j in range(1, count + 1)))
+    modes = {*space.modes}
+    free = [tuple(int(i == j) for i in range(count)) for j in range(count)]
+    for n in range(1, count + 1):
+        assert {*free[:n]} <= modes
+        closing = tuple(-sum(x) for x in zip(*free[:n], strict=True))
+        assert closing in modes
+    densities = {*space.levels}
+    assert densities <= modes
+    assert {*free[:2]} <= densities
