@@ -309,3 +309,18 @@ def test_a_composition_has_its_order_and_no_higher(order):
     assert len(left) > order
     assert max(x for w, x in left.items() if sum(w) <= order) < LEFT
     assert max(x for w, x in left.items() if sum(w) > order) > SEEN
+
+
+def test_the_pair_is_verner_s():
+    """Some of the numbers that he published, in 40 digits."""
+    method, close = vern9(), Decimal(10) ** -39
+    published = {
+        "0.6590650618730998549405331618649220295334": method.c[11],
+        "0.7404185470631561083004100761798676215811": method.c[17],
+        "-0.3915211862331339089410228267288242030810": method.b[7],
+        "-13.93734253810777678786523664804936051203": method.a[14][5],
+        "0.04834231373823958314376726739772871714902": -method.error[15],
+        "0.09517712399458336651642257453589397190702": method.a[20][7],
+    }
+    for text, found in published.items():
+        assert abs(Decimal(text) - found) < close * max(1, abs(found)) * 10, text

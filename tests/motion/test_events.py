@@ -9,8 +9,6 @@ import derive
 from derive.motion import native
 from derive.motion.native import CompileError
 from derive.motion.run import FORMATS, read, written
-from derive.problem.problem import ProblemError
-from derive.problem.toml import load
 from derive.programs import motion_of
 from tests.problems import moving
 from tests.support.needs import need, needs
@@ -132,12 +130,6 @@ def test_a_file_has_the_events(tmp_path, ending):
     found = read(path).events
     assert [x.plain() for x in found] == [x.plain() for x in run.events]
     assert len(found) == 2
-
-
-def test_more_than_their_limit_are_refused(tmp_path):
-    listed = "".join(f'[[event]]\nname = "e{k}"\nwhen = "t"\n' for k in range(51))
-    with pytest.raises(ProblemError, match="more than 50 tables"):
-        load(problem(tmp_path, SPIN + listed))
 
 
 # ---------------------------------------------------------------- methods

@@ -14,13 +14,12 @@ from derive.views.language import language
 from derive.views.plot.kind_descriptions import OVERVIEW
 from derive.views.plot.pictures import KINDS, plot
 from derive.views.plot.plot_sheet import FORMATS, PlotError, laid_out, look, with_mark
-from tests.support.drawn_runs import figure_of, fitting, run_of, simulated, texts, words_of
+from tests.support.drawn_runs import figure_of, fitting, run_of, simulated, texts
 from tests.support.motion_pictures import DRAWN, MADE, PICTURES, ROOT, RUNS, drawn, remade, unlike
 from tests.support.needs import need, needs
 from tests.support.walks import derived
 
 pytestmark = needs("the module matplotlib")
-FRENCH = language("fr").word
 
 
 @pytest.mark.parametrize("kind", [*KINDS, OVERVIEW])
@@ -103,16 +102,6 @@ def test_the_numbers_speak_french(kind):
     assert named.get_text() == "a/1.5.npz 0,25 $x = 1{,}5e-3$"
     assert [x for x in shown if re.search(r"[0-9]\.[0-9]", x) and ".npz" not in x] == []
     assert any(re.search(r"[0-9](?:,|\{,\})[0-9]", x) for x in shown if x is not named)
-
-
-def test_the_quantities_speak_french_and_have_units():
-    found = simulated("riemann_ellipsoid")
-    assert "circulation in the body 1" in words_of(found, "energy")
-    told = words_of(found, "energy", FRENCH)
-    assert all(x in told for x in ("circulation dans le corps 1", "moment cinétique 3"))
-    told = words_of(simulated("dirichlet", 0.5), "spheroid")
-    for words in ("semi-axes [m]", "integral of the pressure [J]", "section y = 0 (space)", "[m]"):
-        assert words in told
 
 
 # ---------------------------------------------------------------- what is refused

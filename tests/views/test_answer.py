@@ -1,6 +1,8 @@
 """The answer of a record, with what its letters are; what the views say of a system in words, of a
 fluid, and of both trivialisations."""
 
+import re
+
 import numpy as np
 import pytest
 import sympy
@@ -171,3 +173,28 @@ def test_a_given_lagrangian_moves_no_body(name):
         told = system(d, language(tongue))
         assert "{" not in told
         assert not any(x in told for x in ("moves", "déplace", "Rien n’agit", "Nothing acts"))
+
+
+EVERY = {"en": "for every", "fr": "pour tout"}
+ALONG = {"en": "along the motion", "fr": "le long du mouvement"}
+CLAUSES = {
+    "text": re.compile(r"(?m)^ {6}.*\S  (\w.*)$"),
+    "latex": re.compile(r"\\text\{([^}]*)\}"),
+    "markdown": re.compile(r"\\text\{([^}]*)\}"),
+    "html": re.compile("<mtext>([^<]*)</mtext>"),
+}
+"""Format → what stands at the end of an equation."""
+
+
+@pytest.mark.parametrize("lang", EVERY)
+@pytest.mark.parametrize("form", [x for x in FORMATS if x != "json"])
+def test_every_view_says_it_beside_the_equation(form, lang):
+    d = record("inhomogeneous_fluid")
+    for short, others in ON_MOTIONS.items():
+        shown = render(d, form, lang, steps=[d[short]])
+        clauses = [x.replace("\u00a0", " ").strip() for x in CLAUSES[form].findall(shown)]
+        free = sum(bool(e.for_all) for e in d[short].equations)
+        assert sum(x.startswith(EVERY[lang]) for x in clauses) == free
+        assert clauses.count(ALONG[lang]) == others
+        assert "any acceleration" not in shown
+        assert "accélération quelconque" not in shown

@@ -214,3 +214,12 @@ def test_three_numbers_of_the_paper_are_a_run_and_two_are_not():
         (11, 13): "(11), (13)",
     }.items():
         assert printed(replace(step, paper=paper)) == shown
+
+
+def test_long_formulas_break_at_shallow_operators_first() -> None:
+    pieces = [Piece("aaaa", 0), Piece(" + ⟨bb,", 0.25), Piece(" cccc⟩", 1.0), Piece(" + dd", 0.25)]
+    assert [x.text for x in fill(pieces, 17, display_width)] == ["aaaa + ⟨bb, cccc⟩", "+ dd"]
+    deep = fill(pieces, 10, display_width, 2)
+    assert [(x.text, x.inside) for x in deep] == [
+        ("aaaa", 0), ("+ ⟨bb,", 0), ("cccc⟩", 1), ("+ dd", 0),
+    ]  # fmt: skip

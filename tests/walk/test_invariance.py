@@ -12,7 +12,7 @@ import pytest
 
 from derive import pipeline
 from derive.algebra.families import group, on_homogeneous
-from derive.algebra.relations import for_every_body
+from derive.algebra.relations import changes, for_every_body
 from derive.algebra.user_groups import group_of_basis, nilpotent
 from derive.language import rational as q
 from derive.language.laurent import OverlongError, vanishes
@@ -150,3 +150,14 @@ def test_rotations_in_any_basis_have_the_record_of_rotations(name, like):
     assert [(s.label, s.equations, s.uses) for s in own] == [
         (s.label, s.equations, s.uses) for s in other.steps
     ]
+
+
+def test_the_changes_of_C_span_what_it_reaches():
+    g = group("UT(3)")
+    found = [q.flatten(x) for x in changes(g)]
+    assert q.rank(tuple(found)) == len(found) == 5  # C − 1 has no first entry
+    random, one = Random(2), q.identity(3)
+    for _ in range(9):
+        a = g.sample(random)
+        c = q.minus(q.times(q.transposed(a), a), one)
+        assert q.rank((*found, q.flatten(c))) == len(found)
