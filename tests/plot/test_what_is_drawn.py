@@ -11,7 +11,7 @@ from derive.problem.toml import problem_of
 from derive.python.derived import derive
 from derive.views.language import language
 from derive.views.plot import body_pictures
-from derive.views.plot.body_pictures import _ellipsoid, drawn, levels, unstable
+from derive.views.plot.body_pictures import _ellipsoid, drawn, hull, levels, unstable
 from derive.views.plot.kind_descriptions import OVERVIEW
 from derive.views.plot.pictures import KINDS, plot
 from derive.views.plot.plot_sheet import label
@@ -340,3 +340,8 @@ def test_tips_that_go_round_and_round_are_left_out():
     )
     run = plain_run(np.vstack([t, slow]).T, **dict.fromkeys(body_pictures.ATTITUDE, "state"))
     assert named(run) == [f"$A e_{k}$" for k in (1, 2, 3)]
+
+
+def test_a_hull():
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5], [0.5, 0], [0, 0]])
+    assert sorted(map(tuple, hull(square))) == [(0, 0), (0, 1), (1, 0), (1, 1)]
