@@ -13,11 +13,8 @@ import pytest
 from derive import derive
 from derive.check.checker import ClaimChecker
 from derive.check.claims.enclosure import (
-    Enclosure,
     changes_of_coefficients,
-    has_rank,
     not_real_and_not_positive,
-    slopes,
 )
 from derive.check.claims.spectra_and_residues import (
     characteristic,
@@ -399,32 +396,6 @@ def test_what_coefficients_prove():
         assert not not_real_and_not_positive([*zip(moved, errors, strict=True)])
     for f in ([1, 0, 1], [1, 1, 1], [1, 3, -1], [1, 2, 3, 1]):
         assert not_real_and_not_positive([(Fraction(x), Fraction(1, 1000)) for x in f])
-
-
-def test_a_contraction():
-    """Of y²/2 + cy³/6 + gy: a = |g|, and the second derivative changes by cρ."""
-    tenth = Fraction(1, 10)
-    for g, c, radius, expected in (
-        *((0, 1, 4.9, True), (0, 1, 5.1, False), (0, 2, 2.4, True), (0, 2, 2.6, False)),
-        *((1, 1, 2, True), (1, 1, 1.9, False), (-1, 1, 2, True), (3, 1, 6, False)),
-    ):
-        above = [({0: 3}, Fraction(c, 6))]
-        found = Enclosure({}, ["x"], [g * tenth], [[Fraction(1)]], above)
-        assert found.contracts(Fraction(radius) * tenth) == expected
-        assert found.least == 2 * abs(g) * tenth
-
-
-def test_how_much_slopes_change():
-    x, y, tenth = ("at", "Π", 1), ("at", "Π", 2), Fraction(1, 10)
-    at = {x: Fraction(2), y: Fraction(-1)}
-    here, most = Fraction(2), Fraction(2) + tenth
-    assert slopes(("mul", ("pow", x, 3), y), at, tenth) == [
-        (-3 * here**2, 3 * (most**2 * (1 + tenth) - here**2)),
-        (here**3, most**3 - here**3),
-    ]
-    forms = {(0, 1): {2: Fraction(1)}, (1, 0): {2: Fraction(-1)}}
-    for value, rank, expected in ((3, 2, True), (1, 2, False), (3, 1, False)):
-        assert has_rank(forms, [Fraction(0), Fraction(0), value * tenth], tenth, rank) == expected
 
 
 SENSELESS = (1, "x", ("matrix", 1), ("matrix", ("row", 1)), ("row", "x"), ("par", "x"))

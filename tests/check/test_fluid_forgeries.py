@@ -2,7 +2,6 @@
 statements about a fluid that have no meaning are refused, and it is said why."""
 
 import cmath
-import itertools
 import random
 from dataclasses import replace
 from fractions import Fraction
@@ -12,7 +11,7 @@ import sympy
 from scipy.integrate import quad
 
 from derive.check.fluid.curves import curve
-from derive.check.fluid.exact_functions import Function, divergence, dot
+from derive.check.fluid.exact_functions import Function, divergence
 from derive.check.fluid.fluid_checker import FluidChecker
 from derive.check.fluid.fluid_spaces import Ball, FlatTorus, curl, on_boundary
 from derive.language.read import read
@@ -242,18 +241,6 @@ def test_a_polygon():
     assert number(composed[0].d(0).mean()) == pytest.approx(0, abs=1e-12)
 
 
-def test_a_level():
-    """On a polygon of a level the first exponential is constant: only the others are left."""
-    draw = uniform()
-    for k in (K, tuple((*x, 0.3) for x in K)):
-        space = FlatTorus(k)
-        polygon = curve(space, space.of_points(), draw, level=True)
-        assert all(abs(dotted(k[0], edge)) < 1e-12 for edge in polygon.edges)
-        layered = polygon.of_space(space.layered(draw))
-        assert layered.is_constant
-        assert not polygon.of_space(space.function(draw)).is_constant
-
-
 def test_a_laurent_curve():
     """At z = e^{is}, over a whole turn; its points come from those that the turn takes there."""
     draw = uniform()
@@ -340,15 +327,6 @@ def test_a_potential_takes_divergence_and_flux_away(dimension):
     assert sympy.rem(normal, last**2 - 1 + sum(x**2 for x in others), last) == 0
 
 
-def test_a_rotation_is_one():
-    """Composition with g₀ keeps ‖x‖ and means."""
-    for space in (Ball(2), Ball(3)):
-        f = space.function(drawing(), 4)
-        assert space.pulled_back(space.square, space) == space.square
-        assert space.pulled_back(f, space).mean() == f.mean()
-        assert space.pulled_back(f, space) != f
-
-
 @pytest.mark.parametrize("count", [3, 4, 5])
 def test_fields_have_modes_of_any_frequencies(count):
     """n fields those of n that are any, n + 1 fields those of any with the sum 0."""
@@ -362,25 +340,3 @@ def test_fields_have_modes_of_any_frequencies(count):
     densities = {*space.levels}
     assert densities <= modes
     assert {*free[:2]} <= densities
-
-
-def test_three_fields_differ_in_three_directions():
-    """Tr (∇u)³ of a field on T³ is not 0, and its mean is; in a ball neither is."""
-    draw = drawing()
-    k = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-    for space in (FlatTorus(k), Ball(3)):
-        u = space.solenoidal(draw)
-        jacobian = [[f.d(j) for j in range(3)] for f in u]
-        trace = Function(space, {})
-        for i, j, n in itertools.product(range(3), repeat=3):
-            trace = trace + jacobian[i][j] * jacobian[j][n] * jacobian[n][i]
-        assert trace != 0
-        assert (trace.mean() == 0) is not space.bounded
-        assert dot(u, u).mean() != 0
-
-
-def test_a_volume_is_any():
-    for space in (FlatTorus(((1, 2), (3, 5)), VOLUME), Ball(3, VOLUME)):
-        one = Function(space, {(0,) * space.length: Fraction(1)})
-        assert [*one.mean().terms.values()] == [VOLUME]
-        assert space.of_points().volume == VOLUME

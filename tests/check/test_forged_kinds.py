@@ -13,7 +13,6 @@ from itertools import combinations_with_replacement, product
 import pytest
 
 from derive.check.checker import Checker
-from derive.command.cli import main
 from derive.language.expression import parse
 from derive.language.show import show
 from derive.language.tree import mul, nodes
@@ -225,24 +224,3 @@ def test_an_equation_of_motion_is_no_identity(name, rule):
             assert "differ" in found.reason
             tried += 1
     assert tried > 3
-
-
-def test_nothing_is_remarked_of_good_defaults():
-    good = with_defaults(symbolic("SO(3)"), m=1.0, J_11=2.0)
-    own = [s for s in good.steps if s.scope != ANY_GROUP]
-    assert all(v.holds and not v.note for v in map(Checker(good.problem, SEED).check, own))
-
-
-def test_what_defaults_do_not_meet_is_told_by_the_command(tmp_path, capsys):
-    values = {"m": 1, "c_1": 0, "c_2": 0, "c_3": 0, "J_11": 1, "J_22": 1, "J_33": 1}
-    values |= {"J_12": 5, "J_13": 0, "J_23": 0}
-    parameters = "\n".join(f"{x} = {value}" for x, value in values.items())
-    text = (
-        f'name = "body"\ngroup = "SO(3)"\n[body]\nmoments = "symbolic"\n[parameters]\n{parameters}'
-    )
-    (tmp_path / "body.toml").write_text(text)
-    assert main(["check", str(tmp_path / "body.toml"), "--seed", "1"]) == 0
-    said = capsys.readouterr().out.splitlines()
-    told = [x for x in said if "defaults" in x and x.startswith("holds")]
-    assert [x.split(":")[0] for x in told] == ["holds  linear.pullback", "holds  body.body"]
-    assert all(x.endswith("no positive masses have these moments") for x in told)

@@ -166,13 +166,6 @@ def test_a_claim_about_the_points_that_were_drawn_is_refused():
 
 
 @pytest.mark.no_cover
-def test_the_input_cannot_be_dropped_with_its_assumption():
-    d = record("so3")
-    step = replace(d["so3.motion"], driven=False)
-    assert not checker("so3").check(step).holds
-
-
-@pytest.mark.no_cover
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_identities_of_small_matrices_are_no_claims_about_any_group(dimension):
     """Cayley–Hamilton for 2 × 2 and 3 × 3 matrices is false for some group."""

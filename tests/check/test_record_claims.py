@@ -350,12 +350,6 @@ def multiples(one):
         yield [one.given[0], replace(one.given[1], rhs=mul(factor, one.given[1].rhs))]
 
 
-def test_whether_there_is_curvature_is_said():
-    step = record("elliptic")["curvature"]
-    silent = replace(step, prose=(), claims=())
-    assert "no claim says" in judged("elliptic", silent)
-
-
 @pytest.mark.parametrize("name", ["lagrange_top", "spherical_pendulum", "top"])
 def test_that_the_leading_coefficient_is_not_0_is_supposed(name):
     """Of degree 3 the right side is where there is weight; what it divides by is not enough."""

@@ -228,12 +228,3 @@ def test_tensors_of_torch(name):
     assert close(found.detach(), expected)
     found.sum().backward()
     assert abs(P.grad[0] - known.sum()) < 1e-6 * (1 + abs(P.grad[0]))
-
-
-def test_where_there_are_none():
-    """Loops over a lattice have no entries; integrals and the axes of a frame are of numbers."""
-    for name in ("zeitlin", "riemann_ellipsoid"):
-        assert "def rhs_of" not in emission(name, ("python",))[1][f"{name}.py"]
-    framed = emission("so3", ("python",), frame="principal")[1]["so3.py"]
-    assert "def rhs_of" in framed
-    assert "def constants_of" not in framed

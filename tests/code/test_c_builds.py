@@ -3,7 +3,6 @@ sanitizers, on numbers of every size: no undefined behaviour, no trap; on a Cort
 built, measured, and run under qemu beside the host.
 """
 
-import itertools
 import platform
 import re
 import subprocess
@@ -13,10 +12,7 @@ import pytest
 
 from derive import derive
 from derive.code.languages import LANGUAGES
-from derive.code.options import Options
-from derive.code.program import blocks, names
 from derive.command.cli import main
-from derive.programs import program
 from tests.support.exercise import PROBLEMS, emit_forms, some_parameters
 from tests.support.exercise import program as exercise_program
 from tests.support.library import STRICT, built, emission, library, module_of
@@ -69,20 +65,6 @@ def test_arrays_of_a_problem_without_constants_and_inputs(compiler, form):
     assert done.stdout == "0 0 0 1 2"
 
 
-@pytest.mark.parametrize("name", ["so3", "se3", "sl3", "hammer"])
-def test_no_file_overrides_the_flags_of_a_project(name):
-    """An option of the compiler in a file would also keep link-time optimisation from inlining."""
-    for form, frame in itertools.product(("source", "header"), ("given", "principal")):
-        if frame == "principal" and name == "hammer":
-            continue
-        framed = [x for x, language in LANGUAGES.items() if language.framed or frame == "given"]
-        files = derive(name).emit(languages=framed, form=form, frame=frame)
-        assert files
-        for file, text in files.items():
-            found = re.findall(r"#\s*pragma\s+(?:GCC|clang)\s+optim\w*|optimize\s*\(|optnone", text)
-            assert not found, f"{file}: {found}"
-
-
 def test_link_time_optimisation_inlines(tmp_path):
     need("gcc", "nm")
     derive("so3").emit(tmp_path, ["c"])
@@ -103,32 +85,6 @@ def test_link_time_optimisation_inlines(tmp_path):
     symbols = subprocess.run(["nm", tmp_path / "main"], capture_output=True, text=True, check=True)
     assert "main" in symbols.stdout
     assert "so3_rhs" not in symbols.stdout
-
-
-ROADS = [
-    ("top", {}),
-    ("se3", {}),
-    ("sl3", {"velocity": "tangent"}),
-    ("so3", {"frame": "principal"}),
-]
-
-
-@pytest.mark.parametrize(("name", "options"), ROADS)
-def test_blocks_hold_all_of_a_function_in_a_possible_order(name, options):
-    d = derive(name)
-    f = program(d.problem, d.record, Options(**options)).functions["rhs"]
-    known, outputs = set(), []
-    for block in blocks(f):
-        known |= {x.name for x in block.loads}
-        for value in block.section.values:
-            assert names([value.expression]) <= known
-            assert value.name not in known
-            known.add(value.name)
-        known |= {x.name for x in block.output_loads}
-        assert names([f.outputs[i] for i in block.outputs]) <= known
-        outputs += block.outputs
-    assert sorted(outputs) == list(range(len(f.outputs)))
-    assert known == {x.name for x in f.loads} | {v.name for s in f.sections for v in s.values}
 
 
 @needs("objdump")

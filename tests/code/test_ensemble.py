@@ -49,17 +49,6 @@ def test_each_is_that_of_one_by_one(problem, flags):
     assert np.abs(back - x).max() < 1e-9
 
 
-def test_parameters_of_their_own():
-    f = derive.compile("so3", step="gauss", ensemble=True)
-    p = np.tile(f.p, (10, 1)) * np.linspace(0.9, 1.1, 10)[:, None]
-    x, steps = many(f, 10), np.zeros(10)
-    found, _ = f.ensemble(x, 0, 1, 1e-12, parameters=p, h=steps)
-    assert (steps > 0).all()
-    for own, one, end in zip(p, x, found, strict=True):
-        assert np.abs(f.use(own).begin(one).move_to(1, 1e-14).x - end).max() < 1e-10
-    f.use()
-
-
 ENSEMBLES = """\
 #ifdef __cplusplus
 #define NAME_LAUNCH launched

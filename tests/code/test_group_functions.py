@@ -451,18 +451,6 @@ def test_every_compiler_takes_the_header(name, compiler, real):
     built([command], {header: texts[header], "main.c": main})
 
 
-def test_arrays_of_another_length_are_told():
-    f = case("SO(3)")[0]
-    with pytest.raises(ValueError, match="expected 3 numbers, not 4"):
-        f.exp(np.zeros(4))
-    with pytest.raises(ValueError, match=r"compile\(..., exponential=True\)"):
-        derive.compile("so3").log(np.eye(3).ravel())
-    prefix, texts = emission("so3", ("python",), exponential=True)
-    made = module(prefix, texts[f"{prefix}_group.py"])
-    with pytest.raises(ValueError, match="so3: eta has 4 numbers, not 3"):
-        made.exp(np.zeros(4))
-
-
 @pytest.mark.parametrize("language", RUN)
 def test_every_language_updates_as_c_does(language):
     """An estimate and its covariance, by an observation of A o and of A⁻¹ o."""

@@ -149,25 +149,3 @@ def test_the_velocity_less_that_of_a_wind_is_that_of_the_file(frame):
     inside = ("v_1 = 0 (abs)", "v_1 - 2 = 0 and v_2 = 0 (hypot)", "t - 1 = 0 (abs)")
     says = "; ".join(f"in force drag {x}" for x in inside)
     assert told(emitted(data, "state").files["test.h"]) == [says]
-
-
-def test_damping_without_a_name_is_told_by_its_table():
-    data = {
-        "group": "SE(2)",
-        "lagrangian": {"L": "zeta_1^2 + zeta_2^2 + zeta_3^2"},
-        "force": [{"covector": ["abs(zeta_1)", 0, 0]}],
-        "damping": [
-            {"kind": "rotational", "coefficient": 1},
-            {"kind": "quadratic", "coefficient": 1, "at": [0, 0]},
-        ],
-    }
-    head = emitted(data, "state").files["test.h"]
-    own = "in force 1 zeta_1 = 0 (abs); in damping 2 v_1 = 0 and v_2 = 0 (hypot)"
-    assert told(head) == [own]
-    called = ("Damping 1: a moment", "Damping 2: a force", "Force of the state: a covector")
-    assert [x for x in called if x not in head] == []
-
-
-def test_none_are_told_where_no_derivative_is_asked_for():
-    L = {"lagrangian": {"L": "zeta_1^2/2"}, "force": [{"covector": ["abs(zeta_1)"]}]}
-    assert all("Kinks" not in x for x in emitted({"group": "R(1)", **L}).files.values())

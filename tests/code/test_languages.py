@@ -233,14 +233,3 @@ def test_rust_without_functions_needs_core_alone(year, tmp_path):
     modules = '#[path = "saff3.rs"]\npub mod saff3;\n#[path = "test.rs"]\npub mod test;\n'
     head = "#![no_std]\n#![forbid(unsafe_code)]\n"
     compiled(head + modules, year, tmp_path, "pressed", "momenta")
-
-
-def test_a_refusal_of_rust_has_the_name_of_its_file(tmp_path):
-    """In a file that is included, too."""
-    main = 'mod own { include!("saff3.rs"); }\nfn main() { print!("{}", own::Refused::Singular) }\n'
-    _, texts = case("pressed").texts("rust")
-    need("rustc")
-    (tmp_path / "saff3.rs").write_text(texts["saff3.rs"], encoding="utf-8")
-    (tmp_path / "main.rs").write_text(main, encoding="utf-8")
-    command("rustc", "--edition=2021", "-Adead_code", "main.rs", cwd=tmp_path)
-    assert command("./main", cwd=tmp_path).startswith("saff3: ")

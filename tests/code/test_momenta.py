@@ -266,8 +266,3 @@ def test_validated(name):
         assert old in made.files[file], old
         changed = {file: made.files[file].replace(old, new, 1)}
         assert "DIFFERS" in " ".join(x.text for x in made.reports(changed, made.files)), old
-
-
-def test_nothing_without_the_option():
-    with pytest.raises(ValueError, match="momenta=True"):
-        derive.compile("gyrostat").momentum(0.0, np.zeros(12))

@@ -158,10 +158,6 @@ def test_its_slope_near_the_jump():
             assert np.abs(rate - np.array([y, -x]) / r / r).max() <= 1e-14 / r
 
 
-def test_the_record_of_an_angle_holds():
-    assert derived(ANGLE).check()
-
-
 # ---------------------------------------------------------------- scalings
 
 BASES = {

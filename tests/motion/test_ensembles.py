@@ -200,19 +200,6 @@ def test_numpy_reads_an_npz_and_its_states_are_mapped(some, tmp_path):
     assert isinstance(SimulatedEnsemble.read(path).states, np.memmap)
 
 
-def test_the_summary_tells_mean_and_deviation(some, tmp_path, capsys, monkeypatch):
-    small(monkeypatch)
-    how = ["--t", "2", "--tol", "1e-12", "--seed", "3", "--ensemble", "40", *OPTIONS]
-    assert main(["simulate", "so3", *how]) == 0
-    out = capsys.readouterr().out
-    ends = some["zeta_1"][:, -1]
-    assert f"zeta_1 = {ends.mean():.6g} ± {ends.std():.2g}" in out
-    assert (
-        "so3: 40 motions, t = 0 … 2, by vern9, tol 1e-12, in C; seed 3\n  zeta_1 from 0 to 1\n"
-        in out
-    )
-
-
 def test_a_file_that_is_no_ensemble_is_told(some, tmp_path, capsys):
     run = derive.derive("so3").simulate(0.1, points=1).save(tmp_path / "run.npz")
     with pytest.raises(ValueError, match="no ensemble that derive simulate wrote"):
@@ -334,16 +321,6 @@ def test_a_file_has_the_ends(stones, tmp_path, ending):
     found = SimulatedEnsemble.read(e.save(tmp_path / f"stones{ending}"))
     for name in ("varied", "status", "states", "end"):
         assert np.array_equal(getattr(found, name), getattr(e, name), equal_nan=True)
-
-
-def test_the_command_tells_the_ends(tmp_path, capsys):
-    need("cc")
-    (tmp_path / "stone.toml").write_text(STONES)
-    asked = [str(tmp_path / "stone.toml"), "--t", "2", "--ensemble", "9", "--vary", "H=0.5:0.6"]
-    assert main(["simulate", *asked]) == 0
-    out, err = capsys.readouterr()
-    assert "  9 ended at event ground\n" in out
-    assert err == ""
 
 
 @needs("cc")

@@ -1,8 +1,6 @@
 """Motions of derive simulate: known solutions, order, what is kept, what is refused."""
 
-import json
 import tomllib
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,10 +8,9 @@ import pytest
 import derive
 from derive.code.step.collocation import Collocation
 from derive.command.cli import main
-from derive.command.simulating import at_first, negative
-from derive.motion.emitted_code import Column, in_order
-from derive.motion.first_numbers import MotionError, drives, exponential
-from derive.motion.run import Run, read
+from derive.command.simulating import negative
+from derive.motion.first_numbers import MotionError, drives
+from derive.motion.run import read
 from derive.motion.start import inertia_of
 from derive.motion.trajectory import Method, instants, taken_to_group
 from derive.pipeline import walk
@@ -84,15 +81,6 @@ def test_a_free_top(free):
 # ---------------------------------------------------------------- starts, instants
 
 
-def test_the_exponential_is_a_rotation():
-    angle = 40.0
-    turn = exponential(angle * np.array([[0, -1.0], [1, 0]]))
-    expected = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-    assert np.allclose(turn, expected, atol=1e-12)
-    assert np.array_equal(exponential(np.zeros((2, 2))), np.eye(2))
-    assert np.allclose(exponential(np.array([[0, 1e-3], [0, 0]])), [[1, 1e-3], [0, 1]])
-
-
 @pytest.mark.parametrize(
     ("dt", "duration", "points", "last"),
     [(0.1, 1.0, 5, 0.8), (0.3, 1.0, 100, 0.9), (2.0, 1.0, 5, 0)],
@@ -114,20 +102,6 @@ def test_the_instants_of_fixed_steps_are_ends_of_steps(dt, duration, points, las
 def told(capsys, *arguments):
     code = main(["simulate", *arguments])
     return code, *capsys.readouterr()
-
-
-def test_a_run_in_one_command(tmp_path, capsys):
-    out = tmp_path / "new" / "run.csv"  # whose folder is made
-    code, text, err = told(
-        capsys, "top", "--t", "0.1", "--set", "zeta_3=100", "--exp", "0.3,0,0", "--out", str(out)
-    )
-    assert (code, err) == (0, "")
-    assert "energy: " in text
-    assert "angular_momentum_3" in text
-    assert text.endswith(f"{out}\n")
-    first = read(out)
-    assert first.facts["problem"] == "top"
-    json.dumps(dict(first.facts))
 
 
 def test_a_collision_keeps_what_is_done(tmp_path, capsys):
@@ -186,25 +160,6 @@ def test_without_gravity_there_is_no_component_along_it():
         assert not {"angular_momentum_1", "angular_momentum_2"} & known
 
 
-def test_what_vanishes_for_these_parameters_is_not_told(capsys):
-    """What gravity gives is 0 without it, a momentum that is 0 at the start is a fact."""
-    start = ("so3", "--t", "0.1", "--set", "zeta_1=1")
-    no_gravity = [x for k in (1, 2, 3) for x in ("--set", f"g_{k}=0")]
-    with_it, without = told(capsys, *start)[1], told(capsys, *start, *no_gravity)[1]
-    assert "  angular_momentum: " in with_it
-    assert "  angular_momentum: " not in without
-    assert "  angular_momentum_2: " in without
-    assert "  energy: " in without
-    still = told(capsys, "top", "--t", "0.1", "--exp", "1,0,0", "--set", "zeta_3=0")[1]
-    assert "  angular_momentum_3: 0 at first" in still
-
-
-def test_where_an_integral_is_shown_is_told(capsys):
-    said = told(capsys, "kovalevskaya_top", "--t", "0.1", "--set", "zeta_1=1")[1]
-    lines = [x for x in said.splitlines() if x.endswith(" (derive integrals shows it)")]
-    assert [x.partition(":")[0] for x in lines] == ["  integral_1"]
-
-
 def test_what_is_amiss_is_told(capsys, tmp_path):
     still = ("--set", "zeta_5=0", "--set", "zeta_9=0")
     assert "nothing moves" in told(capsys, "jelly", "--t", "1", *still)[2]
@@ -238,21 +193,6 @@ def test_why_equations_have_no_finite_value(about, given, why, tmp_path, capsys)
     assert "spring" not in err
 
 
-def test_when_a_multiplier_is_negative():
-    t = np.linspace(0, 5, 501)
-    assert negative(t, t - 0.875) == "at t = 0 … 0.87, at 88 of 501 instants"
-    assert negative(t, np.cos(t)) == "at t = 1.58 … 4.71, at 314 of 501 instants"
-    assert negative(t, -np.sin(3 * t)).startswith("at t = 0.01 … 1.04 and later, at ")
-    assert negative(t, t) == negative(t, 0 * t) == negative(t, t - 1e-15) == ""
-
-
-def test_a_fluid_that_is_sheared_does_not_tear(capsys):
-    shear = [x for k in range(1, 9) for x in ("--set", f"zeta_{k}={int(k == 2)}")]
-    code, text, err = told(capsys, "dirichlet", "--t", "1", *shear)
-    assert (code, err) == (0, "")
-    assert "multiplier" not in text
-
-
 def test_a_fluid_of_irrational_axes_keeps_its_circulation(tmp_path, capsys):
     path = tmp_path / "drop.toml"
     path.write_text(
@@ -284,21 +224,6 @@ def test_motions_of_other_states():
 
 
 # ---------------------------------------------------------------- an ℓ of no points
-
-
-@pytest.mark.parametrize(
-    ("name", "units"),
-    [
-        ("euler_top", {"t": "s", "zeta_1": "1/s", "energy": "J"}),
-        ("rod", {"T_1": "m", "zeta_1": "1/s", "zeta_4": "m/s", "energy": "J"}),
-        ("heisenberg", {"A_12": "", "zeta_1": "1/s", "zeta_2": "1/s", "zeta_3": "1/s"}),
-        ("euler_poisson", {"t": "s", "zeta_1": "", "energy": "J"}),
-        ("top", {"t": "s", "zeta_1": "1/s", "energy": "J", "A_11": ""}),
-    ],
-)
-def test_a_run_has_units_where_the_parameters_have(name, units):
-    run = derive.derive(name).simulate(0.01, points=1)
-    assert units == {x.name: x.unit for x in run.columns if x.name in units}
 
 
 @pytest.mark.parametrize(
@@ -350,19 +275,6 @@ def test_the_inertia_of_a_free_body_is_that_about_its_centre():
     for kept in (np.sum(zeta * momentum, axis=1), np.linalg.norm(momentum, axis=1)):
         assert np.ptp(kept) < 1e-8 * kept[0]
     assert np.ptp(zeta[:, 1]) > 3  # it flips
-
-
-def test_a_held_input_is_named_beside_what_it_changes(capsys):
-    assert main(["simulate", "so3", "--t", "1", "--set", "u_1=0.5"]) == 0
-    (energy,) = (x for x in capsys.readouterr().out.splitlines() if "energy" in x)
-    assert energy.endswith(": by inputs")
-    assert main(["simulate", "jelly", "--t", "1"]) == 0
-    told = capsys.readouterr().out.splitlines()
-    (energy,) = (x for x in told if "energy" in x)
-    assert energy.endswith(": by damping")
-    assert not any(x.endswith("damping") for x in told if x != energy)
-    assert main(["simulate", "jelly", "--t", "1", "--set", "e=0"]) == 0
-    assert ": by" not in capsys.readouterr().out.splitlines()[1]
 
 
 def test_what_acts_at_the_numbers_of_the_parameters_changes_the_energy():
@@ -448,14 +360,9 @@ def test_a_reflection_is_no_rotation():
         derive.compile("top", step="gauss").begin([-1, 0, 0, 0, -1, 0, 0, 0, -1, 0, 0, 1.0])
 
 
-def test_components_are_told_in_their_order_and_zeros_as_zeros():
-    names = ["energy", "momentum_2", "spin_3", "momentum_10", "momentum_1", "spin_1", "casimir"]
-    found = [names[k] for k in in_order(names)]
-    assert found[1:4] == ["momentum_1", "momentum_2", "momentum_10"]
-    assert found == ["energy", *found[1:4], "spin_1", "spin_3", "casimir"]
-    columns = tuple(
-        Column(x, k) for x, k in (("t", "time"), ("L_1", "conserved"), ("L_2", "conserved"))
-    )
-    run = Run(columns, np.array([[0.0, 2.0, 3e-17]]))
-    assert [at_first(run, x) for x in ("L_1", "L_2")] == [2.0, 0.0]
-    assert str(at_first(replace(run, table=np.array([[0.0, -0.0, 0.0]])), "L_1")) == "0.0"
+def test_when_a_multiplier_is_negative():
+    t = np.linspace(0, 5, 501)
+    assert negative(t, t - 0.875) == "at t = 0 … 0.87, at 88 of 501 instants"
+    assert negative(t, np.cos(t)) == "at t = 1.58 … 4.71, at 314 of 501 instants"
+    assert negative(t, -np.sin(3 * t)).startswith("at t = 0.01 … 1.04 and later, at ")
+    assert negative(t, t) == negative(t, 0 * t) == negative(t, t - 1e-15) == ""

@@ -2,11 +2,9 @@
 last row is where it stopped, behind which it tells nothing; in an ensemble, which keeps the
 motions that are done."""
 
-import json
 import os
 import signal
 import threading
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -39,14 +37,6 @@ def test_a_run_is_read_back_to_the_bit(tmp_path, ending):
     assert found.table.tobytes() == TABLE.tobytes()
     assert (found.columns, found.facts) == (COLUMNS, RUN.facts)
     assert written(found, path.name) == path.read_bytes()
-
-
-def test_columns_by_name_and_kind():
-    assert RUN["energy"][0] == 1 / 3
-    assert list(RUN.of_kind("state")) == ["A_11"]
-    assert RUN.states.shape == (3, 1)
-    with pytest.raises(KeyError, match="no column 'x'; there are t, A_11, energy"):
-        RUN["x"]
 
 
 @pytest.mark.parametrize(
@@ -86,24 +76,12 @@ def test_files_that_are_not_there_or_have_no_format(tmp_path):
         written(RUN, "run.txt")
 
 
-def test_the_head_of_a_csv_is_json():
-    head = written(RUN, "a.csv").decode().splitlines()[1].removeprefix("# ")
-    assert json.loads(head)["facts"]["problem"] == "so3"
-
-
 def test_a_csv_is_a_table_for_numpy(tmp_path):
     path = tmp_path / "a.csv"
     path.write_bytes(written(RUN, path.name))
     table = np.genfromtxt(path, delimiter=",", names=True)
     assert table.dtype.names == ("t_s", "A_11", "energy_J")
     assert np.array_equal(table["t_s"], TABLE[:, 0])
-
-
-def test_a_csv_with_its_facts_in_the_first_line_is_read(tmp_path):
-    first, second, rest = written(RUN, "a.csv").decode().split("\n", 2)
-    path = tmp_path / "a.csv"
-    path.write_text(f"{second}\n{first}\n{rest}", encoding="utf-8")
-    assert read(path).table.tobytes() == TABLE.tobytes()
 
 
 @pytest.mark.parametrize("place", ["file/x.npz", "file/new/x.npz", "folder.npz"])
@@ -125,16 +103,6 @@ def test_a_place_that_cannot_be_is_told_before_the_run(
     assert err.startswith(f"derive: {out}: ")
     assert "choose another --out" in err
     assert sorted(x.name for x in tmp_path.rglob("*")) == ["file", "folder.npz"]
-
-
-@pytest.mark.skipif(not Path("/proc/self").exists(), reason="there is no /proc")
-@pytest.mark.parametrize("option", ["--out", "--html"])
-def test_a_folder_that_takes_no_file_is_told(capsys, option):
-    file = "/proc/x.npz" if option == "--out" else "/proc/x.html"
-    assert main(["simulate", "so3", "--t", "1", option, file]) == 2
-    text, err = capsys.readouterr()
-    assert (text, err.count("\n")) == ("", 1)
-    assert err.startswith(f"derive: {file}: ")
 
 
 def test_a_place_that_can_be_is_left_as_it_is(tmp_path):
@@ -243,15 +211,6 @@ def test_a_signal_in_a_long_run(tmp_path, capsys, monkeypatch):
     assert 0 < run.t[1] < 1000
     assert f"spin: interrupted at t = {run.t[1]:g}\n" in capsys.readouterr().err
     assert 0 < run.events[-1].t <= run.t[1]
-
-
-def test_between_two_parts_it_is_where_the_last_one_has_led(tmp_path, capsys, monkeypatch):
-    interrupted_at(monkeypatch, Trajectory, "reach", 3)
-    out = tmp_path / "run.npz"
-    given = ["--t", "1", "--set", "zeta_1=1", "--points", "200", "--out", str(out)]
-    assert main(["simulate", "so3", *given]) == 130
-    assert len(read(out).t) == 3
-    assert "interrupted at t = 0.01" in capsys.readouterr().err
 
 
 # ---------------------------------------------------------------- ensembles

@@ -5,7 +5,7 @@ import tomllib
 import numpy as np
 import pytest
 
-from derive import SE, Force, MotionError, Points, Problem, Signal, derive
+from derive import MotionError, derive
 from derive.command.cli import main
 from derive.problem.toml import problem_of
 from tests.problems import thrown
@@ -228,10 +228,3 @@ def test_in_an_ensemble_they_are_held():
     vary = {"w": (1, 2)}
     with pytest.raises(MotionError, match="F_3 is for one motion: hold it, as start F_3=0"):
         ball(RAMP).simulate(1, ensemble=2, vary=vary)
-
-
-def test_the_word_of_python():
-    forces = [Force("F", 1), Signal("F_3", times=[0, 0.5, 0.75], values=[0, 2, 0], hold=False)]
-    body = Points((1, [1, 0, 0]), (1, [-1, 0, 0]), (1, [0, 1, 0]), (1, [0, 0, 1]))
-    problem = Problem("word", SE(3), body, [*forces, Signal("F_1", u="2*t")])
-    assert [x.input for x in problem.signals] == ["F_3", "F_1"]

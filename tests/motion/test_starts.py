@@ -141,12 +141,6 @@ def test_the_ready_made_starts_move(name):
     assert np.any(run.states[1] != run.states[0])
 
 
-def test_a_start_in_words():
-    body = derive.Moments(m=1, c=[0, 0, 0], J=[[2, 0, 0], [0, 1, 0], [0, 0, 1]])
-    start = {"initial": {"zeta_1": "2*w"}, "parameters": {"w": 0.5}}
-    assert first(derive.Problem("free", derive.SO(3), body, **start))[0]["zeta_1"] == 1
-
-
 # ---------------------------------------------------------------- a run that goes on
 
 TOP = """
@@ -238,14 +232,6 @@ def test_a_run_on_another_group_is_refused(first_run, capsys):
     out, err = capsys.readouterr()
     words = "a run of 'pushed', not of 'se3': it moves by SO(3), this by SE(3)"
     assert (out, err) == ("", f"derive: {path}: {words}\n")
-
-
-def test_a_run_in_python_goes_on_as_its_file():
-    d = derive.derive("so3")
-    run = d.simulate(0.1, start={"zeta_1": 1.0, "J_11": 2.0}, points=1)
-    held, doubt = continued(run, d.problem, d.record)
-    assert doubt == ""
-    assert (held["J_11"], held["zeta_1"]) == (2.0, run["zeta_1"][-1])
 
 
 def test_a_time_that_begins_again_is_told(simulate, tmp_path):

@@ -11,28 +11,15 @@ from derive.command.cli import main
 from derive.motion.ensemble_files import read_either
 from derive.motion.run import Run, written
 from derive.views.language import language
-from derive.views.plot import kind_descriptions
-from derive.views.plot.body_pictures import VIEW, in_math, projected
-from derive.views.plot.kind_descriptions import OVERVIEW, PRECISION
-from derive.views.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
-from derive.views.plot.plot_sheet import FORMATS, PlotError, label, laid_out, look, with_mark
-from tests.support.drawn_runs import figure_of, fitting, run_of, simulated, texts, words_of
+from derive.views.plot.kind_descriptions import OVERVIEW
+from derive.views.plot.pictures import KINDS, plot
+from derive.views.plot.plot_sheet import FORMATS, PlotError, laid_out, look, with_mark
+from tests.support.drawn_runs import figure_of, fitting, run_of, simulated, texts
 from tests.support.motion_pictures import DRAWN, MADE, PICTURES, ROOT, RUNS, drawn, remade, unlike
 from tests.support.needs import need, needs
 from tests.support.walks import derived
 
 pytestmark = needs("the module matplotlib")
-FRENCH = language("fr").word
-
-
-def test_the_help_tells_every_kind(capsys):
-    assert [*kind_descriptions.KINDS] == [*KINDS]
-    assert [*kind_descriptions.ENSEMBLE_KINDS] == [*ENSEMBLE_KINDS]
-    with pytest.raises(SystemExit):
-        main(["plot", "--help"])
-    text = " ".join(capsys.readouterr().out.split())
-    for kind in (*KINDS, OVERVIEW, PRECISION):
-        assert f"{kind}: " in text
 
 
 @pytest.mark.parametrize("kind", [*KINDS, OVERVIEW])
@@ -117,28 +104,6 @@ def test_the_numbers_speak_french(kind):
     assert any(re.search(r"[0-9](?:,|\{,\})[0-9]", x) for x in shown if x is not named)
 
 
-def test_the_quantities_speak_french_and_have_units():
-    found = simulated("riemann_ellipsoid")
-    assert "circulation in the body 1" in words_of(found, "energy")
-    told = words_of(found, "energy", FRENCH)
-    assert all(x in told for x in ("circulation dans le corps 1", "moment cinétique 3"))
-    told = words_of(simulated("dirichlet", 0.5), "spheroid")
-    for words in ("semi-axes [m]", "integral of the pressure [J]", "section y = 0 (space)", "[m]"):
-        assert words in told
-
-
-def test_small_moments_are_powers_of_ten():
-    small, plain, large = (in_math(x) for x in (1.02e-5, 0.25, 1.5e7))
-    assert (small, plain, large) == (r"1.02 \cdot 10^{-5}", "0.25", r"1.5 \cdot 10^{7}")
-
-
-def test_the_view_is_a_projection():
-    square = projected(np.eye(3))
-    assert square.T @ square == pytest.approx(np.eye(2))
-    assert projected(VIEW) == pytest.approx(np.zeros(2))
-    assert (label("zeta_1"), label("energy")) == (r"$\zeta_{1}$", "energy")
-
-
 # ---------------------------------------------------------------- what is refused
 
 
@@ -216,21 +181,6 @@ def test_the_picture_of_each_problem_is_beside_and_shown(name, shown, problems, 
     for problem, picture in zip(problems, pictures, strict=True):
         run = derived(problem).simulate(3.0)
         assert (tmp_path / picture).read_bytes() == plot(run, picture)
-
-
-def test_without_it_nothing_is_shown(tmp_path):
-    assert main(["notes", "rod", "--out", str(tmp_path / "notes.tex")]) == 0
-    assert "graphic" not in (tmp_path / "notes.tex").read_text(encoding="utf-8")
-    assert len([*tmp_path.iterdir()]) == 1
-
-
-def test_in_a_pdf(tmp_path):
-    need("pdflatex")
-    bare, out = tmp_path / "bare.pdf", tmp_path / "notes.pdf"
-    assert main(["notes", "rod", "--out", str(bare)]) == 0
-    assert main(["notes", "rod", "--picture", "3", "--out", str(out)]) == 0
-    assert (tmp_path / "notes_rod_motion.pdf").stat().st_size > 2000
-    assert out.stat().st_size > bare.stat().st_size + 2000
 
 
 # ---------------------------------------------------------------- those that are committed

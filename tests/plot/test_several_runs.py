@@ -14,12 +14,11 @@ from derive.motion.native import AT_EVENT
 from derive.motion.run import Run
 from derive.python.simulated import Simulated, SimulatedEnsemble
 from derive.views.language import language
-from derive.views.plot.body_pictures import ATTITUDE
-from derive.views.plot.ensemble_pictures import POINTS, differing, of_runs, quantiles, table
-from derive.views.plot.kind_descriptions import OVERVIEW, PRECISION
+from derive.views.plot.ensemble_pictures import differing, of_runs, quantiles, table
+from derive.views.plot.kind_descriptions import PRECISION
 from derive.views.plot.pictures import ENSEMBLE_KINDS, plot, plot_energies
-from derive.views.plot.plot_sheet import FORMATS, PlotError, sheet
-from derive.views.plot.time_series import energies, method_in_words
+from derive.views.plot.plot_sheet import PlotError, sheet
+from derive.views.plot.time_series import energies
 from tests.support.drawn_runs import plain_run, simulated
 from tests.support.needs import needs
 from tests.support.pages import blocks, commands
@@ -56,14 +55,6 @@ def drawn(kind, e, columns=(), word=str):
     figure = sheet(6.0, 4.0)
     ENSEMBLE_KINDS[kind].draw(figure, e, word, columns)
     return figure
-
-
-@pytest.mark.parametrize("kind", [*ENSEMBLE_KINDS, OVERVIEW])
-def test_the_same_bytes_twice(kind):
-    for name in (f"a{x}" for x in FORMATS):
-        first = plot(ensemble(), name, kind)
-        assert first == plot(ensemble(), name, kind)
-        assert len(first) > 2000
 
 
 def test_quantiles_are_those_of_the_motions_that_go_on():
@@ -118,11 +109,6 @@ def test_the_ends_at_events_are_those_of_the_events():
     assert figure.get_suptitle() == "$t = 2$ – 45/50 motions to the end, 5 to an event"
 
 
-def test_of_very_many_motions_some_are_points():
-    (panel, _) = drawn("ends", ensemble(3 * POINTS, 2)).get_axes()
-    assert POINTS / 2 < len(panel.get_lines()[0].get_xdata()) <= POINTS
-
-
 def test_the_columns_that_are_drawn():
     e = ensemble()
     assert differing(e, (), 12) == ["x_1"]
@@ -130,29 +116,6 @@ def test_the_columns_that_are_drawn():
     assert len(drawn("spread", e, ("x_2", "x_1")).get_axes()) == 2
     still = replace(e, states=np.ones_like(e.states))
     assert differing(still, (), 12) == ["x_1", "x_2"]
-
-
-def test_of_a_turn_the_third_axis_is_drawn():
-    names = (*ATTITUDE, "zeta_1")
-    states = np.random.default_rng(4).normal(size=(50, 20, 10))
-    turned = replace(ensemble(), names=names, states=states)
-    assert differing(turned, (), 12) == list(names)
-    turned = replace(turned, facts={**turned.facts, "group": "SO(3)"})
-    assert differing(turned, (), 12) == ["A_13", "A_23", "A_33", "zeta_1"]
-    assert differing(turned, ("A_11",), 12) == ["A_11"]
-
-
-def test_units_are_those_of_the_facts():
-    e = ensemble()
-    e = replace(e, facts={**e.facts, "units": {"t": "s", "x_1": "m", "k": "m/s"}})
-    (panel,) = drawn("spread", e).get_axes()
-    assert (panel.get_xlabel(), panel.get_ylabel()) == ("$t$ [s]", "$x_{1}$ [m]")
-    figure = drawn("ends", e)
-    assert [x.get_xlabel() for x in figure.get_axes()] == [
-        "$x_{1}$ [m], varied",
-        "$k$ [m/s], varied",
-    ]
-    assert figure.get_suptitle() == "$t = 2$ s – 45/50 motions to the end"
 
 
 def saved(folder, e, name="many.npz"):
@@ -171,10 +134,6 @@ def test_the_command_and_python(tmp_path, name):
     assert main([*words, "--out", str(out)]) == 0
     own = SimulatedEnsemble.read(path).plot(tmp_path / "b.svg", "ends", columns=("x_2", "x_1"))
     assert out.read_bytes() == own.read_bytes()
-
-
-def test_one_instant_has_ends():
-    assert plot(ensemble(instants=1), "a.svg") == plot(ensemble(instants=1), "a.svg", "ends")
 
 
 @pytest.mark.parametrize(
@@ -312,23 +271,6 @@ def test_what_is_rounding_has_a_floor_and_the_axis_three_decades():
         assert [x.get_text() for x in panel.texts] == shown
         line = panel.get_lines()[0].get_ydata()
         assert np.isfinite(line).all() == bool(shown)
-
-
-def test_the_method_of_a_run_in_words():
-    run = plain_run(np.zeros((2, 2)), x_1="state")
-    french = language("fr").word
-    for told, english, en_francais in (
-        ("gauss, tol 1e-09", "gauss, tol $10^{-9}$", "gauss, tol $10^{-9}$"),
-        ("rk4, tol 2.5e-12", r"rk4, tol $2.5 \cdot 10^{-12}$", r"rk4, tol $2.5 \cdot 10^{-12}$"),
-        (
-            "discrete of order 2, dt 0.004",
-            "discrete of order 2, dt 0.004",
-            "discret d’ordre 2, dt 0.004",
-        ),
-    ):
-        run.facts["method"] = told
-        assert method_in_words(run, str) == english
-        assert method_in_words(run, french) == en_francais
 
 
 def test_runs_of_two_motions_are_not_compared():

@@ -10,7 +10,7 @@ from derive.motion.run import Run
 from derive.problem.toml import problem_of
 from derive.python.derived import derive
 from derive.views.language import language
-from derive.views.plot import body_pictures, pictures
+from derive.views.plot import body_pictures
 from derive.views.plot.body_pictures import _ellipsoid, drawn, hull, levels, unstable
 from derive.views.plot.kind_descriptions import OVERVIEW
 from derive.views.plot.pictures import KINDS, plot
@@ -46,25 +46,6 @@ def test_what_is_exact_is_not_drawn():
     (line,) = [x for x in panel.get_lines() if len(x.get_xdata())]
     assert line.get_ydata() == pytest.approx([1e-16, 1e-15, 1e-16], rel=0.2)  # the floor
     assert "exact: linear momentum 1" in panel.get_legend_handles_labels()[1]
-
-
-def test_in_a_product_velocities_stand_by_their_blocks():
-    """A panel each, though their columns are numbered through; in the table of a notebook, too."""
-    run = derived("two_tops").simulate(1.0, points=20)
-    drawn = [x.get_ylabel() for x in figure_of(run, "state").get_axes()]
-    assert [x.partition(" [")[0] for x in drawn[-2:]] == [r"$\zeta1$", r"$\zeta2$"]
-    assert "<td>zeta2_3" in run._ends()
-    np.testing.assert_array_equal(run["zeta2_3"], run["zeta_6"])
-
-
-def test_where_all_is_exact_that_is_said_and_takes_little_room():
-    t = np.linspace(0, 2, 40)
-    exact = plain_run(np.stack([t, np.sin(t), 0 * t + 3], 1), x_1="state", energy="energy")
-    assert KINDS["energy"].size(exact)[1] < 1.5 < KINDS["energy"].size(run_of())[1]
-    panel, words = panel_of(exact, "energy")
-    assert "exact: energy" in words
-    assert not curves(panel)
-    assert panel.get_xlim() == (0, 2)
 
 
 @pytest.mark.parametrize("rows", [2, 3, 5])
@@ -109,31 +90,6 @@ def test_a_rotation_is_drawn_by_its_calmest_axis_and_a_turn_of_the_plane_by_its_
     assert angle[0] == pytest.approx(np.arctan2(run["A_21"][0], run["A_11"][0]))
     panel, *_ = figure_of(simulated("sl3", 1.0), "state").get_axes()
     assert len(curves(panel)) == 9  # no rotation: all of it is wanted
-
-
-def test_an_overview_has_two_columns_and_begins_at_the_left():
-    figure = pictures._sheet_of(KINDS, ["state", "energy", "axes"], run_of(), str, ())
-    left, right = figure.subfigs
-    assert [len(x.subfigs) for x in (left, right)] == [2, 1]
-    assert [x.subfigs[-1].bbox.y0 for x in (left, right)] == pytest.approx(
-        [0, 0]
-    )  # both to the end
-    assert left.subfigs[0].get_axes()[0].get_ylabel().endswith("e_2$")
-
-
-def test_tips_that_go_round_and_round_are_left_out():
-    """A top that spins: its axis alone; a slow turn has all three."""
-
-    def named(run):
-        return figure_of(run, "axes").get_axes()[0].get_legend_handles_labels()[1]
-
-    assert named(simulated("top", 0.3)) == ["$A e_3$"]
-    t = np.linspace(0, 1, 40)
-    slow = np.stack(
-        [np.cos(t), -np.sin(t), 0 * t, np.sin(t), np.cos(t), 0 * t, 0 * t, 0 * t, 1 + 0 * t]
-    )
-    run = plain_run(np.vstack([t, slow]).T, **dict.fromkeys(body_pictures.ATTITUDE, "state"))
-    assert named(run) == [f"$A e_{k}$" for k in (1, 2, 3)]
 
 
 def test_a_component_is_held_against_its_vector():
@@ -292,15 +248,6 @@ def test_a_motion_that_stays_or_does_not_turn_has_a_window_too():
 # ---------------------------------------------------------------- fluids
 
 
-def test_a_spectrum_ends_where_rounding_begins():
-    names = [f"{part}_{n}_0" for n in (1, 2, 3) for part in ("re", "im")]
-    numbers = [[0.0, 3.0, 4.0, 1e-15, 0.0, 0.0, 1e-18]]
-    figure = figure_of(plain_run(numbers, **dict.fromkeys(names, "state")), "vorticity")
-    (line,) = figure.axes[1].lines
-    assert line.get_xdata().tolist() == [1, 2]
-    assert np.allclose(line.get_ydata(), [2 * 25, 2e-30], rtol=1e-12)
-
-
 def test_a_wave_along_x_is_the_same_along_y():
     run = plain_run([[0.0, 0.5, 0.0]], re_1_0="state", im_1_0="state")
     field = figure_of(run, "vorticity").get_axes()[0].collections[0].get_array().reshape(129, 129)
@@ -378,6 +325,21 @@ def test_what_falls_in_the_plane_has_a_potential_along_the_height():
     slope = np.gradient(told["V"], told["u"])
     assert told["entry"] == "T_2"
     assert slope == pytest.approx(np.full(len(slope), np.pi / 2 * 9.81), rel=1e-6)
+
+
+def test_tips_that_go_round_and_round_are_left_out():
+    """A top that spins: its axis alone; a slow turn has all three."""
+
+    def named(run):
+        return figure_of(run, "axes").get_axes()[0].get_legend_handles_labels()[1]
+
+    assert named(simulated("top", 0.3)) == ["$A e_3$"]
+    t = np.linspace(0, 1, 40)
+    slow = np.stack(
+        [np.cos(t), -np.sin(t), 0 * t, np.sin(t), np.cos(t), 0 * t, 0 * t, 0 * t, 1 + 0 * t]
+    )
+    run = plain_run(np.vstack([t, slow]).T, **dict.fromkeys(body_pictures.ATTITUDE, "state"))
+    assert named(run) == [f"$A e_{k}$" for k in (1, 2, 3)]
 
 
 def test_a_hull():

@@ -220,11 +220,6 @@ def test_it_stands_alone():
     assert not re.search(r"https?://|@import|url\(|src=|<link", page)
 
 
-def test_what_holds_for_any_group_comes_once():
-    page = html([record("so3"), record("sl3"), record("so4")])
-    assert page.count('id="linear.kernel"') == 1
-
-
 @pytest.mark.parametrize("bad", ["<script>alert(1)</script>", '"><img src=x onerror=alert(1)>'])
 def test_nothing_of_a_stranger_is_markup(bad):
     d = record("so3")

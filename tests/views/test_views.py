@@ -8,10 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.language.read import read
 from derive.language.show import show
-from derive.pipeline import discrete, walk
-from derive.problem.toml import load
 from derive.record.record import Derivation, Equation, Step, Symbol
 from derive.record.sentence import say
 from derive.views.language import language
@@ -26,7 +23,6 @@ from derive.views.text import markdown, text
 from tests.support.tex import compiled
 from tests.support.walks import record
 
-PROBLEMS = Path(__file__).parents[2] / "derive" / "problems"
 NAMES = ("so3", "se3", "sl3", "linear", "affine")
 HOSTILE = (
     r"\input{/etc/passwd}",
@@ -149,33 +145,6 @@ def test_a_record_may_not_bring_its_own_commands() -> None:
     assert names["C"] == "C"
 
 
-def test_a_name_of_several_letters_is_read_as_no_product() -> None:
-    """mgl² would be m g l²."""
-    weight, moment, axis = ("par", "mgl"), ("par", "I"), ("entry", "A", 3, 3)
-    long = ("mul", 16, ("pow", moment, 2), ("pow", weight, 2), axis)
-    assert show(long) == "16I²·(mgl)²·A₃₃"
-    assert read(show(long), "I", "mgl") == long
-    assert show(("mul", *(("par", x) for x in "mgl"), axis)) == "mgl A₃₃"
-    assert show(("mul", ("par", "rho"), ("add", axis, 1))) == "rho·(A₃₃ + 1)"
-    assert show(("div", ("par", "thrust_3"), "m")) == "thrust₃/m"
-    assert show(("mul", ("pow", ("par", "I1"), 2), axis)) == "I1² A₃₃"
-
-
-def test_long_formulas_break_at_shallow_operators_first() -> None:
-    pieces = [Piece("aaaa", 0), Piece(" + ⟨bb,", 0.25), Piece(" cccc⟩", 1.0), Piece(" + dd", 0.25)]
-    assert [x.text for x in fill(pieces, 17, display_width)] == ["aaaa + ⟨bb, cccc⟩", "+ dd"]
-    deep = fill(pieces, 10, display_width, 2)
-    assert [(x.text, x.inside) for x in deep] == [
-        ("aaaa", 0), ("+ ⟨bb,", 0), ("cccc⟩", 1), ("+ dd", 0),
-    ]  # fmt: skip
-
-
-def test_an_inner_line_has_room_for_its_indent() -> None:
-    pieces = [Piece("a", 0), Piece(" + ⟨bbbbb", 0.25), Piece(" cccc", 1.0), Piece(" dddd⟩", 1.0)]
-    lines = fill(pieces, 10, display_width, 2)
-    assert [display_width(x.text) + 2 * x.inside for x in lines if x.inside] == [6, 7]
-
-
 def test_a_term_longer_than_a_line_is_broken_inside() -> None:
     sides = [("add", *[f"{letter}_{k}" for k in range(40)]) for letter in "xy"]
     long = ("inner", *sides)
@@ -195,25 +164,6 @@ def test_long_formulas_keep_inside_the_margins(tmp_path: Path) -> None:
     equations += (Equation("U", pages),)
     d = Derivation({"name": "n"}, (), (Step("n.long", "definition", (), equations, say("Long.")),))
     assert "Overfull" not in compiled(latex(d), tmp_path)
-
-
-@pytest.mark.parametrize(
-    ("name", "shown"),
-    [
-        ("text", "height ‘h’)"),
-        ("latex", r"height $\parameter{h}$)"),
-        ("markdown", r"height $\mathsf{h}$)"),
-        (
-            "html",
-            'height <span class="kept"><math><mi mathvariant="normal" class="parameter">h</mi>',
-        ),
-    ],
-)
-def test_a_height_h_is_told_from_the_step_of_time(name, shown):
-    """In the sentence of the integrals too, of a discrete walk; elsewhere no letter is h."""
-    top = load(PROBLEMS / "top.toml")
-    assert shown in " ".join(render(discrete(top), name).split())
-    assert "(radius R, height h)" in " ".join(render(walk(top), "text").split())
 
 
 NESTED = {
@@ -250,6 +200,12 @@ def budget(shown):
     assert len(shown) < 30 * 20, "printed again and again"
 
 
+def test_an_inner_line_has_room_for_its_indent() -> None:
+    pieces = [Piece("a", 0), Piece(" + ⟨bbbbb", 0.25), Piece(" cccc", 1.0), Piece(" dddd⟩", 1.0)]
+    lines = fill(pieces, 10, display_width, 2)
+    assert [display_width(x.text) + 2 * x.inside for x in lines if x.inside] == [6, 7]
+
+
 def test_three_numbers_of_the_paper_are_a_run_and_two_are_not():
     step = Step("a.b", "definition", (), (), (), ())
     for paper, shown in {
@@ -258,3 +214,12 @@ def test_three_numbers_of_the_paper_are_a_run_and_two_are_not():
         (11, 13): "(11), (13)",
     }.items():
         assert printed(replace(step, paper=paper)) == shown
+
+
+def test_long_formulas_break_at_shallow_operators_first() -> None:
+    pieces = [Piece("aaaa", 0), Piece(" + ⟨bb,", 0.25), Piece(" cccc⟩", 1.0), Piece(" + dd", 0.25)]
+    assert [x.text for x in fill(pieces, 17, display_width)] == ["aaaa + ⟨bb, cccc⟩", "+ dd"]
+    deep = fill(pieces, 10, display_width, 2)
+    assert [(x.text, x.inside) for x in deep] == [
+        ("aaaa", 0), ("+ ⟨bb,", 0), ("cccc⟩", 1), ("+ dd", 0),
+    ]  # fmt: skip

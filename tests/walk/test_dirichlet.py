@@ -239,16 +239,6 @@ def numbers(problem):
     return approximate(given.m, names), np.array(c), np.array(J)
 
 
-@pytest.mark.parametrize("n", [2, 3, 4])
-def test_moments_by_shells(n):
-    Q = np.eye(n) + 0.2 * np.ones((n, n))
-    m, c, J = numbers(Problem("b", f"SL({n})", body(n, Q), parameters=VALUES))
-    assert m == pytest.approx(over(density, n, Q), rel=1e-13)
-    wanted = over(lambda s: s * density(s), n, Q) / n * np.linalg.inv(Q)
-    assert np.max(np.abs(c)) == 0
-    assert pytest.approx(wanted, rel=1e-12) == J
-
-
 def test_moments_of_a_turned_and_shifted_one_in_a_mixture():
     """Beside sums over points in it, on shells and directions."""
     axes, shift = np.array([1.3, 1.0, 0.7]), np.array([0.2, -0.1, 0.4])

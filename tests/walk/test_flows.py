@@ -60,33 +60,29 @@ def velocities(t):
     return np.array([[0.5, 1 + t, -SPEED], [t, 0, SPEED]])
 
 
-def on(group):
-    """The problem on a group of R³ or of the plane, where the last two coordinates are its own."""
-    n = int(group[-2])
+def on(what, rocket=ROCKET):
+    """A rocket on a group of R³ or of the plane, where the last two coordinates are its own; or the
+    same body by its moments, expressions of the time."""
+    if what != "moments":
+        n = int(what[-2])
 
-    def cut(x):
-        return x[-n:] if isinstance(x, list) else x
+        def cut(tables):
+            return [{k: x[-n:] if isinstance(x, list) else x for k, x in y.items()} for y in tables]
 
-    listed = {
-        key: [{k: cut(v) for k, v in table.items()} for table in ROCKET[key]]
-        for key in ("point", "flow", "potential")
-    }
-    return ROCKET | listed | {"group": group}
-
-
-def with_moments():
-    """The same body by its moments, expressions of the time."""
-    told = [f"({x['mass']})" for x in ROCKET["point"]]
+        tables = {key: cut(rocket[key]) for key in ("point", "flow", "potential")}
+        return rocket | tables | {"group": what}
+    told = [f"({x['mass']})" for x in rocket["point"]]
 
     def summed(weights):
         return " + ".join(f"{m}*({w})" for m, w in zip(told, weights, strict=True))
 
-    m, c = " + ".join(told), [summed(PLACES[:, i]) for i in range(3)]
     J = [[summed(PLACES[:, i] * PLACES[:, j]) for j in range(3)] for i in range(3)]
-    rest = {k: v for k, v in ROCKET.items() if k not in ("point", "flow")}
-    first, other = ROCKET["flow"]
-    flows = [first, {"at": [0, 1, -1], **{k: x for k, x in other.items() if k != "on"}}]
-    return rest | {"body": {"given": {"m": m, "c": c, "J": J}}, "flow": flows}
+    given = {"m": " + ".join(told), "c": [summed(PLACES[:, i]) for i in range(3)], "J": J}
+    first, other = rocket["flow"]
+    flows = [{"at": rocket["point"][0]["at"]} | first, other | {"at": [0, 1, -1]}]
+    flows = [{k: y for k, y in x.items() if k != "on"} for x in flows]
+    rest = {k: v for k, v in rocket.items() if k not in ("point", "flow")}
+    return rest | {"body": {"given": given}, "flow": flows}
 
 
 LEAKING = Leaking(PLACES, EXITS, masses, mass_rates, rates, velocities)
@@ -94,7 +90,7 @@ LEAKING = Leaking(PLACES, EXITS, masses, mass_rates, rates, velocities)
 
 @cache
 def made(what):
-    problem = problem_of(with_moments() if what == "moments" else on(what))
+    problem = problem_of(on(what))
     return problem, module_of(problem), library("c", problem) if present("cc") else None
 
 
@@ -239,9 +235,8 @@ def test_a_point_that_loses_mass_in_a_flat_space(n):
 
 def read_by_name(what):
     """The problem with the powers of all that acts as outputs, by its emitted Python."""
-    data = with_moments() if what == "moments" else on(what)
     told = [{"name": "whole", "kind": "power"}, {"name": "jet_s", "kind": "power", "of": "jet"}]
-    return module_of(problem_of(data | {"output": told}))
+    return module_of(problem_of(on(what) | {"output": told}))
 
 
 @pytest.mark.parametrize("what", ["SE(3)", "SO(3)", "SE(2)", "SO(2)", "moments"])
@@ -270,7 +265,7 @@ def test_what_acts_changes_the_energy_at_one_time(what):
 
 @pytest.mark.parametrize("what", ["SE(3)", "SO(2)", "moments"])
 def test_a_forged_rate_of_the_energy_is_refused(what):
-    problem = problem_of(with_moments() if what == "moments" else on(what))
+    problem = problem_of(on(what))
     record = derive.derive(problem).record
     step = next(s for s in record.steps if s.label == "rocket.power")
     checker = Checker(record.problem, 7)

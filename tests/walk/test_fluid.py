@@ -7,15 +7,12 @@ import numpy as np
 import pytest
 import sympy
 
-from derive import Fluid, Problem
-from derive import derive as derived
 from derive.algebra import forms
 from derive.algebra.calculus import reduce
 from derive.algebra.words import word
 from derive.check.checker import checker_of
 from derive.check.fluid.fluid_spaces import FlatTorus
 from derive.command.showing import load_problem
-from derive.language.show import show
 from derive.language.tree import names as names_in
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
@@ -126,13 +123,6 @@ def test_known_steady_flows(name, names, keys):
         equation = of(name)[label].equations[int(k) - 1]
         both = [flow(z, names) for z in (equation.lhs, equation.rhs)]
         assert vanishes(both[0] - both[1]), key
-
-
-def test_what_it_ends_in():
-    last = [[show(e.lhs), show(e.rhs)] for e in record("ideal_fluid")[ELLIPTIC].equations]
-    assert last[-1] == ["−Δp", "Tr (∇u)²"]
-    density = record("inhomogeneous_fluid")[ELLIPTIC].equations[-1]
-    assert [show(density.lhs), show(density.rhs)] == ["−div(ρ⁻¹ grad p)", "Tr (∇u)²"]
 
 
 t, s = sympy.symbols("t s")
@@ -309,16 +299,3 @@ def test_fields_with_a_divergence_break_what_rests_on_it(monkeypatch):
     assert {"skew", "divergence", "kernel", "divergence_along", "pressure_equation"} <= broken
     assert "structure" not in broken
     assert "chain" not in broken
-
-
-def test_sympy_has_no_fields():
-    found = derived(Problem("sea", Fluid()))
-    for label in ("kernel", "lagrangian", "pressure"):
-        with pytest.raises(ValueError, match="fluid"):
-            found[label].sympy()
-
-
-def test_in_python_as_in_a_file():
-    assert Problem("sea", Fluid("advected", forces="potential")) == problem_of(
-        {"name": "sea", "fluid": {"density": "advected", "forces": "potential"}, "parameters": {}}
-    )

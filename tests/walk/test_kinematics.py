@@ -8,18 +8,13 @@ from functools import cache
 import pytest
 
 from derive.check.checker import Checker, check
-from derive.command.cli import main
 from derive.language.expression import parse
 from derive.language.tree import add, mul, neg, nodes
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.record import Equation
 from derive.walk.lie.invariant_errors import Velocity, matrix, numbers
-from tests.support.cached import ROOT
 from tests.support.walks import SEED, record
-
-STEPS = ("kinematics", "tangent", "errors", "affine", "error_rates", "log_linear", "noise")
-STEPS += ("observation",)
 
 
 def skew(n, i, j):
@@ -86,12 +81,6 @@ def imu_with_bias():
 
 def short(label):
     return label.partition(".")[2]
-
-
-def test_the_road_of_an_imu():
-    d = record("imu")
-    assert tuple(short(s.label) for s in d.steps) == STEPS
-    assert all(v.holds for v in check(d))
 
 
 def test_the_generators_of_an_imu_are_those_of_the_article():
@@ -212,12 +201,3 @@ def test_a_counterexample_off_the_group_is_refused():
 
 
 # -- bad input ------------------------------------------------------------------------------------
-
-
-def test_a_density_that_is_negative_by_a_default_is_told_in_one_line(tmp_path, capsys):
-    text = (ROOT / "derive/problems/imu.toml").read_text(encoding="utf-8")
-    (tmp_path / "imu.toml").write_text(text.replace("default = 1e-4", "default = -1e-4"), "utf-8")
-    assert main(["walk", str(tmp_path / "imu.toml")]) == 2
-    out, err = capsys.readouterr()
-    assert (out, err.count("\n")) == ("", 1)
-    assert "noise of 'w_1': a density is not negative" in err

@@ -9,37 +9,13 @@ from derive.check.checker import Checker
 from derive.language.tree import mul, nodes
 from derive.pipeline import discrete, walk
 from derive.problem.toml import problem_of
-from derive.programs import program
 from derive.record.sentence import english
 from derive.views.language import language
-from derive.views.outline import latex_names
-from derive.views.rendering import render
-from derive.views.text import text
 from tests.support.library import emission
 
 
 def told(d, label):
     return english(d[f"{d.name}.{label}"].prose)
-
-
-def meaning(d, name):
-    return english(next(s.meaning for s in d.symbols if s.name == name))
-
-
-def walked(**data):
-    return walk(problem_of({"name": "masses", **data}))
-
-
-@pytest.mark.parametrize(("m", "latex"), [("m", r"\mathbf m"), ("k", "m")])
-def test_the_total_mass_is_another_letter_than_a_parameter_m(m, latex):
-    masses = [{"mass": x, "at": at} for x, at in zip((m, 2, 1), np.eye(3).tolist(), strict=True)]
-    d = walked(group="SO(3)", parameters={m: {}}, point=masses)
-    assert latex_names(d)["m"] == latex
-    assert (r"\mathbf m" in render(d, "latex", "en")) == (m == "m")
-
-
-def test_moments_are_the_same_in_both_meanings():
-    assert latex_names(walked(group="SE(3)", body={"moments": "symbolic"}))["m"] == "m"
 
 
 PLACES = ([1, 0, 0], [-1, 0, 0], [0, 2, 0], [0, -2, 0], [0, 0, 3], [0, 0, -3])
@@ -79,20 +55,6 @@ def test_the_numbers_of_inputs_have_the_names_of_the_file(road, group):
     assert named <= given | {"P_thrust", "P_F"}  # the powers
 
 
-def test_text_and_code_call_an_input_alike():
-    """F are the forces on the points as well: in quotes."""
-    p = driven("SE(3)")
-    d = walk(p)
-    (solved,) = (x for x in text(d).split("\n\n") if x.startswith("driven.explicit"))
-    assert "thrust₂" in solved
-    assert "‘F₅’" in solved
-    assert meaning(d, "u").endswith("in the body frame, ‘F₁’, ‘F₂’, ‘F₃’")
-    assert {*program(p, d).inputs} == {
-        *(f"thrust_{k}" for k in (1, 2, 3)),
-        *(f"F_{k}" for k in range(1, 7)),
-    }
-
-
 STATED = {
     "name": "stated",
     "group": "SE(3)",
@@ -123,15 +85,6 @@ def test_forces_of_the_state_have_the_names_of_the_file():
     assert "‘drag’, ce qui agit en r_2" in language("fr").of(step.prose)
     _, texts = emission(p, ("c",))
     assert "drag_1 = " in texts["stated.c"]
-
-
-def test_without_a_name_nothing_is_said_of_it():
-    """The equations are those of the named, put in: the record of before."""
-    nameless = [{k: x for k, x in force.items() if k != "name"} for force in STATED["force"]]
-    d = walk(problem_of(STATED | {"force": nameless}))
-    assert all("name" not in x for x in d.problem["forces"])
-    parts = {x for e in d["stated.input"].equations for x in nodes(e.rhs)}
-    assert not [x for x in parts if isinstance(x, tuple) and x[0] == "par"]
 
 
 def test_a_record_with_another_force_under_the_name_is_seen():

@@ -7,36 +7,27 @@ import numpy as np
 import pytest
 
 from derive.check.checker import verdicts
-from derive.code.assemble import assemble
-from derive.code.emit import emit
-from derive.code.options import Options
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.searches import conserved_without_gravity
 from tests.oracles import general, relative_error, sensors
 from tests.problems import PROBLEMS
 from tests.support import corpus
+from tests.support.library import emission, module_of
 from tests.support.walks import SEED
 
 NAMES = [x for x in PROBLEMS if x.endswith(" outputs")]
 T = 0.4
 
 
-def module_of(name):
+def module(name):
     """What the emitted Python defines, with all derivatives."""
-    problem, record = problem_of(tomllib.loads(PROBLEMS[name])), corpus.record(f"points {name}")
-    options = Options(jacobian=("outputs", "raw"))
-    (text,) = emit(
-        assemble(record, problem.group, options), record, ("python",), "test", options
-    ).values()
-    space = {}
-    exec(compile(text, "test.py", "exec"), space)
-    return space
+    return vars(module_of(PROBLEMS[name], jacobian=("outputs", "raw")))
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_they_are_what_the_points_do(name):
-    data, space = tomllib.loads(PROBLEMS[name]), module_of(name)
+    data, space = tomllib.loads(PROBLEMS[name]), module(name)
     p, basis, rng = general.parameters(data), space["BASIS"], np.random.default_rng(3)
     k = space["constants"]([p[x] for x in space["PARAMETERS"]])
     for _ in range(3):
@@ -48,7 +39,7 @@ def test_they_are_what_the_points_do(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_their_derivatives_are_those_of_differences(name):
-    data, space = tomllib.loads(PROBLEMS[name]), module_of(name)
+    data, space = tomllib.loads(PROBLEMS[name]), module(name)
     p, basis, rng = general.parameters(data), space["BASIS"], np.random.default_rng(3)
     k = space["constants"]([p[x] for x in space["PARAMETERS"]])
     x, u = general.random_state(data, basis, rng), rng.normal(size=len(space["INPUTS"]))
@@ -123,11 +114,8 @@ def test_beside_a_lagrangian_they_are_expressions(data, at):
     problem = problem_of(data | {"output": told})
     record = walk(problem)
     assert all(x.holds for x in verdicts(record, SEED))
-    space = {}
-    options = Options(jacobian=("outputs", "raw") if at == 0 else ())  # by η, on a group
-    compiled = assemble(record, problem.group, options)
-    (text,) = emit(compiled, record, ("python",), "test", options).values()
-    exec(compile(text, "test.py", "exec"), space)
+    jacobian = ("outputs", "raw") if at == 0 else ()  # by η, on a group
+    space = vars(module_of(problem, jacobian=jacobian))
     x = np.random.default_rng(3).normal(size=len(space["STATE"]))
     of = dict(zip(space["STATE"], x, strict=True))
     assert space["OUTPUTS"] == ("y_1", "y_2")
@@ -140,7 +128,6 @@ def test_beside_a_lagrangian_they_are_expressions(data, at):
 def test_a_unit_ends_no_comment():
     told = [{"name": "y", "y": ["zeta_1"], "unit": "*/ int x /*"}]
     problem = problem_of(ON_A_GROUP | {"output": told})
-    record = walk(problem)
-    files = emit(assemble(record, problem.group), record, ("c", "javascript"), "test")
+    _, files = emission(problem, ("c", "javascript"))
     assert all("* / int x / *" in files[x] for x in ("test.h", "test.mjs"))
     assert not any("*/ int x" in x for x in files.values())

@@ -168,13 +168,6 @@ HOLE = points((1, [1, 0]), (-2, [0, 1]))
 """At A = diag(2^¼, 2^−¼) the metric of SL(2) is degenerate along diag(1, −1)."""
 
 
-def test_the_metric_of_the_counterexample_is_degenerate():
-    s = 2**0.25
-    g, J, Z = np.diag([s, 1 / s]), np.diag([1.0, -2.0]), np.diag([1.0, -1.0])
-    for E in (Z, [[0, 1], [0, 0]], [[0, 0], [1, 0]]):
-        assert abs(np.trace(Z @ J @ np.transpose(E) @ g.T @ g)) < 1e-15
-
-
 @pytest.mark.parametrize("mass", ["number", "parameter"])
 @pytest.mark.parametrize("build", ONE_BUILD.values())
 def test_the_counterexample_is_refused(build, mass):
