@@ -12,12 +12,15 @@ from ..code.program import Program
 from ..problem.problem import Problem
 from ..record.record import Derivation
 
-KEPT = {
+VECTORS = {
     "momentum": "linear momentum",
     "angular_momentum": "angular momentum",
     "body_momentum": "linear momentum in the body",
     "body_angular_momentum": "angular momentum in the body",
     "circulation": "circulation in the body",
+}
+"""What is kept and has components, by its name, in words."""
+KEPT = VECTORS | {
     "orbital_angular_momentum": "orbital angular momentum",
     "screw_momentum": "screw momentum",
     "body_screw_momentum": "screw momentum in the body",

@@ -1,6 +1,7 @@
 """The discrete motion as a map, from the equations of its record: symplectic in 40 digits, its
 momenta kept, of order 2; its steps make the action stationary, and its notes are of it alone."""
 
+import re
 import tomllib
 from dataclasses import replace
 from fractions import Fraction
@@ -12,11 +13,13 @@ import numpy as np
 import pytest
 
 from derive.check.checker import check
+from derive.command.cli import main
 from derive.language import rational as q
 from derive.pipeline import discrete
 from derive.problem.toml import problem_of
+from derive.views.rendering import render
 from tests.support.corpus import driven, record
-from tests.support.discrete_maps import DiscreteMap, real
+from tests.support.discrete_maps import DiscreteMap
 from tests.support.walks import SEED, problem
 
 DIGITS = 60  # so many that differences of 1e-20 leave 40
@@ -26,6 +29,11 @@ TINY = mpmath.mpf(10) ** -20
 @cache
 def undriven(name):
     return replace(problem(name), inputs=())
+
+
+def real(x):
+    """A number of mpmath."""
+    return mpmath.mpf(x.numerator) / x.denominator if isinstance(x, Fraction) else mpmath.mpf(x)
 
 
 def map_of(given, h, number=real, tiny=TINY):
@@ -102,6 +110,9 @@ def test_the_map_is_of_order_2(name):
     assert 3.5 < first / second < 4.5
 
 
+NAMES = ("so3", "se3", "sl3", "gl3", "saff3")
+
+
 def test_a_discrete_record_holds_but_not_without_its_mark():
     d = record("discrete top")
     assert all(v.holds for v in check(d, SEED))
@@ -150,3 +161,23 @@ def test_steps_of_moser_and_veselov_make_the_action_stationary():
         assert abs(varied.imag / 1e-20) < 1e-11 * scale
     space = [a @ ((a.T @ b @ J - J @ b.T @ a) / h) @ a.T for a, b in ((g_0, g_1), (g_1, g_2))]
     assert np.abs(space[0] - space[1]).max() < 1e-11 * scale
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_letter_is_lost_in_latex(name):
+    for lang in ("en", "fr"):
+        shown = render(record(f"discrete {name}"), "latex", lang)
+        assert "?" not in re.sub(r"solides(~|\\,| |\\thinspace)*\?", "", shown)
+
+
+@pytest.mark.parametrize("lang", ["en", "fr"])
+def test_notes_are_of_discrete_motions(tmp_path, lang):
+    """Of both actions in one text, each step once."""
+    for end in (".tex", ".html"):
+        out = tmp_path / f"notes{end}"
+        assert main(["notes", "so3", "se3", "--discrete", "--lang", lang, "--out", str(out)]) == 0
+        text = out.read_text(encoding="utf-8")
+        label = r"\label{{{}}}" if end == ".tex" else 'id="{}"'
+        for step in ("discrete.balance", "discrete_affine.blocks", "so3.turning", "se3.centre"):
+            assert text.count(label.format(step)) == 1
+        assert r"\Theta^" not in re.sub(r'data-tex="[^"]*"', "", text) or end == ".tex"

@@ -3,7 +3,7 @@ what a flight gains is their integral, and a forged one is refused."""
 
 import math
 from dataclasses import replace
-from functools import cache
+from functools import cache, reduce
 
 import numpy as np
 import pytest
@@ -151,10 +151,80 @@ def test_a_flight_gains_the_integral_of_all_powers():
 # -- what the record says, in numbers -------------------------------------------------------------
 
 
+def names_at(t, x):
+    """What the names of ∂ₜŨ mean, from the body."""
+    A, T, *_ = split(x)
+    return {
+        **{"t": t, "A": A, "T": T, "c": MASS * CENTRE, "m": MASS},
+        ("at", "d", 1): A @ HOOK + T - np.array([math.cos(t), t**2, 2]),
+        **{("par", name): y for name, y in DRONE["parameters"].items()},
+    }
+
+
+def value(t, known):
+    """A tree in floats."""
+    if isinstance(t, (str, tuple)) and t in known:
+        return known[t]
+    if not isinstance(t, tuple):
+        return float(t)
+    if t[0] == "fun":
+        return {"sin": math.sin, "cos": math.cos, "sqrt": math.sqrt}[t[1]](value(t[2], known))
+    if t[0] == "pow":
+        return value(t[1], known) ** t[2]
+    parts = [value(x, known) for x in t[1:]]
+    match t[0]:
+        case "add":
+            return sum(parts)
+        case "mul":
+            return reduce(np.dot, parts)
+        case "div":
+            return parts[0] / parts[1]
+        case "inner":
+            return parts[0] @ parts[1]
+        case "wedge":
+            return np.cross(*parts)
+        case "T":
+            return parts[0].T
+        case "tr":
+            return np.trace(parts[0])
+        case "norm2":
+            return parts[0] @ parts[0]
+        case "row":
+            return parts[0]
+        case "matrix":
+            return np.array(parts)
+    raise ValueError(t)
+
+
 def test_the_sum_of_all_is_the_rate_of_the_energy():
     whole = [e.rhs for e in power().equations if e.lhs == "ḣ"]
     assert len(whole) == 2
     assert {*whole[1][1:]} == {*(("par", x) for x in NAMES), "∂ₜŨ"}
+
+
+def test_what_the_time_does_is_written_out():
+    (tree,) = (e.rhs for e in power().equations if e.lhs == "∂ₜŨ")
+    times, states, *_ = flight()
+    for t, x in zip(times, states, strict=True):
+        wanted = rate_in_time(t, x)
+        assert math.isclose(value(tree, names_at(t, x)), wanted, rel_tol=1e-7), (t, wanted)
+
+
+def test_a_stiffness_inside_the_body_is_told_apart_from_another():
+    """Both springs of natural length 0 are in K, and one alone knows the time."""
+    points = [{"mass": 1, "at": [int(i == k) for k in range(3)]} for i in range(4)]
+    springs = [
+        {"kind": "spring", "between": [1, 2], "stiffness": "1 + t^3", "length": 0},
+        {"kind": "spring", "between": [2, 4], "stiffness": 3, "length": 0},
+    ]
+    data = {"name": "soft", "group": "SL(3)", "point": points, "potential": springs}
+    record = derive.derive(problem_of(data)).record
+    step = next(s for s in record.steps if s.label == "soft.power")
+    A, apart = np.array([[1.0, 2, 0], [0, 1, 3], [1, 0, 1]]), np.array([1.0, -1, 0])
+    known = {"t": 0.7, "A": A, ("at", "s", 1): apart[:, None]}
+    wanted = 3 * 0.7**2 / 2 * (A @ apart) @ (A @ apart)
+    assert math.isclose(value(step.equations[0].rhs, known), wanted, rel_tol=1e-12)
+    assert all(x.holds for x in own_verdicts(record))
 
 
 # -- the checker --------------------------------------------------------------------------------

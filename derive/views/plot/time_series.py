@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...language.reserved import by_letter, letter_and_suffix, waves
-from ...motion.emitted_code import KEPT, Column, in_words, parts
+from ...motion.emitted_code import VECTORS, Column, in_words, parts
 from ...motion.run import Array, Run, shown
 from .body_pictures import attitude, paths
 from .plot_sheet import COLOURS, label
@@ -247,7 +247,7 @@ def norms(run: Run) -> dict[str, float]:
 
 def vector_of(name: str) -> str:
     """Of which vector a conserved quantity is a component; empty where of none."""
-    return base_of(name) if base_of(name) in KEPT else ""
+    return base_of(name) if base_of(name) in VECTORS else ""
 
 
 def base_of(name: str) -> str:
