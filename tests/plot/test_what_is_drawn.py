@@ -109,8 +109,10 @@ def test_what_is_rounding_at_first_is_held_against_nothing():
     run = plain_run(table, trace_2="conserved", trace_3="conserved", trace_4="conserved")
     panel, _ = panel_of(run, "energy")
     names = panel.get_legend_handles_labels()[1]
-    assert [x for x in names if "absolute" in x] == ["trace 3 (absolute)"]
-    (line,) = [x for x in panel.get_lines() if x.get_label().startswith("trace 3")]
+    assert [x for x in names if "absolute" in x] == ["moment of the vorticity 3 (absolute)"]
+    (line,) = [
+        x for x in panel.get_lines() if x.get_label().startswith("moment of the vorticity 3")
+    ]
     assert line.get_ydata()[-1] == pytest.approx(1e-14, rel=1e-2)
 
 
