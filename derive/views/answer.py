@@ -8,13 +8,12 @@ from functools import partial
 from unicodedata import normalize
 
 from ..language.reserved import by_letter
-from ..language.show import in_quotes, show
 from ..language.tree import Tree, add, coefficient, mul, names, neg, nodes
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence
 from .book import RATE
 from .language import ENGLISH, Language
-from .outline import declared, headline, latex_names
+from .outline import Letter, headline, latex_names, parameters
 from .printing.letters import standard
 from .printing.line_breaking import WIDTH
 from .printing.sentences import dollars, prose
@@ -27,10 +26,9 @@ from .text import (
     clashing,
     equation_lines,
     formula,
-    name_lines,
+    letter_lines,
     page,
     paragraph,
-    unquoted,
     with_quotes,
 )
 
@@ -116,17 +114,6 @@ def _sides(e: Equation) -> tuple[Tree, ...]:
     return (e.rhs,) if alone else (lhs, e.rhs)
 
 
-@dataclass(frozen=True)
-class Letter:
-    """A letter and what it means: a sentence, or a parameter's ``own`` words, unit and default."""
-
-    name: Tree
-    meaning: str
-    own: bool = False
-    unit: str = ""
-    default: str = ""
-
-
 def letters(d: Derivation, equations: Sequence[Equation], language: Language) -> Iterator[Letter]:
     """The names, the inputs and the parameters that occur in equations, with their meaning."""
     there = {x for e in equations for side in _sides(e) for x in nodes(side)}
@@ -141,15 +128,15 @@ def letters(d: Derivation, equations: Sequence[Equation], language: Language) ->
             meaning = language.of(s.meaning)
             if s.name in told:
                 meaning = language.word("{meaning}, by its equation above", meaning=meaning)
-            yield Letter(s.name, meaning)
+            yield Letter((s.name,), meaning)
     for name, about in _inputs(d):
         if name in numbers | {x.rpartition("_")[0] for x in numbers}:
             said = language.sentence(about).partition(", ")[2] if about else ""
             said = language.word("input: {meaning}", meaning=said) if said else ""
-            yield Letter(("par", name), said or language.word("input"))
-    for name, words, unit, default in declared(d, language):
-        if name in numbers:
-            yield Letter(("par", name), words, True, unit, default)
+            yield Letter((("par", name),), said or language.word("input"))
+    for x in parameters(d, language):
+        if occurring := tuple(y for y in x.names if {y} & there):
+            yield replace(x, names=occurring)
 
 
 def _plain(t: Tree) -> Iterator[str]:
@@ -231,21 +218,13 @@ def answer_text(x: Summary, width: int = WIDTH) -> str:
         equations = with_quotes(step.equations, quoted)
         lines = equation_lines(equations, width - EQUATION, x.language)
         blocks.append([*filter(None, (said,)), *lines])
-    names = [show(in_quotes(y.name, quoted)) for y in x.letters]
-    about = [y.meaning + after(y, x.language, "[{}]".format) for y in x.letters]
-    told = zip(names, (unquoted(y, quoted) for y in about), strict=True)
-    blocks += [[line for y in told for line in name_lines(*y, width)]] if names else []
-    if any("‘" in y for y in names):
+    if x.letters:
+        blocks.append([z for y in x.letters for z in letter_lines(y, quoted, x.language, width)])
+    if any(y[1] in quoted for x in x.letters for y in x.names if isinstance(y, tuple)):
         why = "A parameter stands in ‘quotes’ where its name would be read as something else."
         blocks.append([*paragraph(x.language.word(why), 0, width)])
     blocks.append([*paragraph(x.source, 0, width)])
     return page(blocks)
-
-
-def after(x: Letter, language: Language, unit: Callable[[str], str]) -> str:
-    """What follows the meaning of a letter: the unit as ``unit`` shows it, and the default."""
-    default = language.word("default {value}", value=x.default) if x.default else ""
-    return "".join(f", {y}" for y in (unit(x.unit) if x.unit else "", default) if y)
 
 
 def answer_markdown(x: Summary) -> str:
@@ -259,8 +238,9 @@ def answer_markdown(x: Summary) -> str:
     for y in x.letters:
         own = partial(dollars, names=names)
         told = markdown_text(y.meaning) if y.own else prose(y.meaning, markdown_text, own)
-        about = after(y, x.language, lambda unit: markdown_text(f"[{unit}]"))
-        lines.append(f"* ${standard(latex_tree(y.name, names))}$: {told}{about}")
+        about = y.after(x.language, lambda unit: markdown_text(f"[{unit}]"))
+        shown = ", ".join(f"${standard(latex_tree(name, names))}$" for name in y.names)
+        lines.append(f"* {shown}: {told}{about}")
     return "\n\n".join(filter(None, (*parts, "\n".join(lines), markdown_text(x.source)))) + "\n"
 
 

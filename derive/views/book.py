@@ -18,7 +18,7 @@ from ..record.record import ACTIONS, ANY_GROUP, Derivation, Step, Symbol
 from ..record.sentence import english, say
 from ..record.vocabulary import VOCABULARY
 from .language import ENGLISH, Language
-from .outline import declared, system, title
+from .outline import system, title
 from .paper.findings import OMISSION, SIGN, VERDICTS, PaperFinding
 from .printing.line_breaking import WIDTH
 
@@ -108,17 +108,6 @@ def new_letters(
             explained[s.name] = meaning
             found.append(s)
     return tuple(found)
-
-
-def parameters(d: Derivation | None, language: Language) -> list[tuple[list[str], str, str]]:
-    """The parameters of a problem in runs of one meaning and unit: names, meaning, unit."""
-    found: list[tuple[list[str], str, str]] = []
-    for name, meaning, unit, _ in declared(d, language):
-        if found and found[-1][1:] == (meaning, unit):
-            found[-1][0].append(name)
-        else:
-            found.append(([name], meaning, unit))
-    return found
 
 
 def of_any_group(s: Symbol) -> Symbol:

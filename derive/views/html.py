@@ -13,8 +13,8 @@ from ..language.templating import environment
 from ..language.tree import Tree
 from ..record.record import Derivation, Equation, Step
 from ..record.vocabulary import RULES
-from .answer import Letter, Summary, after
-from .book import MOTION, REGULAR, BookPart, Passage, book, corrections, parameters
+from .answer import Summary
+from .book import MOTION, REGULAR, BookPart, Passage, book, corrections
 from .figure.drawing import svg
 from .figure.scene import scene
 from .language import ENGLISH, Language, entries
@@ -23,11 +23,13 @@ from .layout import ROOM, Quantifiers, clause, quantifier, quantifiers
 from .outline import (
     PAPER,
     TRANSPOSES,
+    Letter,
     assumed,
     capitalised,
     conventions,
     keys,
     latex_names,
+    parameters,
     printed,
     references,
     road,
@@ -229,7 +231,7 @@ class _PartFields:
             "heading": visible(self.part.heading),
             "about": words(self.part.about, self.notation),
             "steps": (self.step(step, shown) for step in self.part.steps),
-            "names": [*self.symbols(), *self.parameters()],
+            "names": [*self.symbols()],
             "moving": self.moving.get(self.part.name, "") if self.part.record else "",
             "picture": self.pictures.get(self.part.name, "") if self.part.record else "",
             **self.figure(),
@@ -344,19 +346,11 @@ class _PartFields:
     def letter(self, x: Letter) -> dict[str, str]:
         """A letter and its meaning."""
         told = escaped(x.meaning) if x.own else words(x.meaning, self.notation, self.names)
-        about = told + after(x, self.language, lambda unit: escaped(f"[{unit}]"))
-        return {"name": self.formula(x.name).mathml(), "meaning": about}
+        about = told + x.after(self.language, lambda unit: escaped(f"[{unit}]"))
+        return {"name": ", ".join(self.formula(y).mathml() for y in x.names), "meaning": about}
 
     def symbols(self) -> Iterable[dict[str, str]]:
-        """The letters of the part and their meanings."""
+        """The letters of the part and their meanings, then the parameters of the problem."""
         for s in self.part.symbols:
-            yield self.letter(Letter(s.name, self.language.marked.of(s.meaning)))
-
-    def parameters(self) -> Iterable[dict[str, str]]:
-        """The parameters of the problem and their meanings."""
-        for run, meaning, unit in parameters(self.part.record, self.language):
-            about = f"{meaning} [{unit}]" if unit else meaning
-            yield {
-                "name": ", ".join(self.formula(("par", x)).mathml() for x in run),
-                "meaning": escaped(about),
-            }
+            yield self.letter(Letter((s.name,), self.language.marked.of(s.meaning)))
+        yield from map(self.letter, parameters(self.part.record, self.language, defaults=False))

@@ -11,8 +11,8 @@ from itertools import accumulate, pairwise
 from ..language.templating import environment
 from ..language.tree import Tree
 from ..record.record import Derivation, Step
-from .answer import Summary, after
-from .book import MOTION, REGULAR, BookPart, Passage, book, corrections, parameters, steps
+from .answer import Summary
+from .book import MOTION, REGULAR, BookPart, Passage, book, corrections, steps
 from .figure.drawing import Scene, tikz
 from .figure.scene import scene
 from .language import ENGLISH, Language
@@ -20,11 +20,13 @@ from .layout import blocks
 from .outline import (
     PAPER,
     TRANSPOSES,
+    Letter,
     assumed,
     capitalised,
     conventions,
     keys,
     latex_names,
+    parameters,
     printed,
     references,
     road,
@@ -32,7 +34,7 @@ from .outline import (
     title,
 )
 from .paper.findings import PaperFinding
-from .printing.letters import definitions, parameter, styled
+from .printing.letters import definitions, styled
 from .printing.sentences import dollars, prose
 from .printing.signs import Notation, tex_text
 from .printing.tex import latex_tree
@@ -117,15 +119,11 @@ def answer(x: Summary, notation: Notation | None = None, *, alone: bool = True) 
 def _answer(x: Summary) -> Iterator[str]:
     """The lines of an answer: equations, definitions, letters, and where it is from."""
     names = latex_names(x.record)
-    own = partial(dollars, names=names)
     for said, step in x.blocks:
         yield tex_text(said)
         yield from _equations(step, labels(step), names, x.language)
     yield r"\begin{walknames}{}"
-    for y in x.letters:
-        told = tex_text(y.meaning) if y.own else prose(y.meaning, formula=own)
-        about = after(y, x.language, lambda unit: f"[{_unit(unit)}]")
-        yield rf"\walkname{{{latex_tree(y.name, names)}}}{{{told}{about}}}"
+    yield from _letters(x.letters, names, x.language)
     yield rf"\end{{walknames}}\par\medskip {breakable(x.source)}"
 
 
@@ -312,13 +310,21 @@ def breakable(label: str) -> str:
 
 def _names(part: BookPart, names: Mapping[str, str], language: Language) -> Iterator[str]:
     """The letters of a part with their meanings, then the parameters of the problem."""
-    for symbol in part.symbols:
-        own = partial(dollars, names=names)
-        meaning = prose(language.marked.of(symbol.meaning), formula=own)
-        yield rf"\walkname{{{latex_tree(symbol.name, names)}}}{{{meaning}}}"
-    for run, meaning, unit in parameters(part.record, language):
-        shown = ", ".join(parameter(x, names).tex for x in run)
-        yield rf"\walkname{{{shown}}}{{{tex_text(meaning)}{f' [{_unit(unit)}]' if unit else ''}}}"
+    told = (Letter((s.name,), language.marked.of(s.meaning)) for s in part.symbols)
+    yield from _letters(told, names, language)
+    yield from _letters(parameters(part.record, language, defaults=False), names, language)
+
+
+def _letters(
+    letters: Iterable[Letter], names: Mapping[str, str], language: Language
+) -> Iterator[str]:
+    """Letters with their meanings."""
+    own = partial(dollars, names=names)
+    for x in letters:
+        told = tex_text(x.meaning) if x.own else prose(x.meaning, formula=own)
+        about = x.after(language, lambda unit: f"[{_unit(unit)}]")
+        shown = ", ".join(latex_tree(y, names) for y in x.names)
+        yield rf"\walkname{{{shown}}}{{{told}{about}}}"
 
 
 def _unit(unit: str) -> str:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
 
 from ..language.show import in_sentence
-from ..language.tree import names, nodes
+from ..language.tree import Tree, names, nodes
 from ..language.tree import names as names_in
 from ..record.as_json import decode
 from ..record.record import AMENDED, ANY_GROUP, FIELDS, Derivation, Equation, Step
@@ -106,6 +107,32 @@ def declared(d: Derivation | None, language: Language) -> Iterator[tuple[str, st
         number = language.decimal(default) if isinstance(default, (int, float)) else ""
         meaning = language.word(str(about.get("meaning") or "parameter"))
         yield str(name), meaning, str(about.get("unit") or ""), number
+
+
+@dataclass(frozen=True)
+class Letter:
+    """Letters and what they mean: a sentence, or parameters' ``own`` words, unit and default."""
+
+    names: tuple[Tree, ...]
+    meaning: str
+    own: bool = False
+    unit: str = ""
+    default: str = ""
+
+    def after(self, language: Language, unit: Callable[[str], str]) -> str:
+        """What follows the meaning: the unit as ``unit`` shows it, and the default."""
+        default = language.word("default {value}", value=self.default) if self.default else ""
+        shown = f" {unit(self.unit)}" if self.unit else ""
+        return shown + (f", {default}" if default else "")
+
+
+def parameters(
+    d: Derivation | None, language: Language, *, defaults: bool = True
+) -> Iterator[Letter]:
+    """The parameters of a problem in runs of which all is the same, with their defaults or not."""
+    told = ((name, (x, True, y, z if defaults else "")) for name, x, y, z in declared(d, language))
+    for said, run in groupby(told, lambda x: x[1]):
+        yield Letter(tuple(("par", name) for name, _ in run), *said)
 
 
 BOLD = {"m": r"\mathbf m"}

@@ -15,15 +15,16 @@ from .layout import blocks
 from .outline import (
     PAPER,
     TRANSPOSES,
+    Letter,
     capitalised,
     conventions,
-    declared,
     domain,
     headline,
     latex_names,
     moving,
     named_numbers,
     notes,
+    parameters,
     plain_conventions,
     quantified,
     sections,
@@ -62,12 +63,11 @@ def text(d: Derivation, width: int = WIDTH, *, language: Language = ENGLISH) -> 
         blocks.extend([*_step(step, width, quoted, language)] for step in steps)
     if d.symbols:
         blocks.append([*_underlined(language.word("Names"), "-", width)])
-        told = ((s.name, unquoted(language.of(s.meaning), quoted)) for s in d.symbols)
-        named = [(show_name(name), meaning) for name, meaning in told]
-        blocks.append([line for name, about in named for line in name_lines(name, about, width)])
-    if own := [*parameters(d, quoted, language)]:
+        named = (Letter((s.name,), language.of(s.meaning)) for s in d.symbols)
+        blocks.append([y for x in named for y in letter_lines(x, quoted, language, width)])
+    if own := [*parameters(d, language)]:
         blocks.append([*_underlined(language.word("Parameters"), "-", width)])
-        blocks.append([line for _, name, about in own for line in name_lines(name, about, width)])
+        blocks.append([y for x in own for y in letter_lines(x, quoted, language, width)])
     return page(blocks)
 
 
@@ -94,21 +94,20 @@ def equation_text(e: Equation, width: int = WIDTH) -> str:
     return textwrap.dedent("\n".join(equation_lines((e,), width, ENGLISH)))
 
 
-def name_lines(name: str, meaning: str, width: int) -> Iterator[str]:
-    """The lines of a name with its meaning."""
-    first, *others = paragraph(meaning, NAME, width)
-    yield f"{'':{MARGIN}}{padded(name, NAME - MARGIN - 1)} {first[NAME:]}"
+def letter_lines(
+    x: Letter, quoted: frozenset[str], language: Language, width: int
+) -> Iterator[str]:
+    """The lines of letters with their meaning, with these parameters in quotes."""
+    shown = (show_name(y) if isinstance(y, str) else show(in_quotes(y, quoted)) for y in x.names)
+    names, column = ", ".join(shown), NAME - MARGIN - 1
+    about = unquoted(x.meaning + x.after(language, "[{}]".format), quoted)
+    if display_width(names) > column:
+        first, *others = paragraph(f"{names}  {about}", NAME, width)
+        yield first[NAME - MARGIN :]
+    else:
+        first, *others = paragraph(about, NAME, width)
+        yield f"{'':{MARGIN}}{padded(names, column)} {first[NAME:]}"
     yield from others
-
-
-def parameters(
-    d: Derivation, quoted: frozenset[str], language: Language
-) -> Iterator[tuple[str, str, str]]:
-    """The parameters of the problem: name, as shown, and meaning, unit and default."""
-    for name, meaning, unit, default in declared(d, language):
-        words = [meaning, f"[{unit}]" if unit else ""]
-        words.append(language.word("default {value}", value=default) if default else "")
-        yield name, show(in_quotes(("par", name), quoted)), ", ".join(filter(None, words))
 
 
 def clashing(d: Derivation) -> frozenset[str]:

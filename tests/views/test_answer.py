@@ -58,7 +58,7 @@ def test_every_letter_is_explained(name):
     told = summary(walk_of(name))
     equations = [e for _, step in told.blocks for e in step.equations]
     sides = [(t, {y for x in nodes(t) for y in bound(x)}) for e in equations for t in (e.rhs,)]
-    listed = {x.name for x in told.letters}
+    listed = {y for x in told.letters for y in x.names}
     equated = {e.lhs for e in equations} | {
         e.lhs[1] for e in equations if isinstance(e.lhs, tuple) and e.lhs[0] in ("at", "entry")
     }
