@@ -8,10 +8,9 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 import derive
-from tests.code.test_charts import FORMS as CHARTS
 from tests.problems.line import FALLING
 from tests.support.library import ONE_BUILD, STEPPED, library, module_of
-from tests.support.states import charted, drawn, element_names, hat, state
+from tests.support.states import element_names, hat, state
 
 STEPS = ("gauss", "rk4", "vern9")
 VARIED = {"step": STEPS, "jacobian": ("state", "inputs", "step")}
@@ -173,25 +172,17 @@ FORMS = {
     "moving": {"state": "moving"},
 }
 CASES = [(form, "se3") for form in FORMS] + [("tangent", "sl3"), ("moving", "heisenberg")]
-CASES += [("chart", name) for name in CHARTS]
 
 
-@pytest.mark.parametrize(("form", "name"), CASES, ids=[f"{x}: {y}" for x, y in CASES])
+@pytest.mark.parametrize(("form", "name"), CASES)
 def test_forms_of_the_state_have_one_derivative(form, name):
     """By steps of gauss, which differ by rounding."""
-    given, attitude, *_ = CHARTS.get(name, (name, ""))
-    options = {"attitude": attitude} if form == "chart" else FORMS[form]
-    plain, other = module(given), module(given, **options)
-    if form == "chart":
-        (p, _, u, _), y = drawn(plain), charted(other)
-        x = other.to_matrix(y)
-    else:
-        p, x, u, *_ = state(plain)
-        if form == "quaternion":  # a rotation to the last bit, as that is what is turned into one
-            x = plain.project(x)
-        y = in_form(plain, other, options, x)
+    plain, other = module(name), module(name, **FORMS[form])
+    p, x, u, *_ = state(plain)
+    if form == "quaternion":  # a rotation to the last bit, as that is what is turned into one
+        x = plain.project(x)
     known = plain.gauss_jacobian(plain.begin(0.3, x), plain.constants(p), u, 0.05, 2)
-    motion = other.begin(0.3, y)
+    motion = other.begin(0.3, in_form(plain, other, FORMS[form], x))
     found = other.gauss_jacobian(motion, other.constants(p), u, 0.05, 2)
     assert found[0] == known[0] == 0
     for a, b in zip(found[1:], known[1:], strict=True):

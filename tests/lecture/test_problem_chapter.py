@@ -338,7 +338,7 @@ def test_a_reason_is_told_in_french_with_its_numbers(reason):
 
 REFUSING = (
     *("integrals/reduced.py", "symmetries/scalar_lagrangian.py", "symmetries/search.py"),
-    *("symmetries/found_symmetries.py", "symmetries/conditions.py", "reduction/routhian.py"),
+    *("symmetries/found_symmetries.py", "symmetries/conditions.py", "symmetries/routhian.py"),
 )
 """What refuses a whole search of a lecture, in derive/search."""
 ELSEWHERE = ("damping changes the energy",)
