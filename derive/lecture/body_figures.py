@@ -9,7 +9,7 @@ from functools import cached_property, partial
 
 from ..views.figure.drawing import Label, Scene, Stroke, arrow
 from ..views.figure.drawn_body import ExpressionValues, View, cross, parts, placed
-from ..views.figure.panels import Panel, Sheet, draw
+from ..views.figure.panels import Panel, Sheet, draw, heaviest
 from ..views.figure.scene import parts_of_inertia
 from ..views.language import LANGUAGES, Language
 from .figures import Figure, Spun, displacement, polhodes
@@ -139,7 +139,7 @@ def theory(body: OwnBody) -> Scene:
     for each, (x0, y0, x1, y1), letter in zip(panels, boxes, ("", "A"), strict=True):
         each.scale = scale
         each.offset = left - scale * x0, 4 + height / 2 - scale * (y0 + y1) / 2
-        own = Sheet()
+        own = Sheet(heaviest=heaviest(panels))
         draw(each, own, named=False)
         named = placed(own.wishes, own.strokes, own.dots)
         labels += (replace(x, base=f"{letter}{x.base}") for x in named)

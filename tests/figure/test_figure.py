@@ -297,7 +297,7 @@ def test_captions_say_what_the_drawing_does_not() -> None:
     assert "centre of attraction" in said("comet")
     assert "sample values" in said("plane")
     assert "sample values" not in said("so3")
-    assert "the inertia that the Lagrangian states" in said("rod")
+    assert "the inertia of the Lagrangian for rotations alone" in said("rod")
     assert "Lagrangian" not in said("so3")
 
 

@@ -251,6 +251,8 @@ class Sheet:
     strokes: list[Stroke] = field(default_factory=list)
     dots: list[Dot] = field(default_factory=list)
     wishes: list[Wish] = field(default_factory=list)
+    heaviest: float = 1.0
+    """The mass of a point that has the largest dot."""
 
     def spring(self, a: Point, b: Point, stiffness: Any, named: bool) -> None:
         """Draw a spring, and name its stiffness where that is a parameter."""
@@ -278,6 +280,11 @@ def draw(panel: Panel, sheet: Sheet, named: bool) -> None:
         _attraction(panel, sheet, p)
     for i in panel.forces:
         _force(panel, sheet, i)
+
+
+def heaviest(panels: Sequence[Panel]) -> float:
+    """The largest mass of a point, of all panels."""
+    return max((m for x in panels for m, _ in x.part.points.values()), default=1.0) or 1.0
 
 
 def _solids(panel: Panel, sheet: Sheet) -> None:
@@ -308,10 +315,9 @@ def _matter(panel: Panel, sheet: Sheet) -> None:
     for a, b in panel.ties:
         ends = (_end_on_ring(panel, a, b), _end_on_ring(panel, b, a))
         sheet.strokes.append(Stroke(ends, "body", "thin"))
-    heaviest = max((m for m, _ in panel.part.points.values()), default=1.0) or 1.0
     for i, at in on_paper.items():
         mass = panel.part.points[i][0] if i in panel.part.points else 0.0
-        radius = 1.4 * max(mass / heaviest, 0.12) ** (1 / 3) if mass > 0 else 0.55
+        radius = 1.4 * max(mass / sheet.heaviest, 0.12) ** (1 / 3) if mass > 0 else 0.55
         sheet.dots.append(Dot(at, radius, "body"))
         if len(on_paper) <= NAMED or i in (1, 2, len(on_paper)):
             away = at[0] - middle[0], at[1] - middle[1]

@@ -36,7 +36,7 @@ from .drawn_body import (
     plus,
     ranked,
 )
-from .panels import Panel, Sheet, draw, named_forces, shows_centre
+from .panels import Panel, Sheet, draw, heaviest, named_forces, shows_centre
 
 SIZES = {"SO(3)": 3, "SE(3)": 4}
 """The factors that turn a body of space, and the size of their matrices."""
@@ -165,7 +165,7 @@ def scene(d: Derivation) -> Scene | None:
     springs = [p for p in problem["potentials"] if p["kind"] == "spring"]
     joined, named = _springs_between(panels, springs), len(springs) <= FEW
     _choose_view(panels, gravity, joined)
-    sheet = Sheet()
+    sheet = Sheet(heaviest=heaviest(panels))
     for panel in panels:
         draw(panel, sheet, named)
     for (one, a), (other, b), stiffness in joined:
@@ -356,7 +356,7 @@ def _about_the_body(panels: Sequence[Panel], stated: bool) -> Iterator[Prose]:
     if any(panel.part.moments for panel in panels):
         yield say("As only its moments are given, its outline is free.")
     if stated:
-        yield say("The ellipsoid has the inertia that the Lagrangian states.")
+        yield say("The ellipsoid has the inertia of the Lagrangian for rotations alone.")
     masses = {m for panel in panels for m, _ in panel.part.points.values()}
     if len(masses) > 1:
         yield say("The larger a dot, the larger its mass.")
