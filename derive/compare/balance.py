@@ -106,8 +106,7 @@ class Balance:
 
     def mass(self, values: Mapping[str, float]) -> Array:
         """The mass matrix at each state for all parameters by name."""
-        found: Array = self.code.mass_matrix(self.t, self.x, self.k(values))
-        return found
+        return np.asarray(self.code.mass_matrix(self.t, self.x, self.k(values)))
 
     def checked(self, left: Array, own: Array) -> Array:
         """What is left with another mass matrix, by the rates that it stands for; ∞ for a mass that

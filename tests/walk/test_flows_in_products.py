@@ -16,6 +16,7 @@ from tests.oracles.control_volume import Leaking
 from tests.support.library import ONE_BUILD, arrange, library, module_of
 from tests.support.needs import needs
 from tests.support.walks import own_verdicts
+from tests.walk.test_flows import ROCKET
 
 B, U, STIFF, LENGTH = 0.3, 4.0, 7.0, 0.6
 NUMBERS = {"b": B, "u": U, "k": STIFF}
@@ -34,13 +35,7 @@ PAIR = {
         {"mass": 2, "at": [-0.2, -1], "block": 2},
     ],
     "flow": [
-        {
-            "name": "jet",
-            "at": [0.3, -0.2, -2],
-            "rate": "-b*(1 + 2*t/9)",
-            "velocity": [0.5, "1 + t", "-u"],
-        },
-        {"on": 3, "rate": "cos(t)/4", "velocity": ["t", 0, "u"]},
+        *ROCKET["flow"],
         {
             "name": "valve",
             "on": 5,
