@@ -5,10 +5,9 @@ Families of equilibria in letters, and inequalities.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
 
 from ...language.derivatives import power
 from ...language.tree import Tree, add, mul, neg, nodes
@@ -28,10 +27,19 @@ from ..integrals.all_integrals import IntegralsFound
 from ..integrals.integral_steps import rate
 from ..integrals.lie_poisson import scaled
 from .enclosed_points import Enclosed
-from .energy_casimir import EnergyCasimirForm, Leaf, combined
+from .energy_casimir import EnergyCasimirForm, combined
 from .equilibrium_points import About, Expansion
 from .stability import Equilibrium
 from .stability_in_letters import Case, Family, inequality
+
+FROM = ("poisson", "casimirs", "first_integrals")
+"""The steps of the record of the integrals that equilibria are found from."""
+
+
+def _made_from(steps: Sequence[Step], c: Chapter) -> list[Step]:
+    """Those of the steps of a record that equilibria are found from, that of the rates first."""
+    by_label = {s.label: s for s in steps}
+    return [by_label[x] for name in FROM if (x := c.label(name)) in by_label]
 
 
 def told(
@@ -44,9 +52,7 @@ def told(
 ) -> tuple[Step, ...]:
     """Two steps for each equilibrium, one where no multipliers are found; ``steps``: of the record
     of the integrals; ``tried``: were points tried, none being given?"""
-    by_label = {s.label: s for s in steps}
-    reduced, kept = (by_label.get(c.label(x)) for x in ("poisson", "casimirs"))
-    made_from = [x for x in (reduced, kept, by_label[c.label("first_integrals")]) if x]
+    made_from = _made_from(steps, c)
     told_steps: list[Step] = []
     for k, x in enumerate(found, 1):
         rates = _rates(x, f"equilibrium_{k}", made_from[0], c, tried=tried and k == 1)
@@ -61,39 +67,42 @@ def told_enclosed(
     whole: IntegralsFound, x: Enclosed, steps: Sequence[Step], c: Chapter
 ) -> tuple[Step, ...]:
     """Two steps: the rates about the decimals, and the energy with multiples of the Casimirs."""
-    by_label = {s.label: s for s in steps}
-    reduced, kept, integrals = (
-        by_label.get(c.label(x)) for x in ("poisson", "casimirs", "first_integrals")
-    )
-    made_from = [y for y in (reduced, kept, integrals) if y]
-    draft = c.draft("equilibrium_1", "components")
-    draft.depends_on(made_from[0])
-    away = distances(x.about)
-    variables = x.about.system.variables
-    equations = [
-        Equation(rate(v), expanded(e, away)) for v, e in zip(variables, x.about.rates, strict=True)
-    ]
-    point = point_rows(x.about)
-    rates = draft.step(equations, draft.claim("equilibrium.near", point=point))
+    made_from = _made_from(steps, c)
+    draft, equations = _about_point("equilibrium_1", x.about, made_from[0], c)
+    rates = draft.step(equations, draft.claim("equilibrium.near", point=point_rows(x.about)))
     return rates, _enclosure(whole, x, (*made_from, rates), c)
+
+
+def _about_point(
+    label: str, about: About, reduced: Step, c: Chapter
+) -> tuple[Draft, list[Equation]]:
+    """A step in the making, and its rates in powers of the distance from a point."""
+    draft = c.draft(label, "components")
+    draft.depends_on(reduced)
+    pairs = zip(about.system.variables, about.rates, strict=True)
+    return draft, [Equation(rate(v), expanded(e, about)) for v, e in pairs]
+
+
+def _with_multiples(about: About, by: Sequence[Number], kept: Iterable[Tree]) -> Tree:
+    """The energy with multiples of what is kept."""
+    pairs = zip(by, kept, strict=True)
+    return add("h̃", *(scaled(about.tree(m), f) for m, f in pairs if m))
 
 
 def _enclosure(whole: IntegralsFound, x: Enclosed, made_from: Iterable[Step], c: Chapter) -> Step:
     """The Casimirs less their values on the level, and the energy with multiples of them."""
     draft = c.draft("enclosure_1", "enclosure")
     draft.depends_on(*made_from)
-    algebra, away = whole.system.algebra, distances(x.about)
+    algebra = whole.system.algebra
     kept = [*map(algebra.tree, whole.casimirs)]
     found = [x.about.expansion(algebra.over_the_field(f)) for f in whole.casimirs]
     equations = [
-        Equation(add(f, neg(plain(level))), expanded(replace(e, value=e.value - level), away))
+        Equation(add(f, neg(plain(level))), expanded(replace(e, value=e.value - level), x.about))
         for f, e, level in zip(kept, found, x.level, strict=True)
     ]
-    energy = x.about.expansion(algebra.hamiltonian)
-    whole_energy = combined(energy, found, x.multipliers)
-    pairs = zip(x.multipliers, kept, strict=True)
-    left = add("h̃", *(mul(plain(m), f) for m, f in pairs if m))
-    equations.append(Equation(left, expanded(whole_energy, away)))
+    energy = combined(x.about.expansion(algebra.hamiltonian), found, x.multipliers)
+    left = _with_multiples(x.about, x.multipliers, kept)
+    equations.append(Equation(left, expanded(energy, x.about)))
     positive, negative = x.signature
     prose = draft.claim("enclosure.within", radius=scientific(x.radius))
     prose += draft.claim("enclosure.signs", positive=positive, negative=negative)
@@ -113,12 +122,7 @@ def scientific(x: Fraction) -> Tree:
 
 def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool) -> Step:
     """The rates in powers of the distance from the equilibrium: none has a constant term."""
-    draft = c.draft(label, "components")
-    draft.depends_on(reduced)
-    variables, away = x.about.system.variables, distances(x.about)
-    equations = [
-        Equation(rate(v), expanded(e, away)) for v, e in zip(variables, x.about.rates, strict=True)
-    ]
+    draft, equations = _about_point(label, x.about, reduced, c)
     prose = say("equilibrium.tried") if tried else ()
     if any(x.about.at):
         prose += draft.claim("equilibrium.at", point=point_rows(x.about))
@@ -147,17 +151,15 @@ def distances(about: About) -> list[Tree]:
     ]
 
 
-Shown = Callable[[Any], Tree]
-"""What a number, or a function of letters, is as a tree."""
-
-
-def linear(row: Sequence[Number], away: Sequence[Tree], shown: Shown = plain) -> Tree:
+def linear(row: Sequence[Number], about: About) -> Tree:
     """A linear form in the distances."""
-    return add(*(scaled(shown(x), y) for x, y in zip(row, away, strict=True) if x))
+    pairs = zip(row, distances(about), strict=True)
+    return add(*(scaled(about.tree(x), y) for x, y in pairs if x))
 
 
-def expanded(e: Expansion, away: Sequence[Tree], shown: Shown = plain) -> Tree:
+def expanded(e: Expansion, about: About) -> Tree:
     """A polynomial in powers of the distances."""
+    away, shown = distances(about), about.tree
     n = len(away)
     pairs = [(i, j) for i in range(n) for j in range(i, n) if e.second[i][j]]
     squares = [
@@ -166,14 +168,15 @@ def expanded(e: Expansion, away: Sequence[Tree], shown: Shown = plain) -> Tree:
         else scaled(shown(e.second[i][j]), away[i], away[j])
         for i, j in pairs
     ]
-    terms = (shown(e.value), linear(e.slope, away, shown), *squares, *higher(e, away, shown))
-    return add(*(x for x in terms if x != 0))
+    terms = (shown(e.value), linear(e.slope, about), *squares, *higher(e, about))
+    return add(*terms)
 
 
-def higher(e: Expansion, away: Sequence[Tree], shown: Shown = plain) -> list[Tree]:
+def higher(e: Expansion, about: About) -> list[Tree]:
     """The terms above the second order."""
+    away = distances(about)
     return [
-        scaled(shown(c), *(power(y, k) for y, k in zip(away, m, strict=True) if k))
+        scaled(about.tree(c), *(power(y, k) for y, k in zip(away, m, strict=True) if k))
         for m, c in e.higher.items()
     ]
 
@@ -190,34 +193,27 @@ def _form(
     leaf."""
     draft = c.draft(label, "expansion")
     draft.depends_on(*made_from)
-    algebra, away = whole.system.algebra, distances(x.about)
-    kept = map(algebra.tree, (*whole.casimirs, *whole.integrals))
-    pairs = zip(form.multipliers, kept, strict=True)
-    left = add("h̃", *(mul(plain(m), f) for m, f in pairs if m))
+    kept = map(whole.system.algebra.tree, (*whole.casimirs, *whole.integrals))
+    left = _with_multiples(x.about, form.multipliers, kept)
+    pairs = zip(x.leaf.equations, form.mixed, strict=True)
     right = [
         plain(form.expansion.value),
-        *(mul(plain(d), power(linear(row, away), 2)) for d, row in form.squares),
-        *_products(x.leaf, form, away),
-        *higher(form.expansion, away),
+        *(mul(plain(d), power(linear(row, x.about), 2)) for d, row in form.squares),
+        *(_product(n, m, x.about) for n, m in pairs if any(m)),  # 0 on the tangent space
+        *higher(form.expansion, x.about),
     ]
     positive, negative = form.signature
     prose = draft.claim("equilibrium.form", positive=positive, negative=negative)
-    equation = Equation(left, add(*(t for t in right if t != 0)))
-    return draft.step([equation], prose + _verdict(draft, x))
+    return draft.step([Equation(left, add(*right))], prose + _verdict(draft, x))
 
 
-def _products(on: Leaf, form: EnergyCasimirForm, away: Sequence[Tree]) -> list[Tree]:
-    """The products n_j m_j, which vanish on the tangent space of the leaf."""
-    return [_product(n, m, away) for n, m in zip(on.equations, form.mixed, strict=True) if any(m)]
-
-
-def _product(n: Sequence[Number], m: Sequence[Number], away: Sequence[Tree]) -> Tree:
+def _product(n: Sequence[Number], m: Sequence[Number], about: About) -> Tree:
     """The product of two linear forms, a square where they are proportional."""
     first = next(i for i, x in enumerate(n) if x)
     factor = m[first] / n[first]
     if all(y == factor * x for x, y in zip(n, m, strict=True)):
-        return mul(plain(factor), power(linear(n, away), 2))
-    return mul(linear(n, away), linear(m, away))
+        return mul(plain(factor), power(linear(n, about), 2))
+    return mul(linear(n, about), linear(m, about))
 
 
 def _verdict(draft: Draft, x: Equilibrium) -> Prose:
@@ -295,26 +291,17 @@ def told_families(
     whole: IntegralsFound, found: Iterable[Family], steps: Sequence[Step], c: Chapter
 ) -> tuple[Step, ...]:
     """A step for each family, and another for its form."""
-    by_label = {s.label: s for s in steps}
-    made_from = [by_label[x] for n in FROM if (x := c.label(n)) in by_label]
+    made_from = _made_from(steps, c)
     return tuple(s for k, x in enumerate(found, 1) for s in _told(whole, x, k, made_from, c))
-
-
-FROM = ("poisson", "casimirs", "first_integrals")
 
 
 def _told(
     whole: IntegralsFound, x: Family, k: int, made_from: Sequence[Step], c: Chapter
 ) -> Iterator[Step]:
     """The rates about a family, and the energy with multiples of what is kept."""
-    draft = c.draft(f"equilibrium_{k}", "components")
-    draft.depends_on(made_from[0])
-    about, say_so = x.about, draft.claim
-    away, variables = distances(about), about.system.variables
-    equations = [
-        Equation(rate(v), expanded(e, away, about.tree))
-        for v, e in zip(variables, about.rates, strict=True)
-    ]
+    about = x.about
+    draft, equations = _about_point(f"equilibrium_{k}", about, made_from[0], c)
+    say_so = draft.claim
     prose = say("family.tried") if k == 1 else ()
     prose += (
         say_so("family.at", point=point_rows(about)) if any(about.at) else say_so("family.origin")
@@ -334,9 +321,8 @@ def _told(
     energy = about.expansion(algebra.hamiltonian)
     kept = [about.expansion(algebra.over_the_field(f)) for f in conserved]
     form = combined(energy, kept, x.multipliers)
-    pairs = zip(x.multipliers, map(algebra.tree, conserved), strict=True)
-    left = add("h̃", *(scaled(about.tree(m), f) for m, f in pairs if m))
-    equation = Equation(left, expanded(form, away, about.tree))
+    left = _with_multiples(about, x.multipliers, map(algebra.tree, conserved))
+    equation = Equation(left, expanded(form, about))
     yield draft.step([equation], draft.claim("family.form") + _family_verdict(draft, x))
 
 
