@@ -330,8 +330,7 @@ def _vanishes(t: Tree) -> bool:
 
 def _moment_trees(problem: Problem, body: Body) -> tuple[tuple[Tree, ...], ...]:
     """The matrix Σ m r r̄ with r as the matrices of the group act on it."""
-    group = problem.group
-    assert group is not None
+    group = problem.own_group
     if isinstance(body, PointBody):
         masses = [(p.mass, group.in_block(p.block, p.at, 1)) for p in body.points]
         span = range(group.n)

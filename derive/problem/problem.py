@@ -98,6 +98,18 @@ class Problem:
         return moved.name if moved else "any group"
 
     @property
+    def own_group(self) -> Group:
+        """The group, of a problem that has one."""
+        assert self.group is not None
+        return self.group
+
+    @property
+    def own_lagrangian(self) -> Lagrangian:
+        """The Lagrangian that no points give, of a problem that has one."""
+        assert self.lagrangian is not None
+        return self.lagrangian
+
+    @property
     def without_matrices(self) -> str:
         """Why the problem has no group of matrices, for messages."""
         return (

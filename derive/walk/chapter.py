@@ -40,9 +40,12 @@ class Chapter:
         """The label of a step of this chapter: ``so3.kernel`` for ``kernel``."""
         return f"{self.name}.{short}"
 
-    def draft(self, label: str, rule: str) -> Draft:
-        """A step of this chapter in the making, by its label without the chapter and its rule."""
-        return Draft(self, self.label(label), rule)
+    def draft(self, label: str, rule: str, *made_from: Expr | Step) -> Draft:
+        """A step of this chapter in the making, by its label without the chapter and its rule, and
+        what it is made from: expressions, or other steps."""
+        found = Draft(self, self.label(label), rule)
+        found.depends_on(*made_from)
+        return found
 
 
 class Draft:

@@ -77,8 +77,7 @@ def _about_point(
     label: str, about: About, reduced: Step, c: Chapter
 ) -> tuple[Draft, list[Equation]]:
     """A step in the making, and its rates in powers of the distance from a point."""
-    draft = c.draft(label, "components")
-    draft.depends_on(reduced)
+    draft = c.draft(label, "components", reduced)
     pairs = zip(about.system.variables, about.rates, strict=True)
     return draft, [Equation(rate(v), expanded(e, about)) for v, e in pairs]
 
@@ -91,8 +90,7 @@ def _with_multiples(about: About, by: Sequence[Number], kept: Iterable[Tree]) ->
 
 def _enclosure(whole: IntegralsFound, x: Enclosed, made_from: Iterable[Step], c: Chapter) -> Step:
     """The Casimirs less their values on the level, and the energy with multiples of them."""
-    draft = c.draft("enclosure_1", "enclosure")
-    draft.depends_on(*made_from)
+    draft = c.draft("enclosure_1", "enclosure", *made_from)
     algebra = whole.system.algebra
     kept = [*map(algebra.tree, whole.casimirs)]
     found = [x.about.expansion(algebra.over_the_field(f)) for f in whole.casimirs]
@@ -191,8 +189,7 @@ def _form(
 ) -> Step:
     """The energy with multiples of what is kept: a constant, squares, and what vanishes on the
     leaf."""
-    draft = c.draft(label, "expansion")
-    draft.depends_on(*made_from)
+    draft = c.draft(label, "expansion", *made_from)
     kept = map(whole.system.algebra.tree, (*whole.casimirs, *whole.integrals))
     left = _with_multiples(x.about, form.multipliers, kept)
     pairs = zip(x.leaf.equations, form.mixed, strict=True)
@@ -314,8 +311,7 @@ def _told(
         return
     rates = draft.step(equations, prose)
     yield rates
-    draft = c.draft(f"energy_casimir_{k}", "expansion")
-    draft.depends_on(*made_from, rates)
+    draft = c.draft(f"energy_casimir_{k}", "expansion", *made_from, rates)
     algebra = whole.system.algebra
     conserved = (*whole.casimirs, *whole.integrals)
     energy = about.expansion(algebra.hamiltonian)

@@ -52,8 +52,7 @@ def _reduced(
 ) -> Step:
     """h̃ and the rates, as functions of the variables."""
     algebra, system = result.system.algebra, result.system
-    draft = c.draft("poisson", "reduction")
-    draft.depends_on(*made_from)
+    draft = c.draft("poisson", "reduction", *made_from)
     equations = [Equation("h̃", algebra.field_tree(algebra.hamiltonian))]
     for i, x in enumerate(system.variables):
         equations.append(Equation(rate(x), algebra.field_tree(algebra.flow.get(i, {}))))
@@ -86,8 +85,7 @@ def _conserved(trees: Iterable[Tree]) -> list[Equation]:
 
 
 def _casimirs(result: IntegralsFound, reduced: Step, c: Chapter) -> Step:
-    draft = c.draft("casimirs", "Poisson bracket")
-    draft.depends_on(reduced)
+    draft = c.draft("casimirs", "Poisson bracket", reduced)
     prose = draft.claim("casimirs.kept")
     prose += draft.claim(f"casimirs.all{_large(result)}", degree=result.degree)
     return draft.step(_conserved(map(result.system.algebra.tree, result.casimirs)), prose)
@@ -101,8 +99,7 @@ def _large(result: IntegralsFound) -> str:
 
 def _integrals(result: IntegralsFound, reduced: Step, c: Chapter) -> Step:
     algebra = result.system.algebra
-    draft = c.draft("first_integrals", "Poisson bracket")
-    draft.depends_on(reduced)
+    draft = c.draft("first_integrals", "Poisson bracket", reduced)
     trees = [algebra.field_tree(algebra.hamiltonian), *map(algebra.tree, result.integrals)]
     prose = _said(result, draft)
     prose += all_conditions(result, result.conditions, draft) if result.conditions else ()
@@ -156,8 +153,7 @@ def _integrability(proved: Integrability, draft: Draft) -> Prose:
 def _on_level(result: IntegralsFound, on: OnLevel, reduced: Step, k: int, c: Chapter) -> Step:
     """The integrals where a Casimir vanishes: their rates are multiples of it."""
     algebra = result.system.algebra
-    draft = c.draft("level" if not k else f"level_{k + 1}", "Poisson bracket")
-    draft.depends_on(reduced)
+    draft = c.draft("level" if not k else f"level_{k + 1}", "Poisson bracket", reduced)
     casimir = result.casimirs[on.casimir]
     level = Level(algebra, casimir)
     equations = []
@@ -196,8 +192,7 @@ def _under(
     label: str,
     c: Chapter,
 ) -> Step:
-    draft = c.draft(label, "Poisson bracket")
-    draft.depends_on(reduced)
+    draft = c.draft(label, "Poisson bracket", reduced)
     equations = [
         Equation(("call", "d/dt", x.system.algebra.tree(f)), _rate(result, found, x, f))
         for f in x.integrals

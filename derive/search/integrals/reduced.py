@@ -57,9 +57,7 @@ def reduced(problem: Problem) -> LiePoisson:
     is no polynomial in g, or has functions of parameters.
     """
     require_group(problem)
-    group, given = problem.group, problem.lagrangian
-    assert group is not None
-    assert given is not None
+    group, given = problem.own_group, problem.own_lagrangian
     L = with_constant_entries(given.L, group)
     parameters = _letters(L, problem)
     symbolic = _Symbolic(problem.name, L, group, parameters)
@@ -74,9 +72,7 @@ def without_energy(problem: Problem) -> LiePoisson:
 
 def _without_energy(problem: Problem) -> tuple[LiePoisson, list[Place]]:
     """The brackets, and the entries of g among the variables."""
-    group, given = problem.group, problem.lagrangian
-    assert group is not None
-    assert given is not None
+    group, given = problem.own_group, problem.own_lagrangian
     epsilon = 1 if given.trivialisation == "left" else -1
     carried = sum(x.size for x in problem.advected or ())
     brackets, entries = _brackets(

@@ -189,13 +189,11 @@ class SymmetryConditions:
     """The system of a problem with a scalar Lagrangian."""
 
     def __init__(self, problem: Problem):
-        assert problem.lagrangian is not None
-        assert problem.group is not None
-        self.problem, self.group = problem, problem.group
-        self.side, self.tree = problem.lagrangian.trivialisation, problem.lagrangian.L
+        self.problem, self.group = problem, problem.own_group
+        self.side, self.tree = problem.own_lagrangian.trivialisation, problem.own_lagrangian.L
         self.parameters = ParameterValues(self.tree)
         self.tape = Tape(self.tree, self.parameters.functions)
-        self.unknowns = unknowns(problem.group)
+        self.unknowns = unknowns(problem.own_group)
         roots = {x for x in nodes(self.tree) if is_root(x)} - {*self.parameters.roots}
         self.true_roots = len(roots) <= TRUE_ROOTS
         self.oversampling = 2 ** len(roots) if self.true_roots else 1

@@ -172,8 +172,7 @@ class SymmetriesFound:
     @property
     def lagrangian(self) -> Lagrangian:
         """L̃ as one expression."""
-        assert self.problem.lagrangian is not None
-        return self.problem.lagrangian
+        return self.problem.own_lagrangian
 
     def require_whole(self) -> None:
         """``ProblemError`` where the energy is that of an integrand."""
@@ -231,13 +230,12 @@ def conserved_with_damping(problem: Problem, record: Derivation) -> SymmetriesFo
     is kept by the symmetry at the rate −Σ κ_i ⟨v_i, w_i⟩, so that with Σ κ_i ⟨r_i, w_i⟩ it is kept
     again.  ``ProblemError`` where none is so."""
     found = symmetries_of(replace(problem, damping=()), record, of_integrand=True)
-    group = found.problem.group
-    assert group is not None
-    assert problem.group is not None
+    group = found.problem.own_group
     points: tuple[Point | Place, ...] = (*problem.points, *problem.places)
     listed = [(x.coefficient, points[i - 1]) for x in problem.damping for i in x.on]
     damped = [
-        (kappa, (*problem.group.in_block(p.block, p.at, 1), 1)[: group.size]) for kappa, p in listed
+        (kappa, (*problem.own_group.in_block(p.block, p.at, 1), 1)[: group.size])
+        for kappa, p in listed
     ]
     still = [y for x in found.symmetries if x.tau == 0 and (y := _damped(x, damped, group))]
     if not still:
@@ -269,9 +267,7 @@ def _damped(
 
 def says_nothing(x: Symmetry, problem: Problem) -> bool:
     """Is what the motion keeps by it 0 whatever the motion is, along what has no kinetic energy?"""
-    given, group = problem.lagrangian, problem.group
-    assert given is not None
-    assert group is not None
+    given, group = problem.own_lagrangian, problem.own_group
     if not given.held:
         return False
     second = hessian(given.L, coordinates(group))
@@ -291,15 +287,14 @@ def _oriented(i: int, j: int, number: Tree) -> Central:
 
 def emitted_state(problem: Problem) -> dict[str, Tree]:
     """The numbers of the state in the emitted code: A and T of each factor, then ζ."""
-    assert problem.group is not None
-    group = problem.group.in_user_basis
+    group = problem.own_group.in_user_basis
     found: list[Tree] = []
     for offset, factor in group.places:
         rows = range(offset + 1, offset + factor.n + 1)
         found += [("entry", "A", i, j) for i in rows for j in rows if not factor.vectors]
         found += [("entry", "A", i, offset + factor.size) for i in rows if factor.affine]
     held = problem.lagrangian.held if problem.lagrangian else ()
-    names = StateSpace(Graph(), problem.group, Options(), held=held).names
+    names = StateSpace(Graph(), problem.own_group, Options(), held=held).names
     zeta = [z for a, z in enumerate(coordinates(group), 1) if a not in held]
     return dict(zip(names, found + zeta, strict=True))
 
@@ -348,8 +343,7 @@ def named(found: SymmetriesFound) -> dict[str, Tree]:
         for base in many
         if (own := [a for a, b in zip(axes, bases, strict=True) if b == base])
     }
-    group = found.problem.group
-    assert group is not None
+    group = found.problem.own_group
     momenta: list[Tree] = [("at", "Π", a) for a in range(1, group.dimension + 1)]
     names, seen = {}, Counter[str]()
     for x, base, place in zip(found.symmetries, bases, axes, strict=True):

@@ -56,9 +56,7 @@ def _why_not(found: SymmetriesFound) -> str:
 def leaves_one(found: SymmetriesFound) -> bool:
     """Do the symmetries that a reduction takes leave one degree of freedom?"""
     problem = found.problem
-    assert problem.group is not None
-    assert problem.lagrangian is not None
-    left = problem.group.dimension - len(problem.lagrangian.held) - len(chosen(found))
+    left = problem.own_group.dimension - len(problem.own_lagrangian.held) - len(chosen(found))
     return left == 1
 
 

@@ -50,12 +50,10 @@ class Routhian:
 
     def __init__(self, found: SymmetriesFound, chosen: Sequence[Symmetry]):
         problem = found.problem
-        assert problem.group is not None
-        assert problem.lagrangian is not None
-        self.problem, self.group, self.chosen = problem, problem.group, tuple(chosen)
+        self.problem, self.group, self.chosen = problem, problem.own_group, tuple(chosen)
         self.zeta = coordinates(self.group)
-        self.held = {a - 1 for a in problem.lagrangian.held}
-        L = problem.lagrangian.L
+        self.held = {a - 1 for a in problem.own_lagrangian.held}
+        L = problem.own_lagrangian.L
         self.names = [[inertia(i, j) for j, _ in enumerate(chosen)] for i, _ in enumerate(chosen)]
         fields = (y for x in chosen for m in x.matrices for row in m for y in row)
         trees = (L, *self.zeta, *fields, *(x for row in self.names for x in row))
@@ -114,9 +112,8 @@ class Routhian:
 
     def slopes(self, entry: Tree, moved: EntriesOfElement | None = None) -> Vector:
         """The derivatives of an entry of g along the basis."""
-        assert self.problem.lagrangian is not None
         assert isinstance(entry, tuple)
-        moved = moved or EntriesOfElement(self.group, self.problem.lagrangian.trivialisation)
+        moved = moved or EntriesOfElement(self.group, self.problem.own_lagrangian.trivialisation)
         of = self.functions.of
         return [of(moved.displaced(entry, a)) for a, _ in enumerate(self.zeta)]
 
@@ -297,8 +294,7 @@ class Routhian:
         if forms is None:
             return None
         of, span = self.functions.of, range(len(self.zeta))
-        assert self.problem.lagrangian is not None
-        sign = 1 if self.problem.lagrangian.trivialisation == "left" else -1
+        sign = 1 if self.problem.own_lagrangian.trivialisation == "left" else -1
         table, along = self.group.structure_constants, self._along()
         found: list[dict[tuple[int, int], Element]] = [{} for _ in self.eta]
         for a in span:
@@ -335,8 +331,7 @@ class Routhian:
     @property
     def energy_at_rest(self) -> Tree:
         """U, as the problem has it where that is a sum of its own."""
-        assert self.problem.lagrangian is not None
-        written = terms(self.problem.lagrangian.L)
+        written = terms(self.problem.own_lagrangian.L)
         still = [x for x in written if not any(z in {*nodes(x)} for z in self.zeta)]
         tree, own = self.functions.tree, add(*map(neg, still))
         found = [tree(self.functions.simplified(self.potential)), tree(self.potential)]

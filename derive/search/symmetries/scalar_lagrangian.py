@@ -308,11 +308,10 @@ def scalar_lagrangian(
     of the emitted code, and the parameters."""
     if problem.lagrangian is not None:
         return problem.lagrangian.L
-    assert problem.group is not None
-    lowering = _KeepingPi(record, problem.group, Options())
+    lowering = _KeepingPi(record, problem.own_group, Options())
     energy, space = lowering.reader.number("h̃"), lowering.reader.space
     leaves: dict[Node, Tree] = dict(
-        zip(space.coordinates, coordinates(problem.group.in_user_basis), strict=True)
+        zip(space.coordinates, coordinates(problem.own_group.in_user_basis), strict=True)
     )
     for i, row in enumerate(space.element, 1):
         for j, x in enumerate(row, 1):

@@ -49,8 +49,7 @@ def expressed_on_basis(
 ) -> tuple[Chapter, Group, tuple[Step, ...], tuple[Step, ...]]:
     """The chapter and the group of a problem, the steps up to its L̃ on a basis, and the last of
     these: of L̃, of its momenta, of its energy and of the basis."""
-    group, road = problem.group, general["lagrangian"]
-    assert group is not None
+    group, road = problem.own_group, general["lagrangian"]
     c = Chapter(problem.name, group.name)
     basis = of_element(problem, group, road, c)
     own = expressed.expressed(problem, group, road, basis, c).steps
@@ -78,8 +77,7 @@ def _symmetry(
     x: Symmetry, label: str, group: Group, made_from: tuple[Step, ...], c: Chapter
 ) -> Step:
     """A symmetry: its field, what it does to L̃, ϖ of it, and what the motion keeps."""
-    draft = c.draft(label, "conservation")
-    draft.depends_on(*made_from[: 2 if x.terms else 1])
+    draft = c.draft(label, "conservation", *made_from[: 2 if x.terms else 1])
     field = [Equation("δt", x.tau), Equation("δA", x.displacement)]
     momenta: list[Tree] = [("at", "Π", a) for a in range(1, group.dimension + 1)]
     equations = [*field, Equation(("call", "δ", "L̃"), x.rate)]
@@ -93,8 +91,7 @@ def _symmetry(
 def _central(found: SymmetriesFound, pair: Central, whole: Step, c: Chapter) -> Step:
     """Two symmetries that commute, and the number that dϖ of them is."""
     names = [f"conserved_{k + 1}" for k in (pair.first, pair.second)]
-    draft = c.draft("_and_".join(names), "exterior derivative")
-    draft.depends_on(whole)
+    draft = c.draft("_and_".join(names), "exterior derivative", whole)
     one, two = (found.symmetries[k] for k in (pair.first, pair.second))
     fields = [
         *(Equation("δt", one.tau), Equation("δA", one.displacement)),
@@ -149,8 +146,7 @@ def _fields(x: Symmetry, prime: str = "") -> list[Equation]:
 
 def _momentum(x: Symmetry, i: int, r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     """A symmetry, its momentum, and what dϖ has of its field: nothing on a level."""
-    draft = c.draft(f"momentum_{i + 1}", "conservation")
-    draft.depends_on(*made_from)
+    draft = c.draft(f"momentum_{i + 1}", "conservation", *made_from)
     field, own = _fields(x), momentum(i)
     values: list[Tree] = [("at", "Π", a + 1) for a, _ in enumerate(r.zeta)]
     equations = [
@@ -168,8 +164,7 @@ def _momentum(x: Symmetry, i: int, r: Routhian, made_from: Iterable[Step], c: Ch
 
 def _commuting(i: int, j: int, r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     """dϖ of two of the fields vanishes."""
-    draft = c.draft(f"momentum_{i + 1}_and_{j + 1}", "exterior derivative")
-    draft.depends_on(*made_from)
+    draft = c.draft(f"momentum_{i + 1}_and_{j + 1}", "exterior derivative", *made_from)
     fields = [*_fields(r.chosen[i]), *_fields(r.chosen[j], "′")]
     return draft.step(
         [*fields, Equation(("call", "dϖ", *BOTH), 0)], say("reduction.commute"), where=fields
@@ -180,8 +175,7 @@ def _commuting(i: int, j: int, r: Routhian, made_from: Iterable[Step], c: Chapte
 
 
 def _locked(r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
-    draft = c.draft("locked", "definition")
-    draft.depends_on(*made_from)
+    draft = c.draft("locked", "definition", *made_from)
     span = range(len(r.chosen))
     rows = (("row", *(r.locked_tree(i, j) for j in span)) for i in span)
     return draft.step([Equation("𝕀", ("matrix", *rows))], say("reduction.locked"))
@@ -196,8 +190,7 @@ def _cleared(square: Square, r: Routhian) -> tuple[Element, Tree]:
 
 def _connection(r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     """The velocities along the symmetries, and what is left of ζ."""
-    draft = c.draft("connection", "inversion")
-    draft.depends_on(*made_from)
+    draft = c.draft("connection", "inversion", *made_from)
     equations = [_velocity(x, r) for x in reversed(r.squares)]
     for a in r.free:
         moved = (
@@ -229,8 +222,7 @@ def _velocity(square: Square, r: Routhian) -> Equation:
 
 def _form(r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     """ϖ_h = ϖ − Σ 𝒥_i 𝒜_i, and dϖ_h by d(f𝒜)(δ, δ′) = f d𝒜(δ, δ′) + δf 𝒜(ξ′) − δ′f 𝒜(ξ)."""
-    draft = c.draft("routh", "exterior derivative")
-    draft.depends_on(*made_from)
+    draft = c.draft("routh", "exterior derivative", *made_from)
     span = range(len(r.chosen))
     paired = (mul(momentum(i), connection(i, "ξ")) for i in span)
     equations = [Equation(("call", "ϖ_h", "δy"), add(ON_FORM, neg_all(paired)))]
@@ -271,8 +263,7 @@ def _curvature(r: Routhian, made_from: Iterable[Step], c: Chapter) -> tuple[Step
     """d𝒜_i in coordinates of ξ and ξ′, where that is short."""
     if r.curvature is None:
         return ()
-    draft = c.draft("curvature", "structure equation")
-    draft.depends_on(*made_from)
+    draft = c.draft("curvature", "structure equation", *made_from)
     equations = [
         Equation(curvature(i), _two_form(values, r)) for i, values in enumerate(r.curvature)
     ]
@@ -314,8 +305,7 @@ def _skew(e: Matrix) -> bool:
 
 def _effective(r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     """V, h̃ = ½⟨ζ_h, Mζ_h⟩ + V, and the Routhian."""
-    draft = c.draft("effective", "Legendre transform")
-    draft.depends_on(*made_from)
+    draft = c.draft("effective", "Legendre transform", *made_from)
     kinetic, linear = _kinetic(r), _linear(r)
     spent = (mul(momentum(i), connection(i, "Z")) for i, _ in enumerate(r.chosen))
     equations = [
@@ -366,8 +356,7 @@ def _linear(r: Routhian) -> Tree:
 
 def _quadrature(r: Routhian, found: Quadrature, made_from: Iterable[Step], c: Chapter) -> Step:
     """u̇² by the energy and the momenta."""
-    draft = c.draft("quadrature", "reduction")
-    draft.depends_on(*made_from)
+    draft = c.draft("quadrature", "reduction", *made_from)
     assert isinstance(found.entry, tuple)
     rate: Tree = ("entry", "Ȧ", *found.entry[2:])
     tree, simplified = r.functions.tree, r.functions.simplified

@@ -101,8 +101,7 @@ def solved(
 ) -> tuple[Step, ...]:
     """The steps of x₂: of GL(n), or with the multiplier of the volume on SL(n)."""
     s, last = _Solved(motion, forces), motion.x[2].name
-    draft = c.draft("motion", "solution")
-    draft.depends_on(s.free)
+    draft = c.draft("motion", "solution", s.free)
     free = tree_of(s.free, s.notation)
     if "unimodular" not in group.relations:
         return (draft.step((*s.equations, Equation(last, free)), say("motion.verlet")),)
@@ -132,8 +131,7 @@ def _multiplier(onward: Expr, H: Letter, s: _Solved, c: Chapter) -> tuple[Step, 
     value = word(H) * across
     if reduce(onward * across, cancelling(s.metric), cancel) != value + theta * one(n):
         raise WalkError("the multiplier of the volume is not a shift of HSx̄₁")
-    draft = c.draft("multiplier", "elimination")
-    draft.depends_on(onward)
+    draft = c.draft("multiplier", "elimination", onward)
     whole = number(0)
     for e in elementary(word(Y), n):
         whole = (whole + e) * theta

@@ -249,8 +249,7 @@ def motion(stage: OneForms, a: DiscreteAlphabet, c: Chapter) -> DiscreteMotion:
     xi = naming.step(
         (Equation(a.xi.name, ("mul", ("inv", "g_1"), "δg_1")),), say("trivialisation.discrete")
     )
-    carrying = c.draft("balance", "kernel")
-    carrying.depends_on(space, xi)
+    carrying = c.draft("balance", "kernel", space, xi)
     carried = substitute(tested, {a.d_g[1]: word(a.g[1]) * word(a.xi)})
     last = carrying.step(
         (Equation(tree_of(carried, a.notation), 0, (a.xi.name,)),), say("balance.discrete")

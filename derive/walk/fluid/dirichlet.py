@@ -84,11 +84,9 @@ class FluidBody:
         """The energies by C whose force may be central in the body, as that of its own gravity."""
         return [x for x in self.potentials.own if isinstance(x, GradientLetter)]
 
-    def draft(self, label: str, rule: str) -> Draft:
-        """A step that rests on the motion, in the making."""
-        draft = self.c.draft(label, rule)
-        draft.depends_on(self.found.motion, self.found.steps[0])
-        return draft
+    def draft(self, label: str, rule: str, *more: Expr | Step) -> Draft:
+        """A step that rests on the motion, and on more, in the making."""
+        return self.c.draft(label, rule, self.found.motion, self.found.steps[0], *more)
 
     def over_body(self, summand: Expr) -> Expr:
         """∫ of a function of r dm, in m and J."""
@@ -239,8 +237,7 @@ class _Fluid(FluidBody):
 
     def _total(self, density: Tree, quadric: Step, pressure: Step) -> Step:
         """θ = ∫ p dx, where dx = dm/ρ."""
-        draft = self.draft("total", "solution")
-        draft.depends_on(quadric, pressure)
+        draft = self.draft("total", "solution", quadric, pressure)
         lighter = inverse_letter(self.b.m)
         volume = word(inverse_letter(self.rho))
         whole = volume * self.over_body(self._inside()) * self._central()

@@ -246,8 +246,7 @@ def _poisson(
     twice: Step,
 ) -> Step:
     """D before the equation of motion, solved for the acceleration; D u̇ = 0."""
-    draft = c.draft("pressure_equation", "elimination")
-    draft.depends_on(adjoint, twice)
+    draft = c.draft("pressure_equation", "elimination", adjoint, twice)
     inverse = Letter("ρ⁻¹", a.n, a.n, 1)
     over = word(inverse) if a.advected else one(a.n)
     cancelled = pair_rule((inverse, False), (a.C, False), one(a.n))

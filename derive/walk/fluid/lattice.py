@@ -271,8 +271,7 @@ Terms = Mapping[int, Mapping[Pair, Fraction]]
 
 def modes(phase: Phase, stream: Coefficient, rate: Unit, motion: Step, c: Chapter) -> Step:
     """dω̂(n)/dt for one of n and −n, of Ẇ = rate · [W, P]; ``stream``: P by ω̂."""
-    draft = c.draft("modes", "evaluation")
-    draft.depends_on(motion)
+    draft = c.draft("modes", "evaluation", motion)
     torus, found = TorusLattice(phase.N), commutator(TorusLattice(phase.N), stream.power)
     unit = rate * stream.unit * phase.bracket(M, N)[0]
     told = [

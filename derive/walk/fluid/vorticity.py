@@ -96,8 +96,7 @@ def torus_steps(
 
 
 def _basis(phase: Phase, fluid: ZeitlinFluid, general: AnyLagrangian, c: Chapter) -> Step:
-    draft = c.draft("coordinates", "coordinates")
-    draft.depends_on(general["second_order"])
+    draft = c.draft("coordinates", "coordinates", general["second_order"])
     product = mul(of("T", M), of("T", N))
     return draft.step(
         [
@@ -111,23 +110,20 @@ def _basis(phase: Phase, fluid: ZeitlinFluid, general: AnyLagrangian, c: Chapter
 
 
 def _algebra(phase: Phase, basis: Step, c: Chapter) -> Step:
-    draft = c.draft("algebra", "relation")
-    draft.depends_on(basis)
+    draft = c.draft("algebra", "relation", basis)
     unit, sine = phase.bracket(M, N)
     bracket = Equation(("bracket", of("T", M), of("T", N)), unit.times(sine, of("T", (1, 1))))
     return draft.step([bracket], say("algebra.torus"))
 
 
 def _lagrangian(fluid: ZeitlinFluid, general: AnyLagrangian, basis: Step, c: Chapter) -> Step:
-    draft = c.draft("lagrangian", "definition")
-    draft.depends_on(general["momenta"], basis)
+    draft = c.draft("lagrangian", "definition", general["momenta"], basis)
     return draft.step([Equation("L̃", fluid.lagrangian.tree())], say("lagrangian.torus"))
 
 
 def _momenta(fluid: ZeitlinFluid, made_from: tuple[Step, ...], c: Chapter) -> Step:
     """ω̂(n), the derivative along ζ(−n), of which δZ is a multiple of T(−n); W, and Π by it."""
-    draft = c.draft("momenta", "fibre derivative")
-    draft.depends_on(*made_from)
+    draft = c.draft("momenta", "fibre derivative", *made_from)
     paired_with = ("inner", "Π", fluid.scale.times(of("T", minus(N))))
     return draft.step(
         [
@@ -141,8 +137,7 @@ def _momenta(fluid: ZeitlinFluid, made_from: tuple[Step, ...], c: Chapter) -> St
 
 
 def _stream(fluid: ZeitlinFluid, momenta: Step, c: Chapter) -> Step:
-    draft = c.draft("stream", "inversion")
-    draft.depends_on(momenta)
+    draft = c.draft("stream", "inversion", momenta)
     return draft.step(
         [Equation("P", fluid.stream.element()), Equation("Z", fluid.velocity.times("P"))],
         say("stream.torus"),
@@ -150,8 +145,7 @@ def _stream(fluid: ZeitlinFluid, momenta: Step, c: Chapter) -> Step:
 
 
 def _energy(fluid: ZeitlinFluid, made_from: tuple[Step, ...], c: Chapter) -> Step:
-    draft = c.draft("energy", "Legendre transform")
-    draft.depends_on(*made_from)
+    draft = c.draft("energy", "Legendre transform", *made_from)
     return draft.step([Equation("h̃", fluid.energy.tree())], say("energy.torus"))
 
 
@@ -164,8 +158,7 @@ def coadjoint_rate(fluid: ZeitlinFluid, epsilon: int, a: Alphabet) -> Unit:
 
 
 def _coadjoint(rate: Unit, general: AnyLagrangian, made_from: tuple[Step, ...], c: Chapter) -> Step:
-    draft = c.draft("coadjoint", "kernel")
-    draft.depends_on(general["coadjoint"], *made_from)
+    draft = c.draft("coadjoint", "kernel", general["coadjoint"], *made_from)
     moved = Equation("Ẇ", rate.times(("bracket", "W", "P")))
     return draft.step([moved], say("coadjoint.torus"))
 
@@ -174,8 +167,7 @@ def _motion(
     phase: Phase, fluid: ZeitlinFluid, rate: Unit, made_from: tuple[Step, ...], c: Chapter
 ) -> Step:
     """The coefficient at T(n) of Ẇ."""
-    draft = c.draft("motion", "solution")
-    draft.depends_on(*made_from)
+    draft = c.draft("motion", "solution", *made_from)
     unit, total = bracket_at(phase, Coefficient("ω̂").at, fluid.stream.at)
     unit = rate * fluid.stream.unit * unit
     return draft.step(
@@ -187,8 +179,7 @@ def _conserved(
     fluid: ZeitlinFluid, torus: TorusLattice, made_from: tuple[Step, ...], c: Chapter
 ) -> Step:
     """The energy, and Tr Wᵏ: traces of a product with a bracket of one of its factors."""
-    draft = c.draft("conserved", "conservation")
-    draft.depends_on(*made_from)
+    draft = c.draft("conserved", "conservation", *made_from)
     dW, vorticity = Letter("δW", "n", "n"), Coefficient("ω̂")
     elements = {W: vorticity, P: fluid.stream, dW: Coefficient("δω̂")}
     along = traced(trace(word(P, dW)), elements, torus.N)

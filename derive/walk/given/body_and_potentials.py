@@ -97,8 +97,7 @@ def body_step(
         prose += _massless(low, high, "_read" if problem.outputs else "")
     if not equations:
         return ()
-    draft = c.draft("body", "definition")
-    draft.depends_on(*steps[-1:])
+    draft = c.draft("body", "definition", *steps[-1:])
     return (*steps, draft.step(equations, prose, hypotheses=supposed))
 
 
@@ -350,8 +349,7 @@ def _in_space(found: PointPotentials) -> list[Equation]:
 
 def _placed(problem: Problem, i: int, sigma: Tree, d: Tree, sign: int) -> Tree:
     """The tree ± σ d of a force on point i, in its block of a product."""
-    group = problem.group
-    assert group is not None
+    group = problem.own_group
     if not group.factors:
         return mul(sign, sigma, d)
     _, factor = group.places[problem.block(i) - 1]

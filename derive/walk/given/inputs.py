@@ -128,8 +128,7 @@ def numbers(problem: Problem, *, discrete: bool = False) -> dict[Tree, Tree]:
     """Entries of f_u and u → the numbers that are given, of a covector in the basis that the
     problem states; in the ``discrete`` motion u is the whole covector of a displacement."""
     found: dict[Tree, Tree] = {}
-    group = problem.group
-    assert group is not None
+    group = problem.own_group
     for e, x in enumerate(problem.force_inputs, 1):
         for k, name in enumerate(problem.numbers_of(x), 1):
             found["entry", ("at", "f_u", e), k] = ("par", name)
@@ -195,8 +194,7 @@ def couple_of(problem: Problem, e: int, x: Push) -> tuple[Tree, ...]:
 def _skew(problem: Problem, x: Push, couple: tuple[Tree, ...]) -> Tree:
     """The matrix N of a torque in the body, whose work is Tr ξ′N̄: half of j(torque), that of a
     torque in space turned into the body."""
-    group = problem.group
-    assert group is not None
+    group = problem.own_group
     block, factor = problem.acted_on(x)
     half = [mul(Fraction(1, 2), y) for y in couple]
     if factor.n == 2:
@@ -229,8 +227,7 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
     """
     if not acts(problem):
         return None
-    group = problem.group
-    assert group is not None
+    group = problem.own_group
     forces, draft = applied(b, "u", vectors=False), c.draft("input", "input")
     definitions, drag = _damping(problem, b)
     drag = reduce(drag, body_rule(b, C))
@@ -260,11 +257,10 @@ def _external(
     parts: Sequence[Part],
 ) -> External:
     """The sums of the parts, with their step."""
-    assert problem.group is not None
     moments, pulls = ([x.moment for x in parts], [x.pull for x in parts])
     equations = [*definitions, Equation(forces.moments.name, add(*moments))]
     if b.affine:
-        whole = add(*pulls) or column((0,) * problem.group.n)  # moments alone
+        whole = add(*pulls) or column((0,) * problem.own_group.n)  # moments alone
         equations.append(Equation(forces.resultant.name, whole))
     step, own = draft.step(equations, prose(problem)), tuple(x for x in parts if any(x[1:]))
     return External(
@@ -278,8 +274,7 @@ def _in_body(
     """Force ``e`` in the body, a tree: Āf for a force in space, ĀA f for one that turns with the
     body."""
     f: Tree = ("at", "f_u", e)
-    group = problem.group
-    assert group is not None
+    group = problem.own_group
     if group.factors or isinstance(given, StatedForce) or given.direction is not None:
         f = embedded(problem, given.on, entries_of(problem, e, given), 0)
     if given.frame == "space":
@@ -377,8 +372,7 @@ def external_vectors(
             torque = column(couple)
             moments.append(mul(("T", "A"), torque) if given.frame == "space" else torque)
         parts.append(Part(given.name or UNNAMED_FORCE, add(*moments), force))
-    assert problem.group is not None
-    for k, (name, x) in enumerate(covectors(problem, problem.group)):
+    for k, (name, x) in enumerate(covectors(problem, problem.own_group)):
         whole: tuple[Tree, Tree] = (column(x[:3]), column(x[3:]))
         if problem.covector and k == 0:
             whole = (TORQUE.name, FORCE.name)

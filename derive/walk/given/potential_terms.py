@@ -120,8 +120,7 @@ def column(entries: tuple[Tree, ...]) -> Tree:
 
 def embedded(problem: Problem, i: int, entries: tuple[Tree, ...], corner: int) -> Tree:
     """A vector of the space of point i as a column; in a product, in its block, with a corner."""
-    assert problem.group is not None
-    return column(problem.group.in_block(problem.block(i), entries, corner))
+    return column(problem.own_group.in_block(problem.block(i), entries, corner))
 
 
 @dataclass(frozen=True)
@@ -167,8 +166,7 @@ class PointPotentials:
     def add_energy(self, U: Tree) -> None:
         """Add a potential U of entries of places r_i(t), with its forces −∂U/∂r_i(t)."""
         self.energies.append(U)
-        assert self.problem.group is not None
-        span = range(1, self.problem.group.n + 1)
+        span = range(1, self.problem.own_group.n + 1)
         for i in sorted({*_points(U)}):
             slopes = (derivative(U, ("entry", in_space(i), k)) for k in span)
             self.add_force(i, column(tuple(product(-1, x) for x in slopes)))
@@ -190,8 +188,7 @@ class PointPotentials:
 
 def place(problem: Problem, i: int) -> Tree:
     """The place of point i in its space: r_i(t), or the entries of its block."""
-    group = problem.group
-    assert group is not None
+    group = problem.own_group
     if not group.factors:
         return in_space(i)
     rows = range(1, group.n + 1)[group.of_block(problem.block(i))]
@@ -233,8 +230,7 @@ def attraction_pointwise(found: PointPotentials, p: Attraction, problem: Problem
 
 def field_pointwise(found: PointPotentials, p: Field, problem: Problem) -> None:
     """Add −Σ q_i ⟨E, r_i(t)⟩, each place in its block."""
-    group = problem.group
-    assert group is not None
+    group = problem.own_group
     terms = []
     for i, charge in enumerate(p.charges, 1):
         rows = range(1, group.n + 1)[group.of_block(problem.block(i))]

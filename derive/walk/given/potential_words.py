@@ -75,12 +75,11 @@ def gravity_words(problem: Problem, a: Alphabet, _vectors: bool) -> Words | None
     if g is None:
         return None
     summand = -word(a.m_i) * inner(word(Letter("γ", a.n)), _moved(a))
-    assert problem.group is not None
     spread = problem.body is not None and not isinstance(problem.body, PointBody)
     prose = say("potential.whole_body") if spread else ()
     return Words(
         _over_masses(summand, a),
-        [Equation("γ", column(problem.group.in_every_block(g)))],
+        [Equation("γ", column(problem.own_group.in_every_block(g)))],
         [neg(("sum", "i", ("mul", ("at", "m", "i"), ("inner", "γ", POINT))))],
         prose,
     )
@@ -317,8 +316,7 @@ def self_gravity_words(problem: Problem, a: Alphabet, _vectors: bool) -> Words |
     p = next((p for p in problem.potentials if isinstance(p, SelfGravity)), None)
     if p is None:
         return None
-    assert problem.group is not None
-    ellipsoid = _Ellipsoid(a, unimodular="unimodular" in problem.group.relations)
+    ellipsoid = _Ellipsoid(a, unimodular="unimodular" in problem.own_group.relations)
     A, energy, B = word(a.A.position), Letter("U_G"), Letter("B_G", a.n, a.n, 1)
     scale = mul(SHARE, p.G, ("pow", "m", 2))
     return Words(

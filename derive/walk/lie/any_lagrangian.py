@@ -234,8 +234,7 @@ def orbit_form(form: Expr, a: Alphabet, moved: Trivialisation, other: Step, c: C
     ``form``: dϖ by Π and the letter of the bracket; ``other``: the step of the other momentum.
     ``ValueError`` where the rest is no bracket.
     """
-    draft = c.draft("kks", "restriction")
-    draft.depends_on(other)
+    draft = c.draft("kks", "restriction", other)
     crossed = Letter("[ξ, ξ′]", a.n, a.n)
     display = {a.bracket: read("[ξ′, ξ]"), crossed: read("[ξ, ξ′]")}
     notation = WordNotation(display=display, covectors=frozenset(a.Pi.letters))

@@ -48,13 +48,11 @@ class Basis:
 
 def of_element(problem: Problem, group: Group, general: AnyLagrangian, c: Chapter) -> Basis:
     """Z = Σ ζ_a E_a, and Ȧ by it; [E_a, E_b]."""
-    assert problem.lagrangian is not None
-    draft = c.draft("coordinates", "coordinates")
-    draft.depends_on(general["second_order"])
+    draft = c.draft("coordinates", "coordinates", general["second_order"])
     rates = (Equation("Ȧ", general.velocity),)
     place = draft.step([*basis_equations(group), *rates], say("coordinates.basis") + _names(group))
     told = brackets(group, c)
-    moved = EntriesOfElement(group, problem.lagrangian.trivialisation)
+    moved = EntriesOfElement(group, problem.own_lagrangian.trivialisation)
     return Basis(moved, rates, place, told, (place, *told))
 
 
@@ -122,7 +120,6 @@ def conserved(
 ) -> tuple[Step, ...]:
     """The step of what the motion of a problem keeps, the energy and all of Π_o; none where it
     keeps neither."""
-    assert problem.lagrangian is not None
     laws: Prose = ()
     equations = []
     draft = c.draft("conserved", "conservation")
@@ -130,7 +127,7 @@ def conserved(
     draft.depends_on(
         general["moment_map"], next(x for x in balance if x.label == c.label("motion"))
     )
-    if "t" not in names(problem.lagrangian.L):
+    if "t" not in names(problem.own_lagrangian.L):
         draft.depends_on(expression, energy)
         equations.append(Equation("ḣ", 0))
         laws += say("conserved.energy")
@@ -196,8 +193,7 @@ def expressed(
     problem: Problem, group: Group, general: AnyLagrangian, basis: Basis, c: Chapter
 ) -> Expressed:
     """L̃, and its derivatives along Z and along the group."""
-    given = problem.lagrangian
-    assert given is not None
+    given = problem.own_lagrangian
     zeta = coordinates(group)
     momenta = tuple(tidied(derivative(given.L, x)) for x in zeta)
     forces = tuple(tidied(basis.orbit_entries.along(given.L, a)) for a in range(group.dimension))
@@ -215,8 +211,7 @@ def _momenta(
     momenta: Sequence[Tree], forces: Sequence[Tree], made_from: tuple[Step, ...], c: Chapter
 ) -> Step:
     """Π_a and Φ_a."""
-    draft = c.draft("momenta", "fibre derivative")
-    draft.depends_on(*made_from)
+    draft = c.draft("momenta", "fibre derivative", *made_from)
     equations = [Equation(read("Π_a"), read("⟨Π, E_a⟩"))]
     equations += [Equation(member("Π", a), t) for a, t in enumerate(momenta)]
     equations += [Equation(read("Φ_a"), read("⟨Φ, E_a⟩"))]
@@ -234,8 +229,7 @@ def _energy(
     made_from: tuple[Step, ...],
     c: Chapter,
 ) -> Step:
-    draft = c.draft("energy", "Legendre transform")
-    draft.depends_on(*made_from)
+    draft = c.draft("energy", "Legendre transform", *made_from)
     paired = add(*(mul(p, z) for p, z in zip(momenta, zeta, strict=True)))
     return draft.step([Equation("h̃", tidied(add(paired, neg(given.L))))], say("energy.expression"))
 
@@ -263,8 +257,7 @@ def balance(
     coadjoint_step = turning.step(
         [*named, *(Equation(member("Π̇", a), t) for a, t in enumerate(rates))], prose
     )
-    assert problem.lagrangian is not None
-    held = {a - 1 for a in problem.lagrangian.held}
+    held = {a - 1 for a in problem.own_lagrangian.held}
     left = [
         0 if a in held else add(t, neg(tidied(basis.orbit_entries.in_time(p))))
         for a, (t, p) in enumerate(zip(rates, stage.momenta, strict=True))
@@ -283,8 +276,7 @@ def balance(
         ],
         say("mass.basis_of_lagrangian") + (say("mass.held") if held else ()),
     )
-    solving = c.draft("motion", "solution")
-    solving.depends_on(mass, basis.last)
+    solving = c.draft("motion", "solution", mass, basis.last)
     motion = solving.step([*basis.rates, *stated("ζ̇ = M⁻¹β")], say("motion.lagrangian"))
     return coadjoint_step, *null, mass, motion
 
@@ -299,8 +291,7 @@ def _null(
 ) -> tuple[Step, ...]:
     """Along what has no kinetic energy: the momentum vanishes, and its equation says nothing; what
     acts from outside is of the quotient. ``ProblemError`` where it is not."""
-    draft = c.draft("null", "restriction")
-    draft.depends_on(balance)
+    draft = c.draft("null", "restriction", balance)
     quotient, span = quotient_of(problem), range(len(stage.momenta))
     assert quotient is not None
     momenta = [member("Π", a) for a in span]

@@ -108,9 +108,8 @@ class Places:
     ⟨f, E_a A r⟩."""
 
     def __init__(self, problem: Problem, group: Group) -> None:
-        assert problem.lagrangian is not None
         self.problem, self.group = problem, group
-        self.left = problem.lagrangian.trivialisation == "left"
+        self.left = problem.own_lagrangian.trivialisation == "left"
         span = range(1, group.n + 1)
         self.A: list[Trees] = [[("entry", "A", i, j) for j in span] for i in span]
         self.body: list[Trees] = [[*group.in_block(x.block, x.at, 1)] for x in problem.places]
@@ -370,9 +369,8 @@ def of_lagrangian(
     problem: Problem, group: Group, general: AnyLagrangian, balance: Steps, c: Chapter
 ) -> tuple[Step, ...]:
     """ḣ = Σ u_a ζ_a − ∂ₜL̃; no step where nothing acts and L̃ leaves the time alone."""
-    assert problem.lagrangian is not None
     power = _along([add(*terms) for terms in from_outside(problem, group)], group)
-    timed = [neg("∂ₜL̃")] if "t" in names(problem.lagrangian.L) else []
+    timed = [neg("∂ₜL̃")] if "t" in names(problem.own_lagrangian.L) else []
     if power == 0 and not timed:
         return ()
     draft = c.draft("power", "power")

@@ -240,15 +240,13 @@ def _stated(velocity: Velocity, c: Chapter) -> Step:
 
 
 def _tangent(group: Group, first: Step, c: Chapter) -> Step:
-    draft = c.draft("tangent", "trivialisation")
-    draft.depends_on(first)
+    draft = c.draft("tangent", "trivialisation", first)
     carried = Equation("Z", mul(("inv", "A"), f("A")))
     return draft.step([carried, *basis_equations(group)], say("tangent.algebra"))
 
 
 def _errors(first: Step, c: Chapter) -> Step:
-    draft = c.draft("errors", "definition")
-    draft.depends_on(first)
+    draft = c.draft("errors", "definition", first)
     equations = [
         Equation(in_time("Â"), f("Â")),
         Equation("η_L", mul(BACK, "A")),
@@ -263,15 +261,13 @@ def _parts() -> Tree:
 
 
 def _affine(first: Step, c: Chapter) -> Step:
-    draft = c.draft("affine", "group-affine")
-    draft.depends_on(first)
+    draft = c.draft("affine", "group-affine", first)
     return draft.step([Equation(f(mul("A", "Â")), _parts())], say("affine.holds"))
 
 
 def _counterexample(velocity: Velocity, first: Step, c: Chapter) -> Step:
     """The difference at two elements, for all inputs."""
-    draft = c.draft("counterexample", "group-affine")
-    draft.depends_on(first)
+    draft = c.draft("counterexample", "group-affine", first)
     pair = velocity.counterexample()
     where = [Equation(x, matrix(numbers(m))) for x, m in zip(("A", "Â"), pair, strict=True)]
     difference = add(f(mul("A", "Â")), neg(_parts()))
@@ -281,8 +277,7 @@ def _counterexample(velocity: Velocity, first: Step, c: Chapter) -> Step:
 
 
 def _error_rates(made_from: tuple[Step, ...], c: Chapter) -> Step:
-    draft = c.draft("error_rates", "error equation")
-    draft.depends_on(*made_from)
+    draft = c.draft("error_rates", "error equation", *made_from)
     left = add(f("η_L"), neg(mul(f(1), "η_L")))
     right = add(f("η_R"), neg(mul("η_R", f(1))))
     return draft.step(
@@ -314,8 +309,7 @@ def generator(velocity: Velocity, *, left: bool) -> Rows:
 
 
 def _log_linear(velocity: Velocity, made_from: tuple[Step, ...], c: Chapter) -> Step:
-    draft = c.draft("log_linear", "error equation")
-    draft.depends_on(*made_from)
+    draft = c.draft("log_linear", "error equation", *made_from)
     moved = [Equation(f"𝒜_{x}", matrix(generator(velocity, left=x == "L"))) for x in SIDES]
     moved += [Equation(in_time(f"ξ_{x}"), mul(f"𝒜_{x}", f"ξ_{x}")) for x in SIDES]
     return draft.step(moved, say("log_linear.both"))
@@ -323,8 +317,7 @@ def _log_linear(velocity: Velocity, made_from: tuple[Step, ...], c: Chapter) -> 
 
 def _noise(slope: Velocity, made_from: tuple[Step, ...], c: Chapter) -> Step:
     """W_L and W_R; that which does not depend on the estimate as it is."""
-    draft = c.draft("noise", "error equation")
-    draft.depends_on(*made_from)
+    draft = c.draft("noise", "error equation", *made_from)
     side = slope.invariant
     if side == "right":
         equations = [
@@ -339,8 +332,7 @@ def _noise(slope: Velocity, made_from: tuple[Step, ...], c: Chapter) -> Step:
 
 
 def _observation(errors: Step, c: Chapter) -> Step:
-    draft = c.draft("observation", "error equation")
-    draft.depends_on(errors)
+    draft = c.draft("observation", "error equation", errors)
     equations = [
         Equation("z_L", add(mul(BACK, "A", "o"), neg("o"))),
         Equation("z_L", add(mul("η_L", "o"), neg("o"))),

@@ -49,14 +49,12 @@ def by_momenta(
 ) -> tuple[Step, ...]:
     """ζ by Π where L̃ is quadratic in ζ, and 𝕁 with the rates; nothing on a quotient of the group,
     whose momenta are not all of 𝔤*."""
-    assert problem.lagrangian is not None
-    if problem.lagrangian.held:
+    if problem.own_lagrangian.held:
         return ()
     mass = next(x for x in balance if x.label == c.label("mass"))
     coadjoint = next(x for x in balance if x.label == c.label("coadjoint"))
     moving, variables = _moving(stage, problem, group), _brackets(problem, group, general, basis)
-    draft = c_u.draft("poisson_tensor", "Poisson tensor")
-    draft.depends_on(coadjoint, basis.last, *stage.steps[:2])
+    draft = c_u.draft("poisson_tensor", "Poisson tensor", coadjoint, basis.last, *stage.steps[:2])
     tensor = Equation("𝕁", ("matrix", *(("row", *map(tidied, row)) for row in variables)))
     kind = "group" if problem.advected is None else "reduced" if problem.advected else "dual"
     step = draft.step([tensor, moving], say(f"poisson_tensor.{kind}"))
@@ -69,8 +67,7 @@ def _velocity(stage: Expressed, group: Group, mass: Step, c: Chapter) -> tuple[S
     if {*zeta} & {x for row in stage.second for t in row for x in nodes(t)}:
         return ()
     at_rest = [tidied(_at_rest(p, zeta)) for p in stage.momenta]
-    draft = c.draft("by_momenta", "inversion")
-    draft.depends_on(stage.steps[1], mass)
+    draft = c.draft("by_momenta", "inversion", stage.steps[1], mass)
     moving = _column(add(member("Π", a), neg(b)) for a, b in enumerate(at_rest))
     return (draft.step([Equation("ζ", mul(("inv", "M"), moving))], say("by_momenta.quadratic")),)
 
@@ -113,13 +110,12 @@ def _brackets(
 
 def _moving(stage: Expressed, problem: Problem, group: Group) -> Equation:
     """The rates of Π and Γ, by 𝕁 and the derivatives of h̃; by Φ where g is not in Γ, and u."""
-    assert problem.lagrangian is not None
     span, carried = range(group.dimension), _advected_entries(problem)
     rates: list[Tree] = [
         *(member("Π̇", a) for a in span),
         *(("entry", "Γ̇", *x[2:]) for x in carried),
     ]
-    slopes = [tidied(neg(derivative(problem.lagrangian.L, x))) for x in carried]
+    slopes = [tidied(neg(derivative(problem.own_lagrangian.L, x))) for x in carried]
     pushed: list[Tree] = [0] * len(rates)
     if problem.advected is None:
         pushed = [member("Φ", a) if x else 0 for a, x in enumerate(stage.forces)]
@@ -164,12 +160,10 @@ def reduced(
     problem: Problem, group: Group, general: AnyLagrangian, a: Alphabet, c: Chapter
 ) -> Basis:
     """Z = Σ ζ_a E_a; [E_a, E_b]; and where something is carried along, how it moves."""
-    assert problem.lagrangian is not None
     assert problem.advected is not None
-    draft = c.draft("coordinates", "coordinates")
-    draft.depends_on(general["second_order"])
+    draft = c.draft("coordinates", "coordinates", general["second_order"])
     place = draft.step(stated("Z = Σ_a ζ_a E_a"), say("coordinates.reduced"))
-    side, size = problem.lagrangian.trivialisation, sum(x.size for x in problem.advected)
+    side, size = problem.own_lagrangian.trivialisation, sum(x.size for x in problem.advected)
     told = brackets(group, c, shown=not size and not _chosen(group))
     rows = range(group.n - size, group.n)
     moved = EntriesOfAdvected([block(e, rows) for e in group.basis], sign(a, side))

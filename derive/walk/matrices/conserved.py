@@ -47,8 +47,7 @@ class Given:
     @classmethod
     def of(cls, problem: Problem) -> Given:
         """Of the potentials of a problem on one space."""
-        assert problem.group is not None
-        n = problem.group.n
+        n = problem.own_group.n
         weight = _not_zero([gravity(problem.potentials)])
         places = []
         for p in problem.potentials:
@@ -174,8 +173,7 @@ def conserved_steps(
 ) -> tuple[Step, ...]:
     """The step that says which of the energy, ℓ and p the motions keep; none where they keep
     none."""
-    group = problem.group
-    assert group is not None
+    group = problem.own_group
     draft = c.draft("conserved", "conservation")
     vectors = momenta.vectors
     write = vector_sum if vectors else tree_of

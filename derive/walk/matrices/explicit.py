@@ -361,8 +361,7 @@ def of_lagrangian(
     if group.dimension > LARGEST:
         return ()
     *_, mass, motion = balance
-    draft = c.draft("explicit", RULE)
-    draft.depends_on(momenta, mass, motion)
+    draft = c.draft("explicit", RULE, momenta, mass, motion)
     known = {x: symbols(x, group.dimension) for x in ("ζ", "ζ̇", "u")}
     known |= {"A": element(group), "Z": q.combine([x for (x,) in known["ζ"]], group.basis)}
     if problem.advected is not None:
@@ -379,8 +378,7 @@ def of_lagrangian(
     except UNKNOWN:
         return ()
     stage = Balance(M, tuple(x for (x,) in load), tuple(("entry", "ζ̇", a) for a in span))
-    assert problem.lagrangian is not None
-    side = problem.lagrangian.trivialisation
+    side = problem.own_lagrangian.trivialisation
     return _explicit_step(draft, stage, values, False, group, side=side)
 
 

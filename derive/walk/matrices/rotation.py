@@ -115,8 +115,7 @@ def tensor_steps(
     if diagonal_tensor:  # the products of inertia, which vanish, together
         order.sort(key=lambda x: x[0] != x[1])
     entries = [Equation(("entry", name, i, j), written(found[i - 1][j - 1])) for i, j in order]
-    draft = c.draft("tensor", "coordinates")
-    draft.depends_on(body[-1], inertia)
+    draft = c.draft("tensor", "coordinates", body[-1], inertia)
     step = draft.step(entries, say("tensor.entries"))
     if not diagonal_tensor:
         return (step,)
@@ -152,8 +151,7 @@ def _motion(
         for i, x in enumerate(components(e.rhs, known, moments), 1)
     ]
     driven = c.with_input() if motion.driven else c
-    draft = driven.draft("components", "components")
-    draft.depends_on(*made_from)
+    draft = driven.draft("components", "components", *made_from)
     return (draft.step(equations, say("components.principal")),)
 
 
@@ -257,8 +255,7 @@ def spherical_motion(
     balance = kernel.balance[OMEGA_P] + word(INERTIA) * word(PHI) - torque.forces[MU]
     if external is not None:
         balance = balance - external.moments
-    draft = c.draft("motion", "solution")
-    draft.depends_on(balance)
+    draft = c.draft("motion", "solution", balance)
     right = vector_sum(inertial - balance)
     turned = {b.Z.velocity: hat_map.hatted(ZETA)}
     return draft.step(
@@ -283,8 +280,7 @@ def displacement_motion(
         forces[b.F_body] = forces[b.F_body] + external.resultant
     rotation = from_centre(substitute(reduce(stage.torque, anticommute(b.F_body)), forces), b)
     translation = from_centre(substitute(stage.acceleration, forces), b)
-    draft = c.draft("motion", "solution")
-    draft.depends_on(rotation, translation)
+    draft = c.draft("motion", "solution", rotation, translation)
     return draft.step(
         (
             *rates(draft, b, {b.Z.velocity: hat_map.hatted(ZETA)}),
@@ -315,8 +311,7 @@ def energy_step(stage: Isometry, v: Potentials, hat_map: HatMap, c: Chapter) -> 
 def principal_step(euler: Step, c: Chapter) -> Step:
     """The step ``principal`` (35): the solved equation in axes that diagonalise I, component by
     component."""
-    draft = c.draft("principal", "components")
-    draft.depends_on(euler)
+    draft = c.draft("principal", "components", euler)
     moments: list[Tree] = [("entry", "λ", i) for i in (1, 2, 3)]
     rows = (("row", *(x if i == j else 0 for j in range(3))) for i, x in enumerate(moments))
     found = components(euler.equations[0].rhs, {"I": diagonal(moments)}, moments)
