@@ -15,7 +15,7 @@ from ...language.tree import Tree, add, mul
 from ...record.record import Equation, Step, stated
 from ..chapter import Chapter, Draft, WalkError, say
 from ..matrices.coordinates import factored_tree
-from ..spine.alphabet import cancel_scalar, inverse_letter, inverse_tree
+from ..spine.alphabet import cancel_scalar, inverse_letter, inverse_tree, of_size
 from ..spine.lagrangian import Moments, sum_over
 
 # The letters of the discrete road: g₀, g₁, g₂, their variations, the step h.
@@ -100,9 +100,7 @@ def opened(x: tuple[Letter, ...]) -> dict[Letter, Expr]:
 def rewritten(e: Expr, letters: Iterable[Letter], n: Dim) -> Expr:
     """An expression about any n in ``letters``, which have the same names."""
     mine = {x.name: word(x) for x in letters}
-    images = {x: mine[x.name] for x in e.letters() if x.name in mine}
-    rows, cols = (n if isinstance(x, str) else x for x in (e.rows, e.cols))
-    return substitute(Expr(rows, cols, e.terms, e.lineage), images)
+    return of_size(e, {x: mine[x.name] for x in e.letters() if x.name in mine}, n)
 
 
 HALF = Fraction(1, 2)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ...algebra import forms
 from ...algebra.calculus import derivation, gradient, reduce, substitute, terms_with, without
@@ -14,6 +14,7 @@ from ...record.record import Equation, Step, stated
 from ..chapter import Chapter, say
 from ..given.body_and_potentials import integral
 from ..matrices.coordinates import at_constant_time, factored_tree, solve_for
+from ..spine import cartan
 from ..spine.alphabet import AlgebraPart, Alphabet, SpacePart, members
 from ..spine.cartan import (
     DOMEGA,
@@ -23,9 +24,7 @@ from ..spine.cartan import (
     cartan_form,
     contact_images,
     derivative,
-    fibre_derivative,
     form_equation,
-    legendre,
     primed,
     primes,
     shown_brackets,
@@ -174,30 +173,9 @@ def _force(a: FluidAlphabet, c: Chapter) -> tuple[Expr, Expr, Step]:
 
 def in_space(stage: Points, a: FluidAlphabet, c: Chapter) -> Cartan:
     """ϖ in the variables (t, g, ν): the steps ``momentum``, ``energy`` and ``cartan``."""
-    moving, resting, whole = (
-        c.draft("momentum", "fibre derivative"),
-        c.draft("energy", "Legendre transform"),
-        c.draft("cartan", "Cartan form"),
-    )
-    momentum = fibre_derivative(stage.lagrangian, a)
-    energy = legendre(moving.mark(momentum), stage.lagrangian, a)
-    steps = (
-        moving.step(
-            (Equation(read("p̃(δg)"), moving.tree(momentum)),), say("momentum.linear"), (16,)
-        ),
-        resting.step(
-            (Equation("h̃", read("p̃(ν) − L̃")), Equation("h̃", resting.tree(energy))),
-            say("energy.paired"),
-            (16, 37),
-        ),
-        whole.step(
-            (Equation(read("ϖ(δy)"), add(whole.tree(moving.mark(momentum)), read("−h̃ δt"))),),
-            say("cartan.form"),
-            (37,),
-        ),
-    )
-    momentum, rest = whole.mark(momentum), resting.mark(energy)
-    return Cartan(momentum, rest, cartan_form(momentum, rest, a), stage.work, steps)
+    paper = ((16,), (16, 37), (37,))
+    found = cartan.in_space(stage.lagrangian, stage.work, a, c, PLAIN, paper)
+    return replace(found, momentum=found.momentum.marked(c.label("cartan")))
 
 
 def exterior_in_space(stage: Cartan, a: FluidAlphabet, c: Chapter) -> Exterior:

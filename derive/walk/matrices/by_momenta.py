@@ -13,7 +13,7 @@ from ...language.tree import Tree, add, mul, neg
 from ...record.record import Equation, Step
 from ..chapter import Chapter, Draft, say
 from ..given.inputs import External
-from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
+from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter, inverses
 from ..spine.kernel import MomentumForm
 from .euler import CENTRAL, VectorForm, from_centre, pairs_of, simplified, spun, vector_tree
 from .isomorphism import INERTIA, MU, OMEGA_P, PHI, SPIN, ZETA, anticommute
@@ -161,8 +161,7 @@ def _velocity(
     central, metric, moving = own[b.Pi.momentum], b.J, None
     if centred:
         central, metric, moving = _about_centre(own, b)
-    display: dict[Letter, Tree] = {inverse_letter(x): ("inv", x.name) for x in (b.C, b.m, metric)}
-    notation = WordNotation(display=display)
+    notation = inverses(b.C, b.m, metric)
     rest = without(central, b.Z.velocity)
     if len(group.normal_space_of_linear_parts) <= MULTIPLIERS:
         found = _through_normal_space(draft, rest, metric, group, b, notation)

@@ -26,15 +26,10 @@ from ..spine.alphabet import Alphabet
 def coordinates_step(group: Group, b: Alphabet, c: Chapter, *, with_rates: bool) -> Step:
     """The step Z = Σ ζ_a E_a, also entry by entry; ``with_rates``: and how ζ̇ is read off Ż."""
     span = range(len(group.linear_basis))
-    rows = tuple(
-        ("row", *(add(*_terms(group, i, j)) for j in range(group.n))) for i in range(group.n)
-    )
-    equations = [*stated("Z = Σ_a ζ_a E_a"), Equation("Z", ("matrix", *rows))]
+    equations = basis_equations(group)
     if with_rates:
         equations += [Equation(("entry", "ζ̇", a + 1), _rate(group, a)) for a in span]
-    prose = say("coordinates.basis")
-    if b.affine:
-        prose = say("coordinates.linear_parts")
+    prose = say("coordinates.linear_parts" if b.affine else "coordinates.basis")
     return c.draft("coordinates", "coordinates").step(equations, prose)
 
 

@@ -21,6 +21,7 @@ from ..spine.alphabet import (
     cancel_scalar,
     inverse_letter,
     inverse_tree,
+    inverses,
 )
 from ..spine.cartan import DOMEGA, primed
 from ..spine.kernel import MomentumForm, along_motion, contact
@@ -74,11 +75,6 @@ class Eliminated:
         return self.steps[0]
 
 
-def notation(a: Alphabet) -> WordNotation:
-    """The notation that writes the letter m⁻¹ as an inverse."""
-    return WordNotation(display={inverse_letter(a.m): inverse_tree(a.m)})
-
-
 def eliminate(stage: VectorForm, a: Alphabet, c: Chapter) -> Eliminated:
     """The balance of forces solved for ẇ, and put into the balance of moments."""
     draft, w_dot = c.draft("elimination", "elimination"), a.w.acceleration
@@ -99,12 +95,12 @@ def eliminate(stage: VectorForm, a: Alphabet, c: Chapter) -> Eliminated:
     draft.depends_on(acceleration, central, torque)
     step = draft.step(
         (
-            Equation(CENTRE.name, tree_of(word(inverse_letter(a.m)) * word(a.c), notation(a))),
+            Equation(CENTRE.name, tree_of(word(inverse_letter(a.m)) * word(a.c), inverses(a.m))),
             Equation(CENTRE_VELOCITY.name, vector_tree(velocity, a)),
             Equation(w_dot.name, vector_tree(acceleration, a)),
-            Equation(J_c.name, tree_of(moments_c, notation(a))),
-            Equation(CENTRAL.name, tree_of(tensor, notation(a))),
-            Equation(CENTRAL.name, tree_of(central, notation(a))),
+            Equation(J_c.name, tree_of(moments_c, inverses(a.m))),
+            Equation(CENTRAL.name, tree_of(tensor, inverses(a.m))),
+            Equation(CENTRAL.name, tree_of(central, inverses(a.m))),
             Equation(("mul", CENTRAL.name, "ζ̇"), vector_tree(torque, a)),
         ),
         say_signed("elimination.mass", a.signed) + say("elimination.velocity"),
@@ -127,9 +123,9 @@ def from_centre(e: Expr, a: Alphabet) -> Expr:
 def vector_tree(e: Expr, a: Alphabet) -> Tree:
     """The tree of a sum of vectors, the terms with m⁻¹ together behind one m⁻¹."""
     light, heavy = without(e, inverse_letter(a.m)), coefficient_of(e, inverse_letter(a.m))
-    parts = [vector_sum(light, notation(a))] if light else []
+    parts = [vector_sum(light, inverses(a.m))] if light else []
     if heavy:
-        parts.append(mul(inverse_tree(a.m), vector_sum(heavy, notation(a))))
+        parts.append(mul(inverse_tree(a.m), vector_sum(heavy, inverses(a.m))))
     return add(*parts)
 
 

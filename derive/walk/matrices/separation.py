@@ -7,10 +7,8 @@ from dataclasses import dataclass
 
 from ...algebra.calculus import PairRule, gradient, reduce, substitute, terms_with, without
 from ...algebra.groups import Group
-from ...algebra.word_trees import WordNotation
 from ...algebra.words import Expr, Factor, Letter, inner, one, word, zero
 from ...language.laurent import Laurent
-from ...language.read import read
 from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
@@ -18,7 +16,7 @@ from ...record.sentence import Prose, listed
 from ..chapter import Chapter, phrase, say, say_signed
 from ..given.body_and_potentials import U_Q, Potentials
 from ..given.potential_terms import column
-from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
+from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter, inverses
 from ..spine.principle import AND
 from .coordinates import Balance, depends
 from .specialisation import KernelOnGroup
@@ -27,10 +25,6 @@ from .specialisation import KernelOnGroup
 #
 # With  R = T + A c / m  in place of T the kinetic energy is always a sum of the two; the motion
 # separates where the potential is one as well.
-
-
-def _notation(a: Alphabet) -> WordNotation:
-    return WordNotation(display={inverse_letter(a.m): read("m⁻¹")})
 
 
 def _barycentric(e: Expr, a: Alphabet, mark: str = "") -> Expr:
@@ -54,8 +48,8 @@ def kinetic_separation(kinetic: Expr, a: Alphabet, c: Chapter) -> Step:
     draft = c.draft("separation", "identification")
     equations = (
         *stated("R = T + m⁻¹Ac,  Ṙ = τ + m⁻¹αc"),
-        Equation("J_c", draft.tree(central_moments(a)[1], _notation(a))),
-        Equation("L̃", draft.tree(_barycentric(kinetic, a) - word(a.U), _notation(a))),
+        Equation("J_c", draft.tree(central_moments(a)[1], inverses(a.m))),
+        Equation("L̃", draft.tree(_barycentric(kinetic, a) - word(a.U), inverses(a.m))),
     )
     return draft.step(
         equations,
@@ -79,7 +73,7 @@ def potential_separation(
     prose = _prose(
         problem, decided=inside and not both, rest=rest, pointwise=bool(v.pointwise.energies)
     )
-    return (draft.step((Equation("Ũ", draft.tree(energy, _notation(b))),), prose),)
+    return (draft.step((Equation("Ũ", draft.tree(energy, inverses(b.m))),), prose),)
 
 
 def _prose(problem: Problem, *, decided: bool, rest: bool, pointwise: bool) -> Prose:
@@ -141,8 +135,7 @@ def eliminate_translation(stage: KernelOnGroup, c: Chapter) -> Barycentric:
     b, draft = stage.letters, c.draft("elimination", "elimination")
     xi, eta, w_dot = b.Z.xi_prime, b.w.xi_prime, b.w.acceleration
     cancel = cancelling(b.C)
-    display: dict[Letter, Tree] = {inverse_letter(x): ("inv", x.name) for x in (b.C, b.m)}
-    notation = WordNotation(display=display)
+    notation = inverses(b.C, b.m)
 
     centre, drift = Letter("r_c", b.n), Letter("w_c", b.n)
     velocity = word(b.w.velocity) + word(b.Z.velocity) * word(centre)

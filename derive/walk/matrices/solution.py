@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ...algebra.calculus import gradient, reduce, substitute, terms_with, without
@@ -15,7 +14,7 @@ from ...language.tree import Tree, add, plain
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose
 from ..chapter import Chapter, Draft, say, say_signed
-from ..spine.alphabet import Alphabet, cancelling, inverse_letter
+from ..spine.alphabet import Alphabet, cancelling, inverse_letter, inverses
 from ..spine.cartan import cauchy_green, rates
 from .coordinates import coordinates_step
 from .separation import Barycentric, CentralEquations, seen_from_centres
@@ -45,18 +44,16 @@ def multiplier_steps(
     rule = "multiplier" if direction else "kernel"
     balancing, solving = c.draft("multiplier", rule), c.draft("motion", "solution")
     pressed = word(MULTIPLIER) * direction if direction else force * 0
-    lighter = WordNotation(display={inverse_letter(b.m): read("m⁻¹")})
     balance = Equation(
         balancing.tree(residue),
-        add(balancing.tree(force, lighter), balancing.tree(pressed)),
+        add(balancing.tree(force, inverses(b.m)), balancing.tree(pressed)),
         exists=(MULTIPLIER.name,) if direction else (),
     )
     left, right = word(inverse_letter(b.C)), word(inverse_letter(metric))
     open_balance = balancing.mark(force + pressed - residue)
     free = reduce(left * open_balance * right, cancelling(b.C, metric))
     solved = free + word(b.Z.acceleration)
-    display = {inverse_letter(x): ("inv", x.name) for x in (b.C, metric, b.m)}
-    notation = WordNotation(display=display)
+    notation = inverses(b.C, metric, b.m)
     equations = rates(solving, b)
     if direction:
         numerator, denominator = _multiplier(solved, direction)
@@ -79,12 +76,12 @@ def multiplier_steps(
             equations,
             _invertible(metric.name, b, multiplier=direction is not None),
         ),
-        _in_space(solved, solving.mark(centred.rate) if centred else None, b, display, c),
+        _in_space(solved, solving.mark(centred.rate) if centred else None, b, notation, c),
     )
 
 
 def _in_space(
-    solved: Expr, drift: Expr | None, b: Alphabet, display: Mapping[Letter, Tree], c: Chapter
+    solved: Expr, drift: Expr | None, b: Alphabet, inverse: WordNotation, c: Chapter
 ) -> Step:
     """The step ``space``: α̇ = A(Ż + Z²) and τ̇ = A(ẇ + Zw), with C⁻¹ = A⁻¹Ā⁻¹: the point r has α̇r
     + τ̇."""
@@ -103,7 +100,7 @@ def _in_space(
         inside = substitute(e, {inverse_letter(b.C): (word(left) * word(right)).of(twice)})
         return reduce(word(g) * inside, cancelling(g), rule)
 
-    shown = {**display, left: read("A⁻¹"), right: read("Ā⁻¹")}
+    shown = {**inverse.display, left: read("A⁻¹"), right: read("Ā⁻¹")}
     notation = WordNotation(display=shown)
     total = carried(solved + Z * Z)
     equations = [Equation(b.A.acceleration.name, draft.tree(total, notation))]
@@ -185,11 +182,10 @@ def mass_steps(
     along = {b.Z.xi_prime: word(E_a), b.Z.acceleration: rate}
     mass = gradient(substitute(inertial, along), RATE)
     rest = force - gradient(without(inertial, b.Z.acceleration), b.Z.xi_prime)
-    lighter = WordNotation(display={inverse_letter(b.m): read("m⁻¹")})
     if centred:
         solving.depends_on(*centred.steps)
     translation = (Equation("ẇ", centred.acceleration),) if centred else ()
-    balance = [Equation("B", weighing.tree(rest, lighter))] if balanced else []
+    balance = [Equation("B", weighing.tree(rest, inverses(b.m)))] if balanced else []
     load = inner(word(E_a), word(Letter("B", b.n, b.n)) if balanced else rest)
     found = "ψ" if central else "ζ̇"
     mass_step = weighing.step(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from ...algebra.calculus import PairRule, map_terms, substitute
 from ...algebra.groups import Group
+from ...algebra.word_trees import WordNotation
 from ...algebra.words import Dim, Expr, Factor, Letter, Traces, Word, one, word
 from ...language.tree import Tree
 
@@ -165,8 +167,7 @@ class Alphabet:
         images = {x: word(mine[x.name]) for x in e.letters() if x.name in mine}
         if C is not None:
             images |= {x: C for x in e.letters() if x.name == self.C.name}
-        rows, cols = (self.n if isinstance(x, str) else x for x in (e.rows, e.cols))
-        return substitute(Expr(rows, cols, e.terms, e.lineage), images)
+        return of_size(e, images, self.n)
 
     @property
     def unit(self) -> Expr:
@@ -184,6 +185,12 @@ def of_matrices(group: Group) -> Alphabet:
     return Alphabet(group.n, affine=group.affine)
 
 
+def of_size(e: Expr, images: Mapping[Letter, Expr], n: Dim) -> Expr:
+    """An expression about any n with ``images`` of its letters, those of this ``n``."""
+    rows, cols = (n if isinstance(x, str) else x for x in (e.rows, e.cols))
+    return substitute(Expr(rows, cols, e.terms, e.lineage), images)
+
+
 # Inverse letters: x⁻¹ as a letter with the relation x⁻¹x = xx⁻¹ = 1.
 
 
@@ -195,6 +202,11 @@ def inverse_letter(x: Letter) -> Letter:
 def inverse_tree(x: Letter) -> Tree:
     """The tree of x⁻¹."""
     return ("inv", x.name)
+
+
+def inverses(*letters: Letter) -> WordNotation:
+    """The notation that writes the letters x⁻¹ of these as inverses."""
+    return WordNotation(display={inverse_letter(x): inverse_tree(x) for x in letters})
 
 
 def cancelling(*letters: Letter) -> PairRule:

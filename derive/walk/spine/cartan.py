@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from ...algebra import forms
@@ -64,44 +64,43 @@ def cartan_form(momentum: Expr, energy: Expr, a: Alphabet) -> Expr:
 def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
     """The Cartan form in the variables (t, g, ν), with the steps ``momentum``, ``energy``,
     ``cartan``."""
+    notation = metrics() if a.affine else metrics("J")
+    paper = ((16, 20), (16,), (15,)) if a.affine else ((16,), (16, 23), (15, 23))
+    return in_space(stage.kinetic - word(a.U), stage.work, a, c, notation, paper)
+
+
+def in_space(
+    lagrangian: Expr,
+    work: Expr,
+    a: Alphabet,
+    c: Chapter,
+    notation: WordNotation,
+    paper: Sequence[Sequence[int]],
+) -> Cartan:
+    """The same of L̃, with the numbers that the ``paper`` gives to the three steps; ``work``:
+    −dŨ(δg)."""
     moving, resting, whole = (
         c.draft("momentum", "fibre derivative"),
         c.draft("energy", "Legendre transform"),
         c.draft("cartan", "Cartan form"),
     )
-    lagrangian = stage.kinetic - word(a.U)
     momentum = fibre_derivative(lagrangian, a)
     energy = legendre(moving.mark(momentum), lagrangian, a)
     velocities = ", ".join(p.velocity.name for p in a.parts)
-    notation = metrics() if a.affine else metrics("J")
+    shown = add(whole.tree(moving.mark(momentum), notation), read("−h̃ δt"))
+    rest = (read(f"p̃({velocities}) − L̃"), resting.tree(energy, notation))
     steps = (
         moving.step(
             _momentum_equations(moving, momentum, a, notation),
-            say("momentum.affine") if a.affine else say("momentum.linear"),
-            (16, 20) if a.affine else (16,),
+            say("momentum.affine" if len(a.parts) > 1 else "momentum.linear"),
+            paper[0],
         ),
-        resting.step(
-            (
-                Equation("h̃", read(f"p̃({velocities}) − L̃")),
-                Equation("h̃", resting.tree(energy, notation)),
-            ),
-            say("energy.paired"),
-            (16,) if a.affine else (16, 23),
-        ),
-        whole.step(
-            (
-                Equation(
-                    read("ϖ(δy)"),
-                    add(whole.tree(moving.mark(momentum), notation), read("−h̃ δt")),
-                ),
-            ),
-            say("cartan.form"),
-            (15,) if a.affine else (15, 23),
-        ),
+        resting.step((Equation("h̃", x) for x in rest), say("energy.paired"), paper[1]),
+        whole.step((Equation(read("ϖ(δy)"), shown),), say("cartan.form"), paper[2]),
     )
-    rest = resting.mark(energy)
-    form = cartan_form(whole.mark(momentum), rest, a)
-    return Cartan(moving.mark(momentum), rest, form, stage.work, steps)
+    momentum, energy = moving.mark(momentum), resting.mark(energy)
+    form = cartan_form(whole.mark(momentum), energy, a)
+    return Cartan(momentum, energy, form, work, steps)
 
 
 def _momentum_equations(
@@ -109,7 +108,7 @@ def _momentum_equations(
 ) -> list[Equation]:
     variations = tuple(p.d_position.name for p in a.parts)
     equations = [Equation(("call", "p̃", *variations), d.tree(momentum, notation))]
-    if a.affine:
+    if len(a.parts) > 1:
         # part by part, with the coefficient of each displacement gathered: the form of (20)
         for part in a.parts:
             covector = gradient(momentum, part.d_position)
