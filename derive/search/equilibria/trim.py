@@ -375,8 +375,7 @@ def told(trim: Trim, group: Group, steps: Iterable[Step], c: Chapter) -> Step:
     """The equations of motion once more, and what vanishes in them; ``steps``: of the record."""
     by_label = {s.label: s for s in steps}
     motion = next(s for x in ("explicit", "motion") if (s := by_label.get(c.label(x))))
-    draft = (c.with_input() if motion.driven else c).draft("trim", "trim")
-    draft.depends_on(motion)
+    draft = (c.with_input() if motion.driven else c).draft("trim", "trim", motion)
     if isinstance(trim, EnclosedTrim):
         return draft.step(motion.equations, _says_enclosed(trim, group, draft))
     return draft.step(motion.equations, _says_exact(trim, group, draft))

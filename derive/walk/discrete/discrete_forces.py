@@ -200,10 +200,9 @@ def conserved(
     momenta = kept_momenta(group, forces.potential, forces.letters, vectors=False)
     if not momenta:
         return ()
-    draft = c.draft("conserved", "conservation")
+    draft = c.draft("conserved", "conservation", motion.balance)
     b = Blocks(group.n, group.size)
     a = DiscreteAlphabet(group.size, affine=group.affine)
-    draft.depends_on(motion.balance)
     definitions, laws = [], []
     for x in momenta:
         momentum = _momentum(stage, ends, a, b, turning=x.turning)

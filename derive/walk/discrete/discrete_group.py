@@ -250,8 +250,7 @@ def _rotations(motion: LinearMotion, group: Group, c: Chapter) -> tuple[Step, ..
     force = momentum - before - whole
     if terms_with(force, *W):
         raise WalkError("the discrete motion is no balance of two momenta")
-    naming, telling = c.draft("step", "definition"), c.draft("motion", "kernel")
-    naming.depends_on(momentum)
+    naming, telling = c.draft("step", "definition", momentum), c.draft("motion", "kernel")
     across = (Equation(y.name, ("mul", ("T", x[k].name), x[k + 1].name)) for k, y in enumerate(W))
     momenta = (substitute(momentum, {W[1]: word(y)}) for y in W)
     told = (Equation(y.name, tree_of(e, notation)) for y, e in zip(M, momenta, strict=True))

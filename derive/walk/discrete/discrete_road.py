@@ -235,11 +235,10 @@ def motion(stage: OneForms, a: DiscreteAlphabet, c: Chapter) -> DiscreteMotion:
     balance = gradient(rest, a.d_g[1])
     core = substitute(terms_with(balance, a.g[2]), {a.g[2]: word(bend(a.g))})
     core = core + terms_with(balance, a.N[1])
-    moving = c.draft("motion", "kernel")
+    moving = c.draft("motion", "kernel", rest)
     tested = inner(core, word(a.d_g[1]))
     if substitute(tested, opened(a.g)) != rest:
         raise WalkError("the discrete motion is not told by g_2 − 2g_1 + g_0")
-    moving.depends_on(rest)
     space = moving.step(
         (Equation(tree_of(tested, a.notation), 0, ("δg_1",)),), say("motion.discrete")
     )

@@ -188,7 +188,7 @@ class _Fluid(FluidBody):
     def _moments(self, shape: Tree) -> Step:
         """Q J by the divergence theorem: the derivatives of r(1 − ⟨r, Q r⟩), which vanishes at the
         boundary, have the integral 0."""
-        b, draft = self.b, self.c.draft("quadric", "relation")
+        b, draft = self.b, self.c.draft("quadric", "relation", self.found.motion)
         h, Y = Letter("h", b.n), Letter("Y", b.n, b.n)
         field = word(self.r) * self._inside()
         derivatives = coefficient_of(derivation(field, {self.r: word(h)}.get), h)
@@ -199,7 +199,6 @@ class _Fluid(FluidBody):
         share = rest.terms[next(iter(trace(QJ).terms))]  # −(n + 2)
         both = HALF * (total + 2 * QJ)  # ½(m − Tr QJ)1
         self.QJ = substitute_trace(both, trace(QJ), masses * (-1 / share))
-        draft.depends_on(self.found.motion)
         return draft.step(
             (
                 Equation("Q_r", shape),
@@ -217,13 +216,12 @@ class _Fluid(FluidBody):
 
     def _pressure(self, density: Tree, quadric: Step) -> Step:
         """p with its gradient, which balances the part of the acceleration that θ gives."""
-        b, draft = self.b, self.draft("pressure", "solution")
+        b, draft = self.b, self.draft("pressure", "solution", quadric)
         h = Letter("h", b.n)
         pressure = word(self.p_0) * self._inside()
         slope = gradient(derivation(pressure, {self.r: word(h)}.get), h)  # ∂p/∂r
         share = next(iter(self.QJ.terms.values()))
         inverse = Fraction(1) / share * word(inverse_letter(b.m)) * word(self.Q)  # J⁻¹, by QJ
-        draft.depends_on(quadric)
         shown = WordNotation(display={self.rho: density})
         middle = quotient(product(Fraction(self.n + 2, 2), density, "θ"), "m")
         return draft.step(
@@ -423,8 +421,7 @@ class LayeredFluid:
 
     def _total(self, quadric: Step, pressure: Step) -> Step:
         """θ = ∫ p dx, where dx = dm/ρ."""
-        f, draft = self.fluid, self.fluid.draft("total", "solution")
-        draft.depends_on(quadric, pressure)
+        f, draft = self.fluid, self.fluid.draft("total", "solution", quadric, pressure)
         whole = cancel_scalar(self._over_volume(self.pressure), self.kappa)
         integral: Tree = ("call", "∫", ("div", "p_r", "ρ_r"))
         return draft.step(

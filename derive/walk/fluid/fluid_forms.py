@@ -286,11 +286,10 @@ def exterior_by_fields(natural: Exterior, stage: Cartan, a: FluidAlphabet, c: Ch
     """dϖ by u and η, with what crosses the variations: the steps ``structure`` and
     ``exterior_trivialised``."""
     crossing, draft = (
-        c.draft("structure", "structure equation"),
+        c.draft("structure", "structure equation", word(a.A.position).marked(c.label("chain"))),
         c.draft("exterior_trivialised", "exterior derivative"),
     )
     (crossed,) = shown_brackets(a)
-    crossing.depends_on(word(a.A.position).marked(c.label("chain")))
     first = crossing.step((Equation(read("δ(η′) − δ′(η)"), crossed),), say("structure.fields"))
     varied = forms.exterior(stage.form, primes(a), *trivial_variations(a, stage.work))
     form = reduce(varied, body_rule(a, a.volume))

@@ -60,7 +60,6 @@ def kernel(stage: Exterior, principle: Principle, a: FluidAlphabet, c: Chapter) 
         with_derivatives({w.xi: word(w.velocity)}),
         {w.d_velocity: w.acceleration},
         (w.dp_velocity,),
-        (a.dt, a.dpt),
         trees(a),
         resting={w.dp_velocity: w.xi_prime},
     )

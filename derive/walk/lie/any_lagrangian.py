@@ -122,7 +122,6 @@ def _kernel(form: Expr, a: Alphabet, c: Chapter) -> tuple[Step, ...]:
         {a.Z.xi: word(a.Z.velocity)},
         {a.Pi.d_momentum: a.Pi.rate},
         (a.Pi.dp_momentum,),
-        (a.dt, a.dpt),
         notation,
     )
     putting, testing, finding = (

@@ -285,7 +285,7 @@ def of_points(
     acts and Ũ leaves the time alone; ``kept``: what is without forces.  Where mass flows the
     energy changes with the moments, too: ``trivial`` has h̃, ``body`` and ``moments`` say m, c, J, C
     what ĀA is."""
-    draft = c.draft("power", "power")
+    draft = c.draft("power", "power", motion, *(kept or found.steps))
     terms: list[Tree] = []
     apart: dict[str, Tree] = {}
     if external:
@@ -306,7 +306,6 @@ def of_points(
         timed.append(rate(tree_of(kinetic), known))
     if not terms and not timed:
         return ()
-    draft.depends_on(motion, *(kept or found.steps))
     prose = say("power.acting" if external else "power.none")
     prose += say("power.apart") if apart else ()
     prose += say("power.timed", rate=b.dU_dt.name) if own else ()

@@ -172,8 +172,7 @@ def reduced(
     zeta = coordinates(group)
     by_velocity = combined(moved.matrices, zeta, size)
     rates = Equation("Γ̇", _column(_rate_of_entry(moved, zeta, i) for i in range(1, size + 1)))
-    draft, names = c.draft("advected", "variation"), _names(problem.advected)
-    draft.depends_on(place)
+    draft, names = c.draft("advected", "variation", place), _names(problem.advected)
     advected = draft.step(
         [
             Equation("δΓ", mul(moved.sign, ("call", "ρ", "ξ"), "Γ")),

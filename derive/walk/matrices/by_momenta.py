@@ -41,7 +41,7 @@ def of_rotations(
     tensor = coefficient_of(reduce(kernel.momenta[SPIN], anticommute(ZETA)), ZETA)
     velocity = Equation(ZETA.name, mul(("inv", draft.tree(tensor)), SPIN.name))
     # Iφ is the torque, and what acts from outside adds to it
-    acting = torque.forces[MU] + (external.moments if external else word(MU) * 0)
+    acting = torque.with_external(external, b)[MU]
     balance = kernel.coadjoint[OMEGA_P] + word(INERTIA) * word(PHI) - acting
     turned = _vector_rates({OMEGA_P: balance}, b, c_u)
     return draft.step([velocity], say("by_momenta.metric")), turned
@@ -73,10 +73,7 @@ def of_displacements(
         ),
         say("by_momenta.metric"),
     )
-    forces = dict(torque.forces)
-    if external is not None:
-        forces[MU] = forces[MU] + external.moments
-        forces[b.F_body] = forces[b.F_body] + external.resultant
+    forces = torque.with_external(external, b)
     balance = {x: substitute(e, forces) for x, e in kernel.coadjoint.items()}
     return step, _vector_rates(balance, b, c_u)
 

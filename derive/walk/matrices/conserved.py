@@ -174,7 +174,7 @@ def conserved_steps(
     """The step that says which of the energy, ℓ and p the motions keep; none where they keep
     none."""
     group = problem.own_group
-    draft = c.draft("conserved", "conservation")
+    draft = c.draft("conserved", "conservation", motion)
     vectors = momenta.vectors
     write = vector_sum if vectors else tree_of
     kept = [Equation("ḣ", 0)] if not problem.timed else []
@@ -192,7 +192,6 @@ def conserved_steps(
     without = "conserved.kept_without" if problem.forces else "conserved.kept"
     prose = say(without, kept=enumerated(laws))
     prose += _tried(group, v) + say("conserved.noether")
-    draft.depends_on(motion)
     return (draft.step([*definitions, *kept], prose),)
 
 

@@ -237,7 +237,6 @@ def _by_momenta(
         _velocity(pairs),
         {d.d_momentum: d.rate for d, _ in pairs} | {hat(D_SPIN): hat(SPIN_RATE)},
         tuple(x for d, _ in pairs for x in (d.dp_momentum, hat(d.dp_momentum))),
-        (b.dt, b.dpt),
         _notation(hat_map),
         **_brackets(pairs, hat_map),
     )
@@ -253,7 +252,6 @@ def _by_value(stage: Isometry, hat_map: HatMap) -> Contraction:
         _velocity(pairs),
         {f.d_velocity: f.acceleration for _, f in pairs} | {hat(D_ZETA): hat(ZETA_DOT)},
         tuple(x for _, f in pairs for x in (f.dp_velocity, hat(f.dp_velocity))),
-        (b.dt, b.dpt),
         _notation(hat_map),
         resting={f.dp_velocity: f.xi_prime for _, f in pairs},
         **_brackets(pairs, hat_map),

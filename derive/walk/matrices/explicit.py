@@ -257,12 +257,11 @@ def of_matrices(
     if not own.wanted:
         return ()
     group = own.group
-    b, draft = driven.letters, c.draft("explicit", RULE)
+    b, draft = driven.letters, c.draft("explicit", RULE, own.body[-1], motion)
     primed = [f.xi_prime for f in b.algebra_parts]
     left = [draft.tree(gradient(driven.inertial, x)) for x in primed]
     right = [draft.tree(driven.forces[x]) for x in primed]
     pulled = [draft.tree(special.forces[x]) for x in primed]
-    draft.depends_on(own.body[-1], motion)
     span, n = range(1, len(group.linear_basis) + 1), group.n
     rates: list[Tree] = [("entry", "ζ̇", a) for a in span]
     known = _place(group) | {
@@ -314,8 +313,7 @@ def of_vectors(
     """From the equations of motion in vectors; none where they stand in components already."""
     if not own.wanted:
         return ()
-    group, draft = own.group, c.draft("explicit", RULE)
-    draft.depends_on(own.body[-1], inertia, motion, *tensor[:1])
+    group, draft = own.group, c.draft("explicit", RULE, own.body[-1], inertia, motion, *tensor[:1])
     vectors = ("ζ", "ζ̇", "u", *(("w", "ẇ", "f_u") if group.affine else ()))
     known = _place(group) | {x: symbols(x, 3) for x in vectors}
     values = PutIn(known | {"Z": hat(known["ζ"])}, 3)

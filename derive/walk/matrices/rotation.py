@@ -211,6 +211,15 @@ class Torque:
     forces: dict[Letter, Expr]
     steps: tuple[Step, ...]
 
+    def with_external(self, external: External | None, b: Alphabet) -> dict[Letter, Expr]:
+        """The forces, with those from outside dϖ."""
+        forces = dict(self.forces)
+        if external is not None:
+            forces[MU] = forces[MU] + external.moments
+        if external is not None and b.affine:
+            forces[b.F_body] = forces[b.F_body] + external.resultant
+        return forces
+
 
 def _forces(v: Potentials, b: Alphabet, C: Expr) -> dict[Letter, Expr]:
     """μ, the moment in the body of the forces of the potentials, and F_b, their resultant."""
@@ -252,9 +261,8 @@ def spherical_motion(
     """The step ``motion`` of SO(3): ζ̇ = I⁻¹(Iζ ∧ ζ + μ + u)."""
     inertial = word(INERTIA) * word(ZETA_DOT)
     # Iφ is the torque, and what acts from outside adds to it
-    balance = kernel.balance[OMEGA_P] + word(INERTIA) * word(PHI) - torque.forces[MU]
-    if external is not None:
-        balance = balance - external.moments
+    acting = torque.with_external(external, b)[MU]
+    balance = kernel.balance[OMEGA_P] + word(INERTIA) * word(PHI) - acting
     draft = c.draft("motion", "solution", balance)
     right = vector_sum(inertial - balance)
     turned = {b.Z.velocity: hat_map.hatted(ZETA)}
@@ -274,10 +282,7 @@ def displacement_motion(
 ) -> Step:
     """The step ``motion`` of SE(3): ζ̇ and ẇ, with the forces of this problem and those from
     outside put in."""
-    forces = dict(torque.forces)
-    if external is not None:
-        forces[MU] = forces[MU] + external.moments
-        forces[b.F_body] = forces[b.F_body] + external.resultant
+    forces = torque.with_external(external, b)
     rotation = from_centre(substitute(reduce(stage.torque, anticommute(b.F_body)), forces), b)
     translation = from_centre(substitute(stage.acceleration, forces), b)
     draft = c.draft("motion", "solution", rotation, translation)

@@ -413,8 +413,6 @@ def _exterior(
             {f.xi: word(f.velocity).marked(found) for f in a.algebra_parts},
             {f.d_velocity: f.acceleration for f in a.algebra_parts},
             tuple(f.dp_velocity for f in a.algebra_parts),
-            (a.dt, a.dpt),
-            WordNotation(),
         ),
         step,
     )

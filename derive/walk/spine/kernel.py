@@ -82,7 +82,6 @@ def kernel(stage: Exterior, principle: Principle, a: Alphabet, chapter: Chapter)
                 velocity,
                 {p.d_velocity: p.acceleration for p in a.parts},
                 tuple(p.dp_velocity for p in a.parts),
-                (a.dt, a.dpt),
                 notation,
                 resting={p.dp_velocity: p.dp_position for p in a.parts},
                 space="T_g G",
@@ -135,8 +134,6 @@ def kernel_trivialised(
         velocity_of_motion(natural, a),
         {f.d_velocity: f.acceleration for f in a.algebra_parts},
         tuple(f.dp_velocity for f in a.algebra_parts),
-        (a.dt, a.dpt),
-        WordNotation(),
     )
     first = draft.step(
         (

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from ...algebra import forms
 from ...algebra.calculus import derivation, substitute, terms_with, without
-from ...algebra.word_trees import WordNotation, hat, tree_of
+from ...algebra.word_trees import PLAIN, WordNotation, hat, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.read import read
 from ...language.tree import Tree, add
@@ -32,6 +32,7 @@ REGULAR = phrase("second_order.displacement_signed")
 CONTRACTED = Equation("δt", 1)
 """δt(X) = 1: the components of X are written as those of δ."""
 AND = "{first} and {second}"
+DT, DPT = Letter("δt"), Letter("δ′t")
 
 
 class NoKernelError(ValueError):
@@ -44,7 +45,7 @@ class Contraction:
     to be written with ``images``.
 
     ``velocity``: δx ↦ its value on the kernel, for δt = 1; ``acceleration``: δv ↦ v̇; ``vertical``:
-    the letters δ′v; ``times``: δt and δ′t; ``display``: how letters read once X has its velocity;
+    the letters δ′v; ``display``: how letters read once X has its velocity;
     ``opening``: what is worked out then. ``resting``: δ′v ↦ δ′x, tangent vectors of ``space``.
     """
 
@@ -54,8 +55,7 @@ class Contraction:
     velocity: Mapping[Letter, Expr]
     acceleration: Mapping[Letter, Letter]
     vertical: tuple[Letter, ...]
-    times: tuple[Letter, Letter]
-    notation: WordNotation
+    notation: WordNotation = PLAIN
     display: Mapping[Letter, Tree] = field(default_factory=dict)
     opening: Callable[[Expr], Expr] = lambda e: e
     resting: Mapping[Letter, Letter] = field(default_factory=dict)
@@ -63,7 +63,7 @@ class Contraction:
 
     @property
     def _now(self) -> dict[Letter, Expr]:
-        return {self.times[0]: number(1)}
+        return {DT: number(1)}
 
     @cached_property
     def _shifts(self) -> dict[Letter, Expr]:
@@ -89,7 +89,7 @@ class Contraction:
 
         ``NoKernelError`` if it does not vanish for the velocity of the motion.
         """
-        vertical = terms_with(without(self.form, self.times[1]), *self.vertical)
+        vertical = terms_with(without(self.form, DPT), *self.vertical)
         vertical = substitute(vertical, self._now)
         if substitute(vertical, self.velocity):
             raise NoKernelError("the kernel of dϖ has not the velocity of the motion")
@@ -99,7 +99,7 @@ class Contraction:
 
     def at_rest(self) -> tuple[Equation, ...]:
         """The equations δ′t = 0 and δ′x = 0 of a variation of the velocity alone."""
-        return tuple(Equation(x.name, 0) for x in (self.times[1], *self.resting.values()))
+        return tuple(Equation(x.name, 0) for x in (DPT, *self.resting.values()))
 
     def rates(self) -> tuple[str, ...]:
         """The names of the accelerations."""
@@ -108,7 +108,7 @@ class Contraction:
     def metric(self) -> Hypothesis:
         """The hypothesis that the metric of the kinetic energy, read off the vertical part of dϖ,
         is not degenerate."""
-        vertical = terms_with(without(self.form, *self.times), *self.vertical)
+        vertical = terms_with(without(self.form, DT, DPT), *self.vertical)
         hats = {hat(x): word(hat(y)) for x, y in self.resting.items() if y.cols == 1}
         images = {x: word(y) for x, y in self.resting.items()} | hats
         return vertical_metric(vertical, images, self.notation, self.space)
