@@ -155,6 +155,15 @@ def acting_names(inputs: Mapping[str, str], forces: Iterable[str], *, damped: bo
     return [*dict.fromkeys(names + [UNNAMED_DAMPING] * damped)]
 
 
+def acting_in(problem: Mapping[str, Any]) -> list[str]:
+    """The same of a problem that is told as in a record."""
+    told = (*problem.get("forces", ()), *problem.get("flows", ()))
+    forces = [str(x.get("name", "")) for x in told]
+    forces += [""] * bool(problem.get("flows"))  # what flows inside
+    inputs = {x["name"]: x["kind"] for x in problem.get("inputs", ())}
+    return acting_names(inputs, forces, damped=bool(problem.get("damping")))
+
+
 def numbers_of_output(told: Mapping[str, Any], dimension: int) -> list[str]:
     """The names of the numbers of an output, which is ``told`` as in a record, in a space of so
     many dimensions: of a vector, of a number, or of expressions."""

@@ -12,8 +12,8 @@ from typing import Any, TypeVar
 
 from ..language.laurent import LEVEL, degree_in_level
 from ..language.limits import BASIS, CARRIED, LAYERS, TORUS
-from ..language.reserved import acting_names, taken
-from ..language.tree import Tree, nodes, replaced
+from ..language.reserved import acting_in, taken
+from ..language.tree import Tree, nodes, operands, replaced
 from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
 from ..schema.force_kinds import INPUTS, Acting, Damping, Flow, StatedCovector, StatedForce
 from ..schema.kind import GROUP, Advected, Fluid, Kinematics, Lagrangian, Torus
@@ -344,10 +344,8 @@ class _RecordReader(TableReader):
             if coordinates:
                 return self.is_entry(t, coordinates)
             return placed and len(t) == 3 and self.is_place(t[1])
-        kept = {"add": t[1:], "mul": t[1:], "div": t[1:], "pow": t[1:2], "fun": t[2:]}
-        return t[0] in kept and all(
-            self.is_scalar(x, placed, timed, coordinates) for x in kept[t[0]]
-        )
+        parts = (self.is_scalar(x, placed, timed, coordinates) for x in operands(t))
+        return t[0] in ("add", "mul", "div", "pow", "fun") and all(parts)
 
     def is_input(self, name: str) -> bool:
         """Is it that of an input, or of one of its numbers?"""
@@ -355,10 +353,10 @@ class _RecordReader(TableReader):
 
     def is_entry(self, t: tuple[Any, ...], coordinates: int) -> bool:
         """Is a tree an entry of g, or of Γ where the state has no g, or of ζ?"""
-        n = self.data["n"]
+        n, carried = self.data["n"], self.data.get("advected")
         sizes: dict[str, tuple[int, ...]] = {"A": (n, n), "ζ": (coordinates,)}
-        if "advected" in self.data:
-            sizes = {"Γ": (sum(x["size"] for x in self.data["advected"]),), "ζ": (coordinates,)}
+        if carried is not None:
+            sizes = {"Γ": (sum(x["size"] for x in carried),), "ζ": (coordinates,)}
         most = sizes.get(t[1] if isinstance(t[1], str) else "", ())
         return len(t) - 2 == len(most) > 0 and all(
             type(i) is int and 1 <= i <= k for i, k in zip(t[2:], most, strict=True)
@@ -403,12 +401,7 @@ class _RecordReader(TableReader):
 
     def acting_names(self) -> list[str]:
         """Those of the problem's inputs, forces and damping."""
-        data = self.data
-        inputs = {x["name"]: x["kind"] for x in data["inputs"]}
-        told = (*data.get("forces", ()), *data.get("flows", ()))
-        forces = [x.get("name", "") for x in told]
-        forces += [""] * bool(data.get("flows"))  # what flows inside
-        return acting_names(inputs, forces, damped=bool(data["damping"]))
+        return acting_in(self.data)
 
     def dimension(self, _: Slot) -> None:
         """The sizes of blocks are not known here."""

@@ -9,7 +9,7 @@ from functools import cache
 import pytest
 
 from derive import pipeline
-from derive.algebra import calculus, forms
+from derive.algebra import calculus
 from derive.algebra.words import word
 from derive.check.checker import Checker, check, checker_of
 from derive.command.showing import load_problem
@@ -77,9 +77,9 @@ BRACKETS = {
 @pytest.mark.no_cover
 @pytest.mark.parametrize("name", BRACKETS)
 def test_the_bracket_comes_from_the_structure_equation(name, monkeypatch):
-    right = forms.structure_equation
+    right = calculus.structure_equation
     with monkeypatch.context() as patched:
-        patched.setattr(forms, "structure_equation", lambda *a: -right(*a))
+        patched.setattr(calculus, "structure_equation", lambda *a: -right(*a))
         wrong = walk(load_problem(name))
     assert refused(wrong, BRACKETS[name]) == BRACKETS[name]
 

@@ -43,11 +43,11 @@ def test_the_oracle_agrees_with_what_is_not_changed(job):
 
 
 RULES = [  # module, change, which of FIRST is tried
-    ("algebra/forms.py", "sign: delta_prime - delta  →  delta_prime + delta", 2),
+    ("algebra/calculus.py", "sign: delta_prime - delta  →  delta_prime + delta", 2),
     ("algebra/words.py", "condition: not bar  →  bar", 2),
     ("algebra/calculus.py", "term: total + term  →  total", 2),
     ("walk/spine/cartan.py", "transpose: covector.bar  →  covector", 1),
-    ("walk/matrices/solution.py", "factor: ('inv', x.name)  →  x.name", 2),
+    ("walk/spine/alphabet.py", "factor: ('inv', x.name)  →  x.name", 2),
     ("code/lower.py", "comparison: i == j  →  i != j", 3),
 ]
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import sympy
 
-from derive.algebra import forms
+from derive.algebra import calculus
 from derive.algebra.calculus import reduce
 from derive.algebra.words import word
 from derive.check.checker import checker_of
@@ -276,8 +276,8 @@ def test_where_the_density_is_the_same_the_pressure_alone_sees_a_force():
 
 @pytest.mark.parametrize("name", [*FLUIDS, "well"])
 def test_a_wrong_structure_equation_leads_nowhere(name, monkeypatch):
-    right = forms.structure_equation
-    monkeypatch.setattr(forms, "structure_equation", lambda *a: -right(*a))
+    right = calculus.structure_equation
+    monkeypatch.setattr(calculus, "structure_equation", lambda *a: -right(*a))
     with pytest.raises(WalkError, match="divergence of the acceleration"):
         walk(problem_of(WELL) if name == "well" else load_problem(name))
 

@@ -19,7 +19,7 @@ from ...language.rational import Matrix
 from ...language.reserved import (
     UNNAMED_DAMPING,
     UNNAMED_FORCE,
-    acting_names,
+    acting_in,
     numbers_of_input,
     suffixed,
 )
@@ -149,13 +149,7 @@ class GivenForces(PhasePoint):
 
     def power(self) -> Any:
         """That of all that acts."""
-        told = (*self.problem.get("forces", ()), *self.problem.get("flows", ()))
-        forces = [str(x.get("name", "")) for x in told]
-        forces += [""] * bool(self.problem.get("flows"))  # what flows inside
-        inputs = {x["name"]: x["kind"] for x in self.problem.get("inputs", ())}
-        damped = bool(self.problem.get("damping"))
-        found = map(self.power_of, acting_names(inputs, forces, damped=damped))
-        return sum(found, Fraction(0))
+        return sum(map(self.power_of, acting_in(self.problem)), Fraction(0))
 
     def power_of(self, name: str) -> Any:
         """The power of what acts by a name: of forces by the velocities of their points in space,

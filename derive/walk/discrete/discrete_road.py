@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ...algebra import forms
+from ...algebra import calculus
 from ...algebra.calculus import derivation, gradient, substitute, terms_with
 from ...algebra.word_trees import WordNotation, metrics, tree_of
 from ...algebra.words import Dim, Expr, Letter, inner, word
@@ -216,7 +216,7 @@ def exterior(stage: OneForms, a: DiscreteAlphabet, c: Chapter) -> Step:
         prime |= {a.d_g[k]: a.dp_g[k], a.d_U[k]: a.dp_U[k]}
         d |= {a.dp_g[k]: word(a.second[k]), a.dp_U[k]: word(a.second_U[k])}
         dp |= {a.d_g[k]: word(a.second[k]), a.d_U[k]: word(a.second_U[k])}
-    plus, minus = (forms.exterior(x, prime, d.get, dp.get) for x in (stage.plus, stage.minus))
+    plus, minus = (calculus.exterior(x, prime, d.get, dp.get) for x in (stage.plus, stage.minus))
     if plus != minus:
         raise WalkError("dΘ⁺ and dΘ⁻ differ")
     draft = c.draft("exterior", "exterior derivative")

@@ -9,11 +9,11 @@ from ...algebra.calculus import (
     coefficient_of,
     derivation,
     reduce,
+    strip_left,
     substitute,
     terms_with,
     without,
 )
-from ...algebra.forms import strip_left
 from ...algebra.word_trees import WordNotation, along, with_derivatives
 from ...algebra.words import Expr, Factor, Letter, col_dim, inner, row_dim, word, zero
 from ...language.read import read

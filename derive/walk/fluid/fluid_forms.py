@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from ...algebra import forms
+from ...algebra import calculus
 from ...algebra.calculus import derivation, gradient, reduce, substitute, terms_with, without
 from ...algebra.word_trees import PLAIN, WordNotation, along, metrics, tree_of
 from ...algebra.words import Expr, Letter, inner, number, one, word, zero
@@ -291,7 +291,7 @@ def exterior_by_fields(natural: Exterior, stage: Cartan, a: FluidAlphabet, c: Ch
     )
     (crossed,) = shown_brackets(a)
     first = crossing.step((Equation(read("δ(η′) − δ′(η)"), crossed),), say("structure.fields"))
-    varied = forms.exterior(stage.form, primes(a), *trivial_variations(a, stage.work))
+    varied = calculus.exterior(stage.form, primes(a), *trivial_variations(a, stage.work))
     form = reduce(varied, body_rule(a, a.volume))
     draft.depends_on(word(a.A.position).marked(c.label("skew")))
     images = trivialised_images(natural, a)

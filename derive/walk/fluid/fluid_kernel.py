@@ -10,11 +10,11 @@ from ...algebra.calculus import (
     derivation,
     gradient,
     reduce,
+    strip_left,
     substitute,
     terms_with,
     without,
 )
-from ...algebra.forms import strip_left
 from ...algebra.word_trees import PLAIN, WordNotation, with_derivatives
 from ...algebra.words import Expr, Factor, Letter, inner, one, trace, word, zero
 from ...language.read import read

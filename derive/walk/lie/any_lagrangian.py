@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ...algebra import forms
-from ...algebra.calculus import derivation, reduce, substitute, substitute_trace
-from ...algebra.forms import Trivialisation
+from ...algebra import calculus
+from ...algebra.calculus import Trivialisation, derivation, reduce, substitute, substitute_trace
 from ...algebra.word_trees import WordNotation, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.read import read
@@ -27,7 +26,7 @@ from ..spine.principle import CONTRACTED, CONTRACTION, Contraction
 # The sign ε is that of the bracket in the structure equation, which follows from δg = gξ, or ξg.
 # Makes the steps of the chapters ``left`` and ``right``.
 
-SIDES: dict[str, Trivialisation] = {"left": forms.left, "right": forms.right}
+SIDES: dict[str, Trivialisation] = {"left": calculus.left, "right": calculus.right}
 REGULAR = Hypothesis("nondegenerate", read("M̃(ξ, ξ′)"), "𝔤")
 
 
@@ -48,7 +47,7 @@ class AnyLagrangian:
 def structure(a: Alphabet, moved: Trivialisation) -> Expr:
     """δξ′ − δ′ξ, from δ(δ′g) = δ′(δg)."""
     xi, xi_prime = a.Z.xi, a.Z.xi_prime
-    return forms.structure_equation(a.A.position, xi, xi_prime, xi, xi_prime, moved)
+    return calculus.structure_equation(a.A.position, xi, xi_prime, xi, xi_prime, moved)
 
 
 def by_bracket(e: Expr, a: Alphabet) -> Expr:
@@ -180,7 +179,7 @@ def moment_map(balance: Expr, a: Alphabet, moved: Trivialisation, c: Chapter) ->
     draft = c.draft("moment_map", "conservation")
     A, any_of = word(a.A.position), (a.Z.xi_prime.name,)
     back, along = word(inverse_letter(a.A.position)), moved(A, word(a.Z.velocity))
-    on_left, xi_prime = moved is forms.left, word(a.Z.xi_prime)
+    on_left, xi_prime = moved is calculus.left, word(a.Z.xi_prime)
     transported = back * xi_prime * A if on_left else A * xi_prime * back
     images = {
         **{a.A.position: along, inverse_letter(a.A.position): -(back * along * back)},
@@ -265,7 +264,7 @@ def transported(a: Alphabet, moved: Trivialisation) -> Expr:
     xi, inverse, eta = word(a.Z.xi), word(back), word(constant)
     whole, undone = (
         (inverse * eta * g, xi * inverse)
-        if moved is forms.left
+        if moved is calculus.left
         else (g * eta * inverse, inverse * xi)
     )
     varied = derivation(whole, {a.A.position: moved(g, xi), back: -undone}.get)

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ...algebra.calculus import derivation
-from ...algebra.forms import left, strip_left
+from ...algebra.calculus import derivation, left, strip_left
 from ...algebra.groups import Group
 from ...algebra.structure import brackets_of, faithful
 from ...algebra.user_groups import block

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from itertools import combinations
 from typing import Any
 
 from ...algebra.calculus import substitute
-from ...algebra.groups import Group
+from ...algebra.groups import Group, affine_entries
 from ...algebra.word_trees import WordNotation, tree_of
 from ...algebra.words import Expr, Letter, Traces, Word, number
 from ...language import rational as q
-from ...language.laurent import Laurent, grouped, written
+from ...language.laurent import Laurent, grouped, polynomial, written
 from ...language.rational import Matrix
 from ...language.tree import Tree, add, mul, nodes, operands, terms
+from ...problem.entries_on_orbit import element as entries_of
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose
 from ..chapter import Chapter, Draft, say
@@ -79,6 +81,22 @@ def user_basis_step(group: Group, b: Alphabet, c: Chapter) -> tuple[Step, ...]:
             say("coordinates.stated"),
         ),
     )
+
+
+def element(group: Group) -> Matrix:
+    """The matrix of g, s × s, by the entries that tell the others, as Laurent polynomials: those of
+    A, and of T in the last column of an affine group."""
+    if not group.has_inner_samples:  # what tells the others could be tried on no exact element
+        return tuple(tuple(map(polynomial, row)) for row in entries_of(group))
+
+    def name(i: int, j: int) -> Laurent:
+        shift = group.affine and j == group.n
+        return Laurent.symbol(("entry", "T", i + 1) if shift else ("entry", "A", i + 1, j + 1))
+
+    def entry(number: Fraction, weights: Mapping[tuple[int, int], Fraction]) -> Laurent:
+        return sum((x * name(*place) for place, x in weights.items()), Laurent.of(number))
+
+    return tuple(tuple(entry(*x) for x in row) for row in affine_entries(group))
 
 
 # What is particular in the products and brackets of a Lie algebra, read off its basis.

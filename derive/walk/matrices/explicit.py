@@ -13,13 +13,12 @@ from math import prod
 from typing import Any
 
 from ...algebra.calculus import gradient
-from ...algebra.groups import Group, affine_entries
+from ...algebra.groups import Group
 from ...language import rational as q
-from ...language.laurent import Laurent, OverlongError, polynomial, written
+from ...language.laurent import Laurent, OverlongError, written
 from ...language.read import read
 from ...language.tree import Tree, mul, nodes, operands, replaced
 from ...language.values import LARGEST_POWER, OPERATIONS, Value, hat
-from ...problem.entries_on_orbit import element as entries_of
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ...record.sentence import Prose
@@ -27,8 +26,8 @@ from ...schema.body_kinds import MomentBody
 from ..chapter import Chapter, Draft, say
 from ..given.body_and_potentials import Potentials
 from ..given.inputs import External
-from .coordinates import Balance, short_rates, solved
-from .rotation import AXES, Torque, diagonal, is_diagonal, principal, symbols
+from .coordinates import Balance, element, short_rates, solved
+from .rotation import AXES, Torque, diagonal, is_diagonal, principal, square, symbols
 from .separation import constant, linear
 from .specialisation import KernelOnGroup
 
@@ -46,22 +45,6 @@ KEPT = ("σ", "P", "Q", "r_c")
 SHORT = 3
 UNKNOWN = (ArithmeticError, IndexError, KeyError, OverlongError, TypeError, ValueError)
 """What evaluation raises where a name has no value here, or no short one."""
-
-
-def element(group: Group) -> Value:
-    """The matrix of g, s × s, by the entries that tell the others: those of A, and of T in the last
-    column of an affine group."""
-    if not group.has_inner_samples:  # what tells the others could be tried on no exact element
-        return tuple(tuple(map(polynomial, row)) for row in entries_of(group))
-
-    def name(i: int, j: int) -> Laurent:
-        shift = group.affine and j == group.n
-        return Laurent.symbol(("entry", "T", i + 1) if shift else ("entry", "A", i + 1, j + 1))
-
-    def entry(number: Fraction, weights: Mapping[tuple[int, int], Fraction]) -> Laurent:
-        return sum((x * name(*place) for place, x in weights.items()), Laurent.of(number))
-
-    return tuple(tuple(entry(*x) for x in row) for row in affine_entries(group))
 
 
 class PutIn:
@@ -273,7 +256,7 @@ def of_matrices(
         rates += [("entry", "ẇ", i) for i in range(1, n + 1)]
     values = PutIn(known | {"u": symbols("u", group.dimension)}, n)
     own.learnt_by(values, motion)
-    for letters in ({}, {"C": _symmetric("C", n)}, _moments_of_forces(values)):
+    for letters in ({}, {"C": square("C", n, symmetric=True)}, _moments_of_forces(values)):
         values.names |= letters  # by A; by what of A enters; by what of the forces does
         try:
             inertial, load, work = (_along(group, map(values.of, x)) for x in (left, right, pulled))
@@ -297,14 +280,6 @@ def _moments_of_forces(values: PutIn) -> dict[str, Value]:
         )
         for name, m in found.items()
     }
-
-
-def _symmetric(name: str, n: int) -> Value:
-    """The n × n matrix of the entries of a symmetric one, each a symbol."""
-    span = range(1, n + 1)
-    return tuple(
-        tuple(Laurent.symbol(("entry", name, *sorted((i, j)))) for j in span) for i in span
-    )
 
 
 def of_vectors(

@@ -54,9 +54,11 @@ def symbols(whole: Tree, size: int = 3) -> tuple[tuple[Laurent], ...]:
     return tuple((Laurent.symbol(("entry", whole, i)),) for i in range(1, size + 1))
 
 
-def square(name: str) -> tuple[tuple[Laurent, ...], ...]:
-    """The 3 × 3 matrix of the entries of ``name``, each a symbol."""
-    return tuple(tuple(Laurent.symbol(("entry", name, i, j)) for j in AXES) for i in AXES)
+def square(name: str, n: int = 3, *, symmetric: bool = False) -> tuple[tuple[Laurent, ...], ...]:
+    """The n × n matrix of the entries of ``name``, each a symbol."""
+    span = range(1, n + 1)
+    pairs = [[(min(i, j), max(i, j)) if symmetric else (i, j) for j in span] for i in span]
+    return tuple(tuple(Laurent.symbol(("entry", name, *x)) for x in row) for row in pairs)
 
 
 def diagonal(entries: Sequence[Tree]) -> tuple[tuple[Laurent, ...], ...]:

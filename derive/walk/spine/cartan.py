@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from ...algebra import forms
+from ...algebra import calculus
 from ...algebra.calculus import (
     Image,
     PairRule,
@@ -252,7 +252,7 @@ class Exterior:
 
 def derivative(form: Expr, work: Expr, a: Alphabet) -> Expr:
     """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)], where δ and δ′ commute.  ``work``: −dŨ(δg)."""
-    return forms.exterior(form, primes(a), *natural_variations(work, a))
+    return calculus.exterior(form, primes(a), *natural_variations(work, a))
 
 
 def primes(a: Alphabet) -> dict[Letter, Letter]:
@@ -309,7 +309,7 @@ def brackets_of(a: Alphabet) -> dict[Letter, Expr]:
     """The values of δξ′ − δ′ξ (and δη′ − δ′η), by ξ′ (and η′), as the structure equation says."""
     mark = Chapter(a.chapter).label("structure")
     return {
-        f.xi_prime: forms.structure_equation(
+        f.xi_prime: calculus.structure_equation(
             a.A.position, a.Z.xi, a.Z.xi_prime, f.xi, f.xi_prime
         ).marked(mark)
         for f in a.algebra_parts
@@ -365,7 +365,7 @@ def trivialised_images(stage: Exterior, a: Alphabet) -> dict[Letter, Expr]:
             (part.dp_velocity, inner.dp_velocity),
         ):
             shift = stage.images.get(x, word(x))
-            images[y] = forms.strip_left(substitute(shift, carried), g)
+            images[y] = calculus.strip_left(substitute(shift, carried), g)
     return images
 
 
@@ -408,7 +408,7 @@ def structure(a: Alphabet, c: Chapter) -> Step:
 def exterior_trivialised(natural: Exterior, stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
     """dϖ in the variables (t, g, Z), for any group, with C = ĀA, and its step."""
     draft = c.draft("exterior_trivialised", "exterior derivative")
-    varied = forms.exterior(stage.form, primes(a), *trivial_variations(a, stage.work))
+    varied = calculus.exterior(stage.form, primes(a), *trivial_variations(a, stage.work))
     form = reduce(varied, body_rule(a, cauchy_green(a)))
     images = trivialised_images(natural, a)
     variations = [x for f in a.algebra_parts for x in (f.d_velocity, f.dp_velocity)]

@@ -5,9 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from ...algebra import forms
-from ...algebra.calculus import Image, derivation, gradient, reduce, substitute, terms_with, without
-from ...algebra.forms import strip_left
+from ...algebra import calculus
+from ...algebra.calculus import (
+    Image,
+    derivation,
+    gradient,
+    reduce,
+    strip_left,
+    substitute,
+    terms_with,
+    without,
+)
 from ...algebra.word_trees import WordNotation, metrics, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.read import read
@@ -278,7 +286,7 @@ def any_lagrangian_forms(
     )
     form = writing.mark(momentum - energy * word(a.dt))
     twins = primes(a) | {d.d_momentum: d.dp_momentum for d in a.duals}
-    derived = forms.exterior(form, twins, *_variations(lagrangian, a, c, structure))
+    derived = calculus.exterior(form, twins, *_variations(lagrangian, a, c, structure))
     core = at_constant_time(derived, a.dt, a.dpt)
     images = contact(zip(a.duals, a.algebra_parts, strict=True), a, {})
     display = dict(zip((a.bracket, a.bracket_w), shown_brackets(a), strict=False))

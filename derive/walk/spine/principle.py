@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from ...algebra import forms
+from ...algebra import calculus
 from ...algebra.calculus import derivation, substitute, terms_with, without
 from ...algebra.word_trees import PLAIN, WordNotation, hat, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
@@ -269,7 +269,7 @@ def extremal(
     onto = {x: tangent[y] for x, y in twins.items() if y in tangent}
     excess = substitute(form, onto) - lagrangian
     delta, delta_prime = natural_variations(work, a)
-    exterior = substitute(forms.exterior(form, twins, delta, delta_prime), tangent)
+    exterior = substitute(calculus.exterior(form, twins, delta, delta_prime), tangent)
     varied, rate = _varied(lagrangian, work, a), _rate(form, work, a)
     step = varying.step(
         (

@@ -6,7 +6,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from derive.algebra import forms
+from derive.algebra import calculus
 from derive.algebra.words import inner, word
 from derive.language.show import show
 from derive.pipeline import lagrangian_road
@@ -140,4 +140,4 @@ def test_a_wrong_bracket_is_no_orbit_form():
     a, c = Alphabet("n", affine=False), Chapter("left")
     alone = inner(word(a.Pi.d_momentum), word(a.Z.xi_prime))
     with pytest.raises(ValueError, match="neither the expression nor its opposite"):
-        orbit_form(alone, a, forms.left, told("left"), c)
+        orbit_form(alone, a, calculus.left, told("left"), c)
