@@ -33,7 +33,7 @@ from .claims import (
     trim_claims,
 )
 from .claims.enclosure import enclosure_fault, kept_claims
-from .claims.reduced_system import ClaimedRecord
+from .claims.reduced_system import ClaimedRecord, Judge
 from .form import symbols, well_formedness
 from .form.hypotheses_checked import (
     IMPOSSIBLE,
@@ -406,10 +406,6 @@ def silent(step: Step) -> str:
     if not wanted or any(x.kind in wanted for x in step.claims):
         return ""
     return f"the step makes no claim of its rule: {', '.join(wanted)}"
-
-
-Judge = Callable[[ClaimedRecord, Step, Claim], str]
-"""What is wrong with a claim of a step, in words; "" if nothing is."""
 
 
 def _of_reduced(judge: integral_claims.Judge) -> Judge:

@@ -1,4 +1,7 @@
-"""The answer of a record: the equations of motion of its problem, with what their letters are."""
+"""The answer of a record: the equations of motion of its problem, with what their letters are; and
+the road to it in a few stations: of each the formula that it ends with there, the step that has
+it, and the numbers of the paper on the way.
+"""
 
 from __future__ import annotations
 
@@ -8,19 +11,20 @@ from functools import partial
 from unicodedata import normalize
 
 from ..language.reserved import by_letter
-from ..language.tree import Tree, add, coefficient, mul, names, neg, nodes
-from ..record.record import Derivation, Equation, Step
+from ..language.tree import Tree, add, coefficient, mul, names, neg, nodes, terms
+from ..record.record import ANY_GROUP, Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence
 from .book import RATE
 from .language import ENGLISH, Language
-from .outline import Letter, headline, latex_names, parameters
+from .outline import Letter, headline, latex_names, parameters, printed
 from .printing.letters import standard
-from .printing.line_breaking import WIDTH
+from .printing.line_breaking import WIDTH, measure
 from .printing.sentences import dollars, prose
 from .printing.signs import Notation, markdown_text
 from .printing.tex import formula as of_tree
 from .printing.tex import latex_tree
-from .printing.typeset import literal
+from .printing.typeset import Formula, literal
+from .printing.typeset import word as symbol
 from .text import (
     EQUATION,
     clashing,
@@ -309,3 +313,94 @@ def answer_mathml(
         for e in dict.fromkeys(listed)
         for x in shown(e)
     )
+
+
+# The road of a record in a few stations.
+
+WIDE = 15.0
+"""em: terms that go beyond are left out."""
+DOTS = symbol(r"\dots", "…")
+
+
+@dataclass(frozen=True)
+class Station:
+    """A place on the road by its ``name``; ``numbers``: those of the paper, as they are shown."""
+
+    name: str
+    step: Step
+    equation: Equation
+    numbers: str
+
+
+def _of(*heads: Tree) -> Callable[[Step, Equation], bool]:
+    """Is it an equation for one of these, no special case of it?"""
+    return lambda s, e: e.lhs in heads and s.rule not in ("restriction", "kernel")
+
+
+def _form(*names: str) -> Callable[[Step, Equation], bool]:
+    """Is it an equation for a form in the variations δy, and δ′y, that has one of the names?"""
+    return _of(*(("call", x, *y) for x in names for y in (("δy",), ("δy", "δ′y"))))
+
+
+ROAD: dict[str, Callable[[Step, Equation], bool]] = {
+    "lagrangian": _of("L"),
+    "group": _of("L̃", "L_d"),
+    "cartan": _form("ϖ"),
+    "exterior": _form("dϖ"),
+    "kernel": lambda s, e: s.rule == "kernel",
+}
+"""The stations before those of one body: which equations they have."""
+
+
+def stations(d: Derivation) -> tuple[Station, ...]:
+    """Those that the record comes by, in the order of the road, then the equation of its own
+    body."""
+    found = [*filter(None, (_station(d, name, has) for name, has in ROAD.items()))]
+    told = steps_of_answer(d)
+    own = told[-1] if told[-1].label == f"{d.name}.{EXPANDED[-1]}" else told[0]
+    if own.scope == ANY_GROUP or own in (x.step for x in found):
+        return tuple(found)
+    rates = [e for e in own.equations if isinstance(e.lhs, tuple) and e.lhs[0] == "entry"]
+    return (*found, Station("body", own, (*rates, own.equations[-1])[0], printed(own)))
+
+
+def _station(d: Derivation, name: str, has: Callable[[Step, Equation], bool]) -> Station | None:
+    """The last step that has such an equation; nothing where there is none. Of dϖ its first one:
+    that by momenta."""
+    there = [(s, e) for s in d.steps for e in s.equations if has(s, e)]
+    if not there:
+        return None
+    step = there[-1][0]
+    equation = [e for s, e in there if s is step][0 if name == "exterior" else -1]
+    numbers = sorted({n for s, _ in there for n in s.paper})
+    return Station(name, step, equation, printed(replace(step, paper=tuple(numbers))))
+
+
+def station_mathml(d: Derivation, x: Station) -> str:
+    """The of_tree of a station as MathML, without the terms that go too far."""
+    typeset = partial(formula_of, names=latex_names(d))
+    return _short(typeset(x.equation.lhs), x.equation.rhs, typeset).plain().mathml()
+
+
+def formula_of(t: Tree, names: dict[str, str]) -> Formula:
+    """A tree as it is printed in a walk."""
+    return of_tree(t, names=names, notation=Notation())
+
+
+def _short(lhs: Formula, rhs: Tree, typeset: Callable[[Tree], Formula]) -> Formula:
+    """An equation with as many terms of its right side as there is room for."""
+    whole, dots = lhs + literal(" = ") + typeset(rhs), literal(" + ") + DOTS
+    parts = [*terms(rhs)]
+    for count in range(len(parts) - 1, 0, -1):
+        if measure(whole.tex) <= WIDE:
+            break
+        whole = lhs + literal(" = ") + typeset(("add", *parts[:count])) + dots
+    fits = measure(whole.tex) <= 2 * WIDE
+    return whole if fits else lhs + literal(" = ") + DOTS
+
+
+def told(d: Derivation, identified: Callable[[str], str]) -> Iterator[dict[str, str]]:
+    """The stations as a page has them; ``identified``: label → the id of its step there."""
+    for x in stations(d):
+        shown = station_mathml(d, x)
+        yield {"name": x.name, "id": identified(x.step.label), "shown": shown, "paper": x.numbers}

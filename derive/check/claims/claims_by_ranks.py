@@ -24,9 +24,8 @@ from ...record.as_json import decode
 from ...record.mass_signs import any_sign
 from ...record.record import Step
 from ...record.sentence import CONDITIONS, MONOMIALS, SIGNED, Claim
-from ..values.residue import Residue
-from .reduced_system import ClaimedRecord, ReducedSystem
-from .spectra_and_residues import Value, about, expansion, second_derivatives, value
+from .reduced_system import ClaimedRecord, Judge, ReducedSystem
+from .spectra_and_residues import Value, about, drawn, expansion, second_derivatives, value
 
 Exponents = tuple[int, ...]
 
@@ -141,9 +140,7 @@ class Completeness:
     def point(self, several: int, p: int) -> dict[Tree, Value]:
         """So many random points of the variables, at one of the parameters, modulo p."""
         random = self.system.random
-        at: dict[Tree, Value] = {
-            x: Residue(random.randrange(1, p), p) for x in self.system.parameters
-        }
+        at: dict[Tree, Value] = {**drawn(self.system.parameters, random, p)}
         for letter, t in self.values:
             at[letter] = value(t, at, p)
         source = ResidueVectorSource(p, several, random.getrandbits(64))
@@ -251,8 +248,6 @@ def along_every_field(system: ReducedSystem) -> tuple[Images, Rates]:
 
     return images, rates
 
-
-Judge = Callable[[ClaimedRecord, Step, Claim], str]
 
 DIVISORS = {
     "body.symbolic": "",

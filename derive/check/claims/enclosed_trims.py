@@ -8,7 +8,7 @@ That a motion goes on is asked at random values of these numbers, too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from copy import copy
 from fractions import Fraction
@@ -33,7 +33,7 @@ from ..values.arithmetic import value_of as value
 from ..values.draws import Locus
 from .entries_checked import decided
 from .equilibrium_claims import Coordinates, coordinates, silent
-from .reduced_system import ClaimedRecord
+from .reduced_system import ClaimedRecord, Judge
 from .trim_claims import carried_along, defaults, linearised, placed, standing, the_one
 
 SIZE, BOUNDED_SIZE, TRIED, LARGEST = 2**16, 4, 3, 16
@@ -275,7 +275,7 @@ def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     return "" if claim.kind == found else f"what follows is: {found}"
 
 
-JUDGES: Mapping[str, Callable[[ClaimedRecord, Step, Claim], str]] = {
+JUDGES: dict[str, Judge] = {
     **dict.fromkeys(POINTS, _at),
     **dict.fromkeys(("trim.near_turned", "trim.near_turned_on_the_left"), _turned),
     **dict.fromkeys(VERDICTS.values(), _verdict),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -14,11 +14,12 @@ from ...language import rational as q
 from ...language.show import show
 from ...language.tree import Tree, nodes, replaced
 from ...record.record import Derivation, RecordError, Step
+from ...record.sentence import Claim
 from ..trials.trial_points import group_of
 from ..values.arithmetic import Varying
 from ..values.residue import Residue, random_prime
 from .entries_checked import constant_entries
-from .spectra_and_residues import Value, gradient, residues, value
+from .spectra_and_residues import Value, drawn, gradient, is_parameter, residues, value
 from .symmetry_count import SymmetryCount
 
 # The reduced equations of a record, read from its steps: variables, rates, energy, Casimirs and
@@ -63,7 +64,7 @@ class ReducedSystem:
     def parameters(self) -> list[Tree]:
         """The parameters in the equations, and π."""
         trees = (self.energy, *self.rates, *self.casimirs, *self.integrals)
-        found = (x for t in trees for x in nodes(t) if x == "π" or _is_parameter(x))
+        found = (x for t in trees for x in nodes(t) if is_parameter(x))
         return [*dict.fromkeys(found)]
 
     def with_numbers(self, numbers: Mapping[Tree, Fraction]) -> ReducedSystem:
@@ -90,7 +91,7 @@ class ReducedSystem:
         some parameters."""
         p = self.prime
         letters = (*self.parameters, *self.variables)
-        at = {x: Residue(self.random.randrange(1, p), p) for x in letters}
+        at = drawn(letters, self.random, p)
         for letter, t in values:
             at[letter] = value(t, at, p)
         found = ResiduePoint(self, at)
@@ -196,10 +197,6 @@ def substituted(t: Tree, numbers: Mapping[Tree, Fraction]) -> Tree:
     for x, y in numbers.items():
         t = replaced(t, x, y)
     return t
-
-
-def _is_parameter(x: Tree) -> bool:
-    return isinstance(x, tuple) and x[0] == "par"
 
 
 def _variable(rate: Tree) -> Tree:
@@ -326,3 +323,7 @@ class ClaimedRecord:
     def symmetries(self) -> SymmetryCount:
         """The symmetries of its Lagrangian; ``KeyError`` where it has none of its own."""
         return SymmetryCount(self.record.problem, self.group, self.random)
+
+
+Judge = Callable[[ClaimedRecord, Step, Claim], str]
+"""What is wrong with a claim of a step, in words; "" if nothing is."""

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from math import prod
-from random import Random
 
 from ...algebra.exact_kernel import PRIMES, ResidueVectorSource
 from ...language import rational as q
@@ -28,10 +27,9 @@ from ..lagrangian.lagrangian_model import LagrangianModel
 from ..trials.trial_points import SIZE
 from ..values.draws import Locus
 from ..values.residue import Residue, random_prime
-from .reduced_system import ClaimedRecord
-from .spectra_and_residues import value
+from .reduced_system import ClaimedRecord, Judge
+from .spectra_and_residues import begins, drawn, value
 
-Judge = Callable[[ClaimedRecord, Step, Claim], str]
 LARGEST = 24
 """The largest degree of a right side."""
 LARGEST_ON_LINE = 96
@@ -63,7 +61,7 @@ def _quadrature(c: ClaimedRecord, step: Step, claim: Claim) -> str:
         raise RecordError("the left side is no square of a rate")
     entry: Tree = ("entry", "A", *rate[1][2:])
     p = random_prime(c.random)
-    at = _random(_leaves(f), c.random, p)
+    at = drawn(_leaves(f), c.random, p)
     found = _interpolated(lambda x: value(f, {**at, entry: x}, p), p, LARGEST)
     degree, left = len(found) - 1, _odd_degree(found)
     kind = "elementary" if left < 3 else "elliptic" if left < 5 else "hyperelliptic"
@@ -80,7 +78,7 @@ def _supposed(c: ClaimedRecord, step: Step, entry: Tree, degree: int) -> bool:
     step supposes not to be 0 does?"""
     f, p = step.equations[0].rhs, random_prime(c.random)
     supposed = [x.of for x in step.hypotheses if x.property == "nonzero"]
-    at, along = (_random(_every_leaf([f, *supposed]), c.random, p) for _ in range(2))
+    at, along = (drawn(_every_leaf([f, *supposed]), c.random, p) for _ in range(2))
 
     def there(s: Residue) -> dict[Tree, Residue]:
         return {x: y + s * along[x] for x, y in at.items()}
@@ -111,11 +109,6 @@ def _odd_degree(c: Coefficients) -> int:
         degrees.append(len(c) - 1)
     steps = (a - b for a, b in pairwise(degrees))
     return sum(x * (-1) ** k for k, x in enumerate(steps))
-
-
-def _random(leaves: Iterable[Tree], random: Random, p: int) -> dict[Tree, Residue]:
-    """A random value of each."""
-    return {t: Residue(random.randrange(1, p), p) for t in leaves}
 
 
 def _interpolated(f: Callable[[Residue], Residue], p: int, largest: int) -> Coefficients:
@@ -158,17 +151,13 @@ def missing(step: Step) -> str:
 def _divisors(step: Step) -> tuple[Tree, ...]:
     """What the terms of 𝒱 with momenta divide by."""
     summed = (x for e in step.equations if e.lhs == "𝒱" for x in terms(e.rhs))
-    squares = (x for x in summed if any(_is(y, "at", "𝒥") for y in nodes(x)))
+    squares = (x for x in summed if any(begins(y, "at", "𝒥") for y in nodes(x)))
     return tuple(dict.fromkeys(t for x in squares for t in denominators(x)))
 
 
 def _varies(t: Tree) -> bool:
     """Has a function entries of g, or of 𝕀?"""
-    return any(_is(x, "entry") for x in _leaves(t))
-
-
-def _is(t: Tree, *head: str) -> bool:
-    return isinstance(t, tuple) and t[: len(head)] == head
+    return any(begins(x, "entry") for x in _leaves(t))
 
 
 def _conditions(c: ClaimedRecord, step: Step, claim: Claim) -> str:
@@ -176,7 +165,7 @@ def _conditions(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     that varies with g; of isotropy: det 𝕀 is their product, but for what is the same at all g."""
     stated = operands(claim["conditions"])
     below, p = _divisors(step), random_prime(c.random)
-    at, along = ({} | _random(_every_leaf([*stated, *below]), c.random, p) for _ in range(2))
+    at, along = ({} | drawn(_every_leaf([*stated, *below]), c.random, p) for _ in range(2))
 
     def on_line(t: Tree) -> Coefficients:
         def at_time(s: Residue) -> Residue:
@@ -229,7 +218,7 @@ def _determined(c: ClaimedRecord, stated: Sequence[Tree]) -> bool:
     rows = [operands(row) for row in operands(locked)]
     p, ratios = PRIMES[0], set()
     letters = _every_leaf([*stated, *(x for row in rows for x in row)])
-    at = _random((x for x in letters if not _is(x, "entry")), c.random, p)
+    at = drawn((x for x in letters if not begins(x, "entry")), c.random, p)
     for _ in range(3):
         source = ResidueVectorSource(p, 1, c.random.getrandbits(64))
         g = c.group.sample_inside(source, 1)
@@ -237,7 +226,7 @@ def _determined(c: ClaimedRecord, stated: Sequence[Tree]) -> bool:
             for j, x in enumerate(row, 1):
                 at["entry", "A", i, j] = Residue((source.constant(0) + x).values[0], p)
         for x in letters:
-            if _is(x, "fun") and any(_is(y, "entry") for y in nodes(x)):
+            if begins(x, "fun") and any(begins(y, "entry") for y in nodes(x)):
                 at[x] = Residue(c.random.randrange(1, p), p)
         values = tuple(tuple(value(x, at, p) for x in row) for row in rows)
         at |= {
@@ -289,7 +278,7 @@ def _free(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 def _entry(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """The coordinate is the one whose rate the equation gives."""
     rate = step.equations[0].lhs
-    given = isinstance(rate, tuple) and rate[0] == "pow" and _is(rate[1], "entry", "Ȧ")
+    given = isinstance(rate, tuple) and rate[0] == "pow" and begins(rate[1], "entry", "Ȧ")
     own = ("entry", "A", *rate[1][2:]) if given else None  # type: ignore[index]
     return "" if own == claim["entry"] else "the equation is of another coordinate"
 

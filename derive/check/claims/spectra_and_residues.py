@@ -6,9 +6,10 @@ second order.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
+from random import Random
 from typing import Any
 
 from ...algebra.exact_kernel import ResidueVector, ResidueVectorSource
@@ -297,6 +298,21 @@ def _value(
     if functions is None and divides and isinstance([*parts.values()][-1], BY_VARIABLES):
         raise ValueError("a division by a variable")
     return arithmetic(t, parts.__getitem__)
+
+
+def begins(t: Tree, *head: str) -> bool:
+    """Is a tree one of this head, and of what comes first in it?"""
+    return isinstance(t, tuple) and t[: len(head)] == head
+
+
+def is_parameter(t: Tree) -> bool:
+    """Is a tree a parameter, or π, which is drawn like one?"""
+    return t == "π" or begins(t, "par")
+
+
+def drawn(letters: Iterable[Tree], random: Random, p: int) -> dict[Tree, Residue]:
+    """A random value of each, but for 0."""
+    return {x: Residue(random.randrange(1, p), p) for x in letters}
 
 
 def residues(rows: Sequence[Sequence[Any]], p: int) -> q.Matrix:

@@ -29,7 +29,15 @@ from ...record.sentence import Claim
 from ..values.arithmetic import Varying, value_of
 from ..values.residue import Residue
 from .entries_checked import constant_entries
-from .spectra_and_residues import Functions, UnluckyError, gradient, value
+from .spectra_and_residues import (
+    Functions,
+    UnluckyError,
+    begins,
+    drawn,
+    gradient,
+    is_parameter,
+    value,
+)
 
 Field = tuple[Matrix, Matrix]
 """Y and X."""
@@ -51,8 +59,8 @@ class SymmetryCount:
         self.left = given["trivialisation"] == "left"
         self.tree = decode(given["L"], "problem, L")
         seen = [*dict.fromkeys(nodes(self.tree))]
-        self.parameters: list[Tree] = [x for x in seen if _is_parameter(x)]
-        roots = sum(_is(x, "fun", "sqrt") and _of_state(x) for x in seen)
+        self.parameters: list[Tree] = [x for x in seen if is_parameter(x)]
+        roots = sum(begins(x, "fun", "sqrt") and _of_state(x) for x in seen)
         self.true_roots = roots <= ROOTS
         self.oversampling = 2**roots if self.true_roots else 1
         functions = {x[1] for x in seen if isinstance(x, tuple) and x[0] == "fun"}
@@ -81,8 +89,8 @@ class SymmetryCount:
     def _rank(self, listed: Sequence[Listed], p: int) -> int:
         """The rank of ⟨Π, η⟩ − τh̃ − F modulo constants."""
         seen = (x for field in listed for t in field for x in nodes(t))
-        letters = dict.fromkeys([*self.parameters, *(x for x in seen if _is_parameter(x))])
-        parameters = self._drawn(letters, p)
+        letters = dict.fromkeys([*self.parameters, *(x for x in seen if is_parameter(x))])
+        parameters = drawn(letters, self.random, p)
         points = self._points(len(listed) + SPARE, parameters, p)
         source = ResidueVectorSource(p, points.count, self._seed())
         functions = Functions(source, roots=self.true_roots)
@@ -93,17 +101,13 @@ class SymmetryCount:
 
     def _counted(self, p: int) -> int:
         """The dimension modulo a prime."""
-        parameters, fields = self._drawn(self.parameters, p), self._tangent_fields(p)
+        parameters, fields = drawn(self.parameters, self.random, p), self._tangent_fields(p)
         columns = len(self.monomials) + 2 * len(fields) + 1
         points = self._points(columns + SPARE, parameters, p)
         found = kernel(_rows(points.row(fields), points.count, p), columns, p)[0]
         tried = self._points(len(found) + SPARE, parameters, p)
         values = tried.conserved(fields)
         return tried.rank([q.dot(v, values) for v in found])
-
-    def _drawn(self, letters: Iterable[Tree], p: int) -> dict[Tree, Residue]:
-        """Random values of parameters."""
-        return {x: Residue(self.random.randrange(1, p), p) for x in letters}
 
     @cached_property
     def entries(self) -> list[tuple[int, int]]:
@@ -292,24 +296,16 @@ def _matrix(t: Tree, g: Matrix, scalar: Callable[[Tree], Any]) -> Matrix:
         return reduce(q.plus, (_matrix(x, g, scalar) for x in operands(t)))
     found = q.identity(len(g))
     for x in operands(t):
-        if x == "A" or _is(x, "matrix") or _is(x, "add"):
+        if x == "A" or begins(x, "matrix") or begins(x, "add"):
             found = q.times(found, _matrix(x, g, scalar))
         else:
             found = q.scaled(scalar(x), found)
     return found
 
 
-def _is_parameter(x: Tree) -> bool:
-    return x == "π" or _is(x, "par")
-
-
-def _is(x: Tree, *head: str) -> bool:
-    return isinstance(x, tuple) and x[: len(head)] == head
-
-
 def _of_state(x: Tree) -> bool:
     """Does it depend on the time, g or ζ?"""
-    return any(y == "t" or _is(y, "entry") for y in nodes(x))
+    return any(y == "t" or begins(y, "entry") for y in nodes(x))
 
 
 def _each(x: Any, count: int, p: int) -> list[int]:

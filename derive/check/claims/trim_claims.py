@@ -9,7 +9,7 @@ modulo p², of either sign, as the conjugates of an algebraic function vanish to
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from fractions import Fraction
@@ -28,7 +28,7 @@ from ..values.draws import Locus
 from ..values.residue import Residue, random_prime
 from .entries_checked import decided
 from .equilibrium_claims import Coordinates, coordinates, silent
-from .reduced_system import ClaimedRecord
+from .reduced_system import ClaimedRecord, Judge
 from .spectra_and_residues import all_negative, characteristic, grows
 
 SIZE, BITS = 2**64, 128
@@ -343,7 +343,7 @@ def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     return "" if claim.kind == f"trim.{found}" else f"what follows is: {found}"
 
 
-JUDGES: dict[str, Callable[[ClaimedRecord, Step, Claim], str]] = {
+JUDGES: dict[str, Judge] = {
     **dict.fromkeys(POINTS, _at),
     "trim.unique": _unique,
     **dict.fromkeys(("trim.isolated", "trim.isolated_with_turns"), _isolated),

@@ -213,9 +213,7 @@ class PoissonPolynomials:
 
     def letters_tree(self, f: Mapping[Exponents, Any]) -> Tree:
         """A polynomial in the letters as a tree."""
-        names = [x if x == "π" else ("par", x) for x in self.letters]
-        own = sorted_terms(f.items())
-        return add(*(mul(plain(y), *powers(names, m)) for m, y in own))
+        return in_letters(self.letters, f)
 
     def number_tree(self, c: Any) -> Tree:
         """An element of the field as a tree, a quotient of products."""
@@ -255,6 +253,12 @@ def monomial_order(e: Exponents) -> tuple[int, list[int]]:
 def sorted_terms(terms: Iterable[tuple[Exponents, Any]]) -> list[tuple[Exponents, Any]]:
     """Terms of a polynomial, what is added before what is taken away."""
     return sorted(terms, key=lambda x: (x[1] < 0, monomial_order(x[0])))
+
+
+def in_letters(letters: Iterable[str], f: Mapping[Exponents, Any]) -> Tree:
+    """A polynomial in letters, π and parameters, as a tree."""
+    names: list[Tree] = [x if x == "π" else ("par", x) for x in letters]
+    return add(*(mul(plain(y), *powers(names, m)) for m, y in sorted_terms(f.items())))
 
 
 def powers(names: Sequence[Tree], exponents: Exponents) -> list[Tree]:

@@ -9,11 +9,11 @@ from typing import Any, NoReturn
 
 from ...algebra.groups import Group, constant_entries
 from ...language.limits import Refused
-from ...language.tree import Tree, add, mul, nodes, replaced
+from ...language.tree import Tree, nodes, replaced
 from ...language.values import arithmetic
 from ...problem.entries_on_orbit import with_constant_entries
 from ...problem.problem import Problem
-from .lie_poisson import ONE, Exponents, LiePoisson, plain, powers, sorted_terms
+from .lie_poisson import ONE, Exponents, LiePoisson, in_letters, plain
 
 VARIABLES = 40
 """The most variables of a reduced system that is searched."""
@@ -281,11 +281,7 @@ class _Symbolic:
         """An element of the field as a tree."""
         if not self.parameters:
             return plain(c)
-        names = [x if x == "π" else ("par", x) for x in self.parameters]
-        above, below = (
-            add(*(mul(plain(y), *powers(names, m)) for m, y in sorted_terms(f.items())))
-            for f in (c.numer, c.denom)
-        )
+        above, below = (in_letters(self.parameters, f) for f in (c.numer, c.denom))
         return above if below == 1 else ("div", above, below)
 
 

@@ -48,8 +48,10 @@ class Axial:
 
 def axial_identification(b: Alphabet, C: Expr, c: Chapter) -> Axial:
     """The identification by j, with the steps of j, that it is an isomorphism, and of the metric of
-    J as that of I."""
-    hat_map, (identification, inertia) = identified(b, C, c)
+    J as that of I; ``C``: ĀA = 1."""
+    hat_map = HatMap(b, c.label("hat"), c.label("inertia"))
+    identification = _identification(b, C, hat_map.brackets[BRACKET], c)
+    inertia = _inertia(b, c)
     return Axial(hat_map, inertia, (identification, isomorphism(hat_map, c), inertia))
 
 
@@ -155,13 +157,6 @@ class HatMap:
     @staticmethod
     def _axes(e: Expr) -> dict[Letter, Expr]:
         return {x: word(hat(axis(x))) for x in e.letters() if x.name in AXES}
-
-
-def identified(b: Alphabet, C: Expr, chapter: Chapter) -> tuple[HatMap, tuple[Step, Step]]:
-    """so(3) ≅ R³ for an alphabet, with the steps ``hat`` and ``inertia``; ``C``: ĀA = 1."""
-    hat_map = HatMap(b, chapter.label("hat"), chapter.label("inertia"))
-    cross = hat_map.brackets[BRACKET]
-    return hat_map, (_identification(b, C, cross, chapter), _inertia(b, chapter))
 
 
 def axis(x: Letter) -> Letter:
