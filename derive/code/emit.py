@@ -232,7 +232,18 @@ def _rendered(
 ) -> dict[str, str]:
     """File name → text, of one language; ``places``: file name → template."""
     templates, fields = environment(language.name), _fields(p, d, asked, language)
+    templates.globals |= {"lines": lines, "sections": sections}
     return {file: templates.get_template(x).render(fields) for file, x in places.items()}
+
+
+def lines(found: Iterable[str]) -> str:
+    """Statements and comments of a function, one below the other."""
+    return "".join(f"    {x}\n" for x in found)
+
+
+def sections(f: Mapping[str, Any]) -> str:
+    """Those of the sections of a function, an empty line before each."""
+    return "".join("\n" + lines(s["comment"] + s["statements"]) for s in f["sections"])
 
 
 def _fields(
