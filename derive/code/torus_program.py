@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 from ..algebra.structure import Place, TorusLattice
 from ..language.tree import Tree, mul
 from ..record.record import Derivation
-from ..routines.source import Source as RoutineSource
+from ..routines import printer_of, text_of
 from .factor import factored
 from .graph import Graph, Node
 from .naming import ClaimedNames
@@ -28,7 +28,6 @@ from .options import Options
 from .program import EmittedFunction, Load, LoweringError, Program
 from .requests import require_options
 from .schedule import Scheduler, Source, frontier
-from .step.algorithms import PRINTERS, real_of_work, text_of
 from .watched_functions import EmittedEvent, table, values_of
 
 
@@ -409,23 +408,18 @@ def printed_sums(language: str, loops: Loops, fields: Mapping[str, Any]) -> dict
         "SCALE": float(loops.scale),
         "COSINES": [*map(float, loops.cosines)],
         "SINES": [*map(float, loops.sines)],
-        "prefix": prefix,
-        "real": real_of_work(language, fields["real"]),
         "inline": f"{prefix}_FUNCTION" if fields["header"] else "static",
-        "public": (),
-        "generic": True,
         "item": ["#[allow(clippy::all, clippy::pedantic)]", "#[rustfmt::skip]"],
     }
-    source = RoutineSource()
-    source.read(text_of("torus_sums"), given)
-    printer = PRINTERS[language](source, given)
+    printer = printer_of(language, [text_of("torus_sums")], given, prefix, fields["real"])
+    routines = printer.source.routines
     by_table = {"rhs"} if loops.table and language == "c" else set()
-    named = loops.names & {*fields["functions"]} & {*source.routines} - by_table
+    named = loops.names & {*fields["functions"]} & {*routines} - by_table
     of_matrices = bool({*OF_MATRICES} & named)
     tables = [*printer.tables()] if of_matrices else []
     bodies = {}
     for x in sorted(named):
-        bodies[x] = "\n".join(printer.body(source.routines[x]))
+        bodies[x] = "\n".join(printer.body(routines[x]))
         tables += printer.before
     return {
         "bodies": bodies,

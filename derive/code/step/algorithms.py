@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cache
 from math import comb
-from pathlib import Path
 from typing import Any
 
-from ... import routines
+from ...routines import text_of
 from ...routines.c import C
 from ...routines.javascript import JavaScript
 from ...routines.julia import Julia
@@ -19,14 +17,6 @@ from ...routines.source import Source
 from ..program import Program
 from .discrete_step import BASIS, STEPPING, VOLUME, DiscreteStep
 from .tableaux import GROWTH, METHODS, SAFETY, Tableau
-
-FOLDER = Path(routines.__file__).parent / "algorithms"
-
-
-@cache
-def text_of(name: str) -> str:
-    """An algorithm, as it is written."""
-    return (FOLDER / f"{name}.py").read_text(encoding="utf-8")
 
 
 def known(p: Program, steps: Mapping[str, Any]) -> dict[str, Any]:
@@ -417,21 +407,6 @@ def _texts(
         "tables": "\n".join(printer.tables()),
         "routines": printer.text(roots(steps)),
     }
-
-
-PRINTERS: dict[str, type[Printer]] = {
-    "c": C,
-    "rust": Rust,
-    "javascript": JavaScript,
-    "julia": Julia,
-}
-"""The languages whose functions of plain numbers may have loops: in others such take arrays of any
-library, and are written by these."""
-
-
-def real_of_work(language: str, real: str) -> str:
-    """The type of the numbers that such a function works with: in JavaScript always double."""
-    return "Float64Array" if language == "javascript" else real
 
 
 ALGORITHMS = {
