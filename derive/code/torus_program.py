@@ -27,7 +27,7 @@ from .naming import ClaimedNames
 from .options import Options
 from .program import EmittedFunction, Load, LoweringError, Program
 from .requests import require_options
-from .schedule import Scheduler, Source, frontier
+from .schedule import Scheduler, frontier, leaf_places
 from .watched_functions import EmittedEvent, table, values_of
 
 
@@ -282,7 +282,7 @@ def _written_out(
     wanted: dict[str, list[Node]] = {"rhs": rates, "energy": [out.value(energy, {}).re]}
     wanted = {name: factored(graph, found) for name, found in wanted.items()}
     claimed = ClaimedNames()
-    places = _places(claimed, state)
+    places = leaf_places(claimed, state.values(), "x")
     scheduler = Scheduler(claimed, {})
     fixed = frontier(x for found in wanted.values() for x in found)
     constants = tuple(claimed.claim(f"sine_{i}", f"node {x.id}") for i, x in enumerate(fixed, 1))
@@ -296,16 +296,13 @@ def _leaves(graph: Graph, torus: TorusLattice) -> dict[str, Node]:
     return {x: graph.leaf(x, "state") for x in names(torus)}
 
 
-def _places(claimed: ClaimedNames, state: Mapping[str, Node]) -> dict[Node, tuple[str, Source]]:
-    return {x: (claimed.claim(name, name), ("x", i)) for i, (name, x) in enumerate(state.items())}
-
-
 def _watched(name: str, torus: TorusLattice, events: Sequence[EmittedEvent]) -> EmittedFunction:
     """What becomes 0 at each event."""
     graph, claimed = Graph(), ClaimedNames()
     state = _leaves(graph, torus)
     found = values_of(name, events, graph, state)
-    places = {**_places(claimed, state), graph.leaf("t", "time"): ("t", ("t", 0))}
+    time = {graph.leaf("t", "time"): ("t", ("t", 0))}
+    places = leaf_places(claimed, state.values(), "x") | time
     return Scheduler(claimed, {}).function(found, places)
 
 

@@ -150,14 +150,13 @@ def in_lanes(
 
 def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
     """Name of a step → its numbers; ``parts``: the first index and that after the last of each part
-    of the state; ``split``: where the later half of them begins, or 0; ``lanes``: the right-hand
-    side of several stages at once, in C; ``adaptive``: the steps that choose their size;
-    ``explicit``: what they share; ``watch``: how events are found."""
+    of the state; ``lanes``: the right-hand side of several stages at once, in C; ``adaptive``: the
+    steps that choose their size; ``explicit``: what they share; ``watch``: how events are found."""
     compiled = "c" in (written.language.name, written.language.needs)
     in_lanes_too = compiled and "gauss" in options.step and not p.loops
+    kept = [sentences(p.keeps, energy_alone=not p.conserved)] if p.keeps else []
     return {
         "parts": parts(p),
-        "split": split_of(p),
         "lanes": in_lanes(p.functions["rhs"], written) if in_lanes_too else None,
         "turns": turns(p, written, compiled)
         if {*COLLOCATED} & {*options.step} and not p.loops
@@ -173,7 +172,7 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         "watch": WATCH[options.real] if p.events else None,
         "ensemble": ensemble(p, written) if compiled and options.ensemble else None,
         "gauss": gauss("raw" in options.jacobian) if {*COLLOCATED} & {*options.step} else None,
-        "keeps": textwrap.wrap(of_gauss(p), 92),
+        "keeps": textwrap.wrap(" ".join([*kept, *[BENDS] * p.bends]), 92),
         "kinks": p.kinks.get("rates", ()),
     }
 
@@ -182,12 +181,6 @@ BENDS = (
     "A force has a root, as in |v|: where that is 0 its derivatives may jump, which the estimate "
     "of gauss does not see; its error is larger than tol then, and nearer to it with vern9."
 )
-
-
-def of_gauss(p: Program) -> str:
-    """What the emitted files say of the equations that it has here."""
-    kept = [sentences(p.keeps, energy_alone=not p.conserved)] if p.keeps else []
-    return " ".join([*kept, *[BENDS] * p.bends])
 
 
 def sentences(found: KeptByGauss, *, energy_alone: bool) -> str:

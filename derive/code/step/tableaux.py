@@ -166,24 +166,21 @@ GROWTH, SAFETY = 5.0, 0.9
 
 
 def explicit(names: Iterable[str], number: Callable[[Fraction], str]) -> dict[str, Any] | None:
-    """The explicit ones of these steps, and the most stages of any; ``None`` without any."""
+    """The explicit ones of these steps, and the most rows of any; ``None`` without any."""
     found = [fields_of(name, number) for name in names if name in METHODS]
     if not found:
         return None
     return {
         "methods": found,
-        "stages": max(len(method["main"]) for method in found),
         "rows": max(method["rows"] for method in found),
         "extra": any(method["extra"] for method in found),
-        "growth": GROWTH,
-        "safety": SAFETY,
     }
 
 
 def fields_of(name: str, number: Callable[[Fraction], str]) -> dict[str, Any]:
-    """The numbers of a method as text.  ``main``, ``extra``: for each stage, of the step and of
-    dense output alone, its index, c, and the row of a; a row, b, and e = b − b̂ are pairs of an
-    index and a number that is not 0; ``rows``: how many there are with those of dense output."""
+    """The numbers of a method as text.  ``main``: for each stage of the step its index, c, and the
+    row of a; a row, b, and e = b − b̂ are pairs of an index and a number that is not 0; ``rows``:
+    how many there are with those of dense output alone; has it such, ``extra``?"""
     make, title = METHODS[name]
     method = make()
 
@@ -203,7 +200,7 @@ def fields_of(name: str, number: Callable[[Fraction], str]) -> dict[str, Any]:
         "dense_order": method.dense_order,
         "adaptive": bool(method.embedded),
         "main": rows[: method.stages],
-        "extra": rows[method.stages :],
+        "extra": len(rows) > method.stages,
         "b": terms(method.b),
         "e": terms(method.error) if method.embedded else [],
         "rows": len(method.legendre),
