@@ -21,6 +21,7 @@ from ..algebra.structure import Place, TorusLattice
 from ..language.tree import Tree, mul
 from ..record.record import Derivation
 from ..routines import printer_of, text_of
+from .dense import Complex
 from .factor import factored
 from .graph import Graph, Node
 from .naming import ClaimedNames
@@ -64,13 +65,6 @@ def described(torus: TorusLattice) -> tuple[str, ...]:
     )
 
 
-class Complex(NamedTuple):
-    """A complex number by its parts."""
-
-    re: Node
-    im: Node
-
-
 class WrittenOut:
     """Trees of the record as pairs of nodes; ``leaves``: the numbers of the state."""
 
@@ -98,7 +92,7 @@ class WrittenOut:
             return self.total(parts[1], [{**at, parts[0]: n} for n in self.torus.places])
         found = [self.value(x, at) for x in parts]
         if op == "mul":
-            return reduce(self.product, found)
+            return reduce(Complex.__mul__, found)
         if op == "div" and found[1].im.is_zero:
             below = g.recip(found[1].re)
             return Complex(g.product((found[0].re, below)), g.product((found[0].im, below)))
@@ -113,19 +107,13 @@ class WrittenOut:
         for at in places:
             sine = self.value(mul(*sines), at).re
             sign, least = sine.split
-            there = self.product(Complex(g.num(sign), g.num(0)), self.value(rest, at))
+            there = Complex(g.num(sign), g.num(0)) * self.value(rest, at)
             groups[least].append(there)
         parts = [
             [g.product((sine, g.sum(part))) for part in zip(*found, strict=True)]
             for sine, found in groups.items()
         ]
         return Complex(*(g.sum(x) for x in zip(*parts, strict=True)))
-
-    def product(self, x: Complex, y: Complex) -> Complex:
-        """A product, of sums term by term: like ones are added before they are multiplied."""
-        g = self.graph
-        re = (g.product((x.re, y.re)), -g.product((x.im, y.im)))
-        return Complex(g.sum(re), g.sum((g.product((x.re, y.im)), g.product((x.im, y.re)))))
 
     def vorticity(self, n: Place) -> Complex:
         """ω̂(n), by the state."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from math import comb
 from typing import Any
 
@@ -64,8 +64,14 @@ def known(p: Program, steps: Mapping[str, Any]) -> dict[str, Any]:
 
 
 CALLED = {x: x for x in ("jacobian_raw", "jacobian_raw_inputs", "jacobian_project", "variations")}
-CALLED["events"] = "events"
+CALLED |= {"events": "events", "rhs": "rhs", "project": "projected"}
 """Function of the file → what it is called in the algorithms."""
+
+
+def _called(fields: Mapping[str, Any], prefix: str = "") -> dict[str, str]:
+    """What an algorithm calls a function of the file → what it is called there."""
+    functions = fields["functions"]
+    return {of: prefix + functions[x]["name"] for x, of in CALLED.items() if x in functions}
 
 
 def _of_events(watch: Mapping[str, Any] | None) -> dict[str, Any]:
@@ -219,10 +225,9 @@ def roots(steps: Mapping[str, Any]) -> list[str]:
 
 def in_c(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The records, tables and routines of the steps in C, for these fields of the templates."""
-    steps, prefix, functions = fields["steps"], fields["prefix"], fields["functions"]
-    had = {"project": "projected", **CALLED}
+    steps, prefix = fields["steps"], fields["prefix"]
     given = known(p, steps) | {
-        **{of: f"{prefix}_{functions[x]['name']}" for x, of in had.items() if x in functions},
+        **_called(fields, f"{prefix}_"),
         "prefix": prefix,
         "real": fields["real"],
         "fabs": fields["fabs"],
@@ -230,12 +235,9 @@ def in_c(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "ENOUGH": f"{prefix}_ENOUGH",
         "NO_EVENT": -1,
     }
-    printer = C(source_of(given, steps), given)
-    more = {"Motion": INPUTS_IN_C.format(real=fields["real"]) if p.inputs else ""}
+    more = INPUTS_IN_C.format(real=fields["real"]) if p.inputs else ""
     device = {"device": on_a_device(given)} if steps["ensemble"] and fields["header"] else {}
-    return device | _texts(
-        printer, [printer.record(x, more.get(x, "")) for x in printer.source.records], steps
-    )
+    return device | _texts(C, given, steps, more)
 
 
 def on_a_device(given: Mapping[str, Any]) -> str:
@@ -243,7 +245,7 @@ def on_a_device(given: Mapping[str, Any]) -> str:
     the state and the rates are in registers."""
     prefix = given["prefix"]
     none = ("GAUSS", "MODES", "METHODS", "EXPLICIT", "DISCRETE", "EXTRA", "HELD", "EVENTS")
-    names = ("rhs", "N_STATE", "N_CONSTANTS", "N_INPUTS", "NOT_FINITE", "NOT_CONVERGED")
+    names = ("N_STATE", "N_CONSTANTS", "N_INPUTS", "NOT_FINITE", "NOT_CONVERGED")
     own = {
         **{x: f"{prefix}_{x}" for x in names},
         **given,
@@ -270,7 +272,7 @@ def _given(p: Program, fields: Mapping[str, Any]) -> dict[str, Any]:
     """What the printers of other languages than C are given, but where they say it otherwise."""
     steps, functions = fields["steps"], fields["functions"]
     return known(p, steps) | {
-        **{of: functions[x]["name"] for x, of in CALLED.items() if x in functions},
+        **_called(fields),
         "project": functions["project"]["name"] if "project" in functions else "",
         "real": fields["real"],
         "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] else 0,
@@ -302,8 +304,7 @@ def in_rust(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
             "#[rustfmt::skip]",
         ],
     }
-    printer = Rust(source_of(given, steps), given)
-    return _texts(printer, [*map(printer.record, printer.source.records)], steps)
+    return _texts(Rust, given, steps)
 
 
 def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
@@ -332,20 +333,16 @@ def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
             **{x: f"{{{fields['real']}}} {x} where to write" for x in ("phi", "gamma")},
         },
     }
-    printer = JavaScript(source_of(given, steps), given)
     inputs = "        inputs: null, // or a function of t and x that gives the inputs\n" * bool(
         p.inputs
     )
     work = "        work: [], // the arrays that routines work with"
-    more = {"Motion": inputs + work}
-    records = [printer.record(x, more.get(x, "")) for x in printer.source.records]
-    return _texts(printer, records, steps)
+    return _texts(JavaScript, given, steps, inputs + work)
 
 
 def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in Julia."""
     steps, functions, prefix = fields["steps"], fields["functions"], fields["prefix"]
-    had = {"rhs": "rhs", "project": "projected", **CALLED}
     counts = {"k": len(p.constants), "u": len(p.inputs)}
     right = [f"length({x}) == {n}" for x, n in counts.items() if n]
     if p.inputs:
@@ -356,8 +353,7 @@ def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         f'        throw(DimensionMismatch("{prefix}: {said}"))',
     ]
     given = _given(p, fields) | {
-        "functions": {of: functions[x]["name"] for x, of in had.items() if x in functions}
-        | {x: x for x in functions if x.startswith(STEPPING)},
+        "functions": _called(fields) | {x: x for x in functions if x.startswith(STEPPING)},
         **{f"{x}_jacobian": f"{x}_varied!" for x in steps["varied"]},
         "KINKS": "",  # which the function around it says
         "begin": "begin_at!",
@@ -368,17 +364,15 @@ def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
             *lengths * bool(right),
         ],
     }
-    printer = Julia(source_of(given, steps), given)
-    return _texts(printer, [*map(printer.record, printer.source.records)], steps)
+    return _texts(Julia, given, steps)
 
 
 def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in Python."""
     steps, functions = fields["steps"], fields["functions"]
-    had = {"rhs": "rhs", "project": "projected", **CALLED}
     given = _given(p, fields) | {
         **_sizes(p),
-        "returned": {of: f"{functions[x]['name']}(" for x, of in had.items() if x in functions}
+        "returned": {of: f"{name}(" for of, name in _called(fields).items()}
         | {x: f"_of_numbers(_{x}, " for x in functions if x.startswith(STEPPING)},
         "ENOUGH": "ENOUGH",
         "NO_EVENT": "None",
@@ -390,18 +384,21 @@ def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "fault_here": "fault_of",
         "entry": ["    k, u = _given(k, u)"],
         "status": "OK, or why not, with m as it was after the last good step.",
+        # which NumPy has in much less time
+        "left": ("factored", "lu_solve", "solved", "multiplied"),
     }
-    source = source_of(given, steps)
-    # which NumPy has in much less time
-    source.leave("factored", "lu_solve", "solved", "multiplied")
-    printer = Python(source, given)
-    return _texts(printer, [*map(printer.record, source.records)], steps)
+    return _texts(Python, given, steps)
 
 
 def _texts(
-    printer: Printer, records: Sequence[Iterable[str]], steps: Mapping[str, Any]
+    language: type[Printer], given: dict[str, Any], steps: Mapping[str, Any], more: str = ""
 ) -> dict[str, str]:
-    """Records, tables and routines, as text."""
+    """Records, tables and routines, as text; ``more``: fields of a motion that no algorithm
+    reads."""
+    source = source_of(given, steps)
+    source.leave(*given.get("left", ()))
+    printer = language(source, given)
+    records = (printer.record(x, more * (x == "Motion")) for x in source.records)
     return {
         "records": "\n\n".join(map("\n".join, records)),
         "tables": "\n".join(printer.tables()),

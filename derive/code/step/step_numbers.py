@@ -28,9 +28,8 @@ from ..program import (
     blocks,
     names,
 )
-from .collocation import Collocation
 from .tableaux import GROWTH as EXPLICIT_GROWTH
-from .tableaux import METHODS, explicit, fields_of
+from .tableaux import METHODS, Collocation, StageModes, explicit, fields_of
 from .tableaux import SAFETY as EXPLICIT_SAFETY
 
 OF_ONE, OF_EACH = ("t", "x", "u"), ("t", "x", "u", "k")
@@ -282,8 +281,6 @@ def parts(p: Program) -> list[tuple[int, int]]:
 def gauss(coarse: bool) -> dict[str, Any]:
     """The numbers of Gauss's collocation, which round-trip as decimals: see ``Collocation``;
     ``coarse``: its stages apart, too, for Newton's method where there is a Jacobian."""
-    from .collocation import StageModes  # which alone needs mpmath
-
     method = Collocation()
     return {
         "nodes": method.c,
