@@ -7,6 +7,7 @@ from __future__ import annotations
 import hashlib
 import io
 import json
+import math
 import re
 import zipfile
 from collections.abc import Iterable, Mapping, Sequence
@@ -295,6 +296,8 @@ def _fields(
         "loops": p.loops,
         "steps": steps(p, written, asked.options) if asked.options.moves else None,
     }
+    if p.framing and "c" in (language.name, language.needs):
+        fields["framing"]["routine"] = _axes(TOLERANCE[real], fields)
     fields["newton"] = _newton(p, language.needs or language.name, SMALL_CHANGE[real], fields)
     if fields["steps"] and asked.short:
         fields["steps"]["turns"] = []
@@ -399,6 +402,21 @@ def _framing(p: Program, written: Statements, sizes: Mapping[str, int]) -> dict[
         "axes": sizes["axes"],
         "count": sizes["frame"],
     }
+
+
+def _axes(tolerance: float, fields: Mapping[str, Any]) -> str:
+    """The routine in C that finds the axes of a matrix; rows of equal values are led by the first
+    unit vector of which so large a share, in the mean, is in their span."""
+    prefix = fields["prefix"]
+    given = {
+        "TOLERANCE": tolerance,
+        "SHARE": 0.618,
+        "PI": math.pi,
+        "fabs": fields["fabs"],
+        "inline": f"{prefix}_FUNCTION" if fields["header"] else "static",
+    }
+    found = printer_of("c", [text_of("axes_of_matrix")], given, prefix, fields["real"])
+    return found.text(["axes"])
 
 
 def _parameter(x: tuple[str, float | None, str, str]) -> dict[str, str]:

@@ -163,7 +163,7 @@ class C(Printer):
 
     def called(self, name: str, given: Sequence[ast.expr]) -> str:
         match name:
-            case "sqrt" | "sin" | "atan2" if self.real == "float":
+            case "sqrt" | "sin" | "atan2" | "hypot" if self.real == "float":
                 return f"{name}f({', '.join(map(self.bare, given))})"
             case "abs":
                 return f"{self.given['fabs']}({self.bare(given[0])})"
