@@ -18,6 +18,7 @@ from .showing import (
     UsageError,
     allowed,
     columns,
+    command_notes,
     derive,
     discrete_walk,
     doubted,
@@ -346,11 +347,7 @@ COMMANDS = {
     "integrals": command_integrals,
     "equilibria": command_equilibria,
     "trim": command_trim,
-    "notes": _in(
-        "noting",
-        "The whole record of problems as notes: .tex, .pdf, .html; or .sty, the macros of their "
-        "fragments.",
-    ),
+    "notes": command_notes,
     "emit": command_emit,
     "check": command_check,
     "simulate": _in(

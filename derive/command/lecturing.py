@@ -34,8 +34,7 @@ from ..record.sentence import Sentence, phrase
 from ..search import FIRST
 from ..searches import equilibria, families, integrals, reduction, symmetries
 from ..views.language import LANGUAGES, language
-from .noting import pdf_of
-from .showing import UsageError, derive, load_problem
+from .showing import UsageError, derive, load_problem, pdf_of
 from .writing import StoppedError, time_limit, with_progress, write
 
 ENDINGS = (".tex", ".pdf", ".html")
