@@ -106,8 +106,7 @@ def assemble(
         group.dimension,
         (
             *conventions(group, said, chosen, framed.problem["frame"] if framed else None),
-            *(LOCAL if lowering.inverses.local else ()),
-            *(UNTESTED if lowering.inverses.untested else ()),
+            *(LOCAL * lowering.inverses.local + UNTESTED * lowering.inverses.untested),
             *(sentences(d, momenta) if momenta else ()),
         ),
         tuple(lowering.reader.space.names),

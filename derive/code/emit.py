@@ -296,8 +296,7 @@ def _fields(
         "loops": p.loops,
         "steps": steps(p, written, asked.options) if asked.options.moves else None,
     }
-    if p.framing and "c" in (language.name, language.needs):
-        fields["framing"]["routine"] = _axes(TOLERANCE[real], fields)
+    fields["axes_routine"] = _axes(TOLERANCE[real], fields) if p.framing else ""
     fields["newton"] = _newton(p, language.needs or language.name, SMALL_CHANGE[real], fields)
     if fields["steps"] and asked.short:
         fields["steps"]["turns"] = []

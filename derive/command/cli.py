@@ -18,7 +18,6 @@ from .showing import (
     UsageError,
     allowed,
     columns,
-    command_notes,
     derive,
     discrete_walk,
     doubted,
@@ -347,7 +346,11 @@ COMMANDS = {
     "integrals": command_integrals,
     "equilibria": command_equilibria,
     "trim": command_trim,
-    "notes": command_notes,
+    "notes": _in(
+        "noting",
+        "The whole record of problems as notes: .tex, .pdf, .html; or .sty, the macros of their "
+        "fragments.",
+    ),
     "emit": command_emit,
     "check": command_check,
     "simulate": _in(

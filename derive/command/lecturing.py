@@ -34,7 +34,8 @@ from ..record.sentence import Sentence, phrase
 from ..search import FIRST
 from ..searches import equilibria, families, integrals, reduction, symmetries
 from ..views.language import LANGUAGES, language
-from .showing import UsageError, derive, load_problem, pdf_of
+from .noting import pdf_of
+from .showing import UsageError, derive, load_problem
 from .writing import StoppedError, time_limit, with_progress, write
 
 ENDINGS = (".tex", ".pdf", ".html")

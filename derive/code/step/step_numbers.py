@@ -149,13 +149,15 @@ def in_lanes(
 
 def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
     """Name of a step → its numbers; ``parts``: the first index and that after the last of each part
-    of the state; ``lanes``: the right-hand side of several stages at once, in C; ``adaptive``: the
-    steps that choose their size; ``explicit``: what they share; ``watch``: how events are found."""
+    of the state; ``split``: where the later half of them begins, or 0; ``lanes``: the right-hand
+    side of several stages at once, in C; ``adaptive``: the steps that choose their size;
+    ``explicit``: what they share; ``watch``: how events are found."""
     compiled = "c" in (written.language.name, written.language.needs)
     in_lanes_too = compiled and "gauss" in options.step and not p.loops
     kept = [sentences(p.keeps, energy_alone=not p.conserved)] if p.keeps else []
     return {
         "parts": parts(p),
+        "split": split_of(p),
         "lanes": in_lanes(p.functions["rhs"], written) if in_lanes_too else None,
         "turns": turns(p, written, compiled)
         if {*COLLOCATED} & {*options.step} and not p.loops
