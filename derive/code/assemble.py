@@ -27,7 +27,15 @@ from .principal_frame import PrincipalFrame, frame_changes, inertia, turning
 from .program import EmittedFunction, Framing, KeptByGauss, LoweringError, Program
 from .reader import RecordReader
 from .requests import require_written
-from .schedule import Scheduler, by_leaves, by_numbers, by_state, frontier, variations
+from .schedule import (
+    Scheduler,
+    by_leaves,
+    by_numbers,
+    by_state,
+    frontier,
+    leaf_places,
+    variations,
+)
 from .state import StateSpace
 from .state_forms import FROM_MATRIX, LABELS, matrix_state, state_of
 from .step.discrete_step import STEPPING, Lowered, lowered
@@ -98,7 +106,7 @@ def assemble(
         group.dimension,
         (
             *conventions(group, said, chosen, framed.problem["frame"] if framed else None),
-            *_not_tested(lowering),
+            *(LOCAL * lowering.inverses.local + UNTESTED * lowering.inverses.untested),
             *(sentences(d, momenta) if momenta else ()),
         ),
         tuple(lowering.reader.space.names),
@@ -206,12 +214,6 @@ def _invariants_of_gauss(
     return invariants_of_gauss(functions, lowering.reader.space, sizes, conserved)
 
 
-def _not_tested(lowering: Lowering) -> tuple[str, ...]:
-    """What ``constants`` does not see, in sentences."""
-    found = lowering.inverses
-    return (*(LOCAL if found.local else ()), *(UNTESTED if found.untested else ()))
-
-
 def _functions(
     lowering: Lowering,
     options: Options,
@@ -234,10 +236,10 @@ def _functions(
     scheduler = Scheduler(names, texts | (_equations(stepped.record) if stepped else {}))
     fixed = frontier(x for name in wanted if name != "inertia" for x in wanted[name])
     leaves = [lowering.reader.leaf(x, "parameter") for x in parameters]
-    from_p = _leaf_places(names, leaves, "p")
+    from_p = leaf_places(names, leaves, "p")
     read = _leaves([*fixed, *_several(checks)])
     framed = [x for x in frame.numbers if x in read] if frame else []
-    numbers = _leaf_places(names, framed, "frame")
+    numbers = leaf_places(names, framed, "frame")
     functions = {"constants": scheduler.function(fixed, from_p | numbers, checks)}
     constants = [_constant_name(names, x, i) for i, x in enumerate(fixed)]
     moving = _places(lowering.reader, names, state, inputs)
@@ -245,9 +247,9 @@ def _functions(
     by_momenta = momenta.places(moving, names) if momenta else {}
     of_step = {**moving}
     for array, read_by_it in (stepped.leaves if stepped else {}).items():
-        of_step |= _leaf_places(names, read_by_it, array)
+        of_step |= leaf_places(names, read_by_it, array)
     if options.dynamics:
-        moving |= _leaf_places(names, wanted_rates(lowering), "dzeta")
+        moving |= leaf_places(names, wanted_rates(lowering), "dzeta")
     for name, nodes in wanted.items():
         own = by_momenta if name in OF_Y else moving
         own = of_step if name.startswith(STEPPING) else own
@@ -266,7 +268,7 @@ def _functions(
     door = matrix_state(space)
     for name, nodes in door.outputs.items() if door else ():
         functions[name] = scheduler.function(
-            nodes, door.places(names) if door and name == FROM_MATRIX else moving
+            nodes, leaf_places(names, door.leaves, "z") if door and name == FROM_MATRIX else moving
         )
     return functions, constants, framing
 
@@ -286,7 +288,7 @@ def _framing(
     """The functions that find the frame: each matrix whose axes are wanted, then the numbers."""
     scheduler = Scheduler(scheduler.names, _equations(frame.old.record))
     axes = [x for found in frame.axes for x in found.leaves]
-    places = from_p | _leaf_places(scheduler.names, axes, "axes")
+    places = from_p | leaf_places(scheduler.names, axes, "axes")
     outputs = [frame.numbers[x] for x in numbers]
     return Framing(
         tuple(
@@ -295,11 +297,6 @@ def _framing(
         ),
         scheduler.function(outputs, places),
     )
-
-
-def _leaf_places(names: ClaimedNames, leaves: list[Node], array: str) -> dict[Node, Place]:
-    """Leaf → its place in an array; the local name is its own, claimed in ``names``."""
-    return {x: (names.claim(x.data[1], " ".join(x.data)), (array, i)) for i, x in enumerate(leaves)}
 
 
 def _several(groups: Iterable[Iterable[Node | None]]) -> list[Node]:
@@ -362,7 +359,7 @@ def _places(
     """The leaves that change with time and where they are read: state x, inputs u, time t."""
     found: dict[Node, Place] = {}
     for array, kind, members in (("x", "state", state), ("u", "input", inputs)):
-        found |= _leaf_places(names, [reader.leaf(x, kind) for x in members], array)
+        found |= leaf_places(names, [reader.leaf(x, kind) for x in members], array)
     return found | {reader.leaf("t", "time"): ("t", ("t", 0))}
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import product
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..language import rational as q
 from ..language.rational import Matrix
@@ -65,6 +65,11 @@ def chain(g: Graph, factors: Sequence[Matrix], named: Namer) -> Matrix:
         return product if (i, j) == (0, len(factors) - 1) else named(product, i, j)
 
     return build(0, len(factors) - 1)
+
+
+def entries_of(m: Matrix) -> list[Node]:
+    """The entries of a matrix, or a column, by rows."""
+    return [*q.flatten(m)]
 
 
 def dot(a: Matrix, b: Matrix) -> Node:
@@ -198,6 +203,23 @@ def symmetric_inverse(g: Graph, m: Matrix, named: NodeNamer) -> tuple[Matrix, li
     }
     inverse = tuple(tuple(entries[max(i, j), min(i, j)] for j in range(n)) for i in range(n))
     return inverse, f.pivots
+
+
+class Complex(NamedTuple):
+    """A complex number by its parts."""
+
+    re: Node
+    im: Node
+
+    def __add__(self, other: Complex) -> Complex:  # type: ignore[override]
+        return Complex(self.re + other.re, self.im + other.im)
+
+    def __sub__(self, other: Complex) -> Complex:
+        return Complex(self.re - other.re, self.im - other.im)
+
+    def __mul__(self, other: Complex) -> Complex:  # type: ignore[override]
+        re = self.re * other.re - self.im * other.im
+        return Complex(re, self.re * other.im + self.im * other.re)
 
 
 def diagonal(g: Graph, m: Matrix) -> Node:

@@ -22,6 +22,7 @@ from ..algebra.relations import Relations, relations
 from ..language import rational as q
 from ..language.rational import Matrix
 from . import dense
+from .dense import Complex
 from .factor import factored
 from .graph import Graph, Node
 from .program import Block
@@ -198,14 +199,14 @@ class _Block:
         )
         m = len(P) // 2
 
-        def complexes(M: Matrix) -> list[list[_Complex]]:
+        def complexes(M: Matrix) -> list[list[Complex]]:
             inside = q.times(q.times(back, M), P)
             top, bottom = inside[:m], inside[m:]
             pairs = (zip(x[:m], y[:m], strict=True) for x, y in zip(top, bottom, strict=True))
-            return [[_Complex(*pair) for pair in row] for row in pairs]
+            return [[Complex(*pair) for pair in row] for row in pairs]
 
         det = dense.determinant(complexes(A))
-        total = _Complex(self._left(det.re - 1, "left_re"), self._left(det.im, "left_im"))
+        total = Complex(self._left(det.re - 1, "left_re"), self._left(det.im, "left_im"))
         for i, row in enumerate(complexes(X) if X else ()):
             total = total + row[i]
         re, im = (
@@ -243,21 +244,3 @@ def _label(kept: Relations) -> str:
     if kept.form == q.identity(len(kept.form)):
         return "similar" if kept.conformal else "orthogonal"
     return "conformal" if kept.conformal else "form"
-
-
-@dataclass(frozen=True)
-class _Complex:
-    """A complex number re + i im whose parts are nodes."""
-
-    re: Node
-    im: Node
-
-    def __add__(self, other: _Complex) -> _Complex:
-        return _Complex(self.re + other.re, self.im + other.im)
-
-    def __sub__(self, other: _Complex) -> _Complex:
-        return _Complex(self.re - other.re, self.im - other.im)
-
-    def __mul__(self, other: _Complex) -> _Complex:
-        re = self.re * other.re - self.im * other.im
-        return _Complex(re, self.re * other.im + self.im * other.re)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import hashlib
 import io
 import json
+import math
 import re
 import zipfile
 from collections.abc import Iterable, Mapping, Sequence
@@ -19,6 +20,8 @@ from ..language.limits import Refused
 from ..language.reserved import did_you_mean, near_name
 from ..language.templating import environment
 from ..record.record import Derivation
+from ..routines import PRINTERS, printer_of, text_of
+from ..routines.c import C
 from .conventions import heading
 from .ellipsoid import BUNDLES, is_integral
 from .group_functions import printed_group
@@ -29,7 +32,7 @@ from .printed_integrals import integrals
 from .program import TOLERANCE, Program
 from .requests import EmissionRequest, hollowed, identifiers, without_collisions
 from .signatures import ARRAYS, functions
-from .step.algorithms import ALGORITHMS, PRINTERS
+from .step.algorithms import ALGORITHMS
 from .step.step_numbers import IN_FLOAT, VARIED, steps
 from .step.tableaux import METHODS
 from .torus_program import Loops, printed_sums
@@ -232,7 +235,18 @@ def _rendered(
 ) -> dict[str, str]:
     """File name → text, of one language; ``places``: file name → template."""
     templates, fields = environment(language.name), _fields(p, d, asked, language)
+    templates.globals |= {"lines": lines, "sections": sections}
     return {file: templates.get_template(x).render(fields) for file, x in places.items()}
+
+
+def lines(found: Iterable[str]) -> str:
+    """Statements and comments of a function, one below the other."""
+    return "".join(f"    {x}\n" for x in found)
+
+
+def sections(f: Mapping[str, Any]) -> str:
+    """Those of the sections of a function, an empty line before each."""
+    return "".join("\n" + lines(s["comment"] + s["statements"]) for s in f["sections"])
 
 
 def _fields(
@@ -278,12 +292,12 @@ def _fields(
         "asks_for_zero": p.asks_for_zero,
         "calls": sorted({"sqrt" if is_integral(x) else x for x in called}),
         "integrals": integrals(written, language, prefix, [x for x in BUNDLES if x in called]),
-        "newton": _newton(p, real, printer),
-        "momentum_range": p.momentum_range,
         "tolerance": printer.number(Fraction(TOLERANCE[real])),
         "loops": p.loops,
         "steps": steps(p, written, asked.options) if asked.options.moves else None,
     }
+    fields["axes_routine"] = _axes(TOLERANCE[real], fields) if p.framing else ""
+    fields["newton"] = _newton(p, language.needs or language.name, SMALL_CHANGE[real], fields)
     if fields["steps"] and asked.short:
         fields["steps"]["turns"] = []
     if fields["steps"] and language.name in ALGORITHMS:
@@ -297,17 +311,51 @@ def _fields(
     return fields
 
 
-NEWTON_STEPS, SMALL_CHANGE = 60, {"double": Fraction(1, 10**10), "float": Fraction(1, 10**4)}
+NEWTON_STEPS, SMALL_CHANGE = 60, {"double": 1e-10, "float": 1e-4}
 """The most steps of Newton's method for the velocity of momenta; and the last of them, by the type
 of numbers: as the error is squared by a step, the next would be below rounding."""
 
 
-def _newton(p: Program, real: str, printer: SourcePrinter) -> dict[str, Any] | None:
-    """The template fields of Newton's method, where momenta do not tell the velocity by a
-    formula."""
+def _newton(
+    p: Program, language: str, small: float, fields: Mapping[str, Any]
+) -> dict[str, Any] | None:
+    """The template fields of Newton's method, where momenta do not tell the velocity by a formula:
+    in languages of plain numbers its ``text``, and in C the ``heads`` of its functions."""
     if "velocity_step" not in p.functions:
         return None
-    return {"steps": NEWTON_STEPS, "small": printer.number(SMALL_CHANGE[real])}
+    (first, end), prefix = p.momentum_range, fields["prefix"]
+    told = {"NEWTON_STEPS": NEWTON_STEPS, "SMALL": small, "FIRST": first, "END": end}
+    if language not in PRINTERS:
+        return told
+    functions = ["velocity", *["momentum_rhs"] * (language in ("c", "rust"))]
+    given: dict[str, Any] = {
+        **told,
+        "fabs": fields["fabs"],
+        "inline": f"{prefix}_FUNCTION" if fields["header"] else "",
+        "public": functions if language == "rust" else (),
+        "item": ["#[allow(dead_code, unused, clippy::all, clippy::pedantic)]", "#[rustfmt::skip]"],
+        **({"N_STATE": len(p.state)} if language == "javascript" else {}),
+        **WITHOUT_STATUS.get(language, {}),
+    }
+    texts = [text_of("velocity_of_momenta")]
+    found = printer_of(language, texts, given, prefix, fields["real"])
+    heads = found.heads(functions) if isinstance(found, C) else ""
+    # where there are steps in time, Rust has their faults beside this one
+    text = found.text(functions).replace("Stopped::NotConverged", "NotConverged")
+    return told | {"text": text.replace("Stopped", "NotConverged"), "heads": heads}
+
+
+WITHOUT_STATUS: dict[str, dict[str, Any]] = {
+    "javascript": {"velocity": "velocity_into", "OK": "true", "NOT_CONVERGED": "false"},
+    "julia": {
+        "velocity": "velocity_into!",
+        "functions": {"velocity_step": "velocity_step"},
+        "typed": "out",
+        "OK": "true",
+        "NOT_CONVERGED": "false",
+    },
+}
+"""What the routine is called where a function of the file stands about it, and what it returns."""
 
 
 def _count_loops(loops: Loops, known: Mapping[str, dict[str, Any]], language: str) -> None:
@@ -353,6 +401,21 @@ def _framing(p: Program, written: Statements, sizes: Mapping[str, int]) -> dict[
         "axes": sizes["axes"],
         "count": sizes["frame"],
     }
+
+
+def _axes(tolerance: float, fields: Mapping[str, Any]) -> str:
+    """The routine in C that finds the axes of a matrix; rows of equal values are led by the first
+    unit vector of which so large a share, in the mean, is in their span."""
+    prefix = fields["prefix"]
+    given = {
+        "TOLERANCE": tolerance,
+        "SHARE": 0.618,
+        "PI": math.pi,
+        "fabs": fields["fabs"],
+        "inline": f"{prefix}_FUNCTION" if fields["header"] else "static",
+    }
+    found = printer_of("c", [text_of("axes_of_matrix")], given, prefix, fields["real"])
+    return found.text(["axes"])
 
 
 def _parameter(x: tuple[str, float | None, str, str]) -> dict[str, str]:

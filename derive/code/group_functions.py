@@ -21,14 +21,12 @@ from ..algebra.factor_charts import QUATERNION, FactorChart, factor_charts
 from ..algebra.groups import Group
 from ..language.rational import Matrix, identity
 from ..record.record import Derivation
-from ..routines.python import Python
-from ..routines.source import Source
+from ..routines import printer_of, text_of
 from .conventions import basis_lines, listed
 from .options import Options
 from .program import LoweringError, Program
 from .slots import OfElement, StateSlot
 from .state import StateSpace
-from .step.algorithms import PRINTERS, real_of_work, text_of
 
 FUNCTIONS: dict[str, tuple[tuple[str, ...], str]] = {
     "exp": (("eta",), "g"),
@@ -312,29 +310,20 @@ def printed_group(language: str, p: Program, fields: Mapping[str, Any]) -> dict[
     """The tables and routines of the file of a language, with what its template says of them."""
     f: GroupFunctions = p.group_functions
     given = known(p) | {
-        "prefix": fields["prefix"],
-        "real": real_of_work(language, fields["real"]),
         "fabs": fields["fabs"],
         "SMALL": 1e-7 if fields["real"] in FLOATS else 1e-16,
-        "inline": "static inline",
         "public": {*f.functions} if language == "rust" else (),
-        "generic": True,
         "item": ["#[allow(dead_code, non_snake_case, unused, clippy::all)]", "#[rustfmt::skip]"],
-        "named": (),
-        "returned": {},
         # JavaScript has functions of these names that make what they write
         **({name: f"{name}_into" for name in f.functions} if language == "javascript" else {}),
     }
-    source = Source()
-    exponential = "group_turns" if f.factors else "group_series"
-    for part in ("group_elements", exponential, "group_maps"):
-        source.read(text_of(part), given)
-    if f.covariance:
-        source.read(text_of("invariant_update"), given)
-    printer = PRINTERS.get(language, Python)(source, given)
+    parts = ["group_elements", "group_turns" if f.factors else "group_series", "group_maps"]
+    parts += ["invariant_update"] * f.covariance
+    own = fields["prefix"], fields["real"]
+    printer = printer_of(language, map(text_of, parts), given, *own)
     told = []
     for name, (takes, writes) in f.functions.items():
-        doc = printer.with_numbers(ast.get_docstring(source.routines[name]) or "")
+        doc = printer.with_numbers(ast.get_docstring(printer.source.routines[name]) or "")
         told.append(
             {
                 "name": name,

@@ -23,7 +23,7 @@ from .naming import ClaimedNames
 from .options import Options
 from .program import LoweringError, Program
 from .requests import require_options
-from .schedule import Scheduler, frontier
+from .schedule import Scheduler, frontier, leaf_places
 from .slots import layout, still_slots
 
 SIDES = {"left": "L", "right": "R"}
@@ -44,17 +44,11 @@ def kinematics_program(d: Derivation, group: Group, options: Options | None = No
     }
     wanted = {name: factored(graph, found) for name, found in wanted.items()}
     claimed = ClaimedNames()
-    places = {
-        graph.leaf(x, kind): (claimed.claim(x, f"{kind} {x}"), (array, i))
-        for kind, array, members in (("state", "x", names), ("input", "u", filtering.inputs))
-        for i, x in enumerate(members)
-    }
+    places = leaf_places(claimed, (graph.leaf(x, "state") for x in names), "x")
+    places |= leaf_places(claimed, (graph.leaf(x, "input") for x in filtering.inputs), "u")
     fixed = frontier(x for found in wanted.values() for x in found)
     known = d.problem["parameters"]
-    from_p = {
-        graph.leaf(x, "parameter"): (claimed.claim(x, f"parameter {x}"), ("p", i))
-        for i, x in enumerate(known)
-    }
+    from_p = leaf_places(claimed, (graph.leaf(x, "parameter") for x in known), "p")
     constants = [
         claimed.claim(x.data[1] if x.op == "leaf" else suffixed("constant", i), f"constant {i}")
         for i, x in enumerate(fixed)

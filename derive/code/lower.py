@@ -197,8 +197,9 @@ class Lowering:
 
     def _product(self, t: tuple[Any, ...]) -> Value:
         """The value of a product of numbers and matrices."""
-        if is_solve(t) and (len(M := self._matrix(t[1][1])) > SMALL or dense.is_diagonal(M)):
-            return self.inverses.solved(t[1][1], self._matrix(mul(*t[2:])))
+        solves = len(t) == 3 and t[1] == ("inv", "M")  # a linear system in coordinates
+        if solves and (len(M := self._matrix("M")) > SMALL or dense.is_diagonal(M)):
+            return self.inverses.solved("M", self._matrix(t[2]))
         if len(t) == 3 and is_adjugate(*t[1:]):
             return dense.adjugate(self.graph, self._matrix(t[1][1]))
         factors = [(x, self.tree(x)) for x in t[1:]]
@@ -305,11 +306,6 @@ def untraced(t: Tree) -> Tree | None:
             found: Tree = inside
             return found
     return None
-
-
-def is_solve(t: tuple[Any, ...]) -> bool:
-    """Is a product M⁻¹β, the solution of a linear system in coordinates?"""
-    return len(t) == 3 and t[1] == ("inv", "M")
 
 
 def is_adjugate(a: Tree, b: Tree) -> bool:

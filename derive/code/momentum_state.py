@@ -14,6 +14,7 @@ from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
 from ..record.record import Derivation, Equation
 from . import dense
+from .dense import entries_of
 from .graph import Node
 from .lower import Lowering
 from .naming import ClaimedNames, ascii_name, name_of
@@ -108,7 +109,8 @@ def momentum_state(lowering: Lowering, group: Group, options: Options) -> Moment
     if closed := _quadratic(reader):
         velocity = _named(after, *closed)
         found["velocity"] = _with(y, at, velocity)
-        _moving_by(after.reader, velocity)
+        # ζ in the equations of the record is the velocity that the momenta give
+        after.reader.state["ζ"] = after.reader.space.values["ζ"] = q.column(velocity)
     else:
         missing = tuple((p - x,) for p, x in zip(own, momenta, strict=True))
         change = lowering.inverses.solved("M", missing)
@@ -164,12 +166,6 @@ def _with(state: list[Node], at: Mapping[int, Node], values: list[Node]) -> list
     return [new.get(i, x) for i, x in enumerate(state)]
 
 
-def _moving_by(reader: RecordReader, velocity: list[Node]) -> None:
-    """Let ζ in the equations of the record be the velocity that the momenta give."""
-    column: Matrix = tuple((x,) for x in velocity)
-    reader.state["ζ"] = reader.space.values["ζ"] = column
-
-
 def _rates(reader: RecordReader, at: Mapping[int, Node]) -> list[Node]:
     """The rates of y: those of x, with Π̇ in place of the acceleration."""
     span = range(1, len(at) + 1)
@@ -209,10 +205,10 @@ class MomentaOfPoints:
     def _read(self, lowering: Lowering, spin: str, family: str, push: str) -> list[Node]:
         """The numbers of a momentum, or of its rate, by the record."""
         if self.spin:
-            found = column(lowering.reader.vector(spin))
+            found = entries_of(lowering.reader.vector(spin))
         else:
             found = [self._on_basis(lowering, family, a + 1) for a in range(self.turns)]
-        return found + (column(lowering.reader.vector(push)) if self.group.affine else [])
+        return found + (entries_of(lowering.reader.vector(push)) if self.group.affine else [])
 
     def _on_basis(self, lowering: Lowering, family: str, a: int) -> Node:
         """Π_a or its rate, by the equation for any a."""
@@ -244,7 +240,7 @@ class MomentaOfPoints:
                 reader.label = key
                 self._set(e.lhs, key, matrix(self.after.tree(e.rhs)))
         names = ("ζ", "w") if self.group.affine else ("ζ",)
-        return [x for name in names for x in column(matrix(state[name]))]
+        return [x for name in names for x in entries_of(matrix(state[name]))]
 
     def _set(self, name: str, key: str, value: Matrix) -> None:
         """Let a name stand for a value; with Z also its coordinates."""
@@ -274,7 +270,7 @@ class MomentaOfPoints:
         Pi = q.times(matrix(reader.state["Π"]), q.transposed(seen))
         basis = [dense.numbers(self.graph, e) for e in self.group.basis]
         loads = tuple((dense.dot(Pi, e),) for e in basis)
-        central = column(self.after.inverses.solved("M", loads))
+        central = entries_of(self.after.inverses.solved("M", loads))
         Z = q.times(reader.space.hat(central), seen)
         return q.column(reader.space.read(Z))
 
@@ -299,8 +295,3 @@ def motion_equations(d: Derivation, *rules: str) -> list[tuple[str, Equation]]:
     """The equations of the steps that tell the motion by momenta, with their keys."""
     steps = [x for x in d.steps if x.rule in (rules or RULES)]
     return [(x.key(e), e) for x in steps for e in x.equations]
-
-
-def column(m: Matrix) -> list[Node]:
-    """The entries of a column."""
-    return [x for (x,) in m]

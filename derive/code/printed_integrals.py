@@ -18,15 +18,15 @@ from fractions import Fraction
 from math import factorial, prod
 from typing import Any
 
+from ..routines import PRINTERS, printer_of, text_of
 from ..routines.printer import Printer
-from ..routines.source import Source, Type
+from ..routines.source import Type
 from .ellipsoid import BUNDLES, SLOPES
 from .graph import Graph, Node
 from .languages import Statements, TargetLanguage
 from .naming import ClaimedNames
 from .program import EmittedFunction
 from .schedule import Directional, Scheduler
-from .step.algorithms import PRINTERS, real_of_work, text_of
 
 DUPLICATIONS, NEWTON_STEPS, ORDER = 6, 3, 11
 """What leaves an error below the rounding of doubles for semi-axes of ratios up to 1e8; of the
@@ -239,17 +239,12 @@ def _printed(
         "NEWTON_STEPS": NEWTON_STEPS,
         "SMALL_Y": float(-SMALL_Y),
         "CONVERGED": float(CONVERGED),
-        "prefix": prefix,
-        "real": real_of_work(language.name, language.reals[real]),
         "written": lines,
-        "public": (),
-        "generic": True,
     }
-    source = Source()
-    source.read(text_of("carlson").replace("METHOD", f["name"]), given)
-    printer = PRINTERS[language.name](source, given)
+    text = text_of("carlson").replace("METHOD", f["name"])
+    printer = printer_of(language.name, [text], given, prefix, language.reals[real])
     lines |= {part: [*_lines(f, part, printer)] for part in ("end", "back", "whole")}
-    body = printer.body(source.routines[f["name"]])
+    body = printer.body(printer.source.routines[f["name"]])
     return {"before": printer.before, "body": "\n".join(body)}
 
 

@@ -97,12 +97,9 @@ def request_of(text: str) -> EmissionRequest | None:
 def require_options(d: Derivation, chosen: Options, where: str, *written: str) -> None:
     """``LoweringError`` for an option that is not written where a state is no motion of a body, in
     words; but for those that are ``written``."""
+    forms = [x for x in CHOICES if x not in ("real", "form")]
     for name, on, option in (
-        ("layout", chosen.layout != "row", f"--layout {chosen.layout}"),
-        ("attitude", chosen.attitude != "matrix", f"--attitude {chosen.attitude}"),
-        ("frame", chosen.frame != "given", f"--frame {chosen.frame}"),
-        ("velocity", chosen.velocity != "body", f"--velocity {chosen.velocity}"),
-        ("state", chosen.state != "whole", f"--state {chosen.state}"),
+        *((x, y != CHOICES[x][0][0], f"--{x} {y}") for x in forms for y in [getattr(chosen, x)]),
         ("jacobian", chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
         ("momenta", chosen.momenta, "--momenta"),
         ("dynamics", chosen.dynamics, "--dynamics"),

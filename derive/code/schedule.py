@@ -62,6 +62,13 @@ class Scheduler:
         )
 
 
+def leaf_places(
+    names: ClaimedNames, leaves: Iterable[Node], array: str
+) -> dict[Node, tuple[str, Source]]:
+    """Leaf → its place in an array; the local name is its own, claimed in ``names``."""
+    return {x: (names.claim(x.data[1], " ".join(x.data)), (array, i)) for i, x in enumerate(leaves)}
+
+
 def frontier(outputs: Iterable[Node]) -> list[Node]:
     """The nodes of the parameters alone that an output, or a node not of these alone, reads."""
     found = reachable(outputs, lambda x: () if x.stage == PARAMETER else x.args)
@@ -106,7 +113,8 @@ class _Builder:
             if x in self.outputs and written <= 6:
                 written = sum(1 + self._inline(y) for y in x.args[0].args)
             return self.uses[x] > 1 or written > 6
-        shared = self.uses[x] > 1 and not _negation(x)
+        negation = x.op == "add" and len(x.args) == 1 and x.data[0] == -1
+        shared = self.uses[x] > 1 and not negation
         return shared and not (x.op == "mul" and _weight(x) < 1)
 
     def _inline(self, x: Node) -> int:
@@ -204,11 +212,6 @@ def _term(c: Fraction, e: Expression) -> Expression:
         factors = e[1:] if isinstance(e, tuple) and e[0] == "mul" else (e,)
         e = size if e == ONE else ("mul", size, *factors)
     return e if c > 0 else negated(e)
-
-
-def _negation(x: Node) -> bool:
-    """Is it −1 times a node?"""
-    return x.op == "add" and len(x.args) == 1 and x.data[0] == -1
 
 
 def _weight(x: Node) -> int:

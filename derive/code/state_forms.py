@@ -11,7 +11,6 @@ from ..algebra.groups import Group
 from ..language.reserved import stored_masses, suffixed
 from ..language.tree import Tree, add, mul, nodes, replaced, terms
 from .graph import Graph, Node
-from .naming import ClaimedNames
 from .options import Options
 from .slots import layout, of_rotation
 from .state import Component, Named, StateSpace
@@ -135,13 +134,6 @@ class MatrixState:
     names: tuple[str, ...]
     outputs: dict[str, list[Node]]
     leaves: tuple[Node, ...]
-
-    def places(self, names: ClaimedNames) -> dict[Node, tuple[str, tuple[str, int]]]:
-        """Where ``from_matrix`` reads its leaves; what is in x as well keeps its name."""
-        return {
-            leaf: (names.claim(leaf.data[1], " ".join(leaf.data)), ("z", i))
-            for i, leaf in enumerate(self.leaves)
-        }
 
 
 def matrix_state(x: StateSpace) -> MatrixState | None:

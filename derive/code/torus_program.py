@@ -20,15 +20,15 @@ from typing import Any, NamedTuple
 from ..algebra.structure import Place, TorusLattice
 from ..language.tree import Tree, mul
 from ..record.record import Derivation
-from ..routines.source import Source as RoutineSource
+from ..routines import printer_of, text_of
+from .dense import Complex
 from .factor import factored
 from .graph import Graph, Node
 from .naming import ClaimedNames
 from .options import Options
 from .program import EmittedFunction, Load, LoweringError, Program
 from .requests import require_options
-from .schedule import Scheduler, Source, frontier
-from .step.algorithms import PRINTERS, real_of_work, text_of
+from .schedule import Scheduler, frontier, leaf_places
 from .watched_functions import EmittedEvent, table, values_of
 
 
@@ -65,13 +65,6 @@ def described(torus: TorusLattice) -> tuple[str, ...]:
     )
 
 
-class Complex(NamedTuple):
-    """A complex number by its parts."""
-
-    re: Node
-    im: Node
-
-
 class WrittenOut:
     """Trees of the record as pairs of nodes; ``leaves``: the numbers of the state."""
 
@@ -99,7 +92,7 @@ class WrittenOut:
             return self.total(parts[1], [{**at, parts[0]: n} for n in self.torus.places])
         found = [self.value(x, at) for x in parts]
         if op == "mul":
-            return reduce(self.product, found)
+            return reduce(Complex.__mul__, found)
         if op == "div" and found[1].im.is_zero:
             below = g.recip(found[1].re)
             return Complex(g.product((found[0].re, below)), g.product((found[0].im, below)))
@@ -114,19 +107,13 @@ class WrittenOut:
         for at in places:
             sine = self.value(mul(*sines), at).re
             sign, least = sine.split
-            there = self.product(Complex(g.num(sign), g.num(0)), self.value(rest, at))
+            there = Complex(g.num(sign), g.num(0)) * self.value(rest, at)
             groups[least].append(there)
         parts = [
             [g.product((sine, g.sum(part))) for part in zip(*found, strict=True)]
             for sine, found in groups.items()
         ]
         return Complex(*(g.sum(x) for x in zip(*parts, strict=True)))
-
-    def product(self, x: Complex, y: Complex) -> Complex:
-        """A product, of sums term by term: like ones are added before they are multiplied."""
-        g = self.graph
-        re = (g.product((x.re, y.re)), -g.product((x.im, y.im)))
-        return Complex(g.sum(re), g.sum((g.product((x.re, y.im)), g.product((x.im, y.re)))))
 
     def vorticity(self, n: Place) -> Complex:
         """ω̂(n), by the state."""
@@ -283,7 +270,7 @@ def _written_out(
     wanted: dict[str, list[Node]] = {"rhs": rates, "energy": [out.value(energy, {}).re]}
     wanted = {name: factored(graph, found) for name, found in wanted.items()}
     claimed = ClaimedNames()
-    places = _places(claimed, state)
+    places = leaf_places(claimed, state.values(), "x")
     scheduler = Scheduler(claimed, {})
     fixed = frontier(x for found in wanted.values() for x in found)
     constants = tuple(claimed.claim(f"sine_{i}", f"node {x.id}") for i, x in enumerate(fixed, 1))
@@ -297,16 +284,13 @@ def _leaves(graph: Graph, torus: TorusLattice) -> dict[str, Node]:
     return {x: graph.leaf(x, "state") for x in names(torus)}
 
 
-def _places(claimed: ClaimedNames, state: Mapping[str, Node]) -> dict[Node, tuple[str, Source]]:
-    return {x: (claimed.claim(name, name), ("x", i)) for i, (name, x) in enumerate(state.items())}
-
-
 def _watched(name: str, torus: TorusLattice, events: Sequence[EmittedEvent]) -> EmittedFunction:
     """What becomes 0 at each event."""
     graph, claimed = Graph(), ClaimedNames()
     state = _leaves(graph, torus)
     found = values_of(name, events, graph, state)
-    places = {**_places(claimed, state), graph.leaf("t", "time"): ("t", ("t", 0))}
+    time = {graph.leaf("t", "time"): ("t", ("t", 0))}
+    places = leaf_places(claimed, state.values(), "x") | time
     return Scheduler(claimed, {}).function(found, places)
 
 
@@ -409,23 +393,18 @@ def printed_sums(language: str, loops: Loops, fields: Mapping[str, Any]) -> dict
         "SCALE": float(loops.scale),
         "COSINES": [*map(float, loops.cosines)],
         "SINES": [*map(float, loops.sines)],
-        "prefix": prefix,
-        "real": real_of_work(language, fields["real"]),
         "inline": f"{prefix}_FUNCTION" if fields["header"] else "static",
-        "public": (),
-        "generic": True,
         "item": ["#[allow(clippy::all, clippy::pedantic)]", "#[rustfmt::skip]"],
     }
-    source = RoutineSource()
-    source.read(text_of("torus_sums"), given)
-    printer = PRINTERS[language](source, given)
+    printer = printer_of(language, [text_of("torus_sums")], given, prefix, fields["real"])
+    routines = printer.source.routines
     by_table = {"rhs"} if loops.table and language == "c" else set()
-    named = loops.names & {*fields["functions"]} & {*source.routines} - by_table
+    named = loops.names & {*fields["functions"]} & {*routines} - by_table
     of_matrices = bool({*OF_MATRICES} & named)
     tables = [*printer.tables()] if of_matrices else []
     bodies = {}
     for x in sorted(named):
-        bodies[x] = "\n".join(printer.body(source.routines[x]))
+        bodies[x] = "\n".join(printer.body(routines[x]))
         tables += printer.before
     return {
         "bodies": bodies,

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from contextvars import copy_context
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -169,21 +170,6 @@ def _searched(args: argparse.Namespace, search: Callable[[Problem, Derivation], 
     return 0
 
 
-def command_lecture(args: argparse.Namespace) -> int:
-    """The lecture, a text for people that names the steps that prove it: .tex, .pdf or .html."""
-    from .lecturing import command_lecture
-
-    return command_lecture(args)
-
-
-def command_notes(args: argparse.Namespace) -> int:
-    """The whole record of problems as notes: .tex, .pdf, .html; or .sty, the macros of their
-    fragments."""
-    from .noting import command_notes
-
-    return command_notes(args)
-
-
 def command_emit(args: argparse.Namespace) -> int:
     """Write the numeric code of a problem."""
     from ..code.emit import planned
@@ -221,13 +207,6 @@ def command_emit(args: argparse.Namespace) -> int:
     for path in write(packed(asked, files), Path(args.out or ".")):
         print(path)
     return 0
-
-
-def command_simulate(args: argparse.Namespace) -> int:
-    """Follow the motion of a problem: its states, its energy, and all that it keeps, as a file."""
-    from .simulating import command_simulate
-
-    return command_simulate(args)
 
 
 def command_plot(args: argparse.Namespace) -> int:
@@ -309,13 +288,6 @@ def _trial_text(v: Verdict) -> str:
     return f"{count} {v.of}{'s' * (count != 1)} on {', '.join(groups)}{note}"
 
 
-def command_compare(args: argparse.Namespace) -> int:
-    """Hold a right-hand side of your own, in C or Python, against that of a problem."""
-    from .simulating import command_compare
-
-    return command_compare(args)
-
-
 def command_paper(args: argparse.Namespace) -> int:
     """The paper's numbered equations against the derivation."""
     from ..views.book import as_json, as_text
@@ -353,6 +325,17 @@ def command_build(args: argparse.Namespace) -> int:
     return 0
 
 
+def _in(module: str, about: str) -> Callable[[argparse.Namespace], int]:
+    """The command of a module that is loaded when it is wanted; ``about``: its help."""
+
+    def command(args: argparse.Namespace) -> int:
+        found = import_module(f".{module}", __package__)
+        return int(getattr(found, f"command_{args.command}")(args))
+
+    command.__doc__ = about
+    return command
+
+
 BUILT = ("so3", "se3", "sl3")
 FILES = {"text": "txt", "latex": "tex", "json": "json"}
 COMMANDS = {
@@ -363,13 +346,26 @@ COMMANDS = {
     "integrals": command_integrals,
     "equilibria": command_equilibria,
     "trim": command_trim,
-    "notes": command_notes,
+    "notes": _in(
+        "noting",
+        "The whole record of problems as notes: .tex, .pdf, .html; or .sty, the macros of their "
+        "fragments.",
+    ),
     "emit": command_emit,
     "check": command_check,
-    "simulate": command_simulate,
+    "simulate": _in(
+        "simulating",
+        "Follow the motion of a problem: its states, its energy, and all that it keeps, as a file.",
+    ),
     "plot": command_plot,
-    "compare": command_compare,
-    "lecture": command_lecture,
+    "compare": _in(
+        "simulating",
+        "Hold a right-hand side of your own, in C or Python, against that of a problem.",
+    ),
+    "lecture": _in(
+        "lecturing",
+        "The lecture, a text for people that names the steps that prove it: .tex, .pdf or .html.",
+    ),
     "paper": command_paper,
     "build": command_build,
 }

@@ -20,7 +20,7 @@ from ..schema.table import nearest
 from ..search import FIRST
 from ..views.printing.line_breaking import WIDTH
 from ..views.rendering import render, unprinted
-from .writing import as_in_a_file, one_line, show
+from .writing import as_in_a_file, one_line, show, write
 
 # The list of groups and ready-made problems that ``derive list`` prints.
 
@@ -142,8 +142,6 @@ LEAST = 40
 def save(text: str, out: str | None, form: str, *, paged: bool = True) -> None:
     """Write a text of one of the formats to stdout, where it may be ``paged``, or whole to the file
     ``out``."""
-    from .writing import write
-
     if out is None:
         if form != "text":
             as_in_a_file()

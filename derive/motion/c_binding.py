@@ -53,27 +53,29 @@ int derive_event(const {name}_motion *m, int *rising)
     return m->event;
 }}
 """
-MOVE = """\
-void derive_{step}({name}_motion *m, const double *k, const double *u, double h, size_t n,
-    int *told)
-{{
-    *told = {name}_{step}(m, k, u, h, n);
-}}
+CALL = """\
+void derive_{step}{more}({name}_motion *m, const double *k, const double *u, {takes}, int *told)
+{{{{
+    *told = {name}_{called}m, k, u, {given});
+}}}}
 """
-VARY = """\
-void derive_{step}_jacobian({name}_motion *m, const double *k, const double *u, double h, size_t n,
-    double *phi, double *gamma, int *told)
-{{
-    *told = {name}_{step}_jacobian(m, k, u, h, n, phi, gamma);
-}}
-"""
-MOVE_TO_EVENT = """\
-void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
-    int *told)
-{{
-    *told = {name}_{step}_to(m, k, u, t1, tol);
-}}
-"""
+"""A function that hands on to one of the same name with a motion, and tells the status."""
+MOVE, VARY, MOVE_TO_EVENT, WATCH = (
+    CALL.format(
+        step="{step}",
+        name="{name}",
+        more=more,
+        takes=takes,
+        called=called or f"{{step}}{more}(",
+        given=", ".join(x.split()[-1].strip("*") for x in takes.split(",")),
+    )
+    for more, takes, called in (
+        ("", "double h, size_t n", ""),
+        ("_jacobian", "double h, size_t n, double *phi, double *gamma", ""),
+        ("_to", "double t1, double tol", ""),
+        ("_watch", "double t1, double h", "watch({name}_{step}, "),
+    )
+)
 MOVE_TO = """\
 void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
     size_t n, int *told)
@@ -83,13 +85,6 @@ void derive_{step}_to({name}_motion *m, const double *k, const double *u, double
         fault = {name}_towards({name}_{step}_step, m, k, u, t1, tol);
     }}
     *told = fault;
-}}
-"""
-WATCH = """\
-void derive_{step}_watch({name}_motion *m, const double *k, const double *u, double t1, double h,
-    int *told)
-{{
-    *told = {name}_watch({name}_{step}, m, k, u, t1, h);
 }}
 """
 ENSEMBLE = """\

@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from operator import add, mul
 from typing import Any, NamedTuple, SupportsFloat
 
 from ..algebra.factor_charts import QUATERNION
 from ..code.program import Program
 from ..code.slots import horn
 from ..code.torus_program import turned
+from ..language import rational as q
 from ..language.expression import names
 from ..language.limits import Refused
 from ..language.rational import Matrix
@@ -268,21 +268,16 @@ def _quaternion(R: Matrix) -> list[float]:
     return [x / scale for x in longest]
 
 
-def exponential(X: Sequence[Sequence[float]]) -> list[list[float]]:
+def exponential(X: Sequence[Sequence[float]]) -> Matrix:
     """The exponential of a matrix: Taylor's series of X/2ˢ, of norm below ½, squared s times."""
     size = max(sum(abs(x) for x in row) for row in X)
     halvings = max(0, math.ceil(math.log2(size)) + 1) if size > 0 else 0
     span = range(len(X))
-    term = [[float(i == j) for j in span] for i in span]
+    term: Matrix = tuple(tuple(float(i == j) for j in span) for i in span)
     total = term
     for k in range(1, 18):  # 2^-17/17! is below rounding
-        term = _product(term, [[x / (2**halvings * k) for x in row] for row in X])
-        total = [[*map(add, *rows)] for rows in zip(total, term, strict=True)]
+        term = q.times(term, [[x / (2**halvings * k) for x in row] for row in X])
+        total = q.plus(total, term)
     for _ in range(halvings):
-        total = _product(total, total)
+        total = q.times(total, total)
     return total
-
-
-def _product(a: Sequence[Sequence[float]], b: Sequence[Sequence[float]]) -> list[list[float]]:
-    columns = [*zip(*b, strict=True)]
-    return [[sum(map(mul, row, column)) for column in columns] for row in a]

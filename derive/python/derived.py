@@ -13,7 +13,7 @@ from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
 from .api import in_keywords
 from .quoted import loaded
-from .shown import Answer, Page, Shown, Verdicts
+from .shown import Answer, Page, Recorded, Shown
 
 if TYPE_CHECKING:
     from ..motion.signals import Given
@@ -45,7 +45,7 @@ class Figure:
 
 
 @dataclass(frozen=True)
-class Derived:
+class Derived(Recorded):
     """A derivation: the record of a problem, with methods to print, check, draw and emit it."""
 
     problem: Problem
@@ -68,17 +68,6 @@ class Derived:
         group = self.problem.group.name if self.problem.group else "any group"
         return f"<derivation {self.problem.name}: {len(self.labels)} steps, {group}>"
 
-    def __str__(self) -> str:
-        from ..views.rendering import render
-
-        return render(self.record, "text")
-
-    def markdown(self, lang: str = "en") -> str:
-        """The walk in Markdown, its formulas between dollars."""
-        from ..views.rendering import render
-
-        return render(self.record, "markdown", lang)
-
     @property
     def answer(self) -> Answer:
         """The equations of motion alone, and what their letters are."""
@@ -100,16 +89,7 @@ class Derived:
 
     def latex(self, lang: str = "en", transpose: str = "bar", hat: str = "j") -> str:
         """A document for pdflatex, with transposes as "bar" or "top" and hats as "j" or "wedge"."""
-        from ..views.rendering import render
-
-        return render(self.record, "latex", lang, transpose=transpose, hat=hat)
-
-    def check(self, seed: int | None = None) -> Verdicts:
-        """A verdict for the symbols and one for every step, by exact arithmetic and other formulas,
-        at points that are new each time; the same ``seed`` gives the same points."""
-        from ..check.checker import check
-
-        return Verdicts(check(self.record, seed))
+        return self._rendered("latex", lang, transpose=transpose, hat=hat)
 
     def integrals(
         self, degree: int = 4, *, at_defaults: bool = False, conditions: bool = False

@@ -54,8 +54,32 @@ class ShownEquation:
         return f"$${self.latex()}$$"
 
 
+class Printed:
+    """What prints a ``record``, or a part of it, as :meth:`_part` says."""
+
+    record: Derivation
+
+    def __str__(self) -> str:
+        return self._rendered("text")
+
+    def markdown(self, lang: str = "en") -> str:
+        """The same in Markdown, its formulas between dollars."""
+        return self._rendered("markdown", lang)
+
+    def _repr_markdown_(self) -> str:
+        return self.markdown()
+
+    def _rendered(self, form: str, lang: str = "en", **how: Any) -> str:
+        from ..views.rendering import render
+
+        return render(self.record, form, lang, **self._part(), **how)
+
+    def _part(self) -> dict[str, Any]:
+        return {}
+
+
 @dataclass(frozen=True)
-class Answer:
+class Answer(Printed):
     """The equations of motion of a derivation, and what their letters are; ``by_block``: names of
     the velocity of a product → those by its blocks."""
 
@@ -76,19 +100,8 @@ class Answer:
         """The equations in SymPy, in order."""
         return tuple(e.sympy() for e in self.equations)
 
-    def __str__(self) -> str:
-        from ..views.rendering import render
-
-        return render(self.record, "text", answer=True, by_block=self.by_block)
-
-    def markdown(self, lang: str = "en") -> str:
-        """The same in Markdown, its formulas between dollars."""
-        from ..views.rendering import render
-
-        return render(self.record, "markdown", lang, answer=True, by_block=self.by_block)
-
-    def _repr_markdown_(self) -> str:
-        return self.markdown()
+    def _part(self) -> dict[str, Any]:
+        return {"answer": True, "by_block": self.by_block}
 
 
 @dataclass(frozen=True)
@@ -153,37 +166,29 @@ class Verdicts(list[Verdict]):
 T = TypeVar("T")
 
 
-class Finding:
-    """What a ``_search`` found, with its ``record``: the derivation, whose last steps tell it; in a
-    notebook it shows these."""
-
-    _search: ClassVar[str]
-    record: Derivation
+class Recorded(Printed):
+    """A derivation, which can be checked."""
 
     def check(self, seed: int | None = None) -> Verdicts:
-        """A verdict for the symbols and every step, as :meth:`Derived.check` gives them."""
+        """A verdict for the symbols and one for every step, by exact arithmetic and other formulas,
+        at points that are new each time; the same ``seed`` gives the same points."""
         from ..check.checker import check
 
         return Verdicts(check(self.record, seed))
 
-    def __str__(self) -> str:
-        return self._rendered("text")
 
-    def markdown(self, lang: str = "en") -> str:
-        """The steps that tell what was found, in Markdown."""
-        return self._rendered("markdown", lang)
+class Finding(Recorded):
+    """What a ``_search`` found, with its ``record``: the derivation, whose last steps tell it; in a
+    notebook it shows these."""
+
+    _search: ClassVar[str]
 
     def latex(self, lang: str = "en") -> str:
-        """The same as a document for pdflatex."""
+        """The steps that tell what was found, as a document for pdflatex."""
         return self._rendered("latex", lang)
 
-    def _repr_markdown_(self) -> str:
-        return self.markdown()
-
-    def _rendered(self, form: str, lang: str = "en") -> str:
-        from ..views.rendering import render
-
-        return render(self.record, form, lang, steps=self.record.since(FIRST[self._search]))
+    def _part(self) -> dict[str, Any]:
+        return {"steps": self.record.since(FIRST[self._search])}
 
 
 class SeveralFound(Finding, Generic[T]):

@@ -79,9 +79,15 @@ class C(Printer):
         returns = Type.of(f.returns) if f.returns else None
         given = [self.argument(*x) for x in arguments(f).items()]
         given += list(self.lane_given) * (returns is not None and returns.is_lanes)
-        begin = f"{self.given['inline']} {self.kind(returns) if returns else 'void'}"
+        begin = f"{self.given['inline']} {self.kind(returns) if returns else 'void'}".lstrip()
         self.types = before
         return "\n".join(self.wrapped(f"{begin} {self.name(f.name)}({', '.join(given)})"))
+
+    def heads(self, names: Sequence[str]) -> str:
+        """The prototypes of some routines, each with what it is for."""
+        each = map(self.source.routines.__getitem__, names)
+        parts = ([*self.documented(f), f"{self.signature(f)};"] for f in each)
+        return "\n\n".join(map("\n".join, parts))
 
     def head(self, f: ast.FunctionDef, returns: Type | None) -> Lines:
         yield self.signature(f)
@@ -157,7 +163,7 @@ class C(Printer):
 
     def called(self, name: str, given: Sequence[ast.expr]) -> str:
         match name:
-            case "sqrt" | "sin" | "atan2" if self.real == "float":
+            case "sqrt" | "sin" | "atan2" | "hypot" if self.real == "float":
                 return f"{name}f({', '.join(map(self.bare, given))})"
             case "abs":
                 return f"{self.given['fabs']}({self.bare(given[0])})"

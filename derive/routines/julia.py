@@ -68,6 +68,7 @@ class Julia(Printer):
         if self.given.get("generic"):
             numbers = [x for x, of in self.arguments.items() if of.name == "real" and x != "t"]
             of_one = next((x for x in numbers if self.arguments[x].sizes), "")
+            of_one = self.given.get("typed", of_one)
             return f"float(eltype({of_one}))" if of_one else f"typeof({' + '.join(numbers)})"
         return str(self.real)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import derive
-from derive.code.step.collocation import Collocation
+from derive.code.step.tableaux import Collocation
 from derive.command.cli import main
 from derive.command.simulating import negative
 from derive.motion.first_numbers import MotionError, drives

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from functools import cache
+from collections.abc import Mapping
 from math import comb
-from pathlib import Path
 from typing import Any
 
-from ... import routines
+from ...routines import text_of
 from ...routines.c import C
 from ...routines.javascript import JavaScript
 from ...routines.julia import Julia
@@ -19,14 +17,6 @@ from ...routines.source import Source
 from ..program import Program
 from .discrete_step import BASIS, STEPPING, VOLUME, DiscreteStep
 from .tableaux import GROWTH, METHODS, SAFETY, Tableau
-
-FOLDER = Path(routines.__file__).parent / "algorithms"
-
-
-@cache
-def text_of(name: str) -> str:
-    """An algorithm, as it is written."""
-    return (FOLDER / f"{name}.py").read_text(encoding="utf-8")
 
 
 def known(p: Program, steps: Mapping[str, Any]) -> dict[str, Any]:
@@ -74,8 +64,14 @@ def known(p: Program, steps: Mapping[str, Any]) -> dict[str, Any]:
 
 
 CALLED = {x: x for x in ("jacobian_raw", "jacobian_raw_inputs", "jacobian_project", "variations")}
-CALLED["events"] = "events"
+CALLED |= {"events": "events", "rhs": "rhs", "project": "projected"}
 """Function of the file → what it is called in the algorithms."""
+
+
+def _called(fields: Mapping[str, Any], prefix: str = "") -> dict[str, str]:
+    """What an algorithm calls a function of the file → what it is called there."""
+    functions = fields["functions"]
+    return {of: prefix + functions[x]["name"] for x, of in CALLED.items() if x in functions}
 
 
 def _of_events(watch: Mapping[str, Any] | None) -> dict[str, Any]:
@@ -229,10 +225,9 @@ def roots(steps: Mapping[str, Any]) -> list[str]:
 
 def in_c(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The records, tables and routines of the steps in C, for these fields of the templates."""
-    steps, prefix, functions = fields["steps"], fields["prefix"], fields["functions"]
-    had = {"project": "projected", **CALLED}
+    steps, prefix = fields["steps"], fields["prefix"]
     given = known(p, steps) | {
-        **{of: f"{prefix}_{functions[x]['name']}" for x, of in had.items() if x in functions},
+        **_called(fields, f"{prefix}_"),
         "prefix": prefix,
         "real": fields["real"],
         "fabs": fields["fabs"],
@@ -240,12 +235,9 @@ def in_c(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "ENOUGH": f"{prefix}_ENOUGH",
         "NO_EVENT": -1,
     }
-    printer = C(source_of(given, steps), given)
-    more = {"Motion": INPUTS_IN_C.format(real=fields["real"]) if p.inputs else ""}
+    more = INPUTS_IN_C.format(real=fields["real"]) if p.inputs else ""
     device = {"device": on_a_device(given)} if steps["ensemble"] and fields["header"] else {}
-    return device | _texts(
-        printer, [printer.record(x, more.get(x, "")) for x in printer.source.records], steps
-    )
+    return device | _texts(C, given, steps, more)
 
 
 def on_a_device(given: Mapping[str, Any]) -> str:
@@ -253,7 +245,7 @@ def on_a_device(given: Mapping[str, Any]) -> str:
     the state and the rates are in registers."""
     prefix = given["prefix"]
     none = ("GAUSS", "MODES", "METHODS", "EXPLICIT", "DISCRETE", "EXTRA", "HELD", "EVENTS")
-    names = ("rhs", "N_STATE", "N_CONSTANTS", "N_INPUTS", "NOT_FINITE", "NOT_CONVERGED")
+    names = ("N_STATE", "N_CONSTANTS", "N_INPUTS", "NOT_FINITE", "NOT_CONVERGED")
     own = {
         **{x: f"{prefix}_{x}" for x in names},
         **given,
@@ -280,7 +272,7 @@ def _given(p: Program, fields: Mapping[str, Any]) -> dict[str, Any]:
     """What the printers of other languages than C are given, but where they say it otherwise."""
     steps, functions = fields["steps"], fields["functions"]
     return known(p, steps) | {
-        **{of: functions[x]["name"] for x, of in CALLED.items() if x in functions},
+        **_called(fields),
         "project": functions["project"]["name"] if "project" in functions else "",
         "real": fields["real"],
         "ENOUGH": steps["gauss"]["enough"] if steps["gauss"] else 0,
@@ -312,8 +304,7 @@ def in_rust(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
             "#[rustfmt::skip]",
         ],
     }
-    printer = Rust(source_of(given, steps), given)
-    return _texts(printer, [*map(printer.record, printer.source.records)], steps)
+    return _texts(Rust, given, steps)
 
 
 def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
@@ -342,20 +333,16 @@ def in_javascript(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
             **{x: f"{{{fields['real']}}} {x} where to write" for x in ("phi", "gamma")},
         },
     }
-    printer = JavaScript(source_of(given, steps), given)
     inputs = "        inputs: null, // or a function of t and x that gives the inputs\n" * bool(
         p.inputs
     )
     work = "        work: [], // the arrays that routines work with"
-    more = {"Motion": inputs + work}
-    records = [printer.record(x, more.get(x, "")) for x in printer.source.records]
-    return _texts(printer, records, steps)
+    return _texts(JavaScript, given, steps, inputs + work)
 
 
 def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in Julia."""
     steps, functions, prefix = fields["steps"], fields["functions"], fields["prefix"]
-    had = {"rhs": "rhs", "project": "projected", **CALLED}
     counts = {"k": len(p.constants), "u": len(p.inputs)}
     right = [f"length({x}) == {n}" for x, n in counts.items() if n]
     if p.inputs:
@@ -366,8 +353,7 @@ def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         f'        throw(DimensionMismatch("{prefix}: {said}"))',
     ]
     given = _given(p, fields) | {
-        "functions": {of: functions[x]["name"] for x, of in had.items() if x in functions}
-        | {x: x for x in functions if x.startswith(STEPPING)},
+        "functions": _called(fields) | {x: x for x in functions if x.startswith(STEPPING)},
         **{f"{x}_jacobian": f"{x}_varied!" for x in steps["varied"]},
         "KINKS": "",  # which the function around it says
         "begin": "begin_at!",
@@ -378,17 +364,15 @@ def in_julia(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
             *lengths * bool(right),
         ],
     }
-    printer = Julia(source_of(given, steps), given)
-    return _texts(printer, [*map(printer.record, printer.source.records)], steps)
+    return _texts(Julia, given, steps)
 
 
 def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
     """The same in Python."""
     steps, functions = fields["steps"], fields["functions"]
-    had = {"rhs": "rhs", "project": "projected", **CALLED}
     given = _given(p, fields) | {
         **_sizes(p),
-        "returned": {of: f"{functions[x]['name']}(" for x, of in had.items() if x in functions}
+        "returned": {of: f"{name}(" for of, name in _called(fields).items()}
         | {x: f"_of_numbers(_{x}, " for x in functions if x.startswith(STEPPING)},
         "ENOUGH": "ENOUGH",
         "NO_EVENT": "None",
@@ -400,38 +384,26 @@ def in_python(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "fault_here": "fault_of",
         "entry": ["    k, u = _given(k, u)"],
         "status": "OK, or why not, with m as it was after the last good step.",
+        # which NumPy has in much less time
+        "left": ("factored", "lu_solve", "solved", "multiplied"),
     }
-    source = source_of(given, steps)
-    # which NumPy has in much less time
-    source.leave("factored", "lu_solve", "solved", "multiplied")
-    printer = Python(source, given)
-    return _texts(printer, [*map(printer.record, source.records)], steps)
+    return _texts(Python, given, steps)
 
 
 def _texts(
-    printer: Printer, records: Sequence[Iterable[str]], steps: Mapping[str, Any]
+    language: type[Printer], given: dict[str, Any], steps: Mapping[str, Any], more: str = ""
 ) -> dict[str, str]:
-    """Records, tables and routines, as text."""
+    """Records, tables and routines, as text; ``more``: fields of a motion that no algorithm
+    reads."""
+    source = source_of(given, steps)
+    source.leave(*given.get("left", ()))
+    printer = language(source, given)
+    records = (printer.record(x, more * (x == "Motion")) for x in source.records)
     return {
         "records": "\n\n".join(map("\n".join, records)),
         "tables": "\n".join(printer.tables()),
         "routines": printer.text(roots(steps)),
     }
-
-
-PRINTERS: dict[str, type[Printer]] = {
-    "c": C,
-    "rust": Rust,
-    "javascript": JavaScript,
-    "julia": Julia,
-}
-"""The languages whose functions of plain numbers may have loops: in others such take arrays of any
-library, and are written by these."""
-
-
-def real_of_work(language: str, real: str) -> str:
-    """The type of the numbers that such a function works with: in JavaScript always double."""
-    return "Float64Array" if language == "javascript" else real
 
 
 ALGORITHMS = {

@@ -20,8 +20,9 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, add, mul, replaced, terms
 from .. import dense
+from ..dense import entries_of
 from ..graph import Node
-from .discrete_ends import Ends, entries_of, has
+from .discrete_ends import Ends, has
 from .discrete_special import change
 
 MOST = 12

@@ -6,7 +6,7 @@ g₂, which is Θ⁻, what is to be solved for, and that with g₀ and g₁, whi
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -51,7 +51,7 @@ class Ends:
         self.h = self.graph.leaf("h", STEP)
         own.state |= {"g_1": g, "A_1": self.space.values["A"], "h": self.h}
         if reader.covector:
-            own.state["u"] = column([x for part in ("u", "f_u") for x in self._given(part)])
+            own.state["u"] = q.column([x for part in ("u", "f_u") for x in self._given(part)])
         if self.group.affine:
             own.state["T_1"] = self.space.values["T"]
         places = [*d.get("body", {}).get("points", ()), *d.get("places", ())]
@@ -201,13 +201,3 @@ class Centre:
 def has(t: Tree, *letters: str) -> bool:
     """Does a tree have one of these letters in it?"""
     return not {*letters}.isdisjoint(names(t))
-
-
-def column(numbers: Sequence[Node]) -> Matrix:
-    """The column of some numbers."""
-    return tuple((x,) for x in numbers)
-
-
-def entries_of(m: Matrix) -> list[Node]:
-    """The entries of a matrix, or a column, by rows."""
-    return [x for row in m for x in row]

@@ -19,9 +19,10 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from .. import dense
+from ..dense import entries_of
 from ..graph import Graph, Node, replaced
 from ..schedule import Directional
-from .discrete_ends import Centre, Ends, Given, column, entries_of
+from .discrete_ends import Centre, Ends, Given
 
 SMALL = 3
 """Up to this size by the adjugate."""
@@ -78,7 +79,7 @@ HALF = Fraction(1, 2)
 def turning(e: Ends, momentum: list[Node], unknowns: list[Node]) -> dict[str, list[Node]]:
     """The functions of a step on SO(3), and on SE(3) about the centre of mass."""
     centre, A = Centre(e), e.space.values["A"]
-    p, x, drawn = column(momentum[:3]), column(unknowns), column(momentum[3:])
+    p, x, drawn = q.column(momentum[:3]), q.column(unknowns), q.column(momentum[3:])
     zeta, drift = e.space.values["ζ"], e.space.values.get("w", ())
     inertia = "I_c" if centre.size else "I"
     e.invert(inertia)
@@ -132,19 +133,19 @@ def _momentum(e: Ends, real: Node, x: Matrix) -> Matrix:
 def _at_rest(e: Ends, zeta: Matrix) -> Matrix:
     """The momentum of a velocity: that of a short step, h = 1, of half of it, to first order."""
     leaves = e.leaves("short", 3)
-    found = entries_of(_momentum(e, e.one, column(leaves)))
+    found = entries_of(_momentum(e, e.one, q.column(leaves)))
     seeds = {y: z * HALF for y, (z,) in zip(leaves, zeta, strict=True)}
     along, still = Directional(e.graph, seeds, "zeta"), dict.fromkeys(leaves, e.graph.num(0))
-    return column([replaced(along.of(y), still) for y in found])
+    return q.column([replaced(along.of(y), still) for y in found])
 
 
 def _torque(e: Ends) -> Matrix:
     """μ, as the axis of what is j(μ); 0 without forces."""
     own = [x for x in e.record["turning"].equations if x.lhs == ("hat", "μ_1")]
     if not own:
-        return column([e.graph.num(0)] * 3)
+        return q.column([e.graph.num(0)] * 3)
     m = e.matrix(e.equation("turning", ("hat", "μ_1")))
-    return column([m[2][1], m[0][2], m[1][0]])
+    return q.column([m[2][1], m[0][2], m[1][0]])
 
 
 Functions = dict[str, list[Node]]

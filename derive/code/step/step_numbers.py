@@ -28,9 +28,8 @@ from ..program import (
     blocks,
     names,
 )
-from .collocation import Collocation
 from .tableaux import GROWTH as EXPLICIT_GROWTH
-from .tableaux import METHODS, explicit, fields_of
+from .tableaux import METHODS, Collocation, StageModes, explicit, fields_of
 from .tableaux import SAFETY as EXPLICIT_SAFETY
 
 OF_ONE, OF_EACH = ("t", "x", "u"), ("t", "x", "u", "k")
@@ -155,6 +154,7 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
     ``explicit``: what they share; ``watch``: how events are found."""
     compiled = "c" in (written.language.name, written.language.needs)
     in_lanes_too = compiled and "gauss" in options.step and not p.loops
+    kept = [sentences(p.keeps, energy_alone=not p.conserved)] if p.keeps else []
     return {
         "parts": parts(p),
         "split": split_of(p),
@@ -173,7 +173,7 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         "watch": WATCH[options.real] if p.events else None,
         "ensemble": ensemble(p, written) if compiled and options.ensemble else None,
         "gauss": gauss("raw" in options.jacobian) if {*COLLOCATED} & {*options.step} else None,
-        "keeps": textwrap.wrap(of_gauss(p), 92),
+        "keeps": textwrap.wrap(" ".join([*kept, *[BENDS] * p.bends]), 92),
         "kinks": p.kinks.get("rates", ()),
     }
 
@@ -182,12 +182,6 @@ BENDS = (
     "A force has a root, as in |v|: where that is 0 its derivatives may jump, which the estimate "
     "of gauss does not see; its error is larger than tol then, and nearer to it with vern9."
 )
-
-
-def of_gauss(p: Program) -> str:
-    """What the emitted files say of the equations that it has here."""
-    kept = [sentences(p.keeps, energy_alone=not p.conserved)] if p.keeps else []
-    return " ".join([*kept, *[BENDS] * p.bends])
 
 
 def sentences(found: KeptByGauss, *, energy_alone: bool) -> str:
@@ -289,8 +283,6 @@ def parts(p: Program) -> list[tuple[int, int]]:
 def gauss(coarse: bool) -> dict[str, Any]:
     """The numbers of Gauss's collocation, which round-trip as decimals: see ``Collocation``;
     ``coarse``: its stages apart, too, for Newton's method where there is a Jacobian."""
-    from .collocation import StageModes  # which alone needs mpmath
-
     method = Collocation()
     return {
         "nodes": method.c,

@@ -21,8 +21,6 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal, localcontext
 
-from .collocation import DIGITS
-
 FREE = {2: "0.03462", 5: "0.561", 8: "0.645", 10: "0.06757", 11: "0.25", 13: "0.8206"}
 FREE |= {14: "0.9012", 15: "1", 16: "1", 17: "1", 19: "0.888", 20: "0.696", 21: "0.487"}
 """The nodes that Verner chose; node 1 is 0."""
@@ -36,7 +34,7 @@ A_21_20 = "-0.1150750712958503934434410263732282100773"
 NEAR_12, NEAR_18 = ("0.659", "0.6591"), ("0.74", "0.741")
 """Between which numbers c_12 and c_18 are looked for."""
 
-ZERO, ONE = Decimal(0), Decimal(1)
+ZERO, ONE, DIGITS = Decimal(0), Decimal(1), 60
 
 Row = dict[int, Decimal]
 Function = Callable[..., Decimal]

@@ -57,6 +57,15 @@ def rhs(
 ): ...
 
 
+def jacobian_raw(
+    t: real,
+    x: real[N_STATE],
+    k: real[N_CONSTANTS],
+    u: real[N_INPUTS],
+    J: out[real[N_STATE * N_STATE]],
+): ...
+
+
 def projected(x: real[N_STATE], on: out[real[N_STATE]]): ...
 
 

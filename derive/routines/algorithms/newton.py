@@ -5,15 +5,6 @@ mode_into: table[real, 4, 8, 2] = MODE_INTO
 mode_back: table[real, 4, 8, 2] = MODE_BACK
 
 
-def jacobian_raw(
-    t: real,
-    x: real[N_STATE],
-    k: real[N_CONSTANTS],
-    u: real[N_INPUTS],
-    J: out[real[N_STATE * N_STATE]],
-): ...
-
-
 def factored(m: out[Motion], k: real[N_CONSTANTS], u: real[N_INPUTS], h: real) -> flag:
     """1 - h v J for each eigenvalue v, J the derivative of dx/dt where the step begins, as triangles of complex
     numbers; False where one is singular."""

@@ -5,15 +5,6 @@ What goes along with the state is a matrix by rows: what its numbers change by, 
 """
 
 
-def jacobian_raw(
-    t: real,
-    x: real[N_STATE],
-    k: real[N_CONSTANTS],
-    u: real[N_INPUTS],
-    J: out[real[N_STATE * N_STATE]],
-): ...
-
-
 def jacobian_raw_inputs(
     t: real,
     x: real[N_STATE],
