@@ -14,7 +14,7 @@ from tests.oracles import general, relative_error, sensors
 from tests.problems import PROBLEMS
 from tests.support import corpus
 from tests.support.library import emission, module_of
-from tests.support.walks import SEED
+from tests.support.walks import SEED, stands
 
 NAMES = [x for x in PROBLEMS if x.endswith(" outputs")]
 T = 0.4
@@ -76,9 +76,7 @@ def test_the_checker_finds_them_from_the_points():
     d = corpus.record("points SE(2) x SO(2) outputs")
 
     def holds(outputs):
-        """Does the step of the outputs hold, of a problem with these?"""
-        changed = replace(d, problem=d.problem | {"outputs": outputs})
-        return next(x.holds for x in verdicts(changed, SEED) if x.label == "test.outputs")
+        return stands(replace(d, problem=d.problem | {"outputs": outputs}), "outputs")
 
     assert holds(stated := d.problem["outputs"])
     for k, change in ((0, {"frame": "body"}), (3, {"on": 1}), (6, {"on": 2}), (8, {"block": 2})):
