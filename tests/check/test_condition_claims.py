@@ -17,6 +17,7 @@ from derive.record.as_json import from_json, to_json
 from derive.record.prose import message, sentences, unmarked
 from derive.record.sentence import CLAIMS, CONDITIONS, SIGNED, Claim, Sentence
 from tests.support import corpus, walks
+from tests.support.cached import on_disk
 from tests.support.corpus import SIGNED as BODIES
 from tests.support.walks import SEED
 
@@ -37,7 +38,7 @@ def record(name):
     return corpus.record(name) if name.startswith("signed ") else walks.record(name)
 
 
-@cache
+@on_disk
 def made():
     """Kind → a record with it, the step and the claim."""
     found = {}
