@@ -41,6 +41,15 @@ class Group:
     def __repr__(self) -> str:
         return f"<group {self.name}: dimension {self.dimension}>"
 
+    def __hash__(self) -> int:
+        """A group is a key of many caches, and its matrices are long."""
+        return self._of_numbers
+
+    @cached_property
+    def _of_numbers(self) -> int:
+        """The hash of numbers alone, which is the same where it is read from a file."""
+        return hash((self.n, self.basis))
+
     @cached_property
     def in_user_basis(self) -> Group:
         """The same group in the basis that the user states, whose coordinates are those of the
