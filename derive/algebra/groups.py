@@ -42,12 +42,11 @@ class Group:
         return f"<group {self.name}: dimension {self.dimension}>"
 
     def __hash__(self) -> int:
-        """A group is a key of many caches, and its matrices are long."""
-        return self._of_numbers
+        """Kept, for it is a key of many caches; of numbers alone, as files may keep it too."""
+        return self._hash
 
     @cached_property
-    def _of_numbers(self) -> int:
-        """The hash of numbers alone, which is the same where it is read from a file."""
+    def _hash(self) -> int:
         return hash((self.n, self.basis))
 
     @cached_property
