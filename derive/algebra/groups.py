@@ -42,12 +42,8 @@ class Group:
         return f"<group {self.name}: dimension {self.dimension}>"
 
     def __hash__(self) -> int:
-        """Kept, for it is a key of many caches; of numbers alone, as files may keep it too."""
-        return self._hash
-
-    @cached_property
-    def _hash(self) -> int:
-        return hash((self.n, self.basis))
+        """Of what is short: a group is a key of many caches."""
+        return hash((self.name, self.n, self.dimension))
 
     @cached_property
     def in_user_basis(self) -> Group:
