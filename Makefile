@@ -29,22 +29,23 @@ test: $(STAMP)   ## lint, types, and the tests that take minutes
 	  { echo "make test: no C compiler on the path: install gcc or clang" >&2; exit 2; }
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/python -m pytest $(ON) $(if $(SEED),--seed=$(SEED)) --passed=$(PASSED)
+	$(BIN)/python -m pytest $(ON) $(if $(SEED),--seed=$(SEED)) $(LEFT) --passed=$(PASSED)
 
 PASSED := build/passed.json
+READ := build/text.json
 ON := -n 2 --dist worksteal
 
 text: $(STAMP)   ## lint, sentences in both languages, links, layers: what is soon seen
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check --quiet derive tests
-	$(BIN)/python -m pytest --quick $(ON) $(TEXT)
+	$(BIN)/python -m pytest --quick $(ON) --passed=$(READ) $(TEXT)
 
 TEXT := tests/prose tests/project/test_docs.py tests/project/test_faults.py tests/project/test_layers.py \
   tests/record/test_keys.py tests/record/test_uses.py tests/views/test_language.py \
   tests/views/test_both_languages.py
 
 rest: $(ALL)     ## what make test has just left out here, and a sixteenth of what it always leaves out
-	$(BIN)/python -m pytest --share=16 $(ON) --without=$(PASSED) --deselect $(PAGES)
+	$(BIN)/python -m pytest --share=16 $(ON) --without=$(PASSED) $(LEFT) --deselect $(PAGES)
 
 # a page that make test leaves out is for make dist, where only the wheel is
 PAGES := tests/project/test_docs.py::test_a_page_runs

@@ -22,7 +22,7 @@ def pytest_addoption(parser):
 
     ``--quick``: of what is named on the command line, too, no more than in a quick run.
     ``--seed``: of the choice of cases.  ``--passed``: a file for the names of those that passed;
-    ``--without``: such a file, of tests that are left out.  ``--order``: files in an order by
+    ``--without``: such files, of tests that are left out.  ``--order``: files in an order by
     chance, and the tests of each.  ``--costs``: a folder for the seconds of each.
     """
     told = "of the tests that a quick run leaves out"
@@ -31,7 +31,7 @@ def pytest_addoption(parser):
     parser.addoption("--quick", action="store_true", help="of what is named, too, as make test")
     parser.addoption("--seed", default=thorough.SEED, help="of the choice of cases (%(default)s)")
     parser.addoption("--passed", metavar="FILE", help="the names of tests that passed, into a file")
-    parser.addoption("--without", metavar="FILE", help="leave out what passed before")
+    parser.addoption("--without", metavar="FILE", action="append", help="leave out what passed")
     parser.addoption("--costs", metavar="FOLDER", type=Path, help="seconds of the processor")
     parser.addoption("--order", metavar="SEED", help="files and their tests in an order by chance")
 
@@ -64,7 +64,8 @@ def pytest_collection_modifyitems(config, items):
             item.add_marker("no_cover")
         kept -= {*left}
     if before := config.getoption("--without"):
-        passed = {*json.loads(Path(before).read_text(encoding="utf-8"))}
+        files = (Path(x) for x in before)
+        passed = {x for y in files if y.exists() for x in json.loads(y.read_text(encoding="utf-8"))}
         kept = {x for x in kept if x.nodeid not in passed}
     if left := [x for x in items if x not in kept]:
         items[:] = [x for x in items if x in kept]

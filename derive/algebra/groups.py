@@ -41,6 +41,10 @@ class Group:
     def __repr__(self) -> str:
         return f"<group {self.name}: dimension {self.dimension}>"
 
+    def __hash__(self) -> int:
+        """Of what is short: a group is a key of many caches."""
+        return hash((self.name, self.n, self.dimension))
+
     @cached_property
     def in_user_basis(self) -> Group:
         """The same group in the basis that the user states, whose coordinates are those of the

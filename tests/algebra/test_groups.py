@@ -1,11 +1,28 @@
-"""Groups as data: bases, samplers, brackets, coordinates, for several n."""
+"""Groups as data: bases, samplers, brackets, coordinates, for several n; algebras by their
+structure constants: Jacobi, representations, matrices that stand for them."""
 
 from fractions import Fraction
+from itertools import combinations
 from random import Random
 
+import numpy as np
 import pytest
+import sympy
 
-from derive.algebra.families import group, turning_about_a_point
+from derive.algebra.families import group, so_basis, turning_about_a_point
+from derive.algebra.samplers import inner_sampler, one_parameter
+from derive.algebra.structure import (
+    adjoint,
+    brackets_of,
+    derivations,
+    dual,
+    faithful,
+    rank,
+    require_jacobi,
+    require_representation,
+    table_of,
+)
+from derive.algebra.user_groups import group_of_basis
 from derive.language import rational as q
 
 FAMILIES = ("SO", "SE", "SL", "SAff", "Sim", "UT", "SU")
@@ -146,3 +163,148 @@ def test_names(name):
     else:
         with pytest.raises(ValueError, match=r"known|from|at most"):
             group(name)
+
+
+# -- structure constants ----------------------------------------------------------------------
+
+
+ONE = Fraction(1)
+ALGEBRAS = {  # dimension, rows
+    "so(3)": (3, [(1, 2, 3, ONE), (2, 3, 1, ONE), (3, 1, 2, ONE)]),
+    "Heisenberg": (3, [(1, 2, 3, ONE)]),
+    "Heisenberg in R^5": (5, [(1, 2, 5, ONE), (3, 4, 5, Fraction(2))]),
+    "oscillator": (4, [(1, 2, 3, ONE), (4, 1, 2, ONE), (4, 2, 1, -ONE)]),
+    "abelian": (4, []),
+    "line": (1, []),
+    "ax + b": (2, [(1, 2, 2, ONE)]),
+    "with a centre": (4, [(1, 2, 3, ONE), (2, 3, 1, ONE), (3, 1, 2, ONE)]),
+    "filiform": (5, [(1, 2, 3, ONE), (1, 3, 4, ONE), (1, 4, 5, ONE)]),
+}
+
+
+@pytest.mark.parametrize("name", ALGEBRAS)
+def test_matrices_that_stand_for_an_algebra(name):
+    """They are independent, and their commutators are the brackets: by NumPy."""
+    dimension, rows = ALGEBRAS[name]
+    brackets = brackets_of(rows)
+    require_jacobi(brackets, dimension)
+    E = np.array(faithful(brackets, dimension), float)
+    assert np.linalg.matrix_rank(E.reshape(dimension, -1)) == dimension
+    table = np.array(table_of(brackets, dimension), float)
+    for a, b in combinations(range(dimension), 2):
+        assert np.allclose(E[a] @ E[b] - E[b] @ E[a], np.tensordot(table[a, b], E, 1))
+
+
+@pytest.mark.parametrize("name", ALGEBRAS)
+def test_the_adjoint_and_its_dual(name):
+    dimension, rows = ALGEBRAS[name]
+    brackets = brackets_of(rows)
+    for found in (adjoint(brackets, dimension), dual(adjoint(brackets, dimension))):
+        require_representation(found, brackets)
+
+
+@pytest.mark.parametrize("name", ALGEBRAS)
+def test_derivations(name):
+    """As many as SymPy finds, and each is one."""
+    dimension, rows = ALGEBRAS[name]
+    brackets = brackets_of(rows)
+    c = np.array(table_of(brackets, dimension), float)
+    found = derivations(brackets, dimension)
+    for D in np.array(found, float).reshape(len(found), dimension, dimension):
+        moved = np.einsum("abk,ik->abi", c, D)
+        assert np.allclose(moved, np.einsum("ia,ibk->abk", D, c) + np.einsum("ib,aik->abk", D, c))
+    d = sympy.Matrix(dimension, dimension, lambda i, j: sympy.Symbol(f"d_{i}_{j}"))
+    conditions = [
+        sum(int(c[a, b, k] * 2) * d[i, k] for k in range(dimension))
+        - sum(
+            int(c[j, b, i] * 2) * d[j, a] + int(c[a, j, i] * 2) * d[j, b] for j in range(dimension)
+        )
+        for a, b in combinations(range(dimension), 2)
+        for i in range(dimension)
+    ]
+    system = sympy.Matrix([[x.coeff(y) for y in d] for x in map(sympy.expand, conditions) if x])
+    assert len(found) == dimension**2 - (system.rank() if len(system) else 0)
+
+
+def test_jacobi_names_the_triple():
+    rows = [(1, 2, 3, ONE), (2, 3, 2, ONE), (3, 1, 2, ONE)]
+    with pytest.raises(ValueError, match=r"fails for E_1, E_2, E_3: .* is −E_3, not 0"):
+        require_jacobi(brackets_of(rows), 3)
+
+
+def test_an_algebra_that_is_not_seen():
+    """Characteristically nilpotent, of dimension 7: no derivation moves the centre."""
+    rows = [(1, i, i + 1) for i in range(2, 7)] + [(2, 3, 6), (2, 4, 7), (2, 5, 7)]
+    brackets = brackets_of([*((*row, ONE) for row in rows), (3, 4, 7, -ONE)])
+    require_jacobi(brackets, 7)
+    with pytest.raises(ValueError, match="give it by a basis of matrices"):
+        faithful(brackets, 7)
+
+
+def test_rank_counts_independent_matrices():
+    assert rank([((1, 2), (0, 0)), ((2, 4), (0, 0)), ((0, 0), (0, 0)), ((0, 1), (0, 0))]) == 2
+
+
+# -- elements in a basis of one's own ---------------------------------------------------------
+
+
+def matrix(rows):
+    return tuple(tuple(Fraction(x) for x in row) for row in rows)
+
+
+def sample(*basis):
+    return inner_sampler([matrix(e) for e in basis])(Random(1), 50)
+
+
+def test_rotations():
+    g = inner_sampler(so_basis(3))(Random(2), 50)
+    assert q.times(g, q.transposed(g)) == q.identity(3)
+    assert q.determinant(g) == 1
+    assert any(x not in (0, 1, -1) for x in q.flatten(g))
+
+
+def test_a_turn_with_an_irrational_speed():
+    """E = [[0, −2], [1, 0]] keeps x² + 2y²."""
+    g = sample([[0, -2], [1, 0]])
+    form = matrix([[1, 0], [0, 2]])
+    assert q.times(q.transposed(g), q.times(form, g)) == form
+
+
+def test_a_nut_on_a_screw():
+    """The turn and the rise are independent of one another in polynomials."""
+    g = sample([[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, Fraction(1, 10)], [0, 0, 0, 0]])
+    assert (g[0][0] ** 2 + g[1][0] ** 2, g[2][2], g[3]) == (1, 1, (0, 0, 0, 1))
+    assert g[2][3] != 0
+    assert (g[0][3], g[1][3]) == (0, 0)
+
+
+def test_eigenvalues_in_a_ratio():
+    g = sample([[1, 0], [0, -2]])
+    assert (g[0][1], g[1][0], g[0][0] ** 2 * g[1][1]) == (0, 0, 1)
+
+
+def test_a_jordan_block():
+    parts = one_parameter(matrix([[1, 1], [0, 1]]))
+    assert parts.nilpotent == matrix([[0, 1], [0, 0]])
+    g = sample([[1, 1], [0, 1]])
+    assert g[1][0] == 0
+    assert g[0][0] == g[1][1]
+
+
+@pytest.mark.parametrize("e", [[[0, 0, 2], [1, 0, 0], [0, 1, 0]], [[1, -1], [1, 1]]])
+def test_other_eigenvalues_are_refused(e):
+    assert inner_sampler([matrix(e)]) is None
+
+
+def test_a_group_has_them():
+    screw = group_of_basis("S", "linear", [matrix([[0, -1, 0], [1, 0, 0], [0, 0, 1]])])
+    assert screw.larger
+    assert screw.has_inner_samples
+    g = screw.sample_inside(Random(3))
+    assert g[2][2] != 1
+    assert q.determinant(g) == g[2][2]
+    assert group("SE(3)").sample_inside(Random(4)) == group("SE(3)").sample(Random(4))
+    cubic = group_of_basis("C", "linear", [matrix([[0, 0, 2], [1, 0, 0], [0, 1, 0]])])
+    assert not cubic.has_inner_samples
+    with pytest.raises(ValueError, match="no exact elements"):
+        cubic.sample_inside(Random(5))

@@ -1,5 +1,6 @@
 """The conditions in sentences of the walk are judged: of masses, of what equations divide by, of
-the Lie algebra and of the body; each of them is refused where it is not so."""
+the Lie algebra and of the body; what is said of families of equilibria is tried in numbers: no
+other inequality, value or verdict passes."""
 
 import re
 from dataclasses import replace
@@ -7,6 +8,7 @@ from functools import cache
 
 import pytest
 
+from derive import derive
 from derive.check.checker import ClaimChecker
 from derive.check.claims import claims_by_ranks
 from derive.check.claims.claims_by_ranks import DIVISORS, OF_ROTATIONS
@@ -16,7 +18,10 @@ from derive.python.api import Aff, Points, Problem, Spring
 from derive.record.as_json import from_json, to_json
 from derive.record.prose import message, sentences, unmarked
 from derive.record.sentence import CLAIMS, CONDITIONS, SIGNED, Claim, Sentence
+from tests.check.test_equilibrium_claims import exchanged
+from tests.check.test_record_claims import FAMILIES, changes, said
 from tests.support import corpus, walks
+from tests.support.cached import on_disk
 from tests.support.corpus import SIGNED as BODIES
 from tests.support.walks import SEED
 
@@ -37,7 +42,7 @@ def record(name):
     return corpus.record(name) if name.startswith("signed ") else walks.record(name)
 
 
-@cache
+@on_disk
 def made():
     """Kind → a record with it, the step and the claim."""
     found = {}
@@ -178,3 +183,65 @@ def test_every_condition_is_a_claim_or_says_nothing_that_can_be_false():
     told = {key for key, x in sentences().items() if CONDITION.search(unmarked(x[0]))}
     left = {key for keys in OPEN.values() for key in keys.split()}
     assert told - CLAIMS == left
+
+
+# -- families of equilibria -------------------------------------------------------------------
+
+
+HEAVY = {"L": "(zeta_1^2 + zeta_2^2 + I3*zeta_3^2)/2 - A_33"}
+HEAVY = {"name": "heavy", "group": "SO(3)", "parameters": {"I3": 2}, "lagrangian": HEAVY}
+SOURCES = {
+    **{x: lambda x=x: derive(x) for x in ("euler_top", "lagrange_top", "euler_poisson")},
+    "heavy": lambda: derive(problem_of(HEAVY)),
+}
+RARE = {"family.origin", "family.on_the_leaf_always", "family.unstable_large"}
+"""Which no problem makes that is searched within seconds."""
+ALWAYS = {f"family.{x}" for x in ("stable_always", "indefinite", "unstable_always", "imaginary")}
+"""Verdicts whatever the letters, each the opposite of another one."""
+
+
+@cache
+def family(name):
+    return SOURCES[name]().families().record
+
+
+def families(name):
+    """A judge of steps, a step and each of its claims about a family."""
+    d = family(name)
+
+    def judge(step):
+        steps = tuple(step if x.label == step.label else x for x in d.steps)
+        return ClaimChecker(replace(d, steps=steps), SEED).fault(step)
+
+    for step in d.steps:
+        for claim in step.claims:
+            if claim.kind.startswith(FAMILIES):
+                yield judge, step, claim
+
+
+def test_every_kind_is_made():
+    kinds = {claim.kind for name in SOURCES for _, _, claim in families(name)}
+    assert kinds == {x for x in CLAIMS if x.startswith(FAMILIES)} - RARE
+
+
+@pytest.mark.parametrize("name", SOURCES)
+def test_claims_hold_and_no_other_value_does(name):
+    for judge, step, claim in families(name):
+        assert not judge(step)
+        for wrong in changes(claim):
+            assert judge(said(step, claim, wrong)).startswith("the claim"), wrong
+
+
+def test_no_other_verdict_holds():
+    """Where the letters do not matter: definite for not, imaginary for with a positive part."""
+    tried = 0
+    for judge, step, claim in families("heavy"):
+        for kind in ALWAYS - {claim.kind} if claim.kind in ALWAYS else ():
+            if ("polynomial" in dict(claim.values)) is (kind in POLYNOMIAL):
+                found = judge(exchanged(step, claim, Claim(kind, claim.values)))
+                assert found.startswith("the claim"), (step.label, kind)
+                tried += 1
+    assert tried >= 4
+
+
+POLYNOMIAL = {"family.unstable_always", "family.imaginary"}

@@ -15,7 +15,7 @@ import pytest
 
 import derive
 from derive.motion.native import nvcc
-from tests.problems.line import FALLING
+from tests.problems.moving import FALLING
 from tests.support.library import STRICT, built, derived, emission, module_of
 from tests.support.needs import CC, need, needs
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import derive
-from tests.problems.line import FALLING
+from tests.problems.moving import FALLING
 from tests.support.library import module_of
 from tests.support.needs import need
 

@@ -40,7 +40,7 @@ FLUID = {"algebra": {"of": "torus", "N": 9}, "inertia": {"operator": "laplacian"
 OBSERVED = FILES["SE(2) x SO(2) outputs"]
 JACOBIANS = ("state", "inputs", "parameters", "raw")
 CHARTED = ("four factors", "and matrices", "by a basis")
-IN_CHARTS = {"jacobian": ("state", "step"), "step": ("rk4", "gauss"), "conserved": True}
+IN_CHARTS = {"jacobian": ("state", "step"), "step": ("rk4", "gauss")}
 PROBLEMS = {
     "body": ("so3", {"jacobian": JACOBIANS, "conserved": True}),
     "pressed": ("saff3", {"conserved": True, "multiplier": True}),
@@ -55,7 +55,13 @@ PROBLEMS = {
     "newton": (problem_of(HYPERBOLIC), {"momenta": True}),
     "indefinite": (typed(REGULAR[0]), {"momenta": True}),
     "torus": (problem_of({"name": "fluid9", **FLUID}), {"conserved": True}),
-    **{f"charts, {x}": (CHARTS[x][0], {"attitude": CHARTS[x][1], **IN_CHARTS}) for x in CHARTED},
+    **{
+        f"charts, {x}": (
+            CHARTS[x][0],
+            {"attitude": CHARTS[x][1], "conserved": x != "and matrices", **IN_CHARTS},
+        )
+        for x in CHARTED
+    },
     "floats": (BARE, {"jacobian": JACOBIANS[:1]}),
     "newton in floats": (problem_of(HYPERBOLIC), {"momenta": True}),
 }

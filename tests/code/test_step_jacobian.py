@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 import derive
-from tests.problems.line import FALLING
+from tests.problems.moving import FALLING
 from tests.support.library import ONE_BUILD, STEPPED, library, module_of
 from tests.support.states import element_names, hat, state
 

@@ -16,7 +16,7 @@ import derive
 from derive.code.options import Options
 from derive.programs import program
 from tests.problems import thrown
-from tests.problems.line import FALLING
+from tests.problems.moving import FALLING
 from tests.problems.thrown import PARAMETERS, PUSH, state
 from tests.support import faces
 from tests.support.corpus import driven

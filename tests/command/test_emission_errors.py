@@ -13,7 +13,7 @@ from derive.command.cli import main
 from derive.language import templating
 from tests.support.library import module_of
 from tests.support.needs import CC, needs
-from tests.support.unmeasured import environment
+from tests.support.processes import environment
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from derive.command.writing import PREFIX, SUFFIX, write
-from tests.support.unmeasured import environment
+from tests.support.processes import environment
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="this is no POSIX")
 ROOT = Path(__file__).parents[2]

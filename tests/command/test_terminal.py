@@ -15,7 +15,7 @@ from derive.command import writing
 from derive.command.cli import main
 from derive.views.printing.line_breaking import display_width
 from derive.views.rendering import FORMATS
-from tests.support.unmeasured import environment
+from tests.support.processes import environment
 
 pty = pytest.importorskip("pty", reason="this system has no pty")
 ESCAPES = re.compile(r"\x1b\[[0-9;]*m")

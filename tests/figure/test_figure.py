@@ -21,7 +21,7 @@ from derive.record.record import Derivation
 from derive.views.figure.drawing import Scene, Stroke, svg, tikz
 from derive.views.figure.drawn_body import ExpressionValues, overlap
 from derive.views.figure.scene import WIDTH, parts_of_inertia, scene
-from tests.support.tex import compiled
+from tests.support.processes import typeset
 from tests.support.walks import record as ready_made_record
 
 PROBLEMS = sorted((Path(__file__).parents[2] / "derive" / "problems").glob("*.toml"))
@@ -155,7 +155,7 @@ def test_a_figure(name: str) -> None:
 
 
 def test_tikz_compiles(tmp_path: Path) -> None:
-    log = compiled(alone("\n\n".join(tikz(figure(name)) for name in ALL)), tmp_path)
+    log = typeset(alone("\n\n".join(tikz(figure(name)) for name in ALL)), tmp_path)
     assert " ! " not in log
     assert "Missing character" not in log
 
@@ -174,7 +174,7 @@ def test_hostile_names_are_printed_not_obeyed(name: str, tmp_path: Path) -> None
         assert not any("script" in element.tag for element in root.iter())
         assert r"\input" not in tikz(x)
         assert any(label.name for label in x.labels)
-    assert "passwd" not in compiled(alone(tikz(drawn) + tikz(product)), tmp_path)
+    assert "passwd" not in typeset(alone(tikz(drawn) + tikz(product)), tmp_path)
 
 
 @pytest.mark.parametrize("value", [1e300, -1e300, 1e-300, 0.0, None])

@@ -1,4 +1,5 @@
-"""The grammar of expressions in problem files, against Python's own arithmetic on fractions."""
+"""The grammar of expressions in problem files, against Python's own arithmetic on fractions; trees
+are gone through in one way."""
 
 import math
 from fractions import Fraction
@@ -9,7 +10,8 @@ import pytest
 from derive.check.values.evaluate import Environment, evaluate
 from derive.language.derivatives import derivative
 from derive.language.expression import ExpressionError, names, parse
-from derive.language.tree import mul
+from derive.language.tree import fold, mul, nodes, operands, terms
+from derive.language.tree import names as names_of
 from derive.language.values import approximate
 
 VALUES = {"a": Fraction(3, 7), "b1": Fraction(-5), "c_x": Fraction(11, 2)}
@@ -138,3 +140,30 @@ def test_zero_divisors_are_those_of_fractions(seed):
             parse(ours)
     elif not zero:
         parse(ours)
+
+
+T = ("add", ("mul", 2, ("par", "k"), ("fun", "sin", "x")), ("pow", ("at", "r", 1), 3), "y")
+
+
+def test_what_is_a_tree_in_a_tree():
+    """Neither the name of a parameter or a function, nor an exponent."""
+    assert operands(("par", "k")) == operands("x") == operands(Fraction(1, 2)) == ()
+    assert operands(("fun", "sin", "x")) == ("x",)
+    assert operands(("pow", "x", 3)) == ("x",)
+    assert operands(("div", "x", 3)) == ("x", 3)
+    assert terms(T) == T[1:]
+    assert terms("x") == ("x",)
+
+
+def test_a_fold_goes_from_the_leaves_up():
+    @fold
+    def depth(t, *below):
+        return 1 + max(below, default=0)
+
+    @fold
+    def size(t, *below):
+        return 1 + sum(below)
+
+    assert depth(T) == 4
+    assert size(T) == len(nodes(T)) == 11
+    assert [*names_of(T)] == ["x", "r", "y"]

@@ -11,12 +11,13 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derive.command.cli import main
-from derive.command.lecturing import named_by, records_of
+from derive.command.lecturing import named_by
 from derive.lecture import document
 from derive.lecture.fresh_numbers import drawn, value
 from derive.lecture.lecture_text import LectureError, chapters, parsed, tree
 from derive.lecture.trials import tied, tried
 from derive.views.language import LANGUAGES, language
+from tests.support.lectures import records, shown
 from tests.support.walks import SEED
 
 RAW = chapters(fresh=True)
@@ -174,10 +175,9 @@ def test_steps_of_time(exercises):
 
 
 def test_every_claim_of_a_text_with_numbers_holds():
-    records = records_of(RAW)
     claims = []
     for fresh in drawn(RAW, 5, CLAIMS):
-        mine = named_by(fresh, records)
+        mine = named_by(fresh, records())
         tied(fresh, mine)
         asked = [b for b in fresh.blocks if any(x.fresh for x in b.entries)]
         only = [replace(b, entries=tuple(x for x in b.entries if x.fresh)) for b in asked]
@@ -188,20 +188,22 @@ def test_every_claim_of_a_text_with_numbers_holds():
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_pages(lang):
     """Without a seed no number is there; with one the text around them is the same."""
-    words, records = language(lang), records_of(RAW)
+    words = language(lang)
     lead = words.word("In numbers:")
-    plain = document.page(document.Lecture(chapters(), words, records))
-    assert lead not in plain
-    page = document.page(document.Lecture(drawn(RAW, 3, CLAIMS), words, records))
+    assert lead not in shown("page", lang)
+    page = document.page(document.Lecture(drawn(RAW, 3, CLAIMS), words, records()))
     assert page.count(lead) >= 20
     assert "#turned" not in page
     assert "$ " not in re.sub("<style>.*?</style>", "", page, flags=re.S)
 
 
-def test_by_the_command(tmp_path, capsys):
+def test_by_the_command(tmp_path, capsys, monkeypatch):
+    """Of one chapter, which refers to no other."""
     out = tmp_path / "l.tex"
+    one = [x for x in RAW if x.name == "volume"]
+    monkeypatch.setattr("derive.lecture.lecture_text.chapters", lambda fresh: fresh and one)
     assert main(["lecture", "--seed", "7", "--out", str(out)]) == 0
-    own = document.Lecture(drawn(RAW, 7, CLAIMS), language("en"), records_of(RAW))
+    own = document.Lecture(drawn(one, 7, document.claims_of(one)), language("en"), records())
     assert out.read_text(encoding="utf-8") == document.latex(own)
     with pytest.raises(SystemExit, match="2"):
         main(["lecture", "--seed", "-1", "--out", str(out)])

@@ -13,25 +13,26 @@ import pytest
 
 from derive.command.arguments import parser
 from derive.command.cli import COMMANDS, main
-from derive.command.lecturing import named_by, records_of
+from derive.command.lecturing import named_by
 from derive.command.showing import load_problem
 from derive.language.show import show
-from derive.lecture import document, figures
+from derive.lecture import figures
 from derive.lecture.back_matter import NUMBERS, OWN, WORKS, homes, letters
-from derive.lecture.lecture_text import PROVED, Formula, LectureError, chapters, parsed
+from derive.lecture.lecture_text import PROVED, Formula, LectureError, parsed
 from derive.lecture.trials import tied, tried
 from derive.views.language import LANGUAGES, language
+from tests.support import lectures
+from tests.support.lectures import CHAPTERS, FORMS, shown
 from tests.support.needs import needs
 from tests.support.walks import SEED
 
-CHAPTERS = chapters()
 NAMES = [c.name for c in CHAPTERS]
 CITED = re.compile("@([a-z_]+)")
 
 
 @pytest.fixture(scope="module")
 def records():
-    return records_of(CHAPTERS)
+    return lectures.records()
 
 
 def with_entry(chapter, entry):
@@ -166,10 +167,8 @@ def test_a_number_of_the_note_is_that_of_a_step(records):
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_the_page_has_every_formula_of_the_text(lang, records):
-    page = document.page(document.Lecture(CHAPTERS, language(lang), records)).split(
-        '<section id="symbols">'
-    )
+def test_the_page_has_every_formula_of_the_text(lang):
+    page = shown("page", lang).split('<section id="symbols">')
     text, whole = (
         ElementTree.fromstring(re.sub("<!DOCTYPE[^>]*>|<meta[^>]*>", "", x))
         for x in (page[0] + "</main></body></html>", '<section id="symbols">'.join(page))
@@ -184,31 +183,25 @@ def test_the_page_has_every_formula_of_the_text(lang, records):
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_without_solutions(lang, records):
-    words = language(lang)
-    for shown, mark in (
-        (document.page, '<details class="solution">'),
-        (document.latex, "Solutions"),
-    ):
-        assert mark in shown(document.Lecture(CHAPTERS, words, records))
-        none = shown(document.Lecture(CHAPTERS, words, records, solutions="none"))
+def test_without_solutions(lang):
+    for form, mark in (("page", '<details class="solution">'), ("latex", "Solutions")):
+        assert mark in shown(form, lang)
+        none = shown(form, lang, "none")
         assert mark not in none
         named = {*re.findall(r'(?:id="|label\{)([^"}]+)', none)}
         assert {*re.findall(r'(?:href="#|pageref\{|letterrow.*\{)(letter-\d+)', none)} <= named
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
-def test_solutions_in_a_chapter_at_the_end(lang, records):
+def test_solutions_in_a_chapter_at_the_end(lang):
     """The very last one, behind the bibliography, with all of them, by the chapters' titles."""
-    made = document.Lecture(CHAPTERS, language(lang), records, solutions="end")
-    page = document.page(made)
+    page, tex = (shown(form, lang, "end") for form in FORMS)
     before, _, behind = page.partition('<section id="solutions">')
     assert '<details class="solution">' not in before
     assert before.rfind("bibliography") > 0
     exercises = sum(b.kind == "exercise" for c in CHAPTERS for b in c.blocks)
     numbers = re.findall(r"<summary>Solution (\d+)</summary>", behind)
     assert [*map(int, numbers)] == [*range(1, exercises + 1)]
-    tex = document.latex(made)
     assert tex.count(r"\lecturesection{\ref{") == len(CHAPTERS)
     assert tex.rfind(r"\behind{Solutions}") > tex.rfind(r"\behind{Bibliograph")
 
@@ -249,12 +242,9 @@ def test_what_the_user_gives_stands_at_the_head_as_it_is(tmp_path, capsys, monke
     capsys.readouterr()
 
 
-def test_without_them_there_is_no_date(records):
-    for shown in (document.page, document.latex):
-        assert not re.search(
-            r"\\today|\\date|author\" content",
-            shown(document.Lecture(CHAPTERS, language("en"), records)),
-        )
+def test_without_them_there_is_no_date():
+    for form in FORMS:
+        assert not re.search(r"\\today|\\date|author\" content", shown(form, "en"))
 
 
 def test_every_work_is_referred_to():

@@ -11,16 +11,14 @@ from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation
 from scipy.special import ellipk
 
-from derive.command.lecturing import records_of
 from derive.lecture import document, figures, group_figures, motion_figures
-from derive.lecture.lecture_text import LectureError, chapters, parsed
+from derive.lecture.lecture_text import LectureError, parsed
 from derive.lecture.sheets import View
 from derive.problem.toml import problem_of
 from derive.views.language import LANGUAGES, language
+from tests.support.lectures import CHAPTERS, records, shown
 from tests.support.library import module_of
 
-CHAPTERS = chapters()
-RECORDS = records_of(CHAPTERS)
 CLAIMS = document.claims_of(CHAPTERS)
 FIGURES = [b for c in CHAPTERS for b in c.blocks if b.kind == "figure"]
 I1, I3, P = motion_figures.PARAMETERS.values()
@@ -221,16 +219,16 @@ def test_every_figure_is_in_the_text_and_no_other():
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_pictures_in_a_language(lang):
     """Numbers with its decimal mark, the same letters in all; each is described in words."""
-    page = document.page(document.Lecture(CHAPTERS, language(lang), RECORDS))
-    assert page == document.page(document.Lecture(CHAPTERS, language(lang), RECORDS))
-    shown = re.findall(r"<svg.*?</svg>", page, re.S)
-    labels = [re.sub(r"<[^>]+>", "", x) for s in shown for x in re.findall("<text.*?</text>", s)]
+    page = document.page(document.Lecture(CHAPTERS, language(lang), records()))
+    assert page == shown("page", lang)  # of another process
+    drawn = re.findall(r"<svg.*?</svg>", page, re.S)
+    labels = [re.sub(r"<[^>]+>", "", x) for s in drawn for x in re.findall("<text.*?</text>", s)]
     assert (("0,5" in labels), ("0.5" in labels)) == (lang == "fr", lang == "en")
-    for picture, block in zip(shown, FIGURES, strict=True):
+    for picture, block in zip(drawn, FIGURES, strict=True):
         (description,) = block.entries[0].texts[LANGUAGES.index(lang)]
         assert f"<title>{description}</title>" in picture
         assert len(description) > 80
-    latex = document.latex(document.Lecture(CHAPTERS, language(lang), RECORDS))
+    latex = shown("latex", lang)
     assert latex.count(r"\begin{tikzpicture}") == latex.count(r"\BeginAccSupp") == len(FIGURES)
 
 

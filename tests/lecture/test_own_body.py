@@ -8,20 +8,20 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
-from derive.command.lecturing import about, chapter_on, motion, records_of
+from derive.command.lecturing import about, chapter_on, motion
 from derive.command.showing import derive
 from derive.lecture import document
 from derive.lecture.body_figures import BodyOfLecture, marks, theory
-from derive.lecture.lecture_text import Given, chapters, parsed
+from derive.lecture.lecture_text import Given, parsed
 from derive.lecture.own_body import RacketStaysError, body_of
 from derive.lecture.ran_figure import Ran, label_of
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.views.language import LANGUAGES, language
 from tests.lecture.test_problem_chapter import alone
+from tests.support.lectures import CHAPTERS, records, shown
 from tests.support.library import module_of
 
-CHAPTERS = chapters()
 CLAIMS = document.claims_of(CHAPTERS)
 BOX = {"name": "brick", "title": "A brick @x, its _own_", "group": "SE(3)"}
 BOX["body"] = {"solid": "box", "density": 2, "sides": [1, 2, 3], "shift": [5, 0, 1]}
@@ -158,16 +158,14 @@ def test_marks_are_few_and_round(low, high):
 def test_the_first_chapter_is_about_the_body(lang):
     """Its numbers and figures; of the racket nothing is said but where it is not the body's."""
     own = about(made(BOX), CHAPTERS)
-    words = language(lang)
-    records = records_of(CHAPTERS)
-    plain = document.page(document.Lecture(CHAPTERS, words, records))
-    page = document.page(document.Lecture(own, words, records))
+    mine = document.Lecture(own, language(lang), records())
+    plain, page = shown("page", lang), document.page(mine)
     assert "A brick @x, its _own_" in page
     assert len(re.findall(r"\b(racket|raquette)", plain)) > 6
     assert not re.search(r"\b(racket|raquette)", page)
     assert page.count("<figure") == plain.count("<figure")
     assert "{" not in re.sub("<style>.*?</style>", "", page, flags=re.S)
-    latex = document.latex(document.Lecture(own, words, records))
+    latex = document.latex(mine)
     assert "5" in latex
     assert not re.search(r"\b(racket|raquette)", latex)
 

@@ -18,11 +18,10 @@ from derive.motion.ensemble import ParameterDraws, VariedNumber
 from derive.problem.toml import problem_of
 from derive.programs import motion_of
 from derive.python.simulated import SimulatedEnsemble
-from tests.problems.line import FALLING
-from tests.problems.moving import SPIN, STONE
+from tests.problems.moving import FALLING, SPIN, STONE
 from tests.support.library import derived
 from tests.support.needs import need, needs
-from tests.support.unmeasured import environment
+from tests.support.processes import environment
 
 VARY = {"zeta_1": (0, 1), "J_11": ("normal", 1.0, 0.01)}
 OPTIONS = ["--vary", "zeta_1=0:1", "--vary", "J_11=normal:1:0.01"]

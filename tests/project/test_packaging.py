@@ -1,4 +1,5 @@
-"""What installing derive brings, under which name, and what its developers have installed."""
+"""What installing derive brings, under which name, what it can do, and what its developers have
+installed."""
 
 import re
 import subprocess
@@ -10,6 +11,7 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.version import Version
 
+from tests.support.capabilities import LISTED, listed
 from tests.support.needs import needs
 
 ROOT = Path(__file__).parents[2]
@@ -113,3 +115,10 @@ def test_the_locked_environment_takes_nothing_without_a_hash():
     first, second = [x for x in done.stdout.splitlines() if " pip install " in x]
     assert "--require-hashes --requirement requirements-dev.lock" in first
     assert "--no-deps --no-build-isolation --editable ." in second
+
+
+def test_what_the_program_can_do_is_what_is_listed():
+    before = LISTED.read_text(encoding="utf-8").splitlines()
+    now = listed()
+    assert not {*before} - {*now}, "lost; where that is meant: python -m tests.support.capabilities"
+    assert not {*now} - {*before}, "new: python -m tests.support.capabilities"

@@ -1,4 +1,9 @@
-"""The words of derive.python.api build what a file says, and a derivation does what it promises."""
+"""The words of derive.python.api build what a file says, and a derivation does what it promises;
+the examples in docstrings print what they say."""
+
+import doctest
+import importlib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +14,7 @@ from derive.motion.first_numbers import MotionError
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.schema.python_words import words
+from tests.support.cached import ROOT
 from tests.support.walks import own_verdicts
 
 
@@ -227,3 +233,17 @@ def test_what_a_search_found_shows_the_steps_that_tell_it(find, said):
         assert f"{before[-1]} " not in plain
     assert found._repr_markdown_() == found.markdown() != found.markdown("fr")
     assert all(v.holds for v in found.check(1))
+
+
+WITH_EXAMPLES = [
+    ".".join(path.relative_to(ROOT).with_suffix("").parts)
+    for path in sorted(Path(ROOT, "derive").rglob("*.py"))
+    if ">>> " in path.read_text(encoding="utf-8")
+]
+
+
+@pytest.mark.parametrize("name", WITH_EXAMPLES)
+def test_examples_hold(name):
+    done = doctest.testmod(importlib.import_module(name))
+    assert done.attempted
+    assert not done.failed

@@ -4,7 +4,7 @@ from functools import cache
 
 import pytest
 
-from derive.check.checker import Checker
+from derive.check.checker import Checker, checker_of
 from derive.command.showing import derive, load_problem, ready_made
 from derive.pipeline import walk
 from derive.python.derived import Derived
@@ -51,6 +51,11 @@ def own_verdicts(found, seed=SEED):
     """Of the steps about the problem's group; those about any group are the same in all records."""
     checker = Checker(found.problem, seed)
     return [checker.check(step) for step in found.steps if step.scope != ANY_GROUP]
+
+
+def stands(found, label, seed=SEED):
+    """Does a step of a record hold, of the problem that the record says?  Others are not tried."""
+    return checker_of(found.problem, seed).check(found[label]).holds
 
 
 def record_that_holds(problem):

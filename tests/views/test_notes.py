@@ -20,7 +20,7 @@ from derive.views.printing.tex import formula
 from tests.problems import READY
 from tests.support.needs import need, needs
 from tests.support.playground_site import chromium
-from tests.support.tex import compiled
+from tests.support.processes import typeset
 from tests.support.walks import record
 
 GROUPS = ("so3", "se3", "sl3")
@@ -40,7 +40,7 @@ def said(capsys):
 )
 def test_notes_of_three_groups(options, said, tmp_path):
     said("notes", *GROUPS, "--out", tmp_path / "notes.tex", *options)
-    log = compiled((tmp_path / "notes.tex").read_text(encoding="utf-8"), tmp_path, runs=3)
+    log = typeset((tmp_path / "notes.tex").read_text(encoding="utf-8"), tmp_path, runs=3)
     assert "Overfull" not in log
     assert "undefined" not in log
     assert "multiply defined" not in log
@@ -91,7 +91,7 @@ def test_letters_of_titles_and_units(said, tmp_path):
         err = said("notes", tmp_path / "screw.toml", "--out", tmp_path / "notes.tex").err
         assert ("LaTeX has no 力 here" in err) == bool(k)
         assert bool(err) == bool(k)
-        compiled((tmp_path / "notes.tex").read_text(encoding="utf-8"), tmp_path)
+        typeset((tmp_path / "notes.tex").read_text(encoding="utf-8"), tmp_path)
 
 
 def test_a_fragment_stands_in_a_lecturers_text(said, tmp_path):
@@ -110,7 +110,7 @@ def test_a_fragment_stands_in_a_lecturers_text(said, tmp_path):
         + "\\newcommand{\\walkheading}[1]{\\section{#1}}\n"
         + "\\begin{document}\nBy \\eqref{so3.kernel}:\n\\input{so3}\n\\end{document}\n"
     )
-    log = compiled(lecture, tmp_path, runs=2)
+    log = typeset(lecture, tmp_path, runs=2)
     assert "undefined" not in log
 
 

@@ -20,7 +20,7 @@ from derive.views.printing.signs import tex_text
 from derive.views.printing.tex import FormulaPrinter, latex_tree
 from derive.views.rendering import FORMATS, NOTES, RenderError, notes, render
 from derive.views.text import markdown, text
-from tests.support.tex import compiled
+from tests.support.processes import typeset
 from tests.support.walks import record
 
 NAMES = ("so3", "se3", "sl3", "linear", "affine")
@@ -86,7 +86,7 @@ def test_an_equation_is_found_by_its_key_and_the_first_by_its_step(
     source = latex(record("so3")).replace(
         r"\begin{document}", rf"{packages}\usepackage{{refcount}}\begin{{document}}{said}"
     )
-    log = compiled(source, tmp_path, runs=3)
+    log = typeset(source, tmp_path, runs=3)
     numbers = dict(re.findall(r"<(so3[a-z0-9.]*): ([0-9.]+)>", log))
     assert numbers["so3.hat"] == numbers["so3.hat.1"] != numbers["so3.hat.2"]
     assert numbers["so3.kernel"] == numbers["so3.kernel.1"]
@@ -99,7 +99,7 @@ def test_an_equation_is_found_by_its_key_and_the_first_by_its_step(
 def test_latex_compiles_within_its_margins(name: str, lang: str, tmp_path: Path) -> None:
     source = latex(record(name), language=language(lang))
     assert source.isascii()
-    log = compiled(source, tmp_path, runs=2)
+    log = typeset(source, tmp_path, runs=2)
     assert "Overfull" not in log
     assert "undefined" not in log
     assert "multiply defined" not in log
@@ -112,7 +112,7 @@ def test_hostile_titles_are_printed_not_obeyed(title: str, tmp_path: Path) -> No
     assert source.isascii()
     assert r"\input" not in source
     assert source.count(r"\end{document}") == 1
-    log = compiled(source, tmp_path)
+    log = typeset(source, tmp_path)
     assert "passwd" not in log
     shown = text(d)
     assert max(map(display_width, shown.split("\n"))) <= 100
@@ -132,7 +132,7 @@ def test_hostile_names_and_labels_compile(tmp_path: Path) -> None:
     d = Derivation({"name": "n", "title": "", "parameters": {"x_$": 3}}, symbols, (step,))
     source = latex(d)
     assert r"\input" not in source
-    compiled(source, tmp_path)
+    typeset(source, tmp_path)
     assert max(map(display_width, text(d).split("\n"))) <= 100
     assert r"\input" not in markdown(d)
 
@@ -163,7 +163,7 @@ def test_long_formulas_keep_inside_the_margins(tmp_path: Path) -> None:
     equations = (Equation(("add", *terms), long, ("ξ′",)), Equation("r", entries))
     equations += (Equation("U", pages),)
     d = Derivation({"name": "n"}, (), (Step("n.long", "definition", (), equations, say("Long.")),))
-    assert "Overfull" not in compiled(latex(d), tmp_path)
+    assert "Overfull" not in typeset(latex(d), tmp_path)
 
 
 NESTED = {

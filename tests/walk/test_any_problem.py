@@ -24,6 +24,7 @@ from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.record.sentence import english
 from derive.walk.matrices import solution
+from tests.fuzz.mutate import mesh
 from tests.oracles import solids
 from tests.problems import PROBLEMS
 from tests.support import corpus, walks
@@ -106,26 +107,13 @@ def test_a_potential_that_ties_the_centre_of_mass():
     assert "if U_Q" in english(record["test.separation"].prose)
 
 
-TETRAHEDRON = """OFF
-4 4 6
-0 0 0
-1 0 0
-0 1 0
-0 0 1
-3 0 2 1
-3 0 1 3
-3 0 3 2
-3 1 2 3
-"""
-
-
 def test_a_mesh_is_the_solid_it_bounds(tmp_path):
-    (tmp_path / "body.off").write_text(TETRAHEDRON, encoding="utf-8")
+    (tmp_path / "body.off").write_text(mesh("off"), encoding="utf-8")
     head = 'name = "test"\ngroup = "SE(3)"\n[body]\ndensity = 2\n'
-    mesh = problem_of(tomllib.loads(head + 'solid = "mesh"\nfile = "body.off"'), tmp_path)
+    bounded = problem_of(tomllib.loads(head + 'solid = "mesh"\nfile = "body.off"'), tmp_path)
     corners = "[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]"
     whole = problem_of(tomllib.loads(f'{head}solid = "tetrahedron"\nvertices = {corners}'))
-    found, expected = walk(mesh), walk(whole)
+    found, expected = walk(bounded), walk(whole)
     assert found["body"].equations == expected["body"].equations
     assert Checker(found.problem, SEED).check(found["body"]).holds
 

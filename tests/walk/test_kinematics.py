@@ -98,13 +98,18 @@ def test_the_generators_of_an_imu_are_those_of_the_article():
         assert [row[3:6] for row in found[6:]] == [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
 
 
+@cache
+def walked(made):
+    return walk(made())
+
+
 def trees(rows):
     return [[parse(str(x)) for x in row] for row in rows]
 
 
 @pytest.mark.parametrize("made", [gyroscope, imu_with_bias])
 def test_a_bias_in_the_state_has_a_counterexample(made):
-    d = walk(made())
+    d = walked(made)
     last = d.steps[-1]
     assert short(last.label) == "counterexample"
     assert [e.lhs for e in last.given] == ["A", "Â"]
@@ -150,16 +155,13 @@ def test_other_groups_have_their_errors(case):
 def refused(d, label, *equations, **more):
     """Is a step refused with other equations, or something else of it changed?"""
     step = replace(d[label], **({"equations": equations} if equations else {}), **more)
-    changed = replace(d, steps=tuple(step if s.label == step.label else s for s in d.steps))
-    verdict = next(v for v in check(changed) if v.label == step.label)
-    return not verdict.holds
+    return not Checker(d.problem, SEED).check(step).holds
 
 
 def test_the_condition_is_refused_where_it_does_not_hold():
-    d, right = walk(gyroscope()), record("imu")["affine"]
+    d, right = walked(gyroscope), record("imu")["affine"]
     step = replace(d.steps[-1], given=(), equations=right.equations)
-    changed = replace(d, steps=(*d.steps[:-1], step))
-    assert "the sides differ" in check(changed)[-1].reason
+    assert "the sides differ" in Checker(d.problem, SEED).check(step).reason
 
 
 def test_other_rates_of_the_errors_are_refused():
@@ -176,7 +178,7 @@ def test_other_rates_of_the_errors_are_refused():
 
 def test_a_linear_rate_of_the_logarithm_is_refused_where_it_is_not_exact():
     """Near the identity every error moves linearly: the series of the checker goes further."""
-    d, right = walk(gyroscope()), record("imu")["log_linear"]
+    d, right = walked(gyroscope), record("imu")["log_linear"]
     for moved in right.equations[2:]:
         step = replace(right, scope="G", equations=(moved,))
         assert Checker(record("imu").problem, SEED).check(replace(step, scope="SE_2_3")).holds
@@ -185,8 +187,7 @@ def test_a_linear_rate_of_the_logarithm_is_refused_where_it_is_not_exact():
 
 def test_a_counterexample_off_the_group_is_refused():
     """Also where the difference is that of the two matrices."""
-    problem = gyroscope()
-    d = walk(problem)
+    problem, d = gyroscope(), walked(gyroscope)
     assert refused(d, "counterexample", given=())
     velocity = Velocity(problem.group, problem.kinematics.rate)
     A, estimate = velocity.counterexample()
