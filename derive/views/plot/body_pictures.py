@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...motion.run import Array, Run
-from .plot_sheet import COLOURS, FONT, PlotError, beside, label
+from .plot_sheet import COLOURS, ON_CURVES, PlotError, at_time, beside, label
 
 # Curves on ellipsoids and spheres: hidden parts thin; tips of axes.
 
@@ -71,8 +71,16 @@ def axes(figure: Any, run: Run, word: Any) -> None:
     drawn = [k for k in range(3) if slow[k] and (ways[k] < LONG or k == np.argmin(ways))]
     for k in drawn or range(3):
         tip = A[:, :, k]
-        curve(panel, tip, tip, COLOURS[k], f"$A e_{k + 1}$")
+        curve(panel, tip, tip, COLOURS[k], f"{body_axis(k, word)}, $A e_{k + 1}$")
+    for name, end in zip("xyz", projected(1.07 * np.eye(3)), strict=True):
+        panel.text(*end, f"${name}$", ha="center", va="center", **ON_CURVES)
     figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+
+
+def body_axis(k: int, word: Any) -> str:
+    """What the axis k, from 0, of the body is called."""
+    told: str = word("axis {k} of the body").format(k=k + 1)
+    return told
 
 
 def paths(A: Array) -> Array:
@@ -148,7 +156,7 @@ def body(figure: Any, run: Run, word: Any) -> None:
             for j in range(3 if view is VIEW else 2):
                 tip = np.stack([np.zeros(3), A[k][:, j]]) * _size(points, parts) / 2
                 panel.plot(*projected(tip, view).T, c="#bbbbbb", lw=0.6, zorder=0)
-        title = f"$t = {run.t[k]:.3g}$ {run.columns[0].unit}".rstrip()
+        title = at_time(run, k)
         if len(points) == 4 and view is VIEW:
             volume = abs(float(np.linalg.det(A[k] @ (points[1:] - points[0]).T))) / 6
             title += f"\n{word('volume')} {volume:.6g}"
@@ -330,7 +338,7 @@ def _marks(panel: Any, root: Array, axes: Array, moments: Array, free: bool) -> 
         if free and k == unstable(moments):
             style = {"marker": "x", "mew": 1.4, "label": UNSTABLE}
         panel.plot(*place[:, None], c="#000000", ms=4.5, ls="", zorder=4, **style)
-        panel.annotate(text, place, (x, y), textcoords="offset points", fontsize=FONT, zorder=5)
+        panel.annotate(text, place, (x, y), textcoords="offset points", **ON_CURVES)
 
 
 def in_math(x: float) -> str:
