@@ -6,6 +6,7 @@ import argparse
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -118,9 +119,10 @@ class Parser(argparse.ArgumentParser):
         except argparse.ArgumentError as error:
             choices, listed = [*map(str, action.choices or ())], str(value).split(",")
             near = nearest(str(value), choices)
-            if not near and action.metavar == "COMMAND":
+            if action.metavar == "COMMAND":
+                known = near or f"; there are {', '.join(choices)}"
                 raise argparse.ArgumentError(
-                    None, f"no command {str(value)[:40]!r}; derive --help has them"
+                    None, f"no command {str(value)[:40]!r}{known}"
                 ) from None
             if "repeated" in (action.help or "") and len(listed) > 1 and {*listed} <= {*choices}:
                 option = action.option_strings[0]
@@ -142,7 +144,16 @@ class Parser(argparse.ArgumentParser):
         return did_you_mean(known.get(near, ""), "; ")
 
 
-BEGIN = "To begin: derive walk top --answer, then derive walk top; derive COMMAND --help."
+BEGIN = "To begin: derive walk top --answer. All of a command: derive COMMAND --help."
+USAGE = "derive COMMAND [PROBLEM] [options], or derive --version"
+GROUPS = {
+    "read": "list walk lecture notes paper",
+    "find": "symmetries reduction integrals equilibria trim",
+    "move": "simulate plot",
+    "code": "emit compare",
+    "trust": "check build",
+}
+"""The commands as the help has them."""
 STOP = "stop after so many seconds of processor time"
 
 
@@ -230,12 +241,23 @@ TYPES: dict[str, Callable[[str], Any]] = {
 
 def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
     """The parser of all commands: name → function, whose docstring is its help."""
-    top = Parser(prog="derive", description=about, epilog=BEGIN)
-    top.add_argument("--version", action="version", version=f"derive {__version__}")
-    subcommands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    lines = [about or "", ""]
+    for group, names in GROUPS.items():
+        for k, name in enumerate(names.split()):
+            told = (commands[name].__doc__ or "").partition("\n")[0]
+            lines.append(f"{group * (not k):5} {name:11} {told}")
+    own = argparse.RawDescriptionHelpFormatter
+    top = Parser("derive", USAGE, "\n".join(lines), BEGIN, formatter_class=own, add_help=False)
+    hidden: Any = {"help": argparse.SUPPRESS}
+    top.add_argument("-h", "--help", action="help", **hidden)
+    top.add_argument("--version", action="version", version=f"derive {__version__}", **hidden)
+    subcommands = top.add_subparsers(dest="command", required=True, metavar="COMMAND", **hidden)
     made = {}
     for name, run in commands.items():
-        made[name] = one = subcommands.add_parser(name, help=run.__doc__, description=run.__doc__)
+        wide = partial(argparse.HelpFormatter, max_help_position=28)
+        made[name] = one = subcommands.add_parser(
+            name, prog=f"derive {name}", description=run.__doc__, formatter_class=wide
+        )
         one.set_defaults(run=run)
         stop, limit = (EACH, "search_seconds") if name == "lecture" else (STOP, "seconds")
         one.add_argument("--seconds", type=positive, metavar="N", help=stop, dest=limit)
@@ -247,7 +269,21 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
             spec, _, told = " ".join(line.split()).partition("| ")
             for name in names.split():
                 _add(made[name], spec.split(), told, words, choices)
+    for one in made.values():
+        one.usage = _usage(one)
     return top
+
+
+def _usage(one: argparse.ArgumentParser) -> str:
+    """What a command needs, in a line: all options are told below it."""
+    words = [one.prog]
+    for x in one._actions:
+        named = f"{x.metavar or x.dest}{' ...' * (x.nargs in ('*', '+'))}"
+        if not x.option_strings:
+            words.append(f"[{named}]" if x.nargs == "*" else named)
+        elif x.required:
+            words.append(f"{x.option_strings[0]} {named}")
+    return f"{' '.join(words)} [options]".replace("%", "%%")
 
 
 def _told() -> tuple[dict[str, str], dict[str, Sequence[str]]]:
