@@ -279,7 +279,8 @@ def time_label(run: Run) -> str:
 
 def with_unit(text: str, unit: str) -> str:
     """A label with its unit, if there is one."""
-    return f"{text} [{unit}]" if unit else text
+    raised = unit.replace("^2", "²").replace("^3", "³")
+    return f"{text} [{raised}]" if unit else text
 
 
 # The effective potential of what the symmetries leave, with the run in it.
