@@ -93,6 +93,15 @@ OTHER_OPTIONS = {"page": "html", "web": "html", "language": "lang", "output": "o
 PICTURES = ("plot", "picture", "figure")
 """What is tried for a picture of a run."""
 
+
+class Help(argparse.HelpFormatter):
+    """The help of a command, whose usage is what it needs: all options are told below it."""
+
+    def _format_usage(self, usage: Any, actions: Any, groups: Any, prefix: Any) -> str:
+        needed = [x for x in actions if x.required or not x.option_strings]
+        return f"{super()._format_usage(usage, needed, (), prefix).rstrip()} [options]\n\n"
+
+
 Command = Callable[[argparse.Namespace], int]
 
 
@@ -146,14 +155,8 @@ class Parser(argparse.ArgumentParser):
 
 BEGIN = "To begin: derive walk top --answer. All of a command: derive COMMAND --help."
 USAGE = "derive COMMAND [PROBLEM] [options], or derive --version"
-GROUPS = {
-    "read": "list walk lecture notes paper",
-    "find": "symmetries reduction integrals equilibria trim",
-    "move": "simulate plot",
-    "code": "emit compare",
-    "trust": "check build",
-}
-"""The commands as the help has them."""
+GROUPS = {"list": "read", "symmetries": "find", "simulate": "move", "emit": "code", "check": "test"}
+"""Which command begins which group of the help."""
 STOP = "stop after so many seconds of processor time"
 
 
@@ -241,20 +244,16 @@ TYPES: dict[str, Callable[[str], Any]] = {
 
 def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
     """The parser of all commands: name → function, whose docstring is its help."""
-    lines = [about or "", ""]
-    for group, names in GROUPS.items():
-        for k, name in enumerate(names.split()):
-            told = (commands[name].__doc__ or "").partition("\n")[0]
-            lines.append(f"{group * (not k):5} {name:11} {told}")
-    own = argparse.RawDescriptionHelpFormatter
-    top = Parser("derive", USAGE, "\n".join(lines), BEGIN, formatter_class=own, add_help=False)
+    lines = [f"{GROUPS.get(x, ''):5} {x:11} {run.__doc__}" for x, run in commands.items()]
+    about, own = "\n".join([about or "", "", *lines]), argparse.RawDescriptionHelpFormatter
+    top = Parser("derive", USAGE, about, BEGIN, formatter_class=own, add_help=False)
     hidden: Any = {"help": argparse.SUPPRESS}
     top.add_argument("-h", "--help", action="help", **hidden)
     top.add_argument("--version", action="version", version=f"derive {__version__}", **hidden)
     subcommands = top.add_subparsers(dest="command", required=True, metavar="COMMAND", **hidden)
     made = {}
     for name, run in commands.items():
-        wide = partial(argparse.HelpFormatter, max_help_position=28)
+        wide = partial(Help, max_help_position=28)
         made[name] = one = subcommands.add_parser(
             name, prog=f"derive {name}", description=run.__doc__, formatter_class=wide
         )
@@ -269,21 +268,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
             spec, _, told = " ".join(line.split()).partition("| ")
             for name in names.split():
                 _add(made[name], spec.split(), told, words, choices)
-    for one in made.values():
-        one.usage = _usage(one)
     return top
-
-
-def _usage(one: argparse.ArgumentParser) -> str:
-    """What a command needs, in a line: all options are told below it."""
-    words = [one.prog]
-    for x in one._actions:
-        named = f"{x.metavar or x.dest}{' ...' * (x.nargs in ('*', '+'))}"
-        if not x.option_strings:
-            words.append(f"[{named}]" if x.nargs == "*" else named)
-        elif x.required:
-            words.append(f"{x.option_strings[0]} {named}")
-    return f"{' '.join(words)} [options]".replace("%", "%%")
 
 
 def _told() -> tuple[dict[str, str], dict[str, Sequence[str]]]:

@@ -263,7 +263,7 @@ def command_plot(args: argparse.Namespace) -> int:
 
 
 def command_check(args: argparse.Namespace) -> int:
-    """Each step once more, by code that shares nothing with it."""
+    """Each step checked anew, by code that shares no rule with it."""
     from ..check.checker import fresh_seed
     from ..check.checker import verdicts as check
     from ..record.as_json import read
@@ -303,9 +303,7 @@ def told(name: str, verdicts: Sequence[Verdict], *, whole: bool = True) -> int:
     parts = Counter((v.label.partition(".")[0], ", ".join(v.tried[1])) for v in brief)
     for (part, groups), count in parts.items():
         print(f"holds  {part}: {count} step{'s' * (count != 1)}, at exact points of {groups}")
-    for v in verdicts:
-        if v in brief:
-            continue
+    for v in (x for x in verdicts if x not in brief):
         words = _trial_text(v) if v.holds else one_line(v.reason)
         print(f"{'holds' if v.holds else 'FAILS'}  {v.label}: {words}")
     print(f"{one_line(name)}: {in_a_line(verdicts)}")
@@ -368,19 +366,19 @@ FILES = {"text": "txt", "latex": "tex", "json": "json"}
 COMMANDS = {
     "list": command_list,
     "walk": command_walk,
+    "lecture": command_lecture,
+    "notes": command_notes,
+    "paper": command_paper,
     "symmetries": command_symmetries,
     "reduction": command_reduction,
     "integrals": command_integrals,
     "equilibria": command_equilibria,
     "trim": command_trim,
-    "notes": command_notes,
-    "emit": command_emit,
-    "check": command_check,
     "simulate": command_simulate,
     "plot": command_plot,
+    "emit": command_emit,
     "compare": command_compare,
-    "lecture": command_lecture,
-    "paper": command_paper,
+    "check": command_check,
     "build": command_build,
 }
 """In the order of the help."""

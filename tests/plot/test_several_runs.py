@@ -263,7 +263,7 @@ def test_of_runs_what_is_rounding_is_told_and_what_is_not_is_drawn():
     line, _ = panel.get_lines()
     assert np.nanmax(line.get_ydata()) == pytest.approx(3e-3)
     names = panel.get_legend_handles_labels()[1]
-    assert names == ["?\nb", r"constant to $2.2 \cdot 10^{-16}$: ?" + "\na"]
+    assert names == ["?\nb", r"constant to $2.22 \cdot 10^{-16}$: ?" + "\na"]
 
 
 def test_runs_of_two_motions_are_not_compared():

@@ -45,7 +45,7 @@ def test_what_is_exact_or_constant_but_for_rounding_is_not_drawn():
     table = [[0, 1.0, 0, 3], [1, 1 + 5e-15, 0, 3], [2, 1, 0, 3.3]]
     panel, words = panel_of(plain_run(table, **kinds), "energy")
     assert [*curves(panel)] == ["linear momentum 2"]
-    assert r"constant to $5.1 \cdot 10^{-15}$: energy" in words  # in doubles
+    assert r"constant to $5.11 \cdot 10^{-15}$: energy" in words  # in doubles
     assert "exact: linear momentum 1" in words
     run = plain_run(np.array(table)[:, :3], energy="energy", momentum_1="conserved")
     panel, words = panel_of(run, "energy")

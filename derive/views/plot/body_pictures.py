@@ -23,6 +23,9 @@ FAST, LONG = 0.25, 15.0
 that goes further than this in all makes a thicket: that of the calmest axis alone is drawn."""
 
 
+BODY_AXIS = "axis {k} of the body"
+
+
 def projected(points: Array, view: Array = VIEW) -> Array:
     """Points (…, 3) → (…, 2), along the view, the third axis upwards; from above as they are."""
     if view is ABOVE:
@@ -71,16 +74,11 @@ def axes(figure: Any, run: Run, word: Any) -> None:
     drawn = [k for k in range(3) if slow[k] and (ways[k] < LONG or k == np.argmin(ways))]
     for k in drawn or range(3):
         tip = A[:, :, k]
-        curve(panel, tip, tip, COLOURS[k], f"{body_axis(k, word)}, $A e_{k + 1}$")
+        name = word(BODY_AXIS).format(k=k + 1)
+        curve(panel, tip, tip, COLOURS[k], f"{name}, $A e_{k + 1}$")
     for name, end in zip("xyz", projected(1.07 * np.eye(3)), strict=True):
         panel.text(*end, f"${name}$", ha="center", va="center", **ON_CURVES)
     figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", ncols=3)
-
-
-def body_axis(k: int, word: Any) -> str:
-    """What the axis k, from 0, of the body is called."""
-    told: str = word("axis {k} of the body").format(k=k + 1)
-    return told
 
 
 def paths(A: Array) -> Array:

@@ -145,11 +145,8 @@ def label(name: str) -> str:
 FONT = 7
 """The size of a label, in points, and about its height."""
 
-ON_CURVES: dict[str, Any] = {
-    "fontsize": FONT,
-    "zorder": 5,
-    "bbox": {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.5},
-}
+GROUND = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.5}
+ON_CURVES: dict[str, Any] = {"fontsize": FONT, "zorder": 5, "bbox": GROUND}
 """A label that may lie on curves."""
 
 GAP, FREE = 5.0, 2.0

@@ -15,7 +15,7 @@ import numpy as np
 from ...language.reserved import by_letter, letter_and_suffix, waves
 from ...motion.emitted_code import VECTORS, Column, in_words, parts
 from ...motion.run import Array, Run, shown
-from .body_pictures import attitude, body_axis, paths
+from .body_pictures import BODY_AXIS, attitude, in_math, paths
 from .plot_sheet import COLOURS, at_time, label
 
 # The state against time, and how well what motions keep was kept.
@@ -35,8 +35,7 @@ period, too few for a curve; unless it is even but for so much of its panel."""
 
 
 def letters(run: Run, kind: str = "state") -> list[tuple[str, list[Column]]]:
-    """The columns of the state, or of another kind, by their letters and units, of many the
-    first."""
+    """The columns of the state, or of another kind, by letter and unit, of many the first."""
     named = (replace(x, name=shown(run.facts, x.name)) for x in run.columns if x.kind == kind)
     known = {x.name: x for x in named}
     grouped = by_letter(known) if kind == "state" else {}
@@ -73,7 +72,7 @@ def turned(run: Run, key: str, members: list[Column], word: Any) -> Panel | None
         return Panel(word("angle"), "rad", {word("angle"): angle})
     k = int(np.argmin(paths(A)))
     tip = {label(members[n * i + k].name): A[:, i, k] for i in range(n)}
-    return Panel(f"{body_axis(k, word)}\n{label(key)}$\\,e_{k + 1}$", "", tip)
+    return Panel(f"{word(BODY_AXIS).format(k=k + 1)}\n{label(key)}$\\,e_{k + 1}$", "", tip)
 
 
 INDICES = [[f"{i}{j}" for i in range(1, n + 1) for j in range(1, n + 1)] for n in (2, 3)]
@@ -165,7 +164,7 @@ def constant(away: Array, relative: bool, word: Any) -> str:
         return f"{word('exact:')} "
     if not relative or most >= AT_ROUNDING:
         return ""
-    return word("constant to {bound}:").format(bound=_in_powers(f"{most:.1e}")) + " "
+    return word("constant to {bound}:").format(bound=f"${in_math(most)}$") + " "
 
 
 def changes(run: Run) -> dict[str, tuple[Array, float]]:
@@ -225,11 +224,10 @@ def _errors(panel: Any, run: Run, about: Sequence[str], kept: Sequence[str]) -> 
     """Finish a panel of errors: what is ``kept`` is said, and where all is there are no axes."""
     if not panel.get_lines():
         panel.set_axis_off()
-        _legend(panel, run, "\n".join([*kept, *about[1:]]))
-        return
-    if not kept and len(panel.get_lines()) == 1:
+        about, kept = (), [*kept, *about[1:]]
+    elif not kept and len(panel.get_lines()) == 1:
         about = (panel.get_lines()[0].get_label(), *about)
-    panel.set(xlabel=time_label(run), ylabel="\n".join(about))
+    panel.set(xlabel=time_label(run) * bool(about), ylabel="\n".join(about))
     _legend(panel, run, "\n".join(kept))
 
 
@@ -237,11 +235,6 @@ def method_in_words(run: Run, word: Any) -> str:
     """The step of a run, with its tolerance as a power of ten, or the size of its steps."""
     told = str(run.facts.get("method", "?")).replace("$", r"\$")
     told = re.sub(r"^discrete of order(?= \d)", word("discrete of order"), told)
-    return _in_powers(told)
-
-
-def _in_powers(told: str) -> str:
-    """The number at the end of a text by a power of ten."""
     return re.sub(r"\b(?:(\d\.?\d*)e)(-?)0*(\d+)$", _power, told)
 
 
