@@ -164,7 +164,7 @@ def constant(away: Array, relative: bool, word: Any) -> str:
         return f"{word('exact:')} "
     if not relative or most >= AT_ROUNDING:
         return ""
-    return word("constant to {bound}:").format(bound=f"${in_math(most)}$") + " "
+    return f"{word('constant to {bound}:').format(bound=f'${in_math(most)}$')} "
 
 
 def changes(run: Run) -> dict[str, tuple[Array, float]]:
