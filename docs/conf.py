@@ -21,15 +21,16 @@ include_patterns = ["*.md", "docs/*.md", "docs/*/*.md"]
 
 ROOT = Path(__file__).parents[1]
 CONTENTS = {
-    "Begin": "tutorial playground systems commands",
-    "A problem": "problem-file lagrangian dirichlet fluid zeitlin kinematics",
-    "What it tells": "symmetries integrals reduction equilibria control motion notes lecture",
-    "For programs": "code python sympy record",
-    "Trust, and inside": "trust paper architecture ../CHANGELOG",
+    "Begin": "tutorial systems playground commands",
+    "Describe": "problem-file lagrangian fluid kinematics",
+    "Ask": "motion symmetries equilibria lecture",
+    "Compute": "code python",
+    "Trust": "trust paper architecture",
 }
 """Caption → pages of the table of contents."""
 
 html_theme = "furo"
+html_static_path, html_css_files = ["site.css"], ["site.css"]
 html_title = "derive"
 html_favicon = "../playground/src/icon.svg"
 html_copy_source = html_show_copyright = False
@@ -45,10 +46,15 @@ highlight_language = "text"  # what has no language is what was printed
 BELOW = {
     root_doc: CONTENTS,
     "docs/problem-file": {"": "potentials/*"},
-    "docs/motion": {"": "ensembles plot"},
-    "docs/code": {"": "options steps discrete build fmu compare"},
+    "docs/fluid": {"": "dirichlet zeitlin"},
+    "docs/motion": {"": "plot ensembles"},
+    "docs/symmetries": {"": "integrals reduction"},
+    "docs/equilibria": {"": "control"},
+    "docs/lecture": {"": "notes"},
+    "docs/code": {"": "compare options steps discrete build fmu"},
+    "docs/python": {"": "sympy record"},
     "docs/trust": {"": "performance not-here strangers ../SECURITY"},
-    "docs/architecture": {"": "extending reference ../CONTRIBUTING"},
+    "docs/architecture": {"": "extending reference ../CONTRIBUTING ../CHANGELOG"},
 }
 """Page → the pages below it in the table of contents, under their captions."""
 

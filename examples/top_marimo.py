@@ -16,7 +16,7 @@ def _(mo):
     mo.md(r"""
     # A spinning top, from its Lagrangian to a trajectory
 
-    A cone of height `h` and radius `R` spins on its apex. `derive` walks from the Lagrangian of its points to the equations of motion on SO(3), checks every step, and hands them on as SymPy expressions and as compiled code.
+    A cone of height `h` and radius `R` spins on its apex. `derive` goes from its Lagrangian to the equations of motion, checks every step, and hands them on as formulas, as SymPy expressions and as compiled code. First the equations; the steps are folded below them.
     """)
     return
 
@@ -32,7 +32,12 @@ def _():
         SO(3),
         cone,
         Gravity(0, 0, "-g"),
-        parameters={"rho": 1000, "R": 0.05, "h": 0.1, "g": 9.81},
+        parameters={
+            "rho": {"default": 1000, "unit": "kg/m^3"},
+            "R": {"default": 0.05, "unit": "m"},
+            "h": {"default": 0.1, "unit": "m"},
+            "g": {"default": 9.81, "unit": "m/s^2"},
+        },
         title="A cone on its apex",
     )
     d = derive(top)
@@ -99,36 +104,39 @@ def _(d):
 @app.cell(hide_code=True)
 def _(mo):
     mo.md(r"""
-    The equations in coordinates, as SymPy expressions; `k` are constants of the body.
+    The rates of ζ in coordinates, as SymPy expressions in the parameters of the cone; its density is not in them.
     """)
     return
 
 
 @app.cell
 def _(d):
+    import sympy
+
     e = d.expressions()
-    e.rhs[9:, :]
+    e.rhs[9:, :].subs(e.k).applyfunc(sympy.factor)
     return
 
 
 @app.cell(hide_code=True)
 def _(mo):
     mo.md(r"""
-    A motion: a fast top that leans, what it keeps, and the page in which it moves.
+    A motion, with what it keeps. **Change the spin**, in rad/s: at 400 the axis of the top nods a little, at 150 it swings far down and back, at 60 below the apex. Then run the cells below again.
     """)
     return
 
 
 @app.cell
 def _(d):
-    run = d.simulate(0.5, start={"zeta_3": 400}, exp=(0.3, 0, 0))
+    spin, lean = 150, 0.3
+    run = d.simulate(2, start={"zeta_3": spin}, exp=(lean, 0, 0))
     run
-    return
+    return lean, spin
 
 
 @app.cell
-def _(d):
-    d.motion_page(0.5, start={"zeta_3": 400}, exp=(0.3, 0, 0))
+def _(d, lean, spin):
+    d.motion_page(2, start={"zeta_3": spin}, exp=(lean, 0, 0))
     return
 
 
@@ -141,14 +149,13 @@ def _(mo):
 
 
 @app.cell
-def _(compile, top):
+def _(compile, lean, spin, top):
     import numpy as np
     from scipy.integrate import solve_ivp
 
-    lean = 0.3
     c, s = np.cos(lean), np.sin(lean)
     A = np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
-    x0 = np.r_[A.ravel(), 0, 0, 400]
+    x0 = np.r_[A.ravel(), 0, 0, spin]
     f = compile(top)
     found = solve_ivp(f, (0, 2), x0, rtol=1e-10, atol=1e-10)
     height = found.y[8]  # the last entry of A: the cosine of the angle with the vertical

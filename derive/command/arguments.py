@@ -6,6 +6,7 @@ import argparse
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -92,6 +93,15 @@ OTHER_OPTIONS = {"page": "html", "web": "html", "language": "lang", "output": "o
 PICTURES = ("plot", "picture", "figure")
 """What is tried for a picture of a run."""
 
+
+class Help(argparse.HelpFormatter):
+    """The help of a command, whose usage is what it needs: all options are told below it."""
+
+    def _format_usage(self, usage: Any, actions: Any, groups: Any, prefix: Any) -> str:
+        needed = [x for x in actions if x.required or not x.option_strings]
+        return f"{super()._format_usage(usage, needed, (), prefix).rstrip()} [options]\n\n"
+
+
 Command = Callable[[argparse.Namespace], int]
 
 
@@ -118,9 +128,10 @@ class Parser(argparse.ArgumentParser):
         except argparse.ArgumentError as error:
             choices, listed = [*map(str, action.choices or ())], str(value).split(",")
             near = nearest(str(value), choices)
-            if not near and action.metavar == "COMMAND":
+            if action.metavar == "COMMAND":
+                known = near or f"; there are {', '.join(choices)}"
                 raise argparse.ArgumentError(
-                    None, f"no command {str(value)[:40]!r}; derive --help has them"
+                    None, f"no command {str(value)[:40]!r}{known}"
                 ) from None
             if "repeated" in (action.help or "") and len(listed) > 1 and {*listed} <= {*choices}:
                 option = action.option_strings[0]
@@ -142,7 +153,10 @@ class Parser(argparse.ArgumentParser):
         return did_you_mean(known.get(near, ""), "; ")
 
 
-BEGIN = "To begin: derive walk top --answer, then derive walk top; derive COMMAND --help."
+BEGIN = "To begin: derive walk top --answer. All of a command: derive COMMAND --help."
+USAGE = "derive COMMAND [PROBLEM] [options], or derive --version"
+GROUPS = {"list": "read", "symmetries": "find", "simulate": "move", "emit": "code", "check": "test"}
+"""Which command begins which group of the help."""
 STOP = "stop after so many seconds of processor time"
 
 
@@ -230,12 +244,19 @@ TYPES: dict[str, Callable[[str], Any]] = {
 
 def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
     """The parser of all commands: name → function, whose docstring is its help."""
-    top = Parser(prog="derive", description=about, epilog=BEGIN)
-    top.add_argument("--version", action="version", version=f"derive {__version__}")
-    subcommands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    lines = [f"{GROUPS.get(x, ''):5} {x:11} {run.__doc__}" for x, run in commands.items()]
+    about, own = "\n".join([about or "", "", *lines]), argparse.RawDescriptionHelpFormatter
+    top = Parser("derive", USAGE, about, BEGIN, formatter_class=own, add_help=False)
+    hidden: Any = {"help": argparse.SUPPRESS}
+    top.add_argument("-h", "--help", action="help", **hidden)
+    top.add_argument("--version", action="version", version=f"derive {__version__}", **hidden)
+    subcommands = top.add_subparsers(dest="command", required=True, metavar="COMMAND", **hidden)
     made = {}
     for name, run in commands.items():
-        made[name] = one = subcommands.add_parser(name, help=run.__doc__, description=run.__doc__)
+        wide = partial(Help, max_help_position=28)
+        made[name] = one = subcommands.add_parser(
+            name, prog=f"derive {name}", description=run.__doc__, formatter_class=wide
+        )
         one.set_defaults(run=run)
         stop, limit = (EACH, "search_seconds") if name == "lecture" else (STOP, "seconds")
         one.add_argument("--seconds", type=positive, metavar="N", help=stop, dest=limit)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from contextvars import copy_context
@@ -53,7 +54,7 @@ def command_list(_: argparse.Namespace) -> int:
 
 
 def command_walk(args: argparse.Namespace) -> int:
-    """Print the walk of a problem."""
+    """The equations of motion, step by step; --answer: they alone."""
     from ..algebra.groups import names_by_block
     from ..pipeline import both_trivialisations
 
@@ -88,7 +89,7 @@ def command_walk(args: argparse.Namespace) -> int:
 
 
 def command_integrals(args: argparse.Namespace) -> int:
-    """Find the polynomial first integrals of the reduced equations of a problem."""
+    """Polynomial first integrals of the reduced equations."""
     from ..searches import integrals
 
     problem = doubted(args.problem)
@@ -100,7 +101,7 @@ def command_integrals(args: argparse.Namespace) -> int:
 
 
 def command_equilibria(args: argparse.Namespace) -> int:
-    """Find relative equilibria of the reduced equations of a problem, and their stability."""
+    """Relative equilibria, steady motions, and their stability."""
     from ..search.equilibria.stability import PiError
     from ..searches import equilibria, equilibrium_near, families
 
@@ -135,7 +136,7 @@ def command_equilibria(args: argparse.Namespace) -> int:
 
 
 def command_trim(args: argparse.Namespace) -> int:
-    """Find inputs and velocities of a state that stays as it is, and its stability."""
+    """Inputs and velocities that keep a state, and its stability."""
     from ..programs import trim
 
     at, given = each_once("--at", args.at), each_once("--given", args.given)
@@ -148,14 +149,14 @@ def command_trim(args: argparse.Namespace) -> int:
 
 
 def command_symmetries(args: argparse.Namespace) -> int:
-    """All symmetries of a problem's Lagrangian, and what the motion keeps by each."""
+    """Symmetries of the Lagrangian, what the motion keeps by each."""
     from ..searches import symmetries
 
     return _searched(args, symmetries)
 
 
 def command_reduction(args: argparse.Namespace) -> int:
-    """Routh's reduction by symmetries that commute: effective potential, what is left to solve."""
+    """Routh's reduction by symmetries: effective potential."""
     from ..searches import reduction
 
     return _searched(args, reduction)
@@ -170,8 +171,25 @@ def _searched(args: argparse.Namespace, search: Callable[[Problem, Derivation], 
     return 0
 
 
+<<<<<<< HEAD
+=======
+def command_lecture(args: argparse.Namespace) -> int:
+    """A text for people, each claim a checked step: .pdf, .html …"""
+    from .lecturing import command_lecture
+
+    return command_lecture(args)
+
+
+def command_notes(args: argparse.Namespace) -> int:
+    """All steps as lecture notes: .pdf, .html, .tex; .sty: macros."""
+    from .noting import command_notes
+
+    return command_notes(args)
+
+
+>>>>>>> words
 def command_emit(args: argparse.Namespace) -> int:
-    """Write the numeric code of a problem."""
+    """The equations as code: C, C++, Rust, Julia, Python, FMU …"""
     from ..code.emit import planned
     from .emitting import (
         all_hold,
@@ -209,8 +227,18 @@ def command_emit(args: argparse.Namespace) -> int:
     return 0
 
 
+<<<<<<< HEAD
+=======
+def command_simulate(args: argparse.Namespace) -> int:
+    """A motion, with what it keeps: a file, or a page that moves."""
+    from .simulating import command_simulate
+
+    return command_simulate(args)
+
+
+>>>>>>> words
 def command_plot(args: argparse.Namespace) -> int:
-    """Draw a run of a motion, or several: .svg, .pdf or .png (needs matplotlib)."""
+    """A run as a picture: .svg, .pdf or .png (needs matplotlib)."""
     from ..motion.ensemble_files import read_either
     from ..views.language import language
     from ..views.plot.ensemble_pictures import plot_precision
@@ -242,13 +270,14 @@ def command_plot(args: argparse.Namespace) -> int:
 
 
 def command_check(args: argparse.Namespace) -> int:
-    """Re-check every recorded step, independently of the code that derived it."""
+    """Each step checked anew, by code that shares no rule with it."""
     from ..check.checker import fresh_seed
     from ..check.checker import verdicts as check
     from ..record.as_json import read
 
     steps, failed, refused = 0, 0, 0
     seed = fresh_seed() if args.seed is None else args.seed
+    whole = args.verbose or not sys.stdout.isatty()
     for name in args.problem:
         try:
             record = (
@@ -262,19 +291,26 @@ def command_check(args: argparse.Namespace) -> int:
             refused += 1
             continue
         steps += sum(v.of == "equation" for v in verdicts)
-        failed += told(name, verdicts)
+        failed += told(name, verdicts, whole=whole)
     print(f"seed {seed} (--seed repeats this run)")
+    if not whole:
+        print("--verbose: a line for each step")
     if (several := len(args.problem)) > 1:
         unread = f"; not checked: {refused}" if refused else ""
         print(f"records: {several - refused}; steps: {steps}; failed: {failed}{unread}")
     return 2 if refused else 1 if failed else 0
 
 
-def told(name: str, verdicts: Sequence[Verdict]) -> int:
-    """Print the verdicts on the record of a name: how many fail."""
+def told(name: str, verdicts: Sequence[Verdict], *, whole: bool = True) -> int:
+    """Print the verdicts on the record of a name: how many fail.  Not ``whole``: those that hold
+    and say no more are counted, by what was tried."""
     from ..check.form.hypotheses_checked import in_a_line
 
-    for v in verdicts:
+    brief = [v for v in verdicts if v.holds and not v.note and v.of == "equation" and not whole]
+    parts = Counter((v.label.partition(".")[0], ", ".join(v.tried[1])) for v in brief)
+    for (part, groups), count in parts.items():
+        print(f"holds  {part}: {count} step{'s' * (count != 1)}, at exact points of {groups}")
+    for v in (x for x in verdicts if x not in brief):
         words = _trial_text(v) if v.holds else one_line(v.reason)
         print(f"{'holds' if v.holds else 'FAILS'}  {v.label}: {words}")
     print(f"{one_line(name)}: {in_a_line(verdicts)}")
@@ -288,8 +324,18 @@ def _trial_text(v: Verdict) -> str:
     return f"{count} {v.of}{'s' * (count != 1)} on {', '.join(groups)}{note}"
 
 
+<<<<<<< HEAD
+=======
+def command_compare(args: argparse.Namespace) -> int:
+    """Your own right-hand side beside it: what is wrong in yours."""
+    from .simulating import command_compare
+
+    return command_compare(args)
+
+
+>>>>>>> words
 def command_paper(args: argparse.Namespace) -> int:
-    """The paper's numbered equations against the derivation."""
+    """The note's numbered equations: confirmed, or what is wrong."""
     from ..views.book import as_json, as_text
     from ..views.language import language
     from ..views.paper import findings as paper
@@ -306,7 +352,7 @@ def command_paper(args: argparse.Namespace) -> int:
 
 
 def command_build(args: argparse.Namespace) -> int:
-    """Make all of generated/ again."""
+    """All of generated/ again."""
     from ..code.emit import emit
     from ..programs import program
     from ..views.rendering import render
@@ -341,11 +387,15 @@ FILES = {"text": "txt", "latex": "tex", "json": "json"}
 COMMANDS = {
     "list": command_list,
     "walk": command_walk,
+    "lecture": command_lecture,
+    "notes": command_notes,
+    "paper": command_paper,
     "symmetries": command_symmetries,
     "reduction": command_reduction,
     "integrals": command_integrals,
     "equilibria": command_equilibria,
     "trim": command_trim,
+<<<<<<< HEAD
     "notes": _in(
         "noting",
         "The whole record of problems as notes: .tex, .pdf, .html; or .sty, the macros of their "
@@ -367,6 +417,13 @@ COMMANDS = {
         "The lecture, a text for people that names the steps that prove it: .tex, .pdf or .html.",
     ),
     "paper": command_paper,
+=======
+    "simulate": command_simulate,
+    "plot": command_plot,
+    "emit": command_emit,
+    "compare": command_compare,
+    "check": command_check,
+>>>>>>> words
     "build": command_build,
 }
 """In the order of the help."""
@@ -381,8 +438,8 @@ def _discard_stdout() -> None:
 BROUGHT = {"numpy": "NumPy", "sympy": "SymPy"}
 """What comes with the package, though not in a browser, and is loaded where it is needed."""
 
-ABOUT = """Equations of motion of bodies moved by Lie groups: derived step by step, checked,
-shown as text, LaTeX or a web page, and emitted as code."""
+ABOUT = """Describe a body: here are its equations of motion, derived step by step, each
+step checked, and code that computes with them."""
 
 
 def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:

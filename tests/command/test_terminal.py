@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.command import writing
+from derive.command import cli, writing
 from derive.command.cli import main
 from derive.views.printing.line_breaking import display_width
 from derive.views.rendering import FORMATS
@@ -64,6 +64,34 @@ def test_a_pager_for_what_is_longer_than_the_screen(tmp_path):
     answer = seen("walk", "saff3", "--answer", cwd=tmp_path, PAGER=mark, NO_COLOR="1")
     assert answer.count("\n") > 24
     assert not answer.startswith("paged ")
+
+
+def test_the_check_of_a_terminal_is_short_and_that_of_a_pipe_whole(tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-m", "derive", "check", "so3", "--seed", "1"],
+        cwd=tmp_path, capture_output=True, text=True,
+    )  # fmt: skip
+    whole = done.stdout.splitlines()
+    shown = [
+        x.split("\r")[-1] for x in seen("check", "so3", "--seed", "1", cwd=tmp_path).split("\n")
+    ]
+    steps = [int(x.split(": ")[1].split()[0]) for x in shown if " at exact points of " in x]
+    assert sum(steps) == sum(" on " in x and "symbol" not in x for x in whole) > 40
+    assert len(shown) < 12
+    assert {*whole[-2:]} <= {*shown}
+    every = seen("check", "so3", "--seed", "1", "--verbose", cwd=tmp_path)
+    assert [x.split("\r")[-1] for x in every.splitlines()] == whole
+
+
+def test_the_help_of_all_commands_fits_the_smallest_terminal(monkeypatch, capfd):
+    monkeypatch.setenv("COLUMNS", "80")
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    lines = capfd.readouterr().out.splitlines()
+    assert len(lines) <= 24
+    assert max(map(len, lines)) <= 80
+    listed = [x[6:].split()[0] for x in lines if x[6:18].strip() in cli.COMMANDS]
+    assert {*listed} == {*cli.COMMANDS}
 
 
 def test_derive_alone_prints_help(capfd):

@@ -40,12 +40,18 @@ def panel_of(run, kind):
 # ---------------------------------------------------------------- series in time
 
 
-def test_what_is_exact_is_not_drawn():
-    table = [[0, 1.0, 0], [1, 1 + 1e-15, 0], [2, 1, 0]]
-    panel, _ = panel_of(plain_run(table, energy="energy", momentum_1="conserved"), "energy")
-    (line,) = [x for x in panel.get_lines() if len(x.get_xdata())]
-    assert line.get_ydata() == pytest.approx([1e-16, 1e-15, 1e-16], rel=0.2)  # the floor
-    assert "exact: linear momentum 1" in panel.get_legend_handles_labels()[1]
+def test_what_is_exact_or_constant_but_for_rounding_is_not_drawn():
+    kinds = {"energy": "energy", "momentum_1": "conserved", "momentum_2": "conserved"}
+    table = [[0, 1.0, 0, 3], [1, 1 + 5e-15, 0, 3], [2, 1, 0, 3.3]]
+    panel, words = panel_of(plain_run(table, **kinds), "energy")
+    assert [*curves(panel)] == ["linear momentum 2"]
+    assert r"constant to $5.11 \cdot 10^{-15}$: energy" in words  # in doubles
+    assert "exact: linear momentum 1" in words
+    run = plain_run(np.array(table)[:, :3], energy="energy", momentum_1="conserved")
+    panel, words = panel_of(run, "energy")
+    assert not panel.axison
+    assert "exact: linear momentum 1" in words
+    assert KINDS["energy"].size(run)[1] < 1
 
 
 @pytest.mark.parametrize("rows", [2, 3, 5])
@@ -53,7 +59,10 @@ def test_a_change_at_one_instant_alone_is_seen(rows):
     change = np.zeros(rows)
     change[rows // 2] = 1e-9
     run = plain_run(np.stack([np.arange(rows), 1 + change], 1), energy="energy")
-    assert [*curves(panel_of(run, "energy")[0])] == ["energy"]
+    panel, _ = panel_of(run, "energy")
+    assert [*curves(panel)] == ["energy"]
+    assert panel.get_legend() is None  # of one curve the axis has the name
+    assert panel.get_ylabel().startswith("energy\nrelative error")
 
 
 @pytest.mark.parametrize("turned", [0.1, 0.5, 1.0, 2.5, 6.0])
@@ -78,7 +87,7 @@ def test_a_rotation_is_drawn_by_its_calmest_axis_and_a_turn_of_the_plane_by_its_
     """The racket turns about its second axis before it flips; dθ/dt = ζ."""
     run = run_of()
     panel, *_ = figure_of(run, "state").get_axes()
-    assert panel.get_ylabel() == r"$A$$\,e_2$"
+    assert panel.get_ylabel() == "axis 2 of the body\n" + r"$A$$\,e_2$"
     tip = {label(x): run[x] for x in ("A_12", "A_22", "A_32")}
     assert all(np.array_equal(tip[x], y) for x, y in curves(panel).items())
     assert [*curves(panel)] == [*tip]
@@ -117,7 +126,7 @@ def test_what_is_rounding_at_first_is_held_against_nothing():
 
 
 def test_what_changes_by_damping_is_no_error():
-    run = simulated("euler_top")
+    run = plain_run([[0, 1.0], [1, 1.1]], energy="energy")
     for drives, told in ((["damping"], "relative change"), ([], "relative error")):
         driven = Run(run.columns, run.table, {**run.facts, "drives": drives})
         assert told in words_of(driven, "energy")
@@ -335,13 +344,13 @@ def test_tips_that_go_round_and_round_are_left_out():
     def named(run):
         return figure_of(run, "axes").get_axes()[0].get_legend_handles_labels()[1]
 
-    assert named(simulated("top", 0.3)) == ["$A e_3$"]
+    assert named(simulated("top", 0.3)) == ["axis 3 of the body, $A e_3$"]
     t = np.linspace(0, 1, 40)
     slow = np.stack(
         [np.cos(t), -np.sin(t), 0 * t, np.sin(t), np.cos(t), 0 * t, 0 * t, 0 * t, 1 + 0 * t]
     )
     run = plain_run(np.vstack([t, slow]).T, **dict.fromkeys(body_pictures.ATTITUDE, "state"))
-    assert named(run) == [f"$A e_{k}$" for k in (1, 2, 3)]
+    assert named(run) == [f"axis {k} of the body, $A e_{k}$" for k in (1, 2, 3)]
 
 
 def test_a_hull():

@@ -48,6 +48,10 @@ MADE = {
     "top.csv": Made("top --t 1.4 --points 210 --exp 0.5,0,0 --set zeta_3=200", ("A", "energy"), 6),
     "tetrahedron.csv": Made("sl3 --t 4 --points 80", ("A",), 7),
     "vorticity.npz": Made("zeitlin --t 13 --points 1", ("re", "im"), 4),
+    "satellite.csv": Made("satellite.toml --t 20 --points 100", ("zeta",), 4),
+    "tether.csv": Made("tether.toml --t 62.83 --points 200", ("pull",), 4),
+    "boat.csv": Made("boat.toml --t 100 --points 50 --set engine=90", ("T", "w"), 4),
+    "gyroscope.csv": Made("gyroscope.toml --t 2 --points 100", ("A",), 4),
     "tops.npz": Made(
         "top --t 1 --points 48 --ensemble 50 --vary zeta_3=80:120 --vary zeta_1=normal:0:0.5",
         ("A_33",),
@@ -60,6 +64,10 @@ DRAWN = {
     "potential.svg": ("top.csv", "potential"),
     "tetrahedron.svg": ("tetrahedron.csv", "body"),
     "vorticity.svg": ("vorticity.npz", "vorticity"),
+    "satellite.svg": ("satellite.csv", "state"),
+    "tether.svg": ("tether.csv", "outputs"),
+    "boat.svg": ("boat.csv", "state"),
+    "gyroscope.svg": ("gyroscope.csv", "axes"),
     "spread.svg": ("tops.npz", "spread"),
 }
 """Picture → the run, and ``derive plot --kind``."""
@@ -83,8 +91,15 @@ def short(told: object, digits: int = 6) -> object:
 
 
 def simulated(made: Made, path: Path) -> None:
-    """The file of a run, as the command writes it."""
-    assert main(["simulate", *made.words.split(), "--out", str(path)]) == 0
+    """The file of a run, as the command writes it; a problem may be a file of docs/systems.md."""
+    name, *words = made.words.split()
+    if name.endswith(".toml"):
+        page = (ROOT / "docs" / "systems.md").read_text(encoding="utf-8")
+        files = re.findall(r"^```toml\n(.*?)^```$", page, re.M | re.S)
+        (text,) = (x for x in files if x.startswith(f'name = "{name[:-5]}"\n'))
+        path.with_name(name).write_text(text, encoding="utf-8")
+        name = str(path.with_name(name))
+    assert main(["simulate", name, *words, "--out", str(path)]) == 0
 
 
 def kept(made: Made, name: str) -> bool:

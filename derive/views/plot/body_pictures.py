@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...motion.run import Array, Run
-from .plot_sheet import COLOURS, FONT, PlotError, beside, label
+from .plot_sheet import COLOURS, ON_CURVES, PlotError, at_time, beside, label
 
 # Curves on ellipsoids and spheres: hidden parts thin; tips of axes.
 
@@ -21,6 +21,9 @@ ABOVE = np.array([0.0, 0.0, 1.0])
 FAST, LONG = 0.25, 15.0
 """A tip that moves further than this from instant to instant, on the mean, makes no curve; and one
 that goes further than this in all makes a thicket: that of the calmest axis alone is drawn."""
+
+
+BODY_AXIS = "axis {k} of the body"
 
 
 def projected(points: Array, view: Array = VIEW) -> Array:
@@ -71,7 +74,10 @@ def axes(figure: Any, run: Run, word: Any) -> None:
     drawn = [k for k in range(3) if slow[k] and (ways[k] < LONG or k == np.argmin(ways))]
     for k in drawn or range(3):
         tip = A[:, :, k]
-        curve(panel, tip, tip, COLOURS[k], f"$A e_{k + 1}$")
+        name = word(BODY_AXIS).format(k=k + 1)
+        curve(panel, tip, tip, COLOURS[k], f"{name}, $A e_{k + 1}$")
+    for name, end in zip("xyz", projected(1.07 * np.eye(3)), strict=True):
+        panel.text(*end, f"${name}$", ha="center", va="center", **ON_CURVES)
     figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", ncols=3)
 
 
@@ -148,7 +154,7 @@ def body(figure: Any, run: Run, word: Any) -> None:
             for j in range(3 if view is VIEW else 2):
                 tip = np.stack([np.zeros(3), A[k][:, j]]) * _size(points, parts) / 2
                 panel.plot(*projected(tip, view).T, c="#bbbbbb", lw=0.6, zorder=0)
-        title = f"$t = {run.t[k]:.3g}$ {run.columns[0].unit}".rstrip()
+        title = at_time(run, k)
         if len(points) == 4 and view is VIEW:
             volume = abs(float(np.linalg.det(A[k] @ (points[1:] - points[0]).T))) / 6
             title += f"\n{word('volume')} {volume:.6g}"
@@ -330,7 +336,7 @@ def _marks(panel: Any, root: Array, axes: Array, moments: Array, free: bool) -> 
         if free and k == unstable(moments):
             style = {"marker": "x", "mew": 1.4, "label": UNSTABLE}
         panel.plot(*place[:, None], c="#000000", ms=4.5, ls="", zorder=4, **style)
-        panel.annotate(text, place, (x, y), textcoords="offset points", fontsize=FONT, zorder=5)
+        panel.annotate(text, place, (x, y), textcoords="offset points", **ON_CURVES)
 
 
 def in_math(x: float) -> str:

@@ -73,7 +73,7 @@ KINDS = {
         ),
         time_series.size_of_energy,
     ),
-    "axes": PictureKind(body_pictures.axes, (ROTATION, ATTITUDE), _sized(4.2, 4.4)),
+    "axes": PictureKind(body_pictures.axes, (ROTATION, ATTITUDE), _sized(4.2, 4.0)),
     "polhode": PictureKind(
         body_pictures.polhode,
         (
@@ -165,7 +165,10 @@ def plot(
         raise PlotError("the run has no instant: nothing to draw")
     chosen = _chosen(kinds, run, kind, what)
     with look():
-        return written(_sheet_of(kinds, chosen, run, word, more), name, mark)
+        figure = _sheet_of(kinds, chosen, run, word, more)
+        if kinds is KINDS and (title := str(run.facts.get("title", ""))):
+            figure.suptitle(word(title).replace("$", r"\$"), fontsize=10)
+        return written(figure, name, mark)
 
 
 def plot_energies(

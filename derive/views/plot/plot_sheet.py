@@ -31,6 +31,9 @@ LOOK: dict[Any, Any] = {
     "font.size": 9,
     "axes.spines.top": False,
     "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": "#eeeeee",
     "legend.frameon": False,
     "legend.fontsize": 8,
     "lines.linewidth": 1.1,
@@ -119,6 +122,11 @@ def laid_out(figure: Any) -> None:
         panel.set_position(place.from_extents(*place.extents.round(5)), which="original")
 
 
+def at_time(run: Any, k: int) -> str:
+    """When instant k of a run is, with its unit."""
+    return f"$t = {run.t[k]:.3g}$ {run.columns[0].unit}".rstrip()
+
+
 def label(name: str) -> str:
     """The name of a column as a formula: ``zeta_1`` → ζ with the index 1."""
     letter, index = letter_and_suffix(name)
@@ -136,6 +144,10 @@ def label(name: str) -> str:
 
 FONT = 7
 """The size of a label, in points, and about its height."""
+
+GROUND = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.5}
+ON_CURVES: dict[str, Any] = {"fontsize": FONT, "zorder": 5, "bbox": GROUND}
+"""A label that may lie on curves."""
 
 GAP, FREE = 5.0, 2.0
 """How far a label is from its mark, and what is left free about it, in points."""

@@ -15,8 +15,8 @@ import numpy as np
 from ...language.reserved import by_letter, letter_and_suffix, waves
 from ...motion.emitted_code import VECTORS, Column, in_words, parts
 from ...motion.run import Array, Run, shown
-from .body_pictures import attitude, paths
-from .plot_sheet import COLOURS, label
+from .body_pictures import BODY_AXIS, attitude, in_math, paths
+from .plot_sheet import COLOURS, at_time, label
 
 # The state against time, and how well what motions keep was kept.
 
@@ -35,14 +35,18 @@ period, too few for a curve; unless it is even but for so much of its panel."""
 
 
 def letters(run: Run, kind: str = "state") -> list[tuple[str, list[Column]]]:
-    """The columns of the state, or of another kind, by their letters, of many the first."""
+    """The columns of the state, or of another kind, by letter and unit, of many the first."""
     named = (replace(x, name=shown(run.facts, x.name)) for x in run.columns if x.kind == kind)
     known = {x.name: x for x in named}
     grouped = by_letter(known) if kind == "state" else {}
     for name in known if kind != "state" else ():
         grouped.setdefault(parts(name)[0], []).append(name)
+    found: dict[tuple[str, str], list[Column]] = {}
+    for key, names in grouped.items():
+        for x in names:
+            found.setdefault((key, known[x].unit), []).append(known[x])
     most = 8 if kind == "state" else MOST
-    return [(key, [known[x] for x in names]) for key, names in grouped.items()][:most]
+    return [(key, members) for (key, _), members in found.items()][:most]
 
 
 @dataclass(frozen=True)
@@ -68,7 +72,7 @@ def turned(run: Run, key: str, members: list[Column], word: Any) -> Panel | None
         return Panel(word("angle"), "rad", {word("angle"): angle})
     k = int(np.argmin(paths(A)))
     tip = {label(members[n * i + k].name): A[:, i, k] for i in range(n)}
-    return Panel(f"{label(key)}$\\,e_{k + 1}$", "", tip)
+    return Panel(f"{word(BODY_AXIS).format(k=k + 1)}\n{label(key)}$\\,e_{k + 1}$", "", tip)
 
 
 INDICES = [[f"{i}{j}" for i in range(1, n + 1) for j in range(1, n + 1)] for n in (2, 3)]
@@ -88,16 +92,16 @@ def state(figure: Any, run: Run, word: Any, kind: str = "state") -> None:
     for panel, (key, members) in zip(panels, groups, strict=True):
         drawn = turned(run, key, members, word) if kind == "state" else None
         if drawn is None:
-            units = {x.unit for x in members}
-            unit = units.pop() if len(units) == 1 else ""
-            drawn = Panel(label(key), unit, {label(x.name): run[x.name] for x in members})
+            curves = {label(x.name): run[x.name] for x in members}
+            drawn = Panel(label(key), members[0].unit, curves)
         size, fast = max(float(np.abs(y).max()) for y in drawn.curves.values()), []
         for k, (name, y) in enumerate([*drawn.curves.items()][:MOST]):
             if _is_too_fast(y, size):
                 fast.append(name)
                 continue
             panel.plot(run.t, y, **_style(k), label=name)
-        panel.set_ylabel(with_unit(drawn.name, drawn.unit))
+        name = next(iter(drawn.curves)) if len(drawn.curves) == 1 else drawn.name
+        panel.set_ylabel(with_unit(name, drawn.unit))
         _legend(panel, run, _named(f"{word('too few instants:')}\n", fast))
     panels[-1].set_xlabel(time_label(run))
 
@@ -127,6 +131,8 @@ def _legend(panel: Any, run: Run, others: str) -> None:
         return
     if others:
         panel.plot([], [], " ", label=others)
+    elif drawn == 1:  # its name is that of the axis
+        return
     longest = max(len(str(x.get_label())) for x in panel.get_lines())
     several = drawn > 6 and longest <= LONG
     panel.legend(loc="center left", bbox_to_anchor=(1, 0.5), ncols=1 + several)
@@ -137,34 +143,28 @@ def _style(k: int) -> dict[str, str]:
     return {"ls": ("-", "--", ":")[k // len(COLOURS) % 3], "c": COLOURS[k % len(COLOURS)]}
 
 
-FLOOR, AT_ROUNDING, DECADES = 1e-16, 1e-13, 1e3
-"""Relative errors that are smaller are drawn as rounding, of a curve that is nowhere larger than
-the second; an axis is at least so long."""
+AT_ROUNDING = 1e-13
+"""A relative error that is nowhere larger is rounding: no curve, but a number."""
 
 
-def _curve(panel: Any, t: Array, away: Array, k: int, *, relative: bool, **more: Any) -> None:
+def _curve(panel: Any, t: Array, away: Array, k: int, **more: Any) -> None:
     """Curve k of what is away from its first value, where it is, in powers of ten; a point that
-    stands alone is a dot.  What is rounding has a floor."""
-    if relative and away.max() < AT_ROUNDING:
-        away = np.maximum(away, FLOOR)
-    away[away == 0] = np.nan
+    stands alone is a dot."""
+    away = np.where(away == 0, np.nan, away)
     there = np.isfinite([np.nan, *away, np.nan])
     alone = np.flatnonzero(there[1:-1] & ~there[:-2] & ~there[2:]).tolist()
     dots = {"marker": ".", "markevery": alone} if alone else {}
     panel.semilogy(t, away, **_style(k), **dots, **more)
 
 
-def _with_floor(panel: Any, word: Any) -> None:
-    """Mark where rounding is, if a curve comes near it; make the axis long enough."""
-    if not panel.get_lines():
-        return
-    bottom, top = panel.get_ylim()
-    if bottom <= AT_ROUNDING:
-        bottom = min(bottom, FLOOR / 3)
-        where = panel.get_yaxis_transform()
-        panel.hlines(FLOOR, 0, 1, transform=where, colors="#777777", lw=0.6, linestyles=":")
-        panel.text(1, FLOOR, word("rounding"), transform=where, ha="right", va="bottom", size=7)
-    panel.set_ylim(bottom, max(top, DECADES * bottom))
+def constant(away: Array, relative: bool, word: Any) -> str:
+    """How constant what is constant is, in words; empty where it has a curve."""
+    most = float(away.max())
+    if not most:
+        return f"{word('exact:')} "
+    if not relative or most >= AT_ROUNDING:
+        return ""
+    return f"{word('constant to {bound}:').format(bound=f'${in_math(most)}$')} "
 
 
 def changes(run: Run) -> dict[str, tuple[Array, float]]:
@@ -180,49 +180,55 @@ def changes(run: Run) -> dict[str, tuple[Array, float]]:
 
 
 def size_of_energy(run: Run) -> tuple[float, float]:
-    """Width and height of :func:`energy`, small where all is exact."""
-    return 6.5, 3.4 if any(away.any() for away, _ in changes(run).values()) else 1.2
+    """Width and height of :func:`energy`, small where all is constant."""
+    found = changes(run).values()
+    return 6.5, 0.4 + 0.2 * len(found) if all(constant(x, y > 0, str) for x, y in found) else 3.4
 
 
 def energy(figure: Any, run: Run, word: Any) -> None:
-    """The :func:`changes`.  What is exact has no place on the axis: it is left out.  They are no
+    """The :func:`changes`.  What is exact, or constant but for rounding, is told.  They are no
     errors where damping, an input or the time changes what is kept."""
-    panel, exact, found = figure.subplots(), [], changes(run)
+    panel, kept, found = figure.subplots(), [], changes(run)
     for k, (name, (away, scale)) in enumerate(found.items()):
         drawn = in_words(name, word)
-        if not away.any():
-            exact.append(drawn)
+        if told := constant(away, scale > 0, word):
+            kept.append(told + drawn)
             continue
         drawn += "" if scale else f" ({word('absolute')})"
-        _curve(panel, run.t, away, k, relative=bool(scale), label=drawn)
-    _with_floor(panel, word)
-    panel.set_xlabel(time_label(run))
+        _curve(panel, run.t, away, k, label=drawn)
     vectors = any(abs(run[x][0]) < scale for x, (_, scale) in found.items())
     told = word("components relative to the length of their vector") if vectors else ""
     error = word("relative change" if run.facts.get("drives") else "relative error")
-    panel.set_ylabel("\n".join((error, *wrap(told, LINE))))
-    _legend(panel, run, _named(f"{word('exact:')} ", exact))
+    _errors(panel, run, (error, *wrap(told, LINE)), kept)
 
 
 def energies(figure: Any, runs: Sequence[tuple[str, Run]], word: Any) -> None:
     """|E − E₀| / |E₀| of several runs, each with what it is called and its method; of a run that
     begins with no energy, the difference itself."""
-    panel, exact = figure.subplots(), []
+    panel, kept = figure.subplots(), []
     for k, (name, run) in enumerate(runs):
         y = run["energy"]
         away = np.abs(y - y[0]) / (abs(y[0]) or 1.0)
         drawn = method_in_words(run, word) + f"\n{name}".replace("$", r"\$")
         drawn += "" if y[0] else f" ({word('absolute')})"
-        if not away.any():
-            exact.append(drawn)
+        if told := constant(away, bool(y[0]), word):
+            kept.append(told + drawn)
             continue
-        _curve(panel, run.t, away, k, relative=bool(y[0]), lw=0.8, label=drawn)
-    _with_floor(panel, word)
-    panel.set_xlabel(time_label(runs[0][1]))
+        _curve(panel, run.t, away, k, lw=0.8, label=drawn)
     driven = any(run.facts.get("drives") for _, run in runs)
     change, error = "relative change of the energy", "relative error of the energy"
-    panel.set_ylabel(word(change if driven else error))
-    _legend(panel, runs[0][1], "\n".join(f"{word('exact:')} {drawn}" for drawn in exact))
+    _errors(panel, runs[0][1], (word(change if driven else error),), kept)
+
+
+def _errors(panel: Any, run: Run, about: Sequence[str], kept: Sequence[str]) -> None:
+    """Finish a panel of errors: what is ``kept`` is said, and where all is there are no axes."""
+    if not panel.get_lines():
+        panel.set_axis_off()
+        about, kept = (), [*kept, *about[1:]]
+    elif not kept and len(panel.get_lines()) == 1:
+        about = (panel.get_lines()[0].get_label(), *about)
+    panel.set(xlabel=time_label(run) * bool(about), ylabel="\n".join(about))
+    _legend(panel, run, "\n".join(kept))
 
 
 def method_in_words(run: Run, word: Any) -> str:
@@ -266,7 +272,8 @@ def time_label(run: Run) -> str:
 
 def with_unit(text: str, unit: str) -> str:
     """A label with its unit, if there is one."""
-    return f"{text} [{unit}]" if unit else text
+    raised = unit.replace("^2", "²").replace("^3", "³")
+    return f"{text} [{raised}]" if unit else text
 
 
 # The effective potential of what the symmetries leave, with the run in it.
@@ -348,7 +355,7 @@ def spheroid(figure: Any, run: Run, word: Any) -> None:
     below.set(xlabel=time_label(run), ylabel="\n".join(told))
     rows = np.linspace(0, len(M) - 1, SECTIONS).round().astype(int)
     for shade, k in zip(np.linspace(0.25, 1, SECTIONS), rows, strict=True):
-        right.plot(*section(M[k]), c=COLOURS[0], alpha=shade, label=f"$t = {run.t[k]:.3g}$")
+        right.plot(*section(M[k]), c=COLOURS[0], alpha=shade, label=at_time(run, k))
     right.set(aspect="equal", title=word("section y = 0 (space)"))
     right.set(xlabel=with_unit(label("x"), length), ylabel=with_unit(label("z"), length))
     right.legend(loc="center left", bbox_to_anchor=(1, 0.5))
@@ -397,7 +404,7 @@ def vorticity(figure: Any, run: Run, word: Any) -> None:
     most = float(np.abs(field).max()) or 1.0
     image = left.pcolormesh(grid, grid, field, cmap="RdBu_r", vmin=-most, vmax=most,
                             rasterized=True)  # fmt: skip
-    left.set(aspect="equal", xlabel="$x$", ylabel="$y$", title=f"$t = {run.t[-1]:g}$")
+    left.set(aspect="equal", xlabel="$x$", ylabel="$y$", title=at_time(run, -1))
     figure.colorbar(image, ax=left, label=word("vorticity"))
     shell = np.rint(np.hypot(*modes.T)).astype(int)
     spectrum = 2 * np.bincount(shell, np.abs(amplitude) ** 2)
