@@ -369,7 +369,7 @@ def _along(run: Sequence[tuple[float, Any, Any]]) -> Scene:
 
 STEP, STEPPED, DOTS = 0.6, 100, 40
 """The length of a step, the number of steps on the right, and that on the sphere."""
-STARTED = ((0.0, 0.35), (0.0, 1.1), (math.pi / 2, 0.08))
+STARTED = ((0.0, 0.35), (0.0, 1.25), (math.pi / 2, 0.08))
 """Where motions start on the sphere of the momentum."""
 EXACT = 1e-13
 INERTIA = (1.0, 2.0, 3.0)
@@ -436,8 +436,8 @@ def _lengths(claims: Claims) -> Scene:
     strokes, labels = frame.axes((Label("t"), Label("‖ℓ_b‖")), times, ticks)
     for name, lengths, role in (("Euler", usual, AXES[2]), ("Moser–Veselov", kept, AXES[1])):
         strokes.append(frame.curve([(k * STEP, x) for k, x in enumerate(lengths)], role))
-        x, y = frame.at(0.75 * end, lengths[3 * STEPPED // 4])
-        labels.append(Label(name, name=True, at=(x, y - 3.5)))
+        x, y = frame.at(0.3 * end, lengths[3 * STEPPED // 10])
+        labels.append(Label(name, name=True, at=(x, y + (4 if lengths is usual else -4))))
     return panel((78, 46), strokes, labels)
 
 
