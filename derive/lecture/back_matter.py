@@ -78,6 +78,7 @@ OWN = {
     ("fixed_point", "m"): "masses of the points",
     ("fixed_point", "μ"): "moment of the forces about the fixed point, in the body frame",
     ("fixed_point", "σ"): "the rate at which a deviation grows",
+    ("fixed_point", "ω"): "angular velocity at the ends of a separatrix",
     ("fixed_point", "f"): "the force carried to the Lie algebra, j(φ)",
     ("fixed_point", "⟨a, b⟩_I"): "the scalar product of the tensor of inertia, ⟨a, Ib⟩",
     ("top", "e₃"): "third axis of the body; e₁ and e₂ are the two others",

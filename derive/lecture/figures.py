@@ -18,8 +18,9 @@ LEVELS = (0.1, 0.3, 0.55, 0.8)
 
 @dataclass(frozen=True)
 class Spun:
-    """A body that turns near its middle axis: its principal moments, those of a plate, λ₃ = λ₁ + λ₂,
-    if no others are given, its angular velocity at first, for how long it is followed and in how many steps, and the marks of the axes of its picture."""
+    """A body that turns near its middle axis: its principal moments, of a plate if none are given,
+    λ₃ = λ₁ + λ₂, its angular velocity at first, for how long it is followed and in how many steps,
+    and the marks of the axes of its picture."""
 
     moments: Vector = (1.0, 2.0, 3.0)
     start: Vector = (0.002, 0.5, 0.0)

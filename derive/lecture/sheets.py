@@ -206,7 +206,7 @@ def solved(
 
 
 def euler(claims: Claims, moments: Sequence[float]) -> Callable[[Vector], Vector]:
-    """The rates of the angular velocity in principal axes, by the equations (35) of the text."""
+    """The rates of the angular velocity in principal axes, by Euler's equations of the text."""
     known = {tree(f"λ{k}"): x for k, x in zip("₁₂₃", moments, strict=True)}
     rates = [e.rhs for e in claims["free.principal"]]
     letters = [tree(f"ζ{k}") for k in "₁₂₃"]
