@@ -96,7 +96,7 @@ OWN = {
     ("any_group", "Φ"): "force, derivative of L̃ along the group at constant Z",
     ("volume", "K"): "symmetric matrix of the springs: their energy is ½ Tr AKĀ",
     ("volume", "‘rho’"): "density of the fluid",
-    ("volume", "‖r‖²_Q_r"): "$⟨r, Q_r r⟩$",
+    ("volume", "‖r‖²_Q_r"): "the value of the quadric at r, ⟨r, Q_r r⟩",
     ("fluid", "g"): "diffeomorphism of the vessel that keeps volumes",
     ("fluid", "ω"): "angular velocity, in space",
     ("fluid", "Ψ"): "stream function of a plane flow",

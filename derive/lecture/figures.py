@@ -24,11 +24,11 @@ class Spun:
 
     moments: Vector = (1.0, 2.0, 3.0)
     start: Vector = (0.002, 0.5, 0.0)
-    end: float = 130.0
-    steps: int = 1040
+    end: float = 110.0
+    steps: int = 1100
     largest: float = 0.55
     times: Mapping[float, str] = field(
-        default_factory=lambda: {t: f"{t:g}" for t in (0.0, 40.0, 80.0, 120.0)}
+        default_factory=lambda: {t: f"{t:g}" for t in (0.0, 40.0, 80.0)}
     )
     speeds: Mapping[float, str] = field(
         default_factory=lambda: {0.5: "0.5", 0.0: "0", -0.5: "−0.5"}

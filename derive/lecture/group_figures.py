@@ -362,7 +362,7 @@ def _along(run: Sequence[tuple[float, Any, Any]]) -> Scene:
     strokes, labels = frame.axes(names, {x: f"{x:g}" for x in MARKS}, numbers)
     for k, role in ((1, AXES[0]), (2, AXES[2])):
         strokes.append(frame.curve([(x[0], x[k] / first[k]) for x in told], role))
-    return panel((38, 34), strokes, labels)
+    return panel((38, 37), strokes, labels)
 
 
 # The solid in steps.
@@ -403,7 +403,7 @@ def axial(M: Any) -> Any:
 def momenta_in_steps(claims: Claims) -> Scene:
     """The steps on the sphere; beside, the length of the momentum by them and by the method of
     Runge and Kutta."""
-    return beside(_stepped(claims), _lengths(claims), gap=4)
+    return beside(_stepped(claims), _lengths(claims), gap=3)
 
 
 def _on_unit(angle: float, height: float) -> Vector:
@@ -430,7 +430,7 @@ def _lengths(claims: Claims) -> Scene:
     for _ in range(STEPPED):
         zeta = tuple(x + STEP * y for x, y in zip(zeta, spun(zeta), strict=True))
         usual.append(_length(tuple(x * m for x, m in zip(zeta, INERTIA, strict=True))))
-    frame = Frame((9.0, 6.0), (58.0, 32.0), (0.0, 0.0), (end, 1.05 * max(usual)))
+    frame = Frame((9.0, 6.0), (54.0, 32.0), (0.0, 0.0), (end, 1.05 * max(usual)))
     times = {float(t): str(t) for t in range(0, int(end) + 1, 20)}
     ticks = {float(k): str(k) for k in range(int(max(usual)) + 1)}
     strokes, labels = frame.axes((Label("t"), Label("‖ℓ_b‖")), times, ticks)
@@ -438,7 +438,7 @@ def _lengths(claims: Claims) -> Scene:
         strokes.append(frame.curve([(k * STEP, x) for k, x in enumerate(lengths)], role))
         x, y = frame.at(0.3 * end, lengths[3 * STEPPED // 10])
         labels.append(Label(name, name=True, at=(x, y + (4 if lengths is usual else -4))))
-    return panel((78, 46), strokes, labels)
+    return panel((74, 46), strokes, labels)
 
 
 def _length(x: Vector) -> float:
