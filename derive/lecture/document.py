@@ -192,7 +192,8 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
     """What both templates take."""
     chapters, language, front = x.chapters, x.language, x.front
     numbers = numbers_of(chapters)
-    named = [*(b for c in chapters for b in c.blocks), *(e for c in chapters for e in c.entries)]
+    named: list[Block | Entry] = [b for c in chapters for b in c.blocks]
+    named += [e for c in chapters for e in c.entries if e.label]
     labels = {x.label: numbers[id(x)] for x in named if id(x) in numbers}
     figures = {**FIGURES, **{label: y for c in chapters for label, y in c.figures.items()}}
     setter = _Setter(language, medium, labels | NUMBERS, claims_of(chapters), figures)
@@ -223,9 +224,9 @@ COUNTED = {**dict.fromkeys(STATED, "statement"), "solution": "exercise"}
 def numbers_of(chapters: Sequence[Chapter]) -> dict[int, int]:
     """The number of each block and display that has one, by its id: statements are counted
     together, and a solution has that of the exercise before it."""
-    found, counts = {}, {"statement": 0, "exercise": 0, "figure": 0}
     displays = (x for c in chapters for x in c.entries if x.label)
-    found |= {id(x): k for k, x in enumerate(displays, 1)}
+    found = {id(x): k for k, x in enumerate(displays, 1)}
+    counts = {"statement": 0, "exercise": 0, "figure": 0}
     for block in (x for c in chapters for x in c.blocks):
         counter = COUNTED.get(block.kind, block.kind)
         if counter in counts:
