@@ -111,7 +111,8 @@ PAGE = Medium(
 
 @dataclass(frozen=True)
 class SetEntry:
-    """An entry as a template takes it: its text or display, and what stands in the margins."""
+    """An entry as a template takes it: its text or display, what stands in the margins, and the
+    label and number of a display that is cited."""
 
     text: str
     display: bool
@@ -119,6 +120,8 @@ class SetEntry:
     open: tuple[str, ...]
     numbers: tuple[int, ...]
     anchors: tuple[str, ...] = ()
+    label: str = ""
+    number: int = 0
 
 
 @dataclass(frozen=True)
@@ -189,7 +192,9 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
     """What both templates take."""
     chapters, language, front = x.chapters, x.language, x.front
     numbers = numbers_of(chapters)
-    labels = {b.label: numbers[id(b)] for c in chapters for b in c.blocks if id(b) in numbers}
+    named: list[Block | Entry] = [b for c in chapters for b in c.blocks]
+    named += [e for c in chapters for e in c.entries if e.label]
+    labels = {x.label: numbers[id(x)] for x in named if id(x) in numbers}
     figures = {**FIGURES, **{label: y for c in chapters for label, y in c.figures.items()}}
     setter = _Setter(language, medium, labels | NUMBERS, claims_of(chapters), figures)
     if x.solutions == "none":
@@ -217,9 +222,11 @@ COUNTED = {**dict.fromkeys(STATED, "statement"), "solution": "exercise"}
 
 
 def numbers_of(chapters: Sequence[Chapter]) -> dict[int, int]:
-    """The number of each block that has one, by its id: statements are counted together, and a
-    solution has that of the exercise before it."""
-    found, counts = {}, {"statement": 0, "exercise": 0, "figure": 0}
+    """The number of each block and display that has one, by its id: statements are counted
+    together, and a solution has that of the exercise before it."""
+    displays = (x for c in chapters for x in c.entries if x.label)
+    found = {id(x): k for k, x in enumerate(displays, 1)}
+    counts = {"statement": 0, "exercise": 0, "figure": 0}
     for block in (x for c in chapters for x in c.blocks):
         counter = COUNTED.get(block.kind, block.kind)
         if counter in counts:
@@ -289,7 +296,8 @@ class _Setter:
         reasons = tuple(self.medium.text(tie.open[self.at]) for tie in x.ties if tie.open)
         numbers = tuple(n for tie in x.ties for n in tie.numbers)
         anchors = tuple(self.anchors.get(id(x), ()))
-        return SetEntry(text, x.display, x.labels, reasons, numbers, anchors)
+        number = self.numbers[x.label] if x.label else 0
+        return SetEntry(text, x.display, x.labels, reasons, numbers, anchors, x.label, number)
 
     def display(self, x: Entry) -> str:
         """A display: formulas side by side."""

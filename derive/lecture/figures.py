@@ -18,16 +18,17 @@ LEVELS = (0.1, 0.3, 0.55, 0.8)
 
 @dataclass(frozen=True)
 class Spun:
-    """A body that turns near its middle axis: its principal moments, its angular velocity at first,
-    for how long it is followed and in how many steps, and the marks of the axes of its picture."""
+    """A body that turns near its middle axis: its principal moments, of a plate if none are given,
+    λ₃ = λ₁ + λ₂, its angular velocity at first, for how long it is followed and in how many steps,
+    and the marks of the axes of its picture."""
 
-    moments: Vector = (1.0, 2.0, 2.6)
+    moments: Vector = (1.0, 2.0, 3.0)
     start: Vector = (0.002, 0.5, 0.0)
-    end: float = 130.0
-    steps: int = 1040
+    end: float = 110.0
+    steps: int = 1100
     largest: float = 0.55
     times: Mapping[float, str] = field(
-        default_factory=lambda: {t: f"{t:g}" for t in (0.0, 40.0, 80.0, 120.0)}
+        default_factory=lambda: {t: f"{t:g}" for t in (0.0, 40.0, 80.0)}
     )
     speeds: Mapping[float, str] = field(
         default_factory=lambda: {0.5: "0.5", 0.0: "0", -0.5: "−0.5"}
@@ -49,13 +50,8 @@ def _sphere(body: Spun) -> Scene:
     strokes = [view.outline()]
     for role, curve in _curves(body):
         strokes += view.on_sphere(curve, role)
-    labels = []
-    for k in range(3):
-        axis = tuple(float(k == i) for i in range(3))
-        tip, far = (tuple(s * x for x in axis) for s in (1.4, 1.57))
-        strokes += arrow(view.at(axis), view.at(tip), AXES[k])
-        labels.append(Label("e", str(k + 1), at=view.at(far)))
-    return panel((60, 57), strokes, labels)
+    axes, labels = view.named_axes()
+    return panel((60, 57), [*strokes, *axes], labels)
 
 
 def _curves(body: Spun = RACKET) -> Iterable[tuple[str, list[Vector]]]:

@@ -55,7 +55,7 @@ ORBITS = (
     Orbit(
         "SO(3)",
         [hat(e) for e in np.eye(3)],
-        (1.0, 2.0, 2.6),
+        (1.0, 2.0, 3.0),
         lambda a, b: (math.cos(b) * math.cos(a), math.cos(b) * math.sin(a), math.sin(b)),
         [
             *((AXES[0], s, x) for s in (0.0, math.pi) for x in (0.3, 0.6)),
@@ -357,20 +357,22 @@ def _along(run: Sequence[tuple[float, Any, Any]]) -> Scene:
     frame = Frame(
         (7.0, 6.0), (24.0, 22.0), (0.0, 0.0), (MARKS[-1], max(x[1] for x in told) / first[1])
     )
-    strokes, labels = frame.axes((Label("t"), Label("")), {x: f"{x:g}" for x in MARKS}, {1.0: "1"})
+    numbers = {float(k): str(k) for k in range(4)}
+    names = (Label("t"), Label("l/l₀, k/k₀"))
+    strokes, labels = frame.axes(names, {x: f"{x:g}" for x in MARKS}, numbers)
     for k, role in ((1, AXES[0]), (2, AXES[2])):
         strokes.append(frame.curve([(x[0], x[k] / first[k]) for x in told], role))
-    return panel((38, 34), strokes, [x for x in labels if x.base])
+    return panel((38, 37), strokes, labels)
 
 
 # The solid in steps.
 
 STEP, STEPPED, DOTS = 0.6, 100, 40
 """The length of a step, the number of steps on the right, and that on the sphere."""
-STARTED = ((0.0, 0.35), (0.0, 1.1), (math.pi / 2, 0.08))
+STARTED = ((0.0, 0.35), (0.0, 1.25), (math.pi / 2, 0.08))
 """Where motions start on the sphere of the momentum."""
 EXACT = 1e-13
-INERTIA = (1.0, 2.0, 2.6)
+INERTIA = (1.0, 2.0, 3.0)
 
 
 def in_steps(claims: Claims, start: Vector, h: float, number: int) -> list[Vector]:
@@ -401,7 +403,7 @@ def axial(M: Any) -> Any:
 def momenta_in_steps(claims: Claims) -> Scene:
     """The steps on the sphere; beside, the length of the momentum by them and by the method of
     Runge and Kutta."""
-    return beside(_stepped(claims), _lengths(claims), gap=4)
+    return beside(_stepped(claims), _lengths(claims), gap=3)
 
 
 def _on_unit(angle: float, height: float) -> Vector:
@@ -409,14 +411,15 @@ def _on_unit(angle: float, height: float) -> Vector:
 
 
 def _stepped(claims: Claims) -> Scene:
-    view = View((22.0, 22.0), 19.0, 38.0, 25.0)
+    view = View((25.0, 22.0), 17.0, 38.0, 25.0)
     strokes, dots = [view.outline()], []
     for role, start in zip((AXES[0], AXES[2], AXES[1]), STARTED, strict=True):
         first = _on_unit(*start)
         strokes += view.on_sphere(path_on_orbit(claims, ORBITS[0], *start), role, "thin")
         shown = (x for x in in_steps(claims, first, STEP, DOTS) if view.depth(x) > 0)
         dots += [Dot(view.at(x), 0.55, role) for x in shown]
-    return panel((44, 44), strokes, (), dots)
+    axes, labels = view.named_axes()
+    return panel((50, 51), [*strokes, *axes], labels, dots)
 
 
 def _lengths(claims: Claims) -> Scene:
@@ -427,13 +430,15 @@ def _lengths(claims: Claims) -> Scene:
     for _ in range(STEPPED):
         zeta = tuple(x + STEP * y for x, y in zip(zeta, spun(zeta), strict=True))
         usual.append(_length(tuple(x * m for x, m in zip(zeta, INERTIA, strict=True))))
-    frame = Frame((9.0, 6.0), (58.0, 32.0), (0.0, 0.0), (end, 1.05 * max(usual)))
+    frame = Frame((9.0, 6.0), (54.0, 32.0), (0.0, 0.0), (end, 1.05 * max(usual)))
     times = {float(t): str(t) for t in range(0, int(end) + 1, 20)}
     ticks = {float(k): str(k) for k in range(int(max(usual)) + 1)}
     strokes, labels = frame.axes((Label("t"), Label("‖ℓ_b‖")), times, ticks)
-    for lengths, role in ((usual, AXES[2]), (kept, AXES[1])):
+    for name, lengths, role in (("Euler", usual, AXES[2]), ("Moser–Veselov", kept, AXES[1])):
         strokes.append(frame.curve([(k * STEP, x) for k, x in enumerate(lengths)], role))
-    return panel((78, 46), strokes, labels)
+        x, y = frame.at(0.3 * end, lengths[3 * STEPPED // 10])
+        labels.append(Label(name, name=True, at=(x, y + (4 if lengths is usual else -4))))
+    return panel((74, 46), strokes, labels)
 
 
 def _length(x: Vector) -> float:

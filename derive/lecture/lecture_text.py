@@ -19,7 +19,8 @@ whole number between; in its solution sentences, where a formula ends in ``= #``
 
 Formulas stand in `backquotes`, as ``derive walk`` shows them; `?Ũ = 0` is
 not tried: it is supposed, sought, or true under what the text alone supposes; emphasis in
-_underscores_; ``@label`` is the number of a block.  ``#`` begins a comment.  A figure begins with
+_underscores_; ``@label`` is the number of a block, or of a display that begins ``= @label``, which
+has a number only so.  ``#`` begins a comment.  A figure begins with
 words that describe it to those who do not see it; its caption follows.  A calculation is a line for
 each step, an equation and the identity by which it holds.
 """
@@ -52,6 +53,7 @@ HEAD = re.compile(r'([a-z]+)(?: ([a-z_]+))?(?: "([^"]+)")?')
 NUMBERS = re.compile(r"\s*\((\d+(?:, \d+)*)\)$")
 RELATION = re.compile(r" [=≠<>≤≥∈↦→] ")
 FRESH = "  $ "
+LABELLED = re.compile(r"(?:@([a-z_]+) )?(.*)")
 ASKED = re.compile(r" ([=≈]) #([a-z]*)$")
 SAID, OPEN = "said", "open"
 
@@ -125,7 +127,7 @@ class Tie:
 class Entry:
     """A sentence in each language, or a display that is the same in all, with its ties; ``own``:
     what is said instead of a reader's body, its places not filled; ``fresh``: is it there for a
-    seed alone?"""
+    seed alone? ``label``: of a display that is cited."""
 
     texts: tuple[Words, ...]
     ties: tuple[Tie, ...]
@@ -133,6 +135,7 @@ class Entry:
     line: int
     own: tuple[Words, ...] = ()
     fresh: bool = False
+    label: str = ""
 
     @property
     def formulas(self) -> tuple[Formula, ...]:
@@ -252,10 +255,12 @@ def _entry(lines: _Lines) -> Entry:
     line, first = lines.next()
     fresh = first.startswith(FRESH)
     first = first.replace(FRESH, "  ", 1) if fresh else first
-    display = first.startswith("  = ")
+    display, label = first.startswith("  = "), ""
     if display:
-        mark = "?" if fresh else ""
-        texts: Sequence[Words] = [words_of(f"`{mark}{first[4:].strip()}`")] * len(LANGUAGES)
+        labelled = LABELLED.fullmatch(first[4:].strip())
+        assert labelled is not None
+        label, mark = labelled[1] or "", "?" if fresh else ""
+        texts: Sequence[Words] = [words_of(f"`{mark}{labelled[2]}`")] * len(LANGUAGES)
     else:
         other = lines.next()[1]
         texts = [words_of(first.strip()), words_of(other.removeprefix(FRESH).strip())]
@@ -265,7 +270,7 @@ def _entry(lines: _Lines) -> Entry:
     while lines.left and lines.left[0][1].startswith("  < "):
         number, text = lines.next()
         ties.append(_tie(text[4:].strip(), number, lines))
-    found = Entry(tuple(texts), tuple(ties), display, line, tuple(own), fresh)
+    found = Entry(tuple(texts), tuple(ties), display, line, tuple(own), fresh, label)
     if len(own) not in (0, len(texts)):
         raise lines.wrong(line, "after ~ a sentence in each language")
     for one in (found, replace(found, texts=found.own)) if own else (found,):

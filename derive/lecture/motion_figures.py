@@ -285,8 +285,8 @@ def _fluid(A: Any, t: float) -> Scene:
     return panel((26, 28), strokes, [Label(f"t = {t:g}", at=(13.0, 4.0))])
 
 
-MOMENTS = (1.0, 1.9, 2.6)
-"""The principal moments of inertia; a triangle has such sides, so some body has them."""
+MOMENTS = (1.0, 2.0, 3.0)
+"""The principal moments of inertia, of a plate: λ₃ = λ₁ + λ₂."""
 START = (0.78, 0.42, 0.3)
 """The angular velocity in the body at first."""
 ROLLED, DRAWN = 14.0, 75.0

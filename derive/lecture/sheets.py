@@ -131,6 +131,16 @@ class View:
         points = ((x + r * math.cos(k), y + r * math.sin(k)) for k in TURN)
         return Stroke(tuple(points), "support", "thin")
 
+    def named_axes(self) -> tuple[list[Stroke], list[Label]]:
+        """The axes of the body outside the sphere, with their names."""
+        strokes, labels = list[Stroke](), list[Label]()
+        for k, role in enumerate(AXES):
+            axis = tuple(float(k == i) for i in range(3))
+            tip, far = (tuple(s * x for x in axis) for s in (1.4, 1.57))
+            strokes += arrow(self.at(axis), self.at(tip), role)
+            labels.append(Label("e", str(k + 1), at=self.at(far)))
+        return strokes, labels
+
     def on_sphere(self, curve: Sequence[Vector], role: str, pen: str = "line") -> list[Stroke]:
         """A curve on the sphere; behind it, it is pale."""
         return self.on_surface(curve, lambda u: u, lambda u: self.depth(u) > 0, role, pen)
@@ -196,7 +206,7 @@ def solved(
 
 
 def euler(claims: Claims, moments: Sequence[float]) -> Callable[[Vector], Vector]:
-    """The rates of the angular velocity in principal axes, by the equations (35) of the text."""
+    """The rates of the angular velocity in principal axes, by Euler's equations of the text."""
     known = {tree(f"λ{k}"): x for k, x in zip("₁₂₃", moments, strict=True)}
     rates = [e.rhs for e in claims["free.principal"]]
     letters = [tree(f"ζ{k}") for k in "₁₂₃"]

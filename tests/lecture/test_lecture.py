@@ -88,7 +88,8 @@ def test_every_statement_says_what_it_rests_on():
 
 def test_a_calculation_has_an_identity_for_each_of_a_few_lines():
     found = [b for c in CHAPTERS for b in c.blocks if b.kind == "calculation"]
-    assert len(found) == 7
+    assert len(found) == 15
+    assert all(any(b in c.blocks for b in found) for c in CHAPTERS)
     for block in found:
         assert 3 <= len(block.entries) <= 6
         for x in block.entries:
@@ -180,6 +181,33 @@ def test_the_page_has_every_formula_of_the_text(lang):
     named = [x.get("id") for x in whole.iter() if x.get("id")]
     assert targets <= {*named}
     assert len({*named}) == len(named)
+
+
+def test_the_equations_that_are_cited_are_numbered_in_their_order_and_no_others(records):
+    """The same numbers in both kinds of documents; the note's stand beside, with its name."""
+    entries = [e for c in CHAPTERS for e in c.entries]
+    labelled = [e.label for e in entries if e.label]
+    labels = [*labelled, *(b.label for c in CHAPTERS for b in c.blocks if b.label)]
+    assert len({*labels}) == len(labels)
+    for at in range(len(LANGUAGES)):
+        cited = {x for e in entries for x in said(e, at)}
+        cited |= {x for e in entries for y in e.own for z in y for x in CITED.findall(str(z))}
+        assert {*labelled} <= cited <= {*labels, *NUMBERS}
+    lecture = document.Lecture(CHAPTERS, language("en"), records)
+    page, tex = document.page(lecture), document.latex(lecture)
+    numbered = [(str(k), label) for k, label in enumerate(labelled, 1)]
+    assert re.findall(r"\\tag{(\d+)}\\label{(\w+)}", tex) == numbered
+    displays = r'<div class="display" id="(\w+)"><span class="number">\((\d+)\)'
+    assert [x[::-1] for x in re.findall(displays, page)] == numbered
+    assert '<span class="ofnote">note (35)</span>' in page
+    solved = (e for c in CHAPTERS for b in c.blocks if b.kind == "solution" for e in b.entries)
+    assert not any(e.label for e in solved)  # they may be left out
+
+
+def test_every_figure_is_cited_in_the_text():
+    figures = {b.label for c in CHAPTERS for b in c.blocks if b.kind == "figure"}
+    texts = [e for c in CHAPTERS for b in c.blocks if b.kind != "figure" for e in b.entries]
+    assert figures <= {x for e in texts for x in said(e, 0)}
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)

@@ -257,6 +257,14 @@ def test_after_how_many_turns_the_racket_flips():
     assert told == [round(x, 1) for x in (turns(1 / 250), 2 * turns(1 / 250), turns(1 / 10))]
 
 
+def test_the_racket_is_a_plate_and_the_captions_say_so():
+    for moments in (figures.RACKET.moments, motion_figures.MOMENTS):
+        assert moments[2] == moments[0] + moments[1]
+        told = ", ".join(f"{x:g}" for x in moments[:2]) + f" and {moments[2]:g}"
+        captions = ["".join(map(str, e.texts[0])) for b in FIGURES for e in b.entries[1:]]
+        assert sum(f"of a plate, {told}" in x for x in captions) == 2
+
+
 def test_a_figure_without_a_description_is_refused():
     text = "chapter c\n  A\n  B\nrecords so3\nfigure polhodes\n  Curves.\n  Courbes.\n"
     with pytest.raises(LectureError, match="line 5: a figure begins with a description"):

@@ -318,6 +318,8 @@ def tikz(scene: Scene, colours: Collection[str] = ()) -> str:
         lines += _wrapped(_command(s.pen, s.role, s.role if s.role in colours else ""), points)
     for d in scene.dots:
         ink = rf"\draw[line width={RING}mm]" if d.ring else r"\fill"
+        if d.role in colours and not d.ring:
+            ink += f"[{d.role}]"
         lines.append(f"{ink} {_at(d.at)} circle[radius={_n(d.radius)}];")
     for x in scene.labels:
         lines.append(rf"\node[inner sep=0pt] at {_at(x.at)} {{${x.latex}$}};")
