@@ -171,23 +171,6 @@ def _searched(args: argparse.Namespace, search: Callable[[Problem, Derivation], 
     return 0
 
 
-<<<<<<< HEAD
-=======
-def command_lecture(args: argparse.Namespace) -> int:
-    """A text for people, each claim a checked step: .pdf, .html …"""
-    from .lecturing import command_lecture
-
-    return command_lecture(args)
-
-
-def command_notes(args: argparse.Namespace) -> int:
-    """All steps as lecture notes: .pdf, .html, .tex; .sty: macros."""
-    from .noting import command_notes
-
-    return command_notes(args)
-
-
->>>>>>> words
 def command_emit(args: argparse.Namespace) -> int:
     """The equations as code: C, C++, Rust, Julia, Python, FMU …"""
     from ..code.emit import planned
@@ -227,16 +210,6 @@ def command_emit(args: argparse.Namespace) -> int:
     return 0
 
 
-<<<<<<< HEAD
-=======
-def command_simulate(args: argparse.Namespace) -> int:
-    """A motion, with what it keeps: a file, or a page that moves."""
-    from .simulating import command_simulate
-
-    return command_simulate(args)
-
-
->>>>>>> words
 def command_plot(args: argparse.Namespace) -> int:
     """A run as a picture: .svg, .pdf or .png (needs matplotlib)."""
     from ..motion.ensemble_files import read_either
@@ -324,16 +297,6 @@ def _trial_text(v: Verdict) -> str:
     return f"{count} {v.of}{'s' * (count != 1)} on {', '.join(groups)}{note}"
 
 
-<<<<<<< HEAD
-=======
-def command_compare(args: argparse.Namespace) -> int:
-    """Your own right-hand side beside it: what is wrong in yours."""
-    from .simulating import command_compare
-
-    return command_compare(args)
-
-
->>>>>>> words
 def command_paper(args: argparse.Namespace) -> int:
     """The note's numbered equations: confirmed, or what is wrong."""
     from ..views.book import as_json, as_text
@@ -387,43 +350,19 @@ FILES = {"text": "txt", "latex": "tex", "json": "json"}
 COMMANDS = {
     "list": command_list,
     "walk": command_walk,
-    "lecture": command_lecture,
-    "notes": command_notes,
+    "lecture": _in("lecturing", "A text for people, each claim a checked step: .pdf, .html …"),
+    "notes": _in("noting", "All steps as lecture notes: .pdf, .html, .tex; .sty: macros."),
     "paper": command_paper,
     "symmetries": command_symmetries,
     "reduction": command_reduction,
     "integrals": command_integrals,
     "equilibria": command_equilibria,
     "trim": command_trim,
-<<<<<<< HEAD
-    "notes": _in(
-        "noting",
-        "The whole record of problems as notes: .tex, .pdf, .html; or .sty, the macros of their "
-        "fragments.",
-    ),
-    "emit": command_emit,
-    "check": command_check,
-    "simulate": _in(
-        "simulating",
-        "Follow the motion of a problem: its states, its energy, and all that it keeps, as a file.",
-    ),
-    "plot": command_plot,
-    "compare": _in(
-        "simulating",
-        "Hold a right-hand side of your own, in C or Python, against that of a problem.",
-    ),
-    "lecture": _in(
-        "lecturing",
-        "The lecture, a text for people that names the steps that prove it: .tex, .pdf or .html.",
-    ),
-    "paper": command_paper,
-=======
-    "simulate": command_simulate,
+    "simulate": _in("simulating", "A motion, with what it keeps: a file, or a page that moves."),
     "plot": command_plot,
     "emit": command_emit,
-    "compare": command_compare,
+    "compare": _in("simulating", "Your own right-hand side beside it: what is wrong in yours."),
     "check": command_check,
->>>>>>> words
     "build": command_build,
 }
 """In the order of the help."""
