@@ -183,7 +183,7 @@ def test_the_page_has_every_formula_of_the_text(lang):
     assert len({*named}) == len(named)
 
 
-def test_the_equations_that_are_cited_are_numbered_in_their_order_and_no_others(records):
+def test_the_equations_that_are_cited_are_numbered_in_their_order_and_no_others():
     """The same numbers in both kinds of documents; the note's stand beside, with its name."""
     entries = [e for c in CHAPTERS for e in c.entries]
     labelled = [e.label for e in entries if e.label]
@@ -193,8 +193,7 @@ def test_the_equations_that_are_cited_are_numbered_in_their_order_and_no_others(
         cited = {x for e in entries for x in said(e, at)}
         cited |= {x for e in entries for y in e.own for z in y for x in CITED.findall(str(z))}
         assert {*labelled} <= cited <= {*labels, *NUMBERS}
-    lecture = document.Lecture(CHAPTERS, language("en"), records)
-    page, tex = document.page(lecture), document.latex(lecture)
+    page, tex = shown("page", "en"), shown("latex", "en")
     numbered = [(str(k), label) for k, label in enumerate(labelled, 1)]
     assert re.findall(r"\\tag{(\d+)}\\label{(\w+)}", tex) == numbered
     displays = r'<div class="display" id="(\w+)"><span class="number">\((\d+)\)'
