@@ -4,12 +4,13 @@ motion and what it shows."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations_with_replacement, groupby
 
-from ..language.show import show
+from ..language.show import in_sentence, show
 from ..language.tree import Tree, names, nodes
 from ..record.as_json import decode
 from ..record.prose import message
@@ -25,7 +26,18 @@ from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
 from .named_sums import NamedSums
 from .problem_exercises import BETWEEN_WHICH, MOST, coordinate, exercises
-from .ran_figure import AT_REST, DESCRIBED, FLAT, SHOWN, START, Ran, label_of, raised, written
+from .ran_figure import (
+    AT_REST,
+    DESCRIBED,
+    FLAT,
+    SHOWN,
+    START,
+    Ran,
+    label_of,
+    raised,
+    value_at_start,
+    written,
+)
 from .recorded_text import (
     OVER,
     SPOKEN,
@@ -77,6 +89,7 @@ SYSTEM = {
 }
 """What a text for people says of what moves, instead of the heading of a record."""
 LAGRANGIAN, AS_KIRCHHOFF = told("lecture:lagrangian"), told("lecture:as_kirchhoff")
+MOMENTA, VALID, DIVIDED = told("lecture:momenta"), told("lecture:valid"), "reduction.isotropy"
 OF_LINEAR, OF_AFFINE = told("lecture:of_linear"), told("lecture:of_affine")
 LISTED = {"en": ", ", "fr": "\u202f; "}
 """What is between two parameters with their numbers."""
@@ -287,10 +300,20 @@ def _told(d: Derivation, search: str, found: Found, ran: Ran | None) -> list[Ent
     for step in told:
         before, after = around(step)
         entries.append(sentence(partial(_prose, before)))
-        entries += _displays([step])
+        entries += _displays(step)
         if after:
             entries.append(sentence(partial(_prose, after), [step.label]))
+        entries += _valid(d, step, ran)
     return entries
+
+
+def _valid(d: Derivation, step: Step, ran: Ran | None) -> Iterator[Entry]:
+    """What must not be 0, at the start of the motion."""
+    rows = [y for c in step.claims if c.kind == DIVIDED for _, x in c.values for y in x[1:]]
+    told = [(in_sentence(x), value_at_start(d, x, ran)) for x in rows] if ran else []
+    if told and all(math.isfinite(y) and y for _, y in told):
+        values = ", ".join(f"{x} = {written(y)}" for x, y in told)
+        yield sentence(lambda x: x.word(VALID, values=x.formula(values)))
 
 
 def _labels(steps: Sequence[Step]) -> list[str]:
@@ -298,13 +321,15 @@ def _labels(steps: Sequence[Step]) -> list[str]:
 
 
 def _momenta(d: Derivation) -> Iterator[Entry]:
-    """What the momenta Π_a are, where the record tells each by the velocity, in short equations."""
-    for s in d.steps:
-        told = [e for e in s.equations if isinstance(e.lhs, tuple) and e.lhs[:2] == ("at", "Π")]
-        told = [e for e in told if not e.for_all and e.rhs != ("inner", "Π", ("at", "E", "a"))]
-        if s.label == f"{d.name}.momenta" and told and all(_rows(e) <= SHORT for e in told):
-            yield sentence(lambda x: x.word("The momenta are"))
-            yield display(told, [s.label])
+    """What the momenta Π_a are, by the velocity where the record tells each so, in short equations;
+    else in words."""
+    told = [(s, e) for s in d.steps if s.label == f"{d.name}.momenta" for e in s.equations]
+    fit = [(s, e) for s, e in told if e.lhs[:2] == ("at", "Π") and isinstance(e.lhs[2], int)]
+    if fit and all(_rows(e) <= SHORT for _, e in fit):
+        yield sentence(lambda x: x.word("The momenta are"))
+        yield display([e for _, e in fit], [fit[0][0].label])
+    else:
+        yield sentence(lambda x: x.word(MOMENTA))
 
 
 def _nothing(problem: str, search: str, found: Found) -> Entry:
@@ -340,16 +365,13 @@ def _pictured(d: Derivation, ran: Ran | Sentence, letter: Tree) -> Iterator[Bloc
     yield Block("figure", label, "", (described, sentence(ran.caption)), 0)
 
 
-def _displays(steps: Sequence[Step]) -> Iterator[Entry]:
-    """What steps say; of what is too long, where it is."""
-    told = [(x, step.label) for step in steps for e in step.equations for x in _entries(e)]
-    for long, run in groupby(told, lambda x: _rows(x[0]) > LONGEST):
-        equations, labels = zip(*run, strict=True)
-        places = [*dict.fromkeys(labels)]
-        if not long:
-            yield display(equations, places)
-        else:
-            yield sentence(partial(_left_out, equations), places)
+def _displays(step: Step) -> Iterator[Entry]:
+    """What a step says, but for what is too long; of that, where nothing else is."""
+    told = [x for e in step.equations for x in _entries(e)]
+    if shown := [x for x in told if _rows(x) <= LONGEST]:
+        yield display(shown, [step.label])
+    elif told:
+        yield sentence(partial(_left_out, told), [step.label])
 
 
 def _entries(e: Equation) -> list[Equation]:
