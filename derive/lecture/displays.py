@@ -54,7 +54,8 @@ def _row_of(e: Equation) -> str:
     family = str(e.lhs[1]) if isinstance(e.lhs, tuple) and e.lhs[0] == "at" else ""
     column = isinstance(e.rhs, tuple) and e.rhs[0] == "matrix" and len(e.rhs) > FEW_ROWS
     narrow = measure(plain(sides(e).tex)) < WIDTH / 2
-    return family if narrow and (column or not isinstance(e.rhs, (tuple, str))) else ""
+    single = not isinstance(e.rhs, tuple) or e.rhs[0] == "par"
+    return family if narrow and (column or single) else ""
 
 
 def _side_by_side(equations: Sequence[Equation]) -> Iterator[str]:
