@@ -52,7 +52,7 @@ from .recorded_text import (
     words,
 )
 from .search_sentences import around, momenta, space
-from .steady_sentences import asleep, same_top, steady
+from .steady_sentences import asleep, placed, rows, same_top, steady
 
 SEARCHES = {
     "symmetries": "What the motion keeps.",
@@ -309,8 +309,8 @@ def _told(d: Derivation, search: str, found: Found, ran: Ran | None) -> list[Ent
 
 def _valid(d: Derivation, step: Step, ran: Ran | None) -> Iterator[Entry]:
     """What must not be 0, at the start of the motion."""
-    rows = [y for c in step.claims if c.kind == DIVIDED for _, x in c.values for y in x[1:]]
-    told = [(in_sentence(x), value_at_start(d, x, ran)) for x in rows] if ran else []
+    divided = placed(step, "conditions") if any(c.kind == DIVIDED for c in step.claims) else []
+    told = [(in_sentence(y), value_at_start(d, y, ran)) for x in divided for y in rows(x) if ran]
     if told and all(math.isfinite(y) and y for _, y in told):
         values = ", ".join(f"{x} = {written(y)}" for x, y in told)
         yield sentence(lambda x: x.word(VALID, values=x.formula(values)))
@@ -324,7 +324,9 @@ def _momenta(d: Derivation) -> Iterator[Entry]:
     """What the momenta Π_a are, by the velocity where the record tells each so, in short equations;
     else in words."""
     told = [(s, e) for s in d.steps if s.label == f"{d.name}.momenta" for e in s.equations]
-    fit = [(s, e) for s, e in told if e.lhs[:2] == ("at", "Π") and isinstance(e.lhs[2], int)]
+    fit = [
+        (s, e) for s, e in told if [*rows(e.lhs)][:1] == ["Π"] and isinstance(rows(e.lhs)[1], int)
+    ]
     if fit and all(_rows(e) <= SHORT for _, e in fit):
         yield sentence(lambda x: x.word("The momenta are"))
         yield display([e for _, e in fit], [fit[0][0].label])

@@ -23,6 +23,7 @@ from .lecture_text import Block, Entry, Formula, Words, words_of
 from .ran_figure import Ran, value_at_start, written
 from .recorded_text import SPOKEN, alone, display, in_each, kept_by, kind_of, sentence, words
 from .search_sentences import of_momentum
+from .steady_sentences import rows
 
 HAND, MISTAKE, WATCH = "By hand.", "Find the mistake.", "Predict, then watch."
 KEPT = "Show that this is constant along every motion:"
@@ -82,18 +83,15 @@ def _by_rates(
     rates = {
         e.lhs: (e, s.label) for s in steps if s.label.endswith(".poisson") for e in s.equations
     }
-    found = [
-        (e, s.label)
-        for s in steps
-        for e in s.equations
-        if isinstance(e.lhs, tuple) and e.lhs[:2] == ("call", "d/dt") and e.rhs == 0
-        and "Π" in names(e.lhs) and len(_terms(e.lhs[2])) > 1 and e.lhs[2] not in _energies(steps)
+    constants = [
+        (rows(e.lhs)[1], e, s.label) for s in steps for e in s.equations
+        if rows(e.lhs)[:1] == ["d/dt"] and "Π" in names(e.lhs)
     ]  # fmt: skip
-    for e, label in sorted(found, key=lambda x: len(in_sentence(x[0].lhs)))[:1]:
-        used = [rates[y] for x in nodes(e.lhs) if (y := _rate(x)) in rates]
-        used = [*dict.fromkeys(used)]
+    found = [x for x in constants if len(_terms(x[0])) > 1 and x[0] not in _energies(steps)]
+    for kept, e, label in sorted(found, key=lambda x: len(in_sentence(x[0])))[:1]:
+        used = [*dict.fromkeys(rates[y] for x in nodes(kept) if (y := _rate(x)) in rates)]
         if used and all(short(x) for x, _ in used):
-            yield [_said(KEPT, HAND), alone(e.lhs[2])]
+            yield [_said(KEPT, HAND), alone(kept)]
             yield [
                 _said(BY_RATES),
                 display([x for x, _ in used], [used[0][1]]),

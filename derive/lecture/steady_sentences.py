@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import permutations
+from typing import Any
 from unicodedata import normalize
 
 from ..check.checker import checker_of
@@ -71,6 +72,8 @@ POINTING = {
     -1: "{when}, its axis {axis} opposite to {fixed} of space",
 }
 ALIKE = {TURNS: "motions about an axis", ALONG: "motions along an axis"}
+Point = Sequence[Any]
+"""The coordinates that are not 0 at a steady motion, with their values."""
 RANKS = "the least of the three", "between those of the others", "the greatest of the three"
 
 
@@ -83,17 +86,7 @@ def steady(d: Derivation, steps: Sequence[Step], ran: Ran | None = None) -> Iter
     both = [
         [x for x in steps if x.label.rpartition("_")[2] == s.label.rpartition("_")[2]] for s in at
     ]
-    points = [
-        [
-            row[1:]
-            for x in run
-            for c in x.claims
-            for k, y in c.values
-            if k == "point"
-            for row in y[1:]
-        ]
-        for run in both
-    ]
+    points = [[y[1:] for s in run for x in placed(s, "point") for y in rows(x)] for run in both]
     variables = ", ".join(variables_of(at[0]))
     supposed = {x.message: x for s in steps for x in s.prose}
     positive = supposed.get(message("family.positive"))
@@ -116,20 +109,17 @@ def steady(d: Derivation, steps: Sequence[Step], ran: Ran | None = None) -> Iter
 
     yield sentence(said_first)
     verdicts = [_verdict(run, numbers) for run in both]
-    for run, point, verdict in zip(both, points, verdicts, strict=True):
-        kind = _kind(d, point)
-        yield sentence(partial(_of_one, run, kind, verdict), [x.label for x in run])
     alike: dict[str, list[str]] = {}
-    for point, (verdict, _) in zip(points, verdicts, strict=True):
-        kind = _kind(d, point)[0] if len(point) == 1 else ""
-        alike.setdefault(kind, []).append(STABLE if verdict == ON_LEAF else verdict)
+    for run, point, verdict in zip(both, points, verdicts, strict=True):
+        motion = _kind(d, point)
+        yield sentence(partial(_of_one, run, motion, verdict), [x.label for x in run])
+        proved = STABLE if verdict[0] == ON_LEAF else verdict[0]
+        alike.setdefault(motion[0] if len(point) == 1 else "", []).append(proved)
     for kind in ALIKE:
         yield from _odd_one(d, kind, alike.get(kind, []))
 
 
-def _numbers(
-    d: Derivation, letters: Sequence[tuple[Tree, Tree]], ran: Ran | None
-) -> tuple[dict[str, float], str]:
+def _numbers(d: Derivation, letters: Point, ran: Ran | None) -> tuple[dict[str, float], str]:
     """The numbers of the parameters, where all have one, and of the momenta of families at the
     start, where these are not 0; the latter as a text."""
     given = {x: y["default"] for x, y in d.problem["parameters"].items()}
@@ -141,21 +131,23 @@ def _numbers(
     return {**given, **{y[1]: x for y, x in momenta.items()}}, told
 
 
-def _kind(d: Derivation, point: Sequence[tuple[Tree, Tree]]) -> tuple[str, int, Sequence[Tree]]:
+def _kind(d: Derivation, point: Point) -> tuple[str, int, Sequence[tuple[int, int, int]]]:
     """How a solid moves at a point, about or along which axis, and the entries of A that say where
     its own axes point; empty where it is no solid."""
-    kind, axis, entries = REST if d.problem["group"] in SOLIDS else "", 0, []
-    for x, y in point if kind else ():
+    kind, axis, entries = REST, 0, []
+    for x, y in point:
         if x[0] == "at":
             kind, axis = (TURNS, x[2]) if x[2] <= 3 else (ALONG, x[2] - 3)
-        else:
+        elif y in POINTING and max(x[2:]) <= 3:
             entries.append((*x[2:], y))
-    return kind, axis, entries
+        else:
+            return "", 0, []
+    return (kind, axis, entries) if d.problem["group"] in SOLIDS else ("", 0, [])
 
 
 def _of_one(
     steps: Sequence[Step],
-    motion: tuple[str, int, Sequence[Tree]],
+    motion: tuple[str, int, Sequence[tuple[int, int, int]]],
     proved: tuple[str, str],
     spoken: Language,
 ) -> str:
@@ -196,27 +188,37 @@ def _verdict(steps: Sequence[Step], numbers: Mapping[str, float]) -> tuple[str, 
     undecided = ""
     for claim in (c for s in steps for c in s.claims):
         verdict = VERDICTS["family"].get(claim.kind.removeprefix("family."), "").removesuffix(WHERE)
-        cases = [[y[1:] for y in x[1:]] for k, row in claim.values if k == "cases" for x in row[1:]]
+        cases = [[y[1:] for y in rows(x)] for k, t in claim.values if k == "cases" for x in rows(t)]
         if not verdict or not cases or not numbers:
             continue
         pairs = [pair for case in cases for pair in case]
         (a, b) = pairs[0]
-        if (
-            len(pairs) == 1
-            and b == 0
-            and isinstance(a, tuple)
-            and a[0] == "add"
-            and _positive(a, numbers)
-        ):
+        if len(pairs) == 1 and b == 0 and rows(a)[1:] and _positive(a, numbers):
             return verdict, ALWAYS
-        values = [[[approximate(t, numbers) for t in pair] for pair in x] for x in cases]
-        if any(y is None for case in values for x in case for y in x):
+        values = [[[_number(t, numbers) for t in pair] for pair in x] for x in cases]
+        if math.isnan(sum(y for case in values for x in case for y in x)):
             return "", ""
         if any(all(x > y for x, y in case) for case in values):
             x, y = map(written, values[0][0])
             return verdict, f"{x} > {y}" if len(pairs) == 1 else ""
         undecided = OPEN
     return undecided, ""
+
+
+def placed(step: Step, place: str) -> list[Tree]:
+    """What the claims of a step have in a place."""
+    return [y for claim in step.claims for x, y in claim.values if x == place]
+
+
+def rows(t: Tree) -> list[Any]:
+    """The parts of a matrix, of a row, of a sum; none of a number or a letter."""
+    return [*t[1:]] if isinstance(t, tuple) and t[0] != "par" else []
+
+
+def _number(t: Tree, numbers: Mapping[str, float]) -> float:
+    """The value of an expression; not a number where a letter has none."""
+    found = approximate(t, numbers)
+    return math.nan if found is None else found
 
 
 def _positive(t: Tree, numbers: Mapping[str, float]) -> bool:
@@ -242,7 +244,7 @@ def _odd_one(d: Derivation, kind: str, verdicts: Sequence[str]) -> Iterator[Entr
     odd = next(k for k, x in enumerate(verdicts) if verdicts.count(x) == 1)
     inertia = [form[k][k] for k in range(3)] if form else []
     if len({*inertia}) == 3:
-        told = {"three": ALIKE[kind], "verdict": verdicts[odd]}
+        told = {"those": ALIKE[kind], "verdict": verdicts[odd]}
         told["rank"] = RANKS[sorted(inertia).index(inertia[odd])]
         axis = axis_letter(odd + 1)
         yield sentence(

@@ -225,7 +225,7 @@ def told_of_steady(name):
     chapter, _, _ = chapter_on(name)
     told = [e.texts[0] for e in chapter.entries if any(".equilibrium_" in x for x in e.labels)]
     whole = ["".join(x.text if isinstance(x, Formula) else x for x in text) for text in told]
-    alone = [str(e.texts[0]) for e in chapter.entries if "Of these three" in str(e.texts[0])]
+    alone = [str(e.texts[0]) for e in chapter.entries if "Of the three" in str(e.texts[0])]
     return whole, alone
 
 
