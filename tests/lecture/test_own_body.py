@@ -186,7 +186,7 @@ def test_its_chapter_says_that_it_has_the_place():
     chapter, records, body = chapter_on("euler_top")
     assert body is not None
     page = alone(chapter, records, "en")
-    assert "In the first chapter its body has the place of the racket." in page
+    assert "In chapter 1 this body has the place of a racket; its flip is drawn there." in page
     assert page.count("<figure") == 2
     assert isinstance(chapter.title[0], Given)
     other = chapter_on("euler_top", taken=True).chapter
