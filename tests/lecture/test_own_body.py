@@ -136,7 +136,7 @@ def test_the_picture_of_a_motion_is_what_the_emitted_code_does():
         atol=1e-12,
     )
     assert np.allclose([y for _, y in ran.curves], run.y[-3:], rtol=0, atol=1e-4)
-    assert "varie de moins de 10⁻" in ran.told(language("fr"))
+    assert "gardent leur valeur, à 10⁻" in ran.told(language("fr"))
 
 
 def test_labels_of_figures_are_of_small_letters_and_differ():
