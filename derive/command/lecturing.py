@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 import math
-import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from ..lecture.own_body import OwnBody, place_of
 from ..lecture.problem_chapter import Found, chapter_of
 from ..lecture.ran_figure import Ran, letter_of
 from ..lecture.recorded_text import OVER, UNSHOWN
+from ..motion.emitted_code import VECTORS, parts
 from ..motion.simulate import run
 from ..motion.trajectory import Method
 from ..pipeline import discrete, walk
@@ -120,10 +121,9 @@ def chapter_on(name: str, seconds: float | None = None, *, taken: bool = False) 
             found[search] = Found(refused=str(error))
     ran, speed = motion(problem, record)
     body, place = place_of(record, speed or 1.0, taken=taken)
-    command = f"derive simulate {shlex.quote(Path(name).name)} --html {record.name}.html"
     if body is None:
         print(f"{record.name}: {place}", file=sys.stderr)
-    chapter = chapter_of(record, found, tuple(records), place if body else None, ran, command)
+    chapter = chapter_of(record, found, tuple(records), place if body else None, ran)
     return OnProblem(chapter, records, body)
 
 
@@ -145,7 +145,24 @@ def motion(problem: Problem, record: Derivation) -> tuple[Ran | Sentence, float]
     start = [(x, float(y[0])) for x, y in state.items()]
     kept = energy[0] if energy else ()
     units = {x.name: x.unit for x in code.columns()}
-    return Ran(made.t.tolist(), curves, kept, [*_moved(problem, start)], units), speed
+    momenta = {
+        (VECTORS[base], k, x): y.tolist()
+        for x, y in made.of_kind("conserved").items()
+        for base, k in [parts(x)]
+        if base in VECTORS and k
+    }
+    known = state_names(problem.group) if problem.group else {}
+    moving = {show(known[x]): y.tolist() for x, y in state.items() if x in known}
+    turned = _turns(record, made.t, [y for x, y in turning.items()])
+    ran = Ran(made.t.tolist(), curves, kept, [*_moved(problem, start)], units)
+    return replace(ran, kept=momenta, state=moving, turned=turned), speed
+
+
+def _turns(record: Derivation, times: Any, rates: Sequence[Any]) -> float:
+    """By how many turns a body turns in all; 0 where its group is not that of a solid."""
+    components = {"SO(2)": 1, "SO(3)": 3, "SE(3)": 3}.get(str(record.problem["group"]), 0)
+    speed = np.linalg.norm(rates[:components], axis=0) if components else 0 * times
+    return float(np.sum((speed[1:] + speed[:-1]) * np.diff(times))) / (4 * math.pi)
 
 
 def _moved(problem: Problem, start: Sequence[tuple[str, float]]) -> Iterator[tuple[str, float]]:

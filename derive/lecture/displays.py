@@ -16,6 +16,7 @@ from ..views.text import aligned
 
 WIDTH, TALL = 36.0, 14
 """The width of a display in em; the most rows of one that no page parts."""
+FEW_ROWS = 3
 
 
 LETTERS = NAMES | {"free rho": r"\rho"}
@@ -38,9 +39,34 @@ def blocks(equations: Sequence[Equation]) -> str:
     for wide, run in groupby(equations, lambda e: measure(plain(sides(e).tex)) > WIDTH):
         if wide:
             found += [displayed(sides(e)) for e in run]
-        else:
-            found += [tall(y) for x in _parted([*run]) for y in aligned(x, LETTERS)]
+            continue
+        for columns, alike in groupby(run, _row_of):
+            together = [*alike]
+            if columns and together[1:]:
+                found += _side_by_side(together)
+            else:
+                found += [tall(y) for x in _parted(together) for y in aligned(x, LETTERS)]
     return "\\]\n\\[".join(found)
+
+
+def _row_of(e: Equation) -> str:
+    """The letter of a family of which a member is a number or a column of some; else empty."""
+    family = str(e.lhs[1]) if isinstance(e.lhs, tuple) and e.lhs[0] == "at" else ""
+    column = isinstance(e.rhs, tuple) and e.rhs[0] == "matrix" and len(e.rhs) > FEW_ROWS
+    narrow = measure(plain(sides(e).tex)) < WIDTH / 2
+    single = not isinstance(e.rhs, tuple) or e.rhs[0] == "par"
+    return family if narrow and (column or single) else ""
+
+
+def _side_by_side(equations: Sequence[Equation]) -> Iterator[str]:
+    """Equations beside one another, as many as are no wider than the text."""
+    line = ""
+    for tex in (plain(sides(e).tex) for e in equations):
+        both = f"{line},\\qquad {tex}"
+        if line and measure(both) > WIDTH:
+            yield tall(line)
+        line = both if line and measure(both) <= WIDTH else tex
+    yield tall(line)
 
 
 def _parted(equations: Sequence[Equation]) -> Iterator[list[Equation]]:

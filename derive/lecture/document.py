@@ -24,7 +24,7 @@ from ..views.printing.typeset import literal, plain
 from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, homes, letters
 from .displays import LETTERS, blocks, displayed, sides
 from .figures import FIGURES, Figure
-from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Given, Typed, Words
+from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Given, Words
 from .lecture_text import tree as tree_of
 from .sheets import AXES, Claims
 
@@ -331,10 +331,7 @@ class _Setter:
         """A formula, or words, of a sentence."""
         if isinstance(x, Formula):
             return self.medium.inline(formula(x.text) + formula_of_value(x.value))
-        if not isinstance(x, Given):
-            return self.plain(x)
-        words = self.medium.text(x)
-        return self.medium.command.format(words) if isinstance(x, Typed) else words
+        return self.medium.text(x) if isinstance(x, Given) else self.plain(x)
 
     def plain(self, words: str) -> str:
         """Words with their emphasis and their numbers of blocks; spaces at their ends stay."""

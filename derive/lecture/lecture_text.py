@@ -104,10 +104,6 @@ class Given(str):
     """Words of the user's, in which nothing is marked."""
 
 
-class Typed(Given):
-    """A command that has names of the user's."""
-
-
 Words = tuple[str | Formula, ...]
 """A sentence: its words, with their emphasis, and its formulas."""
 

@@ -86,7 +86,9 @@ def place_of(d: Derivation, speed: float, *, taken: bool) -> tuple[OwnBody | Non
         return body, phrase(
             "In the first chapter another body has the place of the racket already."
         )
-    return body, phrase("In the first chapter its body has the place of the racket.")
+    return body, phrase(
+        "In chapter 1 this body has the place of a racket; its flip is drawn there."
+    )
 
 
 def _inertia(problem: Mapping[str, Any], value: ExpressionValues) -> Any:

@@ -1,29 +1,43 @@
-"""A chapter on a problem of the reader's own, written from its records: what moves, its equations
-of motion, what the motion keeps, its reduction, its steady motions, a motion."""
+"""A chapter on a problem of the reader's own, written from its records: a question, what moves, its
+Lagrangian, its equations of motion, what the motion keeps, its reduction, its steady motions, a
+motion and what it shows."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations_with_replacement, groupby
 
-from ..language.show import show
-from ..language.tree import Tree, nodes
+from ..language.show import in_sentence, show
+from ..language.tree import Tree, names, nodes
+from ..record.as_json import decode
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Sentence
+from ..record.sentence import Sentence, phrase
 from ..views.answer import definitions, equations_of_motion, steps_of_answer
 from ..views.as_read import Reading
 from ..views.figure.scene import scene
-from ..views.language import Language, language
+from ..views.language import Language, told
 from ..views.outline import declared, system, title
 from ..views.text import formula
 from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
 from .named_sums import NamedSums
-from .problem_exercises import exercises
-from .ran_figure import DESCRIBED, FLAT, Ran, label_of, raised
+from .problem_exercises import BETWEEN_WHICH, MOST, coordinate, exercises
+from .ran_figure import (
+    AT_REST,
+    DESCRIBED,
+    FLAT,
+    SHOWN,
+    START,
+    Ran,
+    label_of,
+    raised,
+    value_at_start,
+    written,
+)
 from .recorded_text import (
     OVER,
     SPOKEN,
@@ -38,7 +52,7 @@ from .recorded_text import (
     words,
 )
 from .search_sentences import around, momenta, space
-from .steady_sentences import asleep, steady
+from .steady_sentences import asleep, placed, rows, same_top, steady
 
 SEARCHES = {
     "symmetries": "What the motion keeps.",
@@ -66,7 +80,17 @@ NONE = dict.fromkeys(
 HELD = "mass.held"
 TITLE = "{title}: equations, what is kept, steady motions"
 BODY = "The body of the problem, with the axes of its frame."
-LEFT_OUT = "The expression of {what} is too long for this page: the step in the margin has it."
+LEFT_OUT = "The expression of {what} would fill this page; the step in the margin has it."
+QUESTION, STABLE_ONES = told("lecture:question"), told("lecture:question_stable")
+GIVEN, ACTS = told("lecture:given"), told("lecture:acts")
+SYSTEM = {
+    "The Lagrangian is given on the group {group}, of dimension {d}, and depends {what}.": GIVEN,
+    "What acts: {forces}.": ACTS,
+}
+"""What a text for people says of what moves, instead of the heading of a record."""
+LAGRANGIAN, AS_KIRCHHOFF = told("lecture:lagrangian"), told("lecture:as_kirchhoff")
+MOMENTA, VALID, DIVIDED = told("lecture:momenta"), told("lecture:valid"), "reduction.isotropy"
+OF_LINEAR, OF_AFFINE = told("lecture:of_linear"), told("lecture:of_affine")
 LISTED = {"en": ", ", "fr": "\u202f; "}
 """What is between two parameters with their numbers."""
 LONGEST, SHORT = 6, 2
@@ -87,18 +111,19 @@ def chapter_of(
     records: tuple[str, ...],
     place: Sentence | None = None,
     ran: Ran | Sentence | None = None,
-    command: str = "",
 ) -> Chapter:
     """The chapter of a problem, by its record and what searches found of it, those that were made;
     ``records``: the names of those that its ties speak of; ``place``: whether its body has that of
-    the racket, or why not; ``ran``: its motion, or why there is none, which ``command`` shows.
-    Searches that were refused for one reason stand together."""
-    blocks = [*_motion(d), *_body(d), *_parameters(d)]
-    if place:
-        blocks.append(Block("text", "", "", (sentence(lambda x: x.sentence(place)),), 0))
-    told = {x: _told(d, x, found[x]) for x in SEARCHES if x in found}
+    the racket, or why not; ``ran``: its motion, or why there is none.
+    Searches that were refused stand last, those for one reason together."""
+    run = ran if isinstance(ran, Ran) else None
+    reduced = found.get("reduction", Found()).steps
+    told = {x: _told(d, x, found[x], run) for x in SEARCHES if x in found}
     if {*STEADY} <= {*told}:  # in letters, where they are found so: it says more
         del told[STEADY[0] if told[STEADY[1]] else STEADY[1]]
+    told = dict(sorted(told.items(), key=lambda x: found[x[0]].refused))
+    stable = any(told.get(x) for x in STEADY)
+    blocks = [_question(d, run, coordinate(d, reduced), stable=stable), *_motion(d, place)]
     for _, alike in groupby(told, lambda x: found[x].refused or (told[x] and x) or NONE.get(x, x)):
         searches = (*alike,)
         entries = told[searches[0]] or [_nothing(d.name, searches[0], found[searches[0]])]
@@ -106,7 +131,7 @@ def chapter_of(
         blocks.append(_section(*(SEARCHES[x] for x in searches)))
         blocks += (Block("text", "", "", tuple(x), 0) for x in apart)
     if ran:
-        blocks += [_section("A motion."), *_pictured(d.name, ran)]
+        blocks += [_section("A motion."), *_pictured(d, ran, coordinate(d, reduced))]
     home = {e: step.label for step in d.steps for e in step.equations}
     kept = [x for x in found.get("symmetries", Found()).steps if kept_by(x)]
     blocks += exercises(
@@ -114,15 +139,14 @@ def chapter_of(
         [(e, home[e]) for e in equations_of_motion(d)],
         kept,
         [s for x in ("integrals", "reduction") for s in found.get(x, Found()).steps],
-        ran if isinstance(ran, Ran) else None,
-        command,
+        run,
         lambda e: _rows(e) <= SHORT,
     )
     reading = Reading(str(d.problem["group"]))
     steps = (*d.steps, *(s for x in found.values() for s in x.steps))
     sums = NamedSums((*d.problem["parameters"], *(x for s in steps for x in s.names)))
     blocks = [as_read(x, reading, sums) for x in blocks]
-    whole = kept and any(told.get(x) for x in STEADY)
+    whole = kept and stable
     titles = tuple(
         Given(x.word(TITLE, title=title(d, x)) if whole else title(d, x)) for x in SPOKEN
     )
@@ -140,25 +164,76 @@ def _section(*headings: str) -> Block:
     return Block("section", "", "", (heading,), 0)
 
 
-def _motion(d: Derivation) -> Iterator[Block]:
-    """What moves, and by which equations; each letter in them that the problem defines."""
-    home = {e: step.label for step in d.steps for e in step.equations}
-    entries = [sentence(lambda x: system(d, x))] if system(d, language("en")) else []
-    for s in d.steps:
-        if s.label == f"{d.name}.lagrangian":
-            entries.append(sentence(lambda x: x.word("It reads")))
-            entries += _displays([s])
+def _question(d: Derivation, ran: Ran | None, letter: Tree, *, stable: bool) -> Block:
+    """What moves, from which start, and what is asked of it."""
+
+    def said(x: Language) -> str:
+        told = [*([_from(ran, x)] if ran else []), x.word(QUESTION)]
+        told += [x.sentence(phrase(BETWEEN_WHICH, letter=show(letter)))] if letter else []
+        return " ".join(y for y in (*told, x.word(STABLE_ONES) if stable else "") if y)
+
+    return Block("text", "", "", (sentence(said),), 0)
+
+
+def _moved(d: Derivation, spoken: Language) -> str:
+    """What moves, by which group, and what acts."""
+    own = {x: spoken.messages.get(y, y) for x, y in SYSTEM.items()}
+    return system(d, replace(spoken, messages={**spoken.messages, **own}))
+
+
+def _from(ran: Ran, spoken: Language) -> str:
+    """The start of a motion, or that the figure has it."""
+    if len(ran.start) > MOST:
+        return ""
+    start = ", ".join(f"{x} = {written(y)}" for x, y in ran.start)
+    return spoken.sentence(phrase(START if start else AT_REST, start=start))
+
+
+def _motion(d: Derivation, place: Sentence | None) -> Iterator[Block]:
+    """The Lagrangian, the body and its parameters, what the course has of it, and the equations of
+    motion; each letter in them that the problem defines."""
+    stated = next((s for s in d.steps if s.label == f"{d.name}.lagrangian"), None)
+    of_points = (s for s in d.steps if s.label.endswith(".pullback") and s.given == ())
+    step = stated or next(of_points, None)
+    lagrangian = (
+        [e for e in step.equations if e.lhs == "L̃" and "i" not in names(e.rhs)][:1] if step else []
+    )
+    known: tuple[Equation, ...] = ()
+    if step and lagrangian:
+        known = () if stated else definitions(d, lagrangian)
+        moved = "τ" in names(lagrangian[0].rhs)
+        said = LAGRANGIAN if stated else OF_AFFINE if moved else OF_LINEAR
+        heading = sentence(lambda x: f"{_moved(d, x)} {x.word(said)}".lstrip())
+        entries = [heading, display(lagrangian, [step.label])]
+        yield Block("text", "", "", (*entries, *_defining(d, known)), 0)
+    yield from _parameters(d)
+    yield from _body(d)
     motion = equations_of_motion(d)
-    entries.append(sentence(lambda x: x.word("Its equations of motion are")))
+    entries = [sentence(lambda x: x.word("Its equations of motion are"))]
     steps = steps_of_answer(d)
     entries.append(display(motion, [s.label for s in steps]))
-    if defined := in_order(definitions(d, motion)):
-        entries.append(sentence(lambda x: x.word("where")))
-        entries.append(display(defined, [*dict.fromkeys(home[e] for e in defined)]))
+    entries += _defining(d, [e for e in definitions(d, motion) if e not in known])
     held = [s.label for s in d.steps for x in s.prose if x.message == message(HELD)]
     if held:
         entries.append(sentence(lambda x: x.word(message(HELD)), held))
-    yield Block("text", "", "", tuple(entries), 0)
+    entries += [sentence(lambda x: x.sentence(place))] if place else []
+    entries += [sentence(lambda x: x.word(AS_KIRCHHOFF))] if _as_kirchhoff(d) else []
+    yield Block("text", "", "", (*entries, *same_top(d)), 0)
+
+
+def _defining(d: Derivation, known: Sequence[Equation]) -> Iterator[Entry]:
+    """Definitions, behind a word."""
+    home = {e: step.label for step in d.steps for e in step.equations}
+    if defined := in_order(known):
+        yield sentence(lambda x: x.word("where"))
+        yield display(defined, [*dict.fromkeys(home[e] for e in defined)])
+
+
+def _as_kirchhoff(d: Derivation) -> bool:
+    """Does a Lagrangian of the velocity alone move a solid in space?"""
+    lagrangian = d.problem.get("lagrangian") or {}
+    stated = d.problem["group"] == "SE(3)" and "L" in lagrangian
+    return stated and {*names(decode(lagrangian["L"], "lecture"))} == {"ζ"}
 
 
 def in_order(defined: Sequence[Equation]) -> list[Equation]:
@@ -208,10 +283,10 @@ def _valued(rows: Sequence[tuple[str, str, str, str]], spoken: Language) -> Word
     return tuple(found[:-1])
 
 
-def _told(d: Derivation, search: str, found: Found) -> list[Entry]:
+def _told(d: Derivation, search: str, found: Found, ran: Ran | None) -> list[Entry]:
     """The steps that a search tells; nothing where it was refused, or found none."""
     if search in STEADY:
-        told_of = [*steady(found.steps)]
+        told_of = [*steady(d, found.steps, ran)]
         return [*told_of, *(asleep(d) if told_of else ())]
     begins = tuple(f"{d.name}.{x}" for x in TOLD[search])
     told = [s for s in found.steps if s.label.startswith(begins)]
@@ -225,10 +300,20 @@ def _told(d: Derivation, search: str, found: Found) -> list[Entry]:
     for step in told:
         before, after = around(step)
         entries.append(sentence(partial(_prose, before)))
-        entries += _displays([step])
+        entries += _displays(step)
         if after:
             entries.append(sentence(partial(_prose, after), [step.label]))
+        entries += _valid(d, step, ran)
     return entries
+
+
+def _valid(d: Derivation, step: Step, ran: Ran | None) -> Iterator[Entry]:
+    """What must not be 0, at the start of the motion."""
+    divided = placed(step, "conditions") if any(c.kind == DIVIDED for c in step.claims) else []
+    told = [(in_sentence(y), value_at_start(d, y, ran)) for x in divided for y in rows(x) if ran]
+    if told and all(math.isfinite(y) and y for _, y in told):
+        values = ", ".join(f"{x} = {written(y)}" for x, y in told)
+        yield sentence(lambda x: x.word(VALID, values=x.formula(values)))
 
 
 def _labels(steps: Sequence[Step]) -> list[str]:
@@ -236,13 +321,17 @@ def _labels(steps: Sequence[Step]) -> list[str]:
 
 
 def _momenta(d: Derivation) -> Iterator[Entry]:
-    """What the momenta Π_a are, where the record tells each by the velocity, in short equations."""
-    for s in d.steps:
-        told = [e for e in s.equations if isinstance(e.lhs, tuple) and e.lhs[:2] == ("at", "Π")]
-        told = [e for e in told if not e.for_all and e.rhs != ("inner", "Π", ("at", "E", "a"))]
-        if s.label == f"{d.name}.momenta" and told and all(_rows(e) <= SHORT for e in told):
-            yield sentence(lambda x: x.word("The momenta are"))
-            yield display(told, [s.label])
+    """What the momenta Π_a are, by the velocity where the record tells each so, in short equations;
+    else in words."""
+    told = [(s, e) for s in d.steps if s.label == f"{d.name}.momenta" for e in s.equations]
+    fit = [
+        (s, e) for s, e in told if [*rows(e.lhs)][:1] == ["Π"] and isinstance(rows(e.lhs)[1], int)
+    ]
+    if fit and all(_rows(e) <= SHORT for _, e in fit):
+        yield sentence(lambda x: x.word("The momenta are"))
+        yield display([e for _, e in fit], [fit[0][0].label])
+    else:
+        yield sentence(lambda x: x.word(MOMENTA))
 
 
 def _nothing(problem: str, search: str, found: Found) -> Entry:
@@ -255,34 +344,36 @@ def _nothing(problem: str, search: str, found: Found) -> Entry:
     return sentence(lambda x: x.word(message, reason=without_advice(reason(told, x))))
 
 
-def _pictured(problem: str, ran: Ran | Sentence) -> Iterator[Block]:
-    """The figure of a motion with what is said of it, or one sentence: why there is none."""
+def _pictured(d: Derivation, ran: Ran | Sentence, letter: Tree) -> Iterator[Block]:
+    """The figure of a motion, and behind it what it shows; or one sentence: why there is none."""
     if isinstance(ran, Sentence):
         yield Block("text", "", "", (sentence(lambda x: x.sentence(ran)),), 0)
         return
-    label = label_of(problem)
+    also = [x for x in (show(letter),) if x in ran.state]
     if ran.flat:
-        yield Block("text", "", "", (sentence(lambda x: f"{ran.told(x)} {x.word(FLAT)}"),), 0)
+        yield Block("text", "", "", (sentence(lambda x: f"{x.word(FLAT)} {ran.told(x)}"),), 0)
         return
+    label = label_of(d.name)
     texts = (
-        (*words(ran.told(x.marked).removesuffix(".")), f" ({x.word('Fig.').lower()} @{label}).")
-        for x in SPOKEN
+        (
+            *words(x.word(SHOWN, figure="\0").replace("\0", f"@{label}")),
+            " ",
+            *words(ran.told(x, also)),
+        )
+        for x in (y.marked for y in SPOKEN)
     )
     yield Block("text", "", "", (in_each(*texts),), 0)
     described = sentence(lambda x: x.word(DESCRIBED))
     yield Block("figure", label, "", (described, sentence(ran.caption)), 0)
 
 
-def _displays(steps: Sequence[Step]) -> Iterator[Entry]:
-    """What steps say; of what is too long, where it is."""
-    told = [(x, step.label) for step in steps for e in step.equations for x in _entries(e)]
-    for long, run in groupby(told, lambda x: _rows(x[0]) > LONGEST):
-        equations, labels = zip(*run, strict=True)
-        places = [*dict.fromkeys(labels)]
-        if not long:
-            yield display(equations, places)
-        else:
-            yield sentence(partial(_left_out, equations), places)
+def _displays(step: Step) -> Iterator[Entry]:
+    """What a step says, but for what is too long; of that, where nothing else is."""
+    told = [x for e in step.equations for x in _entries(e)]
+    if shown := [x for x in told if _rows(x) <= LONGEST]:
+        yield display(shown, [step.label])
+    elif told:
+        yield sentence(partial(_left_out, told), [step.label])
 
 
 def _entries(e: Equation) -> list[Equation]:

@@ -8,29 +8,32 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
+from unicodedata import normalize
 from zlib import crc32
 
 import numpy as np
 
 from ..language.show import in_sentence, show
-from ..language.tree import Tree, neg, nodes, replaced
-from ..language.values import approximate
+from ..language.tree import Tree, names, neg, nodes, replaced
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import phrase
-from ..views.language import ENGLISH, Language, told
-from .lecture_text import Block, Entry, Formula, Typed, Words, words_of
-from .ran_figure import Ran, written
+from ..views.book import RATE
+from ..views.language import Language, told
+from .lecture_text import Block, Entry, Formula, Words, words_of
+from .ran_figure import Ran, value_at_start, written
 from .recorded_text import SPOKEN, alone, display, in_each, kept_by, kind_of, sentence, words
 from .search_sentences import of_momentum
+from .steady_sentences import rows
 
 HAND, MISTAKE, WATCH = "By hand.", "Find the mistake.", "Predict, then watch."
 KEPT = "Show that this is constant along every motion:"
-NOETHER = "It is what a symmetry of the Lagrangian leaves, {kind} (Noether)."
-SIGN = "This equation of motion was copied with one sign changed. Which?"
-TERM = "That of this term: {term}. The equation is"
-START, NUMBERS = told("lecture:start"), told("lecture:numbers")
-BETWEEN_WHICH, BETWEEN = told("lecture:between_which"), told("lecture:between")
-SHOWN = "shows it."
+BY_RATES, CANCEL = told("lecture:by_rates"), told("lecture:cancel")
+BY_FIELD, BY_NOETHER = told("lecture:by_field"), told("lecture:by_noether")
+SIGN, TERM = told("lecture:sign"), told("lecture:term")
+FREE_OF = {"θ", "Z", "Ż", "ζ", "w", "w_c"}
+"""What the terms of a matrix or vector do not have whose power is not zero of itself."""
+BETWEEN_WHICH, PREDICT = told("lecture:between_which"), told("lecture:predict")
+BETWEEN, TOUCHED = told("lecture:between"), told("lecture:touched")
 MOST, CLOSE = 9, 1e-6
 """The most numbers of a start that an exercise says; what is 0 but for rounding."""
 
@@ -41,22 +44,25 @@ def exercises(
     kept: Sequence[Step],
     found: Sequence[Step],
     ran: Ran | None,
-    command: str,
     short: Callable[[Equation], bool],
 ) -> Iterator[Block]:
     """Exercises on a problem by its record, each with its solution: on what the motion keeps, by
     the steps ``kept`` and by those that are ``found``, of integrals and of a reduction; on the
-    equations of ``motion``, with the labels of their steps; on the motion that ran, which
-    ``command`` shows; of equations that are ``short``."""
+    equations of ``motion``, with the labels of their steps; on the motion that ran; of equations
+    that are ``short``."""
     fit = [x for x in kept if kept_by(x) != "h̃" and short(Equation("ϖ", kept_by(x)))]
-    if fit:
-        yield from _on_kept(d, max(fit, key=lambda x: len(in_sentence(kept_by(x)))), found)
-    copied = [x for x in motion if short(x[0]) and len(_terms(x[0].rhs)) > 1]
-    if copied:
-        drawn = crc32(d.name.encode())
-        yield from _on_sign(*copied[drawn % len(copied)], drawn // len(copied))
+    by_hand = [*_by_rates(found, short)]
+    if by_hand:
+        yield from _of(*by_hand)
+    elif fit:
+        yield from _by_noether(d, min(fit, key=lambda x: len(in_sentence(kept_by(x)))))
+    told_of = [e for e, _ in motion]
+    copied = [(*x, t) for x in motion if short(x[0]) and len(_terms(x[0].rhs)) > 1
+              for t in _seen_by_energy(x[0], told_of)]  # fmt: skip
+    if copied and any(kept_by(x) == "h̃" for x in kept):
+        yield from _on_sign(*copied[crc32(d.name.encode()) % len(copied)])
     if ran:
-        yield from _on_motion(d, found, ran, command)
+        yield from _on_motion(d, found, ran)
 
 
 def _of(asked: Sequence[Entry], solved: Sequence[Entry]) -> list[Block]:
@@ -69,24 +75,72 @@ def _said(message: str, kind: str = "") -> Entry:
     return in_each(*(words_of(y + x.word(message)) for x, y in zip(SPOKEN, kinds, strict=True)))
 
 
-def _on_kept(d: Derivation, step: Step, integrals: Sequence[Step]) -> list[Block]:
-    """What a step says to be kept, and that its rate is zero, where one of ``integrals`` has it."""
-    kept = kept_by(step)
-    solved = [sentence(lambda x: x.word(NOETHER, kind=kind_of(d, step, x)), (step.label,))]
-    rate = Equation(("call", "d/dt", kept), 0)
-    proved = [x.label for x in integrals for e in x.equations if (e.lhs, e.rhs) == (rate.lhs, 0)]
-    solved += [display([rate], proved[:1])] if proved else []
-    return _of([_said(KEPT, HAND), alone(kept)], solved)
+def _by_rates(
+    steps: Sequence[Step], short: Callable[[Equation], bool]
+) -> Iterator[Sequence[Entry]]:
+    """The shortest sum that an integral or a Casimir is, but for the energy, asked; and its proof
+    by the rates of its letters, where these are short."""
+    rates = {
+        e.lhs: (e, s.label) for s in steps if s.label.endswith(".poisson") for e in s.equations
+    }
+    constants = [
+        (rows(e.lhs)[1], e, s.label) for s in steps for e in s.equations
+        if rows(e.lhs)[:1] == ["d/dt"] and "Π" in names(e.lhs)
+    ]  # fmt: skip
+    found = [x for x in constants if len(_terms(x[0])) > 1 and x[0] not in _energies(steps)]
+    for kept, e, label in sorted(found, key=lambda x: len(in_sentence(x[0])))[:1]:
+        used = [*dict.fromkeys(rates[y] for x in nodes(kept) if (y := _rate(x)) in rates)]
+        if used and all(short(x) for x, _ in used):
+            yield [_said(KEPT, HAND), alone(kept)]
+            yield [
+                _said(BY_RATES),
+                display([x for x, _ in used], [used[0][1]]),
+                _said(CANCEL),
+                display([e], [label]),
+            ]
+
+
+def _energies(steps: Sequence[Step]) -> list[Tree]:
+    return [e.rhs for s in steps for e in s.equations if e.lhs == "h̃"]
+
+
+def _rate(t: Tree) -> Tree:
+    """The rate of a momentum or of an entry, as equations have it; 0 of anything else."""
+    if not isinstance(t, tuple) or t[0] not in ("at", "entry") or not isinstance(t[1], str):
+        return 0
+    return (t[0], normalize("NFC", t[1] + RATE), *t[2:])
+
+
+def _by_noether(d: Derivation, step: Step) -> list[Block]:
+    """What a step says to be kept, with the field of the symmetry that keeps it."""
+    field = [e for e in step.equations if e.lhs in ("δA", "δT") and e.rhs != 0]
+    solved = [
+        sentence(lambda x: x.word(BY_FIELD, kind=kind_of(d, [step], x))),
+        display(field, (step.label,)),
+        sentence(lambda x: x.word(BY_NOETHER)),
+    ]
+    return _of([_said(KEPT, HAND), alone(kept_by(step))], solved)
 
 
 def _terms(t: Tree) -> tuple[Tree, ...]:
     return t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
 
 
-def _on_sign(e: Equation, label: str, drawn: int) -> list[Block]:
-    """An equation with the sign of one of its terms changed, the one that is ``drawn``."""
+def _seen_by_energy(e: Equation, motion: Sequence[Equation]) -> Iterator[int]:
+    """Which terms of the equation of a rate, changed, change the energy: each, where it is a number
+    and no other equation has the rate; of a matrix or a vector those of forces."""
+    if isinstance(e.lhs, tuple) and e.lhs[0] not in ("at", "entry"):
+        return
+    if any(e.lhs in nodes(x.rhs) for x in motion):
+        return
+    for k, term in enumerate(_terms(e.rhs)):
+        if isinstance(e.lhs, tuple) or not FREE_OF & {*names(term)}:
+            yield k
+
+
+def _on_sign(e: Equation, label: str, k: int) -> list[Block]:
+    """An equation with the sign of one of its terms changed."""
     terms = [*_terms(e.rhs)]
-    k = drawn % len(terms)
     copied = Equation(e.lhs, ("add", *terms[:k], neg(terms[k]), *terms[k + 1 :]))
     asked = [_said(SIGN, MISTAKE), display([copied], condition=True)]
     term = (_with(x.word(TERM, term="\0"), terms[k]) for x in SPOKEN)
@@ -98,7 +152,15 @@ def _with(told: str, t: Tree) -> Words:
     return (before, Formula(in_sentence(t), condition=True), after)
 
 
-def _on_motion(d: Derivation, steps: Sequence[Step], ran: Ran, command: str) -> Iterator[Block]:
+def coordinate(d: Derivation, steps: Sequence[Step]) -> Tree:
+    """The coordinate that moves by the quadrature of a reduction; 0 where there is none."""
+    found = (e for s in steps if s.label == f"{d.name}.quadrature" for e in s.equations)
+    for e in found:
+        return next((x for x in nodes(e.rhs) if isinstance(x, tuple) and x[0] == "entry"), 0)
+    return 0
+
+
+def _on_motion(d: Derivation, steps: Sequence[Step], ran: Ran) -> Iterator[Block]:
     """Between which values a coordinate stays that moves by a quadrature, in the motion that ran;
     nothing where there is none, or the start is long to say. ``steps``: of the reduction."""
     step = next((s for s in steps if s.label == f"{d.name}.quadrature"), None)
@@ -107,26 +169,20 @@ def _on_motion(d: Derivation, steps: Sequence[Step], ran: Ran, command: str) -> 
     places = between(d, step, _constants(d, steps, ran), ran)
     if not places:
         return
-    start = ", ".join(f"{x} = {written(y)}" for x, y in ran.start)
-    said = [START, *([NUMBERS] if d.problem.get("parameters") else []), BETWEEN_WHICH]
     asked = (
-        (
-            *words_of(f"_{x.word(WATCH)}_ "),
-            *words(" ".join(_placed(y, {**places, "start": start}, x.marked) for y in said)),
-            " ",
-            Typed(command if x is ENGLISH else f"{command} --lang {x.name}"),
-            f" {x.word(SHOWN)}",
-        )
+        (*words_of(f"_{x.word(WATCH)}_ "), *words(_placed(PREDICT, places, x.marked)))
         for x in SPOKEN
     )
-    answer = sentence(partial(_placed, BETWEEN, places), [step.label])
-    yield from _of([in_each(*asked)], [answer])
+    solved = [sentence(partial(_placed, BETWEEN, places), [step.label])]
+    if places["touched"]:
+        solved.append(sentence(partial(_placed, TOUCHED, places)))
+    yield from _of([in_each(*asked)], solved)
 
 
 def _constants(d: Derivation, steps: Sequence[Step], ran: Ran) -> dict[Tree, float]:
     """The energy and the momenta of a reduction at the start."""
     momenta = (e for s in steps for e in s.equations if of_momentum(e.lhs))
-    return {"h̃": ran.energy[0]} | {e.lhs: _value(d, e.rhs, ran) for e in momenta}
+    return {"h̃": ran.energy[0]} | {e.lhs: value_at_start(d, e.rhs, ran) for e in momenta}
 
 
 def between(d: Derivation, step: Step, constants: Mapping[Tree, float], ran: Ran) -> dict[str, str]:
@@ -137,38 +193,29 @@ def between(d: Derivation, step: Step, constants: Mapping[Tree, float], ran: Ran
         return {}
     degree = [int(str(y)) for x in step.prose for name, y in x.places if name == "degree"]
     t = step.equations[0].rhs
-    (u,) = {x for x in nodes(t) if isinstance(x, tuple) and x[0] == "entry"}
+    u = coordinate(d, [step])
     for letter, number in constants.items():
         t = replaced(t, letter, Fraction(number))
     places = np.linspace(-1, 1, degree[0] + 1 if degree else 0)
-    values = [_value(d, replaced(t, u, Fraction(x)), ran) for x in places]
+    values = [value_at_start(d, replaced(t, u, Fraction(x)), ran) for x in places]
     if not degree or not np.isfinite(values).all():
         return {}
     roots = np.roots(np.polyfit(places, values, degree[0]))
-    first = _value(d, u, ran)
+    first = value_at_start(d, u, ran)
     for low, high in pairwise(sorted(x.real for x in roots if abs(x.imag) < CLOSE)):
-        inside = _value(d, replaced(t, u, Fraction((low + high) / 2)), ran)
+        inside = value_at_start(d, replaced(t, u, Fraction((low + high) / 2)), ran)
         if low - CLOSE < first < high + CLOSE and inside > 0:
             said = ", ".join(f"{show(x)} = {written(y)}" for x, y in constants.items())
-            ends = {x: f"{y:.3f}".replace("-", "−") for x, y in (("low", low), ("high", high))}
-            return {**ends, "letter": show(u), "given": said}
+            ends = {x: _thousandths(y) for x, y in (("low", low), ("high", high))}
+            simple = [_thousandths(x.real) for x in roots if abs(x.imag) < CLOSE]
+            touched = [x for x in ends.values() if x == _thousandths(first)]
+            all_ = {"roots": ", ".join(simple), "touched": "".join(touched[:1])}
+            return {**ends, **all_, "letter": show(u), "given": said}
     return {}
 
 
-def _value(d: Derivation, t: Tree, ran: Ran) -> float:
-    """The value of an expression at the start of a motion; not a number where it has none."""
-    momenta = (s for s in d.steps if s.label == f"{d.name}.momenta")
-    for e in (e for s in momenta for e in s.equations if isinstance(e.lhs, tuple)):
-        assert isinstance(e.lhs, tuple)
-        if e.lhs[:2] == ("at", "Π") and isinstance(e.lhs[2], int):
-            t = replaced(t, e.lhs, e.rhs)
-    start = dict(ran.start)
-    for x in {x for x in nodes(t) if isinstance(x, tuple) and x[0] == "entry"}:
-        unmoved = float(x[1] == "A" and x[2] == x[-1])
-        t = replaced(t, x, Fraction(start.get(show(x), unmoved)))
-    given = {x: y["default"] for x, y in d.problem["parameters"].items()}
-    found = approximate(t, {x: float(y) for x, y in given.items() if y is not None})
-    return math.nan if found is None else found
+def _thousandths(x: float) -> str:
+    return f"{x:.3f}".replace("-", "−")
 
 
 def _placed(message: str, places: dict[str, str], spoken: Language) -> str:

@@ -2,23 +2,35 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
 from ..language.reserved import GREEK
-from ..language.show import SUBSCRIPTS, SUPERSCRIPTS
+from ..language.show import SUBSCRIPTS, SUPERSCRIPTS, show
+from ..language.tree import Tree, nodes, replaced
+from ..language.values import approximate
+from ..record.record import Derivation
 from ..views.figure.drawing import Label, Scene
-from ..views.language import Language
+from ..views.language import Language, told
 from .body_figures import marks
+from .recorded_text import AXIS, axis_letter
 from .sheets import AXES, Claims, Frame, panel
 
 DESCRIBED = (
     "Curves over time: components of the velocity, from the start of the motion to the end of its "
     "picture."
 )
-RUN = "It starts as the problem says, and is run by the code that is emitted of its equations."
+SHOWN, KEPT = told("lecture:shown"), told("lecture:still")
+START, AT_REST = told("lecture:start"), told("lecture:at_rest")
+LOST_ENERGY = told("lecture:lost")
+GOES, SWINGS = told("lecture:goes"), told("lecture:swings")
+ALL_THE_TURN = told("lecture:turns")
 FLAT = "None of the numbers that a figure would show varies by one per cent."
+MAXIMA = 3
+"""The least maxima of a curve that are counted."""
 LEVEL = 0.01
 """The part of its largest value by which a curve varies that is seen to."""
 APART = 4.4
@@ -40,13 +52,18 @@ def label_of(problem: str, kind: str = "run") -> str:
 class Ran:
     """A motion: the times, one to three columns of numbers with their names in the code, the energy
     over time, empty where there is none, the numbers of the state at the ``start`` other than
-    those of the identity at rest, by their letters, and the ``units`` of columns."""
+    those of the identity at rest, by their letters, the ``units`` of columns, the momenta that are
+    ``kept``, each by what it is, its axis and its column, the ``state`` over time, by its letters,
+    and by how many turns a body has ``turned``."""
 
     times: Sequence[float]
     curves: Sequence[tuple[str, Sequence[float]]]
     energy: Sequence[float] = ()
     start: Sequence[tuple[str, float]] = ()
     units: Mapping[str, str] = field(default_factory=dict)
+    kept: Mapping[tuple[str, int, str], Sequence[float]] = field(default_factory=dict)
+    state: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    turned: float = 0.0
 
     @property
     def flat(self) -> bool:
@@ -64,21 +81,55 @@ class Ran:
         told = "The curves show {curves}, in {unit}, over the time in seconds."
         return words.word(told, curves=curves, unit=raised(units.pop()))
 
-    def told(self, words: Language) -> str:
-        """What made it, and what became of the energy."""
-        if not self.energy:
-            return words.word(RUN)
-        change = max(abs(x - self.energy[0]) for x in self.energy)
-        if change > LOST * max(map(abs, self.energy)):
+    def told(self, words: Language, also: Sequence[str] = ()) -> str:
+        """What it shows: what is constant, between which values its curves stay, with the letters
+        ``also`` of the state, how often they are largest, how far the body turns."""
+        told = [self._constant(words), *(self._swing(x, y, words) for x, y in self.curves)]
+        told += [self._swing(x, self.state[x], words) for x in also]
+        if self.turned > 1:
+            told.append(words.word(ALL_THE_TURN, turns=written(self.turned, 3)))
+        return " ".join(x for x in told if x)
+
+    def _constant(self, words: Language) -> str:
+        """The values of what is kept, at the end, and by how much they have changed at most."""
+        end = self._with_unit(self.times[-1], "t")
+        change = max((abs(x - self.energy[0]) for x in self.energy), default=0.0)
+        lost = change > LOST * max(map(abs, self.energy), default=1.0)
+        if lost:
             ends = {x: written(self.energy[k]) for x, k in (("first", 0), ("last", -1))}
-            return (
-                f"{words.word(RUN)} {words.word('Its energy goes from {first} to {last}.', **ends)}"
-            )
-        exponent = _exponent(max(change, ROUNDING * abs(self.energy[0])))
-        bound = f"10{str(exponent).translate(SUPERSCRIPTS)}" if exponent < 0 else f"{10**exponent}"
-        kept = "Its energy, {energy} at first, changes by less than {change}."
-        energy = written(self.energy[0])
-        return f"{words.word(RUN)} {words.word(kept, energy=energy, change=words.formula(bound))}"
+            return words.word(LOST_ENERGY, end=end, **ends)
+        told = {words.word("energy"): ("energy", self.energy)} if self.energy else {}
+        for (kind, k, column), numbers in self.kept.items():
+            places = {"kind": words.word(kind), "axis": words.formula(axis_letter(k))}
+            told[words.word(AXIS[2 if "angular" in kind else 1], **places)] = column, numbers
+        if not told:
+            return ""
+        largest = max(abs(y[0]) for _, y in told.values())
+        changes = [max(abs(x - y[0]) for x in y) for _, y in told.values()]
+        exponent = _exponent(max(*changes, ROUNDING * largest))
+        values = [
+            f"{what} = {self._with_unit(y[0] if abs(y[0]) > ROUNDING * largest else 0.0, name)}"
+            for what, (name, y) in told.items()
+        ]
+        bound = words.formula(f"10{str(exponent).translate(SUPERSCRIPTS)}")
+        return words.word(KEPT, end=end, values=words.listed(values), change=bound)
+
+    def _swing(self, name: str, values: Sequence[float], words: Language) -> str:
+        """Between which values a curve stays, and how far apart its maxima are on the average."""
+        ends = {x: written(f(values), 3) for x, f in (("low", min), ("high", max))}
+        letter = words.formula(name if name in self.state else letter_of(name))
+        inner = zip(self.times[1:], values, values[1:], values[2:], strict=False)
+        at = [t for t, a, b, c in inner if a < b >= c]
+        if max(values) - min(values) <= LEVEL * max(map(abs, values)):
+            return ""
+        if len(at) < MAXIMA:
+            return words.word(GOES, letter=letter, **ends)
+        apart = self._with_unit((at[-1] - at[0]) / (len(at) - 1), "t", 3)
+        return words.word(SWINGS, letter=letter, **ends, count=str(len(at)), apart=apart)
+
+    def _with_unit(self, x: float, name: str, digits: int = 4) -> str:
+        """A number with the unit of its column."""
+        return f"{written(x, digits)} {raised(self.units.get(name, ''))}".rstrip()
 
     def picture(self, _claims: Claims) -> Scene:
         """The curves, in the colours of the axes."""
@@ -132,3 +183,19 @@ def letter_of(name: str) -> str:
     if index.isdigit() and (base in GREEK or base == "w"):
         return f"{GREEK.get(base, base)}{index.translate(SUBSCRIPTS)}"
     return f"‘{name}’"
+
+
+def value_at_start(d: Derivation, t: Tree, ran: Ran) -> float:
+    """The value of an expression at the start of a motion; not a number where it has none."""
+    momenta = (s for s in d.steps if s.label == f"{d.name}.momenta")
+    for e in (e for s in momenta for e in s.equations if isinstance(e.lhs, tuple)):
+        assert isinstance(e.lhs, tuple)
+        if e.lhs[:2] == ("at", "Π") and isinstance(e.lhs[2], int):
+            t = replaced(t, e.lhs, e.rhs)
+    start = dict(ran.start)
+    for x in {x for x in nodes(t) if isinstance(x, tuple) and x[0] == "entry"}:
+        unmoved = float(x[1] == "A" and x[2] == x[-1])
+        t = replaced(t, x, Fraction(start.get(show(x), unmoved)))
+    given = {x: y["default"] for x, y in d.problem["parameters"].items()}
+    found = approximate(t, {x: float(y) for x, y in given.items() if y is not None})
+    return math.nan if found is None else found

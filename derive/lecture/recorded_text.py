@@ -7,11 +7,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
+from itertools import groupby
 
 from ..language.show import SUBSCRIPTS, in_sentence, show
 from ..language.tree import Tree, names
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
+from ..record.sentence import Sentence
 from ..views.as_read import Reading
 from ..views.language import LANGUAGES, Language, labelled, language, told
 from ..views.printing.sentences import FORMULA, QUOTED
@@ -68,9 +71,8 @@ def as_read(block: Block, reading: Reading, sums: NamedSums) -> Block:
     return replace(block, entries=tuple(entries))
 
 
-ENERGY = "L̃ is invariant under {kind}: the energy {kept} is constant."
-EXACT = "L̃ is invariant under {kind}: {kept} is constant."
-UP_TO = "Under {kind}, L̃ changes by the derivative of a function alone: {kept} is constant."
+NOETHER, ENERGY, UP_TO = (told(f"lecture:{x}") for x in ("noether", "energy", "up_to"))
+ONE, SEVERAL = told("lecture:constant"), told("lecture:constants")
 AXIS = {2: "{kind} about {axis}", 1: "{kind} along {axis}"}
 """How many entries of the matrix of a field are not 0 → the field with its axis."""
 
@@ -83,38 +85,66 @@ def kept_by(step: Step) -> Tree:
 
 
 def conserved(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
-    """A sentence of each step of a symmetry, ``d``: the record of the walk."""
-    for step in steps:
-        kept = kept_by(step)
-        exact = step.prose[0].message == message("symmetries.exact")
-        told = (ENERGY if kept == "h̃" else EXACT) if exact else UP_TO
-        marked = [x.marked for x in SPOKEN]
-        texts = (with_kept(told, in_sentence(kept), kind_of(d, step, x), x) for x in marked)
-        yield in_each(*texts, labels=(step.label,))
+    """What symmetries keep, those of one kind along or about several axes in one sentence; ``d``:
+    the record of the walk."""
+    if steps:
+        yield sentence(lambda x: x.word(NOETHER))
+    for (_, exact, energy), alike in groupby(steps, _alike):
+        run = [*alike]
+        said = (ENERGY if energy else SEVERAL if run[1:] else ONE) if exact else UP_TO
+        yield sentence(partial(_kept_under, said, d, run), [x.label for x in run])
+        yield from () if energy else (alone(kept_by(x)) for x in run)
 
 
-def with_kept(told: str, kept: str, kind: str, spoken: Language) -> Words:
-    """A sentence of a symmetry and of what it keeps, a formula as it is typed."""
-    before, _, after = spoken.word(told, kind=kind, kept="\0").partition("\0")
-    apart = () if after.startswith(".") else (" ",)
-    return (*words(before), " ", Formula(kept, condition=True), *apart, *words(after))
+def _alike(step: Step) -> tuple[Sentence | str, bool, bool]:
+    """By what the sentences of symmetries differ, but for an axis."""
+    return (
+        symmetry_kind(step),
+        step.prose[0].message == message("symmetries.exact"),
+        kept_by(step) == "h̃",
+    )
 
 
-def kind_of(d: Derivation, step: Step, spoken: Language) -> str:
-    """What the symmetry of a step is, in a language, with its axis in space."""
-    kind = next(y for x in step.prose for place, y in x.places if place == "kind")
+def _kept_under(said: str, d: Derivation, steps: Sequence[Step], spoken: Language) -> str:
+    return spoken.word(said, kind=kind_of(d, steps, spoken))
+
+
+def symmetry_kind(step: Step) -> Sentence | str:
+    """What the symmetry of a step is, but for its axis."""
+    return next(y for x in step.prose for place, y in x.places if place == "kind")
+
+
+def kind_of(d: Derivation, steps: Sequence[Step], spoken: Language) -> str:
+    """What the symmetry of steps is, in a language, with its axes in space."""
+    kind = symmetry_kind(steps[0])
     told = kind if isinstance(kind, str) else spoken.sentence(kind)
+    axes = [x for x in (_axis(d, s) for s in steps) if x]
+    if len(axes) < len(steps):
+        return told
+    letters = ", ".join(axis_letter(k) for _, k in axes)
+    return spoken.word(AXIS[axes[0][0]], kind=told, axis=spoken.formula(letters))
+
+
+def _axis(d: Derivation, step: Step) -> tuple[int, int] | None:
+    """How many entries the matrix of a field has, in one block of a product, and its axis."""
     field = next(e.rhs for e in step.equations if e.lhs == "δA")
     matrix = [x for x in field[1:] if x[0] == "matrix"] if isinstance(field, tuple) else []
-    places = [*_places(matrix[0])] if len(matrix) == 1 and _in_space(d) else []
+    if len(matrix) != 1 or not _in_space(d):
+        return None
+    places = [*_places(matrix[0])]
+    if SPACES in str(d.problem["group"]):  # the blocks of a product turn alike, or it has no axis
+        blocks = [{(i % 3, j % 3) for i, j in places if i // 3 == j // 3 == k} for k in (0, 1)]
+        places = sorted(blocks[0]) if blocks[0] == blocks[1] else []
     if len(places) == 1 and places[0][1] == 3:
-        axis = places[0][0]
-    elif len(places) == 2 and places[0] == places[1][::-1] and max(places[0]) < 3:
-        (axis,) = {0, 1, 2} - {*places[0]}
-    else:
-        return told
-    letter = f"e{axis + 1}".translate(SUBSCRIPTS).replace("ₑ", "e")
-    return spoken.word(AXIS[len(places)], kind=told, axis=spoken.formula(letter))
+        return 1, places[0][0] + 1
+    if len(places) == 2 and places[0] == places[1][::-1] and max(places[0]) < 3:
+        return 2, 4 - sum(places[0])
+    return None
+
+
+def axis_letter(k: int) -> str:
+    """The letter of an axis, by its number from 1."""
+    return "e" + str(k).translate(SUBSCRIPTS)
 
 
 def _places(matrix: Tree) -> Iterator[tuple[int, int]]:
@@ -130,6 +160,8 @@ def _in_space(d: Derivation) -> bool:
     if not isinstance(basis, list) or not basis:
         return False
     size = len(basis[0])
+    if SPACES in str(d.problem["group"]):
+        return str(d.problem["group"]) == f"SO(3){SPACES}SO(3)"
     return size == (4 if all(not any(map(_number, E[-1])) for E in basis) else 3)
 
 
@@ -141,7 +173,10 @@ UNSHOWN = "No motion is shown: {reason}."
 REASONS = [told(x) for x in labelled() if x.startswith("refused.")]
 """Why a search is refused, or a motion, with places, where the text says it in its language."""
 OVER = told("refused.search_takes")
-ROOT = re.compile(r"\bsqrt\b")
+SPACES = " x "
+"""Between the factors of a product of groups."""
+FUNCTIONS = {"sqrt": "the square root"}
+"""What functions are called in a sentence."""
 
 
 def reason(told: str, words: Language) -> str:
@@ -149,7 +184,9 @@ def reason(told: str, words: Language) -> str:
     for one in REASONS:
         pattern = re.sub(r"\\{(\w+)\\}", r"(?P<\1>.+)", re.escape(one))
         if match := re.fullmatch(pattern, told):
-            return words.word(one, **{x: ROOT.sub("√", y) for x, y in match.groupdict().items()})
+            return words.word(
+                one, **{x: words.word(FUNCTIONS.get(y, y)) for x, y in match.groupdict().items()}
+            )
     return told
 
 

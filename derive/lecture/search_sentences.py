@@ -6,19 +6,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import groupby
 
-from ..language.show import in_sentence, show
+from ..language.show import in_sentence
 from ..language.tree import Tree
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Sentence, phrase
 from ..views.language import Language, labelled, told
 from .lecture_text import Entry
-from .recorded_text import SPOKEN, in_each, kind_of, sentence, with_kept
+from .recorded_text import display, kind_of, sentence, symmetry_kind
 from .steady_sentences import variables_of
 
 SPACE, SPACE_OF_GROUP = told("lecture:space"), told("lecture:space_of_group")
-ALONG, MOMENTUM = told("lecture:along"), told("lecture:momentum")
+ALONG, BY_ONE = told("lecture:along"), told("lecture:by_one")
 LECTURE = "lecture."
 RETOLD = [x.removeprefix(LECTURE) for x in labelled() if x.startswith(LECTURE)]
 """Labels of sentences of the record instead of which the lecture has one of the same places."""
@@ -45,14 +46,19 @@ def _space(step: Step, spoken: Language) -> str:
 
 
 def momenta(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
-    """A sentence of each symmetry by which a problem is reduced, with its momentum."""
+    """The symmetries by which a problem is reduced, and their momenta."""
     found = [(s, e) for s in steps for e in s.equations if of_momentum(e.lhs)]
-    if len(found) > 1:
-        yield sentence(lambda x: x.word(ALONG), [s.label for s, _ in found])
-    for step, e in found:
-        kept = f"{show(e.lhs)} = {in_sentence(e.rhs)}"
-        texts = (with_kept(MOMENTUM, kept, kind_of(d, step, x.marked), x.marked) for x in SPOKEN)
-        yield in_each(*texts, labels=(step.label,))
+    if not found:
+        return
+    used = [s for s, _ in found]
+    runs = [[*run] for _, run in groupby(used, symmetry_kind)]
+
+    def said(spoken: Language) -> str:
+        listed = spoken.listed([kind_of(d, run, spoken) for run in runs])
+        return spoken.word(ALONG if used[1:] else BY_ONE, kinds=listed)
+
+    yield sentence(said)
+    yield display([e for _, e in found], [s.label for s in used])
 
 
 def of_momentum(t: Tree) -> bool:

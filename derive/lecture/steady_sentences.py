@@ -1,30 +1,47 @@
-"""Steady motions of a problem, told of each in one sentence: where it is, and its stability."""
+"""Steady motions of a problem, told of each in one sentence: what moves, and its stability, in
+letters and with the numbers of the problem."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import permutations
+from typing import Any
 from unicodedata import normalize
 
 from ..check.checker import checker_of
-from ..language.show import show
-from ..language.tree import replaced
+from ..language.show import in_sentence, show
+from ..language.tree import Tree, replaced
+from ..language.values import approximate
+from ..record.as_json import decode
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Sentence
+from ..views.figure.drawn_body import ExpressionValues
+from ..views.figure.scene import quadratic
 from ..views.language import Language, told
 from .lecture_text import Entry, chapters
-from .recorded_text import sentence
+from .ran_figure import Ran, value_at_start, written
+from .recorded_text import axis_letter, sentence
 
-TRIED, SAME_TOP = told("lecture:tried"), told("lecture:same_top")
+TRIED, SAME_TOP, ASLEEP = (told(f"lecture:{x}") for x in ("tried", "same_top", "asleep"))
+HERE, HERE_BY, ALWAYS = (told(f"lecture:{x}") for x in ("here", "here_by", "always"))
+NUMBERS, FIRST = told("lecture:here_numbers"), told("lecture:here_first")
+LONG_CASES, ONLY = told("lecture:long_cases"), told("lecture:only")
+WHERE, SOLIDS = " where {cases}", ("SO(3)", "SE(3)")
+LONG = 90
+"""The most letters of conditions that are told in letters."""
 TOP = ("I_1", "I_3", "mgl")
 """The parameters of the top in its chapter."""
 POSITIVE = "The kinetic energy is taken to be positive definite: {positive}."
 LETTERS = "Any values but 0: {letters}."
-AT = "{point}: {verdict}."
-STABLE, UNSTABLE, OPEN = "stable", "unstable", "stability is not decided here"
+AT = "At {point} the motion is {verdict}."
+WHEN = "{when} ({point}), the motion is {verdict}."
+STABLE, UNSTABLE = "stable", "unstable"
+OPEN = "of a stability that is not decided here"
+LONG_ONES = "stable or not by the inequalities of these steps"
 ON_LEAF = "stable for motions with the same Casimirs"
 VERDICTS = {
     "equilibrium": {
@@ -49,30 +66,190 @@ VERDICTS = {
 SAID = {message(f"{x}.{y}"): told for x, all_ in VERDICTS.items() for y, told in all_.items()}
 
 
-def steady(steps: Sequence[Step]) -> Iterator[Entry]:
-    """What is supposed, then a sentence for each steady motion; ``steps``: of one search."""
+TURNS, ALONG, REST = "When it turns about {axis}", "When it moves along {axis}", "At rest"
+POINTING = {
+    1: "{when}, its axis {axis} along {fixed} of space",
+    -1: "{when}, its axis {axis} opposite to {fixed} of space",
+}
+ALIKE = {TURNS: "motions about an axis", ALONG: "motions along an axis"}
+Point = Sequence[Any]
+"""The coordinates that are not 0 at a steady motion, with their values."""
+RANKS = "the least of the three", "between those of the others", "the greatest of the three"
+
+
+def steady(d: Derivation, steps: Sequence[Step], ran: Ran | None = None) -> Iterator[Entry]:
+    """What is supposed, then a sentence for each steady motion, and one of three that are alike;
+    ``steps``: of one search; ``ran``: the motion whose momenta the numbers are of."""
     at = [s for s in steps if ".equilibrium_" in s.label]
     if not at:
         return
+    both = [
+        [x for x in steps if x.label.rpartition("_")[2] == s.label.rpartition("_")[2]] for s in at
+    ]
+    points = [[y[1:] for s in run for x in placed(s, "point") for y in rows(x)] for run in both]
     variables = ", ".join(variables_of(at[0]))
     supposed = {x.message: x for s in steps for x in s.prose}
     positive = supposed.get(message("family.positive"))
-    letters = dict.fromkeys(y for s in steps for y in _letters(s.prose))
+    letters = [y for point in points for y in point if isinstance(y[1], tuple)]
+    numbers, start = _numbers(d, letters, ran)
 
     def said_first(spoken: Language) -> str:
         found = [spoken.word(TRIED, variables=spoken.formula(variables))]
         if positive:
             found.append(spoken.word(POSITIVE, **_places(positive, spoken)))
-        if letters:
-            found.append(spoken.word(LETTERS, letters=spoken.formula(", ".join(letters))))
+        if named := [in_sentence(y) for _, y in letters]:
+            found.append(
+                spoken.word(LETTERS, letters=spoken.formula(", ".join(dict.fromkeys(named))))
+            )
+        if numbers and positive:
+            found.append(spoken.word(FIRST if start else NUMBERS, letters=spoken.formula(start)))
+        if any(len(_cases(x)) > LONG for s in steps for x in s.prose):
+            found.append(spoken.word(LONG_CASES))
         return " ".join(found)
 
     yield sentence(said_first)
-    for s in at:
-        number = s.label.rpartition("_")[2]
-        both = [x for x in steps if x.label.rpartition("_")[2] == number]
-        said = [x for step in both for x in step.prose]
-        yield sentence(partial(_of_one, said), [x.label for x in both])
+    verdicts = [_verdict(run, numbers) for run in both]
+    alike: dict[str, list[str]] = {}
+    for run, point, verdict in zip(both, points, verdicts, strict=True):
+        motion = _kind(d, point)
+        yield sentence(partial(_of_one, run, motion, verdict), [x.label for x in run])
+        proved = STABLE if verdict[0] == ON_LEAF else verdict[0]
+        alike.setdefault(motion[0] if len(point) == 1 else "", []).append(proved)
+    for kind in ALIKE:
+        yield from _odd_one(d, kind, alike.get(kind, []))
+
+
+def _numbers(d: Derivation, letters: Point, ran: Ran | None) -> tuple[dict[str, float], str]:
+    """The numbers of the parameters, where all have one, and of the momenta of families at the
+    start, where these are not 0; the latter as a text."""
+    given = {x: y["default"] for x, y in d.problem["parameters"].items()}
+    if None in given.values():
+        return {}, ""
+    momenta = {y: value_at_start(d, x, ran) for x, y in letters} if ran else {}
+    momenta = {y: x for y, x in momenta.items() if math.isfinite(x) and x}
+    told = ", ".join(f"{in_sentence(y)} = {written(x)}" for y, x in momenta.items())
+    return {**given, **{y[1]: x for y, x in momenta.items()}}, told
+
+
+def _kind(d: Derivation, point: Point) -> tuple[str, int, Sequence[tuple[int, int, int]]]:
+    """How a solid moves at a point, about or along which axis, and the entries of A that say where
+    its own axes point; empty where it is no solid."""
+    kind, axis, entries = REST, 0, []
+    for x, y in point:
+        if x[0] == "at":
+            kind, axis = (TURNS, x[2]) if x[2] <= 3 else (ALONG, x[2] - 3)
+        elif y in POINTING and max(x[2:]) <= 3:
+            entries.append((*x[2:], y))
+        else:
+            return "", 0, []
+    return (kind, axis, entries) if d.problem["group"] in SOLIDS else ("", 0, [])
+
+
+def _of_one(
+    steps: Sequence[Step],
+    motion: tuple[str, int, Sequence[tuple[int, int, int]]],
+    proved: tuple[str, str],
+    spoken: Language,
+) -> str:
+    """What a steady motion is, and what is proved of its stability."""
+    said = [x for s in steps for x in s.prose]
+    at = str(next((dict(x.places)["point"] for x in said if "point" in dict(x.places)), ""))
+    verdicts: list[str] = []
+    for x in said:
+        if x.message in SAID and len(_cases(x)) <= LONG:
+            places = {k: y for k, y in _places(x, spoken).items() if f"{{{k}}}" in SAID[x.message]}
+            verdicts.append(spoken.word(SAID[x.message], **places))
+    here = spoken.word(proved[0])
+    first, *others = dict.fromkeys(
+        verdicts or [here or spoken.word(LONG_ONES if any(map(_cases, said)) else OPEN)]
+    )
+    for other in others:
+        first = spoken.word("{first}; {second}", first=first, second=other)
+    kind, axis, entries = motion
+    when = spoken.word(kind, axis=spoken.formula(axis_letter(axis)))
+    for i, j, sign in entries:
+        fixed, own = (spoken.formula(axis_letter(k)) for k in (i, j))
+        when = spoken.word(POINTING[sign], when=when, axis=own, fixed=fixed)
+    where = spoken.formula(at) or spoken.word("all variables 0")
+    whole = spoken.word(WHEN if when and at else AT, when=when, point=where, verdict=first)
+    if not here or not verdicts:
+        return whole
+    said_so = {"": HERE, ALWAYS: ALWAYS}.get(proved[1], HERE_BY)
+    return f"{whole} {spoken.word(said_so, verdict=here, numbers=spoken.formula(proved[1]))}"
+
+
+def _cases(x: Sentence) -> str:
+    return str(dict(x.places).get("cases", ""))
+
+
+def _verdict(steps: Sequence[Step], numbers: Mapping[str, float]) -> tuple[str, str]:
+    """What is proved with the numbers, and by which of these, if one inequality decides; empty
+    where no number tells it."""
+    undecided = ""
+    for claim in (c for s in steps for c in s.claims):
+        verdict = VERDICTS["family"].get(claim.kind.removeprefix("family."), "").removesuffix(WHERE)
+        cases = [[y[1:] for y in rows(x)] for k, t in claim.values if k == "cases" for x in rows(t)]
+        if not verdict or not cases or not numbers:
+            continue
+        pairs = [pair for case in cases for pair in case]
+        (a, b) = pairs[0]
+        if len(pairs) == 1 and b == 0 and rows(a)[1:] and _positive(a, numbers):
+            return verdict, ALWAYS
+        values = [[[_number(t, numbers) for t in pair] for pair in x] for x in cases]
+        if math.isnan(sum(y for case in values for x in case for y in x)):
+            return "", ""
+        if any(all(x > y for x, y in case) for case in values):
+            x, y = map(written, values[0][0])
+            return verdict, f"{x} > {y}" if len(pairs) == 1 else ""
+        undecided = OPEN
+    return undecided, ""
+
+
+def placed(step: Step, place: str) -> list[Tree]:
+    """What the claims of a step have in a place."""
+    return [y for claim in step.claims for x, y in claim.values if x == place]
+
+
+def rows(t: Tree) -> list[Any]:
+    """The parts of a matrix, of a row, of a sum; none of a number or a letter."""
+    return [*t[1:]] if isinstance(t, tuple) and t[0] != "par" else []
+
+
+def _number(t: Tree, numbers: Mapping[str, float]) -> float:
+    """The value of an expression; not a number where a letter has none."""
+    found = approximate(t, numbers)
+    return math.nan if found is None else found
+
+
+def _positive(t: Tree, numbers: Mapping[str, float]) -> bool:
+    """Is an expression positive by its terms, for all values but 0 of what has no number?"""
+    if not isinstance(t, tuple):
+        return not isinstance(t, str) and t > 0
+    if t[0] == "pow":
+        return t[2] % 2 == 0 or _positive(t[1], numbers)
+    if t[0] == "par":
+        return numbers.get(t[1], 0) > 0
+    return t[0] in ("add", "mul", "div") and all(_positive(x, numbers) for x in t[1:])
+
+
+def _odd_one(d: Derivation, kind: str, verdicts: Sequence[str]) -> Iterator[Entry]:
+    """Of three motions about an axis, or along one, the only one that is stable, or unstable, and
+    where its inertia stands among theirs."""
+    lagrangian = d.problem.get("lagrangian") or {}
+    if {*verdicts} != {STABLE, UNSTABLE} or len(verdicts) != 3 or "L" not in lagrangian:
+        return
+    first = 3 * (kind == ALONG)
+    value, energy = ExpressionValues(d.problem), decode(lagrangian["L"], "lecture")
+    form = quadratic(energy, range(first, first + 3), value)
+    odd = next(k for k, x in enumerate(verdicts) if verdicts.count(x) == 1)
+    inertia = [form[k][k] for k in range(3)] if form else []
+    if len({*inertia}) == 3:
+        told = {"those": ALIKE[kind], "verdict": verdicts[odd]}
+        told["rank"] = RANKS[sorted(inertia).index(inertia[odd])]
+        axis = axis_letter(odd + 1)
+        yield sentence(
+            lambda x: x.word(ONLY, axis=x.formula(axis), **{k: x.word(y) for k, y in told.items()})
+        )
 
 
 def asleep(d: Derivation) -> Iterator[Entry]:
@@ -83,9 +260,15 @@ def asleep(d: Derivation) -> Iterator[Entry]:
         across, _, weight = (f"‘{x}’" for x in names)
         bound, heavy = f"ℓ₃² = 4 {across} {weight}", f"{weight} > 0"
         yield sentence(
-            lambda x: x.word(SAME_TOP, momentum=x.formula(bound), weight=x.formula(heavy)),
+            lambda x: x.word(ASLEEP, momentum=x.formula(bound), weight=x.formula(heavy)),
             [f"{d.name}.lagrangian"],
         )
+
+
+def same_top(d: Derivation) -> Iterator[Entry]:
+    """That a problem is the heavy top of the lecture, where it is."""
+    if as_top(d):
+        yield sentence(lambda x: x.word(SAME_TOP), [f"{d.name}.lagrangian"])
 
 
 def as_top(d: Derivation) -> tuple[str, ...]:
@@ -116,29 +299,8 @@ def variables_of(step: Step) -> Iterator[str]:
             yield normalize("NFC", normalize("NFD", show(e.lhs)).replace("\u0307", ""))
 
 
-def _letters(prose: Sequence[Sentence]) -> Iterator[str]:
-    for x in prose:
-        if x.message == message("family.letter"):
-            yield str(dict(x.places)["letter"])
-
-
 def _places(x: Sentence, spoken: Language) -> Mapping[str, str]:
     return {
         name: spoken.formula(y) if isinstance(y, str) else spoken.sentence(y)
         for name, y in x.places
     }
-
-
-def _of_one(said: Sequence[Sentence], spoken: Language) -> str:
-    """Where a steady motion is, and what is proved of its stability."""
-    at = next((dict(x.places)["point"] for x in said if "point" in dict(x.places)), "")
-    verdicts: list[str] = []
-    for x in said:
-        if x.message in SAID:
-            places = {k: y for k, y in _places(x, spoken).items() if f"{{{k}}}" in SAID[x.message]}
-            verdicts.append(spoken.word(SAID[x.message], **places))
-    first, *others = dict.fromkeys(verdicts or [spoken.word(OPEN)])
-    for other in others:
-        first = spoken.word("{first}; {second}", first=first, second=other)
-    where = spoken.formula(str(at)) or spoken.word("all variables 0")
-    return spoken.word(AT, point=where, verdict=first)

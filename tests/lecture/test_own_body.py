@@ -136,7 +136,7 @@ def test_the_picture_of_a_motion_is_what_the_emitted_code_does():
         atol=1e-12,
     )
     assert np.allclose([y for _, y in ran.curves], run.y[-3:], rtol=0, atol=1e-4)
-    assert "varie de moins de 10⁻" in ran.told(language("fr"))
+    assert "gardent leur valeur, à 10⁻" in ran.told(language("fr"))
 
 
 def test_labels_of_figures_are_of_small_letters_and_differ():
@@ -184,7 +184,7 @@ def test_its_chapter_says_that_it_has_the_place():
     chapter, records, body = chapter_on("euler_top")
     assert body is not None
     page = alone(chapter, records, "en")
-    assert "In the first chapter its body has the place of the racket." in page
+    assert "In chapter 1 this body has the place of a racket; its flip is drawn there." in page
     assert page.count("<figure") == 2
     assert isinstance(chapter.title[0], Given)
     other = chapter_on("euler_top", taken=True).chapter
