@@ -136,6 +136,9 @@ def of_speeds(b: Balance, term: Term) -> Iterator[Hypothesis]:
     taken = {"the body's origin": v}
     if r is not None and r.any():
         taken["the centre of mass"] = v + turning(w, r)
+        for sign in (1, -1):
+            told = f"its place {'−+'[sign > 0]} r, r the centre of mass"
+            taken[told] = v + turning(w, term.arm + sign * r)
     for place, velocity in taken.items():
         values = term.at(b.with_velocities(w, velocity - turning(w, term.arm)))
         words = f"{name} is made of the velocity of {place}, not of its place"
@@ -212,12 +215,18 @@ def of_arms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     r, base = b.centre(), b.values()
     if r is None or not r.any():
         return
-    if np.ptp(r, axis=0).max() > 0:  # an arm is no number then
-        for term in terms:
-            for sign, told in TAKEN.items() if term.arm is not None and term.at else ():
-                said = f"the lever arm of {term.name('')} is {told} the centre of mass"
-                left = b.unexplained - (_at_arm(b, term, sign * r) - term.values)
-                yield Hypothesis(f"{said} instead of the body's origin", 0, left)
+    is_number, n = np.ptp(r, axis=0).max() == 0, r.shape[1]
+    for term, (sign, told) in product(terms, TAKEN.items()):
+        if term.arm is None or not term.at or (is_number and term.is_input):
+            continue
+        said = f"the lever arm of {term.name('')} is {told}"
+        if not is_number:
+            left = b.unexplained - (_at_arm(b, term, sign * r) - term.values)
+            yield Hypothesis(said, 0, left)
+        more = cross(sign * r, term.values[:, -n:])
+        left = b.unexplained - np.hstack([more, 0 * r])
+        yield Hypothesis(f"{said}, in its moment alone", 2, left)
+    if not is_number:
         return
     r = r[0]
     arms = {x.key: b.opened.entries(x.key) for x in b.opened.slots if x.key.startswith("at of")}
@@ -232,11 +241,14 @@ def of_arms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
             shifted = {x: base[x] + sign * float(r[i % len(r)]) for i, x in enumerate(own)}
             other = possible(replace(b, changed={**b.changed, **shifted}))
             if other is not None:
-                said = f"{words} {told} the centre of mass instead of the body's origin"
-                yield Hypothesis(said, 0, other)
+                yield Hypothesis(f"{words} {told}", 0, other)
 
 
-TAKEN = {1: "taken from", -1: "of moments about"}
+TAKEN = {
+    1: "taken from the centre of mass instead of the body's origin",
+    -1: "of moments about the centre of mass instead of the body's origin",
+    2: "its place + r, and not − r, where moments are about the centre of mass r",
+}
 
 
 def _at_arm(b: Balance, term: Term, further: Array) -> Array:
