@@ -259,6 +259,7 @@ def _fields(
     cost = {name: f["operations"] for name, f in known.items()}
     fields = {
         **vars(p),
+        "varied": p.varied,
         "prefix": prefix,
         "guard": prefix.upper() + "_H",
         "header": (header := asked.options.form == "header"),
