@@ -163,8 +163,11 @@ class Call:
 
 
 def sizes(header, prefix):
-    """Those of the enum of a header."""
-    return {x: int(n) for x, n in re.findall(rf"\b{prefix}_N_(\w+) = (\d+)", header)}
+    """Those of the enum of a header, and how many masses it says to be varied."""
+    masses = re.search(r"2N is 2N \+ (\d+)", header)
+    return ({"MASSES": int(masses[1])} if masses else {}) | {
+        x: int(n) for x, n in re.findall(rf"\b{prefix}_N_(\w+) = (\d+)", header)
+    }
 
 
 def calls(header, prefix):
@@ -184,8 +187,8 @@ def calls(header, prefix):
 
 
 def variations(known):
-    """How many numbers a variation has, of which a header tells where there are masses."""
-    return known.get("VARIATIONS", 2 * known["ALGEBRA"])
+    """How many numbers a variation has."""
+    return 2 * known["ALGEBRA"] + known.get("MASSES", 0)
 
 
 def rows_of(function, known):
