@@ -128,7 +128,7 @@ def _left(b: Balance, own: Quantities, there: Quantities, weight: Array) -> Arra
         return np.cross(w, through(q["spun"], w)) if turns == 3 else 0 * w
 
     M = b.mass(b.values())
-    a = -np.linalg.solve(M, b.bias(b.x, b.u)[:, :, None])[:, :, 0]
+    a = np.asarray(np.linalg.solve(M, -b.bias(b.x, b.u)[:, :, None])[:, :, 0], float)
     fall = weight[:, turns:] / own["m"]
     force = own["m"] * (moved(own, a) - fall)
     moment = through(own["I"], a[:, :turns]) + spun(own) + cross(own["arm"] - there["arm"], force)
