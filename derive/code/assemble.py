@@ -98,8 +98,7 @@ def assemble(
         group.dimension,
         (
             *conventions(group, said, chosen, framed.problem["frame"] if framed else None),
-            *_not_tested(lowering),
-            *_masses_varied(lowering, chosen),
+            *_told_besides(lowering, chosen),
             *(sentences(d, momenta) if momenta else ()),
         ),
         tuple(lowering.reader.space.names),
@@ -135,13 +134,15 @@ def _said(d: Derivation, forces: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     return {**d.problem, "forces": [{**x, **y} for x, y in pairs]}
 
 
-def _masses_varied(lowering: Lowering, chosen: Options) -> list[str]:
-    """What a header says of the derivatives of a state that has masses."""
-    own = lowering.reader.space.stored
-    if not own or not chosen.varied:
-        return []
-    added = ", ".join(f"delta {x}" for x in own)
-    return [f"In derivatives (eta, delta zeta) is followed by {added}, and 2N is 2N + {len(own)}."]
+def _told_besides(lowering: Lowering, chosen: Options) -> list[str]:
+    """What a header says of what is not tested, and of derivatives of a state that has masses."""
+    found, own = [*_not_tested(lowering)], lowering.reader.space.stored
+    if own and chosen.varied:
+        added = ", ".join(f"delta {x}" for x in own)
+        found.append(
+            f"In derivatives (eta, delta zeta) is followed by {added}, and 2N is 2N + {len(own)}."
+        )
+    return found
 
 
 def _further(

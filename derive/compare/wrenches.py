@@ -20,7 +20,7 @@ from ..problem.fields import velocity_at_place
 from ..schema.force_kinds import StatedForce
 from .balance import EXACT, Balance, Term, cross, through, turning
 from .opened import called
-from .told import FACTORS, SIMPLE, Hypothesis, possible
+from .told import FACTORS, SIMPLE, Hypothesis
 from .users_code import Array
 
 View = tuple[str, Array]
@@ -212,42 +212,30 @@ BY_AXES = {
 
 def of_arms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     """An arm, or all arms, are taken from the centre of mass; or moments are about it."""
-    r, base = b.centre(), b.values()
+    r = b.centre()
     if r is None or not r.any():
         return
-    is_number, n = np.ptp(r, axis=0).max() == 0, r.shape[1]
-    for term, (sign, told) in product(terms, TAKEN.items()):
-        if term.arm is None or not term.at or (is_number and term.is_input):
-            continue
-        said = f"the lever arm of {term.name('')} is {told}"
-        if not is_number:
-            left = b.unexplained - (_at_arm(b, term, sign * r) - term.values)
-            yield Hypothesis(said, 0, left)
-        more = cross(sign * r, term.values[:, -n:])
+    placed = [x for x in terms if x.arm is not None and x.at]
+    listed = [(f"the lever arm of {x.name('')} is", [x]) for x in placed]
+    of_places = [x for x in placed if np.ndim(x.arm) == 1]
+    of_inputs = [x for x in of_places if x.is_input]
+    for words, several in (
+        ("all lever arms", of_places),
+        ("the lever arms of all inputs", of_inputs),
+    ):
+        listed += [(f"{words} are", several)] * (len(several) > 1)
+    for (words, own), (sign, told) in product(listed, TAKEN.items()):
+        moved = sum((_at_arm(b, x, sign * r) - x.values for x in own), 0 * b.a)
+        yield Hypothesis(f"{words} {told}", 0, b.unexplained - moved)
+        more = cross(sign * r, sum(x.values[:, -r.shape[1] :] for x in own))
         left = b.unexplained - np.hstack([more, 0 * r])
-        yield Hypothesis(f"{said}, in its moment alone", 2, left)
-    if not is_number:
-        return
-    r = r[0]
-    arms = {x.key: b.opened.entries(x.key) for x in b.opened.slots if x.key.startswith("at of")}
-    known = {key: own for key, own in arms.items() if len(own) == len(r)}
-    listed = [(f"the lever arm ({key}) is", own) for key, own in known.items()]
-    of_inputs = [key for key in known if key.startswith("at of the input")]
-    for words, keys in (("all lever arms", [*known]), ("the lever arms of all inputs", of_inputs)):
-        if len(keys) > 1:
-            listed.append((f"{words} are", [x for key in keys for x in known[key]]))
-    for words, own in listed:
-        for sign, told in TAKEN.items():
-            shifted = {x: base[x] + sign * float(r[i % len(r)]) for i, x in enumerate(own)}
-            other = possible(replace(b, changed={**b.changed, **shifted}))
-            if other is not None:
-                yield Hypothesis(f"{words} {told}", 0, other)
+        yield Hypothesis(f"{words} {told}, in the moment alone", 2, left)
 
 
 TAKEN = {
     1: "taken from the centre of mass instead of the body's origin",
     -1: "of moments about the centre of mass instead of the body's origin",
-    2: "its place + r, and not − r, where moments are about the centre of mass r",
+    2: "p + r and not p − r, of the place p, where moments are about the centre of mass r",
 }
 
 

@@ -132,7 +132,7 @@ FAULTS = {
     "moments about the centre of mass": (
         "drone",
         ("np.cross(ARM[name], push)", "np.cross(ARM[name] - c * (name == 'side'), push)"),
-        "the lever arm (at of the input side) is of moments about the centre of mass",
+        "the lever arm of the input side is of moments about the centre of mass",
     ),
     "arms from the centre of mass": (
         "drone",
@@ -361,13 +361,13 @@ FAULTS = {
     "an arm with + r": (
         "sprung",
         ("cross(HOOK - r, pull)", "cross(HOOK + r, pull)"),
-        "the lever arm of spring is its place + r, and not − r,",
+        "the lever arm of spring is p + r and not p − r,",
     ),
     "all arms with + r": (
         "sprung",
         ("cross(HOOK - r, pull)", "cross(HOOK + r, pull)"),
         ("cross(AT[0] - r, push)", "cross(AT[0] + r, push)"),
-        "r × F of the moment M − r × F about the centre of mass r has the other sign",
+        "all lever arms are p + r and not p − r,",
     ),
     "a drag's velocity by the place from the centre of mass": (
         "drone",
