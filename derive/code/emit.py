@@ -259,7 +259,6 @@ def _fields(
     cost = {name: f["operations"] for name, f in known.items()}
     fields = {
         **vars(p),
-        "varied": p.varied,
         "prefix": prefix,
         "guard": prefix.upper() + "_H",
         "header": (header := asked.options.form == "header"),
@@ -276,11 +275,10 @@ def _fields(
         "heading": [*generated, "", *heading(p, language, parameters, cost)],
         "functions": known,
         "framing": _framing(p, written, sizes),
-        "asks_for_zero": p.asks_for_zero,
+        **{x: getattr(p, x) for x in ("varied", "asks_for_zero", "momentum_range")},
         "calls": sorted({"sqrt" if is_integral(x) else x for x in called}),
         "integrals": integrals(written, language, prefix, [x for x in BUNDLES if x in called]),
         "newton": _newton(p, real, printer),
-        "momentum_range": p.momentum_range,
         "tolerance": printer.number(Fraction(TOLERANCE[real])),
         "loops": p.loops,
         "steps": steps(p, written, asked.options) if asked.options.moves else None,

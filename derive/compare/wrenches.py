@@ -217,7 +217,7 @@ def of_arms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
         return
     placed = [x for x in terms if x.arm is not None and x.at]
     listed = [(f"the lever arm of {x.name('')} is", [x]) for x in placed]
-    of_places = [x for x in placed if np.ndim(x.arm) == 1]
+    of_places = [x for x in placed if x.arm is not None and x.arm.ndim == 1]
     of_inputs = [x for x in of_places if x.is_input]
     for words, several in (
         ("all lever arms", of_places),
@@ -227,7 +227,7 @@ def of_arms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     for (words, own), (sign, told) in product(listed, TAKEN.items()):
         moved = sum((_at_arm(b, x, sign * r) - x.values for x in own), 0 * b.a)
         yield Hypothesis(f"{words} {told}", 0, b.unexplained - moved)
-        more = cross(sign * r, sum(x.values[:, -r.shape[1] :] for x in own))
+        more = cross(sign * r, sum((x.values[:, -r.shape[1] :] for x in own), 0 * r))
         left = b.unexplained - np.hstack([more, 0 * r])
         yield Hypothesis(f"{words} {told}, in the moment alone", 2, left)
 
