@@ -106,7 +106,7 @@ def assemble(
         group.dimension,
         (
             *conventions(group, said, chosen, framed.problem["frame"] if framed else None),
-            *(LOCAL * lowering.inverses.local + UNTESTED * lowering.inverses.untested),
+            *_told_besides(lowering, chosen),
             *(sentences(d, momenta) if momenta else ()),
         ),
         tuple(lowering.reader.space.names),
@@ -142,6 +142,18 @@ def _said(d: Derivation, forces: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     return {**d.problem, "forces": [{**x, **y} for x, y in pairs]}
 
 
+def _told_besides(lowering: Lowering, chosen: Options) -> list[str]:
+    """What a header says of what is not tested, and of derivatives of a state that has masses."""
+    found = [*(LOCAL * lowering.inverses.local + UNTESTED * lowering.inverses.untested)]
+    own = lowering.reader.space.stored
+    if own and chosen.varied:
+        added = ", ".join(f"delta {x}" for x in own)
+        found.append(
+            f"In derivatives (eta, delta zeta) is followed by {added}, and 2N is 2N + {len(own)}."
+        )
+    return found
+
+
 def _further(
     d: Derivation, said: Mapping[str, Any], space: StateSpace, chosen: Options
 ) -> dict[str, Any]:
@@ -152,6 +164,7 @@ def _further(
     names, known = tuple(space.names), names_by_block(space.group)
     by_block = tuple(known.get(x, x) for x in names)
     return {
+        "masses": tuple(space.stored),
         "outputs": output_names(d),
         "state_by_block": by_block if by_block != names else (),
         "kinks": kinks(said, space.group) if chosen.jacobian else {},
@@ -257,10 +270,8 @@ def _functions(
         functions[name] = scheduler.function(nodes, places)
     functions["rhs"] = replace(functions["rhs"], titles=titles(lowering.reader))
     if "parameters" in options.jacobian:
-        slopes = by_leaves(
-            lowering.reader.space, lowering.reader.space.velocity(lowering.reader.component), leaves
-        )
-        slopes = factored(lowering.graph, slopes)
+        second = [*space.velocity(lowering.reader.component), *_lost(lowering.reader)]
+        slopes = factored(lowering.graph, by_leaves(space, second, leaves))
         functions["jacobian_parameters"] = scheduler.function(slopes, moving | from_p)
     framing = _framing(frame, scheduler, from_p, numbers) if frame else None
     for name, nodes in drift(space, slopes="step" in options.jacobian).items():
@@ -311,12 +322,12 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
     space = reader.space
     try:
         rates = space.rates(reader.vector, reader.component, in_space=reader.in_space)
-        rates += [reader.number_of(("par", rate_of_mass(x))) for x in space.stored]
+        rates += (lost := _lost(reader))
         lowering.inverses.require_regular()
         energy, tensor = reader.number("h̃"), _inertia(reader)
         *rates, energy = factored(graph, [*rates, energy])
         found = {"rhs": rates, "energy": [energy]}
-        second = space.velocity(reader.component) if options.varied else []
+        second = [*space.velocity(reader.component), *lost] if options.varied else []
         if "state" in options.jacobian:
             # after the rates, with which it shares much
             found["jacobian"] = factored(graph, [*rates, *by_state(space, second)])
@@ -340,6 +351,11 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
             * lowering.inverses.definite
         ) from None
     return found | tensor
+
+
+def _lost(reader: RecordReader) -> list[Node]:
+    """The rates of masses of the state."""
+    return [reader.number_of(("par", rate_of_mass(x))) for x in reader.space.stored]
 
 
 def _raw(lowering: Lowering, rates: list[Node]) -> list[Node]:

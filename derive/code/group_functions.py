@@ -12,7 +12,7 @@ from __future__ import annotations
 import ast
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import factorial
 from typing import Any
@@ -81,6 +81,7 @@ class GroupFunctions:
     coordinate the terms (coefficient, row, column) that it is read by; ``brackets``: the
     coordinates of [E_a, E_b]; ``right``: is a variation δg = η g, and Z = ġ g⁻¹? ``covariance``: is
     an element followed in the state by the upper triangle of a covariance, not by a velocity?
+    ``masses``: how many follow the velocity.
     There are no ``factors`` where one does something else than turn and shift.
     """
 
@@ -92,11 +93,13 @@ class GroupFunctions:
     factors: tuple[Factor, ...]
     right: bool
     covariance: bool = False
+    masses: int = 0
 
     @classmethod
     def of(cls, space: StateSpace) -> GroupFunctions:
         """Those of a state that :func:`refuse` does not refuse."""
-        return cls.of_group(space.group, space.held_of_g, space.still, right=space.right)
+        found = cls.of_group(space.group, space.held_of_g, space.still, right=space.right)
+        return replace(found, masses=len(space.stored))
 
     @classmethod
     def of_group(
@@ -153,10 +156,11 @@ class GroupFunctions:
     def count(self, function: str, argument: str) -> int:
         """How many numbers an argument of a function has."""
         element, d, seen = self.numbers, len(self.read), len(self.observed)
-        state = element + (d * (d + 1) // 2 if self.covariance else d)
+        added = d + self.masses
+        state = element + (d * (d + 1) // 2 if self.covariance else added)
         twice = argument == "eta" and "x" in self.functions[function][0]  # with a velocity
         return {
-            **{"g": element, "x": state, "y": state, "eta": 2 * d if twice else d, "J": d * d},
+            **{"g": element, "x": state, "y": state, "eta": d + added if twice else d, "J": d * d},
             **{"o": len(self.origin), "Y": seen, "z": seen, "N": seen * seen, "H": seen * d},
         }[argument]
 
@@ -240,7 +244,9 @@ def known(p: Program) -> dict[str, Any]:
         "N_NOISE": len(f.observed) ** 2,
         "N_JACOBIAN_OBSERVED": len(f.observed) * d,
         "OBSERVED": f.observed,
-        "N_TANGENT": 2 * d,
+        "N_TANGENT": 2 * d + f.masses,
+        "N_ADDED": d + f.masses,
+        "N_MASSES": f.masses,
         "N_JACOBIAN": d * d,
         "N_FACTORS": len(f.factors),
         "N_ENTRIES": len(f.entries),
@@ -287,9 +293,9 @@ def _conventions(p: Program) -> list[str]:
     else:
         text += (
             f"x and y are states, g the first {element} numbers of one, on the group. In retract "
-            f"and local eta has {2 * p.dimension} numbers: eta, then what is added to the "
-            "velocity: the coordinates of the linearised equations, of variations delta g = "
-            f"{p.variation} and delta zeta."
+            f"and local eta has {p.varied} numbers: eta, then what is added to the "
+            f"velocity{' and to masses' * bool(f.masses)}: the coordinates of the linearised "
+            f"equations, of variations delta g = {p.variation} and delta zeta."
         )
     if not f.factors:
         text += GENERAL

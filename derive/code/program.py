@@ -244,6 +244,8 @@ class Program:
     """The variables of the Poisson tensor."""
     loops: Any = None
     """On the torus the tables of its loops (``torus_program.Loops``), where it has them."""
+    masses: tuple[str, ...] = ()
+    """Those that are numbers of the state, its last."""
     on_torus: bool = False
     mass_fault: str = "singular or not positive"
     """What ``constants`` says that the mass matrix is."""
@@ -272,6 +274,11 @@ class Program:
     """May the derivatives of a force jump?"""
     group_functions: Any = None
     """What the functions of the group know (``group_functions.GroupFunctions``), if asked for."""
+
+    @property
+    def varied(self) -> int:
+        """How many numbers a variation of the state has: eta, delta zeta, masses."""
+        return 2 * self.dimension + len(self.masses)
 
     @property
     def by_block(self) -> dict[str, str]:

@@ -12,7 +12,7 @@ from typing import Any
 from ..algebra.factor_charts import QUATERNION, factor_charts
 from ..algebra.groups import Group
 from ..language.limits import SLOPES, SLOPES_BY_PARAMETERS
-from ..language.reserved import STANDARD_MACROS, stored_masses
+from ..language.reserved import STANDARD_MACROS
 from ..record.record import Derivation
 from . import group_functions, watched_functions
 from .languages import LANGUAGES, TargetLanguage
@@ -187,7 +187,7 @@ def _refused_with_charts(d: Derivation, group: Group, chosen: Options) -> None:
 
 def _refused_forms(d: Derivation, group: Group, chosen: Options) -> None:
     """``LoweringError`` for an option that is not written for a state of this form."""
-    lagrangian, masses = d.problem.get("lagrangian", {}), stored_masses(d.problem)
+    lagrangian = d.problem.get("lagrangian", {})
     right = lagrangian.get("trivialisation") == "right"
     charts = factor_charts(group, chosen.attitude).values() if right else ()
     tangent = (chosen.velocity == "tangent", "--velocity tangent")
@@ -209,12 +209,6 @@ def _refused_forms(d: Derivation, group: Group, chosen: Options) -> None:
             right,
             "Z = g^-1 dg/dt, and this Lagrangian is trivialised on the right",
             (tangent, (any(x.kind == QUATERNION for x in charts), attitude)),
-        ),
-        (
-            masses,
-            f"a state of g and its velocity, and this has the mass {', '.join(masses[:1])}, too "
-            "(--jacobian raw is by all numbers of a state)",
-            (varied, (chosen.exponential, "--exponential")),
         ),
     )
     for has_it, why, options in forms:

@@ -302,11 +302,12 @@ def _is_square(x: Node) -> bool:
 
 
 def by_state(space: StateSpace, accelerations: list[Node]) -> list[Node]:
-    """The matrix, 2N × 2N by rows, of (η, δζ) ↦ (η̇, δζ̇); ``accelerations``: ζ̇ (and ẇ)."""
+    """The matrix, 2N × 2N by rows, of (η, δζ) ↦ (η̇, δζ̇); ``accelerations``: ζ̇ (and ẇ).  After
+    δζ stands what is added to masses of the state, after the accelerations their rates."""
     g, d = space.graph, space.group.dimension
-    span = range(d)
+    span, zeros = range(d), [g.num(0)] * len(space.stored)
     rows = [
-        [*(x if space.right else -x for x in row), *(g.num(int(a == b)) for b in span)]
+        [*(x if space.right else -x for x in row), *(g.num(int(a == b)) for b in span), *zeros]
         for a, row in enumerate(_adjoint(space))
     ]
     varied = variations(space)
@@ -315,10 +316,12 @@ def by_state(space: StateSpace, accelerations: list[Node]) -> list[Node]:
 
 
 def variations(space: StateSpace) -> list[Directional]:
-    """The derivatives along η, then along δζ, on the basis: 2N of them."""
+    """The derivatives along η, then along δζ, on the basis, 2N of them, and by masses of the
+    state."""
     g, span = space.graph, range(space.group.dimension)
     turned = [Directional(g, space.along(a), f"eta_{a + 1}") for a in span]
-    return turned + of_velocity(space)
+    masses = [Directional(g, {leaf: g.num(1)}, name) for name, leaf in space.stored.items()]
+    return turned + of_velocity(space) + masses
 
 
 def of_velocity(space: StateSpace) -> list[Directional]:

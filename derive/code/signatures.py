@@ -81,16 +81,16 @@ into_frame(x, k) -> out[STATE]: the state x taken from {given} to {principal}
 out_of_frame(x, k) -> out[STATE]: the state x taken from {principal} to {given}
 inputs_into_frame(u, k) -> out[INPUTS]: the inputs u taken from {given} to {principal}
 inputs_out_of_frame(u, k) -> out[INPUTS]: the inputs u taken from {principal} to {given}
-jacobian(t, x, k, u) -> dx, D[2 ALGEBRA 2 ALGEBRA]: dx/dt, and D
-jacobian_inputs(t, x, k, u) -> D[2 ALGEBRA INPUTS]: its derivative by u
-jacobian_parameters(t, x, p, u) -> D[2 ALGEBRA PARAMETERS]: that by p
+jacobian(t, x, k, u) -> dx, D[VARIATIONS VARIATIONS]: dx/dt, and D
+jacobian_inputs(t, x, k, u) -> D[VARIATIONS INPUTS]: its derivative by u
+jacobian_parameters(t, x, p, u) -> D[VARIATIONS PARAMETERS]: that by p
 jacobian_raw(t, x, k, u) -> D[STATE STATE]: that of dx/dt by x as it is stored, by rows
 jacobian_raw_inputs(t, x, k, u) -> D[STATE INPUTS]: the derivative of dx/dt by u, by rows
 jacobian_project(x) -> D[STATE STATE]: the derivative of what project gives by x as it is stored, by
     rows
-variations(x) -> D[STATE 2 ALGEBRA]: what x, as it is stored, changes by along (eta, delta zeta), by
-    rows
-jacobian_outputs(t, x, k, u) -> D[OUTPUTS 2 ALGEBRA]: the derivative of the outputs by (eta, delta
+variations(x) -> D[STATE VARIATIONS]: what x, as it is stored, changes by along (eta, delta zeta),
+    by rows
+jacobian_outputs(t, x, k, u) -> D[OUTPUTS VARIATIONS]: the derivative of the outputs by (eta, delta
     zeta), by rows
 jacobian_outputs_inputs(t, x, k, u) -> D[OUTPUTS INPUTS]: the derivative of the outputs by u, by
     rows
@@ -173,7 +173,7 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         "REDUCED": p.reduced,
         **(p.discrete.sizes if p.discrete else {}),
         "MATRIX": len(p.matrix_state),
-        "2": 2,
+        "VARIATIONS": p.varied,
         "6": 6,
     }
     bodies = {name: written.function(f) for name, f in p.functions.items()}
@@ -201,7 +201,7 @@ def _function(s: Signature, body: Mapping[str, Any], sizes: Mapping[str, int]) -
     places = [(a, i) for a, count in counts.items() for i in range(count)]
     texts = zip(places, body["outputs"], body["titles"], strict=True) if places else ()
     D = next((a for a in s.writes if a.name == "D"), None)
-    rows = prod(sizes[x] for x in D.sizes[: 2 if D.sizes[0] == "2" else 1]) if D else 0
+    rows = sizes[D.sizes[0]] if D else 0
     return {
         **vars(s),
         **body,

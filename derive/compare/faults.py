@@ -10,6 +10,7 @@ from itertools import chain, combinations, product
 import numpy as np
 
 from .balance import Balance, Part, Term, exact, hats, through
+from .newton_euler import IN_MASS, of_masses_held, of_newton_euler
 from .told import ABOUT, NEAR, Changed, Hypothesis, changed, possible, told
 from .users_code import Array
 from .wrenches import of_added_mass, of_axes, of_sizes, of_wrenches
@@ -28,7 +29,8 @@ def hypotheses(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
             yield Hypothesis(x.words, x.rank, left)
     yield from of_vectors(b)
     yield from of_the_point(b)
-    yield from of_masses_held(b)
+    yield from of_masses_held(b, terms)
+    yield from of_newton_euler(b, terms)
     yield from of_terms(b, terms)
 
 
@@ -174,7 +176,7 @@ def parts_of(b: Balance, terms: list[Term]) -> dict[str, Part]:
     return {**found, IN_MASS: b.of_mass, **({IN_MOMENTUM: momentum} if momentum else {})}
 
 
-IN_MASS, IN_MOMENTUM = " in the mass matrix alone", " in the momentum alone"
+IN_MOMENTUM = " in the momentum alone"
 
 
 def of_exchanges(b: Balance) -> Iterator[Changed]:
@@ -247,21 +249,6 @@ def of_the_point(b: Balance) -> Iterator[Hypothesis]:
         words = f"the tensor of inertia{where} is about another point: it is ours with "
         words += f"{s:+.6g} times the term of parallel axes, m(r²1 − r r̄)"
         yield Hypothesis(words.replace("-", "−"), 0 if simple else 4, left)
-
-
-def of_masses_held(b: Balance) -> Iterator[Hypothesis]:
-    """A mass that is a number of the state stays what it is at the start."""
-    own, problem = b.values(), b.opened.problem
-    for name in problem.stored:
-        if (first := problem.parameters[name].default) is None:
-            continue
-        x = b.x.copy()
-        x[:, b.code.STATE.index(name)] = first
-        held = replace(b, x=x)
-        pairs = {"": (b.left, held.left), IN_MASS: (b.of_mass, held.of_mass)}
-        for where, (here, there) in pairs.items():
-            left = b.unexplained + there(own) - here(own)
-            yield Hypothesis(f"{name} is {first:g}{where}, and not what is left of it", 0, left)
 
 
 def of_term(

@@ -20,7 +20,7 @@ from ..problem.fields import velocity_at_place
 from ..schema.force_kinds import StatedForce
 from .balance import EXACT, Balance, Term, cross, through, turning
 from .opened import called
-from .told import FACTORS, SIMPLE, Hypothesis, possible
+from .told import FACTORS, SIMPLE, Hypothesis
 from .users_code import Array
 
 View = tuple[str, Array]
@@ -136,6 +136,9 @@ def of_speeds(b: Balance, term: Term) -> Iterator[Hypothesis]:
     taken = {"the body's origin": v}
     if r is not None and r.any():
         taken["the centre of mass"] = v + turning(w, r)
+        for sign in (1, -1):
+            told = f"its place {'−+'[sign > 0]} r, r the centre of mass"
+            taken[told] = v + turning(w, term.arm + sign * r)
     for place, velocity in taken.items():
         values = term.at(b.with_velocities(w, velocity - turning(w, term.arm)))
         words = f"{name} is made of the velocity of {place}, not of its place"
@@ -209,34 +212,31 @@ BY_AXES = {
 
 def of_arms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     """An arm, or all arms, are taken from the centre of mass; or moments are about it."""
-    r, base = b.centre(), b.values()
+    r = b.centre()
     if r is None or not r.any():
         return
-    if np.ptp(r, axis=0).max() > 0:  # an arm is no number then
-        for term in terms:
-            for sign, told in TAKEN.items() if term.arm is not None and term.at else ():
-                said = f"the lever arm of {term.name('')} is {told} the centre of mass"
-                left = b.unexplained - (_at_arm(b, term, sign * r) - term.values)
-                yield Hypothesis(f"{said} instead of the body's origin", 0, left)
-        return
-    r = r[0]
-    arms = {x.key: b.opened.entries(x.key) for x in b.opened.slots if x.key.startswith("at of")}
-    known = {key: own for key, own in arms.items() if len(own) == len(r)}
-    listed = [(f"the lever arm ({key}) is", own) for key, own in known.items()]
-    of_inputs = [key for key in known if key.startswith("at of the input")]
-    for words, keys in (("all lever arms", [*known]), ("the lever arms of all inputs", of_inputs)):
-        if len(keys) > 1:
-            listed.append((f"{words} are", [x for key in keys for x in known[key]]))
-    for words, own in listed:
-        for sign, told in TAKEN.items():
-            shifted = {x: base[x] + sign * float(r[i % len(r)]) for i, x in enumerate(own)}
-            other = possible(replace(b, changed={**b.changed, **shifted}))
-            if other is not None:
-                said = f"{words} {told} the centre of mass instead of the body's origin"
-                yield Hypothesis(said, 0, other)
+    placed = [x for x in terms if x.arm is not None and x.at]
+    listed = [(f"the lever arm of {x.name('')} is", [x]) for x in placed]
+    of_places = [x for x in placed if x.arm is not None and x.arm.ndim == 1]
+    of_inputs = [x for x in of_places if x.is_input]
+    for words, several in (
+        ("all lever arms", of_places),
+        ("the lever arms of all inputs", of_inputs),
+    ):
+        listed += [(f"{words} are", several)] * (len(several) > 1)
+    for (words, own), (sign, told) in product(listed, TAKEN.items()):
+        moved = sum((_at_arm(b, x, sign * r) - x.values for x in own), 0 * b.a)
+        yield Hypothesis(f"{words} {told}", 0, b.unexplained - moved)
+        more = cross(sign * r, sum((x.values[:, -r.shape[1] :] for x in own), 0 * r))
+        left = b.unexplained - np.hstack([more, 0 * r])
+        yield Hypothesis(f"{words} {told}, in the moment alone", 2, left)
 
 
-TAKEN = {1: "taken from", -1: "of moments about"}
+TAKEN = {
+    1: "taken from the centre of mass instead of the body's origin",
+    -1: "of moments about the centre of mass instead of the body's origin",
+    2: "p + r and not p − r, of the place p, where moments are about the centre of mass r",
+}
 
 
 def _at_arm(b: Balance, term: Term, further: Array) -> Array:

@@ -225,7 +225,8 @@ def _without_points(
         raise ProblemError(f"key {where!r}: a text about any group has no Lagrangian of its own")
     for key in ("point", "solid", "body", "potential", "flow", "kinematics"):
         if key in data:
-            raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
+            other = "; say it as a [[force]], or in the L of a [lagrangian]" * (key == "potential")
+            raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out{other}")
     if advected is not None:
         _require_covectors(data)
     group = (on_homogeneous(moved) if moved.affine else moved).in_user_basis

@@ -29,6 +29,7 @@ class Names(NamedTuple):
     constants: int
     algebra: int
     reduced: int
+    varied: int
     unread: tuple[str, ...]
     blocks: tuple[Block, ...]
     matrix_state: tuple[str, ...]
@@ -42,7 +43,7 @@ class Names(NamedTuple):
         """The names of a program, of the steps that are emitted with it, and of the parameters
         that a problem has ``declared`` and the program does not read."""
         defaults = {x[0]: x[1] for x in program.parameters}
-        sizes = len(program.constants), program.dimension, program.reduced
+        sizes = len(program.constants), program.dimension, program.reduced, program.varied
         events = tuple(x.name for x in program.events)
         named = program.state, program.inputs, program.conserved, program.outputs, events
         unread = tuple(x for x in declared if x not in defaults)
@@ -138,7 +139,7 @@ class CompiledFunctions:
         """C and D: the derivatives of the outputs, (len(OUTPUTS), 2d) by (η, δζ), and
         (len(OUTPUTS), len(INPUTS)) by the inputs; needs ``jacobian="outputs"``."""
         count, held = len(self.OUTPUTS), self._inputs(u)
-        C = self._written("jacobian_outputs", (count, 2 * self._names.algebra), t, x, held)
+        C = self._written("jacobian_outputs", (count, self._names.varied), t, x, held)
         if not self.INPUTS:
             return C, np.zeros((count, 0))
         return C, self._written("jacobian_outputs_inputs", (count, len(self.INPUTS)), t, x, held)
@@ -263,7 +264,7 @@ class CompiledFunctions:
 
     def _linear(self, columns: int | None = None) -> tuple[int, int]:
         """The shape of a matrix of the linearised equations."""
-        rows = 2 * self._names.algebra
+        rows = self._names.varied
         return rows, rows if columns is None else columns
 
     def _written(self, what: str, shape: tuple[int, ...], t: float, x: Any, *given: Array) -> Array:

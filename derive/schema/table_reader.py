@@ -299,7 +299,8 @@ class TableReader(ABC):
     ) -> tuple[Tree, ...]:
         """A list of n expressions, or of a few."""
         if not isinstance(value, list) or not (n or 1) <= len(value) <= (n or LONGEST):
-            raise self.fail(f"{where}: expected a list of {n or 'a few'} expressions")
+            example = "" if n else ', as ["T_3"]'
+            raise self.fail(f"{where}: expected a list of {n or 'a few'} expressions{example}")
         return tuple((one or self.expression)(x, where) for x in value)
 
     def rows(self, value: Any, count: int, n: int, where: str, what: str = "rows") -> Rows:

@@ -203,10 +203,28 @@ class ExactJacobians:
         }
 
     def _varied(self) -> Iterator[Sequence[Any]]:
-        """The state, in nilpotent numbers, along η = E_a, then along δζ = E_a."""
+        """The state, in nilpotent numbers, along η = E_a, then δζ = E_a, then by its masses."""
         none, basis = q.scaled(ZERO, self.point.Z), self.state.group.basis
         for eta, change in (*((e, none) for e in basis), *((none, e) for e in basis)):
-            yield self.state.varied(self.point.g, self.point.Z, eta, change)
+            yield self._along(eta, change)
+        yield from self._heavier()
+
+    def _along(self, eta: Matrix, change: Matrix) -> Sequence[Any]:
+        """The state along η and δζ, with its own masses."""
+        moved = self.state.varied(self.point.g, self.point.Z, eta, change)
+        x, count = self.given["x"], len(self.state.stored)
+        return [*moved[: len(x) - count], *x[len(x) - count :]]
+
+    def _heavier(self) -> Iterator[Sequence[Any]]:
+        """The state with each of its masses in turn moved."""
+        x, count = self.given["x"], len(self.state.stored)
+        yield from [*each_moved(x)][len(x) - count :]
+
+    def _rates_of(self, back: Matrix, Z: Matrix, rates: Sequence[Any]) -> list[Fraction]:
+        """What the rates of the velocity, and of masses, change by."""
+        count = len(self.state.stored)
+        masses = rates[len(rates) - count :]
+        return slopes([*self.state.acceleration(Z, back, tuple(rates)), *masses])
 
     def _beside(self, array: str) -> Iterator[Given]:
         """An array with each of its numbers in turn moved."""
@@ -222,7 +240,8 @@ class ExactJacobians:
         return slopes(self.machine.numbers("outputs", given, self.outputs))
 
     def _state(self) -> Iterator[list[Fraction]]:
-        """The columns of the Jacobian in the state: (η̇, δζ̇) for η = E_a, then for δζ = E_a."""
+        """The columns of the Jacobian in the state: (η̇, δζ̇) for η = E_a, then for δζ = E_a, then
+        by masses."""
         group, Z = self.state.group, self.point.Z
         none = q.scaled(ZERO, Z)
         for e in group.basis:
@@ -230,20 +249,20 @@ class ExactJacobians:
             yield [*turn, *self._rates_along(e, none)]
         for a, e in enumerate(group.basis):
             yield [*(Fraction(a == b) for b in range(group.dimension)), *self._rates_along(none, e)]
+        yield from map(self._rates_column, ({"x": x} for x in self._heavier()))
 
     def _rates_along(self, eta: Matrix, change: Matrix) -> list[Fraction]:
         """δζ̇ for δg = g η and δZ = ``change``."""
-        x = self.state.varied(self.point.g, self.point.Z, eta, change)
+        x = self._along(eta, change)
         Z = q.plus(self.point.Z, q.scaled(EPSILON, change))
         undone = q.minus(q.identity(len(eta)), q.scaled(EPSILON, eta))
         back = q.times(undone, q.inverted(self.point.g))
-        return slopes(self.state.acceleration(Z, back, self._rates({"x": x})))
+        return self._rates_of(back, Z, self._rates({"x": x}))
 
     def _rates_column(self, changed: Given) -> list[Fraction]:
         """The column (0, δζ̇) where arguments of ``rhs`` have the changed values."""
-        back, rates = q.inverted(self.point.g), self._rates(changed)
-        found = self.state.acceleration(self.point.Z, back, rates)
-        return [ZERO] * len(found) + slopes(found)
+        found = self._rates_of(q.inverted(self.point.g), self.point.Z, self._rates(changed))
+        return [ZERO] * self.state.group.dimension + found
 
     def _rates(self, changed: Given) -> tuple[Any, ...]:
         given = {**self.given, **changed}

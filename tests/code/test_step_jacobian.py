@@ -2,12 +2,16 @@
 linearised equations along a motion, one form of the state against another, and each language
 against C."""
 
+import tomllib
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 import derive
+from derive.problem.toml import problem_of
+from tests.compare import codes
 from tests.problems.moving import FALLING
 from tests.support.library import ONE_BUILD, STEPPED, library, module_of
 from tests.support.states import element_names, hat, state
@@ -230,6 +234,136 @@ def test_inputs_that_are_a_function_of_time():
         assert close(gamma, known), step
 
 
+# ---------------------------------------------------------------- with a mass in the state
+
+TIP = np.array([0, 0, 2.0])
+LIGHTER = f"""{codes.SPRUNG}
+[[output]]
+name = "place"
+kind = "place"
+at = [0, 0, 2]
+[[output]]
+name = "shaken"
+kind = "acceleration"
+at = [0, 0, 2]
+"""
+USED_UP = {"step": STEPS, "jacobian": ("state", "inputs", "outputs", "step")}
+
+
+def by_hand():
+    """The rates of a lander, as somebody wrote them, for complex numbers too."""
+    text = codes.SPRUNG_CODE.replace("np.linalg.norm(d)", "np.sqrt(d @ d)")
+    exec(text, own := {})  # of this test alone
+    return own["f"]
+
+
+def variation(A, e):
+    """What the numbers of a state change by along (eta, delta zeta, delta m)."""
+    w, v, rest = e[:3], e[3:6], e[6:]
+    return np.concatenate([(A @ skew(w)).ravel(), A @ v, rest])
+
+
+def skew(w):
+    return np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+
+
+def told(A, dx):
+    """(eta, delta zeta, delta m) of a change of the numbers of a state."""
+    turn = A.T @ dx[:9].reshape(3, 3)
+    w = [(turn[k, j] - turn[j, k]) / 2 for j, k in ((1, 2), (2, 0), (0, 1))]
+    return np.concatenate([w, A.T @ dx[9:12], dx[12:]])
+
+
+def rk4_by_hand(f, x, u, h):
+    """One step, and what it is off a rotation taken away to first order."""
+    a = f(x, u)
+    b = f(x + h / 2 * a, u)
+    c = f(x + h / 2 * b, u)
+    y = x + h / 6 * (a + 2 * b + 2 * c + f(x + h * c, u))
+    A = y[:9].reshape(3, 3)
+    return np.concatenate([(A @ (3 * np.eye(3) - A.T @ A) / 2).ravel(), y[9:]])
+
+
+def along(f, x, u):
+    """∂f/∂(eta, delta zeta, delta m) and ∂f/∂u by complex steps."""
+    A, tiny = x[:9].reshape(3, 3), 1e-30
+    turned = [f(x + 1j * tiny * variation(A, e), u + 0j).imag / tiny for e in np.eye(13)]
+    return np.array(turned).T, (f(x + 0j, u + 1j * tiny).imag / tiny)[:, None]
+
+
+def shaken(f, x, u):
+    """The place and the acceleration of the tip."""
+    A, w, v = x[:9].reshape(3, 3), x[12:15], x[15:18]
+    dw, dv = np.split(f(x, u)[12:18], 2)
+    a = dv + np.cross(w, v) + np.cross(dw, TIP) + np.cross(w, np.cross(w, TIP))
+    return np.concatenate([x[9:12] + A @ TIP, A @ a])
+
+
+def test_a_mass_of_the_state_is_varied():
+    """Against complex steps through equations that were written by hand."""
+    m, f = module_of(LIGHTER, **USED_UP), by_hand()
+    A = expm(skew([0.3, -0.5, 0.9]))
+    x = np.concatenate([A.ravel(), [0.1, -0.4, 0.3, 0.5, -0.3, 0.7, 0.2, 1.1, -0.6, 4.5]])
+    k, u = m.constants([1.5]), np.array([0.8])
+    assert close(m.rhs(0.3, x, k, u), f(x, u), 1e-13)
+    by_state, by_inputs = along(f, x, u)
+    assert close(m.jacobian_inputs(0.3, x, k, u), told(A, by_inputs[:, 0])[:, None], 1e-12)
+    C, D = along(lambda y, v: shaken(f, y, v), x, u)
+    assert close(m.outputs(0.3, x, k, u), shaken(f, x, u), 1e-13)
+    assert close(m.jacobian_outputs(0.3, x, k, u), C, 1e-12)
+    assert close(m.jacobian_outputs_inputs(0.3, x, k, u), D, 1e-12)
+    # of (eta, delta zeta) ↦ d/dt of it: eta turns with the body
+    turning = np.zeros((13, 13))
+    turning[:3, :3] = turning[3:6, 3:6] = skew(x[12:15])
+    turning[3:6, :3] = skew(x[15:18])
+    rates = np.vstack([np.eye(6, 13, 6) - turning[:6], by_state[12:]])
+    assert close(m.jacobian(0.3, x, k, u)[1], rates, 1e-12)
+    for step, h, n, inside, error in (
+        ("rk4", 0.02, 2, 1, 1e-9),
+        ("vern9", 0.05, 2, 100, 1e-9),
+        ("gauss", 0.05, 2, 100, 1e-9),
+    ):
+
+        def whole(y, v, h=h / inside, n=n * inside):
+            for _ in range(n):
+                y = rk4_by_hand(f, y, v, h)
+            return y
+
+        end = whole(x, u)
+        motion = m.begin(0.3, x)
+        status, phi, gamma = getattr(m, f"{step}_jacobian")(motion, k, u, h, n)
+        known = [
+            np.array([told(end[:9].reshape(3, 3), y) for y in S.T]).T for S in along(whole, x, u)
+        ]
+        assert status == m.OK
+        assert close(motion.x, end, error)
+        assert close(phi, known[0], error), step
+        assert close(gamma, known[1], error), step
+
+
+@pytest.mark.parametrize("attitude", ["matrix", "quaternion"])
+def test_a_mass_of_the_state_is_moved_and_told(attitude):
+    """By ``retract`` and ``local``, and by the step that is compiled."""
+    options = {"exponential": True, "step": "rk4", "jacobian": "step", "attitude": attitude}
+    f = derive.compile(problem_of(tomllib.loads(codes.LANDER)), **options)
+    x, p, u = map(np.array, FULL)
+    start, e = f.from_matrix(x) if attitude == "quaternion" else x, np.linspace(-0.3, 0.4, 13)
+    y = f.retract(start, e)
+    moved = f.to_matrix(y) if attitude == "quaternion" else y
+    A = x[:9].reshape(3, 3)
+    assert close(moved[:9].reshape(3, 3), A @ expm(skew(e[:3])), 1e-14)
+    assert close(moved[12:], x[12:] + e[6:], 1e-14)
+    assert close(f.local(start, y), e, 1e-14)
+    f.use(p)
+    end, phi, gamma = f.step_jacobian(0.0, start, 1e-3, u, n=3)
+    assert (phi.shape, gamma.shape) == ((13, 13), (13, 1))
+    ahead = [
+        f.local(end, f.step_jacobian(0.0, f.retract(start, s * e), 1e-3, u, n=3)[0])
+        for s in (1e-6, -1e-6)
+    ]
+    assert close(phi @ e, (ahead[0] - ahead[1]) / 2e-6, 1e-8)
+
+
 # ---------------------------------------------------------------- in each language
 
 OTHERS = [ONE_BUILD[x] for x in STEPPED if x != "c"] + ["julia"]
@@ -254,14 +388,25 @@ at = [0, 1]
 """
 TURNED = ([0.8, -0.6, 0.6, 0.8, 1.5], [1.5], [0.3, -0.2])
 """A state, parameters and inputs of a body in the plane."""
+FULL = (
+    [0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1, 0.1, -0.4, 0.3, 0.5, -0.3, 0.7, 0.2, 1.1, -0.6, 4.5],
+    [1.5],
+    [0.8],
+)
+"""The same of a body in space, with a mass in its state."""
 
 
-@pytest.mark.parametrize("build", OTHERS)
-def test_each_language_has_the_derivatives_of_c(build):
+@pytest.mark.parametrize(
+    ("build", "text", "at", "size"),
+    [(x, SWING, TURNED, 2 * (2 + 2)) for x in OTHERS]
+    + [(x, codes.LANDER, FULL, 13 * (13 + 1)) for x in OTHERS],
+    ids=[*OTHERS, *(f"{x} with a mass" for x in OTHERS)],
+)
+def test_each_language_has_the_derivatives_of_c(build, text, at, size):
     options = {"step": STEPS, "jacobian": ("step",)}
-    found, known = (library(b, SWING, **options).follow(COMMANDS, *TURNED) for b in (build, "c"))
+    found, known = (library(b, text, **options).follow(COMMANDS, *at) for b in (build, "c"))
     for a, b in zip(found, known, strict=True):
-        assert (a.status, b.status, len(b.slopes)) == (0, 0, 2 * (2 + 2))
+        assert (a.status, b.status, len(b.slopes)) == (0, 0, size)
         assert close(a.x, b.x, 1e-14)
         assert close(a.slopes, b.slopes, 1e-13)
 

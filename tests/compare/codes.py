@@ -393,6 +393,19 @@ def f(x, u):
 """
 """The same on a spring, by Newton and Euler about the centre of mass, which moves with the fuel."""
 
+BURNING = LANDER.partition("[[potential]]")[0].replace("fuel = 6\n", "")
+BURNING = BURNING.replace('[[input]]\nname = "throttle"\nkind = "scalar"\n', "")
+BURNING = BURNING.replace('mass = "fuel"\nrate = "-b*throttle"', 'rate = "-b"')
+BURNING = BURNING.replace('mass = "fuel"', 'mass = "6 - b*t"')
+BURNING += SPRUNG[SPRUNG.index("[[potential]]") :]
+BURNING_CODE = (
+    SPRUNG_CODE.replace("f(x, u)", "f(t, x)")
+    .replace("x[15:18], x[18]", "x[15:18], 6 - 1.5 * t")
+    .replace("-1.5 * u[0]", "-1.5")
+    .replace(", [rate]]", "]")
+)
+"""The same, whose fuel burns by the time."""
+
 CAR = """
 name = "car"
 group = "SE(2)"

@@ -27,6 +27,15 @@ def compared(capsys, folder, name, *changes, table=None):
 
 
 WIND = "the wind (relative_to of the force drag)"
+FULL = (
+    "    push = rate",
+    """
+    full = np.array([6, 2, 2, 3])
+    r_0 = full @ AT / 13
+    inertia = sum(q * hat(p).T @ hat(p) for q, p in zip(full, AT)) - 13 * hat(r_0).T @ hat(r_0)
+    push = rate""",
+)
+FULL_TENSOR = "the tensor of inertia about the centre of mass is that of the start, where fuel is 6"
 FAULTS = {
     "sign of a gyroscopic row": (
         "drone",
@@ -123,7 +132,7 @@ FAULTS = {
     "moments about the centre of mass": (
         "drone",
         ("np.cross(ARM[name], push)", "np.cross(ARM[name] - c * (name == 'side'), push)"),
-        "the lever arm (at of the input side) is of moments about the centre of mass",
+        "the lever arm of the input side is of moments about the centre of mass",
     ),
     "arms from the centre of mass": (
         "drone",
@@ -328,6 +337,83 @@ FAULTS = {
         "sprung",
         ("d * 2.5 *", "d * 1.25 *"),
         "stiffness of spring has the factor 1/2",
+    ),
+    "α × r": (
+        "drone",
+        (" - np.cross(dw, c)", ""),
+        "α × r in the acceleration of the centre of mass r is missing",
+    ),
+    "α × r in the plane": (
+        "plane",
+        ("- a * turn", "+ a * turn"),
+        "α × r in the acceleration of the centre of mass r has the other sign",
+    ),
+    "moments about the centre of mass with the arm r": (
+        "drone",
+        ("moment - np.cross(c, force)", "moment + np.cross(c, force)"),
+        "r × F of the moment M − r × F about the centre of mass r has the other sign",
+    ),
+    "moments that stay about the origin": (
+        "drone",
+        ("moment - np.cross(c, force)", "moment"),
+        "r × F of the moment M − r × F about the centre of mass r is missing",
+    ),
+    "an arm with + r": (
+        "sprung",
+        ("cross(HOOK - r, pull)", "cross(HOOK + r, pull)"),
+        "the lever arm of spring is p + r and not p − r,",
+    ),
+    "all arms with + r": (
+        "sprung",
+        ("cross(HOOK - r, pull)", "cross(HOOK + r, pull)"),
+        ("cross(AT[0] - r, push)", "cross(AT[0] + r, push)"),
+        "all lever arms are p + r and not p − r,",
+    ),
+    "a drag's velocity by the place from the centre of mass": (
+        "drone",
+        ("(v + np.cross(w, DAMPED))", "(v + np.cross(w, DAMPED - c))"),
+        "the damping is made of the velocity of its place − r, r the centre of mass,",
+    ),
+    "a drag's arm from the centre of mass": (
+        "drone",
+        ("np.cross(DAMPED, drag)", "np.cross(DAMPED + c, drag)"),
+        "the lever arm of the damping is taken from the centre of mass instead",
+    ),
+    "a centre of mass of the other sign": (
+        "sprung",
+        ("    push = rate", "    r = -r\n    push = rate"),
+        "r, the centre of mass, wherever it stands, has the other sign",
+    ),
+    "F over the mass of a full tank": (
+        "sprung",
+        ("(push + pull) / m", "(push + pull) / 13"),
+        "the mass m of F/m is that of the start, where fuel is 6",
+    ),
+    "the mass of a full tank": (
+        "sprung",
+        ("m, rate = masses.sum()", "m, rate = 13"),
+        "the mass m is that of the start, where fuel is 6, in r = c/m too",
+    ),
+    "the centre of mass of a full tank": (
+        "sprung",
+        ("r = masses @ AT / m", "r = np.array([6, 2, 2, 3]) @ AT / 13"),
+        "the centre of mass r is that of the start, where fuel is 6, in parallel axes too",
+    ),
+    "the tensor of inertia of a full tank": ("sprung", FULL, FULL_TENSOR),
+    "the weight of a full tank": (
+        "lander",
+        ("np.outer(points,", "np.outer(np.array([6, 2, 2, 3]),"),
+        "fuel is 6 in gravity alone, and not what is left of it",
+    ),
+    "the first moment of a full tank": (
+        "lander",
+        ("np.cross(w, points @ AT))", "np.cross(w, np.array([6, 2, 2, 3]) @ AT))"),
+        "fuel is 6 in ω × (ω × c) alone, and not what is left of it",
+    ),
+    "the mass at the start of what burns by the time": (
+        "burning",
+        ("/ m + A.T", "/ 13 + A.T"),
+        "the mass m of F/m is that of the start, where t is 0",
     ),
     "rate of fuel": ("lander", ("[rate]]", "[2 * rate]]"), "the rate of fuel has the factor 2"),
     "rate of fuel that no input says": (

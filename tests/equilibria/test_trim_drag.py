@@ -260,6 +260,17 @@ def test_numbers_in_functions_are_enclosed():
     assert holds(found)
 
 
+def test_functions_of_an_angle_that_is_0_are_exact():
+    """Beside a drag, whose root is 0 at rest; of another angle they are not."""
+    problem = PENDULUM | {
+        "parameters": {**PENDULUM.get("parameters", {}), "beta": 0},
+        "force": [{"covector": ["3*cos(beta) - exp(beta) + sin(beta)"]}],
+    }
+    found = derive(problem_of(problem)).trim(TURNED)
+    assert found.found.inputs["u"] == 10
+    assert holds(found)
+
+
 @pytest.mark.parametrize(
     ("torque", "u"),
     [

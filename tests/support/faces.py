@@ -98,8 +98,8 @@ C_CALL = """\
     }"""
 C_MOTION = """\
     static @name@_motion m;
-    static real phi[4*@name@_N_ALGEBRA*@name@_N_ALGEBRA];
-    static real gamma[2*@name@_N_ALGEBRA*@name@_N_INPUTS + 1];
+    static real phi[@varied@*@varied@];
+    static real gamma[@varied@*@name@_N_INPUTS + 1];
     if (!strcmp(word, "begin")) {
         @name@_begin(&m, t, x);
 @turned@    @steps@
@@ -119,8 +119,8 @@ C_MOTION = """\
     }
     out += 5 + @name@_N_STATE;
     if (strstr(word, "_jacobian")) {
-        given(out, phi, 4*@name@_N_ALGEBRA*@name@_N_ALGEBRA);
-        given(out + 4*@name@_N_ALGEBRA*@name@_N_ALGEBRA, gamma, 2*@name@_N_ALGEBRA*@name@_N_INPUTS);
+        given(out, phi, @varied@*@varied@);
+        given(out + @varied@*@varied@, gamma, @varied@*@name@_N_INPUTS);
     }
     return status;"""
 C_STEP = """\
@@ -266,8 +266,8 @@ CPP_SPANS = """\
 #endif"""
 CPP_MOTION = """\
     static std::optional<m::Motion> motion;
-    std::array<m::Real, 4 * m::n_algebra * m::n_algebra> phi{};
-    std::array<m::Real, 2 * m::n_algebra * m::n_inputs> gamma{};
+    std::array<m::Real, @varied@ * @varied@> phi{};
+    std::array<m::Real, @varied@ * m::n_inputs> gamma{};
     auto status = m::Status::ok;
     if (word == "begin") {
         motion.emplace(t, x);
@@ -400,8 +400,8 @@ RUST_MOTION = """\
 RUST_STEP = '                "@step@" => code::@step@(m, k, u, t, b as @last@),'
 RUST_VARIED = """\
                 "@step@" => {
-                    let mut phi = [0.0; 4 * code::N_ALGEBRA * code::N_ALGEBRA];
-                    let mut gamma = [0.0; 2 * code::N_ALGEBRA * code::N_INPUTS];
+                    let mut phi = [0.0; @varied@ * @varied@];
+                    let mut gamma = [0.0; @varied@ * code::N_INPUTS];
                     let made = code::@step@(m, k, u, t, b as usize, &mut phi, &mut gamma);
                     given(unsafe { out.add(5 + code::N_STATE) }, &phi);
                     given(unsafe { out.add(5 + code::N_STATE + phi.len()) }, &gamma);
@@ -467,8 +467,9 @@ const moved = (code, path, word, [a, b, k, u, x]) => {
     }
     const step = word.replace("_watch", "");
     let status = 0, state = m.x;
-    const phi = new Float64Array(4*code.BASIS.length**2);
-    const gamma = new Float64Array(2*code.BASIS.length*code.INPUTS.length);
+    const varied = 2*code.BASIS.length + code.STATE.includes("fuel");  // a mass of the state
+    const phi = new Float64Array(varied**2);
+    const gamma = new Float64Array(varied*code.INPUTS.length);
     if (word === "dense") {
         state = code.dense(m, a);
     } else if (word.endsWith("_jacobian")) {

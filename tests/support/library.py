@@ -163,8 +163,11 @@ class Call:
 
 
 def sizes(header, prefix):
-    """Those of the enum of a header."""
-    return {x: int(n) for x, n in re.findall(rf"\b{prefix}_N_(\w+) = (\d+)", header)}
+    """Those of the enum of a header, and how many masses it says to be varied."""
+    masses = re.search(r"2N is 2N \+ (\d+)", header)
+    return ({"MASSES": int(masses[1])} if masses else {}) | {
+        x: int(n) for x, n in re.findall(rf"\b{prefix}_N_(\w+) = (\d+)", header)
+    }
 
 
 def calls(header, prefix):
@@ -183,19 +186,24 @@ def calls(header, prefix):
         yield Call(kind, name, takes, {a: length(a, name, known) for a in outs})
 
 
+def variations(known):
+    """How many numbers a variation has."""
+    return 2 * known["ALGEBRA"] + known.get("MASSES", 0)
+
+
 def rows_of(function, known):
     """How many rows a matrix D has that a function writes."""
     if function.startswith("jacobian_outputs"):
         return known["OUTPUTS"]
     if function == "mass_matrix":
         return known["ALGEBRA"]
-    return known["STATE"] if function in OF_STATE else 2 * known["ALGEBRA"]
+    return known["STATE"] if function in OF_STATE else variations(known)
 
 
 def length(array, function, known):
     """How many numbers an array has that a function writes."""
     if array == "D":
-        square = known["STATE"] if function in OF_STATE[:3] else 2 * known["ALGEBRA"]
+        square = known["STATE"] if function in OF_STATE[:3] else variations(known)
         columns = known[COLUMNS[function]] if function in COLUMNS else square
         return rows_of(function, known) * columns
     if function in ("conserved", "events", "outputs"):
@@ -245,7 +253,7 @@ class Library:
     @property
     def slopes(self):
         """How many numbers the derivatives of a step are."""
-        varied = 2 * self.sizes["ALGEBRA"]
+        varied = variations(self.sizes)
         return varied * (varied + self.sizes["INPUTS"])
 
     def values(self, **values):
@@ -321,6 +329,7 @@ class Native(Library):
         watched = self.sizes.get("EVENTS", 0) > 0
         kinds = {"watched": watched, "driven": self.sizes["INPUTS"] > 0}
         made = write(self.name, real, self.calls, found, **kinds, more=self.more)
+        made = made.replace("@varied@", str(variations(self.sizes)))
         return made, OPTIMISED[self.language] if found else ()
 
     def of_c(self):

@@ -2,7 +2,6 @@
 of a control volume, masses that are expressions of the time, and known solutions."""
 
 import json
-import re
 from dataclasses import replace
 from functools import cache
 
@@ -380,15 +379,11 @@ def test_it_is_refused_in_one_line(change, tmp_path, capsys):
     assert WRONG[change] in told
 
 
-@pytest.mark.parametrize(
-    "option", ["--jacobian state", "--jacobian step --step rk4", "--exponential", "--momenta"]
-)
-def test_what_is_of_the_group_alone_is_refused(option, tmp_path, capsys):
+def test_momenta_are_refused(tmp_path, capsys):
     path = tmp_path / "rocket.toml"
     path.write_text(ROCKET, encoding="utf-8")
-    assert main(["emit", str(path), *option.split(), "--out", str(tmp_path)]) == 2
-    told = capsys.readouterr().err.splitlines()[-1]
-    assert re.search("the mass fuel, too|mass flows", told)
+    assert main(["emit", str(path), "--momenta", "--out", str(tmp_path)]) == 2
+    assert "mass flows" in capsys.readouterr().err.splitlines()[-1]
 
 
 def test_a_trim_says_what_is_refused_and_leads_nowhere_else(tmp_path, capsys):

@@ -323,6 +323,10 @@ def on_curve(names: tuple[str, ...], d: Any) -> dict[str, Any]:
     return dict(zip(names, values, strict=True))
 
 
+AT_ZERO = {"cos": 1, "cosh": 1, "exp": 1, **dict.fromkeys(("sin", "tan", "sinh", "tanh"), 0)}
+"""The values at 0, which are no others."""
+
+
 class ElementaryValues:
     """The elementary functions at one model, f(name, x): y is drawn once for each argument.
 
@@ -347,6 +351,8 @@ class ElementaryValues:
             return self.true_root(x)
         if self.bounded:
             return bounds(name, Interval.of(x))
+        if name in AT_ZERO and not isinstance(x, Graded) and x == 0:
+            return x * 0 + AT_ZERO[name]
         at = id(x) if isinstance(x, Graded) else x
         key = (name, at)
         if key not in self.values:

@@ -133,7 +133,7 @@ def _of_discrete(d: DiscreteStep, state: int) -> dict[str, Any]:
 
 def _of_derivatives(p: Program, *, implicit: bool) -> dict[str, Any]:
     """The sizes of what the derivatives of steps work with."""
-    state, varied = len(p.state), 2 * p.dimension
+    state, varied = len(p.state), p.varied
     columns, equations = varied + len(p.inputs), 8 * state
     return {
         "N_VARIATIONS": varied,

@@ -73,7 +73,7 @@ def retract(x: real[N_STATE], eta: real[N_TANGENT], y: out[real[N_STATE]]):
         product_of(r, q, s)
         for m in range(4):
             y[QUATERNIONS[i] + m] = s[m]
-    for a in range(N_ALGEBRA):
+    for a in range(N_ADDED):
         y[N_ELEMENT + a] = x[N_ELEMENT + a] + eta[N_ALGEBRA + a]
 
 
@@ -109,3 +109,6 @@ def local(x: real[N_STATE], y: real[N_STATE], eta: out[real[N_TANGENT]]):
     for a in range(N_ALGEBRA):
         eta[a] = by[a]
         eta[N_ALGEBRA + a] = y[N_ELEMENT + a] - x[N_ELEMENT + a]
+    if N_MASSES:
+        for a in range(N_ALGEBRA, N_ADDED):
+            eta[N_ALGEBRA + a] = y[N_ELEMENT + a] - x[N_ELEMENT + a]

@@ -29,7 +29,7 @@ from ...schema.table import nearest
 from ...walk.chapter import Chapter, Draft
 from .equilibrium_steps import scientific
 from .stability import eigenvalues, polynomial
-from .steady_velocity import FLOATS, SAME, Arithmetic, NoTrimError, Rates
+from .steady_velocity import FLOATS, SAME, Arithmetic, NotExactError, NoTrimError, Rates
 
 
 def turned(group: Group, g: Matrix, eta: Sequence[Any], *, right: bool) -> Matrix:
@@ -294,6 +294,10 @@ def entries_of(group: Group) -> dict[str, tuple[int, int]]:
     return {x: (t[2] - 1, t[3] - 1) for x, t in named if isinstance(t, tuple) and t[1] == "A"}
 
 
+AT_ZERO = {"cos": 1, "sin": 0, "tan": 0, "exp": 1, "sinh": 0, "cosh": 1, "tanh": 0}
+"""The values of functions at 0, which are exact, as of an angle that is a parameter."""
+
+
 def function_with_corner(corner: int) -> Callable[[str, Any], Any]:
     """The functions of exact numbers, roots and absolute values, ``corner`` where these are 0; and
     the tests for 0 of constants."""
@@ -301,6 +305,10 @@ def function_with_corner(corner: int) -> Callable[[str, Any], Any]:
     def call(name: str, x: Any) -> Any:
         if name == "none":
             return Fraction(int(x == 0))
+        if name not in ("sqrt", "abs"):
+            if x != 0 or name not in AT_ZERO:
+                raise NotExactError(f"{name} is in the equations")
+            return Fraction(AT_ZERO[name])
         if x == 0:
             return Fraction(corner)
         return root(x) if name == "sqrt" else x if x > 0 else -x

@@ -43,7 +43,7 @@ from .steady_velocity import (
     exact,
     solutions,
 )
-from .trim import EXACTLY, Bounds, EnclosedTrim, Question, Trim, function_with_corner
+from .trim import AT_ZERO, EXACTLY, Bounds, EnclosedTrim, Question, Trim, function_with_corner
 
 EXACT = 2**40
 """A number of a program with a larger power of two below is one that has no fraction, as π."""
@@ -87,7 +87,7 @@ class ExactQuestion(Question):
         below = [x.denominator for x in self.program.numbers()]
         fractions = all(x < EXACT or x & (x - 1) for x in below)
         both = (self.program.functions[x].calls() for x in ("rhs", "constants"))
-        if (functions := set[str]().union(*both) - {"sqrt", "abs"}) or not fractions:
+        if (functions := set[str]().union(*both) - {"sqrt", "abs", *AT_ZERO}) or not fractions:
             what = ", ".join(sorted(functions)) or "π, or a root,"
             verb = "are" if len(functions) > 1 else "is"
             raise NotExactError(f"{what} {verb} in the equations")
@@ -302,12 +302,15 @@ def trimmed(
     """The inputs, velocities and turns of g ``free``, or all inputs that are not given, for a state
     and other inputs: those ``at`` has, else g = 1 and 0; ``program``: with its jacobian.
     ``NoTrimError`` where there is none, or several, or one outside of ``bounds``."""
-    question = ExactQuestion(problem, program, at, free, bounds or {})
+    given = problem, program, at, free, bounds or {}
+    found: Trim
+    question: ExactQuestion | EnclosedQuestion
     try:
+        question = ExactQuestion(*given)
         found = question.answered()
     except (NotExactError, RootError) as error:
-        again = EnclosedQuestion(problem, program, at, free, bounds or {})
-        found = again.answered(str(error))
+        question = EnclosedQuestion(*given)
+        found = question.answered(str(error))
     except ZeroDivisionError:
         raise NoTrimError("what acts has no value in this state: it divides by 0") from None
     numbers = {**found.state, **found.inputs}
