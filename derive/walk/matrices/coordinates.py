@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from itertools import combinations
 from typing import Any
 
@@ -231,6 +232,20 @@ def short_rates(rows: Sequence[tuple[Tree, Laurent]]) -> tuple[Equation, ...] | 
     """Rates as they are; ``None`` where one is too long."""
     found = tuple(Equation(x, tree(p)) for x, p in rows)
     return None if _too_long(found) else found
+
+
+def by_relations(p: Laurent, relations: Iterable[tuple[Laurent, int]]) -> Laurent:
+    """A polynomial; where a sum that is a number on the group stands in it whole, times any factor,
+    that number times the factor in its place."""
+    for whole, value in relations:
+        first = next(iter(whole.terms))
+        for m in [*p.terms]:
+            factor = Laurent({m: p.terms.get(m, Fraction(0))})
+            factor /= Laurent({first: whole.terms[first]})
+            there = whole * factor
+            if all(p.terms.get(x) == y for x, y in there.terms.items()):
+                p = p - there + factor * value
+    return p
 
 
 def _too_long(equations: Sequence[Equation]) -> bool:
