@@ -280,7 +280,9 @@ def data(
     units = {x.name: _unit(x.unit) for x in code.columns()}
     pairs = zip(made.state, state, strict=True)
     turning = bool(body["polhode"]) or record.problem.get("group") in PLANE
-    of_state = [(y, _meaning(x, record, language, turning), units[x]) for x, y in pairs]
+    said = [(x, y, _meaning(x, record, language, turning)) for x, y in pairs]
+    angular = {language.word(TURNING): {"1/s": "rad/s"}}
+    of_state = [(y, z, angular.get(z, {}).get(units[x], units[x])) for x, y, z in said]
     unsaid = _unsaid(made, body, bool(entries), lost)
     words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
     if "waves" in body:
