@@ -305,10 +305,10 @@ class _PartFields:
             yield from self.turned(step, first)
 
     def turned(self, step: Step, e: Equation) -> Iterable[Fields]:
-        """The right side of an equation of the answer once more, by the angle of A, where that
-        turns a plane."""
-        own = self.part.record
-        if own is None or step.label != f"{own.name}.{EXPANDED[-1]}":
+        """The right side of an equation of the answer, and of rates near an equilibrium, once more
+        by the angle of A, where that turns a plane."""
+        own, kind = self.part.record, step.label.rpartition(".")[2].partition("_")[0]
+        if own is None or kind not in (EXPANDED[-1], "equilibrium"):
             return
         written = by_angle(own)
         entries_of_A = [x for x in dict.fromkeys(nodes(e.rhs)) if written(x) != x]
