@@ -144,5 +144,6 @@ def test_a_program_starts_where_the_file_says(problem, options, played, tmp_path
         run = derived(problem).simulate(1e-3)
         made = module_of(problem)
         k = made.constants([made.DEFAULTS[x] for x in made.PARAMETERS])
-        expected = made.rhs(0.0, run.x[0], k, [0.0] * len(made.INPUTS))
+        at = run.table[0][[x.kind == "state" for x in run.columns]]
+        expected = made.rhs(0.0, at, k, [0.0] * len(made.INPUTS))
         assert [*found.values()] == pytest.approx([*expected], rel=1e-6, abs=1e-12)
