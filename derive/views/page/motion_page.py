@@ -278,11 +278,10 @@ def data(
     basis, heavy = made.basis if entries else (), weight(record.problem or {})
     lost = bool(drives(record.problem, {}))
     units = {x.name: _unit(x.unit) for x in code.columns()}
-    pairs = zip(made.state, state, strict=True)
     turning = bool(body["polhode"]) or record.problem.get("group") in PLANE
-    said = [(x, y, _meaning(x, record, language, turning)) for x, y in pairs]
-    angular = {language.word(TURNING): {"1/s": "rad/s"}}
-    of_state = [(y, z, angular.get(z, {}).get(units[x], units[x])) for x, y, z in said]
+    said = {x: _meaning(x, record, language, turning) for x in made.state}
+    units |= {x: "rad/s" for x, y in said.items() if y == language.word(TURNING) and units[x]}
+    of_state = [(y, said[x], units[x]) for x, y in zip(made.state, state, strict=True)]
     unsaid = _unsaid(made, body, bool(entries), lost)
     words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
     if "waves" in body:
