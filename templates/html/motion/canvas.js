@@ -148,7 +148,6 @@ function picture({ colours, large = 1 }, view, eye, target, scale) {
       const long = hypot(x - u, y - v) || 1, c = (x - u) / long, s = (y - v) / long;
       items.push([z, () => {
         if (long > 1) own.head(x, y, c, s, colour);
-        if (!name) return;
         own.text(name, x + 13 * c, y + 13 * s, colour);
         own.written.push([x + 13 * c - 8, y + 13 * s, 16]);
       }]);
