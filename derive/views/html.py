@@ -311,8 +311,9 @@ class _PartFields:
         if own is None or kind not in (EXPANDED[-1], "equilibrium"):
             return
         written = by_angle(own)
-        entries_of_A = [x for x in dict.fromkeys(nodes(e.rhs)) if written(x) != x]
-        by_it = [self.cell(Equation(x, written(x))) for x in entries_of_A if x[0] == "entry"]
+        inside = [x for x in dict.fromkeys(nodes(e.rhs)) if isinstance(x, tuple)]
+        entries_of_A = [x for x in inside if x[0] == "entry" and written(x) != x]
+        by_it = [self.cell(Equation(x, written(x))) for x in entries_of_A]
         if by_it:
             right = self.cut(written(e.rhs), equals=True)
             yield CONTINUATION | {"left": "", "right": right, "clause": ", ".join(by_it)}
