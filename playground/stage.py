@@ -99,6 +99,16 @@ def problems() -> list[dict[str, str]]:
     return found
 
 
+def spoken() -> dict[str, Any]:
+    """The words for keys and kinds, and the phrases of a sentence, by language."""
+
+    def of(x: dict[str, Any], lang: str) -> Any:
+        return x[lang] if lang in x else {key: of(y, lang) for key, y in x.items()}
+
+    told = tomllib.loads((HERE / "phrases.toml").read_text(encoding="utf-8"))
+    return {lang: of(told, lang) for lang in SPOKEN}
+
+
 def options() -> dict[str, object]:
     """Those of ``derive emit``."""
     about = {x: y for x, (_, y) in (CHOICES | DEPENDENT | REPEATED).items()} | ADDED
@@ -251,6 +261,7 @@ def main(out: Path) -> None:
         "problems": problems(),
         **options(),
         "schema": schema(),
+        "spoken": spoken(),
     }
     (out / "motion.js").write_text(drawing(), encoding="utf-8")
     (out / "ready").mkdir()

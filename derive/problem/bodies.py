@@ -228,6 +228,8 @@ def as_forces(
     found, kept = list[StatedForce](), list[Damping]()
     for k, d in enumerate(damping, 1):
         own: dict[str, Any] = {"name": d.name, "table": f"damping {k}"}
+        kind = next((x for x, y in DAMPING.items() if isinstance(d, y)), "linear")
+        reader.require_unit(d.coefficient, f"a {kind} damping", f"damping {k}, coefficient")
         if isinstance(d, Damping) and not (d.name or reader.pointless):
             kept.append(d)
         elif isinstance(d, QuadraticDamping | Damping):

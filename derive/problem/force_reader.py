@@ -25,6 +25,8 @@ from .fields import (
     velocity_at_place,
 )
 from .problem import ProblemError
+from .units import PLACE as LENGTH
+from .units import RATE, VELOCITY, require
 
 AXES = "xyz"
 Vector = tuple[Tree, ...]
@@ -182,13 +184,13 @@ class ForceReader(TableReader):
 
     def stated(self, slot: Slot) -> Vector:
         """A vector of expressions of the state at a place, which has a velocity there."""
-        return self._of_state(slot, self.of_place(slot.found["on"])[1])
+        return self._of_state(slot, self.of_place(slot.found["on"])[1], "a force")
 
     def stated_couple(self, slot: Slot) -> Vector:
         """Three of them in R³, one in the plane."""
         _, factor = self.factor_of(slot.found["on"])
         self._turned(factor, slot.where)
-        return self._of_state(slot, 3 if factor.n == 3 else 1)
+        return self._of_state(slot, 3 if factor.n == 3 else 1, "a moment")
 
     def stated_covector(self, slot: Slot) -> Vector:
         """One for each element of the basis."""
@@ -220,7 +222,8 @@ class ForceReader(TableReader):
         """Those of what has been read."""
         return self.acts
 
-    def _of_state(self, slot: Slot, count: int | None) -> Vector:
+    def _of_state(self, slot: Slot, count: int | None, what: str = "") -> Vector:
+        """Expressions of the state, in the unit of ``what`` they are, if it has one."""
         found, on, group = slot.found, slot.found.get("on"), self.moving()
         named = (
             known_in_lagrangian(group, self.advected) if self.pointless else names_of_points(group)
@@ -231,7 +234,18 @@ class ForceReader(TableReader):
             named |= names_at_place(n, first, on)
             named |= velocity_at_place(n, first, on, wind, turned=found.get("frame") == "body")
         listed = self.listed(self.value(slot), count, slot.path, self.in_time)
+        for k, t in enumerate(listed, 1):
+            self.require_unit(t, what, f"{slot.path}, entry {k}", named)
         return tuple(meant(t, named) for t in listed)
+
+    def require_unit(self, t: Tree, what: str, where: str, named: Collection[str] = ()) -> None:
+        """``ProblemError`` where the units of parameters, beside ``named`` numbers of the state, do
+        not fit ``what`` an expression is."""
+        turns = all(f.name.startswith(("SO(", "SE(")) for _, f in self.moving().places)
+        letters = {"v": VELOCITY, "r": LENGTH}
+        letters |= {"zeta": RATE, "w": VELOCITY} if turns and not self.pointless else {}
+        known = {x: letters[y] for x in named if (y := x.rstrip("_0123456789")) in letters}
+        require(t, what, where, {x: p.unit for x, p in self.parameters.items()}, known)
 
     def factor_of(self, on: int) -> tuple[int, Group]:
         """The first row, and the factor that moves a point or place."""

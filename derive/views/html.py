@@ -10,10 +10,10 @@ from html import escape
 from typing import Any
 
 from ..language.templating import environment
-from ..language.tree import Tree
+from ..language.tree import Tree, nodes
 from ..record.record import Derivation, Equation, Step
 from ..record.vocabulary import RULES
-from .answer import Summary
+from .answer import ANGLE, EXPANDED, Summary, by_angle
 from .book import MOTION, REGULAR, BookPart, Passage, book, corrections
 from .figure.drawing import svg
 from .figure.scene import scene
@@ -220,7 +220,7 @@ class _PartFields:
     @cached_property
     def names(self) -> Mapping[str, str]:
         """Name → LaTeX, of the part's record."""
-        return latex_names(self.part.source)
+        return ANGLE | latex_names(self.part.source)
 
     def fields(self, shown: Equations) -> Fields:
         """What the template shows of the part, its steps one by one; ``shown``: label → the
@@ -302,6 +302,21 @@ class _PartFields:
                     "left": self.cut(e.lhs),
                     "right": self.cut(e.rhs, equals=True),
                 }
+            yield from self.turned(step, first)
+
+    def turned(self, step: Step, e: Equation) -> Iterable[Fields]:
+        """The right side of an equation of the answer, and of rates near an equilibrium, once more
+        by the angle of A, where that turns a plane."""
+        own, kind = self.part.record, step.label.rpartition(".")[2].partition("_")[0]
+        if own is None or kind not in (EXPANDED[-1], "equilibrium"):
+            return
+        written = by_angle(own)
+        inside = [x for x in dict.fromkeys(nodes(e.rhs)) if isinstance(x, tuple)]
+        entries_of_A = [x for x in inside if x[0] == "entry" and written(x) != x]
+        by_it = [self.cell(Equation(x, written(x))) for x in entries_of_A]
+        if by_it:
+            right = self.cut(written(e.rhs), equals=True)
+            yield CONTINUATION | {"left": "", "right": right, "clause": ", ".join(by_it)}
 
     def cell(self, e: Equation) -> str:
         """The markup of a short equation that stands beside others."""

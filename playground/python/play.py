@@ -134,9 +134,10 @@ class Play:
                 self.tell("verdict", told | tried | {"groups": v.tried[1], "reason": v.reason})
             self.tell("checked", {})
 
-    def files(self, text: str, words: str) -> bytes | None:
-        """The files that a command writes, which are texts, and a zip of them; ``words``: the
-        command after its name, in which FILE stands for the problem file."""
+    def files(self, text: str, words: str, added: str | None = None) -> bytes | None:
+        """The files that a command writes, which are texts, of code where the file starts it, and a
+        zip of them with texts that are ``added``, as JSON; ``words``: the command after its name,
+        in which FILE stands for the problem file."""
         written: dict[str, bytes] = {}
         with self.refusals():
             self.read(text)
@@ -150,7 +151,26 @@ class Play:
         if not written:
             return None
         self.tell("files", {x: y.decode() for x, y in written.items()})
-        return zipped(written)
+        if words.startswith("emit "):
+            self.tell("start", self.start(words))
+        more = json.loads(added) if added else {}
+        return zipped(written | {x: y.encode() for x, y in more.items()}) if more else None
+
+    def start(self, words: str) -> dict[str, float]:
+        """The state that the file starts with, by the names of an emission; empty where it says
+        none, or the state is in another frame."""
+        from derive.motion.first_numbers import first_numbers
+        from derive.programs import program
+
+        said = self.problem.initial
+        chosen = emission(words.partition("FILE")[2])[1]
+        if not (said.numbers or said.exp) or chosen.frame != "given":
+            return {}
+        try:
+            made = with_numbers(program(self.problem, self.record, chosen))
+            return dict(zip(made.state, first_numbers(made, self.problem, {}).x, strict=True))
+        except Refused:
+            return {}
 
     def found(self, text: str, what: str, lang: str) -> None:
         """What a command, with its options, searches of the equations, as its HTML for a page."""
@@ -176,18 +196,11 @@ class Play:
 
     def refused(self, text: str, words: str) -> None:
         """Why options that are not among ``words``, those of an emission, cannot be added."""
-        from argparse import ArgumentParser
-
-        from derive.command.arguments import add_emission_options
-        from derive.command.emitting import languages, options, refused
+        from derive.command.emitting import refused
 
         with self.refusals():
             self.read(text)
-            asked = ArgumentParser()
-            add_emission_options(asked)
-            args = asked.parse_args(shlex.split(words))
-            found = refused(self.problem, self.record, languages(args), options(args))
-            self.tell("refused", found)
+            self.tell("refused", refused(self.problem, self.record, *emission(words)))
 
     def motion(self, text: str, lang: str) -> None:
         """The emitted JavaScript, and what the page of a motion is told; of what it keeps the
@@ -291,6 +304,19 @@ def name_of(text: str) -> str:
     except (tomllib.TOMLDecodeError, RecursionError, ValueError):
         return "problem"
     return name if isinstance(name, str) and NAME.fullmatch(name) else "problem"
+
+
+def emission(words: str) -> tuple[tuple[str, ...], Any]:
+    """The languages and the options that the words of an emission ask for."""
+    from argparse import ArgumentParser
+
+    from derive.command.arguments import add_emission_options
+    from derive.command.emitting import languages, options
+
+    asked = ArgumentParser()
+    add_emission_options(asked)
+    args, _ = asked.parse_known_args(shlex.split(words))
+    return languages(args), options(args)
 
 
 def zipped(files: dict[str, bytes]) -> bytes:

@@ -9,9 +9,9 @@ export class Code {
 
   clear() { this.place.replaceChildren(); }
 
-  /* files: { name: text } */
-  show(files, words) {
-    const made = Object.entries(files), texts = new Map([...snippets(made), ...made]); // the program first: it says how it is run
+  /* files: { name: text }; start: { name of the state: number } */
+  show({ files, start }, words) {
+    const made = Object.entries(files), texts = new Map([...snippets(made, start), ...made]); // the program first: it says how it is run
     const shown = make("pre", { tabindex: "0", translate: "no" }), lines = make("span", { class: "told" });
     const select = make("select", { "aria-label": words.file, change: () => {
       shown.textContent = texts.get(select.value);

@@ -26,6 +26,7 @@ const WAIT = 500, MOVED = 150, SECONDS = 60, TRIANGLES = 6000;
 let lang = spoken(location.search) ?? kept("lang") ?? (navigator.language?.startsWith("fr") ? "fr" : "en");
 let words = WORDS[lang] ?? WORDS[lang = "en"];
 const [data, css] = await Promise.all([fetch("data.json").then((x) => x.json()), fetch("page.css").then((x) => x.text())]);
+for (const x of Object.keys(WORDS)) Object.assign(WORDS[x], data.spoken[x]);
 const formulas = new CSSStyleSheet(); // those beside the walk are set as those in it
 formulas.replaceSync(css.match(/^(math|mover|mtable|\.(overline|kept|bold|parameter))\b.*$/gm).join(""));
 document.adoptedStyleSheets = [formulas];
@@ -270,7 +271,7 @@ async function find() {
   if (walked && !running && !timer) await searches.of(walked, words, chosen() ?? `${problem_name()}.toml`);
 }
 
-/* the files of a command, { files: name → text }, and a zip where it is asked for, or what it { refused }; behind a walk that runs */
+/* the files of a command, { files: name → text, start: name → number }, with what else they are in a zip, or what it { refused }; behind a walk that runs */
 async function files(command, zip) {
   let refused = "";
   const found = {};
@@ -278,7 +279,7 @@ async function files(command, zip) {
   say(words.emitting);
   const how = await engine.ask({ ask: "files", text: text.text, words: command, zip }, (kind, news) => {
     if (kind === "error") refused = plainly(news.message);
-    else if (["files", "zip"].includes(kind)) found[kind] = news;
+    else if (["files", "start", "zip"].includes(kind)) found[kind] = news;
   });
   if (ended(how)) say("");
   else refused = how === "superseded" ? words.overtaken : told;

@@ -13,7 +13,7 @@ export function about(text) {
   return { state, parameters, operations, real: /--real float/.test(told.replace(/\s+/g, " ")) ? "float" : "double" };
 }
 
-/* the element of the group at 1, its velocity and all else that moves at 0.1 */
+/* where the file says no start: the element of the group at 1, its velocity and all else that moves at 0.1 */
 function start(name) {
   const [, letter, digits = ""] = name.match(/^(.*?)_(\d*)$/) ?? [];
   if (letter === "q") return digits === "0" ? "1.0" : "0.0";
@@ -103,12 +103,12 @@ end
 const alone = (program, name, state) => program.replace(` ${name}.c`, "").replace(`${name}_state_names`, "names")
   .replace("int main", `static const char *const names[] = {${state.map((x) => `"${x}"`).join(", ")}};\n\nint main`);
 
-/* files: [[name, text]], of one emission → [name, text] of programs that call them */
-export function snippets(files) {
+/* files: [[name, text]], of one emission → [name, text] of programs that call them; given: what the problem file starts with, by names */
+export function snippets(files, given = {}) {
   return files.flatMap(([file, text]) => {
     const [, name, end] = file.match(/^(\w+)\.(\w+)$/) ?? [], { state, parameters, real } = about(text);
     if (!PROGRAMS[end] || !state.length || (end === "h" && name.endsWith("_cvode"))) return [];
-    const [called, program] = PROGRAMS[end](name, rows(parameters.map(([, v]) => v)), rows(state.map(start)), real);
+    const [called, program] = PROGRAMS[end](name, rows(parameters.map(([, v]) => v)), rows(state.map((x) => (x in given ? number(String(given[x])) : start(x)))), real);
     return [[called, end === "h" && !files.some(([x]) => x === `${name}.c`) ? alone(program, name, state) : program]];
   });
 }

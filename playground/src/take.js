@@ -4,11 +4,12 @@ import { copy, make, save } from "./dom.js";
 import { option } from "./link.js";
 import { notebook } from "./notebook.js";
 import { Options } from "./options.js";
+import { snippets } from "./snippets.js";
 
 const TYPES = { ".tex": "text/x-tex", ".json": "application/json", ".html": "text/html", ".ipynb": "application/x-ipynb+json", ".toml": "application/toml" };
 
 export class Take {
-  /* ask: (words of a command) → { files, zip } or { refused }; reasons: (options of an emission) → why others cannot be added, or null while
+  /* ask: (words of a command, what else is in a zip) → { files, start, zip } or { refused }; reasons: (options of an emission) → why others cannot be added, or null while
    * that cannot be known; file: () → { name, text, title, ready } */
   constructor(place, data, { ask, reasons, file }) {
     Object.assign(this, { place, ask, reasons, file });
@@ -23,8 +24,8 @@ export class Take {
     this.tells = [];
     this.place.replaceChildren(
       make("h2", {}, words.code), this.options.show(words, lang),
-      this.emission = this.row(() => `emit FILE ${this.options.command} --out out`, [words.show, ({ files }) => this.code.show(files, words)],
-        [words.save(".zip"), ({ zip }) => save(`${this.file().name}.zip`, zip, "application/zip"), true]),
+      this.emission = this.row(() => `emit FILE ${this.options.command} --out out`, [words.show, (found) => this.code.show(found, words)],
+        [words.save(".zip"), (found, command) => this.zip(found, command)]),
       this.code.place,
       make("h2", {}, words.write),
       make("div", { class: "row" }, this.own((x) => `${x.name}.toml`, ".toml", (x) => x.text), make("span", { class: "told" }, words.reads)),
@@ -47,6 +48,12 @@ export class Take {
     return button;
   }
 
+  /* the code, and the programs that call it, which say how they are compiled */
+  async zip({ files, start }, command) {
+    const { zip } = await this.ask(command, JSON.stringify(Object.fromEntries(snippets(Object.entries(files), start))));
+    if (zip) save(`${this.file().name}.zip`, zip, "application/zip");
+  }
+
   /* a button that saves the only file of a command */
   saves(title, end) {
     return [this.words.save(`${title} ${end}`), ({ files }) => save(`${this.file().name}${end}`, Object.values(files)[0], TYPES[end])];
@@ -59,21 +66,21 @@ export class Take {
     this.emission.firstChild.click();
   }
 
-  /* buttons that do something with the files of a command, of some with a zip of them; the command itself, and what it refuses */
+  /* buttons that do something with the files of a command; the command itself, and what it refuses */
   row(command, ...does) {
     const shown = make("code", {}), fault = make("p", { class: "fault", role: "alert" }), { words } = this;
     this.tells.push(() => {
       shown.textContent = this.athome(command());
       fault.textContent = "";
     });
-    const buttons = does.map(([text, does, zip = false]) => {
+    const buttons = does.map(([text, does]) => {
       const button = make("button", { type: "button", click: async () => {
         fault.textContent = "";
         button.disabled = true;
-        const found = await this.ask(command().replaceAll("NAME", this.file().name), zip);
+        const asking = command().replaceAll("NAME", this.file().name), found = await this.ask(asking);
+        if (found.files) await does(found, asking);
         button.disabled = false;
-        if (found.files) does(found);
-        else fault.textContent = found.refused;
+        if (!found.files) fault.textContent = found.refused;
         this.weigh();
       } }, text);
       return button;

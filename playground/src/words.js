@@ -1,4 +1,4 @@
-/* The words of the page, in English and French; those of the equations come from the package. */
+/* The words of the page, in English and French; those of keys and of a sentence stand in phrases.toml, those of the equations come from the package. */
 export const WORDS = {
   en: {
     home: "derive", what: "Describe a body: its equations of motion, derived, checked, moving, and as code.",
@@ -12,23 +12,7 @@ export const WORDS = {
     gallery: "Gallery", choose: "What moves?", close: "Close", nogallery: "The gallery could not be loaded: the list beside it has the same problems.",
     language: "Language", ready: "Problem", own: "of your own", write: "The problem",
     how: "How to write it", text: "Text", form: "Form", sentence: "Sentence",
-    phrases: {
-      and: "and", made: "A body with ", under: ", under ", starts: ", starting with ", where: ", where ",
-      point: "a point", moments: "a body given by its moments", system: "a system", lagrangian: "a system of Lagrangian",
-      solid: { ball: "a ball", box: "a box", ellipsoid: "an ellipsoid", cylinder: "a cylinder", cone: "a cone", hollow_ball: "a hollow ball", tetrahedron: "a tetrahedron" },
-      of: {
-        mass: "of mass", at: "at", density: "of density", radius: "of radius", height: "of height", sides: "with sides", semi_axes: "with semi-axes", outer: "of outer radius",
-        inner: "of inner radius", vertices: "with vertices", rotation: "turned by", shift: "shifted by", g: "g =", U: "U =", length: "length at rest",
-      },
-      group: {
-        "SO(2)": "turns in the plane about a point", "SE(2)": "moves in the plane", "SO(3)": "turns about a fixed point", "SE(3)": "moves in space",
-        "SL(3)": "deforms about a point, at constant volume,", "GL(3)": "deforms about a point", "SAff(3)": "moves and deforms, at constant volume,", "Aff(3)": "moves and deforms",
-      },
-      force: {
-        gravity: "its weight", spring: "a spring", torsion: "a torsion spring", attraction: "an attraction", far_centre: "an attraction from afar", self_gravity: "its own gravity",
-        field: "a field", harmonic: "a harmonic field", volume: "an energy of its volume", expression: "a potential", covector: "an input", force: "a force", torque: "a torque", damping: "damping",
-      },
-    }, open: "Open …", link: "Copy link", linked: "Link copied",
+    open: "Open …", link: "Copy link", linked: "Link copied",
     read: "What is derived", equations: "Equations", motion: "Motion", find: "Find", take: "Export", check: "Check",
     searches: { symmetries: "Symmetries", integrals: "First integrals", equilibria: "Equilibria", letters: "Equilibria in letters", reduction: "Reduction" },
     opened: {
@@ -74,10 +58,6 @@ export const WORDS = {
     page: "the web page", body: "Body", points: "points", moments: "moments as letters", group: "Group", name: "Name",
     mass: "mass", at: "at", add: "Add", remove: "Remove", potentials: "Forces", solid: "solid", parameters: "Parameters",
     value: "default", start: "Start afresh", steps: "Steps", kind: "kind", point: "point", density: "density",
-    keys: {
-      far_centre: "far centre", self_gravity: "self-gravity", covector: "input: covector", force: "input: force", torque: "input: torque", hollow_ball: "hollow ball", semi_axes: "semi-axes",
-      on: "on point", between: "between points", anchor: "anchored at", title: "Title", body: "body",
-    },
     unread: "The text is no TOML yet: the form shows it when what is wrong there is mended.", sure: "A new problem replaces this text. Go on?",
     kept: (x) => `Kept as text, unchanged: ${x}.`, nonumber: (x) => `“${x}” is no number`, semicolons: "entries with , between them; with ; where they have decimal commas",
     addpoint: "Add a point", addforce: "Add a force", madeof: "made of", startsat: "Velocity at the start", given: "moments, given",
@@ -94,24 +74,7 @@ export const WORDS = {
     gallery: "Galerie", choose: "Qu’est-ce qui bouge ?", close: "Fermer", nogallery: "La galerie n’a pas pu être chargée : la liste à côté a les mêmes problèmes.",
     language: "Langue", ready: "Problème", own: "le vôtre", write: "Le problème",
     how: "Comment l’écrire", text: "Texte", form: "Formulaire", sentence: "Phrase",
-    phrases: {
-      and: "et", made: "Un corps avec ", under: ", sous l’action ", starts: ", avec au départ ", where: ", où ",
-      point: "un point", moments: "un corps donné par ses moments", system: "un système", lagrangian: "un système de lagrangien",
-      solid: { ball: "une boule", box: "un pavé", ellipsoid: "un ellipsoïde", cylinder: "un cylindre", cone: "un cône", hollow_ball: "une boule creuse", tetrahedron: "un tétraèdre" },
-      of: {
-        mass: "de masse", at: "en", density: "de masse volumique", radius: "de rayon", height: "de hauteur", sides: "de côtés", semi_axes: "de demi-axes", outer: "de rayon extérieur",
-        inner: "de rayon intérieur", vertices: "de sommets", rotation: "avec la rotation", shift: "avec le décalage", g: "g =", U: "U =", length: "longueur à vide",
-      },
-      group: {
-        "SO(2)": "tourne dans le plan autour d’un point", "SE(2)": "se meut dans le plan", "SO(3)": "tourne autour d’un point fixe", "SE(3)": "se meut dans l’espace",
-        "SL(3)": "se déforme autour d’un point, à volume constant,", "GL(3)": "se déforme autour d’un point", "SAff(3)": "se meut et se déforme, à volume constant,", "Aff(3)": "se meut et se déforme",
-      },
-      force: {
-        gravity: "de son poids", spring: "d’un ressort", torsion: "d’un ressort de torsion", attraction: "d’une attraction", far_centre: "d’une attraction lointaine",
-        self_gravity: "de sa propre gravité", field: "d’un champ", harmonic: "d’un champ harmonique", volume: "d’une énergie de volume", expression: "d’un potentiel",
-        covector: "d’une commande", force: "d’une force", torque: "d’un couple", damping: "d’un amortissement",
-      },
-    }, open: "Ouvrir …", link: "Copier le lien", linked: "Lien copié",
+    open: "Ouvrir …", link: "Copier le lien", linked: "Lien copié",
     read: "Ce qui est déduit", equations: "Équations", motion: "Mouvement", find: "Chercher", take: "Exporter", check: "Vérifier",
     searches: { symmetries: "Symétries", integrals: "Intégrales premières", equilibria: "Équilibres", letters: "Équilibres en lettres", reduction: "Réduction" },
     opened: {
@@ -157,14 +120,6 @@ export const WORDS = {
     page: "la page web", body: "Corps", points: "points", moments: "moments en lettres", group: "Groupe", name: "Nom",
     mass: "masse", at: "en", add: "Ajouter", remove: "Enlever", potentials: "Forces", solid: "solide", parameters: "Paramètres",
     value: "défaut", start: "Recommencer", steps: "Étapes", kind: "genre", point: "point", density: "masse volumique",
-    keys: {
-      gravity: "pesanteur", spring: "ressort", torsion: "ressort de torsion", attraction: "attraction", far_centre: "centre lointain", self_gravity: "gravité propre", field: "champ",
-      harmonic: "champ harmonique", volume: "énergie de volume", expression: "expression", covector: "commande : covecteur", force: "commande : force", torque: "commande : couple", input: "commande", damping: "amortissement",
-      title: "Titre", name: "nom", mass: "masse", at: "en", on: "au point", block: "bloc", between: "entre les points", anchor: "ancré en", stiffness: "raideur", length: "longueur", rest: "repos",
-      strength: "intensité", centre: "centre", charges: "charges", coefficient: "coefficient", frame: "repère", space: "espace", body: "corps", kind: "genre", density: "masse volumique",
-      ball: "boule", box: "pavé", ellipsoid: "ellipsoïde", cylinder: "cylindre", cone: "cône", hollow_ball: "boule creuse", tetrahedron: "tétraèdre",
-      radius: "rayon", height: "hauteur", sides: "côtés", semi_axes: "demi-axes", outer: "extérieur", inner: "intérieur", vertices: "sommets", rotation: "rotation", shift: "décalage",
-    },
     unread: "Le texte n’est pas encore du TOML : le formulaire le montre dès que l’erreur y est corrigée.", sure: "Un nouveau problème remplace ce texte. Continuer ?",
     kept: (x) => `Gardés comme texte, sans changement : ${x}.`, nonumber: (x) => `« ${x} » n’est pas un nombre`, semicolons: "des valeurs séparées par , ; par ; si elles ont des virgules décimales",
     addpoint: "Ajouter un point", addforce: "Ajouter une force", madeof: "fait de", startsat: "Vitesse au départ", given: "moments, donnés",

@@ -59,7 +59,7 @@ async function answered(ask, does) {
 }
 
 /* what is asked, with what of the question behind its text; a zip is bytes */
-const ASKED = { walk: ["lang"], check: [], motion: ["lang"], refused: ["words"], kept: ["lang"], found: ["what", "lang"], files: ["words"] };
+const ASKED = { walk: ["lang"], check: [], motion: ["lang"], refused: ["words"], kept: ["lang"], found: ["what", "lang"], files: ["words", "zip"] };
 
 function asked(play, m) {
   const made = play[m.ask](m.text, ...ASKED[m.ask].map((x) => m[x]));

@@ -67,7 +67,7 @@ def test_both_languages():
     assert french["words"]["energy"] == "énergie"
     assert french["kept"]["angular_momentum_3"] == ["moment cinétique 3", "kg m²/s"]
     assert french["labels"]["rho"] == ["masse volumique", "kg/m³"]
-    assert french["labels"]["zeta_1"] == ["vitesse angulaire dans le corps", "1/s"]
+    assert french["labels"]["zeta_1"] == ["vitesse angulaire dans le corps", "rad/s"]
     assert '<html lang="fr">' in page("top", "fr")
     assert english["kept"]["body_angular_momentum_3"][0] == "angular momentum in the body 3"
     untold = {x for x, y in english["words"].items() if y == french["words"][x]}

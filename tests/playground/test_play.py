@@ -101,8 +101,11 @@ def test_a_ready_made_problem_is_checked(played, name):
 def test_files_are_those_of_the_command(played, capsys, tmp_path, text, words):
     file, out = tmp_path / "mine.toml", tmp_path / "out"
     file.write_text(text_of(text), encoding="utf-8")
-    (_, told), (_, files) = played.asked("files", text=text_of(text), words=words)
-    assert {x: y.encode() for x, y in told.items()} == files
+    added = json.dumps({"added.c": "é"})
+    heard = dict(played.asked("files", text=text_of(text), words=words, added=added))
+    files = heard["zip"]
+    assert files.pop("added.c") == "é".encode()
+    assert {x: y.encode() for x, y in heard["files"].items()} == files
     out.mkdir()
     place = words.replace("FILE", str(file)).rpartition(" out")
     said(capsys, *f"{place[0]} {out}{place[2]}".split())

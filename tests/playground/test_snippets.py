@@ -8,14 +8,17 @@ import sys
 import pytest
 from tree_sitter import Parser
 
+from derive import derive as derived
 from derive.command.cli import main
 from tests.support import in_node
+from tests.support.library import module_of
 from tests.support.needs import CC, needs, present
+from tests.support.played import Played, text_of
 from tests.support.read_julia import LANGUAGE, Module
 
 IMPORTS = """
 import { about, snippets } from "./src/snippets.js";
-const told = (files) => ({ programs: snippets(Object.entries(files)),
+const told = ({ files, start }) => ({ programs: snippets(Object.entries(files), start),
     about: Object.fromEntries(Object.entries(files).map(([name, text]) => [name, about(text)])) });
 """
 RUNS = {
@@ -31,12 +34,17 @@ RUNS = {
 INTERPRETER = {"main.py": [sys.executable, "-B"], "main.mjs": ["node"]}
 
 
-def written(folder, problem, *options):
+@pytest.fixture
+def played(tmp_path, monkeypatch):
+    return Played(tmp_path, monkeypatch)
+
+
+def written(folder, problem, *options, start=None):
     """What is emitted, and the programs of the page beside it, whose names are returned, and what
-    the files say of themselves."""
+    the files say of themselves; ``start``: what is told of the problem's."""
     assert main(["emit", problem, *options, "--out", str(folder)]) == 0
     files = {x.name: x.read_text(encoding="utf-8") for x in folder.iterdir()}
-    found = in_node.told(IMPORTS, "told(given)", files)
+    found = in_node.told(IMPORTS, "told(given)", {"files": files, "start": start or {}})
     for name, text in found["programs"]:
         (folder / name).write_text(text, encoding="utf-8")
     return [name for name, _ in found["programs"]], found["about"]
@@ -113,3 +121,29 @@ def test_a_program_follows_the_options(options, tmp_path, capsys):
     assert [name for name, _ in found] == about["se3.h"]["state"]
     assert all(math.isfinite(float(x)) for _, x in found)
     capsys.readouterr()
+
+
+@needs("node")
+@pytest.mark.parametrize(
+    ("problem", "options"),
+    [("top", ""), ("pendulum", ""), ("se3", "--attitude quaternion"), ("so3", "--frame principal")],
+)
+def test_a_program_starts_where_the_file_says(problem, options, played, tmp_path):
+    """Beside the rates of the emitted Python at the start of `derive simulate`; in another frame
+    the file says nothing of the state."""
+    words = f"emit FILE {options} --lang python --out out".replace("  ", " ")
+    told = dict(played.asked("files", text=text_of(problem), words=words))
+    folder = tmp_path / "code"
+    folder.mkdir()
+    written(folder, problem, *options.split(), "--lang", "python", start=told["start"])
+    found = rates(folder, "main.py", problem)
+    assert bool(told["start"]) == (problem != "so3")
+    if told["start"]:
+        assert [*told["start"]] == [*found]
+    if not options:
+        run = derived(problem).simulate(1e-3)
+        made = module_of(problem)
+        k = made.constants([made.DEFAULTS[x] for x in made.PARAMETERS])
+        at = run.table[0][[x.kind == "state" for x in run.columns]]
+        expected = made.rhs(0.0, at, k, [0.0] * len(made.INPUTS))
+        assert [*found.values()] == pytest.approx([*expected], rel=1e-6, abs=1e-12)

@@ -3,6 +3,7 @@ addresses, what is taken, an engine that is stopped; without a network, and with
 
 import json
 from xml.etree import ElementTree
+from zipfile import ZipFile
 
 import pytest
 
@@ -481,6 +482,11 @@ def test_what_is_taken_is_shown_and_what_is_refused_is_told_beside(fresh, site):
     name, program = saved(".code button:has-text('Save')")
     assert name == "main.c"
     assert "mine_rhs(0, x, k, u, dx);" in program
+    with fresh.expect_download() as waiting:
+        fresh.click("#take button:has-text('.zip')")
+    with ZipFile(waiting.value.path()) as packed:
+        assert sorted(packed.namelist()) == sorted(listed)
+        assert packed.read("main.c").decode() == program
     fresh.click("#take summary")
     fresh.click("#take label:has-text('parameters')")
     assert fresh.locator(".code pre").count() == 0  # it was of other options

@@ -11,8 +11,10 @@ import derive
 from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.language.tree import nodes
-from derive.pipeline import both_trivialisations
+from derive.pipeline import both_trivialisations, walk
+from derive.problem.toml import problem_of
 from derive.views.answer import (
+    answer_mathml,
     answer_text,
     definitions,
     equations_of_motion,
@@ -26,6 +28,7 @@ from derive.views.outline import assumed, moving, system
 from derive.views.printing.line_breaking import display_width
 from derive.views.printing.signs import tex_text
 from derive.views.rendering import FORMATS, pdf, render
+from derive.views.stations import told as stations
 from tests.support import walks
 from tests.support.needs import needs
 from tests.support.walks import FLUIDS, record
@@ -224,3 +227,24 @@ def test_every_view_says_it_beside_the_equation(form, lang):
         assert clauses.count(ALONG[lang]) == others
         assert "any acceleration" not in shown
         assert "accélération quelconque" not in shown
+
+
+@pytest.mark.parametrize(("group", "at"), [("SO(2)", "-l"), ("SE(2)", "-l")])
+def test_the_step_of_an_answer_in_the_plane_has_its_form(group, at):
+    """Its right sides by the angle stand at the step, and at the station, as in the answer; the
+    entries that the angle tells are told beside them."""
+    points = [{"mass": 1, "at": [0, at]}, {"mass": 2, "at": [0, 0]}][: 1 + (group == "SE(2)")]
+    gravity = {"kind": "gravity", "g": [0, "-g"]}
+    told = {"name": "bob", "group": group, "parameters": {"l": 2.0, "g": 9.81}}
+    d = walk(problem_of({**told, "point": points, "potential": [gravity]}))
+    page = html([d])
+    shown = [x for label, x in answer_mathml(d) if label == "bob.explicit"]
+    turned = [x for x in shown if "<mi>θ</mi>" in x]
+    assert turned
+    step = page.partition('<article id="bob.explicit">')[2].partition("<details>")[0]
+    for x in turned:
+        _, right = "".join(re.findall(">([^<]+)<", x)).split("=")
+        assert f"={right}" in "".join(re.findall(">([^<]+)<", step)).replace("\n", "")
+    assert "A12=−sin(θ)" in "".join(re.findall(">([^<]+)<", step))
+    (body,) = [x["shown"] for x in stations(d, str) if x["name"] == "body"]
+    assert ("<mi>θ</mi>" in body) == (group == "SO(2)")

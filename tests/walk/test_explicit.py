@@ -7,6 +7,7 @@ import pytest
 
 from derive.algebra.families import group
 from derive.algebra.groups import affine_entries
+from derive.check.checker import check
 from derive.language.show import show
 from derive.language.tree import nodes
 from derive.pipeline import walk
@@ -75,6 +76,26 @@ def test_springs_on_translations_are_linear():
     d = walk(problem_of(TRANSLATIONS))
     assert told(d) == ["ζ̇₁ = 2k/m − k A₁₃/m", "ζ̇₂ = (3k − gm)/m − k A₂₃/m"]
     assert "linear" in said(d)
+
+
+def dragged(group, places, force):
+    """Unit masses, and a force of the velocity at the first."""
+    force_at = {"at": [*places[0]], "force": force}
+    points = [{"mass": 1, "at": [*x]} for x in places]
+    own = {"name": "dragged", "group": group, "parameters": {"c": 0.2}}
+    return walk(problem_of({**own, "point": points, "force": [force_at]}))
+
+
+def test_a_drag_at_a_place_has_no_factor_that_is_1():
+    """−c v at a place is, on every orthogonal group, a covector without A; the factor that a drag
+    along one axis has is none of these."""
+    assert told(dragged("SO(2)", [(0, -1)], ["-c*v_1", "-c*v_2"])) == ["ζ̇₁ = −c ζ₁"]
+    assert told(dragged("SO(2)", [(0, -1)], ["-c*v_1", 0])) == ["ζ̇₁ = −c A₁₁² ζ₁"]
+    solid = dragged("SO(3)", PLACES, [f"-c*v_{i}" for i in (1, 2, 3)])
+    plane = dragged("SE(2)", [(0, -1), (0, 1)], ["-c*v_1", "-c*v_2"])
+    for d in (solid, plane):
+        assert not any("A" in nodes(e.rhs) for e in answer(d).equations)
+        assert all(v.holds for v in check(d, seed=3))
 
 
 def test_a_body_without_a_first_moment_feels_no_gravity():

@@ -278,9 +278,9 @@ def data(
     basis, heavy = made.basis if entries else (), weight(record.problem or {})
     lost = bool(drives(record.problem, {}))
     units = {x.name: _unit(x.unit) for x in code.columns()}
-    pairs = zip(made.state, state, strict=True)
-    turning = bool(body["polhode"]) or record.problem.get("group") in PLANE
-    of_state = [(y, _meaning(x, record, language, turning), units[x]) for x, y in pairs]
+    said = {x: _meaning(x, record, language, _turns(body, record)) for x in made.state}
+    units |= {x: "rad/s" for x, y in said.items() if y == language.word(TURNING) and units[x]}
+    of_state = [(y, said[x], units[x]) for x, y in zip(made.state, state, strict=True)]
     unsaid = _unsaid(made, body, bool(entries), lost)
     words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
     if "waves" in body:
@@ -317,6 +317,11 @@ def data(
         "words": words,
         "comma": language.name == "fr",
     }
+
+
+def _turns(body: Data, record: Derivation) -> bool:
+    """Are the coordinates of Z those of a turn?"""
+    return bool(body["polhode"]) or record.problem.get("group") in PLANE
 
 
 def _meaning(name: str, record: Derivation, language: Language, turning: bool) -> str:

@@ -246,6 +246,20 @@ def short_rates(rows: Sequence[tuple[Tree, Laurent]]) -> tuple[Equation, ...] | 
     return None if _too_long(found) else found
 
 
+def by_relations(p: Laurent, relations: Iterable[tuple[Laurent, int]]) -> Laurent:
+    """A polynomial; where a sum that is a number on the group stands in it whole, times a factor
+    with a velocity, as of a drag, that number times the factor in its place."""
+    for whole, value in relations:
+        first = next(iter(whole.terms))
+        for m in [m for m in p.terms if any(_is_rate(x) for x, _ in m)]:
+            factor = Laurent({m: p.terms.get(m, Fraction(0))})
+            factor /= Laurent({first: whole.terms[first]})
+            there = whole * factor
+            if all(p.terms.get(x) == y for x, y in there.terms.items()):
+                p = p - there + factor * value
+    return p
+
+
 def _too_long(equations: Sequence[Equation]) -> bool:
     return any(_length(e.lhs) + _length(e.rhs) > LONGEST for e in equations)
 

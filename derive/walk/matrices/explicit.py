@@ -13,7 +13,12 @@ from math import prod
 from typing import Any
 
 from ...algebra.calculus import gradient
+<<<<<<< HEAD
 from ...algebra.groups import Group
+=======
+from ...algebra.groups import Group, affine_entries
+from ...algebra.relations import skew
+>>>>>>> page
 from ...language import rational as q
 from ...language.laurent import Laurent, OverlongError, written
 from ...language.read import read
@@ -26,8 +31,13 @@ from ...schema.body_kinds import MomentBody
 from ..chapter import Chapter, Draft, say
 from ..given.body_and_potentials import Potentials
 from ..given.inputs import External
+<<<<<<< HEAD
 from .coordinates import Balance, element, short_rates, solved
 from .rotation import AXES, Torque, diagonal, is_diagonal, principal, square, symbols
+=======
+from .coordinates import Balance, by_relations, short_rates, solved
+from .rotation import AXES, Torque, diagonal, is_diagonal, principal, symbols
+>>>>>>> page
 from .separation import constant, linear
 from .specialisation import KernelOnGroup
 
@@ -402,6 +412,9 @@ def _explicit_step(
     after: Sequence[tuple[Tree, Laurent]] = (),
 ) -> Steps:
     """The step, with what can be seen of the equations; ``after``: rates that are solved."""
+    relations = _orthogonality(group, values.names["A"])
+    stage = replace(stage, load=tuple(by_relations(x, relations) for x in stage.load))
+    after = [(x, by_relations(rate, relations)) for x, rate in after]
     found, others = solved(stage), short_rates(after)
     if found is None or others is None:
         return ()
@@ -413,6 +426,15 @@ def _explicit_step(
     loads = (*stage.load, *(x for _, x in after))
     seen = _seen(replace(stage, load=loads), values, side)
     return (draft.step(equations, prose + seen),)
+
+
+def _orthogonality(group: Group, A: Value) -> list[tuple[Laurent, int]]:
+    """The entries of ĀA that are numbers where factors are orthogonal, by those of A."""
+    inner, found = OPERATIONS["mul"](q.transposed(A), A), []
+    for offset, factor in group.places:
+        own = range(offset, offset + factor.n) if skew(factor) else ()
+        found += [(Laurent.of(inner[i][j]), int(i == j)) for i in own for j in own if i <= j]
+    return [x for x in found if len(x[0].terms) > 1]
 
 
 def _seen(stage: Balance, values: PutIn, side: str) -> Prose:

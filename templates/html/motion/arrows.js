@@ -35,7 +35,7 @@ function arrows_of(scene, view) {
     const widths = runs.map(([part, f]) => font(f) && view.pen.measureText(part).width);
     const wide = widths.reduce((a, b) => a + b);
     let from = x - side * wide, y = beside;
-    const taken = (at) => at > view.height - 6 || pic.written.some(([a, b, w]) => abs(b - at) < 14 && a < from + wide && from < a + w);
+    const taken = (at) => at > view.height - 6 || pic.written.some(([a, b, w]) => abs(b - at) < 15 && a < from + wide && from < a + w);
     for (let k = 1; taken(y) && k < 20; ++k) y = beside + (k % 2 ? 7 : -7) * (k + 1); // below or above those that are there
     pic.written.push([from, y, wide]);
     if (abs(y - beside) > 14) view.stroke([[x, beside], [x, y + (y < beside ? 6 : -6)]], colour, 0.6); // to its place
@@ -85,7 +85,8 @@ function arrows_of(scene, view) {
       drawn = scene.drawn = [];
       for (const { number, from, v, long, scale, label: name, part: k, matrix, first } of all) {
         if (!(long > 0.01 * most[scale])) continue;
-        const { reach } = parts[k], far = (0.3 + 0.11 * number) * reach;
+        // those of a small body are longer than it, so that their letters are apart
+        const reach = max(parts[k].reach, 90 / pic.scale), far = (0.3 + 0.11 * number) * reach;
         const path = line(from, v, (matrix ? 0.8 : 1) * LENGTHS[scale] * reach / most[scale], far).map((r) => pic.to(spots[k](r)));
         for (let i = 0; i + 1 < path.length; ++i) drawn.push([number, path[i], path[i + 1]]);
         const [p, q] = path.slice(-2), wide = hypot(q[0] - p[0], q[1] - p[1]) || 1, hue = hues[number];

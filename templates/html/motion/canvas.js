@@ -102,7 +102,7 @@ function picture({ colours, large = 1 }, view, eye, target, scale) {
   const mean = (list) => list.reduce((sum, v) => sum + v[2], 0) / list.length;
   const lit = scaled(1 / size([-0.45, 0.65, 0.75]), [-0.45, 0.65, 0.75]);
   const own = {
-    to, items, written: [], // where the letters stand: x, y, width
+    to, items, scale, written: [], // where the letters stand: x, y, width
     /* inside: a place in the convex solid of which it is a face, whose far side is hidden */
     face(v, tones, clear, inside) {
       const s = v.map(to), m = cross(plus(v[2], v[0], -1), plus(v.at(-1), v[1], -1));

@@ -101,7 +101,8 @@ function solid_stage(scene, pieces) {
         if (y) of_part(pic, part, others[i], colours.ghosts, true);
         of_part(pic, part, at, tones);
         const o = at([0, 0, 0]);
-        part.tips.forEach((tip, k) => pic.arrow(o, at(tip), colours[`e${k + 1}`], `e${low(String(k + 1))}`));
+        // letters would hide a small body
+        part.tips.forEach((tip, k) => pic.arrow(o, at(tip), colours[`e${k + 1}`], scale * part.reach > 60 ? "e" + "₁₂₃"[k] : ""));
         if (part.fixed) pic.dot(o, 4, colours.ink, true);
         for (const { at: c, on } of part.centres) {
           for (const id of on) pic.line(at(part.points[id].at), c, colours.soft, 1, 0.6);
