@@ -377,9 +377,11 @@ def _station(d: Derivation, name: str, has: Callable[[Step, Equation], bool]) ->
 
 
 def station_mathml(d: Derivation, x: Station) -> str:
-    """The of_tree of a station as MathML, without the terms that go too far."""
-    typeset = partial(formula_of, names=latex_names(d))
-    return _short(typeset(x.equation.lhs), x.equation.rhs, typeset).plain().mathml()
+    """The formula of a station as MathML, without the terms that go too far; of the body in the
+    plane by its angle, as in the answer."""
+    typeset = partial(formula_of, names=ANGLE | latex_names(d))
+    rhs = by_angle(d)(x.equation.rhs) if x.name == "body" else x.equation.rhs
+    return _short(typeset(x.equation.lhs), rhs, typeset).plain().mathml()
 
 
 def formula_of(t: Tree, names: dict[str, str]) -> Formula:

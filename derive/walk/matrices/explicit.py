@@ -13,12 +13,8 @@ from math import prod
 from typing import Any
 
 from ...algebra.calculus import gradient
-<<<<<<< HEAD
 from ...algebra.groups import Group
-=======
-from ...algebra.groups import Group, affine_entries
 from ...algebra.relations import skew
->>>>>>> page
 from ...language import rational as q
 from ...language.laurent import Laurent, OverlongError, written
 from ...language.read import read
@@ -31,13 +27,8 @@ from ...schema.body_kinds import MomentBody
 from ..chapter import Chapter, Draft, say
 from ..given.body_and_potentials import Potentials
 from ..given.inputs import External
-<<<<<<< HEAD
-from .coordinates import Balance, element, short_rates, solved
+from .coordinates import Balance, by_relations, element, short_rates, solved
 from .rotation import AXES, Torque, diagonal, is_diagonal, principal, square, symbols
-=======
-from .coordinates import Balance, by_relations, short_rates, solved
-from .rotation import AXES, Torque, diagonal, is_diagonal, principal, symbols
->>>>>>> page
 from .separation import constant, linear
 from .specialisation import KernelOnGroup
 
