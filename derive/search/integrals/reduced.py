@@ -145,8 +145,7 @@ def _tangent_entry(
     found: dict[Place | None, Fraction] = {}
     for k in range(group.size):
         c = e[k][j] if epsilon > 0 else e[i][k]
-        x = entry(group, *((i, k) if epsilon > 0 else (k, j)))
-        if c and x != 0:
+        if c and (x := entry(group, *((i, k) if epsilon > 0 else (k, j)))) != 0:
             key = x if isinstance(x, tuple) else None
             found[key] = found.get(key, Fraction(0)) + c
     return {x: c for x, c in found.items() if c}
