@@ -89,6 +89,7 @@ SYSTEM = {
 }
 """What a text for people says of what moves, instead of the heading of a record."""
 LAGRANGIAN, AS_KIRCHHOFF = told("lecture:lagrangian"), told("lecture:as_kirchhoff")
+AS_MULTIPLIER = told("lecture:as_multiplier")
 MOMENTA, VALID, DIVIDED = told("lecture:momenta"), told("lecture:valid"), "reduction.isotropy"
 OF_LINEAR, OF_AFFINE = told("lecture:of_linear"), told("lecture:of_affine")
 LISTED = {"en": ", ", "fr": "\u202f; "}
@@ -218,6 +219,8 @@ def _motion(d: Derivation, place: Sentence | None) -> Iterator[Block]:
         entries.append(sentence(lambda x: x.word(message(HELD)), held))
     entries += [sentence(lambda x: x.sentence(place))] if place else []
     entries += [sentence(lambda x: x.word(AS_KIRCHHOFF))] if _as_kirchhoff(d) else []
+    if any(e.lhs == "θ" for e in motion):
+        entries.append(sentence(lambda x: x.word(AS_MULTIPLIER)))
     yield Block("text", "", "", (*entries, *same_top(d)), 0)
 
 
