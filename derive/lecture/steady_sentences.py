@@ -161,7 +161,7 @@ def _of_one(
             verdicts.append(spoken.word(SAID[x.message], **places))
     here = spoken.word(proved[0])
     first, *others = dict.fromkeys(
-        verdicts or [here or spoken.word(LONG_ONES if any(map(_cases, said)) else OPEN)]
+        verdicts or [spoken.word(LONG_ONES if any(map(_cases, said)) else OPEN)]
     )
     for other in others:
         first = spoken.word("{first}; {second}", first=first, second=other)
@@ -172,9 +172,9 @@ def _of_one(
         when = spoken.word(POINTING[sign], when=when, axis=own, fixed=fixed)
     where = spoken.formula(at) or spoken.word("all variables 0")
     whole = spoken.word(WHEN if when and at else AT, when=when, point=where, verdict=first)
-    if not here or not verdicts:
+    if not here:
         return whole
-    said_so = {"": HERE, ALWAYS: ALWAYS}.get(proved[1], HERE_BY)
+    said_so = {"": HERE, ALWAYS: ALWAYS}.get(proved[1] if verdicts else "", HERE_BY)
     return f"{whole} {spoken.word(said_so, verdict=here, numbers=spoken.formula(proved[1]))}"
 
 
