@@ -241,6 +241,17 @@ def test_conditions_are_evaluated_with_the_numbers_of_the_problem(tmp_path, monk
         assert told[3].endswith("sum of positive terms: it is always stable.")
 
 
+def test_two_steady_motions_that_differ_in_a_sign_are_told_as_one(tmp_path, monkeypatch):
+    """With A₃₃ squared in the potential, upright and upside down are alike; else they differ."""
+    source = (Path(derive.__file__).parent / "problems" / "lagrange_top.toml").read_text()
+    monkeypatch.chdir(tmp_path)
+    Path("even.toml").write_text(source.replace("mgl*A_33", "mgl*A_33^2"))
+    told, _ = told_of_steady("even.toml")
+    both = [x for x in told if "along e₃ of space, or opposite to it (" in x]
+    assert len([x for x in both if "A₃₃ = ±1" in x]) == 2
+    assert not any("A₃₃ = 1" in x or "A₃₃ = −1" in x for x in told)
+
+
 def test_of_three_motions_the_odd_one_is_told_with_its_inertia(tmp_path, monkeypatch):
     """Euler's top: that about the middle axis, whatever its number is."""
     source = (Path(derive.__file__).parent / "problems" / "euler_top.toml").read_text()
