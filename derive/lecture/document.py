@@ -150,7 +150,7 @@ class SetBlock:
 
 @dataclass(frozen=True)
 class SetChapter:
-    """A chapter as a template takes it."""
+    """A chapter as a template takes it; ``name``: the label of its place."""
 
     name: str
     title: str
@@ -261,7 +261,8 @@ class _Setter:
     def chapter(self, c: Chapter, numbers: Mapping[int, int]) -> SetChapter:
         """A chapter; ``numbers``: of its blocks."""
         blocks = tuple(self.block(b, numbers.get(id(b), 0)) for b in c.blocks)
-        return SetChapter(c.name, self.words((c.title[self.at],)), blocks)
+        name = f"chapter_{c.name}"  # a theorem may be called as a problem is
+        return SetChapter(name, self.words((c.title[self.at],)), blocks)
 
     def letter(self, x: LetterUse, k: int) -> SetLetter:
         """A row of the table of symbols, and the anchor at its entry."""

@@ -74,7 +74,7 @@ TOLD = {
 STEADY = ("equilibria", "families")
 NONE = dict.fromkeys(
     STEADY,
-    "Only points with one momentum were tried, and none was found; there may be others.",
+    "None with at most one momentum and one other coordinate was found; there may be others.",
 )
 """Search → what is said where it found nothing and there may be more."""
 HELD = "mass.held"
@@ -82,13 +82,13 @@ TITLE = "{title}: equations, what is kept, steady motions"
 BODY = "The body of the problem, with the axes of its frame."
 LEFT_OUT = "The expression of {what} would fill this page; the step in the margin has it."
 QUESTION, STABLE_ONES = told("lecture:question"), told("lecture:question_stable")
-GIVEN, ACTS = told("lecture:given"), told("lecture:acts")
+GIVEN, ACTS, LAGRANGIAN = (told(f"lecture:{x}") for x in ("given", "acts", "lagrangian"))
 SYSTEM = {
     "The Lagrangian is given on the group {group}, of dimension {d}, and depends {what}.": GIVEN,
     "What acts: {forces}.": ACTS,
 }
 """What a text for people says of what moves, instead of the heading of a record."""
-LAGRANGIAN, AS_KIRCHHOFF = told("lecture:lagrangian"), told("lecture:as_kirchhoff")
+AS_KIRCHHOFF, AS_MULTIPLIER = told("lecture:as_kirchhoff"), told("lecture:as_multiplier")
 MOMENTA, VALID, DIVIDED = told("lecture:momenta"), told("lecture:valid"), "reduction.isotropy"
 OF_LINEAR, OF_AFFINE = told("lecture:of_linear"), told("lecture:of_affine")
 LISTED = {"en": ", ", "fr": "\u202f; "}
@@ -218,6 +218,8 @@ def _motion(d: Derivation, place: Sentence | None) -> Iterator[Block]:
         entries.append(sentence(lambda x: x.word(message(HELD)), held))
     entries += [sentence(lambda x: x.sentence(place))] if place else []
     entries += [sentence(lambda x: x.word(AS_KIRCHHOFF))] if _as_kirchhoff(d) else []
+    if any(e.lhs == "θ" for e in motion):
+        entries.append(sentence(lambda x: x.word(AS_MULTIPLIER)))
     yield Block("text", "", "", (*entries, *same_top(d)), 0)
 
 

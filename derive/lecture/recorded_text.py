@@ -121,8 +121,9 @@ def kind_of(d: Derivation, steps: Sequence[Step], spoken: Language) -> str:
     axes = [x for x in (_axis(d, s) for s in steps) if x]
     if len(axes) < len(steps):
         return told
-    letters = ", ".join(axis_letter(k) for _, k in axes)
-    return spoken.word(AXIS[axes[0][0]], kind=told, axis=spoken.formula(letters))
+    axis = spoken.formula(", ".join(axis_letter(k) for _, k in axes))
+    axis = spoken.word("each of {axes}", axes=axis) if axes[1:] else axis
+    return spoken.word(AXIS[axes[0][0]], kind=told, axis=axis)
 
 
 def _axis(d: Derivation, step: Step) -> tuple[int, int] | None:

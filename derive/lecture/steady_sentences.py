@@ -4,6 +4,7 @@ letters and with the numbers of the problem."""
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -24,7 +25,7 @@ from ..views.figure.scene import quadratic
 from ..views.language import Language, told
 from .lecture_text import Entry, chapters
 from .ran_figure import Ran, value_at_start, written
-from .recorded_text import axis_letter, sentence
+from .recorded_text import SPOKEN, axis_letter, sentence
 
 TRIED, SAME_TOP, ASLEEP = (told(f"lecture:{x}") for x in ("tried", "same_top", "asleep"))
 HERE, HERE_BY, ALWAYS = (told(f"lecture:{x}") for x in ("here", "here_by", "always"))
@@ -40,8 +41,8 @@ LETTERS = "Any values but 0: {letters}."
 AT = "At {point} the motion is {verdict}."
 WHEN = "{when} ({point}), the motion is {verdict}."
 STABLE, UNSTABLE = "stable", "unstable"
-OPEN = "of a stability that is not decided here"
-LONG_ONES = "stable or not by the inequalities of these steps"
+OPEN = "stable or not, which these steps do not decide"
+LONG_ONES, HERE_ONLY = "stable or not by the inequalities of these steps", "here {verdict}"
 ON_LEAF = "stable for motions with the same Casimirs"
 VERDICTS = {
     "equilibrium": {
@@ -68,6 +69,7 @@ SAID = {message(f"{x}.{y}"): told for x, all_ in VERDICTS.items() for y, told in
 
 TURNS, ALONG, REST = "When it turns about {axis}", "When it moves along {axis}", "At rest"
 POINTING = {
+    0: "{when}, its axis {axis} along {fixed} of space, or opposite to it",
     1: "{when}, its axis {axis} along {fixed} of space",
     -1: "{when}, its axis {axis} opposite to {fixed} of space",
 }
@@ -110,11 +112,17 @@ def steady(d: Derivation, steps: Sequence[Step], ran: Ran | None = None) -> Iter
     yield sentence(said_first)
     verdicts = [_verdict(run, numbers) for run in both]
     alike: dict[str, list[str]] = {}
+    told: dict[str, tuple[Any, list[str]]] = {}  # two that differ in a sign alone are told as one
     for run, point, verdict in zip(both, points, verdicts, strict=True):
         motion = _kind(d, point)
-        yield sentence(partial(_of_one, run, motion, verdict), [x.label for x in run])
+        text = partial(_of_one, run, motion, verdict)
+        key = text(SPOKEN[0], also=len(motion[2]) == 1)
+        told.setdefault(key, (text, []))[1].extend(x.label for x in run)
         proved = STABLE if verdict[0] == ON_LEAF else verdict[0]
         alike.setdefault(motion[0] if len(point) == 1 else "", []).append(proved)
+    for text, labels in told.values():
+        also = sum(".equilibrium_" in x for x in labels) > 1
+        yield sentence(partial(text, also=also), labels)
     for kind in ALIKE:
         yield from _odd_one(d, kind, alike.get(kind, []))
 
@@ -150,8 +158,11 @@ def _of_one(
     motion: tuple[str, int, Sequence[tuple[int, int, int]]],
     proved: tuple[str, str],
     spoken: Language,
+    *,
+    also: bool,
 ) -> str:
-    """What a steady motion is, and what is proved of its stability."""
+    """What a steady motion is, and what is proved of its stability; ``also``: of the one with its
+    axis the other way, too."""
     said = [x for s in steps for x in s.prose]
     at = str(next((dict(x.places)["point"] for x in said if "point" in dict(x.places)), ""))
     verdicts: list[str] = []
@@ -160,16 +171,16 @@ def _of_one(
             places = {k: y for k, y in _places(x, spoken).items() if f"{{{k}}}" in SAID[x.message]}
             verdicts.append(spoken.word(SAID[x.message], **places))
     here = spoken.word(proved[0])
-    first, *others = dict.fromkeys(
-        verdicts or [here or spoken.word(LONG_ONES if any(map(_cases, said)) else OPEN)]
-    )
+    unwritten = HERE_ONLY if here else LONG_ONES if any(map(_cases, said)) else OPEN
+    first, *others = dict.fromkeys(verdicts or [spoken.word(unwritten, verdict=here)])
     for other in others:
         first = spoken.word("{first}; {second}", first=first, second=other)
     kind, axis, entries = motion
     when = spoken.word(kind, axis=spoken.formula(axis_letter(axis)))
     for i, j, sign in entries:
         fixed, own = (spoken.formula(axis_letter(k)) for k in (i, j))
-        when = spoken.word(POINTING[sign], when=when, axis=own, fixed=fixed)
+        when = spoken.word(POINTING[0 if also else sign], when=when, axis=own, fixed=fixed)
+    at = re.sub("−?1$", "±1", at) if also else at
     where = spoken.formula(at) or spoken.word("all variables 0")
     whole = spoken.word(WHEN if when and at else AT, when=when, point=where, verdict=first)
     if not here or not verdicts:

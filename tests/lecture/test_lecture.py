@@ -16,7 +16,7 @@ from derive.command.cli import COMMANDS, main
 from derive.command.lecturing import named_by
 from derive.command.showing import load_problem
 from derive.language.show import show
-from derive.lecture import figures
+from derive.lecture import document, figures
 from derive.lecture.back_matter import NUMBERS, OWN, WORKS, homes, letters
 from derive.lecture.lecture_text import PROVED, Formula, LectureError, parsed
 from derive.lecture.trials import tied, tried
@@ -201,6 +201,15 @@ def test_the_equations_that_are_cited_are_numbered_in_their_order_and_no_others(
     assert '<span class="ofnote">note (35)</span>' in page
     solved = (e for c in CHAPTERS for b in c.blocks if b.kind == "solution" for e in b.entries)
     assert not any(e.label for e in solved)  # they may be left out
+
+
+def test_a_problem_may_be_called_as_a_theorem_is(records):
+    """Its chapter does not take the number of the theorem."""
+    named = [replace(c, name=c.name.replace("free_solid", "kirchhoff")) for c in CHAPTERS]
+    tex = document.latex(document.Lecture(named, language("en"), records))
+    labels = re.findall(r"\\label{([^}]+)}", tex)
+    assert "kirchhoff" in labels
+    assert len({*labels}) == len(labels) > 100
 
 
 def test_every_figure_is_cited_in_the_text():

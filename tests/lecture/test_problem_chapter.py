@@ -241,6 +241,17 @@ def test_conditions_are_evaluated_with_the_numbers_of_the_problem(tmp_path, monk
         assert told[3].endswith("sum of positive terms: it is always stable.")
 
 
+def test_two_steady_motions_that_differ_in_a_sign_are_told_as_one(tmp_path, monkeypatch):
+    """With A₃₃ squared in the potential, upright and upside down are alike; else they differ."""
+    source = (Path(derive.__file__).parent / "problems" / "lagrange_top.toml").read_text()
+    monkeypatch.chdir(tmp_path)
+    Path("even.toml").write_text(source.replace("mgl*A_33", "mgl*A_33^2"))
+    told, _ = told_of_steady("even.toml")
+    both = [x for x in told if "along e₃ of space, or opposite to it (" in x]
+    assert len([x for x in both if "A₃₃ = ±1" in x]) == 2
+    assert not any("A₃₃ = 1" in x or "A₃₃ = −1" in x for x in told)
+
+
 def test_of_three_motions_the_odd_one_is_told_with_its_inertia(tmp_path, monkeypatch):
     """Euler's top: that about the middle axis, whatever its number is."""
     source = (Path(derive.__file__).parent / "problems" / "euler_top.toml").read_text()
@@ -250,7 +261,7 @@ def test_of_three_motions_the_odd_one_is_told_with_its_inertia(tmp_path, monkeyp
         Path("turned.toml").write_text(swapped.replace("I0 = {", f"{middle} = {{"))
         _, (alone,) = told_of_steady("turned.toml")
         assert axis in alone
-        assert "unstable: its inertia is between those of the others" in alone
+        assert "unstable for motions with the same Casimirs: its inertia is between" in alone
 
 
 def test_what_the_run_shows_is_read_off_it():
@@ -464,7 +475,7 @@ def test_searches_refused_for_one_reason_stand_together(made):
     page = document.page(document.Lecture([chapter], language("en"), records))
     assert "What the motion keeps. First integrals. Reduction." in page
     assert page.count("Not sought: its forces are no part of") == 1
-    assert "Only points with one momentum were tried" in page
+    assert "None with at most one momentum" in page
 
 
 def test_inputs_that_hold_a_body_are_told(tmp_path, monkeypatch):
