@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from itertools import permutations
 from typing import Any
 from unicodedata import normalize
@@ -18,19 +17,14 @@ from ..language.values import approximate
 from ..record.as_json import decode
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Sentence
+from ..record.sentence import Prose, Sentence, phrase
 from ..views.figure.drawn_body import ExpressionValues
 from ..views.figure.scene import quadratic
-from ..views.language import Language, told
 from .lecture_text import Entry, chapters
 from .ran_figure import Ran, value_at_start, written
-from .recorded_text import axis_letter, sentence
+from .recorded_text import axis_letter, lecture, sentence, stated
 
-TRIED, SAME_TOP, ASLEEP = (told(f"lecture:{x}") for x in ("tried", "same_top", "asleep"))
-HERE, HERE_BY, ALWAYS = (told(f"lecture:{x}") for x in ("here", "here_by", "always"))
-NUMBERS, FIRST = told("lecture:here_numbers"), told("lecture:here_first")
-LONG_CASES, ONLY = told("lecture:long_cases"), told("lecture:only")
-WHERE, SOLIDS = " where {cases}", ("SO(3)", "SE(3)")
+ALWAYS, WHERE, SOLIDS = "always", " where {cases}", ("SO(3)", "SE(3)")
 LONG = 90
 """The most letters of conditions that are told in letters."""
 TOP = ("I_1", "I_3", "mgl")
@@ -87,32 +81,24 @@ def steady(d: Derivation, steps: Sequence[Step], ran: Ran | None = None) -> Iter
         [x for x in steps if x.label.rpartition("_")[2] == s.label.rpartition("_")[2]] for s in at
     ]
     points = [[y[1:] for s in run for x in placed(s, "point") for y in rows(x)] for run in both]
-    variables = ", ".join(variables_of(at[0]))
-    supposed = {x.message: x for s in steps for x in s.prose}
-    positive = supposed.get(message("family.positive"))
+    said = [x for s in steps for x in s.prose]
+    positive = [x for x in said if x.message == message("family.positive")][:1]
     letters = [y for point in points for y in point if isinstance(y[1], tuple)]
     numbers, start = _numbers(d, letters, ran)
-
-    def said_first(spoken: Language) -> str:
-        found = [spoken.word(TRIED, variables=spoken.formula(variables))]
-        if positive:
-            found.append(spoken.word(POSITIVE, **_places(positive, spoken)))
-        if named := [in_sentence(y) for _, y in letters]:
-            found.append(
-                spoken.word(LETTERS, letters=spoken.formula(", ".join(dict.fromkeys(named))))
-            )
-        if numbers and positive:
-            found.append(spoken.word(FIRST if start else NUMBERS, letters=spoken.formula(start)))
-        if any(len(_cases(x)) > LONG for s in steps for x in s.prose):
-            found.append(spoken.word(LONG_CASES))
-        return " ".join(found)
-
-    yield sentence(said_first)
+    first = [lecture("tried", variables=", ".join(variables_of(at[0])))]
+    first += [replace(x, message=POSITIVE) for x in positive]
+    if named := dict.fromkeys(in_sentence(y) for _, y in letters):
+        first.append(phrase(LETTERS, letters=", ".join(named)))
+    if numbers and positive:
+        first.append(lecture("here_first" if start else "here_numbers", letters=start))
+    if any(len(_cases(x)) > LONG for x in said):
+        first.append(lecture("long_cases"))
+    yield sentence((*first,))
     verdicts = [_verdict(run, numbers) for run in both]
     alike: dict[str, list[str]] = {}
     for run, point, verdict in zip(both, points, verdicts, strict=True):
         motion = _kind(d, point)
-        yield sentence(partial(_of_one, run, motion, verdict), [x.label for x in run])
+        yield sentence(_of_one(run, motion, verdict), [x.label for x in run])
         proved = STABLE if verdict[0] == ON_LEAF else verdict[0]
         alike.setdefault(motion[0] if len(point) == 1 else "", []).append(proved)
     for kind in ALIKE:
@@ -149,33 +135,33 @@ def _of_one(
     steps: Sequence[Step],
     motion: tuple[str, int, Sequence[tuple[int, int, int]]],
     proved: tuple[str, str],
-    spoken: Language,
-) -> str:
+) -> Prose:
     """What a steady motion is, and what is proved of its stability."""
     said = [x for s in steps for x in s.prose]
-    at = str(next((dict(x.places)["point"] for x in said if "point" in dict(x.places)), ""))
-    verdicts: list[str] = []
-    for x in said:
-        if x.message in SAID and len(_cases(x)) <= LONG:
-            places = {k: y for k, y in _places(x, spoken).items() if f"{{{k}}}" in SAID[x.message]}
-            verdicts.append(spoken.word(SAID[x.message], **places))
-    here = spoken.word(proved[0])
-    first, *others = dict.fromkeys(
-        verdicts or [here or spoken.word(LONG_ONES if any(map(_cases, said)) else OPEN)]
-    )
+    at = next((dict(x.places)["point"] for x in said if "point" in dict(x.places)), "")
+    verdicts = [_in_few_words(x) for x in said if x.message in SAID and len(_cases(x)) <= LONG]
+    here, numbers = proved
+    unsaid = phrase(here or (LONG_ONES if any(map(_cases, said)) else OPEN))
+    first, *others = dict.fromkeys(verdicts or [unsaid])
     for other in others:
-        first = spoken.word("{first}; {second}", first=first, second=other)
+        first = phrase("{first}; {second}", first=first, second=other)
     kind, axis, entries = motion
-    when = spoken.word(kind, axis=spoken.formula(axis_letter(axis)))
+    when = phrase(kind, axis=axis_letter(axis))
     for i, j, sign in entries:
-        fixed, own = (spoken.formula(axis_letter(k)) for k in (i, j))
-        when = spoken.word(POINTING[sign], when=when, axis=own, fixed=fixed)
-    where = spoken.formula(at) or spoken.word("all variables 0")
-    whole = spoken.word(WHEN if when and at else AT, when=when, point=where, verdict=first)
+        axes = {"axis": axis_letter(j), "fixed": axis_letter(i)}
+        when = phrase(POINTING[sign], when=when, **axes)
+    where = at or phrase("all variables 0")
+    whole = phrase(WHEN if kind and at else AT, when=when, point=where, verdict=first)
     if not here or not verdicts:
-        return whole
-    said_so = {"": HERE, ALWAYS: ALWAYS}.get(proved[1], HERE_BY)
-    return f"{whole} {spoken.word(said_so, verdict=here, numbers=spoken.formula(proved[1]))}"
+        return (whole,)
+    said_so = {"": "here", ALWAYS: "always"}.get(numbers, "here_by")
+    return whole, lecture(said_so, verdict=phrase(here), numbers=numbers)
+
+
+def _in_few_words(x: Sentence) -> Sentence:
+    """What a sentence of the record says of stability."""
+    told = SAID[x.message]
+    return phrase(told, **{k: y for k, y in x.places if f"{{{k}}}" in told})
 
 
 def _cases(x: Sentence) -> str:
@@ -244,12 +230,9 @@ def _odd_one(d: Derivation, kind: str, verdicts: Sequence[str]) -> Iterator[Entr
     odd = next(k for k, x in enumerate(verdicts) if verdicts.count(x) == 1)
     inertia = [form[k][k] for k in range(3)] if form else []
     if len({*inertia}) == 3:
-        told = {"those": ALIKE[kind], "verdict": verdicts[odd]}
-        told["rank"] = RANKS[sorted(inertia).index(inertia[odd])]
-        axis = axis_letter(odd + 1)
-        yield sentence(
-            lambda x: x.word(ONLY, axis=x.formula(axis), **{k: x.word(y) for k, y in told.items()})
-        )
+        rank = RANKS[sorted(inertia).index(inertia[odd])]
+        told = {"those": ALIKE[kind], "verdict": verdicts[odd], "rank": rank}
+        yield stated("only", axis=axis_letter(odd + 1), **{k: phrase(y) for k, y in told.items()})
 
 
 def asleep(d: Derivation) -> Iterator[Entry]:
@@ -258,17 +241,14 @@ def asleep(d: Derivation) -> Iterator[Entry]:
     names = as_top(d)
     if names:
         across, _, weight = (f"‘{x}’" for x in names)
-        bound, heavy = f"ℓ₃² = 4 {across} {weight}", f"{weight} > 0"
-        yield sentence(
-            lambda x: x.word(ASLEEP, momentum=x.formula(bound), weight=x.formula(heavy)),
-            [f"{d.name}.lagrangian"],
-        )
+        places = {"momentum": f"ℓ₃² = 4 {across} {weight}", "weight": f"{weight} > 0"}
+        yield stated("asleep", [f"{d.name}.lagrangian"], **places)
 
 
 def same_top(d: Derivation) -> Iterator[Entry]:
     """That a problem is the heavy top of the lecture, where it is."""
     if as_top(d):
-        yield sentence(lambda x: x.word(SAME_TOP), [f"{d.name}.lagrangian"])
+        yield stated("same_top", [f"{d.name}.lagrangian"])
 
 
 def as_top(d: Derivation) -> tuple[str, ...]:
@@ -297,10 +277,3 @@ def variables_of(step: Step) -> Iterator[str]:
     for e in step.equations:
         if isinstance(e.lhs, tuple) and e.lhs[0] in ("at", "entry"):
             yield normalize("NFC", normalize("NFD", show(e.lhs)).replace("\u0307", ""))
-
-
-def _places(x: Sentence, spoken: Language) -> Mapping[str, str]:
-    return {
-        name: spoken.formula(y) if isinstance(y, str) else spoken.sentence(y)
-        for name, y in x.places
-    }
