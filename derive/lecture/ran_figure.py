@@ -134,10 +134,8 @@ class Ran:
         high = max(0.0, *(max(values) for _, values in self.curves))
         ends = (1.1 * low, 1.1 * high) if low < high else (-1.0, 1.0)
         frame = Frame((14.0, 6.0), (92.0, 36.0), (0.0, ends[0]), (self.times[-1], ends[1]))
-        strokes, labels = frame.axes(
-            (Label("t"), Label("")), marks(0.0, self.times[-1]), marks(*ends)
-        )
-        strokes.append(frame.curve([(0, 0), (self.times[-1], 0)], "axis", "thin"))
+        times = marks(0.0, self.times[-1])
+        strokes, labels = frame.axes((Label("t"), Label("")), times, marks(*ends), 0)
         for role, (_, numbers) in zip(AXES, self.curves, strict=False):
             strokes.append(frame.curve(zip(self.times, numbers, strict=True), role))
         labels += self._ends(frame)
