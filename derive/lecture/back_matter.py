@@ -71,15 +71,12 @@ does not have."""
 
 
 PRINTED_BY = {
-    "": "derive walk {}",
-    "symmetries": "derive symmetries {}",
-    "reduction": "derive reduction {}",
-    "integrals": "derive integrals {}",
-    "equilibria": "derive equilibria {}",
-    "families": "derive equilibria {} --letters",
-    "discrete": "derive walk {} --discrete",
+    "": "walk {}",
+    "families": "equilibria {} --letters",
+    "discrete": "walk {} --discrete",
 }
-"""What is found of a problem, as chapters name it → the command that prints it."""
+"""What is found of a problem, as chapters name it → the command that prints it, where that has not
+the same name."""
 
 
 def homes(chapters: Sequence[Chapter], records: Mapping[str, Derivation]) -> dict[str, list[str]]:
@@ -97,7 +94,7 @@ def homes(chapters: Sequence[Chapter], records: Mapping[str, Derivation]) -> dic
 
 def _printing(name: str) -> str:
     problem, _, search = name.partition(":")
-    return PRINTED_BY[search].format(problem)
+    return f"derive {PRINTED_BY.get(search, f'{search} {{}}').format(problem)}"
 
 
 @dataclass(frozen=True)

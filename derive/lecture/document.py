@@ -93,12 +93,7 @@ LATEX = Medium(
 )
 
 
-def _one_by_one(equations: Sequence[Equation]) -> str:
-    """Equations of a record as displays of a page, one below the other."""
-    return "\n".join(map(PAGE.display, map(sides, equations)))
-
-
-PAGE = Medium(
+PAGE: Medium = Medium(
     escaped,
     "<em>{}</em>",
     "<code>{}</code>",
@@ -106,7 +101,7 @@ PAGE = Medium(
     lambda x: x.mathml(),
     lambda x: x.mathml().replace("<math>", '<math display="block">'),
     svg,
-    _one_by_one,
+    lambda equations: "\n".join(map(PAGE.display, map(sides, equations))),  # one below the other
     '<span class="display">{}</span>',
 )
 

@@ -14,7 +14,7 @@ from ..language.tree import Tree, names, nodes
 from ..record.as_json import decode
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Sentence, say
+from ..record.sentence import Sentence, phrase, say
 from ..views.answer import definitions, equations_of_motion, steps_of_answer
 from ..views.as_read import Reading
 from ..views.figure.scene import scene
@@ -102,13 +102,13 @@ def chapter_of(
     the racket, or why not; ``ran``: its motion, or why there is none.
     Searches that were refused stand last, those for one reason together."""
     run = ran if isinstance(ran, Ran) else None
-    reduced = found.get("reduction", Found()).steps
+    moving = coordinate(d, found.get("reduction", Found()).steps)
     told = {x: _told(d, x, found[x], run) for x in SEARCHES if x in found}
     if {*STEADY} <= {*told}:  # in letters, where they are found so: it says more
         del told[STEADY[0] if told[STEADY[1]] else STEADY[1]]
     told = dict(sorted(told.items(), key=lambda x: found[x[0]].refused))
     stable = any(told.get(x) for x in STEADY)
-    blocks = [_question(d, run, coordinate(d, reduced), stable=stable), *_motion(d, place)]
+    blocks = [_question(run, moving, stable=stable), *_motion(d, place)]
     for _, alike in groupby(told, lambda x: found[x].refused or (told[x] and x) or NONE.get(x, x)):
         searches = (*alike,)
         entries = told[searches[0]] or [_nothing(d.name, searches[0], found[searches[0]])]
@@ -116,7 +116,7 @@ def chapter_of(
         blocks.append(_section(*(SEARCHES[x] for x in searches)))
         blocks += (_text(*x) for x in apart)
     if ran:
-        blocks += [_section("A motion."), *_pictured(d, ran, coordinate(d, reduced))]
+        blocks += [_section("A motion."), *_pictured(d, ran, moving)]
     home = {e: step.label for step in d.steps for e in step.equations}
     kept = [x for x in found.get("symmetries", Found()).steps if kept_by(x)]
     blocks += exercises(
@@ -145,11 +145,10 @@ def chapter_of(
 
 
 def _section(*headings: str) -> Block:
-    heading = sentence(lambda x: " ".join(map(x.word, headings)))
-    return Block("section", "", "", (heading,), 0)
+    return Block("section", "", "", (sentence(tuple(map(phrase, headings))),), 0)
 
 
-def _question(d: Derivation, ran: Ran | None, letter: Tree, *, stable: bool) -> Block:
+def _question(ran: Ran | None, letter: Tree, *, stable: bool) -> Block:
     """What moves, from which start, if that is not long, and what is asked of it."""
     asked = [lecture("question")]
     asked += [lecture("between_which", letter=show(letter))] if letter else []
@@ -164,6 +163,10 @@ def _text(*entries: Entry) -> Block:
     return Block("text", "", "", entries, 0)
 
 
+def _figure(label: str, description: str, caption: Entry) -> Block:
+    return Block("figure", label, "", (sentence(say(description)), caption), 0)
+
+
 def _moved(d: Derivation, spoken: Language) -> str:
     """What moves, by which group, and what acts."""
     own = {x: spoken.word(told(f"lecture:{y}")) for x, y in SYSTEM.items()}
@@ -176,9 +179,8 @@ def _motion(d: Derivation, place: Sentence | None) -> Iterator[Block]:
     given = next((s for s in d.steps if s.label == f"{d.name}.lagrangian"), None)
     pulled_back = (s for s in d.steps if s.label.endswith(".pullback") and s.given == ())
     step = given or next(pulled_back, None)
-    lagrangian = (
-        [e for e in step.equations if e.lhs == "L̃" and "i" not in names(e.rhs)][:1] if step else []
-    )
+    told_of = step.equations if step else ()
+    lagrangian = [e for e in told_of if e.lhs == "L̃" and "i" not in names(e.rhs)][:1]
     known: tuple[Equation, ...] = ()
     if step and lagrangian:
         known = () if given else definitions(d, lagrangian)
@@ -187,7 +189,8 @@ def _motion(d: Derivation, place: Sentence | None) -> Iterator[Block]:
         heading = sentence(lambda x: f"{_moved(d, x)} {x.sentence(said)}".lstrip())
         yield _text(heading, display(lagrangian, [step.label]), *_defining(d, known))
     yield from _parameters(d)
-    yield from _body(d)
+    if drawn := scene(d):
+        yield _figure(label_of(d.name, "body"), BODY, sentence(drawn.caption))
     motion = equations_of_motion(d)
     entries = [sentence(say("Its equations of motion are"))]
     entries.append(display(motion, [s.label for s in steps_of_answer(d)]))
@@ -227,13 +230,6 @@ def in_order(defined: Sequence[Equation]) -> list[Equation]:
 
 def _family(t: Tree) -> Tree:
     return t[1] if isinstance(t, tuple) and t[0] in ("at", "entry") else t
-
-
-def _body(d: Derivation) -> Iterator[Block]:
-    """The figure of its body, where it has one."""
-    if drawn := scene(d):
-        entries = (sentence(say(BODY)), sentence(drawn.caption))
-        yield Block("figure", label_of(d.name, "body"), "", entries, 0)
 
 
 def _parameters(d: Derivation) -> Iterator[Block]:
@@ -324,7 +320,7 @@ def _pictured(d: Derivation, ran: Ran | Sentence, letter: Tree) -> Iterator[Bloc
     label, also = label_of(d.name), [x for x in (show(letter),) if x in ran.state]
     shown = told("lecture:shown")
     yield _text(sentence(lambda x: f"{x.word(shown, figure=f'@{label}')} {ran.told(x, also)}"))
-    yield Block("figure", label, "", (sentence(say(DESCRIBED)), sentence(ran.caption)), 0)
+    yield _figure(label, DESCRIBED, sentence(ran.caption))
 
 
 def _displays(step: Step) -> Iterator[Entry]:

@@ -79,17 +79,14 @@ def _by_rates(
         (rows(e.lhs)[1], e, s.label) for s in steps for e in s.equations
         if rows(e.lhs)[:1] == ["d/dt"] and "Π" in names(e.lhs)
     ]  # fmt: skip
-    found = [x for x in constants if len(terms(x[0])) > 1 and x[0] not in _energies(steps)]
+    energies = [e.rhs for s in steps for e in s.equations if e.lhs == "h̃"]
+    found = [x for x in constants if len(terms(x[0])) > 1 and x[0] not in energies]
     for kept, e, label in sorted(found, key=lambda x: len(in_sentence(x[0])))[:1]:
         used = [*dict.fromkeys(rates[y] for x in nodes(kept) if (y := _rate(x)) in rates)]
         if used and all(short(x) for x, _ in used):
             yield [_asked(HAND, KEPT), alone(kept)]
             rules = display([x for x, _ in used], [used[0][1]])
             yield [stated("by_rates"), rules, stated("cancel"), display([e], [label])]
-
-
-def _energies(steps: Sequence[Step]) -> list[Tree]:
-    return [e.rhs for s in steps for e in s.equations if e.lhs == "h̃"]
 
 
 def _rate(t: Tree) -> Tree:

@@ -187,5 +187,10 @@ def value_at_start(d: Derivation, t: Tree, ran: Ran) -> float:
         unmoved = float(x[1] == "A" and x[2] == x[-1])
         t = replaced(t, x, Fraction(start.get(show(x), unmoved)))
     given = {x: y["default"] for x, y in d.problem["parameters"].items()}
-    found = approximate(t, {x: float(y) for x, y in given.items() if y is not None})
+    return value_of(t, {x: float(y) for x, y in given.items() if y is not None})
+
+
+def value_of(t: Tree, parameters: Mapping[str, float]) -> float:
+    """The value of an expression; not a number where it has none."""
+    found = approximate(t, parameters)
     return math.nan if found is None else found

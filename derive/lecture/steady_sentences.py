@@ -13,7 +13,6 @@ from unicodedata import normalize
 from ..check.checker import checker_of
 from ..language.show import in_sentence, show
 from ..language.tree import Tree, replaced
-from ..language.values import approximate
 from ..record.as_json import decode
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
@@ -21,7 +20,7 @@ from ..record.sentence import Prose, Sentence, phrase
 from ..views.figure.drawn_body import ExpressionValues
 from ..views.figure.scene import quadratic
 from .lecture_text import Entry, chapters
-from .ran_figure import Ran, value_at_start, written
+from .ran_figure import Ran, value_at_start, value_of, written
 from .recorded_text import axis_letter, lecture, sentence, stated
 
 ALWAYS, WHERE, SOLIDS = "always", " where {cases}", ("SO(3)", "SE(3)")
@@ -181,7 +180,7 @@ def _verdict(steps: Sequence[Step], numbers: Mapping[str, float]) -> tuple[str, 
         (a, b) = pairs[0]
         if len(pairs) == 1 and b == 0 and rows(a)[1:] and _positive(a, numbers):
             return verdict, ALWAYS
-        values = [[[_number(t, numbers) for t in pair] for pair in x] for x in cases]
+        values = [[[value_of(t, numbers) for t in pair] for pair in x] for x in cases]
         if math.isnan(sum(y for case in values for x in case for y in x)):
             return "", ""
         if any(all(x > y for x, y in case) for case in values):
@@ -199,12 +198,6 @@ def placed(step: Step, place: str) -> list[Tree]:
 def rows(t: Tree) -> list[Any]:
     """The parts of a matrix, of a row, of a sum; none of a number or a letter."""
     return [*t[1:]] if isinstance(t, tuple) and t[0] != "par" else []
-
-
-def _number(t: Tree, numbers: Mapping[str, float]) -> float:
-    """The value of an expression; not a number where a letter has none."""
-    found = approximate(t, numbers)
-    return math.nan if found is None else found
 
 
 def _positive(t: Tree, numbers: Mapping[str, float]) -> bool:
@@ -254,9 +247,9 @@ def same_top(d: Derivation) -> Iterator[Entry]:
 def as_top(d: Derivation) -> tuple[str, ...]:
     """The parameters of a problem in the place of those of the heavy top, where the Lagrangian of
     the lecture's chapter on it is that of the problem; else empty."""
-    step = next((s for s in d.steps if s.label == f"{d.name}.lagrangian"), None)
-    given = d.problem["parameters"]
-    if step is None or d.problem["group"] != "SO(3)" or len(given) != len(TOP):
+    given, group = d.problem["parameters"], d.problem["group"]
+    steps = [s for s in d.steps if s.label == f"{d.name}.lagrangian"]
+    if not steps or group != "SO(3)" or len(given) != len(TOP):
         return ()
     claimed = (x for c in chapters() if c.name == "top" for e in c.entries for x in e.equations)
     lagrangian = next(x.rhs for x in claimed if x.lhs == "L̃")
@@ -267,7 +260,7 @@ def as_top(d: Derivation) -> tuple[str, ...]:
         t = lagrangian
         for k, name in enumerate(names):
             t = replaced(t, ("at", "par", k), ("par", name))
-        if checker.check(replace(step, equations=(Equation("L̃", t),))).holds:
+        if checker.check(replace(steps[0], equations=(Equation("L̃", t),))).holds:
             return names
     return ()
 
