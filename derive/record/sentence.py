@@ -68,10 +68,8 @@ def listed(message: str, items: Sequence[Sentence]) -> Sentence:
 def enumerated(items: Sequence[Sentence]) -> Sentence:
     """Parts of a sentence, at least one, with commas and an "and" before the last."""
     *before, last = items
-    if not before:
-        return last
     first = listed("{first}, {second}", before)
-    return phrase("{first} and {second}", first=first, second=last)
+    return phrase("{first} and {second}", first=first, second=last) if before else last
 
 
 def english(prose: Prose) -> str:
