@@ -283,8 +283,7 @@ def ranked(
 
 
 def seen_from(azimuth: float, elevation: float, axes: Sequence[Vector] = UNITS) -> View:
-    """The view from a direction in degrees, around the third axis from the first, and above both
-    of them; ``axes``: forward, aside, up."""
+    """The view from a direction in degrees, around and above; ``axes``: forward, aside, up."""
     ahead, aside, above = axes
     a, e = math.radians(azimuth), math.radians(elevation)
     level = plus(scaled(math.cos(a), ahead), aside, math.sin(a))
