@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from ..language.read import FormulaError
 from ..language.tree import names
 from ..record.record import Derivation
-from ..views.language import Language
+from ..views.language import Language, labelled, told
 from ..views.outline import ON_FLUIDS, ON_STEPS_OF_TIME, REFERENCES
 from .lecture_text import RELATION, Chapter, Entry, Formula, tree
 
@@ -35,87 +35,48 @@ UNTITLED = Front()
 NOTE, AUDIN, NOTES = REFERENCES
 SECOND, UNPUBLISHED = "second ed.", "unpublished note"
 UNDATED = "without a date (2000 or later)"
-WORKS = (
-    ON_FLUIDS[0],
-    AUDIN,
+COMPTES_RENDUS = "Comptes rendus de l’Académie des sciences 132, 1901, 369–371"
+OWN_WORKS = f"""
+HLW | E. Hairer, C. Lubich, G. Wanner | Geometric Numerical Integration | Springer, {SECOND}, 2006
+Hol | D. D. Holm | Geometric Mechanics, Part II | Imperial College Press, {SECOND}, 2011
+MR | J. E. Marsden, T. S. Ratiu | Introduction to Mechanics and Symmetry | Springer, {SECOND}, 1999
+Poi | H. Poincaré | Sur une forme nouvelle des équations de la mécanique | {COMPTES_RENDUS}
+Sou | J.-M. Souriau | Structure des systèmes dynamiques | Dunod, 1970
+"""
+
+
+def _surname(work: Sequence[str]) -> str:
+    return work[1].partition(",")[0].split()[-1]
+
+
+WORKS: Sequence[Sequence[str]] = sorted(
     (
-        "HLW",
-        "E. Hairer, C. Lubich, G. Wanner",
-        "Geometric Numerical Integration",
-        f"Springer, {SECOND}, 2006",
+        *(ON_FLUIDS[0], AUDIN, *ON_STEPS_OF_TIME, (*NOTE[:3], f"{UNPUBLISHED}, {UNDATED}")),
+        (*NOTES[:3], f"{NOTES[3]}, http://hermes.univ-mrs.fr/~patrick/"),
+        *(x.split(" | ") for x in OWN_WORKS.strip().split("\n")),
     ),
-    (
-        "Hol",
-        "D. D. Holm",
-        "Geometric Mechanics, Part II",
-        f"Imperial College Press, {SECOND}, 2011",
-    ),
-    (*NOTES[:3], f"{NOTES[3]}, http://hermes.univ-mrs.fr/~patrick/"),
-    (*NOTE[:3], f"{UNPUBLISHED}, {UNDATED}"),
-    (
-        "MR",
-        "J. E. Marsden, T. S. Ratiu",
-        "Introduction to Mechanics and Symmetry",
-        f"Springer, {SECOND}, 1999",
-    ),
-    *ON_STEPS_OF_TIME,
-    (
-        "Poi",
-        "H. Poincaré",
-        "Sur une forme nouvelle des équations de la mécanique",
-        "Comptes rendus de l’Académie des sciences 132, 1901, 369–371",
-    ),
-    ("Sou", "J.-M. Souriau", "Structure des systèmes dynamiques", "Dunod, 1970"),
+    key=_surname,
 )
 """The works by their authors: key, author, title, where; ``@key``, in small letters, is the number
 of one in the text."""
 NUMBERS = {key.lower(): k for k, (key, *_) in enumerate(WORKS, 1)}
 
 
+LETTER = "letter:"
 OWN = {
-    ("fixed_point", "y"): "time, element of the group and velocity, together",
-    ("fixed_point", "O"): "the origin, a fixed point",
-    ("fixed_point", "m"): "masses of the points",
-    ("fixed_point", "μ"): "moment of the forces about the fixed point, in the body frame",
-    ("fixed_point", "σ"): "the rate at which a deviation grows",
-    ("fixed_point", "ω"): "angular velocity at the ends of a separatrix",
-    ("fixed_point", "f"): "the force carried to the Lie algebra, j(φ)",
-    ("fixed_point", "⟨a, b⟩_I"): "the scalar product of the tensor of inertia, ⟨a, Ib⟩",
-    ("top", "e₃"): "third axis of the body; e₁ and e₂ are the two others",
-    ("top", "‘I_1’"): "moment of inertia across the axis",
-    ("top", "‘I_3’"): "moment of inertia about the axis",
-    ("top", "‘mgl’"): "weight times distance to the centre of mass",
-    ("top", "Π"): "momentum, derivative of L̃ with respect to Z",
-    ("top", "u₁"): "cosine of the lower tilt; u₂ is that of the upper one",
-    ("top", "ψ"): "angle of the precession",
-    ("top", "z"): "third root of the cubic of the upright top",
-    ("any_group", "G"): "the group, of matrices",
-    ("any_group", "𝔤"): "Lie algebra of the group",
-    ("any_group", "Π"): "momentum, derivative of L̃ with respect to Z",
-    ("any_group", "Π_o"): "momentum seen from space",
-    ("any_group", "Φ"): "force, derivative of L̃ along the group at constant Z",
-    ("volume", "K"): "symmetric matrix of the springs: their energy is ½ Tr AKĀ",
-    ("volume", "‘rho’"): "density of the fluid",
-    ("volume", "‖r‖²_Q_r"): "the value of the quadric at r, ⟨r, Q_r r⟩",
-    ("fluid", "g"): "diffeomorphism of the vessel that keeps volumes",
-    ("fluid", "ω"): "angular velocity, in space",
-    ("fluid", "Ψ"): "stream function of a plane flow",
-    ("steps", "y₀"): "first place of a point; y₁ and y₂ are the next two",
+    (*x.removeprefix(LETTER).split(" ", 1),): told(x) for x in labelled() if x.startswith(LETTER)
 }
 """Chapter and letter → what it means there, where no record says it, or with letters that the text
 does not have."""
 
 
 PRINTED_BY = {
-    "": "derive walk {}",
-    "symmetries": "derive symmetries {}",
-    "reduction": "derive reduction {}",
-    "integrals": "derive integrals {}",
-    "equilibria": "derive equilibria {}",
-    "families": "derive equilibria {} --letters",
-    "discrete": "derive walk {} --discrete",
+    "": "walk {}",
+    "families": "equilibria {} --letters",
+    "discrete": "walk {} --discrete",
 }
-"""What is found of a problem, as chapters name it → the command that prints it."""
+"""What is found of a problem, as chapters name it → the command that prints it, where that has not
+the same name."""
 
 
 def homes(chapters: Sequence[Chapter], records: Mapping[str, Derivation]) -> dict[str, list[str]]:
@@ -133,7 +94,7 @@ def homes(chapters: Sequence[Chapter], records: Mapping[str, Derivation]) -> dic
 
 def _printing(name: str) -> str:
     problem, _, search = name.partition(":")
-    return PRINTED_BY[search].format(problem)
+    return f"derive {PRINTED_BY.get(search, f'{search} {{}}').format(problem)}"
 
 
 @dataclass(frozen=True)

@@ -8,15 +8,15 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 from ..views.figure.drawing import Label, Scene, Stroke, arrow
-from ..views.figure.drawn_body import ExpressionValues, View, cross, parts, placed
+from ..views.figure.drawn_body import UNITS, ExpressionValues, View, dot, parts, placed, seen_from
 from ..views.figure.panels import Panel, Sheet, draw, heaviest
-from ..views.figure.scene import parts_of_inertia
+from ..views.figure.scene import box_of, parts_of_inertia
 from ..views.language import LANGUAGES, Language
 from .figures import Figure, Spun, displacement, polhodes
 from .lecture_text import Given
 from .motion_figures import MOMENTS, poinsot
 from .own_body import FREE, OwnBody
-from .sheets import Claims, Vector, euler, panel, solved
+from .sheets import Claims, Vector, euler, numbered, panel, solved
 
 TILTED = 0.004
 """The angular velocity about the first axis at first, in that about the second."""
@@ -62,11 +62,6 @@ class BodyOfLecture:
         return TILTED * self.body.speed, self.body.speed, 0.0
 
     @cached_property
-    def step(self) -> float:
-        """A step of time in which it turns little, however fast."""
-        return step_of(self.body.moments, self.body.speed)
-
-    @cached_property
     def turned(self) -> float:
         """When it has first turned over half."""
         return turned(self.claims, self.body.moments, self.start)
@@ -75,16 +70,13 @@ class BodyOfLecture:
     def spun(self) -> Spun:
         """Its motion over two flips, with the marks of the axes."""
         end = 4.3 * self.turned
-        steps = 4 * max(260, math.ceil(end / self.step / 4))
+        step = step_of(self.body.moments, self.body.speed)
+        steps = 4 * max(260, math.ceil(end / step / 4))
         whole = Spun(self.body.moments, self.start, end, steps)
         rate = euler(self.claims, self.body.moments)
         largest = max(abs(x) for _, zeta in solved(rate, self.start, end, steps) for x in zeta)
-        return replace(
-            whole,
-            largest=1.1 * largest,
-            times=marks(0.0, end),
-            speeds=marks(-largest, largest),
-        )
+        times, speeds = marks(0.0, end), marks(-largest, largest)
+        return replace(whole, largest=1.1 * largest, times=times, speeds=speeds)
 
     @property
     def figures(self) -> dict[str, Figure]:
@@ -115,7 +107,7 @@ def marks(low: float, high: float) -> dict[float, str]:
     power = 10.0 ** math.floor(math.log10(least))
     step = next(k * power for k in (1, 2, 5, 10) if k * power >= least)
     span = range(math.ceil(low / step), math.floor(high / step) + 1)
-    return {k * step: f"{k * step:g}".replace("-", "−") for k in span}
+    return numbered(k * step for k in span)
 
 
 # The whole theory in one picture: the body, and what the group makes of it.
@@ -127,11 +119,11 @@ def theory(body: OwnBody) -> Scene:
     part = (parts(dict(body.problem), value) or parts_of_inertia(body.problem, value))[0]
     calm = {**body.problem, **dict.fromkeys(CALM, ())}
     panels = [Panel(part, calm, value) for _ in range(2)]
-    view = _seen(-55, 24)
+    view = seen_from(-55, 24)
     moved = View(_back(view.right), _back(view.up), _back(view.towards))
     for each, seen in zip(panels, (view, moved), strict=True):
         each.look(seen)
-    boxes = [_box(x) for x in panels]
+    boxes = [box_of(x.extent()) for x in panels]
     scale = min(room / max(box[k + 2] - box[k] for box in boxes) for k, room in enumerate(DRAWN))
     height = scale * max(y1 - y0 for _, y0, _, y1 in boxes)
     sheet, left = Sheet(), 4.0
@@ -148,29 +140,13 @@ def theory(body: OwnBody) -> Scene:
         left += scale * (x1 - x0) + 22
     middle = 4 + scale * (boxes[0][2] - boxes[0][0]) + 7
     bow = [(middle + k, 7 + height + 3 * math.sin(math.pi * k / 16)) for k in range(15)]
-    sheet.strokes += [
-        Stroke(tuple(bow), "axis"),
-        *arrow(bow[-1], (middle + 16, 6.6 + height), "axis"),
-    ]
+    sheet.strokes.append(Stroke(tuple(bow), "axis"))
+    sheet.strokes += arrow(bow[-1], (middle + 16, 6.6 + height), "axis")
     labels.append(Label("A", at=(middle + 8, 13 + height)))
     return panel((left - 14, height + 16), sheet.strokes, labels, sheet.dots)
 
 
-def _seen(azimuth: float, elevation: float) -> View:
-    """The view from far, from a direction in degrees."""
-    a, e = math.radians(azimuth), math.radians(elevation)
-    towards = math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e)
-    right = -math.sin(a), math.cos(a), 0.0
-    return View(right, cross(towards, right), towards)
-
-
 def _back(v: Vector) -> tuple[float, float, float]:
     """Āv, so that ⟨Āv, r⟩ is ⟨v, A r⟩ for the rotation A of the picture."""
-    units = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    x, y, z = (sum(a * b for a, b in zip(displacement(e), v, strict=True)) for e in units)
+    x, y, z = (dot(displacement(e), v) for e in UNITS)
     return x, y, z
-
-
-def _box(each: Panel) -> tuple[float, float, float, float]:
-    xs, ys = zip(*each.extent(), strict=True)
-    return min(xs), min(ys), max(xs), max(ys)

@@ -36,26 +36,25 @@ def blocks(equations: Sequence[Equation]) -> str:
     """Equations of a record as displays, which a page may part: short ones below one another, one
     that is too wide in several lines."""
     found: list[str] = []
-    for wide, run in groupby(equations, lambda e: measure(plain(sides(e).tex)) > WIDTH):
+    for (wide, family), run in groupby(equations, _manner):
+        together = [*run]
         if wide:
-            found += [displayed(sides(e)) for e in run]
-            continue
-        for columns, alike in groupby(run, _row_of):
-            together = [*alike]
-            if columns and together[1:]:
-                found += _side_by_side(together)
-            else:
-                found += [tall(y) for x in _parted(together) for y in aligned(x, LETTERS)]
+            found += [displayed(sides(e)) for e in together]
+        elif family and together[1:]:
+            found += _side_by_side(together)
+        else:
+            found += [tall(y) for x in _parted(together) for y in aligned(x, LETTERS)]
     return "\\]\n\\[".join(found)
 
 
-def _row_of(e: Equation) -> str:
-    """The letter of a family of which a member is a number or a column of some; else empty."""
+def _manner(e: Equation) -> tuple[bool, str]:
+    """Is an equation too wide? If it is narrow, the letter of a family of which a member is a
+    number or a column of some."""
+    width = measure(plain(sides(e).tex))
     family = str(e.lhs[1]) if isinstance(e.lhs, tuple) and e.lhs[0] == "at" else ""
-    column = isinstance(e.rhs, tuple) and e.rhs[0] == "matrix" and len(e.rhs) > FEW_ROWS
-    narrow = measure(plain(sides(e).tex)) < WIDTH / 2
     single = not isinstance(e.rhs, tuple) or e.rhs[0] == "par"
-    return family if narrow and (column or single) else ""
+    column = isinstance(e.rhs, tuple) and e.rhs[0] == "matrix" and len(e.rhs) > FEW_ROWS
+    return width > WIDTH, family if width < WIDTH / 2 and (column or single) else ""
 
 
 def _side_by_side(equations: Sequence[Equation]) -> Iterator[str]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
+from typing import Any
 
 from ..language.read import FormulaError
 from ..language.templating import environment
@@ -91,12 +93,7 @@ LATEX = Medium(
 )
 
 
-def _one_by_one(equations: Sequence[Equation]) -> str:
-    """Equations of a record as displays of a page, one below the other."""
-    return "\n".join(map(PAGE.display, map(sides, equations)))
-
-
-PAGE = Medium(
+PAGE: Medium = Medium(
     escaped,
     "<em>{}</em>",
     "<code>{}</code>",
@@ -104,62 +101,13 @@ PAGE = Medium(
     lambda x: x.mathml(),
     lambda x: x.mathml().replace("<math>", '<math display="block">'),
     svg,
-    _one_by_one,
+    lambda equations: "\n".join(map(PAGE.display, map(sides, equations))),  # one below the other
     '<span class="display">{}</span>',
 )
 
 
-@dataclass(frozen=True)
-class SetEntry:
-    """An entry as a template takes it: its text or display, what stands in the margins, and the
-    label and number of a display that is cited."""
-
-    text: str
-    display: bool
-    labels: tuple[str, ...]
-    open: tuple[str, ...]
-    numbers: tuple[int, ...]
-    anchors: tuple[str, ...] = ()
-    label: str = ""
-    number: int = 0
-
-
-@dataclass(frozen=True)
-class SetLetter:
-    """A row of the table of symbols: where the letter stands first, and in which chapter."""
-
-    letter: str
-    meaning: str
-    anchor: str
-    chapter: int
-
-
-@dataclass(frozen=True)
-class SetBlock:
-    """A block as a template takes it; ``number``: of a statement, an exercise or a figure;
-    ``description``: of its picture, for those who do not see it."""
-
-    kind: str
-    label: str
-    title: str
-    number: int
-    entries: tuple[SetEntry, ...]
-    picture: str = ""
-    description: str = ""
-
-
-@dataclass(frozen=True)
-class SetChapter:
-    """A chapter as a template takes it; ``name``: the label of its place."""
-
-    name: str
-    title: str
-    blocks: tuple[SetBlock, ...]
-
-    @property
-    def solutions(self) -> tuple[SetBlock, ...]:
-        """The solutions of its exercises."""
-        return tuple(x for x in self.blocks if x.kind == "solution")
+Set = dict[str, Any]
+"""What a template takes of a chapter, a block, an entry or a letter."""
 
 
 @dataclass(frozen=True)
@@ -258,31 +206,32 @@ class _Setter:
         self.anchors: dict[int, list[str]] = {}
         self.at = LANGUAGES.index(language.name)
 
-    def chapter(self, c: Chapter, numbers: Mapping[int, int]) -> SetChapter:
-        """A chapter; ``numbers``: of its blocks."""
-        blocks = tuple(self.block(b, numbers.get(id(b), 0)) for b in c.blocks)
+    def chapter(self, c: Chapter, numbers: Mapping[int, int]) -> Set:
+        """A chapter, with the solutions of its exercises once more; ``numbers``: of its blocks."""
+        blocks = [self.block(b, numbers.get(id(b), 0)) for b in c.blocks]
+        solutions = [x for x in blocks if x["kind"] == "solution"]
         name = f"chapter_{c.name}"  # a theorem may be called as a problem is
-        return SetChapter(name, self.words((c.title[self.at],)), blocks)
+        title = self.words((c.title[self.at],))
+        return {"name": name, "title": title, "blocks": blocks, "solutions": solutions}
 
-    def letter(self, x: LetterUse, k: int) -> SetLetter:
-        """A row of the table of symbols, and the anchor at its entry."""
+    def letter(self, x: LetterUse, k: int) -> Set:
+        """A row of the table of symbols, with its chapter and the anchor at its first entry."""
         anchor = f"letter-{k}"
         self.anchors.setdefault(id(x.entry), []).append(anchor)
         meaning = prose(x.meaning, self.plain, lambda y: self.medium.inline(spelt(y)))
-        return SetLetter(self.words((Formula(x.name),)), meaning, anchor, x.chapter)
+        letter = self.words((Formula(x.name),))
+        return {"letter": letter, "meaning": meaning, "anchor": anchor, "chapter": x.chapter}
 
-    def block(self, b: Block, number: int) -> SetBlock:
-        """A block with its entries; the first one of a figure describes it."""
-        entries = tuple(map(self.entry, b.entries))
-        found = SetBlock(b.kind, b.label, self.medium.text(b.title), number, entries)
-        if b.kind != "figure":
-            return found
-        return replace(
-            found,
-            entries=entries[1:],
-            picture=self.medium.picture(self.scene(b)),
-            description=entries[0].text,
-        )
+    def block(self, b: Block, number: int) -> Set:
+        """A block with its entries and the number of a statement, an exercise or a figure; the
+        first entry of a figure describes its picture, for those who do not see it."""
+        entries = [*map(self.entry, b.entries)]
+        found: Set = {"kind": b.kind, "label": b.label, "title": self.medium.text(b.title)}
+        found |= {"number": number, "entries": entries}
+        if b.kind == "figure":
+            picture = self.medium.picture(self.scene(b))
+            found |= {"entries": entries[1:], "description": entries[0]["text"], "picture": picture}
+        return found
 
     def scene(self, b: Block) -> Scene:
         """The picture of a figure, with its description and the decimal mark of the language."""
@@ -291,14 +240,19 @@ class _Setter:
         (description,) = b.entries[0].texts[self.at]
         return replace(scene, labels=tuple(labels), title=str(description))
 
-    def entry(self, x: Entry) -> SetEntry:
-        """A sentence or a display with its margins."""
-        text = self.display(x) if x.display else self.words(x.texts[self.at])
-        reasons = tuple(self.medium.text(tie.open[self.at]) for tie in x.ties if tie.open)
-        numbers = tuple(n for tie in x.ties for n in tie.numbers)
-        anchors = tuple(self.anchors.get(id(x), ()))
-        number = self.numbers[x.label] if x.label else 0
-        return SetEntry(text, x.display, x.labels, reasons, numbers, anchors, x.label, number)
+    def entry(self, x: Entry) -> Set:
+        """A sentence or a display with what stands in its margins; the label and the number of a
+        display that is cited."""
+        return {
+            "text": self.display(x) if x.display else self.words(x.texts[self.at]),
+            "display": x.display,
+            "labels": x.labels,
+            "open": tuple(self.medium.text(y.open[self.at]) for y in x.ties if y.open),
+            "numbers": tuple(n for tie in x.ties for n in tie.numbers),
+            "anchors": self.anchors.get(id(x), ()),
+            "label": x.label,
+            "number": self.numbers[x.label] if x.label else 0,
+        }
 
     def display(self, x: Entry) -> str:
         """A display: formulas side by side."""
@@ -307,10 +261,7 @@ class _Setter:
         if whole.recorded:
             return self.medium.aligned(whole.shown or whole.recorded)
         parts = [formula(y) for y in re.split(r",\s\s+", whole.text)]
-        found = parts[0]
-        for part in parts[1:]:
-            found += literal(r",\qquad ") + part
-        return self.medium.display(found)
+        return self.medium.display(reduce(lambda x, y: x + literal(r",\qquad ") + y, parts))
 
     def words(self, text: Words) -> str:
         """A sentence, its formulas set; a long one of a record stands apart, with the sign behind

@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
+from ..views.figure.drawn_body import UNITS, plus, scaled
 from .group_figures import carried_curve, hammer_thrown, momenta_in_steps, momenta_on_orbits
 from .motion_figures import ellipse, poinsot, tetrahedron, tilts, top_paths
-from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, euler, panel, solved
+from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, euler, numbered, panel, solved
 
 LEVELS = (0.1, 0.3, 0.55, 0.8)
 """Where on the way from an axis to the separatrices the polhodes are."""
@@ -27,12 +28,8 @@ class Spun:
     end: float = 110.0
     steps: int = 1100
     largest: float = 0.55
-    times: Mapping[float, str] = field(
-        default_factory=lambda: {t: f"{t:g}" for t in (0.0, 40.0, 80.0)}
-    )
-    speeds: Mapping[float, str] = field(
-        default_factory=lambda: {0.5: "0.5", 0.0: "0", -0.5: "−0.5"}
-    )
+    times: Mapping[float, str] = field(default_factory=lambda: numbered((0.0, 40.0, 80.0)))
+    speeds: Mapping[float, str] = field(default_factory=lambda: numbered((0.5, 0.0, -0.5)))
 
 
 RACKET = Spun()
@@ -85,8 +82,7 @@ def racket(claims: Claims, body: Spun = RACKET) -> list[tuple[float, Vector]]:
 def _flip(claims: Claims, body: Spun) -> Scene:
     """The three components of the angular velocity over time."""
     frame = Frame((9.0, 6.0), (46.0, 36.0), (0.0, -body.largest), (body.end, body.largest))
-    strokes, labels = frame.axes((Label("t"), Label("ζ", "i")), body.times, body.speeds)
-    strokes.append(frame.curve([(0, 0), (body.end, 0)], "axis", "thin"))
+    strokes, labels = frame.axes((Label("t"), Label("ζ", "i")), body.times, body.speeds, 0)
     motion = racket(claims, body)
     for k in range(3):
         strokes.append(frame.curve(((t, zeta[k]) for t, zeta in motion), AXES[k]))
@@ -141,11 +137,10 @@ def _racket_at(centre: Point, move: Callable[[Sequence[float]], Vector], letter:
     strokes += (stroke(HANDLE, "body", "wash"), stroke((*HANDLE, HANDLE[0]), "body"))
     labels = []
     for k, length in enumerate((2.3, 1.0, 1.0)):
-        axis = [float(k == i) for i in range(3)]
-        tip, far = (tuple((length + more) * x for x in axis) for more in (0, 0.22))
-        strokes += arrow(centre, view.at(move(tip)), AXES[k])
-        labels.append(Label(f"{letter}e", str(k + 1), at=view.at(move(far))))
-    outside = tuple(1.12 * x + 0.12 * y for x, y in zip(POINT, (0, 2, 0), strict=True))
+        tip, far = (view.at(move(scaled(length + more, UNITS[k]))) for more in (0, 0.22))
+        strokes += arrow(centre, tip, AXES[k])
+        labels.append(Label(f"{letter}e", str(k + 1), at=far))
+    outside = plus(scaled(1.12, POINT), UNITS[1], 0.24)
     labels.append(Label(f"{letter}r", "i", at=view.at(move(outside))))
     labels.append(Label("O", at=(centre[0] + 0.5, centre[1] - 3.2)))
     dots = [Dot(centre, 0.6, "body"), Dot(view.at(move(POINT)), 0.75, "body")]

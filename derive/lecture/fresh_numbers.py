@@ -10,16 +10,17 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import reduce
 from typing import Any
 
 from ..check.values.arithmetic import is_matrix
 from ..check.values.evaluate import Environment, evaluate
 from ..language.show import show
-from ..language.tree import Tree
+from ..language.tree import Tree, replaced
 from ..language.values import elementary
 from ..views.language import LANGUAGES, Language, language
 from .body_figures import turned
-from .lecture_text import ASKED, Block, Chapter, Entry, Formula, LectureError, Words, tree
+from .lecture_text import ASKED, Block, Chapter, Entry, Formula, LectureError, tree
 from .motion_figures import Top
 from .sheets import Claims, number
 
@@ -38,8 +39,7 @@ def _blocks(chapter: Chapter, seed: int, claims: Claims) -> list[Block]:
     """The blocks with their numbers; a solution knows those of the exercise before it."""
     found, known = [], Known()
     for block in chapter.blocks:
-        if block.kind == "exercise":
-            known = Known()
+        known = Known() if block.kind == "exercise" else known
         draws = random.Random(f"{seed} {chapter.name} {block.label}")
         entries: list[Entry] = []
         for entry in block.entries:
@@ -66,20 +66,14 @@ def _given(entry: Entry, draws: random.Random, known: Known) -> Entry:
         text = RANGE.sub(lambda x: _within(draws, x), chosen)
         known[tree(name)] = tree(text)
         said.append(Formula(name, condition=True, value=f" = {_shown(known[tree(name)])}"))
-    texts = tuple(_listed(said, language(x)) for x in LANGUAGES)
-    return replace(entry, texts=texts, display=False)
+    listed = [y for x in said for y in (x, ", ")][:-1]
+    texts = ((f"{language(x).word(LEAD)} ", *listed, ".") for x in LANGUAGES)
+    return replace(entry, texts=tuple(texts), display=False)
 
 
 def _within(draws: random.Random, limits: re.Match[str]) -> str:
     low, high = (int(x.replace("−", "-")) for x in limits.groups())
     return str(draws.randint(low, high)).replace("-", "−")
-
-
-def _listed(formulas: Sequence[Formula], words: Language) -> Words:
-    found: list[str | Formula] = [f"{words.word(LEAD)} "]
-    for y in formulas:
-        found += [y, ", "]
-    return (*found[:-1], ".")
 
 
 def _answered(entry: Entry, known: Known, claims: Claims) -> Entry:
@@ -90,28 +84,22 @@ def _answered(entry: Entry, known: Known, claims: Claims) -> Entry:
             sides = [*map(tree, x.text.split(" = "))]
             values[x] = MOTIONS[asked[2]](claims, known) if asked[2] else value(sides[-1], known)
             known[sides[0]] = _literal(values[x])
-    texts = []
-    for text, lang in zip(entry.texts, LANGUAGES, strict=True):
-        words: list[str | Formula] = []
-        for part in text:
-            if isinstance(part, Formula) and part in values:
-                words.append(replace(part, value=_told(values[part], language(lang))))
-            else:
-                words.append(part)
-        texts.append(tuple(words))
+
+    def part(x: str | Formula, spoken: Language) -> str | Formula:
+        if not isinstance(x, Formula) or x not in values:
+            return x
+        return replace(x, value=_told(values[x], spoken))
+
+    spoken = zip(entry.texts, map(language, LANGUAGES), strict=True)
+    texts = (tuple(part(x, lang) for x in text) for text, lang in spoken)
     return replace(entry, texts=tuple(texts))
 
 
 def value(t: Tree, known: Mapping[Tree, Tree]) -> Any:
     """The value of a tree by those of its letters: a fraction or, of a root or a logarithm that is
     none, a float; a matrix, or a vector of one column, by its rows."""
-    return evaluate(_with(t, known), Environment(size=3, names={}, elementary=_function))
-
-
-def _with(t: Tree, known: Mapping[Tree, Tree]) -> Tree:
-    if t in known:
-        return known[t]
-    return (t[0], *(_with(x, known) for x in t[1:])) if isinstance(t, tuple) else t
+    filled = reduce(lambda x, letter: replaced(x, letter, known[letter]), known, t)
+    return evaluate(filled, Environment(size=3, names={}, elementary=_function))
 
 
 def _function(name: str, x: Any) -> Any:

@@ -8,7 +8,7 @@ Veselov beside those of a usual recipe.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,9 +16,23 @@ import numpy as np
 
 from ..language.tree import Tree
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
+from ..views.figure.drawn_body import UNITS, scaled
 from .lecture_text import tree
 from .motion_figures import hat, value
-from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, euler, panel, solved
+from .sheets import (
+    AXES,
+    TURN,
+    Claims,
+    Frame,
+    Vector,
+    View,
+    beside,
+    euler,
+    nearest,
+    numbered,
+    panel,
+    solved,
+)  # fmt: skip
 
 # The momentum of a Lagrangian that is half a quadratic form of the velocity, on three groups.
 
@@ -26,18 +40,25 @@ from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, euler, pane
 @dataclass(frozen=True)
 class Orbit:
     """A coadjoint orbit of a group: its ``name``, a ``basis`` of the Lie algebra, the ``metric`` of
-    the Lagrangian on each of its elements, the orbit as a ``surface`` by an angle and a height, and
-    its motions by their role and where they start. On it x₁² + x₂² + ``bent`` x₃² is constant; its
-    picture ends at the height ``end``, and 1 is ``scale`` millimetres."""
+    the Lagrangian on each of its elements, the ``radius`` and the third coordinate (``rise``) of
+    its circles by a height, and its motions by their role and the angle and height where they
+    start. On it x₁² + x₂² + ``bent`` x₃² is constant; its picture ends at the height ``end``, and 1
+    is ``scale`` millimetres."""
 
     name: str
     basis: Sequence[Any]
     metric: Vector
-    surface: Callable[[float, float], Vector]
+    radius: Callable[[float], float]
+    rise: Callable[[float], float]
     starts: Sequence[tuple[str, float, float]]
     bent: int
     end: float
     scale: float
+
+    def surface(self, angle: float, height: float) -> Vector:
+        """A point of the orbit."""
+        r = self.radius(height)
+        return r * math.cos(angle), r * math.sin(angle), self.rise(height)
 
 
 def _matrices(*texts: str) -> list[Any]:
@@ -56,7 +77,8 @@ ORBITS = (
         "SO(3)",
         [hat(e) for e in np.eye(3)],
         (1.0, 2.0, 3.0),
-        lambda a, b: (math.cos(b) * math.cos(a), math.cos(b) * math.sin(a), math.sin(b)),
+        math.cos,
+        math.sin,
         [
             *((AXES[0], s, x) for s in (0.0, math.pi) for x in (0.3, 0.6)),
             *((AXES[2], 0.0, s * x) for s in (1, -1) for x in (1.0, 1.3)),
@@ -70,7 +92,8 @@ ORBITS = (
         "SE(2)",
         _matrices("0 0 1 0 0 0 0 0 0", "0 0 0 0 0 1 0 0 0", "0 -1 0 1 0 0 0 0 0"),
         (1.0, 2.2, 1.0),
-        lambda a, b: (math.cos(a), math.sin(a), b),
+        lambda _: 1.0,
+        lambda height: height,
         [*ROUND, *BACK, *SPLIT],
         0,
         1.4,
@@ -80,7 +103,8 @@ ORBITS = (
         "SL(2)",
         _matrices("1 0 0 -1", "0 1 1 0", "0 -1 1 0"),
         (1.0, 2.2, 1.0),
-        lambda a, b: (math.cosh(b) * math.cos(a), math.cosh(b) * math.sin(a), math.sinh(b)),
+        math.cosh,
+        math.sinh,
         [*ROUND, *BACK, *SPLIT],
         -1,
         1.1,
@@ -155,14 +179,12 @@ def _orbit(claims: Claims, orbit: Orbit) -> Scene:
     for role, angle, height in orbit.starts:
         strokes += drawn(path_on_orbit(claims, orbit, angle, height), role)
     labels = []
-    reach = (1.0, 1.0, orbit.surface(0.0, orbit.end)[2])
+    reach = (1.0, 1.0, orbit.rise(orbit.end))
     for k in range(3):
-        tip, far = (
-            [(reach[k] + by / orbit.scale) * float(k == i) for i in range(3)] for by in (8.0, 11.5)
-        )
-        at = [reach[k] * float(k == i) for i in range(3)]
-        strokes += arrow(view.at(at), view.at(tip), "axis")
-        labels.append(Label("Π", str(k + 1), at=view.at(far)))
+        ends = (scaled(reach[k] + by / orbit.scale, UNITS[k]) for by in (0.0, 8.0, 11.5))
+        at, tip, far = map(view.at, ends)
+        strokes += arrow(at, tip, "axis")
+        labels.append(Label("Π", str(k + 1), at=far))
     labels.append(Label(orbit.name, name=True, at=(19.5, 2.0)))
     return panel((40, 53), strokes, labels)
 
@@ -178,11 +200,8 @@ def _outline(view: View, orbit: Orbit) -> list[Stroke]:
         line = []
         for k in range(41):
             height = orbit.end * (k / 20 - 1)
-            radius, rise = (
-                math.dist(orbit.surface(0.0, height)[:2], (0, 0)),
-                orbit.surface(0.0, height)[2],
-            )
-            turned = math.acos(-orbit.bent * rise * math.tan(e) / radius)
+            slope = -orbit.bent * orbit.rise(height) / orbit.radius(height)
+            turned = math.acos(slope * math.tan(e))
             line.append(view.at(orbit.surface(a + side * turned, height)))
         found.append(Stroke(tuple(line), "support", "thin"))
     for height in (orbit.end, -orbit.end):
@@ -291,11 +310,6 @@ def velocity(x: Any, y: Any) -> tuple[Any, Any]:
     return u, v
 
 
-def stream(x: Any, y: Any) -> Any:
-    """The stream function at places."""
-    return sum(f * np.sin(k * x) * np.sin(q * y) for k, q, f in MODES)
-
-
 def carried(end: float, steps: int) -> list[tuple[float, Any, Any]]:
     """The points of the curve over time: each has the velocity of the place where it is."""
     turn = 2 * math.pi * np.arange(POINTS) / POINTS
@@ -310,13 +324,10 @@ def carried(end: float, steps: int) -> list[tuple[float, Any, Any]]:
 STARTS = ((0.45, 0.4), (0.9, 0.7), (1.6, 0.6), (2.2, 2.7), (2.0, 2.3), (1.5, 2.5))
 
 
-def _lines() -> list[list[Vector]]:
+def _lines() -> Iterator[list[Vector]]:
     """Lines of the flow, by the motions of points."""
-    found = []
     for start in STARTS:
-        line = [z for _, z in solved(lambda z: velocity(*z), start, 12.0, 600)]
-        found.append(_closed(line))
-    return found
+        yield _closed([z for _, z in solved(lambda z: velocity(*z), start, 12.0, 600)])
 
 
 def along(x: Any, y: Any) -> tuple[float, float]:
@@ -331,35 +342,26 @@ def along(x: Any, y: Any) -> tuple[float, float]:
 def carried_curve(_: Claims) -> Scene:
     """The curve at its times with lines of the flow, and its length and circulation beside."""
     run = carried(MARKS[-1], 160)
-    shown = [min(run, key=lambda x: abs(x[0] - t)) for t in MARKS]
-    return beside(beside(*(_vessel(*x) for x in shown), gap=1), _along(run), gap=3)
+    shown = [_vessel(*x) for x in nearest(run, MARKS)]
+    return beside(beside(*shown, gap=1), _along(run), gap=3)
 
 
 def _vessel(t: float, x: Any, y: Any) -> Scene:
-    scale, corner = 25 / math.pi, (0.5, 6.0)
-
-    def at(a: float, b: float) -> Point:
-        return corner[0] + scale * float(a), corner[1] + scale * float(b)
-
-    walls = tuple(at(a * math.pi, b * math.pi) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1), (0, 0)))
-    strokes = [
-        Stroke(walls, "support"),
-        *(Stroke(tuple(at(*z) for z in x), "axis", "thin") for x in _lines()),
-    ]
-    points = tuple(at(a, b) for a, b in zip(x, y, strict=True))
-    strokes += [Stroke((*points, points[0]), AXES[2], pen) for pen in ("wash", "line")]
+    frame = Frame((0.5, 6.0), (25.0, 25.0), high=(math.pi, math.pi))
+    walls = [(a * math.pi, b * math.pi) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1), (0, 0))]
+    points = [*zip((*x, x[0]), (*y, y[0]), strict=True)]
+    strokes = [frame.curve(walls, "support"), *(frame.curve(z, "axis", "thin") for z in _lines())]
+    strokes += [frame.curve(points, AXES[2], pen) for pen in ("wash", "line")]
     return panel((26, 32), strokes, [Label(f"t = {t:g}", at=(13.0, 2.0))])
 
 
 def _along(run: Sequence[tuple[float, Any, Any]]) -> Scene:
     told = [(t, *along(x, y)) for t, x, y in run]
     first = told[0]
-    frame = Frame(
-        (7.0, 6.0), (24.0, 22.0), (0.0, 0.0), (MARKS[-1], max(x[1] for x in told) / first[1])
-    )
-    numbers = {float(k): str(k) for k in range(4)}
+    high = MARKS[-1], max(x[1] for x in told) / first[1]
+    frame = Frame((7.0, 6.0), (24.0, 22.0), high=high)
     names = (Label("t"), Label("l/l₀, k/k₀"))
-    strokes, labels = frame.axes(names, {x: f"{x:g}" for x in MARKS}, numbers)
+    strokes, labels = frame.axes(names, numbered(MARKS), numbered(range(4)))
     for k, role in ((1, AXES[0]), (2, AXES[2])):
         strokes.append(frame.curve([(x[0], x[k] / first[k]) for x in told], role))
     return panel((38, 37), strokes, labels)
@@ -406,40 +408,31 @@ def momenta_in_steps(claims: Claims) -> Scene:
     return beside(_stepped(claims), _lengths(claims), gap=3)
 
 
-def _on_unit(angle: float, height: float) -> Vector:
-    return ORBITS[0].surface(angle, height)
-
-
 def _stepped(claims: Claims) -> Scene:
     view = View((25.0, 22.0), 17.0, 38.0, 25.0)
     strokes, dots = [view.outline()], []
     for role, start in zip((AXES[0], AXES[2], AXES[1]), STARTED, strict=True):
-        first = _on_unit(*start)
         strokes += view.on_sphere(path_on_orbit(claims, ORBITS[0], *start), role, "thin")
-        shown = (x for x in in_steps(claims, first, STEP, DOTS) if view.depth(x) > 0)
+        stepped = in_steps(claims, ORBITS[0].surface(*start), STEP, DOTS)
+        shown = (x for x in stepped if view.depth(x) > 0)
         dots += [Dot(view.at(x), 0.55, role) for x in shown]
     axes, labels = view.named_axes()
     return panel((50, 51), [*strokes, *axes], labels, dots)
 
 
 def _lengths(claims: Claims) -> Scene:
-    first, end = _on_unit(*STARTED[2]), STEP * STEPPED
-    kept = [_length(x) for x in in_steps(claims, first, STEP, STEPPED)]
+    first, end = ORBITS[0].surface(*STARTED[2]), STEP * STEPPED
+    kept = [math.hypot(*x) for x in in_steps(claims, first, STEP, STEPPED)]
     spun = euler(claims, INERTIA)
     zeta, usual = tuple(x / m for x, m in zip(first, INERTIA, strict=True)), [1.0]
     for _ in range(STEPPED):
         zeta = tuple(x + STEP * y for x, y in zip(zeta, spun(zeta), strict=True))
-        usual.append(_length(tuple(x * m for x, m in zip(zeta, INERTIA, strict=True))))
-    frame = Frame((9.0, 6.0), (54.0, 32.0), (0.0, 0.0), (end, 1.05 * max(usual)))
-    times = {float(t): str(t) for t in range(0, int(end) + 1, 20)}
-    ticks = {float(k): str(k) for k in range(int(max(usual)) + 1)}
+        usual.append(math.hypot(*(x * m for x, m in zip(zeta, INERTIA, strict=True))))
+    frame = Frame((9.0, 6.0), (54.0, 32.0), high=(end, 1.05 * max(usual)))
+    times, ticks = (numbered(x) for x in (range(0, int(end) + 1, 20), range(int(max(usual)) + 1)))
     strokes, labels = frame.axes((Label("t"), Label("‖ℓ_b‖")), times, ticks)
     for name, lengths, role in (("Euler", usual, AXES[2]), ("Moser–Veselov", kept, AXES[1])):
         strokes.append(frame.curve([(k * STEP, x) for k, x in enumerate(lengths)], role))
         x, y = frame.at(0.3 * end, lengths[3 * STEPPED // 10])
         labels.append(Label(name, name=True, at=(x, y + (4 if lengths is usual else -4))))
     return panel((74, 46), strokes, labels)
-
-
-def _length(x: Vector) -> float:
-    return math.dist(x, (0.0, 0.0, 0.0))

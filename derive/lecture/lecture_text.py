@@ -179,6 +179,12 @@ class Chapter:
         for block in self.blocks:
             yield from block.entries
 
+    def changed(self, of: Callable[[Entry], Entry | None]) -> Chapter:
+        """The chapter with what its entries become, without those that become nothing."""
+        changed = [[y for x in b.entries if (y := of(x))] for b in self.blocks]
+        blocks = zip(self.blocks, changed, strict=True)
+        return replace(self, blocks=tuple(replace(b, entries=tuple(x)) for b, x in blocks))
+
 
 def words_of(text: str) -> Words:
     """A sentence from its line: words and, between backquotes, formulas."""
@@ -326,15 +332,13 @@ def of_body(
 ) -> Chapter:
     """The chapter with a reader's body in the place of the racket, by the words and numbers of that
     in each language, and its figures."""
-    blocks = []
-    for block in chapter.blocks:
-        entries = tuple(
-            replace(x, texts=tuple(map(with_places, x.own, filled))) if x.own else x
-            for x in block.entries
-        )
-        blocks.append(replace(block, entries=entries))
-    own = {b.label: figures[b.label] for b in blocks if b.label in figures}
-    return replace(chapter, blocks=tuple(blocks), figures=own)
+
+    def own(x: Entry) -> Entry:
+        return replace(x, texts=tuple(map(with_places, x.own, filled))) if x.own else x
+
+    labels = {b.label for b in chapter.blocks}
+    drawn = {x: figure for x, figure in figures.items() if x in labels}
+    return replace(chapter.changed(own), figures=drawn)
 
 
 def chapters(*, fresh: bool = False) -> list[Chapter]:
@@ -342,12 +346,4 @@ def chapters(*, fresh: bool = False) -> list[Chapter]:
     seed alone."""
     files = sorted(FOLDER.glob("*.txt"))
     found = [parsed(x.read_text(encoding="utf-8"), x.name) for x in files]
-    return found if fresh else [*map(without_fresh, found)]
-
-
-def without_fresh(chapter: Chapter) -> Chapter:
-    """The chapter without what is there for a seed alone."""
-    blocks = (
-        replace(b, entries=tuple(x for x in b.entries if not x.fresh)) for b in chapter.blocks
-    )
-    return replace(chapter, blocks=tuple(blocks))
+    return found if fresh else [c.changed(lambda x: None if x.fresh else x) for c in found]

@@ -13,15 +13,32 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from itertools import combinations
+from operator import truediv
 from typing import Any
 
 import numpy as np
 
 from ..language.derivatives import derivative
 from ..language.tree import Tree
-from ..views.figure.drawing import Dot, Label, Scene, Stroke, arrow
+from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
+from ..views.figure.drawn_body import UNITS, cross, dot
 from .lecture_text import tree
-from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, euler, number, panel, solved
+from .sheets import (
+    AXES,
+    TURN,
+    Claims,
+    Frame,
+    Vector,
+    View,
+    beside,
+    circle,
+    euler,
+    nearest,
+    number,
+    numbered,
+    panel,
+    solved,
+)  # fmt: skip
 
 PARAMETERS = {"‘I_1’": 1.0, "‘I_3’": 0.4, "‘mgl’": 1.5}
 SPIN, UPPER = 3.0, 0.6
@@ -89,8 +106,7 @@ class Top:
         for _, (u, _, angle) in self.motion(20.0, 1600):
             if angle > 2 * math.pi:
                 break
-            r = math.sqrt(1 - u * u)
-            points.append((r * math.cos(angle), r * math.sin(angle), u))
+            points.append(_on_parallel(u, angle))
         return points
 
 
@@ -103,14 +119,12 @@ def tilts(claims: Claims) -> Scene:
     grid = (k / 500 - 1 for k in range(1, 1000))
     curve = [(u, y) for u in grid if (y := top.potential(u)) < frame.high[1]]
     names = {-1.0: "−1", top.lower: "u₁", UPPER: "u₂", 1.0: "1"}
-    strokes, labels = frame.axes((Label("A", "33"), Label("𝒱")), names, {level: "h̃"})
+    strokes, labels = frame.axes((Label("A", "33"), Label("𝒱")), names, {level: "h̃"}, level)
     strokes.append(frame.curve(curve, AXES[2]))
-    strokes.append(frame.curve([(-1, level), (1, level)], "axis", "thin"))
     strokes.append(frame.curve([(u, level) for u in turns], AXES[2], "thick"))
-    for u in turns:
-        strokes.append(frame.curve([(u, frame.low[1]), (u, level)], "axis", "thin"))
+    uprights = [frame.curve([(u, frame.low[1]), (u, level)], "axis", "thin") for u in turns]
     ends = [(reverse, frame.low[1]), (reverse, frame.high[1] - 0.6)]
-    strokes.append(frame.curve(ends, "axis", "hidden"))
+    strokes += [*uprights, frame.curve(ends, "axis", "hidden")]
     x, y = frame.at(*ends[1])
     labels.append(Label("𝒥₁/𝒥₂", at=(x, y + 2.6)))
     return panel((102, 54), strokes, labels)
@@ -125,15 +139,15 @@ def _path_of_axis(top: Top) -> Scene:
     view = View((20.0, 19.0), 18.0, 195, 32)
     strokes = [view.outline(), *arrow(view.at((0, 0, 1)), view.at((0, 0, 1.35)), "axis")]
     for u in (top.lower, UPPER):
-        strokes += view.on_sphere(_parallel(u), "axis", "thin")
-    path: list[Stroke] = view.on_sphere(top.path(), AXES[2])
-    return panel((40, 43), (*strokes, *path))
+        parallel = [_on_parallel(u, x) for x in TURN]
+        strokes += view.on_sphere(parallel, "axis", "thin")
+    return panel((40, 43), (*strokes, *view.on_sphere(top.path(), AXES[2])))
 
 
-def _parallel(u: float) -> list[Vector]:
-    """The circle of the sphere at a height."""
+def _on_parallel(u: float, angle: float) -> Vector:
+    """The point of the sphere at a height and an angle about the vertical."""
     r = math.sqrt(1 - u * u)
-    return [(r * math.cos(x), r * math.sin(x), u) for x in TURN]
+    return r * math.cos(angle), r * math.sin(angle), u
 
 
 PLACES = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) / 2
@@ -153,34 +167,29 @@ def value(t: Tree, of: Mapping[Tree, Any]) -> Any:
         return of[t] if t in of else float(t)
     if t[0] == "pow":
         return np.linalg.matrix_power(value(t[1], of), t[2])
-    parts = [value(x, of) for x in t[1:]]
-    match t[0]:
-        case "add":
-            return sum(parts)
-        case "mul":
-            return reduce(np.dot, parts)
-        case "div":
-            return parts[0] / parts[1]
-        case "inv":
-            return np.linalg.inv(parts[0]) if np.ndim(parts[0]) else 1 / parts[0]
-        case "T":
-            return parts[0].T
-        case "tr":
-            return np.trace(parts[0])
-        case "wedge":
-            return np.cross(*parts)
-        case "hat":
-            return hat(parts[0])
-        case "bracket":
-            return parts[0] @ parts[1] - parts[1] @ parts[0]
-        case "inner":
-            return np.sum(parts[0] * parts[1])
-    raise ValueError(f"no value for the operator {t[0]!r}")
+    if t[0] not in OPERATIONS:
+        raise ValueError(f"no value for the operator {t[0]!r}")
+    return OPERATIONS[t[0]](*(value(x, of) for x in t[1:]))
 
 
 def hat(x: Any) -> Any:
     """j(x), the matrix of the vector product with x on the left."""
     return np.array([np.cross(x, e) for e in np.eye(3)]).T
+
+
+OPERATIONS: dict[str, Callable[..., Any]] = {
+    "add": lambda *x: sum(x),
+    "mul": lambda *x: reduce(np.dot, x),
+    "div": truediv,
+    "inv": lambda x: np.linalg.inv(x) if np.ndim(x) else 1 / x,
+    "T": np.transpose,
+    "tr": np.trace,
+    "wedge": np.cross,
+    "hat": hat,
+    "bracket": lambda x, y: x @ y - y @ x,
+    "inner": lambda x, y: np.sum(x * y),
+}
+"""Operator → its value by those of its operands."""
 
 
 def moments() -> dict[Tree, Any]:
@@ -218,9 +227,12 @@ def motion(
 
 def tetrahedron(claims: Claims) -> Scene:
     """The tetrahedron at its times, and θ beside."""
-    run = motion(claims, moments(), VELOCITY, END)
-    shown = [min(run, key=lambda x: abs(x[0] - t)) for t in TIMES]
-    places = [_placed(A, t) for t, A, _ in shown]
+    return _at_times(motion(claims, moments(), VELOCITY, END), _placed)
+
+
+def _at_times(run: Sequence[tuple[float, Any, float]], drawn: Callable[..., Scene]) -> Scene:
+    """What moves, ``drawn`` at its times, and θ beside."""
+    places = [drawn(A, t) for t, A, _ in nearest(run, TIMES)]
     return beside(beside(*places, gap=0), _multiplier([(t, y) for t, _, y in run]), gap=3)
 
 
@@ -234,9 +246,8 @@ def _placed(A: Any, t: float) -> Scene:
         ahead = any(_faces(eye, np.array(moved), k) for k in range(4) if k not in (i, j))
         ends = (view.at(moved[i]), view.at(moved[j]))
         strokes.append(Stroke(ends, AXES[0], "line" if ahead else "hidden"))
-    dots = [
-        Dot(view.at(r), 0.55 * m ** (1 / 3), "body") for m, r in zip(MASSES, moved, strict=True)
-    ]
+    masses = zip(MASSES, moved, strict=True)
+    dots = [Dot(view.at(r), 0.55 * m ** (1 / 3), "body") for m, r in masses]
     return panel((25, 36), strokes, [Label(f"t = {t:g}", at=(12.5, 2.0))], dots)
 
 
@@ -250,9 +261,8 @@ def _faces(eye: Any, corners: Any, k: int) -> bool:
 def _multiplier(curve: list[tuple[float, float]]) -> Scene:
     (end, _), (low, high) = curve[-1], ([f(y for _, y in curve) for f in (min, max)])
     frame = Frame((7.0, 6.0), (32.0, 22.0), (0.0, min(low, 0.0)), (end, high))
-    times = {float(t): f"{t}" for t in range(0, int(end) + 1, 2)}
-    strokes, labels = frame.axes((Label("t"), Label("θ")), times, {0.0: "0"})
-    strokes.append(frame.curve([(0, 0), (end, 0)], "axis", "thin"))
+    times = numbered(range(0, int(end) + 1, 2))
+    strokes, labels = frame.axes((Label("t"), Label("θ")), times, {0.0: "0"}, 0)
     strokes.append(frame.curve(curve, AXES[0]))
     return panel((46, 36), strokes, labels)
 
@@ -267,21 +277,17 @@ SPREAD, LEVELS = 4.0, (0.0, 0.25, 0.5, 0.75)
 
 def ellipse(claims: Claims) -> Scene:
     """The ellipse at three times, with lines of equal pressure, and θ beside."""
-    run = motion(claims, {"J": np.eye(2), "K": np.zeros((2, 2))}, STRAIN, SPREAD)
-    shown = [min(run, key=lambda x: abs(x[0] - t)) for t in TIMES]
-    places = [_fluid(A, t) for t, A, _ in shown]
-    return beside(beside(*places, gap=0), _multiplier([(t, y) for t, _, y in run]), gap=3)
+    still: dict[Tree, Any] = {"J": np.eye(2), "K": np.zeros((2, 2))}
+    return _at_times(motion(claims, still, STRAIN, SPREAD), _fluid)
 
 
 def _fluid(A: Any, t: float) -> Scene:
     """Images of the circles ‖r‖² = 1 − p/p₀."""
-    centre, scale = (13.0, 16.0), 5.0
-    strokes = []
+    frame, strokes = Frame((13.0, 16.0), (5.0, 5.0)), []
     for level in LEVELS:
         r = (1 - level) ** 0.5
-        moved = (A @ (r * np.cos(x), r * np.sin(x)) for x in TURN)
-        points = tuple((centre[0] + scale * x, centre[1] + scale * y) for x, y in moved)
-        strokes += [Stroke(points, AXES[0], "wash"), Stroke(points, AXES[0], "thin")]
+        moved = [A @ (r * np.cos(x), r * np.sin(x)) for x in TURN]
+        strokes += [frame.curve(moved, AXES[0], pen) for pen in ("wash", "thin")]
     return panel((26, 28), strokes, [Label(f"t = {t:g}", at=(13.0, 4.0))])
 
 
@@ -297,16 +303,6 @@ SEEN = 75.0, 20.0
 """From where the left is seen, in degrees."""
 BESIDE_IT = -1.3, 0.35
 """Where the angular momentum stands on the plane, clear of the ellipsoid."""
-
-
-def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
-    """a ∧ b."""
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def dot(a: Sequence[float], b: Sequence[float]) -> float:
-    """⟨a, b⟩."""
-    return sum(x * y for x, y in zip(a, b, strict=True))
 
 
 def _unit(v: Sequence[float]) -> Vector:
@@ -342,9 +338,9 @@ def in_space(
     return lambda v: (dot(v, row), dot(v, second), -dot(v, down))
 
 
-def herpolhode(claims: Claims, end: float, steps: int, moments: Vector = MOMENTS) -> list[Vector]:
-    """The point of contact in its plane."""
-    return [in_space(*x, moments)(x[0])[:2] for x in rolling(claims, end, steps, moments)]
+def herpolhode(motion: Sequence[tuple[Vector, Vector]], moments: Vector) -> list[Point]:
+    """The point of contact in its plane, over time."""
+    return [(x, y) for x, y, _ in (in_space(*m, moments)(m[0]) for m in motion)]
 
 
 def poinsot(claims: Claims, moments: Vector = MOMENTS) -> Scene:
@@ -374,13 +370,12 @@ def _ellipsoid(claims: Claims, moments: Vector) -> Scene:
     corners = [(x * 1.5, y * 1.5, height) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     plane = Stroke(tuple(view.at(x) for x in corners), "support", "wash")
     edge = Stroke((*plane.points, plane.points[0]), "support", "thin")
-    path = [(x, y, height) for x, y in (in_space(*m, moments)(m[0])[:2] for m in motion)]
+    path = [(*p, height) for p in herpolhode(motion, moments)]
     strokes = [plane, edge, Stroke(tuple(map(view.at, path)), AXES[2])]
     strokes.append(_outline(view, image, eye))
     for k in range(3):
-        i, j = (k + 1) % 3, (k + 2) % 3
-        circle = [_in_plane(i, j, x) for x in TURN]
-        strokes += view.on_surface(circle, image, front, AXES[k], "thin")
+        circles = [_combined(UNITS[k - 2], UNITS[k - 1], x) for x in TURN]
+        strokes += view.on_surface(circles, image, front, AXES[k], "thin")
     polhode = [tuple(x / a for x, a in zip(m[0], axes, strict=True)) for m in motion]
     strokes += view.on_surface(polhode, image, front, "body")
     centre, contact = view.at((0.0, 0.0, 0.0)), view.at(placed(START))
@@ -395,35 +390,24 @@ def _ellipsoid(claims: Claims, moments: Vector) -> Scene:
     return panel((66, 54), strokes, labels, [Dot(view.centre, 0.6, "body")])
 
 
-def _in_plane(i: int, j: int, angle: float) -> Vector:
-    found = [0.0, 0.0, 0.0]
-    found[i], found[j] = math.cos(angle), math.sin(angle)
-    return tuple(found)
+def _combined(a: Vector, b: Vector, angle: float) -> Vector:
+    """The unit vector at an angle from a towards b, which are orthogonal unit vectors."""
+    return tuple(math.cos(angle) * x + math.sin(angle) * y for x, y in zip(a, b, strict=True))
 
 
 def _outline(view: View, image: Callable[[Vector], Vector], eye: Vector) -> Stroke:
     """The outline of the ellipsoid: the image of the great circle orthogonal to ``eye``."""
-    first = _unit(cross(eye, (0.0, 0.0, 1.0)))
+    first = _unit(cross(eye, UNITS[2]))
     second = _unit(cross(eye, first))
-    turned = (
-        tuple(math.cos(x) * a + math.sin(x) * b for a, b in zip(first, second, strict=True))
-        for x in TURN
-    )
+    turned = (_combined(first, second, x) for x in TURN)
     return Stroke(tuple(view.at(image(u)) for u in turned), "body", "thin")
 
 
 def _herpolhode_between_circles(claims: Claims, moments: Vector) -> Scene:
     """The herpolhode between the two circles that it touches."""
-    path = herpolhode(claims, DRAWN, 4500, moments)
+    path = herpolhode(rolling(claims, DRAWN, 4500, moments), moments)
     radii = [math.hypot(*p) for p in path]
     scale, centre = 20.0 / max(radii), (22.0, 22.0)
-
-    def at(p: Sequence[float]) -> tuple[float, float]:
-        return centre[0] + scale * p[0], centre[1] + scale * p[1]
-
-    strokes = [
-        Stroke(tuple(at((r * math.cos(x), r * math.sin(x))) for x in TURN), "support", "thin")
-        for r in (min(radii), max(radii))
-    ]
-    strokes.append(Stroke(tuple(map(at, path[::3])), AXES[2], "thin"))
+    strokes = [circle(centre, scale * r) for r in (min(radii), max(radii))]
+    strokes.append(Frame(centre, (scale, scale)).curve(path[::3], AXES[2], "thin"))
     return panel((44, 44), strokes, (), [Dot(centre, 0.5, "axis")])

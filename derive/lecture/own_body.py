@@ -3,13 +3,13 @@ principal moments and axes, by its record; or why the racket stays."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ..language.tree import Tree
+from ..language.tree import Tree, names
 from ..language.values import approximate
 from ..record.as_json import decode
 from ..record.record import Derivation
@@ -25,6 +25,8 @@ APART = 0.01
 """The least difference of two principal moments, in the largest, that a picture shows."""
 SMALL = 1e-9
 """What is less, beside the whole, is that of rounding."""
+HERE = "In chapter 1 this body has the place of a racket; its flip is drawn there."
+TAKEN = "In the first chapter another body has the place of the racket already."
 ACTING = ("damping", "forces", "flows")
 """What a problem may have that no potential energy tells."""
 
@@ -82,13 +84,7 @@ def place_of(d: Derivation, speed: float, *, taken: bool) -> tuple[OwnBody | Non
         body = body_of(d, speed)
     except RacketStaysError as stays:
         return None, phrase("In the first chapter the racket stays: {reason}.", reason=stays.reason)
-    if taken:
-        return body, phrase(
-            "In the first chapter another body has the place of the racket already."
-        )
-    return body, phrase(
-        "In chapter 1 this body has the place of a racket; its flip is drawn there."
-    )
+    return body, phrase(TAKEN if taken else HERE)
 
 
 def _inertia(problem: Mapping[str, Any], value: ExpressionValues) -> Any:
@@ -138,26 +134,12 @@ def _stated(problem: Mapping[str, Any], value: ExpressionValues) -> Any:
     wrong = RacketStaysError(
         "its Lagrangian is not half a quadratic form of the angular velocity alone"
     )
-    if lagrangian.get("trivialisation") == "right" or -1 in turning or {*_letters(energy)} - {"ζ"}:
+    if lagrangian.get("trivialisation") == "right" or -1 in turning or {*names(energy)} != {"ζ"}:
         raise wrong
-    found = quadratic(energy, turning, value)
-    if found is None:
+    form = quadratic(energy, turning, value)
+    if form is None or not _is_half(energy, turning, np.array(form), value):
         raise wrong
-    form = np.array(found)
-    if not _is_half(energy, turning, form, value):
-        raise wrong
-    return form
-
-
-def _letters(t: Tree) -> Iterator[str]:
-    """What a Lagrangian depends on but for parameters: ζ, the entries of the element, the time."""
-    if isinstance(t, str):
-        yield t
-    elif isinstance(t, tuple) and t[0] == "entry":
-        yield str(t[1])
-    elif isinstance(t, tuple) and t[0] != "par":
-        for x in t[2:] if t[0] == "fun" else t[1:]:
-            yield from _letters(x)
+    return np.array(form)
 
 
 def _is_half(energy: Tree, turning: list[int], form: Any, value: ExpressionValues) -> bool:

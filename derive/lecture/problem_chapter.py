@@ -7,7 +7,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import combinations_with_replacement, groupby
 
 from ..language.show import in_sentence, show
@@ -15,7 +14,7 @@ from ..language.tree import Tree, names, nodes
 from ..record.as_json import decode
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Sentence, phrase
+from ..record.sentence import Sentence, phrase, say
 from ..views.answer import definitions, equations_of_motion, steps_of_answer
 from ..views.as_read import Reading
 from ..views.figure.scene import scene
@@ -25,19 +24,8 @@ from ..views.text import formula
 from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
 from .named_sums import NamedSums
-from .problem_exercises import BETWEEN_WHICH, MOST, coordinate, exercises
-from .ran_figure import (
-    AT_REST,
-    DESCRIBED,
-    FLAT,
-    SHOWN,
-    START,
-    Ran,
-    label_of,
-    raised,
-    value_at_start,
-    written,
-)
+from .problem_exercises import MOST, coordinate, exercises
+from .ran_figure import DESCRIBED, FLAT, Ran, label_of, raised, value_at_start, written
 from .recorded_text import (
     OVER,
     SPOKEN,
@@ -46,10 +34,11 @@ from .recorded_text import (
     display,
     in_each,
     kept_by,
+    lecture,
     reason,
     sentence,
+    stated,
     without_advice,
-    words,
 )
 from .search_sentences import around, momenta, space
 from .steady_sentences import asleep, placed, rows, same_top, steady
@@ -81,16 +70,12 @@ HELD = "mass.held"
 TITLE = "{title}: equations, what is kept, steady motions"
 BODY = "The body of the problem, with the axes of its frame."
 LEFT_OUT = "The expression of {what} would fill this page; the step in the margin has it."
-QUESTION, STABLE_ONES = told("lecture:question"), told("lecture:question_stable")
-GIVEN, ACTS, LAGRANGIAN = (told(f"lecture:{x}") for x in ("given", "acts", "lagrangian"))
 SYSTEM = {
-    "The Lagrangian is given on the group {group}, of dimension {d}, and depends {what}.": GIVEN,
-    "What acts: {forces}.": ACTS,
+    "The Lagrangian is given on the group {group}, of dimension {d}, and depends {what}.": "given",
+    "What acts: {forces}.": "acts",
 }
-"""What a text for people says of what moves, instead of the heading of a record."""
-AS_KIRCHHOFF, AS_MULTIPLIER = told("lecture:as_kirchhoff"), told("lecture:as_multiplier")
-MOMENTA, VALID, DIVIDED = told("lecture:momenta"), told("lecture:valid"), "reduction.isotropy"
-OF_LINEAR, OF_AFFINE = told("lecture:of_linear"), told("lecture:of_affine")
+"""What a text for people says of what moves, by its label, instead of the heading of a record."""
+DIVIDED = "reduction.isotropy"
 LISTED = {"en": ", ", "fr": "\u202f; "}
 """What is between two parameters with their numbers."""
 LONGEST, SHORT = 6, 2
@@ -117,21 +102,21 @@ def chapter_of(
     the racket, or why not; ``ran``: its motion, or why there is none.
     Searches that were refused stand last, those for one reason together."""
     run = ran if isinstance(ran, Ran) else None
-    reduced = found.get("reduction", Found()).steps
+    moving = coordinate(d, found.get("reduction", Found()).steps)
     told = {x: _told(d, x, found[x], run) for x in SEARCHES if x in found}
     if {*STEADY} <= {*told}:  # in letters, where they are found so: it says more
         del told[STEADY[0] if told[STEADY[1]] else STEADY[1]]
     told = dict(sorted(told.items(), key=lambda x: found[x[0]].refused))
     stable = any(told.get(x) for x in STEADY)
-    blocks = [_question(d, run, coordinate(d, reduced), stable=stable), *_motion(d, place)]
+    blocks = [_question(run, moving, stable=stable), *_motion(d, place)]
     for _, alike in groupby(told, lambda x: found[x].refused or (told[x] and x) or NONE.get(x, x)):
         searches = (*alike,)
         entries = told[searches[0]] or [_nothing(d.name, searches[0], found[searches[0]])]
         apart = [[x] for x in entries] if {*STEADY} & {*searches} else [entries]
         blocks.append(_section(*(SEARCHES[x] for x in searches)))
-        blocks += (Block("text", "", "", tuple(x), 0) for x in apart)
+        blocks += (_text(*x) for x in apart)
     if ran:
-        blocks += [_section("A motion."), *_pictured(d, ran, coordinate(d, reduced))]
+        blocks += [_section("A motion."), *_pictured(d, ran, moving)]
     home = {e: step.label for step in d.steps for e in step.equations}
     kept = [x for x in found.get("symmetries", Found()).steps if kept_by(x)]
     blocks += exercises(
@@ -160,74 +145,69 @@ def chapter_of(
 
 
 def _section(*headings: str) -> Block:
-    heading = sentence(lambda x: " ".join(map(x.word, headings)))
-    return Block("section", "", "", (heading,), 0)
+    return Block("section", "", "", (sentence(tuple(map(phrase, headings))),), 0)
 
 
-def _question(d: Derivation, ran: Ran | None, letter: Tree, *, stable: bool) -> Block:
-    """What moves, from which start, and what is asked of it."""
+def _question(ran: Ran | None, letter: Tree, *, stable: bool) -> Block:
+    """What moves, from which start, if that is not long, and what is asked of it."""
+    asked = [lecture("question")]
+    asked += [lecture("between_which", letter=show(letter))] if letter else []
+    asked += [lecture("question_stable")] if stable else []
+    if ran and len(ran.start) <= MOST:
+        start = ", ".join(f"{x} = {written(y)}" for x, y in ran.start)
+        asked.insert(0, lecture("start" if start else "at_rest", start=start))
+    return _text(sentence((*asked,)))
 
-    def said(x: Language) -> str:
-        told = [*([_from(ran, x)] if ran else []), x.word(QUESTION)]
-        told += [x.sentence(phrase(BETWEEN_WHICH, letter=show(letter)))] if letter else []
-        return " ".join(y for y in (*told, x.word(STABLE_ONES) if stable else "") if y)
 
-    return Block("text", "", "", (sentence(said),), 0)
+def _text(*entries: Entry) -> Block:
+    return Block("text", "", "", entries, 0)
+
+
+def _figure(label: str, description: str, caption: Entry) -> Block:
+    return Block("figure", label, "", (sentence(say(description)), caption), 0)
 
 
 def _moved(d: Derivation, spoken: Language) -> str:
     """What moves, by which group, and what acts."""
-    own = {x: spoken.messages.get(y, y) for x, y in SYSTEM.items()}
+    own = {x: spoken.word(told(f"lecture:{y}")) for x, y in SYSTEM.items()}
     return system(d, replace(spoken, messages={**spoken.messages, **own}))
-
-
-def _from(ran: Ran, spoken: Language) -> str:
-    """The start of a motion, or that the figure has it."""
-    if len(ran.start) > MOST:
-        return ""
-    start = ", ".join(f"{x} = {written(y)}" for x, y in ran.start)
-    return spoken.sentence(phrase(START if start else AT_REST, start=start))
 
 
 def _motion(d: Derivation, place: Sentence | None) -> Iterator[Block]:
     """The Lagrangian, the body and its parameters, what the course has of it, and the equations of
     motion; each letter in them that the problem defines."""
-    stated = next((s for s in d.steps if s.label == f"{d.name}.lagrangian"), None)
-    of_points = (s for s in d.steps if s.label.endswith(".pullback") and s.given == ())
-    step = stated or next(of_points, None)
-    lagrangian = (
-        [e for e in step.equations if e.lhs == "L̃" and "i" not in names(e.rhs)][:1] if step else []
-    )
+    given = next((s for s in d.steps if s.label == f"{d.name}.lagrangian"), None)
+    pulled_back = (s for s in d.steps if s.label.endswith(".pullback") and s.given == ())
+    step = given or next(pulled_back, None)
+    told_of = step.equations if step else ()
+    lagrangian = [e for e in told_of if e.lhs == "L̃" and "i" not in names(e.rhs)][:1]
     known: tuple[Equation, ...] = ()
     if step and lagrangian:
-        known = () if stated else definitions(d, lagrangian)
-        moved = "τ" in names(lagrangian[0].rhs)
-        said = LAGRANGIAN if stated else OF_AFFINE if moved else OF_LINEAR
-        heading = sentence(lambda x: f"{_moved(d, x)} {x.word(said)}".lstrip())
-        entries = [heading, display(lagrangian, [step.label])]
-        yield Block("text", "", "", (*entries, *_defining(d, known)), 0)
+        known = () if given else definitions(d, lagrangian)
+        of_points = "of_affine" if "τ" in names(lagrangian[0].rhs) else "of_linear"
+        said = lecture("lagrangian" if given else of_points)
+        heading = sentence(lambda x: f"{_moved(d, x)} {x.sentence(said)}".lstrip())
+        yield _text(heading, display(lagrangian, [step.label]), *_defining(d, known))
     yield from _parameters(d)
-    yield from _body(d)
+    if drawn := scene(d):
+        yield _figure(label_of(d.name, "body"), BODY, sentence(drawn.caption))
     motion = equations_of_motion(d)
-    entries = [sentence(lambda x: x.word("Its equations of motion are"))]
-    steps = steps_of_answer(d)
-    entries.append(display(motion, [s.label for s in steps]))
+    entries = [sentence(say("Its equations of motion are"))]
+    entries.append(display(motion, [s.label for s in steps_of_answer(d)]))
     entries += _defining(d, [e for e in definitions(d, motion) if e not in known])
     held = [s.label for s in d.steps for x in s.prose if x.message == message(HELD)]
-    if held:
-        entries.append(sentence(lambda x: x.word(message(HELD)), held))
-    entries += [sentence(lambda x: x.sentence(place))] if place else []
-    entries += [sentence(lambda x: x.word(AS_KIRCHHOFF))] if _as_kirchhoff(d) else []
-    if any(e.lhs == "θ" for e in motion):
-        entries.append(sentence(lambda x: x.word(AS_MULTIPLIER)))
-    yield Block("text", "", "", (*entries, *same_top(d)), 0)
+    entries += [sentence(say(message(HELD)), held)] if held else []
+    entries += [sentence((place,))] if place else []
+    entries += [stated("as_kirchhoff")] if _as_kirchhoff(d) else []
+    entries += [stated("as_multiplier")] if any(e.lhs == "θ" for e in motion) else []
+    yield _text(*entries, *same_top(d))
 
 
 def _defining(d: Derivation, known: Sequence[Equation]) -> Iterator[Entry]:
     """Definitions, behind a word."""
     home = {e: step.label for step in d.steps for e in step.equations}
     if defined := in_order(known):
-        yield sentence(lambda x: x.word("where"))
+        yield sentence(say("where"))
         yield display(defined, [*dict.fromkeys(home[e] for e in defined)])
 
 
@@ -251,14 +231,6 @@ def in_order(defined: Sequence[Equation]) -> list[Equation]:
 
 def _family(t: Tree) -> Tree:
     return t[1] if isinstance(t, tuple) and t[0] in ("at", "entry") else t
-
-
-def _body(d: Derivation) -> Iterator[Block]:
-    """The figure of its body, where it has one."""
-    if drawn := scene(d):
-        described = sentence(lambda x: x.word(BODY))
-        caption = sentence(lambda x: x.of(drawn.caption))
-        yield Block("figure", label_of(d.name, "body"), "", (described, caption), 0)
 
 
 def _parameters(d: Derivation) -> Iterator[Block]:
@@ -297,14 +269,12 @@ def _told(d: Derivation, search: str, found: Found, ran: Ran | None) -> list[Ent
         return [*(_momenta(d) if any("Π" in s.names for s in kept) else ()), *conserved(d, kept)]
     if search == "trim":
         alike = groupby(told, lambda s: s.prose)
-        return [sentence(partial(_prose, x), _labels([*run])) for x, run in alike]
+        return [sentence(x, [s.label for s in run]) for x, run in alike]
     entries = [*momenta(d, found.steps)] if search == "reduction" else [*space(found.steps)]
     for step in told:
         before, after = around(step)
-        entries.append(sentence(partial(_prose, before)))
-        entries += _displays(step)
-        if after:
-            entries.append(sentence(partial(_prose, after), [step.label]))
+        entries += [sentence(before), *_displays(step)]
+        entries += [sentence(after, [step.label])] if after else []
         entries += _valid(d, step, ran)
     return entries
 
@@ -314,32 +284,26 @@ def _valid(d: Derivation, step: Step, ran: Ran | None) -> Iterator[Entry]:
     divided = placed(step, "conditions") if any(c.kind == DIVIDED for c in step.claims) else []
     told = [(in_sentence(y), value_at_start(d, y, ran)) for x in divided for y in rows(x) if ran]
     if told and all(math.isfinite(y) and y for _, y in told):
-        values = ", ".join(f"{x} = {written(y)}" for x, y in told)
-        yield sentence(lambda x: x.word(VALID, values=x.formula(values)))
-
-
-def _labels(steps: Sequence[Step]) -> list[str]:
-    return [x.label for x in steps]
+        yield stated("valid", values=", ".join(f"{x} = {written(y)}" for x, y in told))
 
 
 def _momenta(d: Derivation) -> Iterator[Entry]:
     """What the momenta Π_a are, by the velocity where the record tells each so, in short equations;
     else in words."""
-    told = [(s, e) for s in d.steps if s.label == f"{d.name}.momenta" for e in s.equations]
-    fit = [
-        (s, e) for s, e in told if [*rows(e.lhs)][:1] == ["Π"] and isinstance(rows(e.lhs)[1], int)
-    ]
-    if fit and all(_rows(e) <= SHORT for _, e in fit):
-        yield sentence(lambda x: x.word("The momenta are"))
-        yield display([e for _, e in fit], [fit[0][0].label])
+    label = f"{d.name}.momenta"
+    told = [e for s in d.steps if s.label == label for e in s.equations]
+    fit = [e for e in told if rows(e.lhs)[:1] == ["Π"] and isinstance(rows(e.lhs)[1], int)]
+    if fit and all(_rows(e) <= SHORT for e in fit):
+        yield sentence(say("The momenta are"))
+        yield display(fit, [label])
     else:
-        yield sentence(lambda x: x.word(MOMENTA))
+        yield stated("momenta")
 
 
 def _nothing(problem: str, search: str, found: Found) -> Entry:
     """One sentence: why a search was refused, or that it found nothing."""
     if not found.refused:
-        return sentence(lambda x: x.word(NONE.get(search, "None was found.")))
+        return sentence(say(NONE.get(search, "None was found.")))
     told = found.refused.removeprefix(f"{problem}: ")
     tried = search == "trim" or told.startswith(OVER.partition("{")[0]) or "nothing is" in told
     message = "None was found: {reason}." if tried else "Not sought: {reason}."
@@ -349,24 +313,15 @@ def _nothing(problem: str, search: str, found: Found) -> Entry:
 def _pictured(d: Derivation, ran: Ran | Sentence, letter: Tree) -> Iterator[Block]:
     """The figure of a motion, and behind it what it shows; or one sentence: why there is none."""
     if isinstance(ran, Sentence):
-        yield Block("text", "", "", (sentence(lambda x: x.sentence(ran)),), 0)
+        yield _text(sentence((ran,)))
         return
-    also = [x for x in (show(letter),) if x in ran.state]
     if ran.flat:
-        yield Block("text", "", "", (sentence(lambda x: f"{x.word(FLAT)} {ran.told(x)}"),), 0)
+        yield _text(sentence(lambda x: f"{x.word(FLAT)} {ran.told(x)}"))
         return
-    label = label_of(d.name)
-    texts = (
-        (
-            *words(x.word(SHOWN, figure="\0").replace("\0", f"@{label}")),
-            " ",
-            *words(ran.told(x, also)),
-        )
-        for x in (y.marked for y in SPOKEN)
-    )
-    yield Block("text", "", "", (in_each(*texts),), 0)
-    described = sentence(lambda x: x.word(DESCRIBED))
-    yield Block("figure", label, "", (described, sentence(ran.caption)), 0)
+    label, also = label_of(d.name), [x for x in (show(letter),) if x in ran.state]
+    shown = told("lecture:shown")
+    yield _text(sentence(lambda x: f"{x.word(shown, figure=f'@{label}')} {ran.told(x, also)}"))
+    yield _figure(label, DESCRIBED, sentence(ran.caption))
 
 
 def _displays(step: Step) -> Iterator[Entry]:
@@ -375,7 +330,8 @@ def _displays(step: Step) -> Iterator[Entry]:
     if shown := [x for x in told if _rows(x) <= LONGEST]:
         yield display(shown, [step.label])
     elif told:
-        yield sentence(partial(_left_out, told), [step.label])
+        what = ", ".join(show(e.lhs) for e in told)
+        yield sentence(say(LEFT_OUT, what=what), [step.label])
 
 
 def _entries(e: Equation) -> list[Equation]:
@@ -393,12 +349,3 @@ def _entries(e: Equation) -> list[Equation]:
 def _rows(e: Equation) -> int:
     """Over how many lines an equation is set."""
     return formula([e], ()).count("\\\\\n") + 1
-
-
-def _left_out(equations: Sequence[Equation], words: Language) -> str:
-    what = words.formula(", ".join(show(e.lhs) for e in equations))
-    return words.word(LEFT_OUT, what=what)
-
-
-def _prose(told: Sequence[Sentence], words: Language) -> str:
-    return words.of((*told,))

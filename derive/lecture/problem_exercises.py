@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from functools import partial
 from itertools import pairwise
 from unicodedata import normalize
 from zlib import crc32
@@ -14,26 +13,20 @@ from zlib import crc32
 import numpy as np
 
 from ..language.show import in_sentence, show
-from ..language.tree import Tree, names, neg, nodes, replaced
+from ..language.tree import Tree, names, neg, nodes, replaced, terms
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import phrase
+from ..record.sentence import Sentence, phrase
 from ..views.book import RATE
-from ..views.language import Language, told
-from .lecture_text import Block, Entry, Formula, Words, words_of
+from .lecture_text import Block, Entry, Formula
 from .ran_figure import Ran, value_at_start, written
-from .recorded_text import SPOKEN, alone, display, in_each, kept_by, kind_of, sentence, words
+from .recorded_text import SPOKEN, alone, display, in_each, kept_by, kind_of, lecture, stated, words
 from .search_sentences import of_momentum
 from .steady_sentences import rows
 
 HAND, MISTAKE, WATCH = "By hand.", "Find the mistake.", "Predict, then watch."
-KEPT = "Show that this is constant along every motion:"
-BY_RATES, CANCEL = told("lecture:by_rates"), told("lecture:cancel")
-BY_FIELD, BY_NOETHER = told("lecture:by_field"), told("lecture:by_noether")
-SIGN, TERM = told("lecture:sign"), told("lecture:term")
+KEPT = phrase("Show that this is constant along every motion:")
 FREE_OF = {"θ", "Z", "Ż", "ζ", "w", "w_c"}
 """What the terms of a matrix or vector do not have whose power is not zero of itself."""
-BETWEEN_WHICH, PREDICT = told("lecture:between_which"), told("lecture:predict")
-BETWEEN, TOUCHED = told("lecture:between"), told("lecture:touched")
 MOST, CLOSE = 9, 1e-6
 """The most numbers of a start that an exercise says; what is 0 but for rounding."""
 
@@ -57,7 +50,7 @@ def exercises(
     elif fit:
         yield from _by_noether(d, min(fit, key=lambda x: len(in_sentence(kept_by(x)))))
     told_of = [e for e, _ in motion]
-    copied = [(*x, t) for x in motion if short(x[0]) and len(_terms(x[0].rhs)) > 1
+    copied = [(*x, t) for x in motion if short(x[0]) and len(terms(x[0].rhs)) > 1
               for t in _seen_by_energy(x[0], told_of)]  # fmt: skip
     if copied and any(kept_by(x) == "h̃" for x in kept):
         yield from _on_sign(*copied[crc32(d.name.encode()) % len(copied)])
@@ -69,10 +62,9 @@ def _of(asked: Sequence[Entry], solved: Sequence[Entry]) -> list[Block]:
     return [Block("exercise", "", "", (*asked,), 0), Block("solution", "", "", (*solved,), 0)]
 
 
-def _said(message: str, kind: str = "") -> Entry:
-    """A sentence, after the kind of the exercise."""
-    kinds = (f"_{x.word(kind)}_ " if kind else "" for x in SPOKEN)
-    return in_each(*(words_of(y + x.word(message)) for x, y in zip(SPOKEN, kinds, strict=True)))
+def _asked(kind: str, said: Sentence) -> Entry:
+    """What is asked, after the kind of the exercise."""
+    return in_each(*((f"_{x.word(kind)}_ ", *words(x.marked.sentence(said))) for x in SPOKEN))
 
 
 def _by_rates(
@@ -87,21 +79,14 @@ def _by_rates(
         (rows(e.lhs)[1], e, s.label) for s in steps for e in s.equations
         if rows(e.lhs)[:1] == ["d/dt"] and "Π" in names(e.lhs)
     ]  # fmt: skip
-    found = [x for x in constants if len(_terms(x[0])) > 1 and x[0] not in _energies(steps)]
+    energies = [e.rhs for s in steps for e in s.equations if e.lhs == "h̃"]
+    found = [x for x in constants if len(terms(x[0])) > 1 and x[0] not in energies]
     for kept, e, label in sorted(found, key=lambda x: len(in_sentence(x[0])))[:1]:
         used = [*dict.fromkeys(rates[y] for x in nodes(kept) if (y := _rate(x)) in rates)]
         if used and all(short(x) for x, _ in used):
-            yield [_said(KEPT, HAND), alone(kept)]
-            yield [
-                _said(BY_RATES),
-                display([x for x, _ in used], [used[0][1]]),
-                _said(CANCEL),
-                display([e], [label]),
-            ]
-
-
-def _energies(steps: Sequence[Step]) -> list[Tree]:
-    return [e.rhs for s in steps for e in s.equations if e.lhs == "h̃"]
+            yield [_asked(HAND, KEPT), alone(kept)]
+            rules = display([x for x, _ in used], [used[0][1]])
+            yield [stated("by_rates"), rules, stated("cancel"), display([e], [label])]
 
 
 def _rate(t: Tree) -> Tree:
@@ -114,16 +99,9 @@ def _rate(t: Tree) -> Tree:
 def _by_noether(d: Derivation, step: Step) -> list[Block]:
     """What a step says to be kept, with the field of the symmetry that keeps it."""
     field = [e for e in step.equations if e.lhs in ("δA", "δT") and e.rhs != 0]
-    solved = [
-        sentence(lambda x: x.word(BY_FIELD, kind=kind_of(d, [step], x))),
-        display(field, (step.label,)),
-        sentence(lambda x: x.word(BY_NOETHER)),
-    ]
-    return _of([_said(KEPT, HAND), alone(kept_by(step))], solved)
-
-
-def _terms(t: Tree) -> tuple[Tree, ...]:
-    return t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
+    by_field = stated("by_field", kind=kind_of(d, [step]))
+    solved = [by_field, display(field, (step.label,)), stated("by_noether")]
+    return _of([_asked(HAND, KEPT), alone(kept_by(step))], solved)
 
 
 def _seen_by_energy(e: Equation, motion: Sequence[Equation]) -> Iterator[int]:
@@ -133,31 +111,26 @@ def _seen_by_energy(e: Equation, motion: Sequence[Equation]) -> Iterator[int]:
         return
     if any(e.lhs in nodes(x.rhs) for x in motion):
         return
-    for k, term in enumerate(_terms(e.rhs)):
+    for k, term in enumerate(terms(e.rhs)):
         if isinstance(e.lhs, tuple) or not FREE_OF & {*names(term)}:
             yield k
 
 
 def _on_sign(e: Equation, label: str, k: int) -> list[Block]:
     """An equation with the sign of one of its terms changed."""
-    terms = [*_terms(e.rhs)]
-    copied = Equation(e.lhs, ("add", *terms[:k], neg(terms[k]), *terms[k + 1 :]))
-    asked = [_said(SIGN, MISTAKE), display([copied], condition=True)]
-    term = (_with(x.word(TERM, term="\0"), terms[k]) for x in SPOKEN)
-    return _of(asked, [in_each(*term), display([e], (label,))])
-
-
-def _with(told: str, t: Tree) -> Words:
-    before, _, after = told.partition("\0")
-    return (before, Formula(in_sentence(t), condition=True), after)
+    parts = [*terms(e.rhs)]
+    copied = Equation(e.lhs, ("add", *parts[:k], neg(parts[k]), *parts[k + 1 :]))
+    asked = [_asked(MISTAKE, lecture("sign")), display([copied], condition=True)]
+    term = Formula(in_sentence(parts[k]), condition=True)
+    told = (x.sentence(lecture("term", term="\0")).partition("\0") for x in SPOKEN)
+    solved = in_each(*((before, term, after) for before, _, after in told))
+    return _of(asked, [solved, display([e], (label,))])
 
 
 def coordinate(d: Derivation, steps: Sequence[Step]) -> Tree:
     """The coordinate that moves by the quadrature of a reduction; 0 where there is none."""
-    found = (e for s in steps if s.label == f"{d.name}.quadrature" for e in s.equations)
-    for e in found:
-        return next((x for x in nodes(e.rhs) if isinstance(x, tuple) and x[0] == "entry"), 0)
-    return 0
+    told = [e.rhs for s in steps if s.label == f"{d.name}.quadrature" for e in s.equations][:1]
+    return next((x for t in told for x in nodes(t) if isinstance(x, tuple) and x[0] == "entry"), 0)
 
 
 def _on_motion(d: Derivation, steps: Sequence[Step], ran: Ran) -> Iterator[Block]:
@@ -169,14 +142,9 @@ def _on_motion(d: Derivation, steps: Sequence[Step], ran: Ran) -> Iterator[Block
     places = between(d, step, _constants(d, steps, ran), ran)
     if not places:
         return
-    asked = (
-        (*words_of(f"_{x.word(WATCH)}_ "), *words(_placed(PREDICT, places, x.marked)))
-        for x in SPOKEN
-    )
-    solved = [sentence(partial(_placed, BETWEEN, places), [step.label])]
-    if places["touched"]:
-        solved.append(sentence(partial(_placed, TOUCHED, places)))
-    yield from _of([in_each(*asked)], solved)
+    solved = [stated("between", [step.label], **places)]
+    solved += [stated("touched", **places)] if places["touched"] else []
+    yield from _of([_asked(WATCH, lecture("predict", **places))], solved)
 
 
 def _constants(d: Derivation, steps: Sequence[Step], ran: Ran) -> dict[Tree, float]:
@@ -216,8 +184,3 @@ def between(d: Derivation, step: Step, constants: Mapping[Tree, float], ran: Ran
 
 def _thousandths(x: float) -> str:
     return f"{x:.3f}".replace("-", "−")
-
-
-def _placed(message: str, places: dict[str, str], spoken: Language) -> str:
-    """A message with formulas in its places."""
-    return spoken.sentence(phrase(message, **places))

@@ -23,11 +23,6 @@ DESCRIBED = (
     "Curves over time: components of the velocity, from the start of the motion to the end of its "
     "picture."
 )
-SHOWN, KEPT = told("lecture:shown"), told("lecture:still")
-START, AT_REST = told("lecture:start"), told("lecture:at_rest")
-LOST_ENERGY = told("lecture:lost")
-GOES, SWINGS = told("lecture:goes"), told("lecture:swings")
-ALL_THE_TURN = told("lecture:turns")
 FLAT = "None of the numbers that a figure would show varies by one per cent."
 MAXIMA = 3
 """The least maxima of a curve that are counted."""
@@ -84,35 +79,36 @@ class Ran:
     def told(self, words: Language, also: Sequence[str] = ()) -> str:
         """What it shows: what is constant, between which values its curves stay, with the letters
         ``also`` of the state, how often they are largest, how far the body turns."""
-        told = [self._constant(words), *(self._swing(x, y, words) for x, y in self.curves)]
-        told += [self._swing(x, self.state[x], words) for x in also]
+        curves = [*self.curves, *((x, self.state[x]) for x in also)]
+        said = [self._constant(words), *(self._swing(*x, words) for x in curves)]
         if self.turned > 1:
-            told.append(words.word(ALL_THE_TURN, turns=written(self.turned, 3)))
-        return " ".join(x for x in told if x)
+            said.append(words.word(told("lecture:turns"), turns=written(self.turned, 3)))
+        return " ".join(x for x in said if x)
 
     def _constant(self, words: Language) -> str:
         """The values of what is kept, at the end, and by how much they have changed at most."""
         end = self._with_unit(self.times[-1], "t")
         change = max((abs(x - self.energy[0]) for x in self.energy), default=0.0)
-        lost = change > LOST * max(map(abs, self.energy), default=1.0)
-        if lost:
-            ends = {x: written(self.energy[k]) for x, k in (("first", 0), ("last", -1))}
-            return words.word(LOST_ENERGY, end=end, **ends)
-        told = {words.word("energy"): ("energy", self.energy)} if self.energy else {}
+        if change > LOST * max(map(abs, self.energy), default=1.0):
+            first, last = (written(self.energy[k]) for k in (0, -1))
+            return words.word(told("lecture:lost"), end=end, first=first, last=last)
+        kept = {words.word("energy"): ("energy", self.energy)} if self.energy else {}
         for (kind, k, column), numbers in self.kept.items():
             places = {"kind": words.word(kind), "axis": words.formula(axis_letter(k))}
-            told[words.word(AXIS[2 if "angular" in kind else 1], **places)] = column, numbers
-        if not told:
+            kept[words.word(AXIS[2 if "angular" in kind else 1], **places)] = column, numbers
+        if not kept:
             return ""
-        largest = max(abs(y[0]) for _, y in told.values())
-        changes = [max(abs(x - y[0]) for x in y) for _, y in told.values()]
-        exponent = _exponent(max(*changes, ROUNDING * largest))
+        least = ROUNDING * max(abs(y[0]) for _, y in kept.values())
+        largest = max(least, *(abs(x - y[0]) for _, y in kept.values() for x in y))
+        # of a power of ten above it; 10⁻¹² for 0
+        exponent = int(f"{largest:e}".partition("e")[2]) + 1 if largest else -12
         values = [
-            f"{what} = {self._with_unit(y[0] if abs(y[0]) > ROUNDING * largest else 0.0, name)}"
-            for what, (name, y) in told.items()
+            f"{what} = {self._with_unit(y[0] if abs(y[0]) > least else 0.0, name)}"
+            for what, (name, y) in kept.items()
         ]
         bound = words.formula(f"10{str(exponent).translate(SUPERSCRIPTS)}")
-        return words.word(KEPT, end=end, values=words.listed(values), change=bound)
+        still = told("lecture:still")
+        return words.word(still, end=end, values=words.listed(values), change=bound)
 
     def _swing(self, name: str, values: Sequence[float], words: Language) -> str:
         """Between which values a curve stays, and how far apart its maxima are on the average."""
@@ -123,9 +119,10 @@ class Ran:
         if max(values) - min(values) <= LEVEL * max(map(abs, values)):
             return ""
         if len(at) < MAXIMA:
-            return words.word(GOES, letter=letter, **ends)
+            return words.word(told("lecture:goes"), letter=letter, **ends)
         apart = self._with_unit((at[-1] - at[0]) / (len(at) - 1), "t", 3)
-        return words.word(SWINGS, letter=letter, **ends, count=str(len(at)), apart=apart)
+        places = {"letter": letter, **ends, "count": str(len(at)), "apart": apart}
+        return words.word(told("lecture:swings"), **places)
 
     def _with_unit(self, x: float, name: str, digits: int = 4) -> str:
         """A number with the unit of its column."""
@@ -137,10 +134,8 @@ class Ran:
         high = max(0.0, *(max(values) for _, values in self.curves))
         ends = (1.1 * low, 1.1 * high) if low < high else (-1.0, 1.0)
         frame = Frame((14.0, 6.0), (92.0, 36.0), (0.0, ends[0]), (self.times[-1], ends[1]))
-        strokes, labels = frame.axes(
-            (Label("t"), Label("")), marks(0.0, self.times[-1]), marks(*ends)
-        )
-        strokes.append(frame.curve([(0, 0), (self.times[-1], 0)], "axis", "thin"))
+        times = marks(0.0, self.times[-1])
+        strokes, labels = frame.axes((Label("t"), Label("")), times, marks(*ends), 0)
         for role, (_, numbers) in zip(AXES, self.curves, strict=False):
             strokes.append(frame.curve(zip(self.times, numbers, strict=True), role))
         labels += self._ends(frame)
@@ -160,11 +155,6 @@ class Ran:
             found.append(replace(label, at=(x + 1.6 + label.half[0], least)))
             least += APART
         return found
-
-
-def _exponent(x: float) -> int:
-    """The exponent of a power of ten above a number; −12 for 0."""
-    return int(f"{x:e}".partition("e")[2]) + 1 if x else -12
 
 
 def raised(unit: str) -> str:
@@ -197,5 +187,10 @@ def value_at_start(d: Derivation, t: Tree, ran: Ran) -> float:
         unmoved = float(x[1] == "A" and x[2] == x[-1])
         t = replaced(t, x, Fraction(start.get(show(x), unmoved)))
     given = {x: y["default"] for x, y in d.problem["parameters"].items()}
-    found = approximate(t, {x: float(y) for x, y in given.items() if y is not None})
+    return value_of(t, {x: float(y) for x, y in given.items() if y is not None})
+
+
+def value_of(t: Tree, parameters: Mapping[str, float]) -> float:
+    """The value of an expression; not a number where it has none."""
+    found = approximate(t, parameters)
     return math.nan if found is None else found

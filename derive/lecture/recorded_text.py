@@ -7,14 +7,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from itertools import groupby
 
 from ..language.show import SUBSCRIPTS, in_sentence, show
 from ..language.tree import Tree, names
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Sentence
+from ..record.sentence import Prose, Sentence, phrase
 from ..views.as_read import Reading
 from ..views.language import LANGUAGES, Language, labelled, language, told
 from ..views.printing.sentences import FORMULA, QUOTED
@@ -38,9 +37,20 @@ def in_each(*texts: Words, labels: Sequence[str] = ()) -> Entry:
     return Entry(texts, (Tie(tuple(labels)),) if labels else (), display=False, line=0)
 
 
-def sentence(said: Callable[[Language], str], labels: Sequence[str] = ()) -> Entry:
-    """A sentence in each language, by what it is in one."""
-    return in_each(*(words(said(x.marked)) for x in SPOKEN), labels=labels)
+def sentence(said: Callable[[Language], str] | Prose, labels: Sequence[str] = ()) -> Entry:
+    """Sentences in each language, by what they are in one, or as a record has them."""
+    told = (said(x.marked) if callable(said) else x.marked.of(said) for x in SPOKEN)
+    return in_each(*map(words, told), labels=labels)
+
+
+def lecture(label: str, **places: Sentence | str) -> Sentence:
+    """A sentence of the lecture, by its label, with formulas and sentences in its places."""
+    return phrase(told(f"lecture:{label}"), **places)
+
+
+def stated(label: str, labels: Sequence[str] = (), /, **places: Sentence | str) -> Entry:
+    """The same as an entry."""
+    return sentence((lecture(label, **places),), labels)
 
 
 def alone(t: Tree) -> Entry:
@@ -71,8 +81,6 @@ def as_read(block: Block, reading: Reading, sums: NamedSums) -> Block:
     return replace(block, entries=tuple(entries))
 
 
-NOETHER, ENERGY, UP_TO = (told(f"lecture:{x}") for x in ("noether", "energy", "up_to"))
-ONE, SEVERAL = told("lecture:constant"), told("lecture:constants")
 AXIS = {2: "{kind} about {axis}", 1: "{kind} along {axis}"}
 """How many entries of the matrix of a field are not 0 → the field with its axis."""
 
@@ -88,15 +96,16 @@ def conserved(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
     """What symmetries keep, those of one kind along or about several axes in one sentence; ``d``:
     the record of the walk."""
     if steps:
-        yield sentence(lambda x: x.word(NOETHER))
+        yield stated("noether")
     for (_, exact, energy), alike in groupby(steps, _alike):
         run = [*alike]
-        said = (ENERGY if energy else SEVERAL if run[1:] else ONE) if exact else UP_TO
-        yield sentence(partial(_kept_under, said, d, run), [x.label for x in run])
+        said = "energy" if energy else "constants" if run[1:] else "constant"
+        labels = [x.label for x in run]
+        yield stated(said if exact else "up_to", labels, kind=kind_of(d, run))
         yield from () if energy else (alone(kept_by(x)) for x in run)
 
 
-def _alike(step: Step) -> tuple[Sentence | str, bool, bool]:
+def _alike(step: Step) -> tuple[Sentence, bool, bool]:
     """By what the sentences of symmetries differ, but for an axis."""
     return (
         symmetry_kind(step),
@@ -105,25 +114,21 @@ def _alike(step: Step) -> tuple[Sentence | str, bool, bool]:
     )
 
 
-def _kept_under(said: str, d: Derivation, steps: Sequence[Step], spoken: Language) -> str:
-    return spoken.word(said, kind=kind_of(d, steps, spoken))
-
-
-def symmetry_kind(step: Step) -> Sentence | str:
+def symmetry_kind(step: Step) -> Sentence:
     """What the symmetry of a step is, but for its axis."""
-    return next(y for x in step.prose for place, y in x.places if place == "kind")
+    found = (y for x in step.prose for place, y in x.places if place == "kind")
+    return next(x for x in found if isinstance(x, Sentence))
 
 
-def kind_of(d: Derivation, steps: Sequence[Step], spoken: Language) -> str:
-    """What the symmetry of steps is, in a language, with its axes in space."""
+def kind_of(d: Derivation, steps: Sequence[Step]) -> Sentence:
+    """What the symmetry of steps is, with its axes in space."""
     kind = symmetry_kind(steps[0])
-    told = kind if isinstance(kind, str) else spoken.sentence(kind)
     axes = [x for x in (_axis(d, s) for s in steps) if x]
     if len(axes) < len(steps):
-        return told
-    axis = spoken.formula(", ".join(axis_letter(k) for _, k in axes))
-    axis = spoken.word("each of {axes}", axes=axis) if axes[1:] else axis
-    return spoken.word(AXIS[axes[0][0]], kind=told, axis=axis)
+        return kind
+    letters = ", ".join(axis_letter(k) for _, k in axes)
+    axis = phrase("each of {axes}", axes=letters) if axes[1:] else letters
+    return phrase(AXIS[axes[0][0]], kind=kind, axis=axis)
 
 
 def _axis(d: Derivation, step: Step) -> tuple[int, int] | None:
@@ -132,7 +137,8 @@ def _axis(d: Derivation, step: Step) -> tuple[int, int] | None:
     matrix = [x for x in field[1:] if x[0] == "matrix"] if isinstance(field, tuple) else []
     if len(matrix) != 1 or not _in_space(d):
         return None
-    places = [*_places(matrix[0])]
+    rows = enumerate(matrix[0][1:])
+    places = [(i, j) for i, row in rows for j, x in enumerate(row[1:]) if x != 0]
     if SPACES in str(d.problem["group"]):  # the blocks of a product turn alike, or it has no axis
         blocks = [{(i % 3, j % 3) for i, j in places if i // 3 == j // 3 == k} for k in (0, 1)]
         places = sorted(blocks[0]) if blocks[0] == blocks[1] else []
@@ -148,26 +154,15 @@ def axis_letter(k: int) -> str:
     return "e" + str(k).translate(SUBSCRIPTS)
 
 
-def _places(matrix: Tree) -> Iterator[tuple[int, int]]:
-    """Where the entries of a matrix are not 0."""
-    assert isinstance(matrix, tuple)
-    for i, row in enumerate(matrix[1:]):
-        yield from ((i, j) for j, x in enumerate(row[1:]) if x != 0)
-
-
 def _in_space(d: Derivation) -> bool:
     """Does the group of a record move space, by matrices on r or on (r, 1)?"""
     basis = d.problem.get("basis")
     if not isinstance(basis, list) or not basis:
         return False
-    size = len(basis[0])
     if SPACES in str(d.problem["group"]):
         return str(d.problem["group"]) == f"SO(3){SPACES}SO(3)"
-    return size == (4 if all(not any(map(_number, E[-1])) for E in basis) else 3)
-
-
-def _number(x: object) -> bool:
-    return str(x) not in ("0", "0.0")
+    affine = all(str(x) in ("0", "0.0") for E in basis for x in E[-1])
+    return len(basis[0]) == (4 if affine else 3)
 
 
 UNSHOWN = "No motion is shown: {reason}."
@@ -185,9 +180,8 @@ def reason(told: str, words: Language) -> str:
     for one in REASONS:
         pattern = re.sub(r"\\{(\w+)\\}", r"(?P<\1>.+)", re.escape(one))
         if match := re.fullmatch(pattern, told):
-            return words.word(
-                one, **{x: words.word(FUNCTIONS.get(y, y)) for x, y in match.groupdict().items()}
-            )
+            places = {x: words.word(FUNCTIONS.get(y, y)) for x, y in match.groupdict().items()}
+            return words.word(one, **places)
     return told
 
 

@@ -5,21 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from itertools import groupby
 
 from ..language.show import in_sentence
 from ..language.tree import Tree
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Sentence, phrase
-from ..views.language import Language, labelled, told
+from ..record.sentence import Prose, Sentence, enumerated, phrase
+from ..views.language import labelled, told
 from .lecture_text import Entry
-from .recorded_text import display, kind_of, sentence, symmetry_kind
+from .recorded_text import display, kind_of, lecture, sentence, stated, symmetry_kind
 from .steady_sentences import variables_of
 
-SPACE, SPACE_OF_GROUP = told("lecture:space"), told("lecture:space_of_group")
-ALONG, BY_ONE = told("lecture:along"), told("lecture:by_one")
 LECTURE = "lecture."
 RETOLD = [x.removeprefix(LECTURE) for x in labelled() if x.startswith(LECTURE)]
 """Labels of sentences of the record instead of which the lecture has one of the same places."""
@@ -33,16 +30,10 @@ BOTH = "{first} and {second}"
 def space(steps: Sequence[Step]) -> Iterator[Entry]:
     """Of which variables the integrals are, in which bracket, and how degrees are counted."""
     for step in (s for s in steps if s.label.endswith(".poisson")):
-        yield sentence(partial(_space, step), [step.label])
-
-
-def _space(step: Step, spoken: Language) -> str:
-    first, *others = step.prose
-    where = SPACE_OF_GROUP if first.message == message("poisson.group") else SPACE
-    variables = spoken.formula(", ".join(variables_of(step)))
-    return " ".join(
-        (spoken.word(where, variables=variables), *map(spoken.sentence, map(retold, others)))
-    )
+        first, *others = step.prose
+        where = "space_of_group" if first.message == message("poisson.group") else "space"
+        told_first = lecture(where, variables=", ".join(variables_of(step)))
+        yield sentence((told_first, *map(retold, others)), [step.label])
 
 
 def momenta(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
@@ -51,13 +42,8 @@ def momenta(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
     if not found:
         return
     used = [s for s, _ in found]
-    runs = [[*run] for _, run in groupby(used, symmetry_kind)]
-
-    def said(spoken: Language) -> str:
-        listed = spoken.listed([kind_of(d, run, spoken) for run in runs])
-        return spoken.word(ALONG if used[1:] else BY_ONE, kinds=listed)
-
-    yield sentence(said)
+    kinds = enumerated([kind_of(d, [*run]) for _, run in groupby(used, symmetry_kind)])
+    yield stated("along" if used[1:] else "by_one", kinds=kinds)
     yield display([e for _, e in found], [s.label for s in used])
 
 
@@ -66,12 +52,12 @@ def of_momentum(t: Tree) -> bool:
     return isinstance(t, tuple) and t[:2] == ("at", "𝒥")
 
 
-def around(step: Step) -> tuple[list[Sentence], list[Sentence]]:
+def around(step: Step) -> tuple[Prose, Prose]:
     """What is said of a step before its equations, and what behind them."""
     said = {x.message for x in step.prose}
     left_out = {NAMED, *({DIVIDED} if FREE in said else ())}
     first, *others = [retold(x, step.equations) for x in step.prose if x.message not in left_out]
-    return [first], others
+    return (first,), (*others,)
 
 
 def retold(x: Sentence, equations: Sequence[Equation] = ()) -> Sentence:

@@ -7,12 +7,16 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from itertools import pairwise
+from typing import Any, TypeVar
 
 from ..language.tree import Tree
 from ..language.values import arithmetic
 from ..record.record import Equation
+from ..views.figure import drawn_body
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
+from ..views.figure.drawn_body import UNITS, dot, scaled
 from .lecture_text import tree
 
 AXES = ("first", "second", "third")
@@ -20,6 +24,7 @@ AXES = ("first", "second", "third")
 Vector = tuple[float, ...]
 Claims = Mapping[str, Sequence[Equation]]
 """Label of a step → the equations of the display that rests on it."""
+State = TypeVar("State", bound=tuple[Any, ...])
 TICK, BESIDE = 1.0, 3.4
 """Half a mark of an axis; how far from the axis its numbers are, in millimetres."""
 TURN = tuple(2 * math.pi * k / 180 for k in range(181))
@@ -51,14 +56,30 @@ def _moved(p: Point, by: Point) -> Point:
     return p[0] + by[0], p[1] + by[1]
 
 
+def circle(centre: Point, radius: float) -> Stroke:
+    """A thin circle."""
+    points = ((radius * math.cos(k), radius * math.sin(k)) for k in TURN)
+    return Stroke(tuple(_moved(p, centre) for p in points), "support", "thin")
+
+
+def nearest(run: Sequence[State], times: Iterable[float]) -> list[State]:
+    """The states of a motion, each with its time first, that are nearest to some times."""
+    return [min(run, key=lambda x: abs(x[0] - t)) for t in times]
+
+
+def numbered(values: Iterable[float]) -> dict[float, str]:
+    """Numbers with their texts."""
+    return {x: f"{x:g}".replace("-", "−") for x in values}
+
+
 @dataclass(frozen=True)
 class Frame:
     """Coordinates from ``low`` to ``high`` in a rectangle of the sheet, in millimetres."""
 
     corner: Point
     size: Point
-    low: Point
-    high: Point
+    low: Point = (0.0, 0.0)
+    high: Point = (1.0, 1.0)
 
     def at(self, x: float, y: float) -> Point:
         """Where a point of the coordinates is on the sheet."""
@@ -66,14 +87,19 @@ class Frame:
         up = self.size[1] * (y - self.low[1]) / (self.high[1] - self.low[1])
         return self.corner[0] + across, self.corner[1] + up
 
-    def curve(self, points: Iterable[Point], role: str, pen: str = "line") -> Stroke:
+    def curve(self, points: Iterable[Sequence[float]], role: str, pen: str = "line") -> Stroke:
         """A curve by its points."""
         return Stroke(tuple(self.at(*p) for p in points), role, pen)
 
     def axes(
-        self, names: tuple[Label, Label], across: Mapping[float, str], up: Mapping[float, str]
+        self,
+        names: tuple[Label, Label],
+        across: Mapping[float, str],
+        up: Mapping[float, str],
+        level: float | None = None,
     ) -> tuple[list[Stroke], list[Label]]:
-        """Both axes, from the lower left corner, with their names at the tips and their marks."""
+        """Both axes, from the lower left corner, with their names at the tips and their marks, and
+        a thin line at a ``level``."""
         origin = self.corner
         right, top = origin[0] + self.size[0] + 4, origin[1] + self.size[1] + 3
         strokes = arrow(origin, (right, origin[1]), "axis")
@@ -91,6 +117,9 @@ class Frame:
             strokes.append(_mark(place, (TICK, 0)))
             label = Label(name)
             labels.append(replace(label, at=(place[0] - label.half[0] - 1.8, place[1])))
+        if level is not None:
+            ends = [(self.low[0], level), (self.high[0], level)]
+            strokes.append(self.curve(ends, "axis", "thin"))
         return strokes, labels
 
 
@@ -109,36 +138,31 @@ class View:
     azimuth: float
     elevation: float
 
-    def _toward(self, v: Sequence[float]) -> float:
-        a = math.radians(self.azimuth)
-        return math.cos(a) * v[0] + math.sin(a) * v[1]
+    @cached_property
+    def seen(self) -> drawn_body.View:
+        """The same, before it is placed on the sheet."""
+        return drawn_body.seen_from(self.azimuth, self.elevation)
 
     def depth(self, v: Sequence[float]) -> float:
         """How near to the eye a point is."""
-        e = math.radians(self.elevation)
-        return math.cos(e) * self._toward(v) + math.sin(e) * v[2]
+        return dot(self.seen.towards, v)
 
     def at(self, v: Sequence[float]) -> Point:
         """Where a point is on the sheet."""
-        a, e = math.radians(self.azimuth), math.radians(self.elevation)
-        along = -math.sin(a) * v[0] + math.cos(a) * v[1]
-        up = math.cos(e) * v[2] - math.sin(e) * self._toward(v)
+        along, up = dot(self.seen.right, v), dot(self.seen.up, v)
         return self.centre[0] + self.scale * along, self.centre[1] + self.scale * up
 
     def outline(self) -> Stroke:
         """The sphere of radius 1."""
-        (x, y), r = self.centre, self.scale
-        points = ((x + r * math.cos(k), y + r * math.sin(k)) for k in TURN)
-        return Stroke(tuple(points), "support", "thin")
+        return circle(self.centre, self.scale)
 
     def named_axes(self) -> tuple[list[Stroke], list[Label]]:
         """The axes of the body outside the sphere, with their names."""
         strokes, labels = list[Stroke](), list[Label]()
         for k, role in enumerate(AXES):
-            axis = tuple(float(k == i) for i in range(3))
-            tip, far = (tuple(s * x for x in axis) for s in (1.4, 1.57))
-            strokes += arrow(self.at(axis), self.at(tip), role)
-            labels.append(Label("e", str(k + 1), at=self.at(far)))
+            at, tip, far = (self.at(scaled(s, UNITS[k])) for s in (1.0, 1.4, 1.57))
+            strokes += arrow(at, tip, role)
+            labels.append(Label("e", str(k + 1), at=far))
         return strokes, labels
 
     def on_sphere(self, curve: Sequence[Vector], role: str, pen: str = "line") -> list[Stroke]:

@@ -7,7 +7,6 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from itertools import permutations
 from typing import Any
 from unicodedata import normalize
@@ -15,23 +14,17 @@ from unicodedata import normalize
 from ..check.checker import checker_of
 from ..language.show import in_sentence, show
 from ..language.tree import Tree, replaced
-from ..language.values import approximate
 from ..record.as_json import decode
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Sentence
+from ..record.sentence import Prose, Sentence, phrase
 from ..views.figure.drawn_body import ExpressionValues
 from ..views.figure.scene import quadratic
-from ..views.language import Language, told
 from .lecture_text import Entry, chapters
-from .ran_figure import Ran, value_at_start, written
-from .recorded_text import SPOKEN, axis_letter, sentence
+from .ran_figure import Ran, value_at_start, value_of, written
+from .recorded_text import axis_letter, lecture, sentence, stated
 
-TRIED, SAME_TOP, ASLEEP = (told(f"lecture:{x}") for x in ("tried", "same_top", "asleep"))
-HERE, HERE_BY, ALWAYS = (told(f"lecture:{x}") for x in ("here", "here_by", "always"))
-NUMBERS, FIRST = told("lecture:here_numbers"), told("lecture:here_first")
-LONG_CASES, ONLY = told("lecture:long_cases"), told("lecture:only")
-WHERE, SOLIDS = " where {cases}", ("SO(3)", "SE(3)")
+ALWAYS, WHERE, SOLIDS = "always", " where {cases}", ("SO(3)", "SE(3)")
 LONG = 90
 """The most letters of conditions that are told in letters."""
 TOP = ("I_1", "I_3", "mgl")
@@ -89,40 +82,32 @@ def steady(d: Derivation, steps: Sequence[Step], ran: Ran | None = None) -> Iter
         [x for x in steps if x.label.rpartition("_")[2] == s.label.rpartition("_")[2]] for s in at
     ]
     points = [[y[1:] for s in run for x in placed(s, "point") for y in rows(x)] for run in both]
-    variables = ", ".join(variables_of(at[0]))
-    supposed = {x.message: x for s in steps for x in s.prose}
-    positive = supposed.get(message("family.positive"))
+    said = [x for s in steps for x in s.prose]
+    positive = [x for x in said if x.message == message("family.positive")][:1]
     letters = [y for point in points for y in point if isinstance(y[1], tuple)]
     numbers, start = _numbers(d, letters, ran)
-
-    def said_first(spoken: Language) -> str:
-        found = [spoken.word(TRIED, variables=spoken.formula(variables))]
-        if positive:
-            found.append(spoken.word(POSITIVE, **_places(positive, spoken)))
-        if named := [in_sentence(y) for _, y in letters]:
-            found.append(
-                spoken.word(LETTERS, letters=spoken.formula(", ".join(dict.fromkeys(named))))
-            )
-        if numbers and positive:
-            found.append(spoken.word(FIRST if start else NUMBERS, letters=spoken.formula(start)))
-        if any(len(_cases(x)) > LONG for s in steps for x in s.prose):
-            found.append(spoken.word(LONG_CASES))
-        return " ".join(found)
-
-    yield sentence(said_first)
+    first = [lecture("tried", variables=", ".join(variables_of(at[0])))]
+    first += [replace(x, message=POSITIVE) for x in positive]
+    if named := dict.fromkeys(in_sentence(y) for _, y in letters):
+        first.append(phrase(LETTERS, letters=", ".join(named)))
+    if numbers and positive:
+        first.append(lecture("here_first" if start else "here_numbers", letters=start))
+    if any(len(_cases(x)) > LONG for x in said):
+        first.append(lecture("long_cases"))
+    yield sentence((*first,))
     verdicts = [_verdict(run, numbers) for run in both]
     alike: dict[str, list[str]] = {}
-    told: dict[str, tuple[Any, list[str]]] = {}  # two that differ in a sign alone are told as one
+    told: dict[
+        Prose, tuple[Prose, list[str]]
+    ] = {}  # two that differ in a sign alone are told as one
     for run, point, verdict in zip(both, points, verdicts, strict=True):
         motion = _kind(d, point)
-        text = partial(_of_one, run, motion, verdict)
-        key = text(SPOKEN[0], also=len(motion[2]) == 1)
-        told.setdefault(key, (text, []))[1].extend(x.label for x in run)
+        one, pair = (_of_one(run, motion, verdict, also=x) for x in (False, len(motion[2]) == 1))
+        told.setdefault(pair, (one, []))[1].extend(x.label for x in run)
         proved = STABLE if verdict[0] == ON_LEAF else verdict[0]
         alike.setdefault(motion[0] if len(point) == 1 else "", []).append(proved)
-    for text, labels in told.values():
-        also = sum(".equilibrium_" in x for x in labels) > 1
-        yield sentence(partial(text, also=also), labels)
+    for pair, (one, labels) in told.items():
+        yield sentence(pair if sum(".equilibrium_" in x for x in labels) > 1 else one, labels)
     for kind in ALIKE:
         yield from _odd_one(d, kind, alike.get(kind, []))
 
@@ -157,36 +142,38 @@ def _of_one(
     steps: Sequence[Step],
     motion: tuple[str, int, Sequence[tuple[int, int, int]]],
     proved: tuple[str, str],
-    spoken: Language,
     *,
     also: bool,
-) -> str:
+) -> Prose:
     """What a steady motion is, and what is proved of its stability; ``also``: of the one with its
     axis the other way, too."""
     said = [x for s in steps for x in s.prose]
-    at = str(next((dict(x.places)["point"] for x in said if "point" in dict(x.places)), ""))
-    verdicts: list[str] = []
-    for x in said:
-        if x.message in SAID and len(_cases(x)) <= LONG:
-            places = {k: y for k, y in _places(x, spoken).items() if f"{{{k}}}" in SAID[x.message]}
-            verdicts.append(spoken.word(SAID[x.message], **places))
-    here = spoken.word(proved[0])
-    unwritten = HERE_ONLY if here else LONG_ONES if any(map(_cases, said)) else OPEN
-    first, *others = dict.fromkeys(verdicts or [spoken.word(unwritten, verdict=here)])
+    at = next((dict(x.places)["point"] for x in said if "point" in dict(x.places)), "")
+    verdicts = [_in_few_words(x) for x in said if x.message in SAID and len(_cases(x)) <= LONG]
+    here, numbers = proved
+    unsaid = phrase(LONG_ONES if any(map(_cases, said)) else OPEN)
+    if here:
+        unsaid = phrase(HERE_ONLY, verdict=phrase(here))
+    first, *others = dict.fromkeys(verdicts or [unsaid])
     for other in others:
-        first = spoken.word("{first}; {second}", first=first, second=other)
+        first = phrase("{first}; {second}", first=first, second=other)
     kind, axis, entries = motion
-    when = spoken.word(kind, axis=spoken.formula(axis_letter(axis)))
+    when = phrase(kind, axis=axis_letter(axis))
     for i, j, sign in entries:
-        fixed, own = (spoken.formula(axis_letter(k)) for k in (i, j))
-        when = spoken.word(POINTING[0 if also else sign], when=when, axis=own, fixed=fixed)
-    at = re.sub("−?1$", "±1", at) if also else at
-    where = spoken.formula(at) or spoken.word("all variables 0")
-    whole = spoken.word(WHEN if when and at else AT, when=when, point=where, verdict=first)
+        axes = {"axis": axis_letter(j), "fixed": axis_letter(i)}
+        when = phrase(POINTING[0 if also else sign], when=when, **axes)
+    where = re.sub("−?1$", "±1", str(at)) if also else at or phrase("all variables 0")
+    whole = phrase(WHEN if kind and at else AT, when=when, point=where, verdict=first)
     if not here or not verdicts:
-        return whole
-    said_so = {"": HERE, ALWAYS: ALWAYS}.get(proved[1], HERE_BY)
-    return f"{whole} {spoken.word(said_so, verdict=here, numbers=spoken.formula(proved[1]))}"
+        return (whole,)
+    said_so = {"": "here", ALWAYS: "always"}.get(numbers, "here_by")
+    return whole, lecture(said_so, verdict=phrase(here), numbers=numbers)
+
+
+def _in_few_words(x: Sentence) -> Sentence:
+    """What a sentence of the record says of stability."""
+    told = SAID[x.message]
+    return phrase(told, **{k: y for k, y in x.places if f"{{{k}}}" in told})
 
 
 def _cases(x: Sentence) -> str:
@@ -206,7 +193,7 @@ def _verdict(steps: Sequence[Step], numbers: Mapping[str, float]) -> tuple[str, 
         (a, b) = pairs[0]
         if len(pairs) == 1 and b == 0 and rows(a)[1:] and _positive(a, numbers):
             return verdict, ALWAYS
-        values = [[[_number(t, numbers) for t in pair] for pair in x] for x in cases]
+        values = [[[value_of(t, numbers) for t in pair] for pair in x] for x in cases]
         if math.isnan(sum(y for case in values for x in case for y in x)):
             return "", ""
         if any(all(x > y for x, y in case) for case in values):
@@ -224,12 +211,6 @@ def placed(step: Step, place: str) -> list[Tree]:
 def rows(t: Tree) -> list[Any]:
     """The parts of a matrix, of a row, of a sum; none of a number or a letter."""
     return [*t[1:]] if isinstance(t, tuple) and t[0] != "par" else []
-
-
-def _number(t: Tree, numbers: Mapping[str, float]) -> float:
-    """The value of an expression; not a number where a letter has none."""
-    found = approximate(t, numbers)
-    return math.nan if found is None else found
 
 
 def _positive(t: Tree, numbers: Mapping[str, float]) -> bool:
@@ -255,12 +236,9 @@ def _odd_one(d: Derivation, kind: str, verdicts: Sequence[str]) -> Iterator[Entr
     odd = next(k for k, x in enumerate(verdicts) if verdicts.count(x) == 1)
     inertia = [form[k][k] for k in range(3)] if form else []
     if len({*inertia}) == 3:
-        told = {"those": ALIKE[kind], "verdict": verdicts[odd]}
-        told["rank"] = RANKS[sorted(inertia).index(inertia[odd])]
-        axis = axis_letter(odd + 1)
-        yield sentence(
-            lambda x: x.word(ONLY, axis=x.formula(axis), **{k: x.word(y) for k, y in told.items()})
-        )
+        rank = RANKS[sorted(inertia).index(inertia[odd])]
+        told = {"those": ALIKE[kind], "verdict": verdicts[odd], "rank": rank}
+        yield stated("only", axis=axis_letter(odd + 1), **{k: phrase(y) for k, y in told.items()})
 
 
 def asleep(d: Derivation) -> Iterator[Entry]:
@@ -269,25 +247,22 @@ def asleep(d: Derivation) -> Iterator[Entry]:
     names = as_top(d)
     if names:
         across, _, weight = (f"‘{x}’" for x in names)
-        bound, heavy = f"ℓ₃² = 4 {across} {weight}", f"{weight} > 0"
-        yield sentence(
-            lambda x: x.word(ASLEEP, momentum=x.formula(bound), weight=x.formula(heavy)),
-            [f"{d.name}.lagrangian"],
-        )
+        places = {"momentum": f"ℓ₃² = 4 {across} {weight}", "weight": f"{weight} > 0"}
+        yield stated("asleep", [f"{d.name}.lagrangian"], **places)
 
 
 def same_top(d: Derivation) -> Iterator[Entry]:
     """That a problem is the heavy top of the lecture, where it is."""
     if as_top(d):
-        yield sentence(lambda x: x.word(SAME_TOP), [f"{d.name}.lagrangian"])
+        yield stated("same_top", [f"{d.name}.lagrangian"])
 
 
 def as_top(d: Derivation) -> tuple[str, ...]:
     """The parameters of a problem in the place of those of the heavy top, where the Lagrangian of
     the lecture's chapter on it is that of the problem; else empty."""
-    step = next((s for s in d.steps if s.label == f"{d.name}.lagrangian"), None)
-    given = d.problem["parameters"]
-    if step is None or d.problem["group"] != "SO(3)" or len(given) != len(TOP):
+    given, group = d.problem["parameters"], d.problem["group"]
+    steps = [s for s in d.steps if s.label == f"{d.name}.lagrangian"]
+    if not steps or group != "SO(3)" or len(given) != len(TOP):
         return ()
     claimed = (x for c in chapters() if c.name == "top" for e in c.entries for x in e.equations)
     lagrangian = next(x.rhs for x in claimed if x.lhs == "L̃")
@@ -298,7 +273,7 @@ def as_top(d: Derivation) -> tuple[str, ...]:
         t = lagrangian
         for k, name in enumerate(names):
             t = replaced(t, ("at", "par", k), ("par", name))
-        if checker.check(replace(step, equations=(Equation("L̃", t),))).holds:
+        if checker.check(replace(steps[0], equations=(Equation("L̃", t),))).holds:
             return names
     return ()
 
@@ -308,10 +283,3 @@ def variables_of(step: Step) -> Iterator[str]:
     for e in step.equations:
         if isinstance(e.lhs, tuple) and e.lhs[0] in ("at", "entry"):
             yield normalize("NFC", normalize("NFD", show(e.lhs)).replace("\u0307", ""))
-
-
-def _places(x: Sentence, spoken: Language) -> Mapping[str, str]:
-    return {
-        name: spoken.formula(y) if isinstance(y, str) else spoken.sentence(y)
-        for name, y in x.places
-    }

@@ -65,6 +65,13 @@ def listed(message: str, items: Sequence[Sentence]) -> Sentence:
     return phrase(message, first=first, second=second)
 
 
+def enumerated(items: Sequence[Sentence]) -> Sentence:
+    """Parts of a sentence, at least one, with commas and an "and" before the last."""
+    *before, last = items
+    first = listed("{first}, {second}", before)
+    return phrase("{first} and {second}", first=first, second=last) if before else last
+
+
 def english(prose: Prose) -> str:
     """The prose as English text, its sentences separated by spaces."""
     return " ".join(map(str, prose))

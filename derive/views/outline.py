@@ -12,7 +12,7 @@ from ..language.tree import Tree, names, nodes
 from ..language.tree import names as names_in
 from ..record.as_json import decode
 from ..record.record import AMENDED, ANY_GROUP, FIELDS, Derivation, Equation, Step
-from ..record.sentence import Sentence, listed, phrase
+from ..record.sentence import Sentence, enumerated, phrase
 from ..schema.potential_kinds import kinds
 from .language import ENGLISH, Language, entries, told
 from .printing.letters import names_of
@@ -329,8 +329,7 @@ def system(d: Derivation, language: Language) -> str:
     moved = language.sentence(_given_lagrangian(d)) if stated else _action_of(d, language)
     acting = [*_acting(d.problem)] if moved else []
     if acting:
-        before = [listed("{first}, {second}", acting[:-1])] if acting[1:] else []
-        forces = language.sentence(listed("{first} and {second}", [*before, acting[-1]]))
+        forces = language.sentence(enumerated(acting))
         return " ".join((moved, language.word("What acts: {forces}.", forces=forces)))
     if stated or not moved:
         return moved
@@ -360,12 +359,7 @@ def _given_lagrangian(d: Derivation) -> Sentence:
             group=group(d),
             d=str(torus["N"] ** 2 - 1),
         )
-    *before, last = _depends(d.problem)
-    what = last
-    if before:
-        what = phrase(
-            "{first} and {second}", first=listed("{first}, {second}", before), second=last
-        )
+    what = enumerated([*_depends(d.problem)])
     dimension = str(_many(basis))
     if d.problem.get("advected") is not None:
         return phrase(

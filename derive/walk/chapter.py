@@ -18,7 +18,7 @@ from ..problem.problem import ProblemError
 from ..record import sentence
 from ..record.prose import message
 from ..record.record import ANY_GROUP, Equation, Hypothesis, Step
-from ..record.sentence import Claim, Prose, Sentence, conditions, listed, rendered
+from ..record.sentence import Claim, Prose, Sentence, conditions, rendered
 from ..record.uses import position_of
 from ..record.vocabulary import DERIVATIVE_OF, VOCABULARY
 
@@ -302,12 +302,3 @@ def say_signed(key: str, signed: bool, **places: Sentence | str) -> Prose:
     """The sentence for positive masses or, where they may be negative (``signed``), the other
     one."""
     return say(f"{key}_signed" if signed else key, **places)
-
-
-def enumerated(items: Sequence[Sentence]) -> Sentence:
-    """Parts of a sentence, at least one, with commas and an "and" before the last."""
-    *before, last = items
-    if not before:
-        return last
-    first = listed("{first}, {second}", before)
-    return sentence.phrase("{first} and {second}", first=first, second=last)

@@ -214,7 +214,7 @@ def scaled(s: float, a: Vector) -> Vector:
     return s * a[0], s * a[1], s * a[2]
 
 
-def cross(a: Vector, b: Vector) -> Vector:
+def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
     """a ∧ b."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
@@ -271,7 +271,7 @@ def ranked(
     thinned = [([*dict.fromkeys(marks)][:MOST], lines[:MOST]) for marks, lines in bodies]
 
     def score(angles: tuple[int, int]) -> float:
-        view = _view(axes, *angles)
+        view = seen_from(*angles, axes)
         nearest = (min(_distances(view, *body), default=math.inf) for body in thinned)
         clear = min(nearest, default=1.0) / size
         azimuth, elevation = angles
@@ -279,10 +279,11 @@ def ranked(
         return min(clear, ENOUGH) - preference
 
     every = [(a, e) for a in range(14, 77, 4) for e in range(12, 41, 4)]
-    return [_view(axes, *angles) for angles in sorted(every, key=score, reverse=True)]
+    return [seen_from(*angles, axes) for angles in sorted(every, key=score, reverse=True)]
 
 
-def _view(axes: tuple[Vector, Vector, Vector], azimuth: float, elevation: float) -> View:
+def seen_from(azimuth: float, elevation: float, axes: Sequence[Vector] = UNITS) -> View:
+    """The view from a direction in degrees, around and above; ``axes``: forward, aside, up."""
     ahead, aside, above = axes
     a, e = math.radians(azimuth), math.radians(elevation)
     level = plus(scaled(math.cos(a), ahead), aside, math.sin(a))

@@ -222,7 +222,7 @@ def _clearance(panels: Sequence[Panel], joined: Sequence[Spring]) -> float:
 def _place_panels(panels: Sequence[Panel]) -> None:
     """Choose one scale for all panels, and place them in rows, each row level."""
     width, height = ROOM.get(len(panels), SMALLER)
-    boxes = [_box(panel.extent()) for panel in panels]
+    boxes = [box_of(panel.extent()) for panel in panels]
     scales = [
         min(width / max(x1 - x0, 1e-12), height / max(y1 - y0, 1e-12)) for x0, y0, x1, y1 in boxes
     ]
@@ -237,7 +237,8 @@ def _place_panels(panels: Sequence[Panel]) -> None:
         top -= low + 2 * GAP
 
 
-def _box(points: Sequence[Point]) -> Box:
+def box_of(points: Sequence[Point]) -> Box:
+    """The rectangle about points."""
     xs, ys = zip(*points, strict=True)
     return min(xs), min(ys), max(xs), max(ys)
 
@@ -258,7 +259,7 @@ def _name_panels(sheet: Sheet, panels: Sequence[Panel]) -> None:
     if len(panels) < 2:
         return
     for panel in panels:
-        x0, y0, x1, _ = _box([panel.to_paper(p) for p in panel.extent()])
+        x0, y0, x1, _ = box_of([panel.to_paper(p) for p in panel.extent()])
         below = (x0 + x1) / 2, y0 - 4.0
         sheet.wishes.insert(0, Wish(Label(panel.part.name, name=True), below, 0.0, (0.0, -1.0)))
 
@@ -266,7 +267,7 @@ def _name_panels(sheet: Sheet, panels: Sequence[Panel]) -> None:
 def _draw_gravity(sheet: Sheet, fall: Point, strength: float) -> None:
     """Draw gravity as an arrow at the right of the panels."""
     points = [p for s in sheet.strokes for p in s.points]
-    _, y0, right, y1 = _box(points)
+    _, y0, right, y1 = box_of(points)
     long = 12.0 / strength
     dx, dy = long * fall[0], long * fall[1]
     start = right + 9.0 + max(0.0, -dx), y0 + 0.72 * (y1 - y0) - dy / 2
@@ -282,7 +283,7 @@ def _finished(sheet: Sheet, title: str, caption: Prose) -> Scene:
     reach = [p for s in sheet.strokes for p in s.points]
     reach += [(d.at[0] + s * d.radius, d.at[1] + s * d.radius) for d in sheet.dots for s in (1, -1)]
     reach += [corner for x in labels for corner in (x.box[:2], x.box[2:])]
-    x0, y0, x1, y1 = _box(reach)
+    x0, y0, x1, y1 = box_of(reach)
     width = max(WIDTH, x1 - x0 + 2 * MARGIN)
     dx, dy = (width - x0 - x1) / 2, MARGIN - y0
 

@@ -13,7 +13,8 @@ from ...algebra.words import Expr, Factor, Letter, inner, number, one, word, zer
 from ...language.tree import add, neg, replaced
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
-from ..chapter import Chapter, WalkError, enumerated, say
+from ...record.sentence import enumerated
+from ..chapter import Chapter, WalkError, say
 from ..given.body_and_potentials import Potentials, body_step, potentials
 from ..given.inputs import acts, damping_coefficients, external_matrices, where_given
 from ..matrices.conserved import ConservedMomentum, kept_momenta

@@ -22,9 +22,9 @@ from ...problem.fields import coordinates
 from ...problem.lagrangian_tables import quotient_of
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Equation, Step, stated
-from ...record.sentence import Prose, listed
+from ...record.sentence import Prose, enumerated, listed
 from ...schema.kind import Lagrangian
-from ..chapter import Chapter, enumerated, phrase, say
+from ..chapter import Chapter, phrase, say
 from ..given.inputs import pushes
 from ..matrices.coordinates import basis_equations
 from .any_lagrangian import AnyLagrangian

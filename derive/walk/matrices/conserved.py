@@ -15,9 +15,9 @@ from ...language.tree import Tree, add, mul, names, neg, nodes, replaced
 from ...problem.entries_on_orbit import vanishes
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
-from ...record.sentence import Prose
+from ...record.sentence import Prose, enumerated
 from ...schema.potential_kinds import Attraction, FarCentre, Harmonic, Spring, gravity
-from ..chapter import Chapter, enumerated, phrase, say
+from ..chapter import Chapter, phrase, say
 from ..given.body_and_potentials import U_Q, Potentials
 from ..given.potential_terms import column, displaced_letters
 from ..spine.alphabet import Alphabet
