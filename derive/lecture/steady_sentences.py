@@ -97,9 +97,8 @@ def steady(d: Derivation, steps: Sequence[Step], ran: Ran | None = None) -> Iter
     yield sentence((*first,))
     verdicts = [_verdict(run, numbers) for run in both]
     alike: dict[str, list[str]] = {}
-    told: dict[
-        Prose, tuple[Prose, list[str]]
-    ] = {}  # two that differ in a sign alone are told as one
+    # two that differ in a sign alone are told as one
+    told: dict[Prose, tuple[Prose, list[str]]] = {}
     for run, point, verdict in zip(both, points, verdicts, strict=True):
         motion = _kind(d, point)
         one, pair = (_of_one(run, motion, verdict, also=x) for x in (False, len(motion[2]) == 1))

@@ -472,7 +472,7 @@ def test_searches_refused_for_one_reason_stand_together(made):
     found = dict.fromkeys(("symmetries", "integrals", "reduction"), Found(refused=reason))
     found["equilibria"] = Found()
     chapter = chapter_of(d, found, tuple(records))
-    page = document.page(document.Lecture([chapter], language("en"), records))
+    page = alone(chapter, records, "en")
     assert "What the motion keeps. First integrals. Reduction." in page
     assert page.count("Not sought: its forces are no part of") == 1
     assert "None with at most one momentum" in page
