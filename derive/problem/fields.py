@@ -87,7 +87,7 @@ def undeclared(
 
 def out_of_place(problem: Problem, name: str, where: str, of_state: Sequence[str]) -> str:
     """What a name is that stands where it is not known, in words; "" for any other."""
-    if re.fullmatch("[rv]_[1-9][0-9]*", name) and where.startswith("output"):
+    if (of_place := re.fullmatch("[rv]_[1-9][0-9]*", name)) and where.startswith("output"):
         return "is of a place; say of which: 'at', a place of the body, or 'on', a point"
     if any(x.name == name for x in problem.outputs):
         return "is another output; write its expression here"
@@ -96,6 +96,8 @@ def out_of_place(problem: Problem, name: str, where: str, of_state: Sequence[str
             "is of the state, and what moves in space depends on the place r_1, r_2, … in it, on t "
             "and on parameters alone"
         )
+    if of_place and "covector" in where:
+        return "is of a place, and a covector has none; it knows the state, t and inputs"
     return ""
 
 

@@ -363,6 +363,8 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
                 raise ProblemError(undeclared(name, where, problem.parameters, problem.group, own))
             acts = where.startswith("force") and problem.group
             of_state = names_in_forces(acts) if acts else []
+            if shown in of_state:  # which forces and moments know
+                where = used_at(data, name, "force", "moment")
             if fault := out_of_place(problem, shown, where, of_state):
                 raise ProblemError(f"{where}: {shown!r} {fault}")
             hint = nearest(shown, [*problem.parameters, *of_state]).removeprefix("; ")
