@@ -123,6 +123,8 @@ class Parser(argparse.ArgumentParser):
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """A choice that there is not, with the nearest that there is."""
+        from .showing import ready_made
+
         try:
             super()._check_value(action, value)
         except argparse.ArgumentError as error:
@@ -130,6 +132,8 @@ class Parser(argparse.ArgumentParser):
             near = nearest(str(value), choices)
             if action.metavar == "COMMAND":
                 known = near or f"; there are {', '.join(choices)}"
+                if value in ready_made() or str(value).endswith(".toml"):
+                    known = f"; a problem comes after one: derive walk {str(value)[:40]} --answer"
                 raise argparse.ArgumentError(
                     None, f"no command {str(value)[:40]!r}{known}"
                 ) from None
