@@ -15,13 +15,11 @@ from ..language.reserved import did_you_mean, near_name
 from ..schema.table import nearest
 from ..views.plot.kind_descriptions import described_kinds
 from ..views.rendering import FORMATS
+from .showing import ALLOWED, ready_made
 from .writing import STDOUT, one_line
 
 if TYPE_CHECKING:
     from ..language.univariate import Number
-
-ALLOWED = {"mass": "mass", "stiffness": "stiffness or damping"}
-"""What may be negative where a flag allows it: the name in the flag → the quantity in messages."""
 
 
 def add_emission_options(emit: argparse.ArgumentParser) -> None:
@@ -123,8 +121,6 @@ class Parser(argparse.ArgumentParser):
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """A choice that there is not, with the nearest that there is."""
-        from .showing import ready_made
-
         try:
             super()._check_value(action, value)
         except argparse.ArgumentError as error:
