@@ -290,7 +290,7 @@ LONG = 10**9
 def rounded(t: Tree, language: Language) -> Tree:
     """A tree with its long numbers, as those of a mesh, to five digits."""
     if isinstance(t, (int, Fraction)) and max(abs(t.numerator), t.denominator) > LONG:
-        digits, _, power = f"{float(abs(t)):.4e}".partition("e")
+        digits, _, power = f"{float(abs(Fraction(t))):.4e}".partition("e")
         near = -4 < int(power) < 5
         size = language.decimal(float(f"{digits}e{power if near else 0}"))
         size += "" if near else f"·{show(('pow', 10, int(power)))}"
