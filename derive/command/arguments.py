@@ -15,13 +15,11 @@ from ..language.reserved import did_you_mean, near_name
 from ..schema.table import nearest
 from ..views.plot.kind_descriptions import described_kinds
 from ..views.rendering import FORMATS
+from .showing import ALLOWED, ready_made
 from .writing import STDOUT, one_line
 
 if TYPE_CHECKING:
     from ..language.univariate import Number
-
-ALLOWED = {"mass": "mass", "stiffness": "stiffness or damping"}
-"""What may be negative where a flag allows it: the name in the flag → the quantity in messages."""
 
 
 def add_emission_options(emit: argparse.ArgumentParser) -> None:
@@ -130,6 +128,8 @@ class Parser(argparse.ArgumentParser):
             near = nearest(str(value), choices)
             if action.metavar == "COMMAND":
                 known = near or f"; there are {', '.join(choices)}"
+                if value in ready_made() or str(value).endswith(".toml"):
+                    known = f"; a problem comes after one: derive walk {str(value)[:40]} --answer"
                 raise argparse.ArgumentError(
                     None, f"no command {str(value)[:40]!r}{known}"
                 ) from None

@@ -42,6 +42,8 @@ def listing(problems: Mapping[str, Problem]) -> str:
 
 # The problem that a command names, and its walk.
 
+ALLOWED = {"mass": "mass", "stiffness": "stiffness or damping"}
+"""What may be negative where a flag allows it: the name in the flag → the quantity in messages."""
 NEAR = 3
 """How many ready-made problems are named that are nearly called so."""
 READY = Path(__file__).resolve().parents[1] / "problems"
@@ -128,8 +130,6 @@ def discrete_walk(name: str, **allowances: Any) -> tuple[Problem, Derivation]:
 
 def allowed(args: argparse.Namespace) -> dict[str, bool]:
     """The keywords of :func:`load_problem` for what the flags allow to be negative."""
-    from .arguments import ALLOWED
-
     return {f"negative_{x}": getattr(args, f"allow_negative_{x}") for x in ALLOWED}
 
 

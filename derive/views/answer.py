@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import partial
 from unicodedata import normalize
 
 from ..language.reserved import by_letter
+from ..language.show import show
 from ..language.tree import Tree, add, coefficient, mul, names, neg, nodes, terms
 from ..record.record import ANY_GROUP, Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence
@@ -281,16 +283,39 @@ def _of_angle(d: Derivation) -> Iterator[Equation]:
             yield Equation("θ̇", ("entry", "ζ", k))
 
 
+LONG = 10**9
+"""A number with a numerator or denominator above it is rounded where it is seen at a glance."""
+
+
+def rounded(t: Tree, language: Language) -> Tree:
+    """A tree with its long numbers, as those of a mesh, to five digits."""
+    if isinstance(t, (int, Fraction)) and max(abs(t.numerator), t.denominator) > LONG:
+        digits, _, power = f"{float(abs(Fraction(t))):.4e}".partition("e")
+        near = -4 < int(power) < 5
+        size = language.decimal(float(f"{digits}e{power if near else 0}"))
+        size += "" if near else f"·{show(('pow', 10, int(power)))}"
+        return neg(size) if t < 0 else size
+    if not isinstance(t, tuple) or t[0] == "par":
+        return t
+    parts = [rounded(x, language) for x in t[1:]]
+    return mul(*parts) if t[0] == "mul" else (t[0], *parts)
+
+
 def answer_mathml(
-    d: Derivation, marks: Mapping[Tree, str] | None = None
+    d: Derivation, marks: Mapping[Tree, str] | None = None, language: Language = ENGLISH
 ) -> tuple[tuple[str, str], ...]:
-    """The equations of motion: of each the label of the step that tells it, and its MathML.
+    """The equations of motion: of each the label of the step that tells it, and its MathML, with
+    ≈ where a long number in it is rounded.
 
     ``marks``: tree → the ``data-arrow`` that it has where it stands; the equation of a vector whose
     entries are told stands among them, too, where a term of it is marked. In the plane A is told by
     its angle.
     """
-    turned = by_angle(d)
+    by_its_angle = by_angle(d)
+
+    def turned(t: Tree) -> Tree:
+        return rounded(by_its_angle(t), language)
+
     names, marked = latex_names(d) | ANGLE, {turned(t): x for t, x in (marks or {}).items()}
     marked |= {neg(t): x for t, x in marked.items() if coefficient(t)[0] < 0}
     typeset = partial(of_tree, names=names, notation=Notation(), marks=marked)
@@ -304,8 +329,9 @@ def answer_mathml(
     def shown(e: Equation) -> Iterator[str]:
         planar = d.problem.get("group") in PLANE and e.lhs == "Ȧ"
         for x in ([*_of_angle(d)] if planar else []) or [e]:
-            sides = typeset(turned(x.lhs)) + literal(" = ") + typeset(turned(x.rhs))
-            yield sides.plain().mathml()
+            near = turned(x.rhs) != by_its_angle(x.rhs)
+            relation = literal(r" \approx " if near else " = ")
+            yield (typeset(turned(x.lhs)) + relation + typeset(turned(x.rhs))).plain().mathml()
 
     listed = (*(e for e in steps[0].equations if e in told or marked_term(e)), *told)
     return tuple(

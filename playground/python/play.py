@@ -108,7 +108,7 @@ class Play:
             about = system(self.record, words) or title(self.record, words)
             told["about"] = re.sub("[$`]", "", about).replace("^2", "²")
             seen = arrows(self.record)
-            shown = answer_mathml(self.record, marks(seen))
+            shown = answer_mathml(self.record, marks(seen), words)
             told["answer"] = [{"id": anchor(label), "shown": x} for label, x in shown]
             told["arrows"] = legend(self.record, seen, words)
             told["road"] = [*road(self.record, anchor)]

@@ -7,8 +7,7 @@ export class Arrows {
   /* place: of the answer; light(number): what is done when the arrow of a number, from 1, is pointed at, or 0: none is; go(id): to
    * the step of an equation */
   constructor(place, light, go) {
-    this.place = place;
-    this.light = light;
+    Object.assign(this, { place, light });
     const number = (e) => Number(e.target.closest("[data-arrow]")?.getAttribute("data-arrow") ?? 0);
     for (const come of ["pointerover", "focusin"]) place.addEventListener(come, (e) => this.#point(number(e)));
     for (const go of ["pointerleave", "focusout"]) place.addEventListener(go, () => this.#point(0));

@@ -84,13 +84,16 @@ export class Projector {
     this.#fit();
   }
 
-  /* as large as there is room for, and never too small to be read at the back of a room */
+  /* as large as there is room for, and never too small to be read at the back of a room: what was goes before what is now */
   #fit() {
-    const { screen } = this, boxes = [...this.told.querySelectorAll(".now .wide"), ...screen.querySelectorAll("p"), screen];
+    const { screen } = this, was = [...this.told.querySelectorAll(".was")], high = () => screen.scrollHeight > screen.clientHeight;
+    const boxes = [...this.told.querySelectorAll(".now .wide"), ...screen.querySelectorAll("p"), screen];
+    for (const x of was) x.hidden = false;
     for (let size = Math.max(LEAST, Math.min(LARGEST, innerWidth / 20)); size >= LEAST; size -= 4) {
       screen.style.setProperty("--now", `${size}px`);
-      if (screen.scrollHeight <= screen.clientHeight && boxes.every((x) => x.scrollWidth <= x.clientWidth)) break;
+      if (!high() && boxes.every((x) => x.scrollWidth <= x.clientWidth)) break;
     }
+    for (const x of was) x.hidden = high();
   }
 }
 

@@ -8,8 +8,7 @@ export class Road {
 
   /* go(id): what a station does, of a step or, "", of the code */
   constructor(place, go) {
-    this.place = place;
-    this.go = go;
+    Object.assign(this, { place, go });
   }
 
   /* stations: [{ name, id, shown, paper }] as the record has them; name: of what is moved by the code */

@@ -474,6 +474,10 @@ def test_on_a_phone_all_is_in_one_page_and_sides_together(browser, site):
         for left, right in zip(*(page.evaluate(sides, x) for x in ("left", "right")), strict=True):
             assert right["top"] < left["bottom"]
             assert right["left"] >= left["right"]
+        page.click("#tab-find")  # what is found, later, is seen from its beginning
+        page.wait_for_selector("#find article", state="attached", timeout=90_000)
+        first, bar = (page.locator(x).first.bounding_box() for x in ("#find article", ".read .bar"))
+        assert bar["y"] < first["y"] < 844
         chosen(page, "top")
         frame = moving(page)
         canvases = "[...document.querySelectorAll('canvas')]"

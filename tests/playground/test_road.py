@@ -113,7 +113,7 @@ def test_a_line_of_the_answer_leads_to_its_step(fresh, site):
     # what is a parameter has one face wherever it stands
     faces = "[...document.querySelectorAll('#answer .parameter, #road .parameter')]"
     assert fresh.evaluate(
-        f"{faces}.every((x) => getComputedStyle(x).fontFamily.endsWith('sans-serif'))"
+        f"{faces}.every((x) => getComputedStyle(x).fontFamily.endsWith('monospace'))"
     )
 
 

@@ -167,6 +167,27 @@ def in_a_room(page):
     assert page.is_visible("#walk")
 
 
+def test_what_is_now_is_seen_before_what_was(browser, site):
+    """Of every step of a small body, on a small screen: what does not fit is the steps before it,
+    which are there where they do."""
+    with opened(browser, viewport={"width": 1280, "height": 720}) as page:
+        visit(page, f"{site}?lang=fr#pendulum/linear.lagrangian&tab=walk", "pendulum")
+        page.keyboard.press("p")
+        seen = """() => {
+            const x = document.querySelector(".screen"), steps = x.firstElementChild.shadowRoot;
+            const was = [...steps.querySelectorAll(".was")].map((y) => y.hidden);
+            return [x.scrollHeight > x.clientHeight, was];
+        }"""
+        found = []
+        while "pendulum.explicit" not in page.inner_text("#projector header"):
+            found.append(page.evaluate(seen))
+            page.keyboard.press("PageDown")
+        assert len(found) > 40
+        assert [x for over, x in found if over and not all(x)] == []
+        assert any(any(x) for _, x in found)
+        assert sum(x == [False, False] for _, x in found) > len(found) / 2
+
+
 WALK = """play.equations.root.innerHTML.replace(/href="[^"]*"/g, "")"""
 """The walk but for the addresses of its steps."""
 

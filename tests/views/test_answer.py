@@ -2,6 +2,7 @@
 fluid, and of both trivialisations."""
 
 import re
+from unicodedata import normalize
 
 import numpy as np
 import pytest
@@ -248,3 +249,32 @@ def test_the_step_of_an_answer_in_the_plane_has_its_form(group, at):
     assert "A12=−sin(θ)" in "".join(re.findall(">([^<]+)<", step))
     (body,) = [x["shown"] for x in stations(d, str) if x["name"] == "body"]
     assert ("<mi>θ</mi>" in body) == (group == "SO(2)")
+
+
+@pytest.mark.parametrize("unit", [1e-7, 1.0, 1e7])
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_long_numbers_are_rounded_where_an_answer_is_seen(unit, lang):
+    """Of measured moments the rates are Euler's to five digits, behind ≈, with the decimal mark of
+    the language; what the record has is exact, and so is a short number."""
+    inertia = [unit * x for x in (1.23456789123, 2.34567891231, 3.45678912345)]
+    tensor = [[repr(x) if i == j else 0 for j in range(3)] for i, x in enumerate(inertia)]
+    told = {"name": "r", "group": "SO(3)", "body": {"given": {"m": 1, "c": [0, 0, 0], "I": tensor}}}
+    d = walk(problem_of({**told, "input": [{"name": "N", "kind": "torque"}]}))
+    texts = [
+        "".join(re.findall(">([^<]+)<", x)) for _, x in answer_mathml(d, language=language(lang))
+    ]
+    assert texts[0] == "A˙=Aj(ζ)"
+    for i, text in enumerate(texts[1:]):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        first, second = sorted((j, k))
+        spelt = {f"A{x + 1}{i + 1}N{x + 1}": 1 / inertia[i] for x in range(3)}
+        spelt[f"ζ{first + 1}ζ{second + 1}"] = (inertia[j] - inertia[k]) / inertia[i]
+        left, right = text.replace(",", ".").split("≈")
+        assert left == f"ζ˙{i + 1}"
+        assert ("," in text) == (lang == "fr")
+        for name, exact in spelt.items():
+            shown = re.search(rf"([+−]?)([0-9.]+)(?:·10([⁻⁰¹²³⁴-⁹]+))?{name}", right)
+            sign, size, power = shown.groups("")
+            scale = 10.0 ** int(normalize("NFKC", power).replace("−", "-") or 0)
+            factor = float(size) * scale * (-1 if sign == "−" else 1)
+            assert factor == pytest.approx(exact, rel=5.1e-5)
