@@ -20,7 +20,7 @@ from ..record.vocabulary import VOCABULARY
 from .language import ENGLISH, Language
 from .outline import system, title
 from .paper.findings import OMISSION, SIGN, VERDICTS, PaperFinding
-from .printing.line_breaking import WIDTH
+from .printing.typeset import WIDTH
 
 VARIATIONS = ("δ′", "δ")
 RATE = "\u0307"

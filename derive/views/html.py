@@ -38,11 +38,10 @@ from .outline import (
 )
 from .paper.findings import PaperFinding
 from .printing.letters import NAMES, standard
-from .printing.line_breaking import groups, measure
 from .printing.sentences import inline, prose, spelt
 from .printing.signs import Notation
 from .printing.tex import Cut, cut_up, formula, joined
-from .printing.typeset import Formula, literal, plain
+from .printing.typeset import Formula, groups, literal, measure, plain
 
 PHONE = 16.0
 """The width, in em, above which what cannot be broken moves in a box of its own on a phone."""

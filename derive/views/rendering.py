@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..language.limits import Refused
 from ..record.record import Derivation, Symbol
-from .printing.line_breaking import WIDTH
+from .printing.typeset import WIDTH
 
 if TYPE_CHECKING:
     from ..record.record import Step
@@ -121,7 +121,7 @@ def render(
     if fragment and form not in LINKED:
         raise RenderError("--fragment is for --format latex and html")
     if form != "json":
-        from .as_read import as_read
+        from .layout import as_read
 
         d, steps = as_read(d), as_read(replace(d, steps=tuple(steps))).steps
     chosen = Notation(**notation)
@@ -191,9 +191,9 @@ def notes(
     of pictures of their motions, which are shown.
     """
     from . import latex
-    from .as_read import as_read
     from .html import html
     from .language import language
+    from .layout import as_read
     from .printing.signs import Notation
 
     if ending not in NOTES:
