@@ -312,8 +312,7 @@ def of_sizes(b: Balance) -> Iterator[Hypothesis]:
 
 def _as_asked(b: Balance, table: Any, x: Tree) -> str:
     """A tree of a force by the names of the problem file."""
-    group = b.opened.given.group
-    assert group is not None
+    group = b.opened.given.own_group
     if isinstance(table, StatedForce):
         block, factor = b.opened.given.acted_on(table)
         place = factor.n, group.places[block - 1][0], table.on
