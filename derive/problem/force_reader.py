@@ -270,9 +270,7 @@ class ForceReader(TableReader):
     def couple(self, slot: Slot) -> Vector:
         """The moment that goes with a force: a vector of R³, or a list of one number in the
         plane."""
-        _, factor = self.factor_of(slot.found["on"])
-        self._turned(factor, slot.where)
-        return self.listed(self.value(slot), 3 if factor.n == 3 else 1, slot.path)
+        return self.listed(self.value(slot), self._turns_by(slot), slot.path)
 
     def wind(self, slot: Slot) -> Vector:
         """A velocity in space of t and the place r_1, …."""
@@ -288,9 +286,13 @@ class ForceReader(TableReader):
 
     def stated_couple(self, slot: Slot) -> Vector:
         """Three of them in R³, one in the plane."""
+        return self._of_state(slot, self._turns_by(slot), "a moment")
+
+    def _turns_by(self, slot: Slot) -> int:
+        """How many numbers a moment at a place has."""
         _, factor = self.factor_of(slot.found["on"])
         self._turned(factor, slot.where)
-        return self._of_state(slot, 3 if factor.n == 3 else 1, "a moment")
+        return 3 if factor.n == 3 else 1
 
     def stated_covector(self, slot: Slot) -> Vector:
         """One for each element of the basis."""

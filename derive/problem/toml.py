@@ -17,19 +17,10 @@ from ..language.expression import names, numbers
 from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, PROBLEM_BYTES, PULLS
 from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
-from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
-from ..schema.motion_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
+from ..schema.kind import OF_MASSES, OUTPUTS, SECTIONS, Advected, ExpressionOutput, Fluid, Parameter
 from ..schema.table import ATTACHED, Table, nearest
 from . import inertia
-from .bodies import (
-    as_forces,
-    body,
-    forces,
-    group_of,
-    negative_stiffness_of,
-    outputs,
-    require_known,
-)
+from .bodies import as_forces, body, forces, group_of, negative_stiffness_of, outputs, require_known
 from .entries_on_orbit import hessian, vanishes
 from .fields import (
     LIKE_A_PLACE,

@@ -11,7 +11,7 @@ from typing import Any
 from ...algebra.groups import Group
 from ...language.reserved import waves
 from ...problem.fields import state_names
-from ..figure.drawn_body import UNITS, ExpressionValues
+from ..figure.drawn_body import UNITS, ExpressionValues, moments_of
 from ..figure.scene import along, shifts, turns
 
 DIGITS = 4
@@ -110,6 +110,7 @@ def _part(
         [i, 0, p["at"]] for i, p in enumerate(problem["places"], before + 1) if p["block"] == k + 1
     ]
     ids = [i for i, *_ in points]
+    whole = k == 0 and body["kind"] in OF_MOMENTS
     potentials = problem["potentials"]
     attractions = [p for p in potentials if p["kind"] == "attraction"]
     linear = [[E[offset + i][offset : offset + n] for i in range(n)] for E in group.basis]
@@ -127,7 +128,7 @@ def _part(
         "deforms": any(A[i][j] + A[j][i] for A in linear for i in range(n) for j in range(n)),
         "points": points,
         "solids": [_solid(s, problem) for s in body.get("solids", [])] if k == 0 else [],
-        "moments": _moments(problem) if k == 0 else None,
+        "moments": dict(zip("mcJ", moments_of(problem), strict=True)) if whole else None,
         "attractions": [
             {"centre": p["centre"], "on": [i for i, _ in p["on"]] if "on" in p else ids}
             for p in attractions
@@ -140,20 +141,8 @@ def _part(
     }
 
 
-def _moments(problem: Mapping[str, Any]) -> Data:
-    """m, c and J of a body that is more than points, as trees."""
-    body, names = problem["body"], problem["parameters"]
-    if body["kind"] == "given":
-        return body["given"]
-    if body["kind"] != "moments":
-        return None
-    span = range(1, 1 + sum(f"c_{i}" in names for i in range(1, 4)))
-    J = [[["par", f"J_{min(i, j)}{max(i, j)}"] for j in span] for i in span]
-    return {
-        "m": ["par", "m"] if "m" in names else 1,
-        "c": [["par", f"c_{i}"] for i in span],
-        "J": J,
-    }
+OF_MOMENTS = ("given", "moments")
+"""The kinds of bodies that are more than points."""
 
 
 def _solid(solid: Mapping[str, Any], problem: Mapping[str, Any]) -> Data:
