@@ -37,7 +37,7 @@ from .shapes import Curve, Shape
 
 if TYPE_CHECKING:
     from .drawn_body import DrawnSolid
-    from .shapes import Mesh
+    from .meshes import Mesh
 
 
 FAR, NEAR, PLACED = 1.9, 0.35, 1.5
@@ -48,7 +48,7 @@ def _solid(s: DrawnSolid, sight: Vector) -> Shape | Mesh:
     """A solid seen along ``sight``; a mesh alone needs NumPy."""
     if s.kind != "mesh":
         return Shape(s, sight)
-    from .shapes import Mesh
+    from .meshes import Mesh
 
     return Mesh(s, sight)
 

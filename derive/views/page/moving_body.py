@@ -197,7 +197,7 @@ def _mesh(solid: Mapping[str, Any], value: ExpressionValues) -> Data:
     """A mesh with its places at the defaults, thinned out where it has very many faces."""
     import numpy as np
 
-    from ..figure.shapes import simplified
+    from ..figure.meshes import simplified
 
     R = np.array([value.vector(row) for row in solid["rotation"] or UNITS])
     own = np.array([value.vector(v) for v in solid["sizes"]["vertices"]])
