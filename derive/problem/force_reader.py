@@ -103,31 +103,6 @@ def dimension(t: Tree, known: Mapping[str, Dimension]) -> Dimension | None:
     return tuple(map(sum, zip(*whole, strict=True)))
 
 
-def require_dimension(
-    t: Tree,
-    what: str,
-    where: str,
-    stated: Mapping[str, str],
-    of_state: Mapping[str, Dimension],
-) -> None:
-    """``ProblemError`` where a term of an expression is not in the unit of ``what`` it is;
-    ``stated``: the units of parameters. None where no unit has a mass: the numbers of such a
-    problem may be in parts of anything."""
-    units = {x: d for x, unit in stated.items() if (d := measured(unit)) is not None}
-    wanted = WANTED.get(what)
-    if wanted is None or not any(d[0] for d in units.values()):
-        return
-    for term in terms(t):
-        own = [x[1] for x in nodes(term) if isinstance(x, tuple) and x[0] == "par"]
-        found = dimension(term, {**of_state, **units}) if {*own} & {*units} else None
-        if found is not None and found != wanted:
-            given = ", ".join(f"{x} in {stated[x]}" for x in dict.fromkeys(own) if x in units)
-            raise ProblemError(
-                f"{where}: with {given} it is in {in_units(found)}, and {what} is in "
-                f"{in_units(wanted)}; correct the unit or the expression"
-            )
-
-
 AXES = "xyz"
 Vector = tuple[Tree, ...]
 
@@ -342,12 +317,26 @@ class ForceReader(TableReader):
 
     def require_unit(self, t: Tree, what: str, where: str, named: Collection[str] = ()) -> None:
         """``ProblemError`` where the units of parameters, beside ``named`` numbers of the state, do
-        not fit ``what`` an expression is."""
+        not fit ``what`` an expression is, term by term. None where no unit has a mass: the numbers
+        of such a problem may be in parts of anything."""
+        stated = {x: p.unit for x, p in self.parameters.items()}
+        units = {x: d for x, unit in stated.items() if (d := measured(unit)) is not None}
+        wanted = WANTED.get(what)
+        if wanted is None or not any(d[0] for d in units.values()):
+            return
         turns = all(f.name.startswith(("SO(", "SE(")) for _, f in self.moving().places)
         letters = {"v": VELOCITY, "r": LENGTH}
         letters |= {"zeta": RATE, "w": VELOCITY} if turns and not self.pointless else {}
         known = {x: letters[y] for x in named if (y := x.rstrip("_0123456789")) in letters}
-        require_dimension(t, what, where, {x: p.unit for x, p in self.parameters.items()}, known)
+        for term in terms(t):
+            own = [x[1] for x in nodes(term) if isinstance(x, tuple) and x[0] == "par"]
+            found = dimension(term, {**known, **units}) if {*own} & {*units} else None
+            if found is not None and found != wanted:
+                given = ", ".join(f"{x} in {stated[x]}" for x in dict.fromkeys(own) if x in units)
+                raise ProblemError(
+                    f"{where}: with {given} it is in {in_units(found)}, and {what} is in "
+                    f"{in_units(wanted)}; correct the unit or the expression"
+                )
 
     def factor_of(self, on: int) -> tuple[int, Group]:
         """The first row, and the factor that moves a point or place."""

@@ -62,16 +62,14 @@ class _RecordReader(TableReader):
         for name, about in self.value(self.top("parameters"), dict).items():
             self.parameter(name, about)
         self.body()
-        self.last += len(self.each("places", lambda x, where: self.typed(Place, x, where)))
-        self.each("potentials", lambda x, where: self.one_of(kinds(), x, where))
-        inputs = self.each("inputs", lambda x, where: self.one_of(INPUTS, x, where))
+        self.last += len(self.each("places", partial(self.typed, Place)))
+        self.each("potentials", partial(self.one_of, kinds()))
+        inputs = self.each("inputs", partial(self.one_of, INPUTS))
         self.distinct(inputs, data["parameters"])
-        self.each("damping", lambda x, where: self.typed(Damping, x, where))
-        forces: list[Any] = self.each("forces", self.acting) if "forces" in data else []
-        forces += self.each("flows", self.flow) if "flows" in data else []
-        outputs: list[Any] = []
-        if "outputs" in data:
-            outputs = self.each("outputs", lambda x, where: self.one_of(OUTPUTS, x, where))
+        self.each("damping", partial(self.typed, Damping))
+        forces: list[Any] = self.each("forces", self.acting, optional=True)
+        forces += self.each("flows", self.flow, optional=True)
+        outputs = self.each("outputs", partial(self.one_of, OUTPUTS), optional=True)
         self.distinct_outputs(outputs, inputs, data["parameters"], forces)
         self.matrices(self.value(self.top("basis"), list))
         if data.get("discrete", True) is not True:
@@ -90,8 +88,11 @@ class _RecordReader(TableReader):
         """A key of the problem itself."""
         return Slot(self.data, key, key)
 
-    def each(self, key: str, read: Callable[[Any, str], T]) -> list[T]:
-        """The tables of a list, called by their numbers."""
+    def each(self, key: str, read: Callable[[Any, str], T], *, optional: bool = False) -> list[T]:
+        """The tables of a list, called by their numbers; is it ``optional``, none where it is not
+        there?"""
+        if optional and key not in self.data:
+            return []
         listed = enumerate(self.value(self.top(key), list), 1)
         return [read(x, f"{key.removesuffix('s')} {k}") for k, x in listed]
 
@@ -129,20 +130,18 @@ class _RecordReader(TableReader):
             raise ShapeError(f"fluid: the problem of {GROUP} has this key")
         if ("lagrangian" in data) != (data["body"]["kind"] == "none"):
             raise ShapeError("lagrangian: it is of a problem without a body")
+        on_algebra = "advected" in data or "torus" in data
+        if on_algebra and "lagrangian" not in data:
+            raise ShapeError("advected, torus: they are of a problem with a Lagrangian of its own")
         if "lagrangian" not in data:
-            if "advected" in data or "torus" in data:
-                raise ShapeError(
-                    "advected, torus: they are of a problem with a Lagrangian of its own"
-                )
             return
         if key := next((x for x in ("potentials", "damping", "flows") if data.get(x)), ""):
             raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
-        if "advected" in data or "torus" in data:
+        if on_algebra:
             self.covectors_alone()
         if any(x["kind"] in OF_MASSES for x in data.get("outputs", ())):
             raise ShapeError("lagrangian: an output of its problem is of masses, and it has none")
-        if "advected" in data:
-            self.each("advected", lambda x, where: self.typed(Advected, x, where))
+        self.each("advected", partial(self.typed, Advected), optional=True)
         if "torus" not in data:
             self.typed(Lagrangian, data["lagrangian"], "lagrangian")
             return

@@ -5,7 +5,7 @@ A tree is as the record has it, which the page evaluates: so the body follows it
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...algebra.groups import Group
@@ -13,6 +13,7 @@ from ...language.reserved import waves
 from ...problem.fields import state_names
 from ..figure.drawn_body import UNITS, ExpressionValues, moments_of
 from ..figure.scene import along, shifts, turns
+from ..figure.shapes import stretches
 
 DIGITS = 4
 """Of the places of a mesh."""
@@ -159,26 +160,13 @@ def _solid(solid: Mapping[str, Any], problem: Mapping[str, Any]) -> Data:
         )
         columns = [[_sum(x, ["mul", -1, y]) for x, y in zip(v, first, strict=True)] for v in others]
         return {"shape": kind, "columns": columns, "shift": first}
-    stretch = [*_stretch(kind, s)]
+    stretch = stretches(kind, s, lambda x: ["mul", "1/2", x])
     columns = [[_product(row[j], stretch[j]) for row in R] for j in range(3)]
     return {"shape": kind if kind in SHAPES else "ball", "columns": columns, "shift": shift}
 
 
 SHAPES = ("box", "cylinder", "cone")
 """The shapes that are no image of a ball or of a simplex."""
-
-
-def _stretch(kind: str, s: Mapping[str, Any]) -> Iterator[Data]:
-    """By how much a shape is stretched along its axes."""
-    if kind == "box":
-        yield from (["mul", "1/2", x] for x in s["sides"])
-    elif kind == "ellipsoid":
-        yield from s["semi_axes"]
-    elif kind in ("cylinder", "cone"):
-        half = ["mul", "1/2", s["height"]] if kind == "cylinder" else s["height"]
-        yield from (s["radius"], s["radius"], half)
-    else:
-        yield from [s["outer" if kind == "hollow_ball" else "radius"]] * 3
 
 
 def _image(R: Sequence[Sequence[Any]], v: Sequence[Any]) -> list[Data]:
