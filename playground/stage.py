@@ -34,14 +34,13 @@ from derive.schema.force_kinds import INPUTS, Damping
 from derive.schema.kind import (
     REPRESENTATIONS,
     SECTIONS,
-    Event,
     Fluid,
     Parameter,
-    Signal,
     StatedAdvected,
     StatedAlgebra,
     StatedGroup,
 )
+from derive.schema.motion_kinds import Event, Signal
 from derive.schema.potential_kinds import kinds
 from derive.schema.table import Table
 from derive.views.language import LANGUAGES as SPOKEN

@@ -21,21 +21,8 @@ from .faults import Explanation, explained
 from .opened import Opened, opened
 from .pairs import of_two
 from .told import NEAR, told
-from .users_code import (
-    RATES,
-    WORDS,
-    Array,
-    Call,
-    CompareError,
-    Item,
-    Table,
-    drawn,
-    ours,
-    own_blocks,
-    rates,
-    read,
-    values,
-)
+from .user_states import RATES, WORDS, Item, Table, drawn, ours, own_blocks, rates, read
+from .users_code import Array, Call, CompareError, values
 
 AGREES = 1e-9
 """The largest difference, relative to the size of the numbers, of what agrees."""

@@ -21,7 +21,8 @@ from ..language.values import value
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..schema.body_kinds import Body, GivenBody
-from ..schema.kind import Event, Lagrangian
+from ..schema.kind import Lagrangian
+from ..schema.motion_kinds import Event
 from ..views.figure.drawn_body import ExpressionValues, parts
 from ..views.figure.shapes import Curve, Shape
 from .c_binding import binding, binding_on_card, binding_to_events

@@ -15,7 +15,7 @@ import numpy as np
 from ..language.reserved import did_you_mean, near_name
 from ..language.values import approximate
 from ..problem.problem import Problem
-from ..schema.kind import Signal
+from ..schema.motion_kinds import Signal
 from .first_numbers import MotionError
 from .run import Array
 

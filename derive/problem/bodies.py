@@ -38,15 +38,8 @@ from ..schema.force_kinds import (
     StatedForce,
     TorqueInput,
 )
-from ..schema.kind import (
-    GROUP,
-    OUTPUTS,
-    ExpressionOutput,
-    Output,
-    Parameter,
-    PowerOutput,
-    StatedGroup,
-)
+from ..schema.kind import GROUP, Parameter, StatedGroup
+from ..schema.motion_kinds import OUTPUTS, ExpressionOutput, Output, PowerOutput
 from ..schema.potential_kinds import Potential, kinds
 from ..schema.table import ACTIONS, Slot, Table
 from .fields import angular_velocity, tables, velocity_at_place

@@ -16,7 +16,8 @@ from ..language.expression import names
 from ..language.limits import LEAVES
 from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
-from ..schema.kind import Event, Kinematics, Parameter, Signal
+from ..schema.kind import Kinematics, Parameter
+from ..schema.motion_kinds import Event, Signal
 from ..schema.table import hint, nearest
 from .fields import entries, is_entry, known_in_lagrangian, state_names, tables, undeclared
 from .file_reader import ROTATION_KEYS, FileReader, turn_in

@@ -23,17 +23,8 @@ from ..schema.force_kinds import (
     StatedForce,
     TorqueInput,
 )
-from ..schema.kind import (
-    GROUP,
-    Advected,
-    Event,
-    Fluid,
-    Kinematics,
-    Lagrangian,
-    Output,
-    Parameter,
-    Signal,
-)
+from ..schema.kind import GROUP, Advected, Fluid, Kinematics, Lagrangian, Parameter
+from ..schema.motion_kinds import Event, Output, Signal
 from ..schema.potential_kinds import Potential
 from ..schema.table import Table
 

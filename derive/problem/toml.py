@@ -17,7 +17,8 @@ from ..language.expression import names, numbers
 from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, PROBLEM_BYTES, PULLS
 from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
-from ..schema.kind import OF_MASSES, OUTPUTS, SECTIONS, Advected, ExpressionOutput, Fluid, Parameter
+from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
+from ..schema.motion_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
 from ..schema.table import ATTACHED, Table, nearest
 from . import inertia
 from .bodies import as_forces, body, forces, group_of, negative_stiffness_of, outputs, require_known

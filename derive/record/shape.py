@@ -17,7 +17,8 @@ from ..language.reserved import acting_in, taken
 from ..language.tree import Tree, nodes, operands, replaced
 from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
 from ..schema.force_kinds import INPUTS, Acting, Damping, Flow, StatedCovector, StatedForce
-from ..schema.kind import GROUP, OF_MASSES, OUTPUTS, Advected, Fluid, Kinematics, Lagrangian, Torus
+from ..schema.kind import GROUP, Advected, Fluid, Kinematics, Lagrangian, Torus
+from ..schema.motion_kinds import OF_MASSES, OUTPUTS
 from ..schema.potential_kinds import kinds
 from ..schema.table import ACTIONS, DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
@@ -340,8 +341,7 @@ class _RecordReader(TableReader):
                 return self.is_entry(t, coordinates)
             return placed and len(t) == 3 and self.is_place(t[1])
         same = partial(self.is_scalar, placed=placed, timed=timed, coordinates=coordinates)
-        parts = map(same, operands(t))
-        return t[0] in ("add", "mul", "div", "pow", "fun") and all(parts)
+        return t[0] in ("add", "mul", "div", "pow", "fun") and all(map(same, operands(t)))
 
     def is_input(self, name: str) -> bool:
         """Is it that of an input, or of one of its numbers?"""

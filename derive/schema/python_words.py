@@ -6,16 +6,14 @@ from .body_kinds import Moments, Point, Solid
 from .force_kinds import INPUTS, Damping, Flow, StatedCovector, StatedForce
 from .kind import (
     SECTIONS,
-    Event,
-    ExpressionOutput,
     Fluid,
     Kinematics,
-    Signal,
     StatedAdvected,
     StatedAlgebra,
     StatedTorus,
     TorusInertia,
 )
+from .motion_kinds import Event, ExpressionOutput, Signal
 from .potential_kinds import kinds
 from .table import Table
 

@@ -14,7 +14,8 @@ from ..language.limits import MAGNITUDE, SAMPLES, TEXT, TORUS
 from ..language.reserved import COLUMNS, WORDS, numbers_of_input, taken
 from ..language.tree import Tree
 from .force_kinds import Acting, Input
-from .kind import Output, Parameter
+from .kind import Parameter
+from .motion_kinds import Output
 from .table import Rows, Slot, Table, hint, nearest
 
 UNIT = re.compile(r"[\w^*/.·°%⁰¹²³⁴-⁹⁻ -]{0,30}")

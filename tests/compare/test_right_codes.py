@@ -16,7 +16,7 @@ import pytest
 from derive.command.showing import load_problem
 from derive.command.simulating import made
 from derive.compare.comparison import comparison, reports
-from derive.compare.users_code import SIZES, WORDS
+from derive.compare.user_states import SIZES, WORDS
 from tests.compare import codes
 from tests.compare.codes import LISTED
 from tests.support.library import ONE_BUILD, library, module_of

@@ -14,7 +14,7 @@ from ...problem.fields import angular_velocity
 from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...record.sentence import Prose, Sentence, listed
-from ...schema.kind import (
+from ...schema.motion_kinds import (
     AccelerationOutput,
     DirectionOutput,
     DistanceOutput,

@@ -23,7 +23,7 @@ from ...problem.lagrangian_tables import quotient_of
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Equation, Step
 from ...schema.force_kinds import TorqueInput
-from ...schema.kind import (
+from ...schema.motion_kinds import (
     AccelerationOutput,
     DirectionOutput,
     DistanceOutput,
