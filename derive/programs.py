@@ -103,10 +103,9 @@ def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
         return None
     told = reduced.record[f"{problem.name}.effective"].equations
     V = next(e.rhs for e in told if e.lhs == "𝒱")
-    if problem.group is None:
-        return None
-    name = next(x for x, t in state_names(problem.group).items() if t == left.entry)
-    turns = "orthogonal" in problem.group.relations and name.startswith("A")
+    group = problem.own_group
+    name = next(x for x, t in state_names(group).items() if t == left.entry)
+    turns = "orthogonal" in group.relations and name.startswith("A")
     return OneDegree(left.entry, V, momenta_of(found), name, turns)
 
 
@@ -141,13 +140,12 @@ def trim(
             f"{problem.name}: a trim is by linearised equations on a whole group of matrices, "
             "which are not written here; derive equilibria may tell what is steady"
         ) from None
-    assert problem.group
     try:
         found = trimmed(problem, made, at, free, bounds)
     except Refused as error:
         raise ProblemError(f"{problem.name}: {error}") from None
     c = Chapter(problem.name, problem.group_name)
-    step = told(found, problem.group, record.steps, c)
+    step = told(found, problem.own_group, record.steps, c)
     return found, replace(record, steps=completed((*record.steps, step)))
 
 
@@ -200,11 +198,11 @@ def program(
         from .code.torus_program import torus_program
 
         return torus_program(record, problem.torus, options, events)
-    assert problem.group
+    group = problem.own_group
     if problem.kinematics:
         from .code.kinematics_program import kinematics_program
 
-        return kinematics_program(record, problem.group, options)
+        return kinematics_program(record, group, options)
     if options is None or options.frame == "given":
         kept = conserved_quantities(problem, record) if options and options.conserved else None
         more = conserved_without_gravity(problem) if kept is not None and weightless else {}
@@ -212,14 +210,14 @@ def program(
         every = None if kept is None else kept | more
         stepped = discrete(problem) if options and "discrete" in options.step else None
         made = assemble(
-            *(record, problem.group, options),
+            *(record, group, options),
             kept=every,
             events=events,
             discrete=stepped,
             forces=problem.force_tables,
         )
         return replace(made, weightless=(*more,))
-    return assemble(record, problem.group, options, walk(principal(problem)))
+    return assemble(record, group, options, walk(principal(problem)))
 
 
 def require_program(problem: Problem, record: Derivation, options: Options | None = None) -> None:

@@ -138,8 +138,7 @@ def _of_variables(problem: Problem, values: Mapping[str, Number]) -> dict[str, N
     from .problem.fields import state_names
     from .search.equilibria.equilibrium_points import coordinate
 
-    assert problem.group is not None
-    own = state_names(problem.group)
+    own = state_names(problem.own_group)
     entries = {x for x, t in own.items() if isinstance(t, tuple) and t[1] == "A"}
     return {coordinate(own[x]) if x in entries else x: v for x, v in values.items()}
 
@@ -148,9 +147,8 @@ def _elements(problem: Problem, whole: IntegralsFound) -> tuple[EntryConditions,
     """What the entries of g satisfy that are among the variables of the reduced equations."""
     from .search.equilibria.entries_of_elements import conditions
 
-    assert problem.group is not None
     left = problem.lagrangian is None or problem.lagrangian.trivialisation == "left"
-    return conditions(whole.system, problem.group, left=left)
+    return conditions(whole.system, problem.own_group, left=left)
 
 
 def symmetries(problem: Problem, record: Derivation) -> Symmetries:

@@ -320,27 +320,17 @@ def structure_equation(
     element = word(g)
     delta = derivation(moved(element, word(eta_prime)), {g: moved(element, word(xi))}.get)
     delta_prime = derivation(moved(element, word(eta)), {g: moved(element, word(xi_prime))}.get)
-    strip = strip_left if moved is left else strip_right
-    return strip(delta_prime - delta, g)
+    side = "left" if moved is left else "right"
+    return strip(delta_prime - delta, g, side=side)
 
 
-def strip_left(e: Expr, g: Letter) -> Expr:
-    """The expression y with e = g y, for an invertible letter g that each word of e begins with;
-    ``ValueError`` where one does not."""
+def strip(e: Expr, g: Letter, *, side: str = "left") -> Expr:
+    """The expression y with e = g y, or on the right e = y g, for an invertible letter g that each
+    word of e begins with, or ends with; ``ValueError`` where one does not."""
+    first, rest = (0, slice(1, None)) if side == "left" else (-1, slice(-1))
     terms = {}
     for (traces, w), c in e.terms.items():
-        if not w or w[0] != (g, False):
-            raise ValueError(f"{g.name} is not a common left factor")
-        terms[traces, w[1:]] = c
-    return e.like(terms)
-
-
-def strip_right(e: Expr, g: Letter) -> Expr:
-    """The expression y with e = y g, for an invertible letter g that each word of e ends with;
-    ``ValueError`` where one does not."""
-    terms = {}
-    for (traces, w), c in e.terms.items():
-        if not w or w[-1] != (g, False):
-            raise ValueError(f"{g.name} is not a common right factor")
-        terms[traces, w[:-1]] = c
+        if not w or w[first] != (g, False):
+            raise ValueError(f"{g.name} is not a common {side} factor")
+        terms[traces, w[rest]] = c
     return e.like(terms)

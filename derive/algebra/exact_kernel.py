@@ -11,7 +11,7 @@ from random import Random
 from struct import Struct
 from typing import Any
 
-from ..language.rings import RingElement
+from ..language.rational import RingElement
 
 Row = Sequence[int]
 """Residues."""

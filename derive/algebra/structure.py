@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 
 from ..language import rational as q
 from ..language.rational import Matrix
+from .samplers import block_diagonal
 
 # Matrices of which most entries are 0, as place → entry: those of a basis of a Lie algebra.
 
@@ -188,17 +189,7 @@ def faithful(brackets: Brackets, dimension: int) -> tuple[Matrix, ...]:
 
 def direct_sum(*several: Sequence[Matrix]) -> tuple[Matrix, ...]:
     """The block diagonal matrices of representations."""
-    return tuple(_blocks(own) for own in zip(*several, strict=True))
-
-
-def _blocks(parts: Sequence[Matrix]) -> Matrix:
-    total, found, offset = sum(map(len, parts)), [], 0
-    for part in parts:
-        for row in part:
-            after = total - offset - len(part)
-            found.append((*(Fraction(0),) * offset, *row, *(Fraction(0),) * after))
-        offset += len(part)
-    return tuple(found)
+    return tuple(map(block_diagonal, zip(*several, strict=True)))
 
 
 class Span:

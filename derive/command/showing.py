@@ -18,7 +18,7 @@ from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation, Step
 from ..schema.table import nearest
 from ..search import FIRST
-from ..views.printing.line_breaking import WIDTH
+from ..views.printing.typeset import WIDTH
 from ..views.rendering import render, unprinted
 from .writing import as_in_a_file, one_line, show, write
 

@@ -10,10 +10,17 @@ from itertools import chain, combinations, product
 import numpy as np
 
 from .balance import Balance, Part, Term, exact, hats, through
-from .newton_euler import IN_MASS, of_masses_held, of_newton_euler
+from .newton_euler import (
+    IN_MASS,
+    of_added_mass,
+    of_axes,
+    of_masses_held,
+    of_newton_euler,
+    of_sizes,
+    of_wrenches,
+)
 from .told import ABOUT, NEAR, Changed, Hypothesis, changed, possible, told
 from .users_code import Array
-from .wrenches import of_added_mass, of_axes, of_sizes, of_wrenches
 
 NEARER = 0.5
 """What a change leaves of the difference at most, to be told as the nearest."""

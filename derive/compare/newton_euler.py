@@ -1,17 +1,27 @@
-"""What may be otherwise in the mass, the centre of mass and the tensor of inertia of a body, in
-each place of the equations of Newton and Euler about that centre; masses that are not what is left.
+"""What may be otherwise in the equations of Newton and Euler about the centre of mass: the mass,
+that centre and the tensor of inertia in each place, masses that are not what is left; in a
+force with its moment the axes of its numbers, its arm, the velocity that it is made of; and in
+the added mass of a body in water, the operator of inertia less that of a rigid body: left out,
+or taken otherwise, in the mass matrix, in the Coriolis terms or in both.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import product
+from typing import Any
 
 import numpy as np
 
-from ..language.tree import nodes
-from .balance import Balance, Term, cross, hats, through, turning
-from .told import SIMPLE, Hypothesis
+from ..code.naming import plain_text, typed
+from ..language.show import show
+from ..language.tree import Tree, nodes, replaced, sized
+from ..problem.fields import velocity_at_place
+from ..schema.force_kinds import StatedForce
+from .balance import EXACT, Balance, Term, cross, hats, through, turning
+from .opened import called
+from .told import FACTORS, SIMPLE, Hypothesis
 from .users_code import Array
 
 IN_MASS = " in the mass matrix alone"
@@ -139,3 +149,286 @@ def _left(b: Balance, own: Quantities, there: Quantities, weight: Array) -> Arra
     still = np.hstack([alpha, 0 * v])
     other = np.hstack([alpha, force / there["m"] + fall - moved(there, still)])
     return through(M, b.a - other)
+
+
+View = tuple[str, Array]
+
+
+def of_wrenches(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
+    """All of these, of the terms by themselves and of all inputs together."""
+    yield from of_attitude(b, terms)
+    yield from of_arms(b, terms)
+    if b.is_frame:
+        inputs = [x for x in terms if x.is_input]
+        for term in terms:
+            yield from of_frames(b, [term], term.name)
+            yield from of_speeds(b, term)
+        for both in b.together():
+            yield from of_frames(b, inputs, both.name)
+
+
+def of_axes(b: Balance, term: Term, view: View) -> Iterator[Hypothesis]:
+    """The numbers of a force or a moment are taken along the axes of the other frame."""
+    (about, to), A = view, b.turns()
+    here, values, back = through(to, b.unexplained), through(to, term.values), np.linalg.inv(to)
+    for rows in b.rows.values():
+        if len(rows) != A.shape[1]:
+            continue
+        own, kind = values[:, rows], b.kind(rows)
+        called = term.name(kind) + about * (kind == "moment")
+        inverse = A.transpose(0, 2, 1)
+        turns = {
+            "has its numbers along the axes of space instead": inverse,
+            "has its numbers along the axes of the body instead": A,
+            "is turned by Ā, the transpose of the attitude, and not by A": inverse @ inverse,
+        }
+        for words, R in turns.items():
+            left = here.copy()
+            left[:, rows] -= turned(R)(own) - own
+            yield Hypothesis(f"{called} {words}", 0, through(back, left))
+
+
+def of_attitude(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
+    """A vector of space is turned by A, not by its transpose, in a force or an input."""
+    here, there = b.unexplained, b.transposed()
+    for term in terms:
+        if there is not None and term.at is not None:
+            left = here - (term.at(there) - term.values)
+            yield Hypothesis(f"{term.name('')} {BY_A}", 0, left)
+
+
+BY_A = "is turned by A and not by Ā, the transpose of the attitude"
+
+
+def changed_force(values: Array, arm: Array, to: Callable[[Array], Array]) -> Array:
+    """A force with its moment, (N, d), whose force at an arm is another and whose couple, which
+    no arm makes, is turned with it in space."""
+    n = arm.shape[-1]
+    force, moment = values[:, -n:], values[:, :-n]
+    couple = moment - cross(arm, force)
+    other = to(force)
+    couple = to(couple) if n == 3 else couple
+    return np.hstack([couple + cross(arm, other), other])
+
+
+def turned(R: Array) -> Callable[[Array], Array]:
+    """What turns vectors at each state."""
+    return lambda vectors: np.einsum("nij,nj->ni", R, vectors)
+
+
+def of_frames(b: Balance, terms: list[Term], name: Callable[[str], str]) -> Iterator[Hypothesis]:
+    """The numbers of a force, its velocity or both are along the axes of the other frame, its
+    moment by its arm with them."""
+    A = b.turns()
+    back = A.transpose(0, 2, 1)
+    placed = [(x, x.at, x.arm) for x in terms if x.at is not None and x.arm is not None]
+    if len(placed) < len(terms):
+        return
+    own = np.stack([x.values for x in terms])
+    for frame, R, out in (("space", A, back), ("the body", back, A)):
+        taken = np.stack([at(moving(b, arm, R)) for _, at, arm in placed])
+        made: dict[str, tuple[Array, Array | None]] = {
+            f"{name('force')}, with its moment by the arm, has its numbers": (own, out)
+        }
+        if np.abs(taken - own).max() > EXACT * np.abs(own).max():
+            made[f"the velocity in {name('')} is"] = (taken, None)
+            made[f"the velocity and the numbers of {name('')} are"] = (taken, out)
+        for words, (values, to) in made.items():
+            if to is not None:
+                both = zip(values, placed, strict=True)
+                turn = turned(to)
+                values = np.stack([changed_force(x, arm, turn) for x, (_, _, arm) in both])
+            left = b.unexplained - (values - own).sum(axis=0)
+            yield Hypothesis(f"{words} along the axes of {frame} instead", 0, left)
+    turn, other = turned(A @ A), np.zeros_like(b.a)
+    for values, (_, _, arm) in zip(own, placed, strict=True):
+        other += changed_force(values, arm, turn) - values
+    yield Hypothesis(f"{name('')} {BY_A}", 0, b.unexplained - other)
+
+
+def moving(b: Balance, arm: Array, R: Array) -> Array:
+    """The states in which the velocities of a place, and of turning, are turned by R."""
+    w, v = b.velocities()
+    n = arm.shape[-1]
+    of_place = turned(R)(v + turning(w, arm))
+    w = turned(R)(w) if n == 3 else w
+    return b.with_velocities(w, of_place - turning(w, arm))
+
+
+def of_speeds(b: Balance, term: Term) -> Iterator[Hypothesis]:
+    """A force of the velocity of the body's origin, or of its centre of mass; one by the speed
+    along each axis for one by the whole speed, or the other way round."""
+    if term.arm is None or term.at is None or term.is_input:
+        return
+    (w, v), name, r = b.velocities(), term.name(""), b.centre()
+    taken = {"the body's origin": v}
+    if r is not None and r.any():
+        taken["the centre of mass"] = v + turning(w, r)
+        for sign in (1, -1):
+            told = f"its place {'−+'[sign > 0]} r, r the centre of mass"
+            taken[told] = v + turning(w, term.arm + sign * r)
+    for place, velocity in taken.items():
+        values = term.at(b.with_velocities(w, velocity - turning(w, term.arm)))
+        words = f"{name} is made of the velocity of {place}, not of its place"
+        yield Hypothesis(words, 0, b.unexplained - (values - term.values))
+    n = term.arm.shape[-1]
+    own = term.values[:, -n:]
+    by_arm = cross(term.arm, own)
+    if np.abs(term.values[:, :-n] - by_arm).max() > EXACT * np.abs(term.values).max():
+        # with no moment of its own the whole moment is missing, which is a factor of it
+        left = b.unexplained + np.hstack([by_arm, 0 * own])
+        yield Hypothesis(f"the moment of {name} by its arm is missing", 0, left)
+    axes = {"the body": np.broadcast_to(np.eye(n), b.turns().shape), "space": b.turns()}
+    for (frame, A), (words, to) in product(axes.items(), BY_AXES.items()):
+        more = turned(A.transpose(0, 2, 1))(to(turned(A)(own))) - own
+        said = f"{name} has {words}, in the axes of {frame}"
+        yield Hypothesis(said, 1, b.unexplained - np.hstack([cross(term.arm, more), more]))
+
+
+def of_sizes(b: Balance) -> Iterator[Hypothesis]:
+    """In a force each |x| is x, or 1: c x² for c x|x|, or what is linear for what is quadratic."""
+    problem = b.opened.given
+    listed = problem.forces
+    for i, table in enumerate(listed):
+        trees = {key: getattr(table, key) for key in table.expressed}
+        inside = (y for own in trees.values() for t in own for y in nodes(t))
+        sizes = {y: x for y in inside if (x := sized(y)) is not None}
+        for these in ([x] for x in sizes) if len(sizes) < 2 else (*([x] for x in sizes), sizes):
+            for one in (False, True):
+                other = dict(trees)
+                for y in these:
+                    x = 1 if one else sizes[y]
+                    other = {k: tuple(replaced(t, y, x) for t in own) for k, own in other.items()}
+                forces = (*listed[:i], replace(table, **other), *listed[i + 1 :])
+                # its own numbers: those of our code are parameters
+                code = b.without({"forces": forces}, f"{[*these]} {one} {i}", problem)
+                if code is None:
+                    continue
+                names = [_as_asked(b, table, sizes[y]) for y in these]
+                said = ", ".join(f"{1 if one else x} stands for |{x}|" for x in names)
+                left = b.unexplained + b.bias(b.x, b.u, code) - b.bias(b.x, b.u)
+                yield Hypothesis(f"in {called(problem, table)} {said}", 0, left)
+
+
+def _as_asked(b: Balance, table: Any, x: Tree) -> str:
+    """A tree of a force by the names of the problem file."""
+    group = b.opened.given.own_group
+    if isinstance(table, StatedForce):
+        block, factor = b.opened.given.acted_on(table)
+        place = factor.n, group.places[block - 1][0], table.on
+        wind = table.relative_to or (0,) * factor.n
+        for name, v in velocity_at_place(*place, wind, turned=table.frame == "body").items():
+            x = replaced(x, v, ("par", name))
+    return plain_text(show(typed(x, group)))
+
+
+def _apart(force: Array) -> Array:
+    return np.asarray(force * np.abs(force) / np.linalg.norm(force, axis=1)[:, None])
+
+
+def _whole(force: Array) -> Array:
+    roots = np.sqrt(np.abs(force))
+    return np.asarray(np.sign(force) * roots * np.linalg.norm(roots, axis=1)[:, None])
+
+
+BY_AXES = {
+    "|vᵢ| vᵢ along each axis where ‖v‖ v is meant": _apart,
+    "‖v‖ v where |vᵢ| vᵢ along each axis is meant": _whole,
+}
+
+
+def of_arms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
+    """An arm, or all arms, are taken from the centre of mass; or moments are about it."""
+    r = b.centre()
+    if r is None or not r.any():
+        return
+    placed = [x for x in terms if x.arm is not None and x.at]
+    listed = [(f"the lever arm of {x.name('')} is", [x]) for x in placed]
+    of_places = [x for x in placed if x.arm is not None and x.arm.ndim == 1]
+    of_inputs = [x for x in of_places if x.is_input]
+    for words, several in (
+        ("all lever arms", of_places),
+        ("the lever arms of all inputs", of_inputs),
+    ):
+        listed += [(f"{words} are", several)] * (len(several) > 1)
+    for (words, own), (sign, told) in product(listed, TAKEN.items()):
+        moved = sum((_at_arm(b, x, sign * r) - x.values for x in own), 0 * b.a)
+        yield Hypothesis(f"{words} {told}", 0, b.unexplained - moved)
+        more = cross(sign * r, sum((x.values[:, -r.shape[1] :] for x in own), 0 * r))
+        left = b.unexplained - np.hstack([more, 0 * r])
+        yield Hypothesis(f"{words} {told}, in the moment alone", 2, left)
+
+
+TAKEN = {
+    1: "taken from the centre of mass instead of the body's origin",
+    -1: "of moments about the centre of mass instead of the body's origin",
+    2: "p + r and not p − r, of the place p, where moments are about the centre of mass r",
+}
+
+
+def _at_arm(b: Balance, term: Term, further: Array) -> Array:
+    """A force with its moment that acts further along the axes of the body, made of the velocity of
+    its place there."""
+    assert term.at is not None
+    assert term.arm is not None
+    w, v = b.velocities()
+    own, n = term.at(b.with_velocities(w, v + turning(w, further))), term.arm.shape[-1]
+    return np.hstack([own[:, :-n] + cross(further, own[:, -n:]), own[:, -n:]])
+
+
+def of_added_mass(b: Balance) -> Iterator[Hypothesis]:
+    """Of an operator that is the same in every state: what a factor s of the added mass adds is
+    (s − 1) (P(M) − P(R)), P linear in the operator; the R of a rigid body is fitted."""
+    problem = b.opened.problem
+    if problem.lagrangian is None or not b.is_frame:
+        return
+    operators = b.code.mass_matrix(b.t, b.x, b.k(b.values()))
+    M = operators[0]
+    if np.abs(operators - M).max() > 1e-12 * np.abs(M).max():
+        return
+    rigid = rigid_bodies(len(b.rows["force"]))
+    for words, part in parts(b).items():
+        columns = np.stack([part(R).ravel() for R in rigid], axis=1)
+        scale = np.abs(columns).max(axis=0)
+        known, used = part(M), scale > 0
+        for s in FACTORS:
+            wanted = known - b.unexplained / (1 - s)
+            numbers = np.zeros(len(rigid))
+            fit = np.linalg.lstsq(columns[:, used] / scale[used], wanted.ravel(), rcond=1e-9)
+            numbers[used] = fit[0] / scale[used]
+            left = b.unexplained - (1 - s) * (known - part(np.tensordot(numbers, rigid, 1)))
+            dry = f" of mass {numbers[0]:.6g}" if used[0] else ""
+            if not used[0] or numbers[0] > 1e-9 * np.abs(M).max():
+                rest = f"the rest is that of a rigid body{dry}"
+                yield Hypothesis(f"{words} {SIMPLE[s]}: {rest}", 2, left)
+
+
+def rigid_bodies(n: int) -> Array:
+    """The operators of a mass, of each first moment, and of each entry of the tensor."""
+    turns = 3 if n == 3 else 1
+    found = [np.diag([0.0] * turns + [1.0] * n)]
+    for c in np.eye(n):
+        # ω × c is D ω, and v · D ω is in the energy
+        D = np.stack([turning(w, c) for w in np.eye(turns)], axis=1)
+        found.append(np.block([[np.zeros((turns, turns)), D.T], [D, np.zeros((n, n))]]))
+    for i in range(turns):
+        for j in range(i, turns):
+            R = np.zeros((turns + n, turns + n))
+            R[i, j] = R[j, i] = 1
+            found.append(R)
+    return np.array(found)
+
+
+def parts(b: Balance) -> dict[str, Callable[[Array], Array]]:
+    """What an operator makes in M a + b, in words."""
+    ζ = np.hstack(b.velocities())
+
+    def coriolis(K: Array) -> Array:
+        return np.asarray(sum(b.coadjoint(ζ @ K).values()))
+
+    return {
+        "C_A(ν)ν, of the added mass,": coriolis,
+        "v × p of the added mass": lambda K: b.coadjoint(ζ @ K)["v × p"],
+        "the added mass in the mass matrix": lambda K: b.a @ K,
+        "the added mass": lambda K: b.a @ K + coriolis(K),
+    }

@@ -83,8 +83,7 @@ class Opening:
         """The velocities of a place, from which a wind w is taken, as v + w − s, s its slot: a
         number of its own, or where w is a function its factor times w."""
         block, _ = self.problem.acted_on(x)
-        assert self.problem.group
-        first = self.problem.group.places[block - 1][0]
+        first = self.problem.own_group.places[block - 1][0]
         key = f"relative_to of {of}"
         for k, w in enumerate(wind, 1):
             s = self.slot(w, key, words := f"relative_to_{k} of {of}")

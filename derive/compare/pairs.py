@@ -9,8 +9,8 @@ import numpy as np
 
 from .balance import Balance, Term, exact, through
 from .faults import NEARER, Explanation, named_vector, of_exchanges, of_terms, views
+from .newton_euler import of_axes, of_wrenches
 from .told import ABOUT, FACTORS, NEAR, Changed, changed, possible, told
-from .wrenches import of_axes, of_wrenches
 
 
 def of_two(b: Balance, terms: list[Term]) -> Explanation | None:

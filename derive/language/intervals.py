@@ -13,7 +13,7 @@ from operator import attrgetter
 from typing import Any, Literal
 
 from . import rational as q
-from .rings import FieldElement
+from .rational import FieldElement
 from .univariate import Quadratic, routh
 
 BITS = 320

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 
-from .rings import FieldElement
+from .rational import FieldElement
 from .tree import Tree, add, mul, names, plain, replaced
 
 Monomial = tuple[tuple[Tree, int], ...]

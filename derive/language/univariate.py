@@ -11,7 +11,7 @@ from math import isqrt, sqrt
 from typing import Any, Literal
 
 from .derivatives import power
-from .rings import FieldElement
+from .rational import FieldElement
 from .tree import Tree, add, mul, plain
 from .values import value
 

@@ -9,9 +9,8 @@ from itertools import groupby
 from ..record.record import Equation
 from ..views.layout import broken, indented
 from ..views.printing.letters import NAMES
-from ..views.printing.line_breaking import measure
 from ..views.printing.tex import formula
-from ..views.printing.typeset import Formula, literal, plain
+from ..views.printing.typeset import Formula, literal, measure, plain
 from ..views.text import aligned
 
 WIDTH, TALL = 36.0, 14

@@ -18,11 +18,10 @@ from ..views.language import typeset as typeset_french
 from ..views.latex import DELIMITERS
 from ..views.printing import typeset
 from ..views.printing.letters import definitions
-from ..views.printing.line_breaking import measure
 from ..views.printing.sentences import prose, spelt
 from ..views.printing.signs import NO_BREAK, SYMBOLS, Notation, tex_text
 from ..views.printing.tex import formula as of_tree
-from ..views.printing.typeset import literal, plain
+from ..views.printing.typeset import literal, measure, plain
 from .back_matter import NUMBERS, UNTITLED, WORKS, Front, LetterUse, homes, letters
 from .displays import LETTERS, blocks, displayed, sides
 from .figures import FIGURES, Figure

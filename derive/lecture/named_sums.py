@@ -6,9 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from ..language.tree import Tree, nodes, replaced
 from ..record.record import Equation
-from ..views.printing.line_breaking import measure
 from ..views.printing.tex import formula
-from ..views.printing.typeset import plain
+from ..views.printing.typeset import measure, plain
 from .displays import WIDTH, sides
 
 LEAST = 10.0

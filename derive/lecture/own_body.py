@@ -117,7 +117,8 @@ def _of_points(problem: Mapping[str, Any], value: ExpressionValues) -> tuple[flo
 
 def _of_moments(problem: Mapping[str, Any], value: ExpressionValues) -> tuple[float, Any, Any]:
     """The same of a body that has its moments in the record; a mass without a number is 0."""
-    m, c, J = moments_of(problem, value)
+    mass, c, J = moments_of(problem)
+    m = value.of(mass)
     if problem["body"]["kind"] == "moments" and problem["parameters"]["m"]["default"] is None:
         m = 0.0
     return m, np.array(value.vector(c)), np.array([value.vector(row) for row in J[:3]])

@@ -16,9 +16,9 @@ from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Sentence, phrase, say
 from ..views.answer import definitions, equations_of_motion, steps_of_answer
-from ..views.as_read import Reading
 from ..views.figure.scene import scene
 from ..views.language import Language, told
+from ..views.layout import Reading
 from ..views.outline import declared, system, title
 from ..views.text import formula
 from .figures import Figure

@@ -14,8 +14,8 @@ from ..language.tree import Tree, names
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence, phrase
-from ..views.as_read import Reading
 from ..views.language import LANGUAGES, Language, labelled, language, told
+from ..views.layout import Reading
 from ..views.printing.sentences import FORMULA, QUOTED
 from .lecture_text import Block, Entry, Formula, Tie, Words
 from .named_sums import NamedSums

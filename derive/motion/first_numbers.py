@@ -234,10 +234,9 @@ def _at(problem: Problem, program: Program, exponent: Sequence[float]) -> dict[s
 def _by_charts(program: Program, problem: Problem, found: Mapping[str, float]) -> dict[str, float]:
     """Name → number of what tells the factors that have charts, by the entries of g; an angle
     between −π and π, but where a shift tells how often it went round."""
-    assert problem.group is not None
-    span = range(problem.group.size)
+    span = range(problem.own_group.size)
     rows = [[float(i == j) for j in span] for i in span]
-    for name, t in state_names(problem.group).items():
+    for name, t in state_names(problem.own_group).items():
         if name in found and isinstance(t, tuple) and t[1] == "A":
             rows[t[2] - 1][t[3] - 1] = found[name]
     g = tuple(map(tuple, rows))

@@ -26,15 +26,7 @@ from ..language.expression import names
 from ..language.laurent import shortened
 from ..language.reserved import rate_of_mass
 from ..language.tree import Tree, add, mul, neg, nodes
-from ..schema.body_kinds import (
-    Body,
-    GivenBody,
-    MomentBody,
-    Moments,
-    Place,
-    PointBody,
-    by_block,
-)
+from ..schema.body_kinds import Body, GivenBody, MomentBody, Moments, Place, PointBody, by_block
 from ..schema.force_kinds import Flow, Input, StatedForce
 from .entries_on_orbit import vanishes
 from .fields import angular_velocity, names_in_forces, tables

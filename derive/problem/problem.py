@@ -220,14 +220,12 @@ class Problem:
 
     def acted_on(self, x: ForceInput | TorqueInput | StatedForce) -> tuple[int, Group]:
         """The block, counted from 1, on which a force or a torque acts, with its factor."""
-        assert self.group is not None
         block = x.block if isinstance(x, TorqueInput) else self.block(x.on)
-        return block, self.group.places[block - 1][1]
+        return block, self.own_group.places[block - 1][1]
 
     def numbers_of(self, x: Input) -> list[str]:
         """The names of the numbers of an input."""
-        assert self.group is not None
-        size = self.group.dimension
+        size = self.own_group.dimension
         if isinstance(x, ForceInput | TorqueInput):
             size = self.acted_on(x)[1].n
         return numbers_of_input(x.plain(), size)
@@ -238,8 +236,7 @@ class Problem:
 
     def numbers_of_output(self, x: Output) -> list[str]:
         """The names of the numbers of an output."""
-        assert self.group is not None
-        _, factor = self.group.places[self.block_of(x.plain()) - 1]
+        _, factor = self.own_group.places[self.block_of(x.plain()) - 1]
         return numbers_of_output(x.plain(), factor.n)
 
 

@@ -21,15 +21,7 @@ from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
 from ..schema.motion_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
 from ..schema.table import ATTACHED, Table, nearest
 from . import inertia
-from .bodies import (
-    as_forces,
-    body,
-    forces,
-    group_of,
-    negative_stiffness_of,
-    outputs,
-    require_known,
-)
+from .bodies import as_forces, body, forces, group_of, negative_stiffness_of, outputs, require_known
 from .entries_on_orbit import hessian, vanishes
 from .fields import (
     LIKE_A_PLACE,

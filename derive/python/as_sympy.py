@@ -6,7 +6,7 @@ the table.  Nothing is simplified, and nothing is evaluated but what SymPy does 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 from typing import Any
 
@@ -14,7 +14,7 @@ import sympy
 
 from ..language.read import read
 from ..language.show import show, show_name
-from ..language.tree import Tree, nodes
+from ..language.tree import Tree, nodes, replaced
 from ..problem.problem import ProblemError
 from ..record.record import Derivation, Equation
 from ..record.vocabulary import (
@@ -58,7 +58,10 @@ class Translation:
     def read(self, formula: str) -> Any:
         """What a formula is, as text shows it; ``ValueError`` for any other."""
         known = {f"‘{y}’": x for x in self.quoted for y in (x, show_name(x))}
-        return self.of(_unquoted(read(formula, *sorted(self.own - self.quoted)), known))
+        t = read(formula, *sorted(self.own - self.quoted))
+        for shown, name in known.items():
+            t = replaced(t, ("par", shown), ("par", name))
+        return self.of(t)
 
     def equation(self, e: Equation) -> Any:
         """lhs = rhs; the number 0 beside a matrix is the zero matrix."""
@@ -198,15 +201,6 @@ class Translation:
         if name not in self.own:
             raise ValueError(f"{name!r} is no parameter of the problem")
         return sympy.Symbol(name, real=True)
-
-
-def _unquoted(t: Tree, known: Mapping[str, str]) -> Tree:
-    """A tree with the names of parameters for what stands in ‘quotes’."""
-    if not isinstance(t, tuple):
-        return t
-    if t[0] == "par":
-        return ("par", known.get(t[1], t[1]))
-    return (t[0], *(_unquoted(x, known) for x in t[1:]))
 
 
 def _natural(name: str) -> Any:

@@ -108,8 +108,7 @@ class SymmetriesOf(Finding):
         """The conserved quantities, n numbers, at a time and a state of the emitted code, which may
         have leading dimensions; ``parameters`` in the place of defaults."""
         self.found.require_whole()
-        group = self.problem.group
-        assert group is not None
+        group = self.problem.own_group
         x = np.asarray(x, float)
         leaves: dict[Tree, Any] = {y: x[..., k] for k, y in enumerate(self.found.state.values())}
         leaves["t"], leaves["π"] = np.asarray(t, float), np.pi
@@ -138,9 +137,7 @@ class SymmetriesOf(Finding):
     def _entries(self, leaves: Mapping[Tree, Any]) -> list[list[Any]]:
         from ..problem.entries_on_orbit import element
 
-        group = self.problem.group
-        assert group is not None
-        return [[leaves.get(x, x) for x in row] for row in element(group)]
+        return [[leaves.get(x, x) for x in row] for row in element(self.problem.own_group)]
 
     def _value(
         self, s: Symmetry, g: Any, momenta: list[Any], energy: Any, leaves: Mapping[Tree, Any]

@@ -54,6 +54,16 @@ class ShownEquation:
         return f"$${self.latex()}$$"
 
 
+class Equated:
+    """What has ``equations``."""
+
+    equations: Any
+
+    def sympy(self) -> tuple[Any, ...]:
+        """The equations in SymPy, in order."""
+        return tuple(e.sympy() for e in self.equations)
+
+
 class Printed:
     """What prints a ``record``, or a part of it, as :meth:`_part` says."""
 
@@ -79,7 +89,7 @@ class Printed:
 
 
 @dataclass(frozen=True)
-class Answer(Printed):
+class Answer(Equated, Printed):
     """The equations of motion of a derivation, and what their letters are; ``by_block``: names of
     the velocity of a product → those by its blocks."""
 
@@ -96,16 +106,12 @@ class Answer(Printed):
 
         return tuple(ShownEquation(e, self.record) for e in equations_of_motion(self.record))
 
-    def sympy(self) -> tuple[Any, ...]:
-        """The equations in SymPy, in order."""
-        return tuple(e.sympy() for e in self.equations)
-
     def _part(self) -> dict[str, Any]:
         return {"answer": True, "by_block": self.by_block}
 
 
 @dataclass(frozen=True)
-class Shown:
+class Shown(Equated):
     """A step of a derivation, which prints itself and shows its formulas in a notebook."""
 
     step: Step
@@ -118,13 +124,6 @@ class Shown:
     def equations(self) -> tuple[ShownEquation, ...]:
         """Its equations, in order."""
         return tuple(ShownEquation(e, self.record) for e in self.step.equations)
-
-    def sympy(self) -> tuple[Any, ...]:
-        """Its equations in SymPy, in order."""
-        from .as_sympy import Translation
-
-        translation = Translation(self.record)
-        return tuple(translation.equation(e) for e in self.step.equations)
 
     def __str__(self) -> str:
         from ..views.text import step_text

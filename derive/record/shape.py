@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any, TypeVar
 
 from ..language.laurent import LEVEL, degree_in_level
@@ -38,13 +39,6 @@ def problem_shape(data: Mapping[str, Any], tree: Callable[[Any, str], Tree]) -> 
     _RecordReader(data, tree).problem()
 
 
-def number(t: Tree, where: str, is_known: bool) -> Tree:
-    """The tree of a number, where it is made of what is known; else ``ShapeError``."""
-    if not is_known:
-        raise ShapeError(f"{where}: expected the expression of a number")
-    return t
-
-
 class _RecordReader(TableReader):
     """Reads a problem in a record; ``last`` counts the places of the body as well."""
 
@@ -69,17 +63,14 @@ class _RecordReader(TableReader):
         for name, about in self.value(self.top("parameters"), dict).items():
             self.parameter(name, about)
         self.body()
-        self.last += len(self.each("places", lambda x, where: self.typed(Place, x, where)))
-        self.each("potentials", lambda x, where: self.one_of(kinds(), x, where))
-        inputs = self.each("inputs", lambda x, where: self.one_of(INPUTS, x, where))
+        self.last += len(self.each("places", partial(self.typed, Place)))
+        self.each("potentials", partial(self.one_of, kinds()))
+        inputs = self.each("inputs", partial(self.one_of, INPUTS))
         self.distinct(inputs, data["parameters"])
-        self.each("damping", lambda x, where: self.typed(Damping, x, where))
-        forces: list[Any] = self.each("forces", self.acting) if "forces" in data else []
-        if "flows" in data:
-            forces += self.each("flows", self.flow)
-        outputs = []
-        if "outputs" in data:
-            outputs = self.each("outputs", lambda x, where: self.one_of(OUTPUTS, x, where))
+        self.each("damping", partial(self.typed, Damping))
+        forces: list[Any] = self.each("forces", self.acting, optional=True)
+        forces += self.each("flows", self.flow, optional=True)
+        outputs = self.each("outputs", partial(self.one_of, OUTPUTS), optional=True)
         self.distinct_outputs(outputs, inputs, data["parameters"], forces)
         self.matrices(self.value(self.top("basis"), list))
         if data.get("discrete", True) is not True:
@@ -98,8 +89,11 @@ class _RecordReader(TableReader):
         """A key of the problem itself."""
         return Slot(self.data, key, key)
 
-    def each(self, key: str, read: Callable[[Any, str], T]) -> list[T]:
-        """The tables of a list, called by their numbers."""
+    def each(self, key: str, read: Callable[[Any, str], T], *, optional: bool = False) -> list[T]:
+        """The tables of a list, called by their numbers; is it ``optional``, none where it is not
+        there?"""
+        if optional and key not in self.data:
+            return []
         listed = enumerate(self.value(self.top(key), list), 1)
         return [read(x, f"{key.removesuffix('s')} {k}") for k, x in listed]
 
@@ -137,20 +131,18 @@ class _RecordReader(TableReader):
             raise ShapeError(f"fluid: the problem of {GROUP} has this key")
         if ("lagrangian" in data) != (data["body"]["kind"] == "none"):
             raise ShapeError("lagrangian: it is of a problem without a body")
+        on_algebra = "advected" in data or "torus" in data
+        if on_algebra and "lagrangian" not in data:
+            raise ShapeError("advected, torus: they are of a problem with a Lagrangian of its own")
         if "lagrangian" not in data:
-            if "advected" in data or "torus" in data:
-                raise ShapeError(
-                    "advected, torus: they are of a problem with a Lagrangian of its own"
-                )
             return
         if key := next((x for x in ("potentials", "damping", "flows") if data.get(x)), ""):
             raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
-        if "advected" in data or "torus" in data:
+        if on_algebra:
             self.covectors_alone()
         if any(x["kind"] in OF_MASSES for x in data.get("outputs", ())):
             raise ShapeError("lagrangian: an output of its problem is of masses, and it has none")
-        if "advected" in data:
-            self.each("advected", lambda x, where: self.typed(Advected, x, where))
+        self.each("advected", partial(self.typed, Advected), optional=True)
         if "torus" not in data:
             self.typed(Lagrangian, data["lagrangian"], "lagrangian")
             return
@@ -207,15 +199,14 @@ class _RecordReader(TableReader):
         if len(listed) != n or not all(isinstance(x, list) and len(x) == n for x in listed):
             raise ShapeError(f"{slot.path}: expected a matrix of {n} rows")
 
-        def one(value: Any) -> Tree:
-            t = self.read(value, slot.path)
-            plain = t
+        def plain(t: Tree) -> Tree:
+            """The same with 1 for inputs, and with no number where ζ stands."""
             for name in inputs:
-                plain = replaced(plain, ("par", name), 1)
-            known = self.is_scalar(plain, False, False, len(self.data["basis"]))
-            return number(t, slot.path, known and "ζ" not in nodes(t))
+                t = replaced(t, ("par", name), 1)
+            return "ζ" if "ζ" in nodes(t) else t
 
-        return tuple(tuple(map(one, row)) for row in listed)
+        one = partial(self.made_of, plain=plain, coordinates=len(self.data["basis"]))
+        return tuple(tuple(one(x, slot.path) for x in row) for row in listed)
 
     def symmetries(self) -> None:
         """The fields δA by which a record reduces, which is of a Lagrangian on a group."""
@@ -231,8 +222,8 @@ class _RecordReader(TableReader):
 
     def lettered(self, slot: Slot) -> Tree:
         """An expression in the time, the entries of g and ζ."""
-        t = self.read(self.value(slot), slot.path)
-        return number(t, slot.path, self.is_scalar(t, False, True, len(self.data["basis"])))
+        size = len(self.data["basis"])
+        return self.made_of(self.value(slot), slot.path, timed=True, coordinates=size)
 
     def held(self, slot: Slot) -> tuple[int, ...]:
         """Numbers of coordinates, in order, or none."""
@@ -315,25 +306,30 @@ class _RecordReader(TableReader):
         degree = degree_in_level(t)
         if degree is None or degree > (LAYERS if slot.table["kind"] in LAYERED else 0):
             raise ShapeError(f"{slot.path}: expected a polynomial in the level, or no level")
-        known = self.is_scalar(replaced(t, LEVEL, 1), placed=False, timed=False)
-        return number(t, slot.path, known)
+        return self.made_of(self.value(slot), slot.path, plain=lambda t: replaced(t, LEVEL, 1))
 
     def energy(self, slot: Slot) -> Tree:
         """The same, of t and coordinates of points."""
-        return self.made_of(self.value(slot), slot.path, placed=True)
+        return self.made_of(self.value(slot), slot.path, placed=True, timed=True)
 
     def of_volume(self, slot: Slot) -> Tree:
         """The same, of t and the volume."""
-        t = self.read(self.value(slot), slot.path)
-        known = self.is_scalar(replaced(t, DETERMINANT, "t"), placed=False, timed=True)
-        return number(t, slot.path, known)
+        plain = partial(replaced, old=DETERMINANT, new="t")
+        return self.made_of(self.value(slot), slot.path, timed=True, plain=plain)
 
-    def made_of(self, value: Any, where: str, placed: bool = False, timed: bool = False) -> Tree:
-        """The tree of a number."""
+    def made_of(
+        self, value: Any, where: str, *, plain: Callable[[Tree], Tree] | None = None, **known: Any
+    ) -> Tree:
+        """The tree of a number, made of what is ``known``; ``plain``: the same without what else
+        may stand in it."""
         t = self.read(value, where)
-        return number(t, where, self.is_scalar(t, placed, timed or placed))
+        if not self.is_scalar(plain(t) if plain else t, **known):
+            raise ShapeError(f"{where}: expected the expression of a number")
+        return t
 
-    def is_scalar(self, t: Tree, placed: bool, timed: bool, coordinates: int = 0) -> bool:
+    def is_scalar(
+        self, t: Tree, *, placed: bool = False, timed: bool = False, coordinates: int = 0
+    ) -> bool:
         """Is it made of what is known, by what keeps to numbers?  ``coordinates``: how many entries
         ζ has, where those of g are known as well."""
         if not isinstance(t, tuple):
@@ -344,8 +340,8 @@ class _RecordReader(TableReader):
             if coordinates:
                 return self.is_entry(t, coordinates)
             return placed and len(t) == 3 and self.is_place(t[1])
-        parts = (self.is_scalar(x, placed, timed, coordinates) for x in operands(t))
-        return t[0] in ("add", "mul", "div", "pow", "fun") and all(parts)
+        same = partial(self.is_scalar, placed=placed, timed=timed, coordinates=coordinates)
+        return t[0] in ("add", "mul", "div", "pow", "fun") and all(map(same, operands(t)))
 
     def is_input(self, name: str) -> bool:
         """Is it that of an input, or of one of its numbers?"""
@@ -354,10 +350,10 @@ class _RecordReader(TableReader):
     def is_entry(self, t: tuple[Any, ...], coordinates: int) -> bool:
         """Is a tree an entry of g, or of Γ where the state has no g, or of ζ?"""
         n, carried = self.data["n"], self.data.get("advected")
-        sizes: dict[str, tuple[int, ...]] = {"A": (n, n), "ζ": (coordinates,)}
+        sizes: dict[Any, tuple[int, ...]] = {"ζ": (coordinates,), "A": (n, n)}
         if carried is not None:
-            sizes = {"Γ": (sum(x["size"] for x in carried),), "ζ": (coordinates,)}
-        most = sizes.get(t[1] if isinstance(t[1], str) else "", ())
+            sizes = {"ζ": (coordinates,), "Γ": (sum(x["size"] for x in carried),)}
+        most = sizes.get(t[1], ())
         return len(t) - 2 == len(most) > 0 and all(
             type(i) is int and 1 <= i <= k for i, k in zip(t[2:], most, strict=True)
         )
@@ -384,11 +380,8 @@ class _RecordReader(TableReader):
                 return "t" if known else t
             return (t[0], *map(lettered, t[1:]))
 
-        def one(value: Any, where: str) -> Tree:
-            t = self.read(value, where)
-            return number(t, where, self.is_scalar(lettered(t), placed=False, timed=True))
-
-        return self.listed(self.value(slot), None, slot.path, one)
+        read = partial(self.made_of, timed=True, plain=lettered)
+        return self.listed(self.value(slot), None, slot.path, read)
 
     stated_couple = stated_covector = observed = stated
     first = TableReader.vector

@@ -4,16 +4,7 @@ from fractions import Fraction
 from typing import Annotated, Any
 
 from ..language.tree import Tree
-from .table import (
-    Action,
-    Basis,
-    Default,
-    Key,
-    Letters,
-    Name,
-    Table,
-    Text,
-)
+from .table import Action, Basis, Default, Key, Letters, Name, Table, Text
 
 # What a problem declares before its body: its parameters, and a group of its own.
 

@@ -10,15 +10,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields
 from fractions import Fraction
 from functools import cache
-from typing import (
-    Annotated,
-    Any,
-    ClassVar,
-    NamedTuple,
-    Self,
-    dataclass_transform,
-    get_args,
-)
+from typing import Annotated, Any, ClassVar, NamedTuple, Self, dataclass_transform, get_args
 
 from ..language.reserved import did_you_mean, near_name
 from ..language.tree import Tree

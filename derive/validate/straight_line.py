@@ -15,7 +15,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from ..language.rings import RingElement
+from ..language.rational import RingElement
 from .terms import Body, CodeError, CodeFunction
 
 REFUSED = (1, 2)

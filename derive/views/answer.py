@@ -20,12 +20,11 @@ from .book import RATE
 from .language import ENGLISH, Language
 from .outline import Letter, headline, latex_names, parameters, printed
 from .printing.letters import standard
-from .printing.line_breaking import WIDTH, measure
 from .printing.sentences import dollars, prose
 from .printing.signs import Notation, markdown_text
 from .printing.tex import formula as of_tree
 from .printing.tex import latex_tree
-from .printing.typeset import Formula, literal
+from .printing.typeset import WIDTH, Formula, literal, measure
 from .printing.typeset import word as symbol
 from .text import (
     EQUATION,

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import Any
 
 from ..language.show import show, signed
 from ..language.tree import Tree, names, neg, nodes
 from ..record.record import Derivation, Equation, Step
 from .answer import ANGLE, by_angle, equations_of_motion, steps_of_answer
-from .figure.scene import SIZES, along, shifts, turns
+from .figure.scene import SIZES, along, basis_of, shifts, turns
 from .language import Language
 from .outline import latex_names
 from .printing.tex import COMMA_SPACE, formula, joined
@@ -88,7 +87,7 @@ def _factors(d: Derivation) -> list[str]:
 def _turning(d: Derivation) -> list[list[int]]:
     """Of each part the numbers, from 0, of the basis that turn it about e_1, e_2, e_3, −1 for none;
     nothing where a part is more than turned and moved."""
-    offset, basis, found = 0, _basis(d), []
+    offset, basis, found = 0, basis_of(d.problem), []
     for name in _factors(d):
         at = along(basis, turns(offset))
         if name in PLANAR:
@@ -98,10 +97,6 @@ def _turning(d: Derivation) -> list[list[int]]:
         found.append(at)
         offset += (SIZES | PLANAR)[name]
     return found
-
-
-def _basis(d: Derivation) -> list[list[list[Fraction]]]:
-    return [[[*map(Fraction, row)] for row in E] for E in d.problem["basis"]]
 
 
 def _in_letters(d: Derivation, letter: str, meaning: str, scale: str) -> Iterator[Arrow]:
@@ -136,7 +131,7 @@ def _velocities(d: Derivation) -> Iterator[Arrow]:
         if len(entries) in (2, 3):
             yield Arrow(("w", *entries), ORIGIN, "", _padded(entries), "sliding", centre=False)
         return
-    offset, basis = 0, _basis(d)
+    offset, basis = 0, basis_of(d.problem)
     for part, name in enumerate(factors):
         if name not in SIZES:
             return

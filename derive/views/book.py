@@ -18,9 +18,9 @@ from ..record.record import ACTIONS, ANY_GROUP, Derivation, Step, Symbol
 from ..record.sentence import english, say
 from ..record.vocabulary import VOCABULARY
 from .language import ENGLISH, Language
-from .outline import system, title
+from .outline import Letter, parameters, system, title
 from .paper.findings import OMISSION, SIGN, VERDICTS, PaperFinding
-from .printing.line_breaking import WIDTH
+from .printing.typeset import WIDTH
 
 VARIATIONS = ("δ′", "δ")
 RATE = "\u0307"
@@ -54,6 +54,12 @@ class BookPart:
     source: Derivation
     symbols: tuple[Symbol, ...]
     record: Derivation | None = None
+
+    def letters(self, language: Language) -> Iterator[Letter]:
+        """These letters with their meanings, then the parameters of the problem."""
+        for s in self.symbols:
+            yield Letter((s.name,), language.marked.of(s.meaning))
+        yield from parameters(self.record, language, defaults=False)
 
 
 def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[BookPart]:

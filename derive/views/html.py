@@ -29,7 +29,6 @@ from .outline import (
     conventions,
     keys,
     latex_names,
-    parameters,
     printed,
     references,
     road,
@@ -38,11 +37,10 @@ from .outline import (
 )
 from .paper.findings import PaperFinding
 from .printing.letters import NAMES, standard
-from .printing.line_breaking import groups, measure
 from .printing.sentences import inline, prose, spelt
 from .printing.signs import Notation
 from .printing.tex import Cut, cut_up, formula, joined
-from .printing.typeset import Formula, literal, plain
+from .printing.typeset import Formula, groups, literal, measure, plain
 
 PHONE = 16.0
 """The width, in em, above which what cannot be broken moves in a box of its own on a phone."""
@@ -231,7 +229,7 @@ class _PartFields:
             "heading": visible(self.part.heading),
             "about": words(self.part.about, self.notation),
             "steps": (self.step(step, shown) for step in self.part.steps),
-            "names": [*self.symbols()],
+            "names": [*map(self.letter, self.part.letters(self.language))],
             "moving": self.moving.get(self.part.name, "") if self.part.record else "",
             "picture": self.pictures.get(self.part.name, "") if self.part.record else "",
             **self.figure(),
@@ -324,13 +322,10 @@ class _PartFields:
         return movable(whole.tex, whole)
 
     @cached_property
-    def typeset(self) -> Callable[[Tree], Formula]:
-        """The formula of a tree, remembered: it is asked for more than once."""
+    def formula(self) -> Callable[[Tree], Formula]:
+        """A tree in the letters and the notation of this part, remembered: it is asked for more
+        than once."""
         return lru_cache(64)(partial(formula, names=self.names, notation=self.notation))
-
-    def formula(self, t: Tree) -> Formula:
-        """A tree in the letters and the notation of this part."""
-        return self.typeset(t)
 
     def cut(self, t: Tree, *, equals: bool = False) -> str:
         """The markup of a formula in terms between which a line may break, and these in turn."""
@@ -363,9 +358,3 @@ class _PartFields:
         told = escaped(x.meaning) if x.own else words(x.meaning, self.notation, self.names)
         about = told + x.after(self.language, lambda unit: escaped(f"[{unit}]"))
         return {"name": ", ".join(self.formula(y).mathml() for y in x.names), "meaning": about}
-
-    def symbols(self) -> Iterable[dict[str, str]]:
-        """The letters of the part and their meanings, then the parameters of the problem."""
-        for s in self.part.symbols:
-            yield self.letter(Letter((s.name,), self.language.marked.of(s.meaning)))
-        yield from map(self.letter, parameters(self.part.record, self.language, defaults=False))

@@ -19,9 +19,9 @@ from ..record.prose import entries as steps
 from ..record.record import Equation
 from ..record.sentence import Prose, Sentence, filled
 from .paper.findings import remarks
-from .printing.line_breaking import display_width, measure
 from .printing.sentences import FORMULA
 from .printing.tex import latex_tree
+from .printing.typeset import display_width, measure
 
 CATALOGUE = Path(__file__).with_name("catalogue.txt")
 LABELLED = Path(__file__).with_name("outline.txt")

@@ -26,7 +26,6 @@ from .outline import (
     conventions,
     keys,
     latex_names,
-    parameters,
     printed,
     references,
     road,
@@ -195,7 +194,8 @@ class _Writer:
                 yield rf"\walkfigure{{{shown}}}{{{told}}}"
             for step in part.steps:
                 yield from ("", *self.step(part, step))
-            if names := [*_names(part, latex_names(part.source), self.language)]:
+            listed = part.letters(self.language)
+            if names := [*_letters(listed, latex_names(part.source), self.language)]:
                 heading = tex_text(self.language.word("Names"))
                 yield rf"\begin{{walknames}}{{{heading}}}"
                 yield from (*names, r"\end{walknames}", "")
@@ -306,13 +306,6 @@ def anchor(label: str) -> str:
 def breakable(label: str) -> str:
     """A label to be read, which may break after its stops."""
     return re.sub(r"(\.|\\_)", r"\1\\allowbreak{}", tex_text(label))
-
-
-def _names(part: BookPart, names: Mapping[str, str], language: Language) -> Iterator[str]:
-    """The letters of a part with their meanings, then the parameters of the problem."""
-    told = (Letter((s.name,), language.marked.of(s.meaning)) for s in part.symbols)
-    yield from _letters(told, names, language)
-    yield from _letters(parameters(part.record, language, defaults=False), names, language)
 
 
 def _letters(

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..language.limits import Refused
 from ..record.record import Derivation, Symbol
-from .printing.line_breaking import WIDTH
+from .printing.typeset import WIDTH
 
 if TYPE_CHECKING:
     from ..record.record import Step
@@ -48,23 +48,30 @@ class RenderError(Refused, ValueError):
     """A choice that has no sense, or TeX that is not there: the message says what to do."""
 
 
-def _latex(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
+FORMATS = ("text", "latex", "markdown", "html", "json")
+LINKED = ("latex", "html")
+"""Formats whose references are links, and whose notation may be chosen."""
+
+
+def _whole(
+    d: Derivation, form: str, words: Language, notation: Notation, alone: bool, width: int
+) -> str:
+    """The text of a record, or of a record of some steps ``alone``, in a format and a language."""
+    from . import text
     from .latex import latex
 
-    return latex(d, notation, language=words)
-
-
-def _markdown(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
-    from .text import markdown
-
-    return markdown(d, language=words)
-
-
-def _html(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
-    return notes([d], ".html", words.name, **vars(notation))
-
-
-def _json(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
+    if form == "html":
+        return notes([d], ".html", words.name, **vars(notation))
+    if form == "latex":
+        return latex(d, notation, language=words)
+    if form == "markdown":
+        return text.markdown(d, language=words)
+    if form == "text" and not alone:
+        return text.text(d, width, language=words)
+    if form == "text":
+        own = text.clashing(d)
+        listed = (text.step_text(x, width, language=words, quoted=own) for x in d.steps)
+        return "\n".join(listed)
     from ..record.as_json import to_json
 
     if alone:
@@ -72,27 +79,6 @@ def _json(d: Derivation, words: Language, notation: Notation, alone: bool) -> st
     if words.name != "en":
         raise RenderError("--lang: the JSON is in English, its messages and places are for any")
     return to_json(d)
-
-
-def _text(d: Derivation, words: Language, alone: bool, width: int) -> str:
-    from .text import clashing, step_text, text
-
-    if alone:
-        own = clashing(d)
-        return "\n".join(step_text(step, width, language=words, quoted=own) for step in d.steps)
-    return text(d, width, language=words)
-
-
-MARKUP: dict[str, Callable[[Derivation, Language, Notation, bool], str]] = {
-    "latex": _latex,
-    "markdown": _markdown,
-    "html": _html,
-    "json": _json,
-}
-"""Format → its text of a record, or of a record of some steps ``alone``, in a language."""
-FORMATS = ("text", *MARKUP)
-LINKED = ("latex", "html")
-"""Formats whose references are links, and whose notation may be chosen."""
 
 
 def render(
@@ -121,7 +107,7 @@ def render(
     if fragment and form not in LINKED:
         raise RenderError("--fragment is for --format latex and html")
     if form != "json":
-        from .as_read import as_read
+        from .layout import as_read
 
         d, steps = as_read(d), as_read(replace(d, steps=tuple(steps))).steps
     chosen = Notation(**notation)
@@ -140,9 +126,7 @@ def render(
         from .latex import fragment as fragment_of
 
         return fragment_of(d, language=language(lang))
-    if form == "text":
-        return _text(d, language(lang), bool(steps), width)
-    return MARKUP[form](d, language(lang), chosen, bool(steps))
+    return _whole(d, form, language(lang), chosen, bool(steps), width)
 
 
 def _answer(
@@ -191,9 +175,9 @@ def notes(
     of pictures of their motions, which are shown.
     """
     from . import latex
-    from .as_read import as_read
     from .html import html
     from .language import language
+    from .layout import as_read
     from .printing.signs import Notation
 
     if ending not in NOTES:

@@ -30,7 +30,9 @@ from .outline import (
     sections,
 )
 from .printing.letters import names_of, standard
-from .printing.line_breaking import (
+from .printing.sentences import QUOTED, dollars, prose
+from .printing.signs import NO_BREAK, markdown_text
+from .printing.typeset import (
     COMMA,
     FACTOR,
     MARK,
@@ -42,8 +44,6 @@ from .printing.line_breaking import (
     display_width,
     fill,
 )
-from .printing.sentences import QUOTED, dollars, prose
-from .printing.signs import NO_BREAK, markdown_text
 
 MARGIN, EQUATION, INSIDE = 2, 6, 4
 NAME = 8

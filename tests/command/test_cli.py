@@ -17,7 +17,7 @@ from derive.command.showing import ready_made
 from derive.command.simulating import summary
 from derive.problem.problem import ProblemError
 from derive.record.as_json import to_data, to_json
-from derive.views.printing.line_breaking import display_width
+from derive.views.printing.typeset import display_width
 from derive.views.rendering import FORMATS
 from tests.corpus import commands, table
 from tests.fuzz.mutate import toml

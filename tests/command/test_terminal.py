@@ -13,7 +13,7 @@ import pytest
 
 from derive.command import cli, writing
 from derive.command.cli import main
-from derive.views.printing.line_breaking import display_width
+from derive.views.printing.typeset import display_width
 from derive.views.rendering import FORMATS
 from tests.support.processes import environment
 

@@ -11,8 +11,7 @@ from derive.lecture.search_sentences import WORDS, retold
 from derive.record.record import Equation
 from derive.record.sentence import Sentence
 from derive.views.language import LANGUAGES, language
-from derive.views.printing.line_breaking import measure
-from derive.views.printing.typeset import plain
+from derive.views.printing.typeset import measure, plain
 
 LONG = " + ".join(f"‘a_{i}{j}’ A₁{i} A₂{j}" for i in (1, 2, 3) for j in (1, 2, 3))
 ROOT = Equation(tree("𝒱"), tree(f"½ ‘k’ (‘l’ − √({LONG}))² + 𝒥₁²/(1 + {LONG})"))

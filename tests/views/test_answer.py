@@ -27,8 +27,8 @@ from derive.views.html import html
 from derive.views.language import LANGUAGES, language
 from derive.views.latex import latex
 from derive.views.outline import assumed, moving, system
-from derive.views.printing.line_breaking import display_width
 from derive.views.printing.signs import tex_text
+from derive.views.printing.typeset import display_width
 from derive.views.rendering import FORMATS, pdf, render
 from tests.support import walks
 from tests.support.needs import needs

@@ -17,8 +17,8 @@ from derive.pipeline import walk
 from derive.problem.fields import state_names
 from derive.problem.toml import problem_of
 from derive.record.sentence import PLACE, Sentence
-from derive.views.as_read import Reading, as_read, factored
 from derive.views.language import catalogue_entries, language
+from derive.views.layout import Reading, as_read, factored
 from derive.views.printing.letters import names_of, parameter
 from derive.views.printing.sentences import QUOTED
 from derive.views.printing.signs import LOWERED, RAISED, SYMBOLS

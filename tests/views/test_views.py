@@ -15,9 +15,9 @@ from derive.views.language import language
 from derive.views.latex import breakable, latex
 from derive.views.outline import printed
 from derive.views.printing.letters import names_of
-from derive.views.printing.line_breaking import Piece, display_width, fill
 from derive.views.printing.signs import tex_text
 from derive.views.printing.tex import FormulaPrinter, latex_tree
+from derive.views.printing.typeset import Piece, display_width, fill
 from derive.views.rendering import FORMATS, NOTES, RenderError, notes, render
 from derive.views.text import markdown, text
 from tests.support.processes import typeset

@@ -9,7 +9,7 @@ from functools import lru_cache
 from operator import add, mul
 from typing import Any
 
-from ...language.rings import RingElement
+from ...language.rational import RingElement
 from ..values.arithmetic import EvaluationError, Nilpotent
 from ..values.residue import Graded, Residue, _degree_of_product, _degree_of_sum, _residue
 

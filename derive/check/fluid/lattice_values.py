@@ -15,8 +15,7 @@ from typing import Any, Protocol
 
 from ...algebra.structure import TorusLattice
 from ...language import rational as q
-from ...language.rational import Matrix
-from ...language.rings import FieldElement
+from ...language.rational import FieldElement, Matrix
 from ..values.arithmetic import EvaluationError, Many, Shape
 from ..values.residue import (
     BITS,

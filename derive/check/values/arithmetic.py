@@ -10,8 +10,7 @@ from typing import Any
 
 from ...language import rational as q
 from ...language.limits import DEGREE
-from ...language.rational import Matrix, dot
-from ...language.rings import FieldElement
+from ...language.rational import FieldElement, Matrix, dot
 
 # Arithmetic of values: scalars of any ring, and matrices of them as tuples of rows.
 

@@ -10,8 +10,7 @@ from operator import mul
 from random import Random
 from typing import Any, NamedTuple
 
-from ...language.rational import Matrix, flatten
-from ...language.rings import FieldElement
+from ...language.rational import FieldElement, Matrix, flatten
 from ...language.univariate import Quadratic
 
 # Rational numbers by their residues modulo a large random prime.

@@ -78,11 +78,10 @@ class Question:
         free: Sequence[str] | None,
         bounds: Bounds,
     ):
-        assert problem.group
-        self.group: Group = problem.group.in_user_basis
+        self.group: Group = problem.own_group.in_user_basis
         self.program, self.d = program, program.dimension
         self.right = program.variation.startswith("eta")
-        self.places = entries_of(problem.group)
+        self.places = entries_of(problem.own_group)
         self.require()
         velocity = program.state[-self.d :]
         self.turns = {x.replace("zeta", "eta"): a for a, x in enumerate(velocity) if "zeta" in x}

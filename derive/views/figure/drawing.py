@@ -12,9 +12,8 @@ from textwrap import wrap
 
 from ...record.sentence import Prose
 from ..printing.letters import parameter
-from ..printing.line_breaking import display_width
 from ..printing.sentences import spelt
-from ..printing.typeset import plain
+from ..printing.typeset import display_width, plain
 
 Point = tuple[float, float]
 Box = tuple[float, float, float, float]

@@ -126,7 +126,8 @@ def parts(problem: Mapping[str, Any], value: ExpressionValues) -> list[BodyPart]
         return found
     whole = found[0]
     whole.solids = [_solid(s, value) for s in body.get("solids", [])]
-    m, c, J = moments_of(problem, value)
+    mass, c, J = moments_of(problem)
+    m = value.of(mass)
     whole.size = len(c)
     whole.centre = scaled(1 / m, value.vector(c)) if m > 0 else None
     if not whole.solids and not whole.points:
@@ -143,17 +144,15 @@ def _centre(points: Iterable[tuple[float, Vector]]) -> Vector | None:
     return x, y, z
 
 
-def moments_of(
-    problem: Mapping[str, Any], value: ExpressionValues
-) -> tuple[float, Sequence[Any], Any]:
-    """The mass m as a number, c and J as expressions of the record."""
-    body = problem["body"]
+def moments_of(problem: Mapping[str, Any]) -> tuple[Any, list[Any], list[Any]]:
+    """m, c and J of a body that is more than points, as expressions of the record."""
+    body, names = problem["body"], problem["parameters"]
     if body["kind"] == "given":
         given = body["given"]
-        return value.of(given["m"]), given["c"], given["J"]
-    span = range(1, 1 + sum(f"c_{i}" in problem["parameters"] for i in range(1, 10)))
+        return given["m"], given["c"], given["J"]
+    span = range(1, 1 + sum(f"c_{i}" in names for i in range(1, 10)))
     rows = [[["par", f"J_{min(i, j)}{max(i, j)}"] for j in span] for i in span]
-    return value.of(["par", "m"]), [["par", f"c_{i}"] for i in span], rows
+    return ["par", "m"] if "m" in names else 1, [["par", f"c_{i}"] for i in span], rows
 
 
 def _solid(data: Mapping[str, Any], value: ExpressionValues) -> DrawnSolid:

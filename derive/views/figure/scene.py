@@ -63,6 +63,11 @@ def along(basis: Sequence[Any], wanted: Sequence[dict[tuple[int, int], int]]) ->
     return [at.index(x) if x in at else -1 for x in wanted]
 
 
+def basis_of(problem: Mapping[str, Any]) -> list[list[list[Fraction]]]:
+    """The basis of the Lie algebra of a record's problem."""
+    return [[[*map(Fraction, row)] for row in E] for E in problem["basis"]]
+
+
 def parts_of_inertia(problem: Mapping[str, Any], value: ExpressionValues) -> list[BodyPart]:
     """A part for each factor SO(3), SE(3) of the group of a record whose Lagrangian is stated: the
     homogeneous ellipsoid of its inertia, at the identity and the numbers at hand, and of mass 1
@@ -72,7 +77,7 @@ def parts_of_inertia(problem: Mapping[str, Any], value: ExpressionValues) -> lis
     if stated is None or sum(SIZES.get(x, 0) for x in names) != problem["n"]:
         return []
     energy = decode(stated, "figure")
-    basis = [[[*map(Fraction, row)] for row in E] for E in problem["basis"]]
+    basis = basis_of(problem)
     found, offset = [], 0
     for name in names:
         turning = along(basis, turns(offset))

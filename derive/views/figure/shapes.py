@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise, product
+from typing import Any
 
 from .drawn_body import ORIGIN, UNITS, DrawnSolid, Vector, cross, dot, image, plus, scaled
 
@@ -156,17 +157,20 @@ def _affine_map(solid: DrawnSolid) -> tuple[list[Vector], Vector]:
         return [plus(v, first, -1.0) for v in others], first
     if "map" in s:
         return s["map"], shift
-    if k == "box":
-        stretch = [x / 2 for x in s["sides"]]
-    elif k == "ellipsoid":
-        stretch = s["semi_axes"]
-    elif k in ("cylinder", "cone"):
-        stretch = [s["radius"], s["radius"], s["height"] / (2 if k == "cylinder" else 1)]
-    else:
-        stretch = [s["outer" if k == "hollow_ball" else "radius"]] * 3
-    return [
-        (stretch[i] * R[0][i], stretch[i] * R[1][i], stretch[i] * R[2][i]) for i in range(3)
-    ], shift
+    sizes = stretches(k, s, lambda x: x / 2)
+    return [(x * R[0][i], x * R[1][i], x * R[2][i]) for i, x in enumerate(sizes)], shift
+
+
+def stretches(kind: str, s: Mapping[str, Any], half: Callable[[Any], Any]) -> Sequence[Any]:
+    """By how much the reference shape of a solid is stretched along its axes; ``half``: of a
+    size."""
+    if kind == "box":
+        return [*map(half, s["sides"])]
+    if kind == "ellipsoid":
+        return s["semi_axes"]  # type: ignore[no-any-return]
+    if kind in ("cylinder", "cone"):
+        return [s["radius"], s["radius"], half(s["height"]) if kind == "cylinder" else s["height"]]
+    return [s["outer" if kind == "hollow_ball" else "radius"]] * 3
 
 
 def _edges(kind: str) -> Iterator[tuple[Vector, Vector]]:

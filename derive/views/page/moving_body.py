@@ -5,14 +5,15 @@ A tree is as the record has it, which the page evaluates: so the body follows it
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...algebra.groups import Group
 from ...language.reserved import waves
 from ...problem.fields import state_names
-from ..figure.drawn_body import UNITS, ExpressionValues
+from ..figure.drawn_body import UNITS, ExpressionValues, moments_of
 from ..figure.scene import along, shifts, turns
+from ..figure.shapes import stretches
 
 DIGITS = 4
 """Of the places of a mesh."""
@@ -110,6 +111,7 @@ def _part(
         [i, 0, p["at"]] for i, p in enumerate(problem["places"], before + 1) if p["block"] == k + 1
     ]
     ids = [i for i, *_ in points]
+    whole = k == 0 and body["kind"] in OF_MOMENTS
     potentials = problem["potentials"]
     attractions = [p for p in potentials if p["kind"] == "attraction"]
     linear = [[E[offset + i][offset : offset + n] for i in range(n)] for E in group.basis]
@@ -127,7 +129,7 @@ def _part(
         "deforms": any(A[i][j] + A[j][i] for A in linear for i in range(n) for j in range(n)),
         "points": points,
         "solids": [_solid(s, problem) for s in body.get("solids", [])] if k == 0 else [],
-        "moments": _moments(problem) if k == 0 else None,
+        "moments": dict(zip("mcJ", moments_of(problem), strict=True)) if whole else None,
         "attractions": [
             {"centre": p["centre"], "on": [i for i, _ in p["on"]] if "on" in p else ids}
             for p in attractions
@@ -140,20 +142,8 @@ def _part(
     }
 
 
-def _moments(problem: Mapping[str, Any]) -> Data:
-    """m, c and J of a body that is more than points, as trees."""
-    body, names = problem["body"], problem["parameters"]
-    if body["kind"] == "given":
-        return body["given"]
-    if body["kind"] != "moments":
-        return None
-    span = range(1, 1 + sum(f"c_{i}" in names for i in range(1, 4)))
-    J = [[["par", f"J_{min(i, j)}{max(i, j)}"] for j in span] for i in span]
-    return {
-        "m": ["par", "m"] if "m" in names else 1,
-        "c": [["par", f"c_{i}"] for i in span],
-        "J": J,
-    }
+OF_MOMENTS = ("given", "moments")
+"""The kinds of bodies that are more than points."""
 
 
 def _solid(solid: Mapping[str, Any], problem: Mapping[str, Any]) -> Data:
@@ -170,26 +160,13 @@ def _solid(solid: Mapping[str, Any], problem: Mapping[str, Any]) -> Data:
         )
         columns = [[_sum(x, ["mul", -1, y]) for x, y in zip(v, first, strict=True)] for v in others]
         return {"shape": kind, "columns": columns, "shift": first}
-    stretch = [*_stretch(kind, s)]
+    stretch = stretches(kind, s, lambda x: ["mul", "1/2", x])
     columns = [[_product(row[j], stretch[j]) for row in R] for j in range(3)]
     return {"shape": kind if kind in SHAPES else "ball", "columns": columns, "shift": shift}
 
 
 SHAPES = ("box", "cylinder", "cone")
 """The shapes that are no image of a ball or of a simplex."""
-
-
-def _stretch(kind: str, s: Mapping[str, Any]) -> Iterator[Data]:
-    """By how much a shape is stretched along its axes."""
-    if kind == "box":
-        yield from (["mul", "1/2", x] for x in s["sides"])
-    elif kind == "ellipsoid":
-        yield from s["semi_axes"]
-    elif kind in ("cylinder", "cone"):
-        half = ["mul", "1/2", s["height"]] if kind == "cylinder" else s["height"]
-        yield from (s["radius"], s["radius"], half)
-    else:
-        yield from [s["outer" if kind == "hollow_ball" else "radius"]] * 3
 
 
 def _image(R: Sequence[Sequence[Any]], v: Sequence[Any]) -> list[Data]:

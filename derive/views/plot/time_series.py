@@ -188,14 +188,9 @@ def size_of_energy(run: Run) -> tuple[float, float]:
 def energy(figure: Any, run: Run, word: Any) -> None:
     """The :func:`changes`.  What is exact, or constant but for rounding, is told.  They are no
     errors where damping, an input or the time changes what is kept."""
-    panel, kept, found = figure.subplots(), [], changes(run)
-    for k, (name, (away, scale)) in enumerate(found.items()):
-        drawn = in_words(name, word)
-        if told := constant(away, scale > 0, word):
-            kept.append(told + drawn)
-            continue
-        drawn += "" if scale else f" ({word('absolute')})"
-        _curve(panel, run.t, away, k, label=drawn)
+    panel, found = figure.subplots(), changes(run)
+    curves = [(run.t, in_words(name, word), *x) for name, x in found.items()]
+    kept = _drawn_errors(panel, curves, word)
     vectors = any(abs(run[x][0]) < scale for x, (_, scale) in found.items())
     told = word("components relative to the length of their vector") if vectors else ""
     error = word("relative change" if run.facts.get("drives") else "relative error")
@@ -205,19 +200,29 @@ def energy(figure: Any, run: Run, word: Any) -> None:
 def energies(figure: Any, runs: Sequence[tuple[str, Run]], word: Any) -> None:
     """|E − E₀| / |E₀| of several runs, each with what it is called and its method; of a run that
     begins with no energy, the difference itself."""
-    panel, kept = figure.subplots(), []
-    for k, (name, run) in enumerate(runs):
+    panel, curves = figure.subplots(), []
+    for name, run in runs:
         y = run["energy"]
         away = np.abs(y - y[0]) / (abs(y[0]) or 1.0)
         drawn = method_in_words(run, word) + f"\n{name}".replace("$", r"\$")
-        drawn += "" if y[0] else f" ({word('absolute')})"
-        if told := constant(away, bool(y[0]), word):
-            kept.append(told + drawn)
-            continue
-        _curve(panel, run.t, away, k, lw=0.8, label=drawn)
+        curves.append((run.t, drawn, away, abs(y[0])))
+    kept = _drawn_errors(panel, curves, word, lw=0.8)
     driven = any(run.facts.get("drives") for _, run in runs)
     change, error = "relative change of the energy", "relative error of the energy"
     _errors(panel, runs[0][1], (word(change if driven else error),), kept)
+
+
+def _drawn_errors(panel: Any, curves: Sequence[Any], word: Any, **more: Any) -> list[str]:
+    """Draw errors, each of the times, what it is called, what is away and relative to which size;
+    what is constant is told instead."""
+    kept = []
+    for k, (t, drawn, away, scale) in enumerate(curves):
+        if told := constant(away, scale > 0, word):
+            kept.append(told + drawn)
+            continue
+        drawn += "" if scale else f" ({word('absolute')})"
+        _curve(panel, t, away, k, label=drawn, **more)
+    return kept
 
 
 def _errors(panel: Any, run: Run, about: Sequence[str], kept: Sequence[str]) -> None:

@@ -9,16 +9,7 @@ from collections.abc import Callable, Mapping
 from ...record.vocabulary import VOCABULARY
 from .letters import NAMES, named, quoted
 from .letters import NAMES as KNOWN
-from .signs import (
-    LOWERED,
-    MATH_ACCENTS,
-    RAISED,
-    SYMBOLS,
-    WORD,
-    Notation,
-    decomposed,
-    tex_text,
-)
+from .signs import LOWERED, MATH_ACCENTS, RAISED, SYMBOLS, WORD, Notation, decomposed, tex_text
 from .typeset import (
     IDENTITY,
     SUM_SIGN,

@@ -24,7 +24,6 @@ from ...language.show import (
 )
 from ...language.tree import Tree, sized
 from .letters import NAMES, named, number, outside, parameter, separator, transposed
-from .line_breaking import Piece, fill, measure
 from .sentences import formula_ok, spelt
 from .signs import Notation, tex_text
 from .typeset import (
@@ -37,14 +36,17 @@ from .typeset import (
     MARKS,
     SUM_SIGN,
     Formula,
+    Piece,
     barred,
     cut,
+    fill,
     fraction,
     group,
     hat,
     literal,
     lowered,
     matrix,
+    measure,
     operator,
     plain,
     raised,

@@ -9,7 +9,7 @@ from ...algebra.calculus import (
     coefficient_of,
     derivation,
     reduce,
-    strip_left,
+    strip,
     substitute,
     terms_with,
     without,
@@ -73,7 +73,7 @@ def rate_of_density(a: FluidAlphabet) -> Expr:
     left = derivation(
         G * rho - word(INITIAL_DENSITY) * G, {a.A.position: G * turning, a.C: word(RATE)}.get
     )
-    rate = word(RATE) - strip_left(reduce(left, carried), a.A.position)
+    rate = word(RATE) - strip(reduce(left, carried), a.A.position)
     if rate != varied_cauchy_green(a, along(a.w.velocity)):
         raise ValueError("the density is not carried along with the volume")
     return rate

@@ -10,7 +10,7 @@ from ...algebra.calculus import (
     derivation,
     gradient,
     reduce,
-    strip_left,
+    strip,
     substitute,
     terms_with,
     without,
@@ -255,13 +255,13 @@ def _poisson(
     spread = substitute(along - without(along, a.force), {a.force: points.potential})
     if along - terms_with(along, a.force) != word(a.D) * word(a.Z.velocity) * word(a.w.velocity):
         raise ValueError("the divergence of the acceleration is not that of ∇_u u")
-    pushed = strip_left(word(a.D) * by_gradient(over * word(a.D).bar * word(a.p), a), a.D)
+    pushed = strip(word(a.D) * by_gradient(over * word(a.D).bar * word(a.p), a), a.D)
     notation = WordNotation(display={**SHOWN.display, inverse: ("inv", "ρ")})
     laplacian = ("call", "div", draft.tree(-pushed.of(stage.force), notation))
     left = neg(laplacian if a.advected else read("Δp"))
     known = [] if a.advected else [Equation(read("Δp"), laplacian)]
     if a.forced:
-        of_V = strip_left(spread, a.D)
+        of_V = strip(spread, a.D)
         known.append(Equation(read("ΔV"), ("call", "div", draft.tree(of_V, SHOWN))))
         value = add(value, read("ΔV"))
     return draft.step((*known, Equation(left, value)), say(f"pressure_equation.{_kind(a)}"))

@@ -93,7 +93,6 @@ def harmonic_words(problem: Problem, a: Alphabet, _vectors: bool) -> Words | Non
     given = [p.W for p in problem.potentials if isinstance(p, Harmonic)]
     if not given:
         return None
-    assert problem.group is not None
     W, position = Letter("W_r", a.n, a.n, 1), _moved(a)
     summand = HALF * word(a.m_i) * inner(position, word(W) * position)
     span = range(len(given[0]))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ...algebra.calculus import derivation, left, strip_left
+from ...algebra.calculus import derivation, left, strip
 from ...algebra.groups import Group
 from ...algebra.structure import brackets_of, faithful
 from ...algebra.user_groups import block
@@ -208,7 +208,7 @@ def sign(a: Alphabet, side: str) -> int:
     g, xi, carried = a.A.position, word(a.Z.xi), word(Letter("Γ", a.n))
     varied = derivation(word(g) * carried, {g: SIDES[side](word(g), xi)}.get)
     if SIDES[side] is left:
-        return -sign_of(strip_left(varied, g), xi * carried)
+        return -sign_of(strip(varied, g), xi * carried)
     return sign_of(varied, xi * word(g) * carried)
 
 

@@ -365,7 +365,7 @@ def trivialised_images(stage: Exterior, a: Alphabet) -> dict[Letter, Expr]:
             (part.dp_velocity, inner.dp_velocity),
         ):
             shift = stage.images.get(x, word(x))
-            images[y] = calculus.strip_left(substitute(shift, carried), g)
+            images[y] = calculus.strip(substitute(shift, carried), g)
     return images
 
 

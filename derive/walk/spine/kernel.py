@@ -11,7 +11,7 @@ from ...algebra.calculus import (
     derivation,
     gradient,
     reduce,
-    strip_left,
+    strip,
     substitute,
     terms_with,
     without,
@@ -163,7 +163,7 @@ def velocity_of_motion(stage: Kernel, a: Alphabet) -> dict[Letter, Expr]:
     """The values ξ(X) = Z (and η(X) = w), by their letters, from gξ(X) = δg(X)."""
     carried, g = trivial_images(a), a.A.position
     return {
-        f.xi: strip_left(substitute(stage.velocity[p.d_position], carried), g)
+        f.xi: strip(substitute(stage.velocity[p.d_position], carried), g)
         for p, f in zip(a.parts, a.algebra_parts, strict=True)
     }
 

@@ -43,7 +43,7 @@ def unique(points: PointLagrangian, moments: Moments, a: Alphabet, c: Chapter) -
     centre = Letter("m⁻¹c", a.n)
     arm = word(a.r_i) - word(centre) if a.affine else word(a.r_i)
     turned = _summed(points, arm, moments, a)
-    inertia = calculus.strip_left(terms_with(turned, a.A.position), a.A.position)
+    inertia = calculus.strip(terms_with(turned, a.A.position), a.A.position)
     # what is left of T, nothing as m m⁻¹c = c
     rest = substitute(without(turned, a.A.position), {a.c: word(a.m) * word(centre)})
     notation = WordNotation(display={centre: read("m⁻¹c")})
@@ -150,7 +150,7 @@ def volumes(a: Alphabet, c: Chapter) -> Step:
     metric, g = Letter(J, a.n, a.n, 1), word(a.A.position)
     moved = (g * word(metric)).marked(c.label("unique"))
     xi = word(a.Z.xi).marked(c.label("trivialisation"))
-    varied = calculus.strip_left(derivation(moved, {a.A.position: g * xi}.get), a.A.position)
+    varied = calculus.strip(derivation(moved, {a.A.position: g * xi}.get), a.A.position)
     turned = draft.tree(trace(reduce(varied * word(inverse_letter(metric)), cancelling(metric))))
     changed = read("Σᵢ mᵢ δ(rᵢ(t))(rᵢ − m⁻¹c)‾" if a.affine else "Σᵢ mᵢ δ(rᵢ(t)) r̄ᵢ")
     ratio: Tree = ("tr", mul(changed, ("inv", J), ("inv", "A")))
