@@ -37,7 +37,7 @@ from .schedule import (
     variations,
 )
 from .state import StateSpace
-from .state_forms import FROM_MATRIX, LABELS, matrix_state, state_of
+from .state_forms import FROM_MATRIX, LABELS, matrix_state, state_of, varies
 from .step.discrete_step import STEPPING, Lowered, lowered
 from .watched_functions import (
     EmittedEvent,
@@ -327,7 +327,9 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
         energy, tensor = reader.number("h̃"), _inertia(reader)
         *rates, energy = factored(graph, [*rates, energy])
         found = {"rhs": rates, "energy": [energy]}
-        second = [*space.velocity(reader.component), *lost] if options.varied else []
+        second: list[Node] = []
+        if options.varied and varies(lowering.record.problem):
+            second = [*space.velocity(reader.component), *lost]
         if "state" in options.jacobian:
             # after the rates, with which it shares much
             found["jacobian"] = factored(graph, [*rates, *by_state(space, second)])

@@ -192,7 +192,9 @@ def _refused_forms(d: Derivation, group: Group, chosen: Options) -> None:
     charts = factor_charts(group, chosen.attitude).values() if right else ()
     tangent = (chosen.velocity == "tangent", "--velocity tangent")
     attitude = f"--attitude {chosen.attitude}"
-    varied = (chosen.varied, f"--jacobian {' '.join(chosen.varied)}")
+    # with raw, outputs have what they have of x and of the inputs
+    along = [x for x in chosen.varied if x != "outputs" or "raw" not in chosen.jacobian]
+    varied = (along, f"--jacobian {' '.join(along)}")
     of_element = (chosen.attitude != "matrix", attitude), (chosen.layout == "col", "--layout col")
     forms: tuple[tuple[object, str, tuple[tuple[object, str], ...]], ...] = (
         (

@@ -52,6 +52,12 @@ class ReducedSpace(StateSpace):
         return [*self.velocity(component), *(x for (x,) in carried)]
 
 
+def varies(problem: Mapping[str, Any]) -> bool:
+    """Has the state of a record's problem variations (η, δζ), of an element of the group that its
+    numbers tell, as it has not without one or on a quotient?"""
+    return "advected" not in problem and not problem.get("lagrangian", {}).get("held")
+
+
 def state_of(
     problem: Mapping[str, Any], graph: Graph, group: Group, options: Options
 ) -> StateSpace:

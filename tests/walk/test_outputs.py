@@ -104,26 +104,43 @@ ON_A_GROUP = {
     "group": "SE(2)",
     "lagrangian": {"L": "zeta_1^2 + zeta_2^2 + zeta_3^2"},
 }
+ON_A_QUOTIENT = {
+    "name": "test",
+    "group": "SO(3)",
+    "lagrangian": {"L": "zeta_1^2 + zeta_2^2 - A_33"},
+}
 
 
 @pytest.mark.parametrize(
-    ("data", "at"), [(ADVECTED, 3), (ON_A_GROUP, 0)], ids=["advected", "SE(2)"]
+    ("data", "entry", "of_rates"),
+    [
+        (ADVECTED, "gamma_1", {"zeta_1": 1}),
+        (ON_A_GROUP, "A_11", {"zeta_1": 1}),
+        (ON_A_QUOTIENT, "A_33", {"zeta_1": 2, "zeta_2": 2}),
+    ],
+    ids=["advected", "SE(2)", "quotient"],
 )
-def test_beside_a_lagrangian_they_are_expressions(data, at):
-    entry = "gamma_1" if "algebra" in data else "A_11"
-    told = [{"name": "y", "y": [f"zeta_1*{entry} + t", "zeta_2^2"]}]
+def test_beside_a_lagrangian_they_are_expressions(data, entry, of_rates):
+    """Without an element, and on a quotient, their derivatives are those by x and by inputs."""
+    rates = " + ".join(f"{x}^{k}" for x, k in of_rates.items())
+    told = [{"name": "y", "y": [f"({rates})*{entry} + t", rates]}]
     problem = problem_of(data | {"output": told})
     record = walk(problem)
     assert all(x.holds for x in verdicts(record, SEED))
-    jacobian = ("outputs", "raw") if at == 0 else ()  # by η, on a group
-    space = vars(module_of(problem, jacobian=jacobian))
+    space = vars(module_of(problem, jacobian=("outputs", "raw")))
     x = np.random.default_rng(3).normal(size=len(space["STATE"]))
     of = dict(zip(space["STATE"], x, strict=True))
     assert space["OUTPUTS"] == ("y_1", "y_2")
-    expected = [of["zeta_1"] * of[entry] + T, of["zeta_2"] ** 2]
+    value = sum(of[y] ** k for y, k in of_rates.items())
+    expected = [value * of[entry] + T, value]
     np.testing.assert_allclose(space["outputs"](T, x, []), expected, rtol=1e-14)
-    if at == 0:
-        assert space["jacobian_outputs_raw"](T, x, [])[0, at] == of["zeta_1"]
+    slopes = np.zeros((2, len(x)))
+    for y, k in of_rates.items():
+        slope = k * of[y] ** (k - 1)
+        slopes[:, space["STATE"].index(y)] = slope * of[entry], slope
+    slopes[0, space["STATE"].index(entry)] = value
+    np.testing.assert_allclose(space["jacobian_outputs_raw"](T, x, []), slopes, rtol=1e-14)
+    assert ("jacobian_outputs" in space) == (data is ON_A_GROUP)
 
 
 def test_a_unit_ends_no_comment():
