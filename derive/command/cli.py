@@ -14,7 +14,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..language.limits import LISTENER, Refused
+from ..language.limits import LISTENER, Refused, tell
 from .showing import (
     UsageError,
     allowed,
@@ -200,6 +200,8 @@ def command_emit(args: argparse.Namespace) -> int:
     problem, record = derive(args.problem, followed=bool(args.step), **allowed(args))
     asked = wanted(args, problem)
     compiled, files = made(problem, record, asked)
+    for told in dict.fromkeys(" ".join(x) for x in compiled.kinks.values() if x):
+        tell(f"{problem.name}: {told}")
     if args.validate and not all_hold(validated(files, files, record, compiled, asked)):
         return 1  # and nothing is written
     if args.out == STDOUT:

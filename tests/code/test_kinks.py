@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 
+from derive.command.cli import main
 from tests.support.emitted_files import Emission
 
 CASES = {
@@ -149,3 +150,22 @@ def test_the_velocity_less_that_of_a_wind_is_that_of_the_file(frame):
     inside = ("v_1 = 0 (abs)", "v_1 - 2 = 0 and v_2 = 0 (hypot)", "t - 1 = 0 (abs)")
     says = "; ".join(f"in force drag {x}" for x in inside)
     assert told(emitted(data, "state").files["test.h"]) == [says]
+
+
+def test_by_the_command_they_are_told(tmp_path, capsys):
+    """Once, and only where a Jacobian is asked for."""
+    file = tmp_path / "rubbed.toml"
+    file.write_text(
+        'name = "rubbed"\ngroup = "SO(2)"\npoint = [{ mass = 1, at = [1, 0] }]\n'
+        'force = [{ name = "rub", moment = ["-sign(zeta_1)"], at = [0, 0] }]\n',
+        encoding="utf-8",
+    )
+    at = ["--out", str(tmp_path)]
+    assert main(["emit", str(file), *at]) == 0
+    assert "Kinks" not in capsys.readouterr().err
+    assert main(["emit", str(file), "--jacobian", "state", "--jacobian", "raw", *at]) == 0
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line == (
+        "derive: note: rubbed: Kinks, where derivatives are one-sided or none: "
+        "in force rub zeta_1 = 0 (sign)."
+    )
