@@ -102,6 +102,12 @@ def _table(node, kind, known):
     return [("tree", ("matrix", *(("row", *(parsed(c, known) for c in row)) for row in rows)))]
 
 
+ONCE_MORE = re.compile(
+    '<div class="equation"><div class="left"></div><div class="right"><math><mo form="infix">=</mo>'
+)
+"""Where the right side of an equation stands in another form, by the angle of the plane."""
+
+
 def all_tokens(markup, known):
     """Those of all the elements in some markup, one after the other."""
     found = []
@@ -127,6 +133,8 @@ def page(html, known, labels):
 
 def _equations(body, known):
     for one in EQUATION.findall(body):
+        if ONCE_MORE.match(one):
+            continue
         shown = re.sub(r'<span class="clause">.*', "", one)
         cells = (
             re.findall(r"<span>(.*?)</span>(?=<span>|</div>)", shown)

@@ -139,6 +139,9 @@ LEFT = {
     "hold_inputs",
     "factored",
     "lu_solve",
+    "velocity",
+    "momentum_rhs",
+    "axes",
 }
 """What an algorithm leaves to a template, or is called from one under another name."""
 HEAD = re.compile(
