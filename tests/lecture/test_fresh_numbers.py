@@ -17,7 +17,7 @@ from derive.lecture.fresh_numbers import drawn, value
 from derive.lecture.lecture_text import LectureError, chapters, parsed, tree
 from derive.lecture.trials import tied, tried
 from derive.views.language import LANGUAGES, language
-from tests.support.lectures import records, shown
+from tests.support.lectures import by_itself, records, shown
 from tests.support.walks import SEED
 
 RAW = chapters(fresh=True)
@@ -198,9 +198,9 @@ def test_the_pages(lang):
 
 
 def test_by_the_command(tmp_path, capsys, monkeypatch):
-    """Of one chapter, which refers to no other."""
+    """Of one chapter."""
     out = tmp_path / "l.tex"
-    one = [x for x in RAW if x.name == "volume"]
+    one = [by_itself(x) for x in RAW if x.name == "volume"]
     monkeypatch.setattr("derive.lecture.lecture_text.chapters", lambda fresh: fresh and one)
     assert main(["lecture", "--seed", "7", "--out", str(out)]) == 0
     own = document.Lecture(drawn(one, 7, document.claims_of(one)), language("en"), records())

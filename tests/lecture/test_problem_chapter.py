@@ -45,6 +45,7 @@ from derive.views.answer import definitions, equations_of_motion
 from derive.views.language import LANGUAGES, language
 from derive.views.outline import title
 from derive.views.printing.signs import tex_text
+from tests.support.lectures import by_itself
 from tests.support.walks import SEED
 
 NAMES = ("lagrange_top", "hung_bar", "sl3")
@@ -85,18 +86,8 @@ def test_a_changed_equation_is_refused(made):
 
 
 def alone(chapter, records, lang, shown=document.page):
-    """A chapter by itself, without what it refers to in others."""
-
-    def without(entry):
-        texts = (
-            tuple(re.sub("@[a-z_]+", "", x) if isinstance(x, str) else x for x in text)
-            for text in entry.texts
-        )
-        return replace(entry, texts=tuple(texts))
-
-    blocks = (replace(b, entries=tuple(map(without, b.entries))) for b in chapter.blocks)
-    here = replace(chapter, blocks=tuple(blocks))
-    return shown(document.Lecture([here], language(lang), records))
+    """A chapter without what it refers to in others."""
+    return shown(document.Lecture([by_itself(chapter)], language(lang), records))
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
