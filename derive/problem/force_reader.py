@@ -38,9 +38,10 @@ Dimension = tuple[Fraction | int, ...]
 """The exponents of kg, m and s."""
 BASE = ("kg", "m", "s")
 NUMBER: Dimension = (0, 0, 0)
-FORCE, MOMENT, VELOCITY, LENGTH, RATE = (1, 1, -2), (1, 2, -2), (0, 1, -1), (0, 1, 0), (0, 0, -1)
+FORCE, MOMENT, VELOCITY = (1, 1, -2), (1, 2, -2), (0, 1, -1)
+LENGTH, TIME, RATE = (0, 1, 0), (0, 0, 1), (0, 0, -1)
 UNITS: Mapping[str, Dimension] = {
-    **{"kg": (1, 0, 0), "m": LENGTH, "s": (0, 0, 1), "rad": NUMBER, "1": NUMBER, "Hz": RATE},
+    **{"kg": (1, 0, 0), "m": LENGTH, "s": TIME, "rad": NUMBER, "1": NUMBER, "Hz": RATE},
     **{"N": FORCE, "J": MOMENT, "W": (1, 2, -3), "Pa": (1, -1, -2)},
 }
 WANTED: Mapping[str, Dimension] = {
@@ -83,7 +84,7 @@ def in_units(d: Dimension) -> str:
 def dimension(t: Tree, known: Mapping[str, Dimension]) -> Dimension | None:
     """That of a tree, numbers having none; ``None`` where it is not known."""
     if not isinstance(t, tuple):
-        return NUMBER
+        return TIME if t == "t" else NUMBER
     op, *parts = t
     if op == "par":
         return known.get(parts[0])
