@@ -7,7 +7,7 @@ Elements near one are told by Cayley's transform C(η) = (1 − ½η)⁻¹(1 + �
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -20,7 +20,7 @@ from ...language import rational as q
 from ...language.intervals import characteristic, signs_of_real_parts
 from ...language.rational import Matrix
 from ...language.tree import Tree
-from ...language.univariate import Number, grows, polynomial_tree, root, routh, tree
+from ...language.univariate import Number, grows, polynomial_tree, routh, tree
 from ...problem.fields import entries, state_names
 from ...problem.problem import Problem
 from ...record.record import Step
@@ -29,7 +29,7 @@ from ...schema.table import nearest
 from ...walk.chapter import Chapter, Draft
 from .equilibrium_steps import scientific
 from .stability import eigenvalues, polynomial
-from .steady_velocity import FLOATS, SAME, Arithmetic, NotExactError, NoTrimError, Rates
+from .steady_velocity import EXACTLY, FLOATS, SAME, Arithmetic, NoTrimError, Rates
 
 
 def turned(group: Group, g: Matrix, eta: Sequence[Any], *, right: bool) -> Matrix:
@@ -291,32 +291,6 @@ def entries_of(group: Group) -> dict[str, tuple[int, int]]:
     """The names of the entries of g in the state → their places in it, from 0."""
     named = state_names(group).items()
     return {x: (t[2] - 1, t[3] - 1) for x, t in named if isinstance(t, tuple) and t[1] == "A"}
-
-
-AT_ZERO = {"cos": 1, "sin": 0, "tan": 0, "exp": 1, "sinh": 0, "cosh": 1, "tanh": 0}
-"""The values of functions at 0, which are exact, as of an angle that is a parameter."""
-
-
-def function_with_corner(corner: int) -> Callable[[str, Any], Any]:
-    """The functions of exact numbers, roots and absolute values, ``corner`` where these are 0; and
-    the tests for 0 of constants."""
-
-    def call(name: str, x: Any) -> Any:
-        if name == "none":
-            return Fraction(int(x == 0))
-        if name not in ("sqrt", "abs"):
-            if x != 0 or name not in AT_ZERO:
-                raise NotExactError(f"{name} is in the equations")
-            return Fraction(AT_ZERO[name])
-        if x == 0:
-            return Fraction(corner)
-        return root(x) if name == "sqrt" else x if x > 0 else -x
-
-    return call
-
-
-EXACTLY = Arithmetic(lambda x: x, function_with_corner(0))
-"""In fractions, and in numbers with one square root."""
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,9 @@ from ...language.rational import Matrix
 from ...language.univariate import Number, Quadratic, RootError
 from ...problem.problem import Problem
 from .steady_velocity import (
+    AT_ZERO,
     DEPENDENT,
+    EXACTLY,
     FLOATS,
     SIMPLE,
     Arithmetic,
@@ -41,9 +43,10 @@ from .steady_velocity import (
     approximately,
     describe,
     exact,
+    function_with_corner,
     solutions,
 )
-from .trim import AT_ZERO, EXACTLY, Bounds, EnclosedTrim, Question, Trim, function_with_corner
+from .trim import Bounds, EnclosedTrim, Question, Trim
 
 EXACT = 2**40
 """A number of a program with a larger power of two below is one that has no fraction, as π."""
