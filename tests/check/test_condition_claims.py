@@ -4,6 +4,7 @@ other inequality, value or verdict passes."""
 
 import re
 from dataclasses import replace
+from fractions import Fraction
 from functools import cache
 
 import pytest
@@ -12,6 +13,9 @@ from derive import derive
 from derive.check.checker import ClaimChecker
 from derive.check.claims import claims_by_ranks
 from derive.check.claims.claims_by_ranks import DIVISORS, OF_ROTATIONS
+from derive.check.claims.family_claims import ClaimedFamily
+from derive.check.claims.reduced_system import substituted
+from derive.language.univariate import value_of
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.python.api import Aff, Points, Problem, Spring
@@ -230,6 +234,25 @@ def test_claims_hold_and_no_other_value_does(name):
         assert not judge(step)
         for wrong in changes(claim):
             assert judge(said(step, claim, wrong)).startswith("the claim"), wrong
+
+
+class Opposite(ClaimedFamily):
+    """Whose draws are 2 and −2 in turn: halfway is where I₁ > 0 is an equality."""
+
+    draws = 0
+
+    def drawn(self, *, fair=True):
+        type(self).draws += 1
+        return dict.fromkeys(self.letters, Fraction(2 * (-1) ** self.draws))
+
+
+def test_numbers_beside_an_inequality_are_not_on_it():
+    """There the energy has a pole, and a true claim was refused where a draw came upon it."""
+    _, step, _ = next(x for x in families("lagrange_top") if x[2].kind == "family.positive")
+    found = Opposite(ClaimChecker(family("lagrange_top"), SEED).reduced, step)
+    for a, b in found.supposed:
+        for numbers in found.beside(a, b, fair=False):
+            assert value_of(substituted(a, numbers)) != value_of(substituted(b, numbers))
 
 
 def test_no_other_verdict_holds():

@@ -106,6 +106,8 @@ class ClaimedFamily:
             low, high = (x[letter] for x in ends)
             for _ in range(HALVINGS):
                 middle = (low + high) / 2
+                if _equal(a, b, {**one, letter: middle}):  # the energy may have a pole there
+                    middle = (low + middle) / 2
                 if _greater(a, b, {**one, letter: middle}) is greater[0]:
                     low = middle
                 else:
@@ -174,6 +176,11 @@ def _once(rows: Sequence[Any]) -> Sequence[Any]:
 def _greater(a: Tree, b: Tree, numbers: Numbers) -> bool:
     x, y = (value_of(substituted(t, numbers)) for t in (a, b))
     return bool(x > y)
+
+
+def _equal(a: Tree, b: Tree, numbers: Numbers) -> bool:
+    x, y = (value_of(substituted(t, numbers)) for t in (a, b))
+    return bool(x == y)
 
 
 def _hold(inequalities: Inequalities, numbers: Numbers) -> bool:
