@@ -26,6 +26,7 @@ from ...language.univariate import (
 )
 from ...language.values import arithmetic
 from ..values.arithmetic import Varying, slopes_of, value_of
+from ..values.evaluate import ElementaryValues
 from ..values.residue import Residue
 
 # Eigenvalues of exact matrices, counted: over Q, or numbers of one quadratic field.
@@ -331,45 +332,39 @@ def gradient(x: Value, n: int) -> list[Value]:
 # Square roots are true ones, at points and for parameters that have them; the others are any
 # numbers at each argument, on c² ± s² = 1.
 
-CURVES = (("sin", "cos", "tan", 1), ("sinh", "cosh", "tanh", -1))
-
 
 class UnluckyError(ArithmeticError):
     """No true roots of numbers and parameters, or too few points with roots."""
 
 
-class Functions:
+class Functions(ElementaryValues):
     """The functions at the points of a source; roots are true at those that are ``valid``, or any
     numbers without ``roots``."""
 
     def __init__(self, source: ResidueVectorSource, *, roots: bool):
-        self.source, self.p, self.roots = source, source.p, roots
-        self.valid = [True] * source.points
-        self.known: dict[tuple[str, Any], Any] = {}
+        super().__init__(lambda: source.randint(1, source.p))
+        self.p, self.valid = source.p, [True] * source.points
+        self.true_root = self._root if roots else None
+        self.roots: dict[Any, Any] = {}
 
-    def __call__(self, name: str, x: Any) -> Any:
-        """A function of a residue, or of one at each point, which may have derivatives."""
-        if not isinstance(x, Varying):
-            return self._value(name, x)
-        y = self._value(name, x.value)
-        return x.chained(y, self._slope(name, x.value, y))
+    __call__ = ElementaryValues.value
 
-    def _value(self, name: str, x: Any) -> Any:
-        key = (name, x if isinstance(x, Residue) else (*x.values,))
-        if key not in self.known:
-            curve = next((x for x in CURVES if name in x), None)
-            if curve:
-                self._on_curve(curve, key[1], x)
-            else:
-                self.known[key] = self._root(x) if name == "sqrt" and self.roots else self._any(x)
-        return self.known[key]
+    def key(self, x: Any) -> Any:
+        """The number, or those at the points."""
+        return x if isinstance(x, Residue) else (*x.values,)
 
-    def _any(self, x: Any) -> Any:
+    def drawn(self, x: Any) -> Any:
         """A random number for a number, or one for each point."""
-        drawn = self.source.randint(1, self.p)
-        return Residue(drawn.values[0], self.p) if isinstance(x, Residue) else drawn
+        found = self.draw()
+        return Residue(found.values[0], self.p) if isinstance(x, Residue) else found
 
     def _root(self, x: Any) -> Any:
+        """√x, found once."""
+        if (at := self.key(x)) not in self.roots:
+            self.roots[at] = self._found_root(x)
+        return self.roots[at]
+
+    def _found_root(self, x: Any) -> Any:
         if isinstance(x, Residue):
             y = Residue(pow(x.n, (self.p + 1) // 4, self.p), self.p)
             if y * y != x:
@@ -379,25 +374,6 @@ class Functions:
         there = zip(self.valid, (root * root).values, x.values, strict=True)
         self.valid = [v and a == b for v, a, b in there]
         return root
-
-    def _on_curve(self, curve: tuple[str, str, str, int], argument: Any, x: Any) -> None:
-        """The point of the curve by the tangent u of half the argument."""
-        *names, sign = curve
-        u = self._any(x)
-        below, above = 1 + sign * (u * u), 1 + -sign * (u * u)
-        values = (2 * u / below, above / below, 2 * u / above)
-        self.known |= {(f, argument): y for f, y in zip(names, values, strict=True)}
-
-    def _slope(self, name: str, x: Any, y: Any) -> Any:
-        """The derivative at x, where the value is y."""
-        for s, c, tangent, sign in CURVES:
-            if name == tangent:
-                return 1 + sign * (y * y)
-            if name in (s, c):
-                return self._value(c, x) if name == s else self._value(s, x) * -sign
-        if name == "exp":
-            return y
-        return 1 / {"sqrt": 2 * y, "log": x, "atan": 1 + x * x}[name]
 
 
 # Functions about an exact point, up to the second order: the derivatives vary in turn.

@@ -19,11 +19,13 @@ from .arithmetic import (
     Nilpotent,
     Value,
     Varying,
+    derivative_in,
     determinant,
     hat,
     inner,
     inverse,
     is_matrix,
+    nilpotent,
     number,
     plus,
     power,
@@ -291,24 +293,18 @@ STRUCTURAL: dict[str, Callable[[tuple[Any, ...], Environment], Value]] = {
 # hyperbola. The roots of the numbers that a claim writes, if they are of one quadratic field, are
 # exact there.
 
-Derivatives = tuple[Any, Any, Any]
-
 PARTNERS = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
-ALGEBRAIC: dict[str, Callable[[Any, Any], Derivatives]] = {
-    "sqrt": lambda x, y: (1 / (2 * y), -1 / (4 * y**3), 3 / (8 * y**5)),
-    "exp": lambda x, y: (y, y, y),
-    "log": lambda x, y: (1 / x, -1 / x**2, 2 / x**3),
-    "tan": lambda x, y: (1 + y**2, 2 * y * (1 + y**2), (1 + y**2) * (2 + 6 * y**2)),
-    "tanh": lambda x, y: (1 - y**2, -2 * y * (1 - y**2), (1 - y**2) * (6 * y**2 - 2)),
-    "atan": lambda x, y: (
-        1 / (1 + x**2),
-        -2 * x / (1 + x**2) ** 2,
-        (6 * x**2 - 2) / (1 + x**2) ** 3,
-    ),
+SLOPES: dict[str, Callable[[Any, Any], Any]] = {
+    "sqrt": lambda x, y: 1 / (2 * y),
+    "exp": lambda x, y: y,
+    "log": lambda x, y: 1 / x,
+    "tan": lambda x, y: 1 + y * y,
+    "tanh": lambda x, y: 1 - y * y,
+    "atan": lambda x, y: 1 / (1 + x * x),
 }
-"""Function → its first three derivatives at x, in x and in y, the value of the function there."""
+"""Function → its derivative at x, in x and in y, the value of the function there."""
 
-ELEMENTARY = frozenset((*PARTNERS, *ALGEBRAIC))
+ELEMENTARY = frozenset((*PARTNERS, *SLOPES))
 """The functions that a record has, and emitted code well_formedness."""
 
 ON_CURVE = (("cos", "sin", "tan"), ("cosh", "sinh", "tanh"))
@@ -346,23 +342,32 @@ class ElementaryValues:
         """The value of a function at x, the same each time; two graded numbers are different
         arguments unless they are one object."""
         if isinstance(x, Varying):
-            return x.chained(self.value(name, x.value), self.derivatives(name, x.value)[0])
+            y = self.value(name, x.value)
+            return x.chained(y, self.slope(name, x.value, y))
         if name == "sqrt" and self.true_root:
             return self.true_root(x)
         if self.bounded:
             return bounds(name, Interval.of(x))
         if name in AT_ZERO and not isinstance(x, Graded) and x == 0:
             return x * 0 + AT_ZERO[name]
-        at = id(x) if isinstance(x, Graded) else x
-        key = (name, at)
-        if key not in self.values:
-            d = self.draw()
+        at = self.key(x)
+        if (name, at) not in self.values:
+            d = self.drawn(x)
             curve = next((names for names in ON_CURVE if name in names), ())
             found = on_curve(curve, d) if curve else {name: d}
             self.values |= {(other, at): y for other, y in found.items()}
             if isinstance(x, Graded):
                 self.graded_arguments.append(x)  # kept, so that its id is
-        return self.values[key]
+        return self.values[name, at]
+
+    def key(self, x: Any) -> Any:
+        """What tells an argument from others."""
+        return id(x) if isinstance(x, Graded) else x
+
+    def drawn(self, x: Any) -> Any:
+        """A random number for an argument."""
+        del x
+        return self.draw()
 
     def written(self, name: str, x: int | Fraction) -> Any:
         """The function of a number that a claim writes: a root of the first quadratic field that
@@ -379,29 +384,25 @@ class ElementaryValues:
         """The largest degree of an argument in graded numbers."""
         return max((x.degree.total_degree for x in self.graded_arguments), default=0)
 
-    def derivatives(self, name: str, x: Any) -> Derivatives:
-        """The first three derivatives of a function at x; ``EvaluationError`` if unknown."""
-        y = self.value(name, x)
+    def slope(self, name: str, x: Any, y: Any) -> Any:
+        """The derivative of a function at x, where it is y; ``EvaluationError`` if unknown."""
         if name in PARTNERS:
-            z = self.value(PARTNERS[name], x)
-            if name in ("sinh", "cosh"):
-                return z, y, z
-            return (z, -y, -z) if name == "sin" else (-z, -y, z)
-        if name not in ALGEBRAIC:
+            z = (self if isinstance(x, Nilpotent) else self.value)(PARTNERS[name], x)
+            return -z if name == "cos" else z
+        if name not in SLOPES:
             raise EvaluationError(f"no function {name!r}")
-        return ALGEBRAIC[name](x, y)
+        return SLOPES[name](x, y)
 
     def __call__(self, name: str, x: Any) -> Any:
-        """The function of a number, or by Taylor's formula of one with nilpotent parts."""
+        """The function of a number; f(a + bε) = f(a) + f′(a)bε of one with nilpotent parts."""
         if not isinstance(x, Nilpotent):
+            y = self.value(name, x)
             if not (name == "sqrt" and self.true_root):  # which may be 0
-                self.derivatives(name, x)
-            return self.value(name, x)
-        base = x.part(0)
-        small = Nilpotent({k: v for k, v in x.parts.items() if k})
-        result, power, factorial = Nilpotent.of(self.value(name, base)), small, 1
-        for k, d in enumerate(self.derivatives(name, base), 1):
-            factorial *= k
-            result = result + power * (d / factorial)
-            power = power * small
-        return result
+                self.slope(name, x, y)
+            return y
+        if not (most := max(x.parts)):
+            return Nilpotent.of(self(name, x.part(0)))
+        mask = 1 << (most.bit_length() - 1)
+        a = Nilpotent({k: v for k, v in x.parts.items() if not k & mask} or {0: Fraction(0)})
+        y = self(name, a)
+        return y + self.slope(name, a, y) * derivative_in(x, mask) * nilpotent(mask)

@@ -21,8 +21,6 @@ from random import Random
 from types import ModuleType
 from typing import Any
 
-import numpy as np
-
 from ...algebra.structure import Place, TorusLattice
 from ...check.fluid.torus_model import TorusModel, environment, torus_of
 from ...check.values.arithmetic import EvaluationError
@@ -36,7 +34,7 @@ from ..read_file import LANGUAGES, Beside, unread_text, words
 from ..straight_line import Measured
 from ..syntax import SYNTAX, tokens
 from ..terms import CodeError, DiffersError
-from .exact_arrays import ExactArray, ExactLibrary
+from .exact_arrays import ExactLibrary
 from .loop_reader import LoopReader
 from .loops_of_languages import CLoopReader, JuliaLoopReader
 from .run_loops import Cells, Loops
@@ -309,22 +307,21 @@ def agreement_of_module(module: Any, claims: TorusClaims) -> Agreement:
     module._Functions = lambda library: library
     library = ExactLibrary(claims.p, claims.number, claims.elementary)
 
-    def array(x: Sequence[Any]) -> ExactArray:
-        values = np.array(x, dtype=object)
-        return ExactArray(values, values * 0, library)
-
     sizes = {"STATE": len(module.STATE), "INPUTS": len(module.INPUTS)}
     _require_lists(module.STATE, sizes, len(claims.names), claims)
     try:
-        k = module.constants(array([]))
+        k = module.constants(library.asarray([]))
 
         def call(f: str, x: Sequence[int]) -> Sequence[int]:
-            found, several = (getattr(module, f)(0.0, array(y), k) for y in (x, [x[::-1], x]))
-            if found.im.any():
+            given = (library.asarray(y, object) for y in (x, [x[::-1], x]))
+            found, several = (library.asarray(getattr(module, f)(0.0, y, k)) for y in given)
+            parts = [(z.re, z.im) for z in found.ravel()]
+            if any(im for _, im in parts):
                 raise DiffersError(f"{f}: it is not real")
-            if found.shape != several.shape[1:] or (found.re != several.re[1]).any():
+            again = library.asarray(several[1])
+            if found.shape != again.shape or parts != [(z.re, z.im) for z in again.ravel()]:
                 raise DiffersError(f"{f}: a state of several gives other numbers than alone")
-            return [int(y) for y in found.re.ravel()]
+            return [re for re, _ in parts]
 
         return agreement(claims, call, lambda f: hasattr(module, f))
     except (TypeError, ValueError, IndexError, AttributeError) as error:
