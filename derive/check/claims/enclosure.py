@@ -11,22 +11,25 @@ from typing import Any
 
 from ...algebra.groups import Group
 from ...language import rational as q
+from ...language.intervals import Interval, characteristic
 from ...language.laurent import Laurent, Monomial
 from ...language.show import show
 from ...language.tree import Tree, nodes
 from ...language.univariate import value_of
 from ...record.record import Equation, RecordError, Step
 from ...record.sentence import Claim
-from .entries_checked import Entries, invertible
-from .equilibrium_claims import coordinates, not_from, others_squared, silent
+from ..values.arithmetic import Varying
+from .entries_checked import Entries, sure_rank
+from .equilibrium_claims import ClaimedEquilibrium, coordinates, not_from, others_squared, silent
 from .integral_claims import Judge
 from .reduced_system import ReducedSystem
 from .spectra_and_residues import DIGITS as PRECISION
 from .spectra_and_residues import (
     all_roots,
-    characteristic,
     decimal,
     digits_given,
+    expansion,
+    gradient,
     is_rounded,
     signature,
     size,
@@ -203,12 +206,7 @@ def _pairs(powers: dict[int, int]) -> list[tuple[int, int, int]]:
 # The claims about an enclosed equilibrium: how near it is, its signs, whether it is stable.
 #
 # All eigenvalues are on the leaf or 0 where Λ has the corank of the level's Casimirs: their
-# polynomial is μᵏq(μ²). Within ρ of the decimals M changes by at most off_ij, so that a
-# coefficient of det(μ − M), a sum of minors, changes by at most that of Π(1 + (r_i + Σ_j
-# off_ij)t) − Π(1 + r_i t), with r_i = Σ_j |M_ij|, as a determinant is at most the product of the
-# sums of its rows.
-
-Numbers = Sequence[Fraction]
+# polynomial is μᵏq(μ²), whose coefficients are found within bounds, as the point is.
 
 
 def _near(system: ReducedSystem, step: Step, claim: Claim) -> str:
@@ -278,9 +276,8 @@ def _eigenvalues(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """Each number is a root of the characteristic polynomial p of the rates at the decimals,
     rounded, and each root, but for its sign, is one of the numbers; all that are near 0, and known
     less well, are taken for one."""
-    centre = enclosed(system, step).centre
-    at, told = {x: centre.get(x, Fraction(0)) for x in system.variables}, claim["eigenvalues"]
-    p = characteristic([[x for x, _ in slopes(t, at, Fraction(0))] for t in system.rates])
+    told = claim["eigenvalues"]
+    p = ClaimedEquilibrium(system, enclosed(system, step).centre).characteristic_of_all
     assert isinstance(told, tuple)
     with localcontext(Context(prec=PRECISION)):
         numbers = [(decimal(re), decimal(im)) for _, re, im in told[1:]]
@@ -303,72 +300,25 @@ def grows(system: ReducedSystem, step: Step) -> bool:
     """Have the linearised rates an eigenvalue with positive real part?  True is proved."""
     found = enclosed(system, step)
     several, n = len(step.equations) - 1, len(system.variables)
-    centre, radius = {x: found.centre.get(x, Fraction(0)) for x in system.variables}, found.least
-    if not has_rank(system.tensor.forms, [*centre.values()], radius, n - several):
+    point = ClaimedEquilibrium(system, found.centre)
+    box = [Interval.about(Fraction(x), found.least) for x in point.at]
+    off = [[Fraction(0)] * n for _ in box]
+    for (i, j), x in system.tensor.at(box).items():
+        off[i][j] = Interval.of(x - point.tensor[i][j]).size
+    if sure_rank(point.tensor, off) != n - several:
         return False
-    rows = [slopes(t, centre, radius) for t in system.rates]
-    mid, off = ([[x[k] for x in row] for row in rows] for k in (0, 1))
-    pairs: Any = zip(characteristic(mid), changes_of_coefficients(mid, off), strict=True)
-    return not_real_and_not_positive([*pairs][: n - several + 1 : 2])
+    triples = zip(system.variables, box, q.identity(n), strict=True)
+    at = {x: Varying(y, unit) for x, y, unit in triples}
+    coefficients = characteristic([gradient(expansion(t, at), n) for t in system.rates])
+    return not_real_and_not_positive(coefficients[: n - several + 1 : 2])
 
 
-def has_rank(forms: Any, at: Numbers, radius: Fraction, rank: int) -> bool:
-    """Has Λ this rank everywhere within the radius?"""
-    n = len(at)
-    mid, off = ([[Fraction(0)] * n for _ in at] for _ in range(2))
-    for (i, j), form in forms.items():
-        mid[i][j] = sum((x if k is None else x * at[k] for k, x in form.items()), Fraction(0))
-        off[i][j] = radius * sum(abs(x) for k, x in form.items() if k is not None)
-    rows, columns = (q.echelon(q.matrix(x))[1] for x in (q.transposed(q.matrix(mid)), mid))
-    chosen, change = ([[x[i][j] for j in columns] for i in rows] for x in (mid, off))
-    return len(rows) == rank and invertible(q.matrix(chosen), change)
-
-
-def slopes(
-    t: Tree, centre: dict[Tree, Fraction], radius: Fraction
-) -> list[tuple[Fraction, Fraction]]:
-    """The first derivatives of a polynomial, and how much they change within the radius."""
-    found = {x: (Fraction(0), Fraction(0)) for x in centre}
-    for m, c in polynomial(t, centre).items():
-        degree = sum(k for _, k in m)
-        for x, k in m:
-            mid, off = found[x]
-            if degree == 1:
-                found[x] = mid + c, off
-            else:
-                found[x] = mid, off + abs(c) * k * radius ** (degree - 1)
-    return [*found.values()]
-
-
-def changes_of_coefficients(mid: Sequence[Numbers], off: Sequence[Numbers]) -> list[Fraction]:
-    """How much the coefficients of det(μ − M) change at most with the entries of M."""
-
-    def by_rows(a: Sequence[Numbers], change: Sequence[Numbers]) -> list[Fraction]:
-        sums = [sum(map(abs, row), Fraction(0)) for row in a]
-        more = [x + sum(row) for x, row in zip(sums, change, strict=True)]
-        return [x - y for x, y in zip(symmetric(more), symmetric(sums), strict=True)]
-
-    columns = (q.transposed(q.matrix(x)) for x in (mid, off))
-    return [*map(min, by_rows(mid, off), by_rows(*columns))]
-
-
-def symmetric(x: Numbers) -> list[Fraction]:
-    """The coefficients of Π(1 + x_i t)."""
-    zero, found = Fraction(0), [Fraction(1)]
-    for y in x:
-        found = [a + y * b for a, b in zip([*found, zero], [zero, *found], strict=True)]
-    return found
-
-
-def not_real_and_not_positive(c: Sequence[tuple[Fraction, Fraction]]) -> bool:
-    """Has a polynomial with such coefficients, each with a bound of its error, surely a root that
-    is not real and at most 0: a negative coefficient, or c_j² j(d − j) < c_{j−1}c_{j+1}(j + 1)(d −
-    j + 1) for some j (Newton)?"""
-    d = len(c) - 1
-    if any(x + e < 0 for x, e in c):
-        return True
-    least, most = [max(x - e, Fraction(0)) for x, e in c], [abs(x) + e for x, e in c]
-    return any(
+def not_real_and_not_positive(c: Sequence[Interval]) -> bool:
+    """Has a polynomial with coefficients within bounds surely a root that is not real and at most
+    0: a negative coefficient, or c_j² j(d − j) < c_{j−1}c_{j+1}(j + 1)(d − j + 1) for some j
+    (Newton)?"""
+    d, least, most = len(c) - 1, [max(x.low, 0) for x in c], [max(-x.low, x.high) for x in c]
+    return any(x.high < 0 for x in c) or any(
         most[j] ** 2 * j * (d - j) < least[j - 1] * least[j + 1] * (j + 1) * (d - j + 1)
         for j in range(1, d)
     )

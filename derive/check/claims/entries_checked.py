@@ -236,24 +236,16 @@ class Entries:
         """Is the orbit as large as that of 1, and what is positive on the group positive?"""
         if not rank:
             return True
-        rates, off = self.rates(at), self._most(radius)
-        rows, columns = (q.echelon(x)[1] for x in (q.transposed(rates), rates))
-        if len(rows) < rank:
-            return False
-        chosen = tuple(tuple(rates[i][j] for j in columns) for i in rows)
-        if not invertible(chosen, [[off[i][j] for j in columns] for i in rows]):
+        off = [
+            [radius * sum(abs(c) for c in self._terms(x, e).values()) for x in self.places]
+            for e in self.group.basis
+        ]
+        if sure_rank(self.rates(at), off) < rank:
             return False
         return all(
             q.determinant(a) > 0 and invertible(a, [[radius] * len(a) for _ in a])
             for a in self._positive(at)
         )
-
-    def _most(self, radius: Fraction) -> list[list[Fraction]]:
-        """How much the rates change within a radius, at most."""
-        return [
-            [radius * sum(abs(c) for c in self._terms(x, e).values()) for x in self.places]
-            for e in self.group.basis
-        ]
 
     def _positive(self, at: Mapping[Place, Fraction]) -> list[q.Matrix]:
         """Matrices of entries with a positive determinant on the group: linear parts that are all
@@ -310,6 +302,13 @@ def invertible(a: q.Matrix, change: Sequence[Sequence[Fraction]]) -> bool:
         return False
     moved = q.times(tuple(tuple(map(abs, row)) for row in inverse), q.matrix(change))
     return bool(max(map(sum, moved)) < 1)
+
+
+def sure_rank(a: q.Matrix, change: Sequence[Sequence[Fraction]]) -> int:
+    """The rank of a matrix, where it is no less whatever such changes of its entries; else 0."""
+    rows, columns = (q.echelon(x)[1] for x in (q.transposed(a), a))
+    chosen, moved = ([[x[i][j] for j in columns] for i in rows] for x in (a, change))
+    return len(rows) if rows and invertible(q.matrix(chosen), moved) else 0
 
 
 # The entries that are the same for all elements of a group, as 1 and 0 in the last row of affine
