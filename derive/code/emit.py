@@ -9,6 +9,7 @@ import io
 import json
 import math
 import re
+import textwrap
 import zipfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -235,7 +236,7 @@ def _rendered(
 ) -> dict[str, str]:
     """File name → text, of one language; ``places``: file name → template."""
     templates, fields = environment(language.name), _fields(p, d, asked, language)
-    templates.globals |= {"lines": lines, "sections": sections}
+    templates.globals |= {"lines": lines, "sections": sections, "told": told}
     return {file: templates.get_template(x).render(fields) for file, x in places.items()}
 
 
@@ -247,6 +248,19 @@ def lines(found: Iterable[str]) -> str:
 def sections(f: Mapping[str, Any]) -> str:
     """Those of the sections of a function, an empty line before each."""
     return "".join("\n" + lines(s["comment"] + s["statements"]) for s in f["sections"])
+
+
+def told(f: Mapping[str, Any], begin: str, size: str = "", beside: str = "") -> str:
+    """The comment of a function, in lines that begin so; ``size``: a pattern of the names of sizes,
+    where a language has such; ``beside``: what is said with one that is of variations."""
+    doc: str = f["doc"]
+    if "D@" not in doc:
+        return f"{begin}{doc[0].upper()}{doc[1:]}."
+    names = [size.format(x if size[:1].isupper() else x.lower()) for x in f["writes"][-1].sizes]
+    names = ["2N" if x.lower() == "n_variations" else x for x in names]
+    of = " x ".join(names if size else map(str, (f["rows"], f["counts"]["D"] // f["rows"])))
+    text = doc.replace("D@", f"D ({of} by rows{beside * ('2N' in names)}):") + "."
+    return textwrap.fill(text, 100, initial_indent=begin, subsequent_indent=begin)
 
 
 def _fields(
@@ -284,6 +298,7 @@ def _fields(
         "short": asked.short,
         "parameters": parameters,
         "parameter_names": [x[0] for x in p.parameters],
+        "lists": _lists(p),
         "defaults": [(x[0], repr(x[1])) for x in p.parameters if x[1] is not None],
         "affine": p.translates,
         "heading": [*generated, "", *heading(p, language, parameters, cost)],
@@ -309,6 +324,20 @@ def _fields(
     if p.loops:
         fields["loops"] = _loops(p.loops, language.name, printer, fields)
     return fields
+
+
+def _lists(p: Program) -> list[tuple[str, Sequence[str]]]:
+    """The lists of names of a file, those of state, parameters and inputs also where they are
+    empty."""
+    own, events = [x[0] for x in p.parameters], [x.name for x in p.events]
+    further = {"CONSERVED": p.conserved, "OUTPUTS": p.outputs, "EVENTS": events}
+    return [
+        ("STATE", p.state),
+        *([("STATE_BY_BLOCK", p.state_by_block)] if p.state_by_block else ()),
+        ("PARAMETERS", own),
+        ("INPUTS", p.inputs),
+        *((x, names) for x, names in further.items() if names),
+    ]
 
 
 NEWTON_STEPS, SMALL_CHANGE = 60, {"double": 1e-10, "float": 1e-4}

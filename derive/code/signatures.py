@@ -81,10 +81,14 @@ into_frame(x, k) -> out[STATE]: the state x taken from {given} to {principal}
 out_of_frame(x, k) -> out[STATE]: the state x taken from {principal} to {given}
 inputs_into_frame(u, k) -> out[INPUTS]: the inputs u taken from {given} to {principal}
 inputs_out_of_frame(u, k) -> out[INPUTS]: the inputs u taken from {principal} to {given}
-jacobian(t, x, k, u) -> dx, D[VARIATIONS VARIATIONS]: dx/dt, and D
-jacobian_inputs(t, x, k, u) -> D[VARIATIONS INPUTS]: its derivative by u
-jacobian_parameters(t, x, p, u) -> D[VARIATIONS PARAMETERS]: that by p
-jacobian_raw(t, x, k, u) -> D[STATE STATE]: that of dx/dt by x as it is stored, by rows
+jacobian(t, x, k, u) -> dx, D[VARIATIONS VARIATIONS]: dx/dt, and D@ d/dt (eta, delta zeta) = D (eta,
+    delta zeta) for variations delta g = {variation} of the group element and delta zeta of the
+    velocity, in the basis above
+jacobian_inputs(t, x, k, u) -> D[VARIATIONS INPUTS]: D@ the derivative of the rates of (eta, delta
+    zeta) by the inputs u
+jacobian_parameters(t, x, p, u) -> D[VARIATIONS PARAMETERS]: D@ the derivative of the rates of (eta,
+    delta zeta) by the parameters p
+jacobian_raw(t, x, k, u) -> D[STATE STATE]: D@ the derivative of dx/dt by x as it is stored
 jacobian_raw_inputs(t, x, k, u) -> D[STATE INPUTS]: the derivative of dx/dt by u, by rows
 jacobian_project(x) -> D[STATE STATE]: the derivative of what project gives by x as it is stored, by
     rows
@@ -127,7 +131,7 @@ step_end(x, k, q, v) -> out[MOVED]: what a discrete step v adds to the element o
 inertia(p) -> I[6]: the tensor of inertia about the body's origin
 """
 """Each function, what it takes, what it writes with the sizes that are its own, and its doc, which
-goes on in indented lines."""
+goes on in indented lines; after ``D@`` a language says how large D is."""
 MORE: dict[str, dict[str, Any]] = {
     "rhs_batch": {"of": "rhs", "only": "c"},
     "project": {"in_place": True},
@@ -140,7 +144,7 @@ def _signature(text: str) -> Signature:
     """The signature that an entry of the table tells."""
     head, doc = " ".join(text.split()).split(": ", 1)
     name, takes, _, writes = re.split(r"[()]|(?: -> )", f"{head} -> ")[:4]
-    doc = doc.format(given=GIVEN, principal=PRINCIPAL)
+    doc = doc.replace("{given}", GIVEN).replace("{principal}", PRINCIPAL)
     return Signature(name, _arguments(takes), _arguments(writes), doc, **MORE.get(name, {}))
 
 
@@ -189,7 +193,7 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
 
     return {
         s.name: _function(s, f, sizes)
-        | {"kinks": kinks(s.name)}
+        | {"kinks": kinks(s.name), "doc": s.doc.replace("{variation}", p.variation)}
         | (told if s.name == "energy" else {})
         for s, f in found.items()
         if f and s.only in own

@@ -198,9 +198,6 @@ class Measured(RingElement):
         num = max(self.num + b.den, b.num + self.den)
         return Measured(self.value + b.value, num, self.den + b.den)
 
-    def __neg__(self) -> Measured:
-        return Measured(-self.value, self.num, self.den)
-
     def __mul__(self, other: Any) -> Measured:
         b = Measured.of(other)
         return Measured(self.value * b.value, self.num + b.num, self.den + b.den)

@@ -105,7 +105,9 @@ class _Candidate:
             and q.determinant(a) != 1
         ):
             return True
-        positive: list[Any] = [a[j][j] for j in range(n) if known[j][j] and self._scales(j)]
+        positive: list[Any] = [
+            a[j][j] for j in range(n) if known[j][j] and _is_scaled(self.factor, j)
+        ]
         if self._has_all_entries and (self.factor.larger or not relations.none):
             positive.append(q.determinant(a))
         return not all(x > 0 for x in positive)
@@ -119,15 +121,6 @@ class _Candidate:
         ]
         factor = next((x / y for x, y in pairs if y), 1) if self.relations.conformal else 1
         return all(x == factor * y for x, y in pairs)
-
-    def _scales(self, j: int) -> bool:
-        """Is e_j, as a row or a column, an eigenvector of the whole factor?"""
-        others = [i for i in range(self.factor.size) if i != j]
-        column, row = (
-            not any(e[i][j] if down else e[j][i] for e in self.factor.basis for i in others)
-            for down in (True, False)
-        )
-        return column or row
 
     def _by_theorem(self) -> bool:
         """Are all lines that have the relations those of elements?"""
@@ -154,6 +147,12 @@ class _Candidate:
         if relations.determinant and q.determinant(a) != 1:
             return False
         return not negative_or_zero(characteristic(a))
+
+
+def _is_scaled(g: Group, j: int) -> bool:
+    """Is e_j, as a row or a column, an eigenvector of a whole group?"""
+    pairs = [(e[i][j], e[j][i]) for e in g.basis for i in range(g.size) if i != j]
+    return not pairs or not all(map(any, zip(*pairs, strict=True)))
 
 
 def _nilpotent(g: Group) -> bool:
@@ -256,15 +255,8 @@ class Entries:
             constrained = factor.larger or factor.dimension < factor.n * factor.size
             if constrained and all((i, j) in at for i in span for j in span):
                 found.append(tuple(tuple(at[i, j] for j in span) for i in span))
-        for j in {j for i, j in self.places if i == j}:
-            others = [i for i in range(self.group.size) if i != j]
-            fixed = (
-                all(not e[i][j] for e in self.group.basis for i in others),
-                all(not e[j][i] for e in self.group.basis for i in others),
-            )
-            if any(fixed):
-                found.append(((at[j, j],),))
-        return found
+        scaled = {j for i, j in self.places if i == j and _is_scaled(self.group, j)}
+        return [*found, *(((at[j, j],),) for j in scaled)]
 
 
 def _of_entries_alone(levels: Sequence[Terms]) -> list[Terms]:

@@ -76,12 +76,8 @@ def _quadrature(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 def _supposed(c: ClaimedRecord, step: Step, entry: Tree, degree: int) -> bool:
     """Does the leading coefficient of the right side vanish, on a random line, only where what the
     step supposes not to be 0 does?"""
-    f, p = step.equations[0].rhs, random_prime(c.random)
-    supposed = [x.of for x in step.hypotheses if x.property == "nonzero"]
-    at, along = (drawn(_every_leaf([f, *supposed]), c.random, p) for _ in range(2))
-
-    def there(s: Residue) -> dict[Tree, Residue]:
-        return {x: y + s * along[x] for x, y in at.items()}
+    f, supposed = step.equations[0].rhs, [x.of for x in step.hypotheses if x.property == "nonzero"]
+    p, there, on_line = _random_line(c, [f, *supposed])
 
     def leading(s: Residue) -> Residue:
         """The coefficient times all that is supposed, so that nothing is divided by."""
@@ -90,11 +86,25 @@ def _supposed(c: ClaimedRecord, step: Step, entry: Tree, degree: int) -> bool:
         below = prod((value(t, here, p) for t in supposed), start=Residue(1, p))
         return whole[degree] * below if degree < len(whole) else Residue(0, p)
 
+    first = _interpolated(leading, p, LARGEST_ON_LINE)
+    return _vanishes(first, [on_line(t) for t in supposed])
+
+
+def _random_line(
+    c: ClaimedRecord, trees: Sequence[Tree]
+) -> tuple[int, Callable[[Residue], dict[Tree, Residue]], Callable[[Tree], Coefficients]]:
+    """A prime, the values of what trees are made of at the places of a random line, and a tree as a
+    polynomial along it."""
+    p = random_prime(c.random)
+    at, along = (drawn(_every_leaf(trees), c.random, p) for _ in range(2))
+
+    def there(s: Residue) -> dict[Tree, Residue]:
+        return {x: y + s * along[x] for x, y in at.items()}
+
     def on_line(t: Tree) -> Coefficients:
         return _interpolated(lambda s: value(t, there(s), p), p, LARGEST_ON_LINE)
 
-    first = _interpolated(leading, p, LARGEST_ON_LINE)
-    return _vanishes(first, [on_line(t) for t in supposed])
+    return p, there, on_line
 
 
 def _odd_degree(c: Coefficients) -> int:
@@ -164,16 +174,8 @@ def _conditions(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """The conditions vanish, on a random line, only where 𝒱 divides by 0, and one does wherever
     that varies with g; of isotropy: det 𝕀 is their product, but for what is the same at all g."""
     stated = operands(claim["conditions"])
-    below, p = _divisors(step), random_prime(c.random)
-    at, along = ({} | drawn(_every_leaf([*stated, *below]), c.random, p) for _ in range(2))
-
-    def on_line(t: Tree) -> Coefficients:
-        def at_time(s: Residue) -> Residue:
-            found: Residue = value(t, {x: y + s * along[x] for x, y in at.items()}, p)
-            return found
-
-        return _interpolated(at_time, p, LARGEST_ON_LINE)
-
+    below = _divisors(step)
+    _, _, on_line = _random_line(c, [*stated, *below])
     every = {t: on_line(t) for t in (*stated, *below)}
     fixed = [t for t in below if not _varies(t)]
     pairs = [(stated, below), ([t for t in below if _varies(t)], [*stated, *fixed])]

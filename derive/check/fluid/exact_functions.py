@@ -392,7 +392,7 @@ def field_of(x: Value) -> Field:
 # Numbers of which a polygon has one for each of its edges.
 
 
-class Edges:
+class Edges(RingElement):
     """One number for each edge, added and multiplied edge by edge; a plain number is the same on
     all."""
 
@@ -408,15 +408,8 @@ class Edges:
     def __add__(self, other: Any) -> Edges:
         return self._with(other, add)
 
-    __radd__ = __add__
-
-    def __neg__(self) -> Edges:
-        return Edges(tuple(-x for x in self.each))
-
     def __mul__(self, other: Any) -> Edges:
         return self._with(other, mul)
-
-    __rmul__ = __mul__
 
     def __eq__(self, other: object) -> bool:
         return all(self._with(other, lambda x, y: x == y).each)

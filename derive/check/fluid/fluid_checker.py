@@ -136,7 +136,7 @@ ONE_LEVEL = Equation(("mul", "Γ", "ρ"), ("mul", "κ", "Γ"))
 GIVEN: dict[Equation, str] = {
     Equation("δt", 1): "contracted",
     Equation("δ′t", 0): "δ′t",
-    Equation("η′", 0): "η′",
+    Equation("η′", 0): "vertical",
     Equation(("call", "η", "X"), "u"): "along",
     Equation(("call", "δg", "X"), "ν"): "lift",
     LEVEL: "level",
@@ -303,18 +303,11 @@ def locus_of(step: Step, equation: Equation | None = None) -> FluidLocus:
         if e not in GIVEN:
             raise RecordError("what is given is not among what can be tried of a fluid")
         told.add(GIVEN[e])
-    if ("δ′t" in told) != ("η′" in told):
+    if ("δ′t" in told) != ("vertical" in told):
         raise RecordError("δ′t = 0 and η′ = 0 are given together")
-    return FluidLocus(
-        contracted="contracted" in told,
-        vertical="η′" in told,
-        along="along" in told,
-        lift="lift" in told,
-        level="level" in told,
-        one_level="one_level" in told,
-        free=step.kind in OFF_MOTION
-        or (equation is not None and not ACCELERATIONS.isdisjoint(equation.for_all)),
-    )
+    free = equation is not None and not ACCELERATIONS.isdisjoint(equation.for_all)
+    flags = dict.fromkeys(told - {"δ′t"}, True)
+    return FluidLocus(**flags, free=free or step.kind in OFF_MOTION)
 
 
 def ill_formed(equation: Equation, step: Step) -> str:

@@ -54,12 +54,6 @@ def any_energy_energy(at: PotentialData, p: Data, r: Places, _masses: Masses) ->
 # U = −Σ m_i μ / ‖r_i − centre‖.
 
 
-def attraction_energy(at: PotentialData, p: Data, r: Places, masses: Masses) -> Any:
-    """The sum over the masses."""
-    terms = (_pulled(at, pull, q.dot(d, d)) for d, pull in _attracted(at, p, r, masses))
-    return sum(terms, Fraction(0))
-
-
 def attraction_radial(at: PotentialData, p: Data, r: Places, masses: Masses) -> Iterator[Distance]:
     """The distance of each mass."""
     for d, pull in _attracted(at, p, r, masses):
@@ -286,12 +280,6 @@ def spring_summed(at: PotentialData, p: Data) -> bool:
     return bool(at.blocks[i - 1] == at.blocks[j - 1])
 
 
-def spring_energy(at: PotentialData, p: Data, r: Places, _masses: Masses) -> Any:
-    """By the square of the distance."""
-    d = _difference(at, p, r)
-    return _stretch(at, p, q.dot(d, d))
-
-
 def spring_radial(at: PotentialData, p: Data, r: Places, _masses: Masses) -> Iterator[Distance]:
     """Its one distance."""
     yield _difference(at, p, r), lambda square: _stretch(at, p, square)
@@ -387,9 +375,14 @@ def volume_values(model: Body, members: Sequence[Data]) -> dict[str, Any]:
     return {"V_A": determinant(A), "U_V": whole.part(0), "p_V": -whole.part(ETA)}
 
 
+def by_distances(radial: Callable[..., Iterator[Distance]]) -> Callable[..., Any]:
+    """U as the sum of what its distances give."""
+    return lambda *given: sum((energy(q.dot(d, d)) for d, energy in radial(*given)), Fraction(0))
+
+
 ACCOUNTS: dict[str, Account] = {
     "expression": Account(any_energy_energy),
-    "attraction": Account(attraction_energy, radial=attraction_radial),
+    "attraction": Account(by_distances(attraction_radial), radial=attraction_radial),
     "far_centre": Account(far_centre_energy, values=far_centre_values, of_body_axes=True),
     "field": Account(field_energy),
     "gravity": Account(gravity_energy, values=gravity_values),
@@ -398,7 +391,7 @@ ACCOUNTS: dict[str, Account] = {
         self_gravity_energy, functions=self_gravity_functions, values=self_gravity_values
     ),
     "spring": Account(
-        spring_energy,
+        by_distances(spring_radial),
         summed=spring_summed,
         radial=spring_radial,
         values=spring_values,
