@@ -87,7 +87,9 @@ class DiscreteFunctions(FunctionsCalled):
         rows = []
         for b in range(turns):
             varied = self._varied_step(z, b)
-            *moved, _ = self._plainly("step_newton", turns + 1, q=[*load, h], v=varied, b=())
+            *moved, _ = self.plain.numbers(
+                "step_newton", {**self.given, "q": [*load, h], "v": varied, "b": ()}, turns + 1
+            )
             self._same("step_newton", slopes(moved), [a == b for a in range(turns)])
             rows.append(slopes(self._load(h, self._turned(varied))))
         self._same("step_newton", [det], [q.determinant(q.matrix(rows))])
@@ -337,7 +339,3 @@ class DiscreteFunctions(FunctionsCalled):
 
     def _run(self, name: str, arguments: Mapping[str, Any], size: int) -> list[Any]:
         return self.call(name, arguments, out=size)["out"]
-
-    def _plainly(self, name: str, size: int, **changed: Any) -> list[Any]:
-        """What a function writes, without counting degrees."""
-        return self.plain.numbers(name, {**self.given, **changed}, size)

@@ -11,7 +11,7 @@ read: of its numbers nothing is known here but the arguments.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -128,7 +128,7 @@ class Claims:
         tensor = self._value("I", env)
         return Point(
             model.parameters,
-            {"t": model.t, "x": x, "u": self._input_values(model)},
+            {"t": model.t, "x": x, "u": tuple(model.parameters[x] for x in self.inputs)},
             model.g,
             model.Z,
             rates,
@@ -150,24 +150,6 @@ class Claims:
         rates = tuple(env.parameters[rate_of_mass(x)] for x in self.state.stored)
         x = self.state.values(model.g, model.Z, masses)
         return x, self.state.rates(model.g, model.Z, g_dot, acceleration, rates)
-
-    def _input_values(self, model: AnyModel) -> Numbers:
-        """The numbers of u, in order: those of forces, covectors on the stated basis."""
-        found: list[Any] = []
-        forces = iter(model.input_forces)
-        for data in self.record.problem.get("inputs", []):
-            if data["kind"] == "scalar":
-                found.append(model.parameters[data["name"]])
-            elif data["kind"] != "covector":
-                found += next(forces)
-            else:
-                found += self._on_user_basis(model.covector)
-        return tuple(found)
-
-    def _on_user_basis(self, covector: Sequence[Any]) -> Numbers:
-        """The values of a covector on the basis that the problem states."""
-        pairs = [(self.group.nearest(e), covector) for e in self.group.in_user_basis.basis]
-        return tuple(sum(x * u for x, u in zip(*pair, strict=True)) for pair in pairs)
 
     # -- the record --------------------------------------------------------------------------
 

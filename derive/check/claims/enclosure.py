@@ -102,7 +102,9 @@ class Enclosure:
 def enclosure_of(step: Step) -> Enclosure:
     """What the right sides of a step say; ``ValueError`` where they are no polynomials."""
     *levels, energy = (e.rhs for e in step.equations)
-    centre = {x: _centre(x, (*levels, energy)) for x in _variables((*levels, energy))}
+    trees = (*levels, energy)
+    seen = {x for t in trees for x in nodes(t) if isinstance(x, tuple) and x[:2] in VARIABLES}
+    centre = {x: _centre(x, trees) for x in sorted(seen, key=str)}
     names = [*centre, *(f"δ{j}" for j, _ in enumerate(levels))]
     if len(names) > SIZE:
         raise ValueError(f"{len(names)} variables and multipliers; at most {SIZE}")
@@ -140,11 +142,6 @@ def enclosure_fault(step: Step, group: Group, side: str) -> str:
     if not found.isolated:
         return "no critical point is enclosed: no contraction"
     return entries.fault(lefts, found.centre, found.least)
-
-
-def _variables(trees: Sequence[Tree]) -> list[Tree]:
-    found = {x for t in trees for x in nodes(t) if isinstance(x, tuple) and x[:2] in VARIABLES}
-    return sorted(found, key=str)
 
 
 def _centre(x: Tree, trees: Sequence[Tree]) -> Fraction:

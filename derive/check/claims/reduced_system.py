@@ -43,7 +43,8 @@ class ReducedSystem:
         self.variables: tuple[Tree, ...] = tuple(_variable(e.lhs) for e in rates)
         self.rates = tuple(e.rhs for e in rates)
         self.casimirs, self.integrals = (
-            _conserved_by_step(d, x) for x in ("casimirs", "first_integrals")
+            rates_of(d[x]) if {x, f"{d.name}.{x}"} & {s.label for s in d.steps} else ()
+            for x in ("casimirs", "first_integrals")
         )
         self.conditions = [
             step
@@ -204,14 +205,6 @@ def _variable(rate: Tree) -> Tree:
     if not isinstance(rate, tuple) or str(rate[1]) not in VARIABLE:
         raise RecordError("the step poisson has an equation that is no rate")
     return (rate[0], VARIABLE[str(rate[1])], *rate[2:])
-
-
-def _conserved_by_step(d: Derivation, label: str) -> tuple[Tree, ...]:
-    """What the equations of a step say that motions keep; () without the step."""
-    try:
-        return rates_of(d[label])
-    except KeyError:
-        return ()
 
 
 def rates_of(step: Step) -> tuple[Tree, ...]:

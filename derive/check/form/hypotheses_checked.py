@@ -260,7 +260,9 @@ def _failure(x: Hypothesis, env: Environment, model: PhasePoint) -> str:
 def _find_failure(x: Hypothesis, env: Environment, model: PhasePoint) -> str:
     """Why a hypothesis does not hold at a point, in words; "" where it does."""
     if x.property == "nondegenerate":
-        if not all({*letters} & {*names(x.of)} for letters in _variation_names(x.space)):
+        chosen = slice(0, 1) if x.space == "T_g G" else slice(1, None)
+        told = ({y for form in forms[chosen] for y in form} for forms in FORMS)  # of δ, and of δ′
+        if not all(letters & {*names(x.of)} for letters in told):
             return f"of no form in two variations on {x.space}"
         if form_matrix(x.of, env, model) != model.metric:
             return "of another form than the metric of the kinetic energy"
@@ -288,12 +290,6 @@ HOLDS: dict[str, Callable[[Matrix], bool]] = {
 def values(t: Tree, env: Environment) -> Iterator[Any]:
     """The value of a tree for each value of its free indices."""
     return (evaluate(t, there) for there in index_bindings(t, env))
-
-
-def _variation_names(space: str) -> tuple[tuple[str, ...], ...]:
-    """The names of the first variation on a space, "T_g G" or "𝔤", and those of the second."""
-    chosen = slice(0, 1) if space == "T_g G" else slice(1, None)
-    return tuple(tuple(x for form in forms[chosen] for x in form) for forms in FORMS)
 
 
 def form_matrix(form: Tree, env: Environment, model: PhasePoint) -> Matrix:

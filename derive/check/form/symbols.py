@@ -149,7 +149,8 @@ class Judge:
         role; "" if nothing is."""
         usage = (name, position_of(use.type))
         if not [*self.arguments_of_type(usage, use.type)]:
-            return f"type {type_text(use.type)} is not that of its values"
+            words = use.type if isinstance(use.type, str) else f"[{', '.join(map(str, use.type))}]"
+            return f"type {words:.60} is not that of its values"
         key, arguments = self.defined.get(usage, ("", ()))
         key = key if self.fits(usage, use.type, arguments) else ""
         if use.defined != key:
@@ -296,12 +297,6 @@ def _in_algebra(x: Any, g: Group) -> bool:
         return bool(q.trace(x) == 0)
     rows = tuple(q.flatten(e) for e in g.linear_basis)
     return q.rank((*rows, q.flatten(x))) == len(rows)
-
-
-def type_text(type_: Type) -> str:
-    """A type as text for a message, cut to a length."""
-    words = type_ if isinstance(type_, str) else f"[{', '.join(map(str, type_))}]"
-    return f"{words:.60}"
 
 
 def _list(words: Iterable[str]) -> str:

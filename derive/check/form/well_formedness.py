@@ -223,19 +223,13 @@ def unexplained(steps: Iterable[Step], primitive: Collection[str] = PRIMITIVE) -
     known = set(primitive)
     for step in steps:
         here = {"λ"} if any("λ" in names(e.rhs) for e in step.given) else set()
-        used = dict.fromkeys(x for t in _hypothesis_trees(step) for x in names(t))
+        told = (*(x for e in step.given for x in (e.lhs, e.rhs)), *(x.of for x in step.hypotheses))
+        used = dict.fromkeys(x for t in told for x in names(t))
         for equation in step.equations:
             known |= introduced(equation, known)
             for side in (equation.lhs, equation.rhs):
                 used |= dict.fromkeys(names(side))
         yield next((x for x in used if x not in known | here), "")
-
-
-def _hypothesis_trees(step: Step) -> Iterator[Tree]:
-    """The trees of a step's hypotheses: of what is given, and of what properties are supposed."""
-    for e in step.given:
-        yield from (e.lhs, e.rhs)
-    yield from (x.of for x in step.hypotheses)
 
 
 Usage = tuple[str, str]

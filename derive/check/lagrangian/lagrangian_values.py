@@ -155,7 +155,9 @@ def _families(model: LagrangianModel) -> dict[str, dict[tuple[int, ...], Any]]:
     found: dict[str, dict[tuple[int, ...], Any]] = {
         name: {(a,): x for a, x in enumerate(xs, 1)} for name, xs in members.items()
     }
-    return found | _reduced_families(model)
+    listed = here(model).momenta() if model.symmetries else []
+    momenta: dict[tuple[int, ...], Any] = {(i,): part(x, 0) for i, x in enumerate(listed, 1)}
+    return found | ({"𝒥": momenta} if momenta else {})
 
 
 def _functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
@@ -299,13 +301,6 @@ def values(model: LagrangianModel) -> dict[str, Any]:
         "𝒱": part(model.energy(model.t, model.g, q.minus(model.Z, Z)), 0),
         "ℛ": part(model.lagrangian(model.t, model.g, model.Z) - spent, 0),
     }
-
-
-def _reduced_families(model: LagrangianModel) -> dict[str, dict[tuple[int, ...], Any]]:
-    """𝒥_i."""
-    listed = here(model).momenta() if model.symmetries else []
-    found: dict[tuple[int, ...], Any] = {(i,): part(x, 0) for i, x in enumerate(listed, 1)}
-    return {"𝒥": found} if found else {}
 
 
 def functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:

@@ -155,13 +155,8 @@ class DiscreteModel(Model):
     @cached_property
     def central(self) -> Matrix:
         """The moments of the body about its centre of mass, or the origin of a linear action."""
-        arms = self.places_about_centre
+        arms = self.images(self.about_centre(q.identity(self.n)))
         return outer_sum(scaled_each(self.masses, arms), arms)
-
-    @cached_property
-    def places_about_centre(self) -> list[Any]:
-        """The places of the points in the body, about its centre of mass or a fixed point."""
-        return self.images(self.about_centre(q.identity(self.n)))
 
     @cached_property
     def free_motion(self) -> Matrix:

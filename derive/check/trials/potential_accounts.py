@@ -327,14 +327,9 @@ def _spring_ends(model: Body, members: Sequence[Data]) -> Iterator[tuple[Fractio
 def torsion_energy(at: PotentialData, p: Data, r: Places, _masses: Masses) -> Any:
     """By the cosines of the axes with where they rest."""
     _, axes = at.body_axes(r)
-    cosines = [q.dot(x, y) for x, y in zip(axes, _rest_axes(at, p), strict=True)]
+    R = tuple(at.vector(row) for row in p["rest"]) or q.identity(at.env.size)
+    cosines = [q.dot(x, y) for x, y in zip(axes, q.transposed(R), strict=True)]
     return at.number(p["stiffness"]) * (len(axes) - sum(cosines, Fraction(0))) * Fraction(1, 2)
-
-
-def _rest_axes(at: PotentialData, p: Data) -> list[Vector]:
-    """Where the axes rest, the columns of R."""
-    rows = tuple(at.vector(row) for row in p["rest"]) or q.identity(at.env.size)
-    return [*q.transposed(rows)]
 
 
 def torsion_values(model: Body, members: Sequence[Data]) -> dict[str, Any]:
