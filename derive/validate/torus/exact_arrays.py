@@ -46,10 +46,10 @@ class ExactNumber(RingElement):
             raise CodeError("a division by 0, or by what is not real")
         return self * pow(x.re, -1, self.library.p)
 
-    def __rtruediv__(self, other: Any) -> ExactNumber:
+    def __rtruediv__(self, other: Any) -> Any:
         return self.library.number(other) / self
 
-    def __pow__(self, n: int) -> ExactNumber:
+    def __pow__(self, n: int) -> Any:
         if n != 2:
             raise CodeError(f"the power {n}")
         return self * self

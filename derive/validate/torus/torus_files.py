@@ -5,8 +5,7 @@ The record's own sums over the lattice are evaluated there, for every point of t
 read, loops and all; Python, which must be what is emitted, word for word, is run with exact arrays.
 
 The decimals of a file are residues: cosines, sines and what they are multiplied by.  A decimal that
-is the double next to one of these irrational numbers stands for it; any other for itself.  The
-numbers are computed here in whole numbers of SCALE, by Machin's formula and by Taylor's series.
+is the double next to one of these irrational numbers stands for it; any other for itself.
 """
 
 from __future__ import annotations
@@ -27,6 +26,7 @@ from ...check.values.arithmetic import EvaluationError
 from ...check.values.evaluate import evaluate
 from ...check.values.residue import Residue
 from ...language import rational as q
+from ...language.intervals import function, pi
 from ...record.as_json import to_json
 from ...record.record import Derivation
 from ..compare import SIZE, Agreement
@@ -39,34 +39,13 @@ from .loop_reader import LoopReader
 from .loops_of_languages import CLoopReader, JuliaLoopReader
 from .run_loops import Cells, Loops
 
-SCALE = 1 << 200
 TABLE = 9
 """The largest N of which a file may have a table of the terms, with products as decimals."""
 
 
-def arctan_of_inverse(n: int) -> int:
-    """arctan 1/n."""
-    total, power, k = 0, SCALE // n, 1
-    while power:
-        total += power // k if k % 4 == 1 else -(power // k)
-        power, k = power // n**2, k + 2
-    return total
-
-
-PI = 4 * (4 * arctan_of_inverse(5) - arctan_of_inverse(239))
-
-
 def cosine(turns: Fraction) -> Fraction:
     """cos 2π·turns, within 1e-50."""
-    turns = (turns + Fraction(1, 2)) % 1 - Fraction(1, 2)
-    square = (2 * PI * turns.numerator // turns.denominator) ** 2 // SCALE
-    total = term = SCALE
-    k = 0
-    while term:
-        k += 2
-        term = -term * square // SCALE // (k * (k - 1)) if abs(term) > 1 else 0
-        total += term
-    return Fraction(total, SCALE)
+    return function("cos", pi() * (2 * (turns % 1))).middle
 
 
 class ExactNumbers:
@@ -82,17 +61,17 @@ class ExactNumbers:
         for x in given:
             self._add(x, self.residue(x))
         waves = model.elementary.waves
-        N, pi = model.torus.N, Fraction(PI, SCALE)
+        N, known = model.torus.N, pi().middle
         by_pi = self.residue(Fraction(1)) * pow(model.pi.n, -1, self.p)
         for k in range(N):
             self._add(cosine(Fraction(k, N)), int(waves["cos"][k]))
             self._add(cosine(Fraction(k, N) - Fraction(1, 4)), int(waves["sin"][k]))
-        self._add(1 / (4 * pi), by_pi * pow(4, -1, self.p))
+        self._add(1 / (4 * known), by_pi * pow(4, -1, self.p))
         for weight in weights(model.torus) if N <= TABLE else ():
             for k in range(1, N):
                 size = weight * Fraction(N, 2)
                 sine = cosine(Fraction(k, N) - Fraction(1, 4))
-                self._add(size * sine / pi, self.residue(size) * int(waves["sin"][k]) * by_pi)
+                self._add(size * sine / known, self.residue(size) * int(waves["sin"][k]) * by_pi)
 
     def residue(self, x: Fraction) -> int:
         """Of a fraction."""
