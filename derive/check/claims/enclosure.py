@@ -104,8 +104,8 @@ def enclosure_of(step: Step) -> Enclosure:
     *levels, energy = (e.rhs for e in step.equations)
     trees = (*levels, energy)
     seen = {x for t in trees for x in nodes(t) if isinstance(x, tuple) and x[:2] in VARIABLES}
-    centre = {x: _centre(x, trees) for x in sorted(seen, key=str)}
-    names = [*centre, *(f"δ{j}" for j, _ in enumerate(levels))]
+    centre: dict[Tree, Fraction] = {x: _centre(x, trees) for x in sorted(seen, key=str)}
+    names: list[Tree] = [*centre, *(f"δ{j}" for j, _ in enumerate(levels))]
     if len(names) > SIZE:
         raise ValueError(f"{len(names)} variables and multipliers; at most {SIZE}")
     function = polynomial(energy, centre)
@@ -298,7 +298,8 @@ def grows(system: ReducedSystem, step: Step) -> bool:
     found = enclosed(system, step)
     several, n = len(step.equations) - 1, len(system.variables)
     point = ClaimedEquilibrium(system, found.centre)
-    box = [Interval.about(Fraction(x), found.least) for x in point.at]
+    centre, radius = found.centre, found.least
+    box = [Interval.about(centre.get(x, Fraction(0)), radius) for x in system.variables]
     off = [[Fraction(0)] * n for _ in box]
     for (i, j), x in system.tensor.at(box).items():
         off[i][j] = Interval.of(x - point.tensor[i][j]).size
