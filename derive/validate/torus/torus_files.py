@@ -34,10 +34,9 @@ from ..read_file import LANGUAGES, Beside, unread_text, words
 from ..straight_line import Measured
 from ..syntax import SYNTAX, tokens
 from ..terms import CodeError, DiffersError
-from .exact_arrays import ExactLibrary
 from .loop_reader import LoopReader
 from .loops_of_languages import CLoopReader, JuliaLoopReader
-from .run_loops import Cells, Loops
+from .run_loops import Cells, ExactLibrary, Loops
 
 TABLE = 9
 """The largest N of which a file may have a table of the terms, with products as decimals."""
