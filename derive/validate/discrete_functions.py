@@ -241,13 +241,7 @@ class DiscreteFunctions(FunctionsCalled):
         """The basis; or the turns about the three axes through the centre of mass."""
         if self._on_basis:
             return [*self.chart.group.basis]
-        return [self._about_centre(hat(q.column(e))) for e in q.identity(3)]
-
-    def _about_centre(self, turn: Matrix) -> Matrix:
-        if not self.chart.group.affine:
-            return turn
-        shift = q.scaled(Fraction(-1), q.times(turn, self._centre))
-        return q.bordered(turn, shift, Fraction(0))
+        return [self._model.about_centre(hat(q.column(e))) for e in q.identity(3)]
 
     @cached_property
     def _centre(self) -> Matrix:

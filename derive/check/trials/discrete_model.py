@@ -144,14 +144,6 @@ class DiscreteModel(Model):
         xi = self.solved(self.damped_metric, covector)
         return q.plus(start, q.times(self.g, self.as_letter(xi)))
 
-    def about_centre(self, x: Matrix) -> Matrix:
-        """A displacement of the body with the linear part x that leaves its centre of mass where it
-        is, or the origin of a linear action."""
-        if not self.group.affine:
-            return x
-        m, c, _ = self.moments
-        return q.bordered(x, q.scaled(-1 / m, q.times(x, c)), Fraction(0))
-
     @cached_property
     def central(self) -> Matrix:
         """The moments of the body about its centre of mass, or the origin of a linear action."""

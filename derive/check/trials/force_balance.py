@@ -130,12 +130,8 @@ class ForceBalance:
             return [q.times(e, back) for e in self.group.basis]
         if not self.group.free_translations:
             return list(self.group.basis)
-        found = []
-        for e in self.group.basis[:count]:
-            linear = self.group.linear_part(e)
-            shift = q.times(linear, q.column(self.centre))
-            found.append(q.bordered(linear, q.scaled(-1, shift), Fraction(0)))
-        return found
+        linear = map(self.group.linear_part, self.group.basis[:count])
+        return [*map(self.model.about_centre, linear)]
 
     def moment_in_body(self, vectors: list[Vector]) -> Matrix:
         """Ā Σ v_i ρ̄_i, the moment in the body of vectors v_i in space with the arms ρ_i."""

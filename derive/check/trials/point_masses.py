@@ -181,6 +181,14 @@ class Body(Draws):
         """The number 1 for each point, as a vector."""
         return [(Fraction(1),)] * len(self.points)
 
+    def about_centre(self, x: Matrix) -> Matrix:
+        """A displacement of the body with the linear part x that leaves its centre of mass where it
+        is, or the origin of a linear action."""
+        if not self.group.affine:
+            return x
+        m, c, _ = self.moments
+        return q.bordered(x, q.scaled(-1 / m, q.times(x, c)), Fraction(0))
+
     def homogeneous(self, r: Vector) -> Matrix:
         """A place as a column: r, or (r, 1) for an affine action."""
         return q.column((*r, Fraction(1)) if self.group.affine else r)
