@@ -297,8 +297,7 @@ def _fields(
         "generated": generated,
         "short": asked.short,
         "parameters": parameters,
-        "parameter_names": [x[0] for x in p.parameters],
-        "lists": _lists(p),
+        **_lists(p),
         "defaults": [(x[0], repr(x[1])) for x in p.parameters if x[1] is not None],
         "affine": p.translates,
         "heading": [*generated, "", *heading(p, language, parameters, cost)],
@@ -326,18 +325,19 @@ def _fields(
     return fields
 
 
-def _lists(p: Program) -> list[tuple[str, Sequence[str]]]:
-    """The lists of names of a file, those of state, parameters and inputs also where they are
-    empty."""
+def _lists(p: Program) -> dict[str, Sequence[Any]]:
+    """The names of parameters, and the lists of names of a file, those of state, parameters and
+    inputs also where they are empty."""
     own, events = [x[0] for x in p.parameters], [x.name for x in p.events]
     further = {"CONSERVED": p.conserved, "OUTPUTS": p.outputs, "EVENTS": events}
-    return [
+    lists = [
         ("STATE", p.state),
         *([("STATE_BY_BLOCK", p.state_by_block)] if p.state_by_block else ()),
         ("PARAMETERS", own),
         ("INPUTS", p.inputs),
         *((x, names) for x, names in further.items() if names),
     ]
+    return {"parameter_names": own, "lists": lists}
 
 
 NEWTON_STEPS, SMALL_CHANGE = 60, {"double": 1e-10, "float": 1e-4}
