@@ -373,7 +373,7 @@ def test_a_spiral_away_from_a_leaf_is_unstable():
 
 def test_coefficients_are_within_their_bounds():
     random = np.random.default_rng(2)
-    for size in (0.01, 0.3):
+    for size in (1e-6, 0.3):
         a = random.integers(-5, 6, size=(4, 4))
         off = Fraction(size)
         bounds = intervals.characteristic(
