@@ -289,7 +289,7 @@ def _fields(
         "heading": [*generated, "", *heading(p, language, parameters, cost)],
         "functions": known,
         "framing": _framing(p, written, sizes),
-        **{x: getattr(p, x) for x in ("varied", "asks_for_zero", "momentum_range")},
+        **{x: getattr(p, x) for x in ("literal", "asks_for_zero", "momentum_range")},
         "calls": sorted({"sqrt" if is_integral(x) else x for x in called}),
         "integrals": integrals(written, language, prefix, [x for x in BUNDLES if x in called]),
         "tolerance": printer.number(Fraction(TOLERANCE[real])),
