@@ -330,7 +330,7 @@ class Native(Library):
         watched = self.sizes.get("EVENTS", 0) > 0
         kinds = {"watched": watched, "driven": self.sizes["INPUTS"] > 0}
         made = write(self.name, real, self.calls, found, **kinds, more=self.more)
-        made = made.replace("@varied@", str(self.sizes["VARIATIONS"]))
+        made = made.replace("@varied@", str(self.sizes["VARIATIONS"] or 1))
         return made, OPTIMISED[self.language] if found else ()
 
     def of_c(self):
