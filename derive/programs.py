@@ -10,6 +10,7 @@ from .language.limits import Refused
 from .language.reserved import did_you_mean, near_name
 from .pipeline import discrete, lagrangian_road, walk
 from .problem.fields import state_names
+from .problem.lagrangian_tables import quotient_of
 from .problem.principal import principal
 from .problem.problem import Problem, ProblemError
 from .record.record import Derivation
@@ -161,6 +162,11 @@ def untrimmed(problem: Problem) -> str:
             f"a trim is by linearised equations of g and its velocity, and this state has the mass "
             f"{mass}, too; leave out its [[flow]], and give what it pushes as an [[input]]"
         )
+    if problem.lagrangian and problem.lagrangian.held:
+        return (
+            "a trim is by linearised equations of all of g, and this motion is one on a quotient "
+            "of the group; derive equilibria may tell what is steady"
+        )
     if problem.advected is not None:
         return (
             "a trim is at an element of a group, and equations on an algebra alone have none; "
@@ -215,6 +221,7 @@ def program(
             events=events,
             discrete=stepped,
             forces=problem.force_tables,
+            null=quotient.directions if (quotient := quotient_of(problem)) else (),
         )
         return replace(made, weightless=(*more,))
     return assemble(record, group, options, walk(principal(problem)))

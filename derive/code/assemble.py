@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from itertools import zip_longest
 from typing import Any
 
@@ -34,10 +36,10 @@ from .schedule import (
     by_state,
     frontier,
     leaf_places,
+    symmetries,
     variations,
 )
-from .state import StateSpace
-from .state_forms import FROM_MATRIX, LABELS, matrix_state, state_of, varies
+from .state_forms import FROM_MATRIX, LABELS, matrix_state, of_variations, state_of
 from .step.discrete_step import STEPPING, Lowered, lowered
 from .watched_functions import (
     EmittedEvent,
@@ -76,17 +78,18 @@ def assemble(
     events: Sequence[EmittedEvent] = (),
     discrete: Derivation | None = None,
     forces: Sequence[Mapping[str, Any]] = (),
+    null: Sequence[Sequence[Fraction]] = (),
 ) -> Program:
     """The program of a record; ``LoweringError`` when the record has no solved equations.
 
-    ``framed``: the record of the problem in its principal frame, if the code is to be in that.
-    ``kept``: what the motion keeps, by names, as :mod:`derive.code.watched_functions` takes it.
-    ``events``: what is watched on a motion. ``discrete``: its record, where its step is wanted.
-    ``forces``: of forces of the state the ``table`` of the file and the ``wind``, for comments.
+    ``framed``: the record in the principal frame, if that is asked for; ``kept``: what the motion
+    keeps, as :mod:`derive.code.watched_functions` takes it; ``events``: what is watched;
+    ``forces``: their ``table`` and ``wind`` in the file; ``null``: directions of a quotient's 𝔥.
     """
     chosen = options or Options()
     require_written(d, group, chosen)
     lowering = Lowering(framed or d, group, chosen)
+    lowering.reader.space.null = null
     frame = _frame(framed, Lowering(d, group, chosen, lowering.graph)) if framed else None
     wanted, momenta, stepped = _of_state(lowering, chosen, kept or {}, events, discrete)
     if frame:
@@ -96,9 +99,9 @@ def assemble(
     checks += frame.regular if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
     parameters = _used_parameters(d, found, chosen)
-    given = wanted, checks, parameters, frame, momenta, stepped
+    given = lowering, chosen, wanted, checks, parameters, frame, momenta, stepped
+    functions, constants, framing = _functions(*given)
     said = _said(d, forces)
-    functions, constants, framing = _functions(lowering, chosen, *given)
     return Program(
         d.name,
         str(d.problem.get("title", "")),
@@ -123,9 +126,8 @@ def assemble(
         table(events),
         _invariants_of_gauss(lowering, chosen, functions, len(parameters), tuple(kept or ())),
         *((momenta.names, momenta.size) if momenta else ((), 0)),
-        mass_fault=lowering.inverses.mass_fault,
         discrete=stepped.step if stepped else None,
-        **_further(d, said, lowering.reader.space, chosen),
+        **_further(d, said, lowering, chosen),
     )
 
 
@@ -143,28 +145,26 @@ def _said(d: Derivation, forces: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def _told_besides(lowering: Lowering, chosen: Options) -> list[str]:
-    """What a header says of what is not tested, and of derivatives of a state that has masses."""
+    """What a header says of what is not tested, and of variations."""
     found = [*(LOCAL * lowering.inverses.local + UNTESTED * lowering.inverses.untested)]
-    own = lowering.reader.space.stored
-    if own and chosen.varied:
-        added = ", ".join(f"delta {x}" for x in own)
-        found.append(
-            f"In derivatives (eta, delta zeta) is followed by {added}, and 2N is 2N + {len(own)}."
-        )
-    return found
+    return found + textwrap.wrap(of_variations(lowering.reader.space), 90) * bool(chosen.varied)
 
 
 def _further(
-    d: Derivation, said: Mapping[str, Any], space: StateSpace, chosen: Options
+    d: Derivation, said: Mapping[str, Any], lowering: Lowering, chosen: Options
 ) -> dict[str, Any]:
     """What the program says of outputs, of matrices in a state or beside its charts, and of the
     group."""
+    space = lowering.reader.space
     door = matrix_state(space)
     plain = state_of(d.problem, space.graph, space.standard, replace(chosen, attitude="matrix"))
     names, known = tuple(space.names), names_by_block(space.group)
     by_block = tuple(known.get(x, x) for x in names)
     return {
+        "mass_fault": lowering.inverses.mass_fault,
         "masses": tuple(space.stored),
+        "varied": len(space.variations()) if chosen.varied or chosen.exponential else 0,
+        "symmetries": len(space.null),
         "outputs": output_names(d),
         "state_by_block": by_block if by_block != names else (),
         "kinks": kinks(said, space.group) if chosen.jacobian else {},
@@ -270,8 +270,8 @@ def _functions(
         functions[name] = scheduler.function(nodes, places)
     functions["rhs"] = replace(functions["rhs"], titles=titles(lowering.reader))
     if "parameters" in options.jacobian:
-        second = [*space.velocity(lowering.reader.component), *_lost(lowering.reader)]
-        slopes = factored(lowering.graph, by_leaves(space, second, leaves))
+        slopes = by_leaves(space, _second(lowering.reader), leaves)
+        slopes = factored(lowering.graph, slopes)
         functions["jacobian_parameters"] = scheduler.function(slopes, moving | from_p)
     framing = _framing(frame, scheduler, from_p, numbers) if frame else None
     for name, nodes in drift(space, slopes="step" in options.jacobian).items():
@@ -322,14 +322,12 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
     space = reader.space
     try:
         rates = space.rates(reader.vector, reader.component, in_space=reader.in_space)
-        rates += (lost := _lost(reader))
+        rates += _lost(reader)
         lowering.inverses.require_regular()
         energy, tensor = reader.number("h̃"), _inertia(reader)
         *rates, energy = factored(graph, [*rates, energy])
         found = {"rhs": rates, "energy": [energy]}
-        second: list[Node] = []
-        if options.varied and varies(lowering.record.problem):
-            second = [*space.velocity(reader.component), *lost]
+        second = _second(reader) if options.varied else []
         if "state" in options.jacobian:
             # after the rates, with which it shares much
             found["jacobian"] = factored(graph, [*rates, *by_state(space, second)])
@@ -344,7 +342,8 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
                 slopes = by_numbers(graph, rates, leaves)
                 found["jacobian_raw_inputs"] = factored(graph, slopes)
             numbers = [reader.leaf(x, "state") for x in space.names]
-            found["variations"] = [v.of(x) for x in numbers for v in variations(space)]
+            moves = [*variations(space), *symmetries(space)]
+            found["variations"] = [v.of(x) for x in numbers for v in moves]
     except ZeroDivisionError:
         raise LoweringError(
             f"{lowering.record.name}: a division by zero, or a mass matrix that is singular "
@@ -353,6 +352,15 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
             * lowering.inverses.definite
         ) from None
     return found | tensor
+
+
+def _second(reader: RecordReader) -> list[Node]:
+    """The rates of which linearised equations have the derivatives: those of the velocity and of
+    masses; where there is no element of the group, all."""
+    space = reader.space
+    if not space.has_element:
+        return space.rates(reader.vector, reader.component)
+    return [*space.velocity(reader.component), *_lost(reader)]
 
 
 def _lost(reader: RecordReader) -> list[Node]:

@@ -9,7 +9,6 @@ import io
 import json
 import math
 import re
-import textwrap
 import zipfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -236,7 +235,7 @@ def _rendered(
 ) -> dict[str, str]:
     """File name → text, of one language; ``places``: file name → template."""
     templates, fields = environment(language.name), _fields(p, d, asked, language)
-    templates.globals |= {"lines": lines, "sections": sections, "told": told}
+    templates.globals |= {"lines": lines, "sections": sections}
     return {file: templates.get_template(x).render(fields) for file, x in places.items()}
 
 
@@ -248,19 +247,6 @@ def lines(found: Iterable[str]) -> str:
 def sections(f: Mapping[str, Any]) -> str:
     """Those of the sections of a function, an empty line before each."""
     return "".join("\n" + lines(s["comment"] + s["statements"]) for s in f["sections"])
-
-
-def told(f: Mapping[str, Any], begin: str, size: str = "", beside: str = "") -> str:
-    """The comment of a function, in lines that begin so; ``size``: a pattern of the names of sizes,
-    where a language has such; ``beside``: what is said with one that is of variations."""
-    doc: str = f["doc"]
-    if "D@" not in doc:
-        return f"{begin}{doc[0].upper()}{doc[1:]}."
-    names = [size.format(x if size[:1].isupper() else x.lower()) for x in f["writes"][-1].sizes]
-    names = ["2N" if x.lower() == "n_variations" else x for x in names]
-    of = " x ".join(names if size else map(str, (f["rows"], f["counts"]["D"] // f["rows"])))
-    text = doc.replace("D@", f"D ({of} by rows{beside * ('2N' in names)}):") + "."
-    return textwrap.fill(text, 100, initial_indent=begin, subsequent_indent=begin)
 
 
 def _fields(
@@ -303,7 +289,7 @@ def _fields(
         "heading": [*generated, "", *heading(p, language, parameters, cost)],
         "functions": known,
         "framing": _framing(p, written, sizes),
-        **{x: getattr(p, x) for x in ("varied", "asks_for_zero", "momentum_range")},
+        **{x: getattr(p, x) for x in ("literal", "asks_for_zero", "momentum_range")},
         "calls": sorted({"sqrt" if is_integral(x) else x for x in called}),
         "integrals": integrals(written, language, prefix, [x for x in BUNDLES if x in called]),
         "tolerance": printer.number(Fraction(TOLERANCE[real])),

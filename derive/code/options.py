@@ -80,7 +80,7 @@ class Options:
 
     @property
     def varied(self) -> tuple[str, ...]:
-        """What the equations are linearised in for variations of an element of the group."""
+        """What the equations are linearised in for variations of the state."""
         return tuple(x for x in self.jacobian if x != "raw")
 
     @property

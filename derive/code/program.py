@@ -274,11 +274,15 @@ class Program:
     """May the derivatives of a force jump?"""
     group_functions: Any = None
     """What the functions of the group know (``group_functions.GroupFunctions``), if asked for."""
+    varied: int = 0
+    """How many numbers a variation of the state has."""
+    symmetries: int = 0
+    """Those of a quotient, modulo which that is one."""
 
     @property
-    def varied(self) -> int:
-        """How many numbers a variation of the state has: eta, delta zeta, masses."""
-        return 2 * self.dimension + len(self.masses)
+    def literal(self) -> dict[str, int]:
+        """Sizes that files have as numbers: of a variation, and with symmetries beside it."""
+        return {"VARIATIONS": self.varied, "MOVES": self.varied + self.symmetries}
 
     @property
     def by_block(self) -> dict[str, str]:

@@ -114,7 +114,8 @@ def require_options(d: Derivation, chosen: Options, where: str, *written: str) -
 def require_written(d: Derivation, group: Group, chosen: Options) -> None:
     """``LoweringError`` for options that exclude one another or the group, and for a Jacobian of
     more entries than compilers manage."""
-    rows = 2 * group.dimension
+    own = d.problem.get("advected")
+    rows = group.dimension * (1 if own is not None else 2) + sum(x["size"] for x in own or ())
     columns = {
         "state": (rows, SLOPES),
         "parameters": (len(d.problem["parameters"]), SLOPES_BY_PARAMETERS),
@@ -192,20 +193,17 @@ def _refused_forms(d: Derivation, group: Group, chosen: Options) -> None:
     charts = factor_charts(group, chosen.attitude).values() if right else ()
     tangent = (chosen.velocity == "tangent", "--velocity tangent")
     attitude = f"--attitude {chosen.attitude}"
-    # with raw, outputs have what they have of x and of the inputs
-    along = [x for x in chosen.varied if x != "outputs" or "raw" not in chosen.jacobian]
-    varied = (along, f"--jacobian {' '.join(along)}")
     of_element = (chosen.attitude != "matrix", attitude), (chosen.layout == "col", "--layout col")
     forms: tuple[tuple[object, str, tuple[tuple[object, str], ...]], ...] = (
         (
             "advected" in d.problem,
             "a state with an element of the group, and [algebra] has none",
-            (tangent, *of_element, (chosen.state == "moving", "--state moving"), varied),
+            (tangent, *of_element, (chosen.state == "moving", "--state moving")),
         ),
         (
             lagrangian.get("held"),
             "motions on the whole group, and these are on a quotient of it",
-            (tangent, varied),
+            (tangent,),
         ),
         (
             right,

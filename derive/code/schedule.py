@@ -228,7 +228,7 @@ def _weight(x: Node) -> int:
 # η̇ = δζ − [Z, η], δζ̇ = ∂ζ̇/∂η η + ∂ζ̇/∂ζ δζ,
 #
 # on the right, with δg = η g, η̇ = δζ + [Z, η]; and the same with inputs and parameters in place
-# of η, δζ.
+# of η, δζ.  Where there is no g a variation is what its numbers change by.
 
 
 class Directional:
@@ -301,27 +301,60 @@ def _is_square(x: Node) -> bool:
     return x.op == "mul" and all(x.args.count(y) % 2 == 0 for y in x.args)
 
 
-def by_state(space: StateSpace, accelerations: list[Node]) -> list[Node]:
-    """The matrix, 2N × 2N by rows, of (η, δζ) ↦ (η̇, δζ̇); ``accelerations``: ζ̇ (and ẇ).  After
-    δζ stands what is added to masses of the state, after the accelerations their rates."""
-    g, d = space.graph, space.group.dimension
-    span, zeros = range(d), [g.num(0)] * len(space.stored)
-    rows = [
-        [*(x if space.right else -x for x in row), *(g.num(int(a == b)) for b in span), *zeros]
-        for a, row in enumerate(_adjoint(space))
+def by_state(space: StateSpace, second: list[Node]) -> list[Node]:
+    """The matrix, by rows, of V ↦ V̇ for variations V of the state; ``second``: the rates of what is
+    varied after η, ζ̇ (and ẇ), masses, or all numbers where there is no η.
+
+    On a quotient V stands for all variations that differ from it by symmetries: what η̇ has along
+    them is taken away with the δζ that belongs to it.
+    """
+    g, free, masses = space.graph, space.free, len(space.stored)
+    turning = [
+        [*(row[b] if space.right else -row[b] for b in free)]
+        + [g.num(int(a == b)) for b in free]
+        + [g.num(0)] * masses
+        for a, row in enumerate(_adjoint(space) if free else ())
     ]
     varied = variations(space)
-    rows += [[v.of(x) for v in varied] for x in accelerations]
+    rows = [turning[a] for a in free] + [[v.of(x) for v in varied] for x in second]
+    for k, (n, moved) in zip(space.held, carried(space), strict=True):
+        own = [g.num(n[a]) for a in free] + [moved[a] for a in free]
+        rows = [
+            [x - y * along for x, along in zip(row, turning[k - 1], strict=True)]
+            for row, y in zip(rows, own, strict=True)
+        ]
     return [x for row in rows for x in row]
 
 
 def variations(space: StateSpace) -> list[Directional]:
-    """The derivatives along η, then along δζ, on the basis, 2N of them, and by masses of the
-    state."""
-    g, span = space.graph, range(space.group.dimension)
-    turned = [Directional(g, space.along(a), f"eta_{a + 1}") for a in span]
-    masses = [Directional(g, {leaf: g.num(1)}, name) for name, leaf in space.stored.items()]
-    return turned + of_velocity(space) + masses
+    """The derivatives along a basis of the variations of the state."""
+    return [Directional(space.graph, seeds, name) for name, seeds in space.variations().items()]
+
+
+def carried(space: StateSpace) -> list[tuple[Sequence[Fraction], list[Node]]]:
+    """Of each symmetry of a quotient its η = n, constant, and its δζ = [ζ, n], on the right
+    [n, ζ], as far as it is not along symmetries, where ζ is held."""
+    g, ad, found = space.graph, _adjoint(space) if space.null else [], []
+    for n in space.null:
+        side = -1 if space.right else 1
+        moved = [g.linear((side * n[b], x) for b, x in enumerate(row) if n[b]) for row in ad]
+        along = [(moved[k - 1], m) for k, m in zip(space.held, space.null, strict=True)]
+        found.append(
+            (n, [g.sum([y, *(x * -m[a] for x, m in along if m[a])]) for a, y in enumerate(moved)])
+        )
+    return found
+
+
+def symmetries(space: StateSpace) -> list[Directional]:
+    """The derivatives along these."""
+    g, found = space.graph, []
+    for n, moved in carried(space):
+        seeds: dict[Node, list[Node]] = {space.coordinates[a]: [moved[a]] for a in space.free}
+        for a, x in enumerate(n):
+            for leaf, y in space.along(a).items() if x else ():
+                seeds.setdefault(leaf, []).append(y * x)
+        found.append(Directional(g, {x: g.sum(y) for x, y in seeds.items()}, "symmetry"))
+    return found
 
 
 def of_velocity(space: StateSpace) -> list[Directional]:
@@ -330,12 +363,10 @@ def of_velocity(space: StateSpace) -> list[Directional]:
     return [Directional(g, space.faster(a), f"zeta_{a + 1}") for a in span]
 
 
-def by_leaves(space: StateSpace, accelerations: list[Node], leaves: Sequence[Node]) -> list[Node]:
-    """∂(η̇, ζ̇)/∂leaves, for inputs or parameters: 2N × len(leaves) by rows, the first N 0."""
-    g, d = space.graph, space.group.dimension
-    varied = [Directional(g, {x: g.num(1)}, str(x.data[1])) for x in leaves]
-    zeros = [g.num(0)] * (d * len(leaves))
-    return zeros + [v.of(x) for x in accelerations for v in varied]
+def by_leaves(space: StateSpace, second: list[Node], leaves: Sequence[Node]) -> list[Node]:
+    """∂V̇/∂leaves by rows, for inputs or parameters: 0 for η, then those of ``by_state``."""
+    zeros = [space.graph.num(0)] * (len(space.free) * len(leaves))
+    return zeros + by_numbers(space.graph, second, leaves)
 
 
 def by_numbers(graph: Graph, rates: list[Node], state: Sequence[Node]) -> list[Node]:

@@ -3,7 +3,7 @@
 Every language loops over them.  Arrays are x, the state; k, the constants; p, the parameters; u,
 the inputs; y, the state with momenta in place of the velocity; z, that with matrices in place of
 quaternions and angles; dx and dy, the rates; dzeta, rates of the velocity, and Q, a covector, of N
-numbers each; D, a matrix by rows: 2N × 2N, or with a column for each input or parameter, N the
+numbers each; D, a matrix by rows: of variations V of a state, of inputs, parameters, N the
 dimension of the group; out, of the size of what is taken, or as its function says; of a discrete
 step q, h times its momentum, then h, v, its unknowns, b, what is computed before these, and s,
 coordinates of what it turns by.
@@ -81,21 +81,20 @@ into_frame(x, k) -> out[STATE]: the state x taken from {given} to {principal}
 out_of_frame(x, k) -> out[STATE]: the state x taken from {principal} to {given}
 inputs_into_frame(u, k) -> out[INPUTS]: the inputs u taken from {given} to {principal}
 inputs_out_of_frame(u, k) -> out[INPUTS]: the inputs u taken from {principal} to {given}
-jacobian(t, x, k, u) -> dx, D[VARIATIONS VARIATIONS]: dx/dt, and D@ d/dt (eta, delta zeta) = D (eta,
-    delta zeta) for variations delta g = {variation} of the group element and delta zeta of the
-    velocity, in the basis above
-jacobian_inputs(t, x, k, u) -> D[VARIATIONS INPUTS]: D@ the derivative of the rates of (eta, delta
-    zeta) by the inputs u
-jacobian_parameters(t, x, p, u) -> D[VARIATIONS PARAMETERS]: D@ the derivative of the rates of (eta,
-    delta zeta) by the parameters p
-jacobian_raw(t, x, k, u) -> D[STATE STATE]: D@ the derivative of dx/dt by x as it is stored
+jacobian(t, x, k, u) -> dx, D[VARIATIONS VARIATIONS]: dx/dt, and D, by rows: dV/dt = D V for the
+    variations V that the head of the file tells
+jacobian_inputs(t, x, k, u) -> D[VARIATIONS INPUTS]: the derivative of dV/dt by the inputs u, by
+    rows
+jacobian_parameters(t, x, p, u) -> D[VARIATIONS PARAMETERS]: the derivative of dV/dt by the
+    parameters p, which it takes, not k, by rows
+jacobian_raw(t, x, k, u) -> D[STATE STATE]: the derivative of dx/dt by x as it is stored, by rows,
+    on the group and off it
 jacobian_raw_inputs(t, x, k, u) -> D[STATE INPUTS]: the derivative of dx/dt by u, by rows
 jacobian_project(x) -> D[STATE STATE]: the derivative of what project gives by x as it is stored, by
     rows
-variations(x) -> D[STATE VARIATIONS]: what x, as it is stored, changes by along (eta, delta zeta),
-    by rows
-jacobian_outputs(t, x, k, u) -> D[OUTPUTS VARIATIONS]: the derivative of the outputs by (eta, delta
-    zeta), by rows
+variations(x) -> D[STATE MOVES]: what x, as it is stored, changes by along variations V, on a
+    quotient then along its symmetries, by rows
+jacobian_outputs(t, x, k, u) -> D[OUTPUTS VARIATIONS]: the derivative of the outputs by V, by rows
 jacobian_outputs_inputs(t, x, k, u) -> D[OUTPUTS INPUTS]: the derivative of the outputs by u, by
     rows
 jacobian_outputs_raw(t, x, k, u) -> D[OUTPUTS STATE]: the derivative of the outputs by x as it is
@@ -131,7 +130,7 @@ step_end(x, k, q, v) -> out[MOVED]: what a discrete step v adds to the element o
 inertia(p) -> I[6]: the tensor of inertia about the body's origin
 """
 """Each function, what it takes, what it writes with the sizes that are its own, and its doc, which
-goes on in indented lines; after ``D@`` a language says how large D is."""
+goes on in indented lines."""
 MORE: dict[str, dict[str, Any]] = {
     "rhs_batch": {"of": "rhs", "only": "c"},
     "project": {"in_place": True},
@@ -144,7 +143,7 @@ def _signature(text: str) -> Signature:
     """The signature that an entry of the table tells."""
     head, doc = " ".join(text.split()).split(": ", 1)
     name, takes, _, writes = re.split(r"[()]|(?: -> )", f"{head} -> ")[:4]
-    doc = doc.replace("{given}", GIVEN).replace("{principal}", PRINCIPAL)
+    doc = doc.format(given=GIVEN, principal=PRINCIPAL)
     return Signature(name, _arguments(takes), _arguments(writes), doc, **MORE.get(name, {}))
 
 
@@ -177,7 +176,7 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         "REDUCED": p.reduced,
         **(p.discrete.sizes if p.discrete else {}),
         "MATRIX": len(p.matrix_state),
-        "VARIATIONS": p.varied,
+        **p.literal,
         "6": 6,
     }
     bodies = {name: written.function(f) for name, f in p.functions.items()}
@@ -193,7 +192,7 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
 
     return {
         s.name: _function(s, f, sizes)
-        | {"kinks": kinks(s.name), "doc": s.doc.replace("{variation}", p.variation)}
+        | {"kinks": kinks(s.name)}
         | (told if s.name == "energy" else {})
         for s, f in found.items()
         if f and s.only in own

@@ -34,8 +34,10 @@ class StateSpace:
     """The numbers of a state: ``names`` in order; ``values``: A, T, ζ, w as nodes in them.
 
     ``right``: is Z = ġg⁻¹, and a variation δg = η g? ``held``: coordinates ζ_a, from 1, that are 0
-    and no numbers of the state.
+    and no numbers of the state; ``null``: of each the direction in 𝔤 that is a symmetry.
     """
+
+    null: Sequence[Sequence[Fraction]] = ()
 
     def __init__(
         self,
@@ -106,6 +108,18 @@ class StateSpace:
             "A": tuple(tuple(known.get(("A", i, j), num(0)) for j in span) for i in span),
             "T": tuple((known.get(("T", i, 0), num(0)),) for i in span),
         }
+
+    @property
+    def free(self) -> list[int]:
+        """The coordinates of variations η and δζ, from 0: those that are not held."""
+        return [a for a in range(self.group.dimension) if a + 1 not in self.held]
+
+    def variations(self) -> dict[str, Seeds]:
+        """Those of a basis, by what they are along: η, then δζ, then masses; on a quotient modulo
+        its symmetries."""
+        turned = {f"eta_{a + 1}": self.along(a) for a in self.free}
+        moved = {f"zeta_{a + 1}": self.faster(a) for a in self.free}
+        return turned | moved | {x: {y: self.graph.num(1)} for x, y in self.stored.items()}
 
     def along(self, a: int) -> Seeds:
         """The variation δg = g E_a, or E_a g, at constant ζ; a from 0."""

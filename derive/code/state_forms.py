@@ -13,7 +13,7 @@ from ..language.tree import Tree, add, mul, nodes, replaced, terms
 from .graph import Graph, Node
 from .options import Options
 from .slots import layout, of_rotation
-from .state import Component, Named, StateSpace
+from .state import Component, Named, Seeds, StateSpace
 
 # The state of a program without an element of the group: ζ, then what is carried along.
 
@@ -41,6 +41,15 @@ class ReducedSpace(StateSpace):
         """It has none."""
         return False
 
+    @property
+    def free(self) -> list[int]:
+        """There is no η."""
+        return []
+
+    def variations(self) -> dict[str, Seeds]:
+        """Its numbers are those of a vector space."""
+        return {x: {self.graph.leaf(x, "state"): self.graph.num(1)} for x in self.names}
+
     def velocity(self, component: Component) -> list[Node]:
         """The accelerations ζ̇."""
         return [component("ζ̇", a) for a in self._span(self.group.dimension)]
@@ -50,12 +59,6 @@ class ReducedSpace(StateSpace):
         del in_space
         carried = name("Γ̇") if self.values["Γ"] else ()
         return [*self.velocity(component), *(x for (x,) in carried)]
-
-
-def varies(problem: Mapping[str, Any]) -> bool:
-    """Has the state of a record's problem variations (η, δζ), of an element of the group that its
-    numbers tell, as it has not without one or on a quotient?"""
-    return "advected" not in problem and not problem.get("lagrangian", {}).get("held")
 
 
 def state_of(
@@ -69,6 +72,26 @@ def state_of(
     found = StateSpace(graph, group, options, right=right, held=held)
     found.store(stored_masses(problem))
     return found
+
+
+def of_variations(space: StateSpace) -> str:
+    """What variations V of a state are, as a sentence."""
+    count = len(space.variations())
+    if not space.has_element:
+        return f"A variation V of a state has {count} numbers: what those of x change by."
+    V = ", ".join(["eta", "delta zeta", *(f"delta {x}" for x in space.stored)])
+    told = (
+        f"A variation V = ({V}) of a state has {count} numbers: delta g = "
+        f"{'eta g' if space.right else 'g eta'}, eta in the basis below, and what is added to the "
+        f"velocity{' and to masses' * bool(space.stored)}"
+    )
+    if not space.null:
+        return f"{told}."
+    held = ", ".join(str(k) for k in space.held)
+    return (
+        f"{told}; number {held} is left out of both: the motion is one on a quotient of the group, "
+        "and V stands for all variations that differ from it by symmetries."
+    )
 
 
 # Points by their velocity in space, ν = gZ, with ν = (Ȧ, Ṫ).

@@ -29,7 +29,7 @@ from .options import Options
 from .program import LoweringError, Watched
 from .reader import matrix, scalar
 from .schedule import Directional, by_numbers, of_velocity, variations
-from .state_forms import BACK, IN_SPACE, has_velocity, in_space, state_of, varies
+from .state_forms import BACK, IN_SPACE, has_velocity, in_space, state_of
 
 RULE = "output"
 """That of the step which says the outputs."""
@@ -60,8 +60,7 @@ def outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
     graph, reader = lowering.graph, lowering.reader
     wanted = {"outputs": found}
     if "outputs" in options.jacobian:
-        if varies(lowering.record.problem):
-            wanted["jacobian_outputs"] = [v.of(x) for x in found for v in variations(reader.space)]
+        wanted["jacobian_outputs"] = [v.of(x) for x in found for v in variations(reader.space)]
         leaves = [reader.leaf(x, "input") for x in reader.inputs]
         if leaves:
             wanted["jacobian_outputs_inputs"] = by_numbers(graph, found, leaves)

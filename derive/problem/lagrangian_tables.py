@@ -238,8 +238,10 @@ def torus_problem(data: Mapping[str, Any], reader: FileReader) -> Problem:
     """The problem of a file; ``ProblemError`` for what else it says."""
     for key, value in data.items():
         if key not in KEYS and (key, value) != ("parameters", {}):
+            acts = key in ("input", "force", "damping")
             raise ProblemError(
                 f"key {key!r}: on the torus there are {', '.join(KEYS)} alone; leave it out"
+                + ", or for N = 3 give the brackets of an [algebra], on which covectors act" * acts
             )
     algebra = reader.typed(StatedTorus, data["algebra"], "algebra")
     if algebra.of != "torus":

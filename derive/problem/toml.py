@@ -191,7 +191,11 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
     """A fluid, which says all of its problem."""
     for key in data:
         if key not in ("name", "title", "fluid") and (key != "parameters" or data[key]):
-            raise ProblemError(f"key {key!r}: [fluid] says all of the problem; leave this out")
+            acts = key in ("input", "force", "damping", "potential")
+            raise ProblemError(
+                f"key {key!r}: [fluid] says all of the problem; leave this out"
+                + '; a force of the place is forces = "potential" there' * acts
+            )
     name = reader.name_of(data)
     if not isinstance(data["fluid"], dict):
         raise ProblemError("key 'fluid' must be a table [fluid]")
@@ -293,7 +297,8 @@ def _massive(problem: Problem, negative_mass: bool) -> None:
             f"{still} has no kinetic energy together with any motion: the metric of these masses, "
             "some of them negative, is degenerate at g = 1; change them"
             if negative_mass
-            else f"{still} moves no mass of this body: its motion is open; add masses"
+            else f"{still} moves no mass of this body: its motion is open; add masses, or where it "
+            "is a symmetry give L in a [lagrangian] instead, with forces at places beside it"
         )
     if moved and its_body and moved.free_translations and inertia.massless(its_body):
         raise ProblemError("body: its mass is 0, and it has no centre of mass; change the masses")

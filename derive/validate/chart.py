@@ -185,7 +185,7 @@ class StateChart:
         """The d coordinates of Ż = g⁻¹g̈ − Z² from the rates of the state; ``back``: g⁻¹."""
         rates = rates[: len(rates) - len(self.stored)]
         if self.chart.velocity == "body":
-            return rates[-self.group.dimension :]
+            return rates[len(self.held) - self.group.dimension :]
         second = self._matrix(rates[len(self.entries) :], len(Z))  # no chart beside ġ
         return self.group.nearest(q.minus(q.times(back, second), q.times(Z, Z)))
 

@@ -16,7 +16,8 @@ are those of ``rhs``, which has been found equal to the record, without inputs.
 
 The Jacobians are derivatives of what ``rhs`` computes, by nilpotent numbers.  A variation is δg =
 g η and δζ; η̇ = δζ − [Z, η], and δζ̇ is the derivative of the rates; on the right δg = η g and
-η̇ = δζ + [Z, η].
+η̇ = δζ + [Z, η].  On a quotient it is one modulo those of its symmetries, by which a state and its
+motion change as g exp(εn) does; without g what the numbers of a state change by.
 
 The momenta and the Poisson tensor are the checker's; their rates, the derivative of the emitted
 ``momentum`` along the emitted ``rhs``.  A step of Newton's method leaves the velocity alone where
@@ -28,6 +29,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from itertools import product
 from math import isqrt
 from typing import Any
@@ -190,24 +192,59 @@ class ExactJacobians:
     @property
     def columns(self) -> Mapping[str, Iterator[list[Fraction]]]:
         """Name of a Jacobian → the columns of its matrix D, computed one by one."""
+        moves = (*self._varied(), *(self._along(*x) for x in self.symmetries))
         return {
             "jacobian": self._state(),
             "jacobian_inputs": map(self._rates_column, self._beside("u")),
             "jacobian_parameters": map(self._rates_column, self._constants()),
             "jacobian_raw": map(slopes, map(self._rates, self._beside("x"))),
             "jacobian_raw_inputs": map(slopes, map(self._rates, self._beside("u"))),
-            "variations": map(slopes, self._varied()),
+            "variations": map(slopes, moves),
             "jacobian_outputs": (self._read({"x": x}) for x in self._varied()),
             "jacobian_outputs_inputs": map(self._read, self._beside("u")),
             "jacobian_outputs_raw": map(self._read, self._beside("x")),
         }
 
     def _varied(self) -> Iterator[Sequence[Any]]:
-        """The state, in nilpotent numbers, along η = E_a, then δζ = E_a, then by its masses."""
-        none, basis = q.scaled(ZERO, self.point.Z), self.state.group.basis
-        for eta, change in (*((e, none) for e in basis), *((none, e) for e in basis)):
+        """The state, in nilpotent numbers, along η = E_a, then δζ = E_a, then by its masses; where
+        there is no g by each of its numbers."""
+        if isinstance(self.state, ReducedChart):
+            yield from each_moved(self.given["x"])
+            return
+        none, free = q.scaled(ZERO, self.point.Z), self._free(self.state.group.basis)
+        for eta, change in (*((e, none) for e in free), *((none, e) for e in free)):
             yield self._along(eta, change)
         yield from self._heavier()
+
+    def _free(self, listed: Sequence[Any]) -> list[Any]:
+        """What belongs to coordinates that are not held."""
+        return [x for a, x in enumerate(listed, 1) if a not in self.state.held]
+
+    @cached_property
+    def symmetries(self) -> list[tuple[Matrix, Matrix]]:
+        """η = n and δZ = ±[Z, n] of each direction n without kinetic energy, with what keeps δZ
+        where it is held: of one direction ζ is 1 there, and of the others 0."""
+        group, found = self.state.group, list[tuple[Matrix, Matrix]]()
+        if not self.state.held:
+            return found
+        model: Any = self.point.named.names.model  # type: ignore[attr-defined]
+        null = [group.hat(n) for n in q.nullspace(model.second_derivatives)]
+        for n in null:
+            moved = q.bracket(n, self.point.Z) if self.state.right else q.bracket(self.point.Z, n)
+            along = group.nearest(moved)
+            for a, x in zip(self.state.held, null, strict=True):
+                moved = q.minus(moved, q.scaled(along[a - 1], x))
+            found.append((n, moved))
+        return found
+
+    def _modulo(self, eta: Sequence[Fraction], rest: Sequence[Fraction]) -> list[Fraction]:
+        """The coordinates of a variation that are left where a combination of symmetries takes away
+        those of η that are held."""
+        found = [*self._free(eta), *rest]
+        for a, pair in zip(self.state.held, self.symmetries, strict=True):
+            own = [y for x in pair for y in self._free(self.state.group.nearest(x))]
+            found = [x - eta[a - 1] * y for x, y in zip(found, own, strict=True)]
+        return found
 
     def _along(self, eta: Matrix, change: Matrix) -> Sequence[Any]:
         """The state along η and δζ, with its own masses."""
@@ -242,13 +279,16 @@ class ExactJacobians:
     def _state(self) -> Iterator[list[Fraction]]:
         """The columns of the Jacobian in the state: (η̇, δζ̇) for η = E_a, then for δζ = E_a, then
         by masses."""
+        if isinstance(self.state, ReducedChart):
+            yield from map(self._rates_column, self._beside("x"))
+            return
         group, Z = self.state.group, self.point.Z
-        none = q.scaled(ZERO, Z)
-        for e in group.basis:
+        none, free = q.scaled(ZERO, Z), self._free(group.basis)
+        for e in free:
             turn = group.nearest(q.bracket(Z, e) if self.state.right else q.bracket(e, Z))
-            yield [*turn, *self._rates_along(e, none)]
-        for a, e in enumerate(group.basis):
-            yield [*(Fraction(a == b) for b in range(group.dimension)), *self._rates_along(none, e)]
+            yield self._modulo(turn, self._rates_along(e, none))
+        for e in free:
+            yield self._modulo(group.nearest(e), self._rates_along(none, e))
         yield from map(self._rates_column, ({"x": x} for x in self._heavier()))
 
     def _rates_along(self, eta: Matrix, change: Matrix) -> list[Fraction]:
@@ -261,8 +301,10 @@ class ExactJacobians:
 
     def _rates_column(self, changed: Given) -> list[Fraction]:
         """The column (0, δζ̇) where arguments of ``rhs`` have the changed values."""
+        if isinstance(self.state, ReducedChart):
+            return slopes(self._rates(changed))
         found = self._rates_of(q.inverted(self.point.g), self.point.Z, self._rates(changed))
-        return [ZERO] * self.state.group.dimension + found
+        return [ZERO] * len(self._free(self.state.group.basis)) + found
 
     def _rates(self, changed: Given) -> tuple[Any, ...]:
         given = {**self.given, **changed}

@@ -364,6 +364,213 @@ def test_a_mass_of_the_state_is_moved_and_told(attitude):
     assert close(phi @ e, (ahead[0] - ahead[1]) / 2e-6, 1e-8)
 
 
+# ---------------------------------------------------------------- without g, and on a quotient
+
+EVERY = {"step": STEPS, "jacobian": ("state", "inputs", "parameters", "outputs", "step")}
+DAMPED_TOP = """
+name = "damped_top"
+[algebra]
+brackets = [[1, 2, 3, 1], [2, 3, 1, 1], [3, 1, 2, 1]]
+[parameters]
+I = 1.5
+k = 0.7
+[[advected]]
+name = "gamma"
+representation = "coadjoint"
+[lagrangian]
+L = "(I*zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 - gamma_3"
+[[force]]
+covector = ["-k*zeta_1", "-k*zeta_2*gamma_1^2", "u_2*zeta_1"]
+[[input]]
+name = "u"
+kind = "covector"
+[[output]]
+name = "y"
+y = ["zeta_1*gamma_2", "u_1 + gamma_3^2"]
+"""
+
+
+def top_by_hand(x, p, u):
+    """The equations of Euler and Poisson, γ the vertical seen from the body, with a drag."""
+    (w, gamma), (I1, k) = np.split(x, 2), p
+    momentum = np.array([I1, 2, 3]) * w
+    drag = np.array([-k * w[0], -k * w[1] * gamma[0] ** 2, u[1] * w[0]])
+    torque = np.cross(momentum, w) + np.cross([0, 0, 1], gamma) * -1 + drag + u
+    return np.concatenate([torque / np.array([I1, 2, 3]), np.cross(gamma, w)])
+
+
+def by_complex_steps(f, x):
+    """The derivative of f at x."""
+    tiny = 1e-30
+    return np.array([f(x + 1j * tiny * e).imag / tiny for e in np.eye(len(x))]).T
+
+
+def test_without_an_element_a_variation_is_of_the_numbers_of_the_state():
+    """Against complex steps through equations that were written by hand."""
+    m = module_of(DAMPED_TOP, **EVERY)
+    x, p, u = np.array([0.4, -0.7, 1.1, 0.3, 0.5, -0.8]), np.array([1.5, 0.7]), [0.2, -0.3, 0.5]
+    k, u = m.constants(p), np.array(u)
+    assert m.STATE == ("zeta_1", "zeta_2", "zeta_3", "gamma_1", "gamma_2", "gamma_3")
+    dx, A = m.jacobian(0.0, x, k, u)
+    assert close(dx, top_by_hand(x, p, u), 1e-14)
+    assert close(A, by_complex_steps(lambda x: top_by_hand(x, p, u), x), 1e-13)
+    by_inputs = by_complex_steps(lambda u: top_by_hand(x, p, u), u)
+    assert close(m.jacobian_inputs(0.0, x, k, u), by_inputs, 1e-13)
+    by_parameters = by_complex_steps(lambda p: top_by_hand(x, p, u), p)
+    assert close(m.jacobian_parameters(0.0, x, p, u), by_parameters, 1e-13)
+    C = by_complex_steps(lambda x: np.array([x[0] * x[4], u[0] + x[5] ** 2]), x)
+    assert close(m.jacobian_outputs(0.0, x, k, u), C, 1e-14)
+    assert close(m.jacobian_outputs_inputs(0.0, x, k, u), [[0, 0, 0], [1, 0, 0]], 1e-14)
+    for step, h, inside in (("rk4", 0.1, 1), ("vern9", 0.05, 100), ("gauss", 0.05, 100)):
+
+        def whole(x, u, h=h / inside, n=2 * inside):
+            for _ in range(n):
+                a = top_by_hand(x, p, u)
+                b = top_by_hand(x + h / 2 * a, p, u)
+                c = top_by_hand(x + h / 2 * b, p, u)
+                x = x + h / 6 * (a + 2 * b + 2 * c + top_by_hand(x + h * c, p, u))
+            return x
+
+        motion = m.begin(0.0, x)
+        status, phi, gamma = getattr(m, f"{step}_jacobian")(motion, k, u, h, 2)
+        assert status == m.OK
+        assert close(motion.x, whole(x, u), 1e-9)
+        assert close(phi, by_complex_steps(lambda x, f=whole: f(x, u), x)), step
+        assert close(gamma, by_complex_steps(lambda u, f=whole: f(x, u), u)), step
+
+
+def held_apart(m, x, side):
+    """g and dg/dt of a state."""
+    g, Z = matrix(m, x), hat(m, full(m, x))
+    return g, Z @ g if side == "right" else g @ Z
+
+
+def full(m, x):
+    """The coordinates of Z, those that are held 0."""
+    found = np.zeros(len(m.BASIS))
+    for name, value in zip(m.STATE, x, strict=True):
+        if name.startswith(("zeta_", "w_")):
+            found[int(name[-1]) - 1 + 3 * name.startswith("w")] = value
+    return found
+
+
+def free(m):
+    """The coordinates that are not held, by their numbers in 𝔤, from 0."""
+    moves = [x for x in m.STATE if x.startswith(("zeta_", "w_"))]
+    return [int(x[-1]) - 1 + 3 * x.startswith("w") for x in moves]
+
+
+def retracted_on_quotient(m, x, V, side="left"):
+    """The state at g exp(η), or exp(η) g, with ζ + δζ, where nothing of η is held."""
+    eta, y = np.zeros(len(m.BASIS)), np.array(x)
+    count = len(own := free(m))
+    eta[own] = V[:count]
+    turn = expm(hat(m, eta))
+    g = turn @ matrix(m, x) if side == "right" else matrix(m, x) @ turn
+    for name, place in element_names(m).items():
+        y[m.STATE.index(name)] = g[place]
+    y[-count:] += V[count:]
+    return y
+
+
+TILTED = """
+name = "tilted"
+group = "SO(3)"
+[lagrangian]
+L = "(zeta_1 - zeta_3)^2/2 + zeta_2^2 - 2*(A_31 + A_33)"
+[[input]]
+name = "F"
+kind = "force"
+at = [1, 0, 1]
+"""
+"""Its bob is at (1, 0, 1): what is held is no axis, and the velocity turns along it."""
+FROM_SPACE = """
+name = "from_space"
+group = "SO(3)"
+[lagrangian]
+L = "zeta_1^2 + zeta_2^2 - 2*A_33 + A_32"
+trivialisation = "right"
+"""
+"""ζ₃ turns space about its third axis, of which ℓ has what is seen from the body alone."""
+QUOTIENTS = {
+    "spherical_pendulum": ("spherical_pendulum", lambda g: g[:, 2]),
+    "tilted": (TILTED, lambda g: g @ [1, 0, 1]),
+    "rod": ("rod", lambda g: np.concatenate([g @ [0, 0, 1, 1], g @ [0, 0, -1, 1]])),
+    "from_space": (FROM_SPACE, lambda g: g[2]),
+}
+"""Problem, and what of g is one of the quotient: linear, so that of its rate that is the speed."""
+
+
+def prepared(problem, **options):
+    """The Python of a problem, a state, and inputs; on which side it is."""
+    m, rng = module_of(problem, **options), np.random.default_rng(3)
+    g = expm(hat(m, rng.normal(size=len(m.BASIS))))
+    start = {name: g[place] for name, place in element_names(m).items()}
+    drawn = zip(m.STATE, rng.normal(size=len(m.STATE)), strict=True)
+    x = np.array([start.get(name, y) for name, y in drawn])
+    side = "right" if problem == FROM_SPACE else "left"
+    return m, x, rng.normal(size=len(m.INPUTS)), side
+
+
+def constants(m):
+    return m.constants(m.DEFAULTS if m.PARAMETERS else [])
+
+
+@pytest.mark.parametrize(
+    ("name", "attitude"),
+    [*((x, "matrix") for x in QUOTIENTS), ("tilted", "quaternion"), ("rod", "quaternion")],
+)
+def test_on_a_quotient_it_is_of_what_is_seen(name, attitude):
+    """Where the body is, and how it moves, after two steps, by differences; on both sides as what V
+    does to it."""
+    problem, told = QUOTIENTS[name]
+    plain, x, u, side = prepared(problem)
+    m, count = (
+        module_of(problem, step=STEPS, jacobian="step", attitude=attitude),
+        2 * len(free(plain)),
+    )
+    if attitude == "quaternion":
+        x, inside, outside = plain.project(x), m.from_matrix, m.to_matrix
+    else:
+        inside = outside = np.array
+    k = constants(m)
+
+    def seen(x):
+        return np.concatenate([told(y) for y in held_apart(plain, x, side)])
+
+    for step in STEPS:
+        motion = m.begin(0.0, inside(x))
+        status, phi, gamma = getattr(m, f"{step}_jacobian")(motion, k, u, H[step], 2)
+        assert (status, phi.shape, gamma.shape) == (0, (count, count), (count, len(u)))
+        end = outside(motion.x)
+
+        def after(V, u=u, step=step):
+            y = inside(retracted_on_quotient(plain, x, V, side))
+            return seen(outside(moved(m, step, y, k, u, H[step], 2)))
+
+        there = derivative(lambda V, y=end: seen(retracted_on_quotient(plain, y, V, side)), count)
+        assert close(there @ phi, derivative(after, count)), step
+        by_inputs = derivative(lambda e, f=after: f(np.zeros(count), u + e), len(u))
+        assert close(there @ gamma, by_inputs), step
+
+
+@pytest.mark.parametrize("problem", [x for x, _ in QUOTIENTS.values()], ids=[*QUOTIENTS])
+def test_on_a_quotient_the_linearised_equations_are_those_of_the_motion(problem):
+    """Φ by them, and by an exact step."""
+    m, x, u, _ = prepared(problem, step="gauss", jacobian=("state", "step"))
+    k, n = constants(m), 2 * len(free(m))
+
+    def rates(t, y):
+        dx, A = m.jacobian(t, y[: len(x)], k, u)
+        return np.concatenate([dx, (A @ y[len(x) :].reshape(n, n)).ravel()])
+
+    begun = np.concatenate([x, np.eye(n).ravel()])
+    end = solve_ivp(rates, (0, 0.2), begun, "DOP853", rtol=1e-12, atol=1e-12).y[len(x) :, -1]
+    status, phi, _ = m.gauss_jacobian(m.begin(0.0, x), k, u, 0.1, 2)
+    assert status == m.OK
+    assert close(phi, end.reshape(n, n))
+
+
 # ---------------------------------------------------------------- in each language
 
 OTHERS = [ONE_BUILD[x] for x in STEPPED if x != "c"] + ["julia"]
@@ -394,13 +601,21 @@ FULL = (
     [0.8],
 )
 """The same of a body in space, with a mass in its state."""
+AT_ALGEBRA = [0.4, -0.7, 1.1, 0.3, 0.5, -0.8], [1.5, 0.7], [0.2, -0.3, 0.5]
+ON_QUOTIENT = [0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1, 0.5, -0.3], [], [0.8, -0.2, 0.4]
+IN_LANGUAGES = {
+    "": (SWING, TURNED, 2 * (2 + 2)),
+    "with a mass": (codes.LANDER, FULL, 13 * (13 + 1)),
+    "without an element": (DAMPED_TOP, AT_ALGEBRA, 6 * (6 + 3)),
+    "on a quotient": (TILTED, ON_QUOTIENT, 4 * (4 + 3)),
+}
+"""Problem, where it is asked, how many numbers Φ and Γ are."""
 
 
 @pytest.mark.parametrize(
     ("build", "text", "at", "size"),
-    [(x, SWING, TURNED, 2 * (2 + 2)) for x in OTHERS]
-    + [(x, codes.LANDER, FULL, 13 * (13 + 1)) for x in OTHERS],
-    ids=[*OTHERS, *(f"{x} with a mass" for x in OTHERS)],
+    [(x, *case) for case in IN_LANGUAGES.values() for x in OTHERS],
+    ids=[f"{x} {kind}".strip() for kind in IN_LANGUAGES for x in OTHERS],
 )
 def test_each_language_has_the_derivatives_of_c(build, text, at, size):
     options = {"step": STEPS, "jacobian": ("step",)}

@@ -467,7 +467,10 @@ const moved = (code, path, word, [a, b, k, u, x]) => {
     }
     const step = word.replace("_watch", "");
     let status = 0, state = m.x;
-    const varied = 2*code.BASIS.length + code.STATE.includes("fuel");  // a mass of the state
+    const moves = code.STATE.filter((x) => /^(zeta|w)/.test(x)).length;
+    const inside = code.STATE.some((x) => /^([AT][0-9]*_|q|theta|s_)/.test(x));
+    // and a mass of the state
+    const varied = inside ? 2*moves + code.STATE.includes("fuel") : code.STATE.length;
     const phi = new Float64Array(varied**2);
     const gamma = new Float64Array(varied*code.INPUTS.length);
     if (word === "dense") {

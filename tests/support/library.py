@@ -134,7 +134,7 @@ LENGTHS = {"x": "STATE", "k": "CONSTANTS", "p": "PARAMETERS", "u": "INPUTS", "dx
 LENGTHS |= {"y": "STATE", "dy": "STATE", "Q": "ALGEBRA"}
 COLUMNS = {"jacobian_inputs": "INPUTS", "jacobian_parameters": "PARAMETERS"}
 COLUMNS |= {"jacobian_outputs_inputs": "INPUTS", "jacobian_outputs_raw": "STATE"}
-COLUMNS |= {"mass_matrix": "ALGEBRA", "jacobian_raw_inputs": "INPUTS"}
+COLUMNS |= {"mass_matrix": "ALGEBRA", "jacobian_raw_inputs": "INPUTS", "variations": "MOVES"}
 OF_STATE = ("jacobian_raw", "jacobian_raw_inputs", "jacobian_project", "variations")
 """The matrices with a row for each number of the state."""
 STATES = {"x", "y", "z"}
@@ -163,9 +163,15 @@ class Call:
 
 
 def sizes(header, prefix):
-    """Those of the enum of a header, and how many masses it says to be varied."""
-    masses = re.search(r"2N is 2N \+ (\d+)", header)
-    return ({"MASSES": int(masses[1])} if masses else {}) | {
+    """Those of the enum of a header, and how many numbers it says that a variation has, and with
+    the symmetries of a quotient."""
+    text = re.sub(r"[\s*]+", " ", header)
+    varied = re.search(
+        r"A variation V [^.]*?has (\d+) numbers(?:[^.;]*; number ([\d, ]+) is)?", text
+    )
+    count = int(varied[1]) if varied else 0
+    more = len((varied[2] or "").split()) if varied else 0
+    return {"VARIATIONS": count, "MOVES": count + more} | {
         x: int(n) for x, n in re.findall(rf"\b{prefix}_N_(\w+) = (\d+)", header)
     }
 
@@ -186,24 +192,19 @@ def calls(header, prefix):
         yield Call(kind, name, takes, {a: length(a, name, known) for a in outs})
 
 
-def variations(known):
-    """How many numbers a variation has."""
-    return 2 * known["ALGEBRA"] + known.get("MASSES", 0)
-
-
 def rows_of(function, known):
     """How many rows a matrix D has that a function writes."""
     if function.startswith("jacobian_outputs"):
         return known["OUTPUTS"]
     if function == "mass_matrix":
         return known["ALGEBRA"]
-    return known["STATE"] if function in OF_STATE else variations(known)
+    return known["STATE"] if function in OF_STATE else known["VARIATIONS"]
 
 
 def length(array, function, known):
     """How many numbers an array has that a function writes."""
     if array == "D":
-        square = known["STATE"] if function in OF_STATE[:3] else variations(known)
+        square = known["STATE" if function in OF_STATE[:3] else "VARIATIONS"]
         columns = known[COLUMNS[function]] if function in COLUMNS else square
         return rows_of(function, known) * columns
     if function in ("conserved", "events", "outputs"):
@@ -253,7 +254,7 @@ class Library:
     @property
     def slopes(self):
         """How many numbers the derivatives of a step are."""
-        varied = variations(self.sizes)
+        varied = self.sizes["VARIATIONS"]
         return varied * (varied + self.sizes["INPUTS"])
 
     def values(self, **values):
@@ -329,7 +330,7 @@ class Native(Library):
         watched = self.sizes.get("EVENTS", 0) > 0
         kinds = {"watched": watched, "driven": self.sizes["INPUTS"] > 0}
         made = write(self.name, real, self.calls, found, **kinds, more=self.more)
-        made = made.replace("@varied@", str(variations(self.sizes)))
+        made = made.replace("@varied@", str(self.sizes["VARIATIONS"] or 1))
         return made, OPTIMISED[self.language] if found else ()
 
     def of_c(self):
@@ -578,7 +579,7 @@ class Read(Library):
         if not call.writes:
             return [np.array([m.call(call.name, *time, *given, **inputs)])]
         counted = {x.removeprefix("N_"): n for x, n in m.names.items() if x.startswith("N_")}
-        rows = rows_of(call.name, counted)
+        rows = rows_of(call.name, self.sizes | counted)
         if call.name == "poisson":
             rows = m.names["N_REDUCED"]
         square = "out" if call.name == "poisson" else "D"

@@ -121,7 +121,7 @@ ON_A_QUOTIENT = {
     ids=["advected", "SE(2)", "quotient"],
 )
 def test_beside_a_lagrangian_they_are_expressions(data, entry, of_rates):
-    """Without an element, and on a quotient, their derivatives are those by x and by inputs."""
+    """Their derivatives are those by x, and by variations: of ζ and g, or of all numbers."""
     rates = " + ".join(f"{x}^{k}" for x, k in of_rates.items())
     told = [{"name": "y", "y": [f"({rates})*{entry} + t", rates]}]
     problem = problem_of(data | {"output": told})
@@ -140,7 +140,14 @@ def test_beside_a_lagrangian_they_are_expressions(data, entry, of_rates):
         slopes[:, space["STATE"].index(y)] = slope * of[entry], slope
     slopes[0, space["STATE"].index(entry)] = value
     np.testing.assert_allclose(space["jacobian_outputs_raw"](T, x, []), slopes, rtol=1e-14)
-    assert ("jacobian_outputs" in space) == (data is ON_A_GROUP)
+    moved = [k for k, y in enumerate(space["STATE"]) if y.startswith("zeta_")]
+    along = slopes
+    if data is not ADVECTED:
+        n = 2 if data is ON_A_GROUP else 3
+        A, free = x[: n * n].reshape(n, n), space["BASIS"][: len(moved)]
+        turned = np.array([(A @ e[:n, :n]).ravel() for e in free])
+        along = np.hstack([slopes[:, : n * n] @ turned.T, slopes[:, moved]])
+    np.testing.assert_allclose(space["jacobian_outputs"](T, x, []), along, rtol=1e-13, atol=1e-15)
 
 
 def test_a_unit_ends_no_comment():

@@ -133,15 +133,16 @@ def _of_discrete(d: DiscreteStep, state: int) -> dict[str, Any]:
 
 def _of_derivatives(p: Program, *, implicit: bool) -> dict[str, Any]:
     """The sizes of what the derivatives of steps work with."""
-    state, varied = len(p.state), p.varied
+    state, varied, moves = len(p.state), *p.literal.values()
     columns, equations = varied + len(p.inputs), 8 * state
     return {
         "N_VARIATIONS": varied,
+        "N_MOVES": moves,
         "N_COLUMNS": columns,
         "N_ENTRIES": state * columns,
         "N_EQUATIONS": equations,
         "SYSTEM_ROWS": equations if implicit else state,
-        "SYSTEM_COLUMNS": max(equations * implicit, varied) + columns,
+        "SYSTEM_COLUMNS": max(equations * implicit, moves) + columns,
     }
 
 

@@ -1,7 +1,7 @@
 """The derivatives of steps: by the variations of the state where they begin, and by the inputs.
 
 What goes along with the state is a matrix by rows: what its numbers change by, a column for each variation
-(eta, delta zeta), then for each input.  METHOD stands for the name of a step.
+V of the state, then for each input.  METHOD stands for the name of a step.
 """
 
 
@@ -17,7 +17,7 @@ def jacobian_raw_inputs(
 def jacobian_project(x: real[N_STATE], J: out[real[N_STATE * N_STATE]]): ...
 
 
-def variations(x: real[N_STATE], V: out[real[N_STATE * N_VARIATIONS]]): ...
+def variations(x: real[N_STATE], V: out[real[N_STATE * N_MOVES]]): ...
 
 
 def multiplied(J: real[N_STATE * N_STATE], S: real[N_ENTRIES], F: out[real[N_ENTRIES]]):
@@ -58,13 +58,13 @@ def solved(rows: index, n: index, M: out[real[SYSTEM_ROWS, SYSTEM_COLUMNS]]) -> 
 
 def begun(x: real[N_STATE], S: out[real[N_ENTRIES]]):
     """What the numbers of a state change by, where nothing has moved."""
-    V: real[N_STATE * N_VARIATIONS]
+    V: real[N_STATE * N_MOVES]
     variations(x, V)
     for i in range(N_STATE):
         for c in range(N_COLUMNS):
             S[i * N_COLUMNS + c] = 0.0
         for c in range(N_VARIATIONS):
-            S[i * N_COLUMNS + c] = V[i * N_VARIATIONS + c]
+            S[i * N_COLUMNS + c] = V[i * N_MOVES + c]
 
 
 def ended(
@@ -73,23 +73,23 @@ def ended(
     phi: out[real[N_VARIATIONS * N_VARIATIONS]],
     gamma: out[real[N_VARIATIONS * N_INPUTS]],
 ) -> flag:
-    """The variations of a state of which its numbers change by S."""
+    """The variations of a state of which its numbers change by S, without what they have along symmetries."""
     M: real[SYSTEM_ROWS, SYSTEM_COLUMNS]
-    V: real[N_STATE * N_VARIATIONS]
+    V: real[N_STATE * N_MOVES]
     variations(x, V)
     for i in range(N_STATE):
-        for c in range(N_VARIATIONS):
-            M[i][c] = V[i * N_VARIATIONS + c]
+        for c in range(N_MOVES):
+            M[i][c] = V[i * N_MOVES + c]
         for c in range(N_COLUMNS):
-            M[i][N_VARIATIONS + c] = S[i * N_COLUMNS + c]
-    if not solved(N_STATE, N_VARIATIONS, M):
+            M[i][N_MOVES + c] = S[i * N_COLUMNS + c]
+    if not solved(N_STATE, N_MOVES, M):
         return False
     for i in range(N_VARIATIONS):
         for c in range(N_VARIATIONS):
-            phi[i * N_VARIATIONS + c] = M[i][N_VARIATIONS + c]
+            phi[i * N_VARIATIONS + c] = M[i][N_MOVES + c]
         if INPUTS:
             for c in range(N_INPUTS):
-                gamma[i * N_INPUTS + c] = M[i][N_VARIATIONS + N_VARIATIONS + c]
+                gamma[i * N_INPUTS + c] = M[i][N_MOVES + N_VARIATIONS + c]
     return True
 
 
@@ -210,8 +210,8 @@ def METHOD_jacobian(
     phi: out[real[N_VARIATIONS * N_VARIATIONS]],
     gamma: out[real[N_VARIATIONS * N_INPUTS]],
 ) -> status:
-    """n steps of size h, with what their end changes by, (eta, delta zeta) there, by rows: phi by (eta, delta zeta)
-    where they begin, gamma by what is added to the inputs.  A step that is too coarse is not made in halves.
+    """n steps of size h, with what their end changes by, V there, by rows: phi by V where they begin, gamma by what
+    is added to the inputs.  A step that is too coarse is not made in halves.
     KINKS"""
     S: real[N_ENTRIES]
     if HELD:
