@@ -334,7 +334,7 @@ def _tetrahedron(c: ClaimedRecord, step: Step, claim: Claim) -> str:
         for k in range(n)
     ]
     places = q.matrix(
-        [[c.random.randint(-99, 99) for _ in range(POINTS)] for _ in range(n)] + [[1] * POINTS]
+        [[c.random.randint(1, SIZE) for _ in range(POINTS)] for _ in range(n)] + [[1] * POINTS]
     )
     whole = _rank([*linear, *shifts], places)
     if claim["orbit"] != whole:

@@ -320,8 +320,12 @@ def _tried(c: ClaimedRecord, divisor: str) -> str:
     return ""
 
 
+LARGEST = 2**64
+"""Of numbers that are drawn: of small ones, some have a rank that is too small."""
+
+
 def _drawn(c: ClaimedRecord, count: int) -> list[int]:
-    return [c.random.randint(1, 9999) for _ in range(count)]
+    return [c.random.randint(1, LARGEST) for _ in range(count)]
 
 
 def _tensor(name: str, places: Matrix) -> Matrix:
