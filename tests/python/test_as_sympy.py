@@ -25,7 +25,7 @@ from derive.language.expression import parse
 from derive.python.as_sympy import Translation
 from derive.python.expressions import FunctionValue
 from tests.support.library import module_of
-from tests.support.walks import NAMES, OTHERS
+from tests.support.walks import NAMES, OTHERS, derived
 
 ROOT = Path(__file__).parents[2]
 N = sympy.Symbol("N", integer=True, positive=True)
@@ -108,7 +108,7 @@ def test_values(name):
 def test_how_many_need_no_function():
     """The figures of docs/sympy.md: functions are those that SymPy does not know, as ϖ(δy)."""
     names = [x for x in (*NAMES, *OTHERS) if x != "zeitlin"]  # sums over a lattice
-    found = [eq for x in names for eq in equations_of(derive.derive(x))]
+    found = [eq for x in names for eq in equations_of(derived(x))]
     plain = [eq for eq in found if not eq.atoms(AppliedUndef, FunctionValue)]
     assert all(isinstance(eq, sympy.Eq) for eq in found)
     page = (ROOT / "docs" / "sympy.md").read_text(encoding="utf-8")
