@@ -320,12 +320,9 @@ def _tried(c: ClaimedRecord, divisor: str) -> str:
     return ""
 
 
-LARGEST = 2**64
-"""Of numbers that are drawn: of small ones, some have a rank that is too small."""
-
-
 def _drawn(c: ClaimedRecord, count: int) -> list[int]:
-    return [c.random.randint(1, LARGEST) for _ in range(count)]
+    # of small numbers, some have a rank that is too small
+    return [c.random.randint(1, 2**64) for _ in range(count)]
 
 
 def _tensor(name: str, places: Matrix) -> Matrix:
