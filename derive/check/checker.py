@@ -328,7 +328,7 @@ def _tetrahedron(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     maps and the translations together that of the orbit."""
     n = c.group.n
     places = q.matrix(
-        [[c.random.randint(-99, 99) for _ in range(POINTS)] for _ in range(n)] + [[1] * POINTS]
+        [[c.random.randint(1, SIZE) for _ in range(POINTS)] for _ in range(n)] + [[1] * POINTS]
     )
     moved = [q.flatten(q.times(e[:n], places[: len(e)])) for e in c.group.basis]
     shifted = [[int(i == k) for i in range(n) for _ in range(POINTS)] for k in range(n)]

@@ -11,7 +11,7 @@ import pytest
 from derive import pipeline
 from derive.algebra import calculus
 from derive.algebra.words import word
-from derive.check.checker import Checker, check, checker_of
+from derive.check.checker import check, checker_of
 from derive.command.showing import load_problem
 from derive.language.tree import mul, neg
 from derive.pipeline import general_road, walk
@@ -19,7 +19,7 @@ from derive.problem.problem import ProblemError
 from derive.record.record import Equation
 from derive.walk.chapter import WalkError, naming_steps
 from derive.walk.matrices import rotation
-from derive.walk.spine import cartan, lagrangian
+from derive.walk.spine import cartan
 from derive.walk.spine.alphabet import Alphabet
 from derive.walk.spine.kernel import restrict
 from tests.support.walks import SEED, record
@@ -54,49 +54,6 @@ def test_a_name_that_nothing_introduces_is_refused(k):
     wrong = replace(d, steps=tuple(fewer if s is step else s for s in d.steps))
     first = next(v for v in check(wrong)[1:] if not v.holds)
     assert first.reason.startswith(f"{name} is used, and neither this step nor one before it says")
-
-
-# -- wrong rules in the engine ------------------------------------------------------------------
-
-
-def refused(record, labels):
-    """Those of some steps that do not hold."""
-    checker = Checker(record.problem, SEED)
-    return {x for x in labels if not checker.check(record[x]).holds}
-
-
-# the steps in which the bracket must be seen: it makes Euler's equations what they are
-BRACKETS = {
-    "linear": {"linear.structure", "linear.exterior_trivialised"},
-    "so3": {"so3.exterior", "so3.hat", "so3.exterior_vector", "so3.kernel", "so3.euler",
-            "so3.principal", "so3.motion"},
-    "se3": {"se3.exterior", "se3.hat", "se3.exterior_vector", "se3.kernel", "se3.motion"},
-}  # fmt: skip
-
-
-@pytest.mark.no_cover
-@pytest.mark.parametrize("name", BRACKETS)
-def test_the_bracket_comes_from_the_structure_equation(name, monkeypatch):
-    right = calculus.structure_equation
-    with monkeypatch.context() as patched:
-        patched.setattr(calculus, "structure_equation", lambda *a: -right(*a))
-        wrong = walk(load_problem(name))
-    assert refused(wrong, BRACKETS[name]) == BRACKETS[name]
-
-
-@pytest.mark.no_cover
-def test_a_wrong_work_of_the_forces_is_seen(monkeypatch):
-    right = lagrangian._gradient
-
-    def turned(*given):
-        work, step = right(*given)
-        return -work, step
-
-    with monkeypatch.context() as patched:
-        patched.setattr(lagrangian, "_gradient", turned)
-        wrong = walk(load_problem("so3"))
-    seen = {"linear.exterior", "linear.kernel", "so3.exterior", "so3.kernel"}
-    assert refused(wrong, seen) == seen
 
 
 # -- records that say something else ------------------------------------------------------------

@@ -18,6 +18,7 @@ from derive.record.as_json import from_json, to_json
 from derive.record.sentence import english
 from derive.search.equilibria.energy_casimir import along_the_orbit, kernel, restricted, solutions
 from derive.search.equilibria.stability import roots_of_squares
+from derive.search.equilibria.stability_in_letters import decided, must_not_be_negative
 from tests.support.coadjoint_orbits import hat, match, orbit_signature
 from tests.support.lagrangians import disc, heavy, lagrangian, squares
 from tests.support.library import module_of
@@ -202,6 +203,19 @@ def test_roots_are_counted(scale):
             assert found.negative == sum(real < -1e-6)
         seen.add((found.at_zero > 0, found.negative < found.distinct))
     assert len(seen) == 4
+
+
+@pytest.mark.parametrize("terms", [1, 12])
+def test_signs_that_say_where_roots_are(terms):
+    """Of λ⁴ + bλ² + c in letters: a discriminant that is left out leaves b = c = 1 open."""
+    letters = sympy.QQ.frac_field(*(f"x{k}" for k in range(terms + 1))).field.gens
+    b, c = sum(letters[:-1]), letters[-1]
+    signs = must_not_be_negative([b.field.one, b, c])
+    at = dict.fromkeys(map(str, letters), Fraction(1, terms)) | {str(c): 1}
+    shown = [Fraction(str(x.as_expr().subs(at))) for x in signs]
+    assert decided([b.field.one, b, c]) is (terms == 1)
+    assert all(x >= 0 for x in shown) is not decided([b.field.one, b, c])
+    assert decided([b.field.one, b, c**2])
 
 
 NAMED = {

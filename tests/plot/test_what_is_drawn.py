@@ -351,6 +351,12 @@ def test_tips_that_go_round_and_round_are_left_out():
     )
     run = plain_run(np.vstack([t, slow]).T, **dict.fromkeys(body_pictures.ATTITUDE, "state"))
     assert named(run) == [f"axis {k} of the body, $A e_{k}$" for k in (1, 2, 3)]
+    # about (1, 1, 2), so long that all three are a thicket: the calmest alone
+    t, j = np.linspace(0, 30, 400), np.array([[0, -2, 1], [2, 0, -1], [-1, 1, 0]]) / np.sqrt(6)
+    round_ = [np.eye(3) + np.sin(x) * j + (1 - np.cos(x)) * j @ j for x in t]
+    rows = np.column_stack([t, np.reshape(round_, (-1, 9))])
+    run = plain_run(rows, **dict.fromkeys(body_pictures.ATTITUDE, "state"))
+    assert named(run) == ["axis 3 of the body, $A e_3$"]
 
 
 def test_a_hull():

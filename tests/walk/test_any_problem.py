@@ -218,7 +218,7 @@ def test_the_second_of_two_adds_what_the_first_adds(name):
     assert np.abs((three - two) - (two - one)).max() < 1e-12
 
 
-EXAMPLES = int(os.environ.get("EXAMPLES", "10"))
+EXAMPLES = int(os.environ.get("EXAMPLES", "6"))
 """The same ones in each run; `make fuzz` takes 300."""
 FEW_STATES = 3
 COMPILED = 5

@@ -321,7 +321,8 @@ def _tried(c: ClaimedRecord, divisor: str) -> str:
 
 
 def _drawn(c: ClaimedRecord, count: int) -> list[int]:
-    return [c.random.randint(1, 9999) for _ in range(count)]
+    # of small numbers, some have a rank that is too small
+    return [c.random.randint(1, 2**64) for _ in range(count)]
 
 
 def _tensor(name: str, places: Matrix) -> Matrix:

@@ -146,7 +146,7 @@ class EnclosedState:
     def _stays(self) -> bool:
         here = self.at(self.free, self.any_numbers())
         there, rate = copy(here), Varying(Fraction(0), [Fraction(1)])
-        there.g = carried_along(here, rate, self.group.sample(self.c.random))
+        there.g = carried_along(here, rate, self.group.sample(self.c.random, SIZE))
         there.t = here.t + rate
         return not any(any(slopes_of(x, 1)) for x in there.load)
 

@@ -25,6 +25,9 @@ DRAWS = 8
 TRIES = 400
 HALVINGS = 40
 """So many times the distance between these is halved."""
+FINE = 2**20
+LARGEST = (40 * FINE, 12 * FINE)
+"""Numbers are quotients of up to these: small ones are often those where the energy has a pole."""
 POINTS = ("family.at", "family.origin")
 DEFINITE = ("stable", "stable_always", "on_the_leaf", "on_the_leaf_always", "indefinite")
 ROOTS = ("unstable", "unstable_large", "unstable_always", "imaginary")
@@ -82,7 +85,7 @@ class ClaimedFamily:
         random = self.system.random
         alone = {a for a, b in self.supposed if b == 0}
         for _ in range(TRIES):
-            sizes = (Fraction(random.randint(1, 40), random.randint(1, 12)) for _ in self.letters)
+            sizes = (Fraction(*(random.randint(1, x) for x in LARGEST)) for _ in self.letters)
             numbers = {
                 x: y if x == "π" or (fair and x in alone) or random.random() < 0.5 else -y
                 for x, y in zip(self.letters, sizes, strict=True)
@@ -106,8 +109,6 @@ class ClaimedFamily:
             low, high = (x[letter] for x in ends)
             for _ in range(HALVINGS):
                 middle = (low + high) / 2
-                if _equal(a, b, {**one, letter: middle}):  # the energy may have a pole there
-                    middle = (low + middle) / 2
                 if _greater(a, b, {**one, letter: middle}) is greater[0]:
                     low = middle
                 else:
@@ -176,11 +177,6 @@ def _once(rows: Sequence[Any]) -> Sequence[Any]:
 def _greater(a: Tree, b: Tree, numbers: Numbers) -> bool:
     x, y = (value_of(substituted(t, numbers)) for t in (a, b))
     return bool(x > y)
-
-
-def _equal(a: Tree, b: Tree, numbers: Numbers) -> bool:
-    x, y = (value_of(substituted(t, numbers)) for t in (a, b))
-    return bool(x == y)
 
 
 def _hold(inequalities: Inequalities, numbers: Numbers) -> bool:

@@ -225,7 +225,7 @@ class ClaimedTrim:
         self.model.elementary.true_root = self.roots.elsewhere
         for _ in range(TRIES):
             with suppress(NoRootError, ZeroDivisionError):
-                found.append(self.stays_from(self.group.sample(self.random)))
+                found.append(self.stays_from(self.group.sample(self.random, SIZE)))
             if len(found) == ELEMENTS or not all(found):
                 break
         self.model.elementary.true_root = self.roots.near

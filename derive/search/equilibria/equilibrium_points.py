@@ -13,6 +13,7 @@ from ...language import rational as q
 from ...language.expression import parse
 from ...language.limits import Refused
 from ...language.reserved import suffixed
+from ...language.show import show
 from ...language.tree import Tree
 from ...language.univariate import Number, Quadratic, value_of
 from ...language.univariate import tree as number_tree
@@ -177,7 +178,7 @@ def off_the_group(about: About, kept: Sequence[Polynomial], on: Elements) -> str
         here = about.number(f)
         there = group_value(about.system, f, here)
         if here != there:
-            return f"of {casimir_text(about, f)} it makes {there}, not {here}"
+            return f"of {show(about.algebra.field_tree(f))} it makes {there}, not {here}"
     for x in on:
         for minor in x.independent:
             if q.rank(numbers(minor.matrix, about.at)) < len(minor.matrix):
@@ -208,13 +209,6 @@ def group_value(system: LiePoisson, f: Polynomial, else_: Number) -> Number:
 def _has_entries(system: LiePoisson) -> bool:
     """Are entries of g among the variables?"""
     return any(isinstance(x, tuple) and x[1] == "A" for x in system.variables)
-
-
-def casimir_text(about: About, f: Polynomial) -> str:
-    """A polynomial as text."""
-    from ...language.show import show
-
-    return show(about.algebra.field_tree(f))
 
 
 def tried(system: LiePoisson, kept: Sequence[Polynomial], on: Elements) -> Iterator[About]:

@@ -251,7 +251,7 @@ def judged(
     return Family(
         *(about, names, multipliers, characteristic),
         *(apart, known, stable, (*unstable.values(),)),
-        counted=all(len(f) < 4 and len(must_not_be_negative(f)) >= len(f) - 1 for f in factors),
+        counted=all(map(decided, factors)),
         beyond=regular or has_compact_stabilisers(whole.system),
     )
 
@@ -323,7 +323,12 @@ def must_not_be_negative(f: Vector) -> Vector:
         _, b, c = f
         e = square_root(c)
         if e is None:
-            long = any(len(x.numer) > TERMS for x in (b, c))
-            return [b, c, *(() if long else (b**2 - 4 * c,))]
+            return [b, c, *([b**2 - 4 * c] if decided(f) else [])]
         return [b - 2 * e, b + 2 * e]
     return f[1:]
+
+
+def decided(f: Vector) -> bool:
+    """Do the signs of these functions say where its roots are, no discriminant being left out?"""
+    short = all(len(x.numer) <= TERMS for x in f[1:])
+    return len(f) < 3 or (len(f) == 3 and (short or square_root(f[2]) is not None))

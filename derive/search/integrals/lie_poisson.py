@@ -217,7 +217,7 @@ class PoissonPolynomials:
 
     def number_tree(self, c: Any) -> Tree:
         """An element of the field as a tree, a quotient of products."""
-        if not self.letters:
+        if not self.letters or isinstance(c, Fraction):
             return plain(c)
         (first, above), (second, below) = (f.factor_list() for f in (c.numer, c.denom))
         number = Fraction(plain(first)) / plain(second)

@@ -94,7 +94,7 @@ def test_ready_made(name):
         held(found, group, said(of_file(name), group), 0.0, g, zeta)
 
 
-EXAMPLES = int(os.environ.get("EXAMPLES", "8"))
+EXAMPLES = int(os.environ.get("EXAMPLES", "5"))
 GROUPS = {  # with d, and the entries of g that a term may have
     "SO(3)": (3, ["A_11", "A_23", "A_32"]),
     "SL(2)": (3, ["A_11", "A_12", "A_22"]),
