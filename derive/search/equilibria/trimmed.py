@@ -83,6 +83,7 @@ class ExactQuestion(Question):
             self.linear(self.x, u),
             not moving,
             self.has_corner(u),
+            self.along,
         )
 
     def require_exact(self) -> None:
@@ -211,8 +212,9 @@ class EnclosedQuestion(Question):
             tuple(tuple(map(Interval.of, row)) for row in matrix),
             not moving,
             corner=False,
+            along=self.along,
             near=dict(zip(f.names, near, strict=True)),
-            start=dict(zip(self.program.state, self.x, strict=True)),
+            start=dict(zip(self.program.state, self.beside, strict=True)),
             changed=tuple(
                 name
                 for name, a, b in zip(self.program.state, x, self.x, strict=True)
@@ -301,11 +303,14 @@ def trimmed(
     at: Mapping[str, Number],
     free: Sequence[str] | None = None,
     bounds: Bounds | None = None,
+    along: Mapping[str, Number] | None = None,
 ) -> Trim:
     """The inputs, velocities and turns of g ``free``, or all inputs that are not given, for a state
-    and other inputs: those ``at`` has, else g = 1 and 0; ``program``: with its jacobian.
+    and other inputs: those ``at`` has, else g = 1 and 0; ``along``: a velocity in space, Y of the
+    motion exp(tY)g, on the right g exp(tY), beside which those stand; ``program``: with its
+    jacobian.
     ``NoTrimError`` where there is none, or several, or one outside of ``bounds``."""
-    given = problem, program, at, free, bounds or {}
+    given = problem, program, at, free, bounds or {}, along or {}
     found: Trim
     question: ExactQuestion | EnclosedQuestion
     try:
