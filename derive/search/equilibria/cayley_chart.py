@@ -9,6 +9,7 @@ from typing import Any
 from ...algebra.groups import Group
 from ...language import rational as q
 from ...language.rational import Matrix
+from .steady_velocity import NoTrimError
 
 
 def turned(group: Group, g: Matrix, eta: Sequence[Any], *, right: bool) -> Matrix:
@@ -27,9 +28,9 @@ def carried(group: Group, z: Matrix, eta: Sequence[Any], *, right: bool) -> Matr
 def chart_slopes(group: Group, eta: Sequence[Any], *, right: bool) -> Matrix:
     """Row a: the coordinates of C⁻¹∂C/∂η_a, ``right``: of ∂C/∂η_a C⁻¹."""
     less, more = _halves(group, eta)
-    back, one = q.inverted(less), q.identity(group.size)
+    back, one = _undone(less), q.identity(group.size)
     C = q.times(back, more)
-    undone, rows = q.inverted(C), []
+    undone, rows = _undone(C), []
     for element in group.basis:
         dC = q.times(back, q.times(q.scaled(Fraction(1, 2), element), q.plus(C, one)))
         rows.append(group.nearest(q.times(dC, undone) if right else q.times(undone, dC)))
@@ -38,7 +39,17 @@ def chart_slopes(group: Group, eta: Sequence[Any], *, right: bool) -> Matrix:
 
 def _cayley(group: Group, eta: Sequence[Any]) -> Matrix:
     less, more = _halves(group, eta)
-    return q.times(q.inverted(less), more)
+    return q.times(_undone(less), more)
+
+
+def _undone(a: Matrix) -> Matrix:
+    """The inverse; ``NoTrimError`` where Cayley's transform has none, as those of SL(n) may."""
+    if (found := q.inverse(a)) is None:
+        raise NoTrimError(
+            "no trim is found: where Newton's method leads no element is Cayley's transform of a "
+            "turn; give numbers near it by --at for g, or free others"
+        )
+    return found
 
 
 def _halves(group: Group, eta: Sequence[Any]) -> tuple[Matrix, Matrix]:

@@ -104,11 +104,12 @@ class ExactQuestion(Question):
         simple = [x.limit_denominator(SIMPLE) for x in found]  # a double root has few digits
         near = all(abs(x - y) < 1 / SIMPLE**2 for x, y in zip(simple, found, strict=True))
         y = simple if near and not any(f.values(simple, EXACTLY)) else exact(f.names, found)
-        self.x, self.u = self.at(y)
+        dependent = q.rank(q.matrix(f.slopes(y, EXACTLY))) < len(y)
+        self.x, self.u = self.at(y)  # from there on g would turn once more
         told = ", ".join(f"{x} = {float(v):.8g}" for x, v in zip(f.names, y, strict=True))
         if any(self.rates({})):
             raise NotExactError(f"near {told} a rate is small, and not 0 in numbers of a root")
-        if q.rank(q.matrix(f.slopes(y, EXACTLY))) < len(y):
+        if dependent:
             raise NoTrimError(f"at {told} all rates are 0{DEPENDENT}")
         for name in self.free:  # they are found once more, linearly
             self.u[self.program.inputs.index(name)] = Fraction(0)
@@ -328,7 +329,8 @@ def trimmed(
         + " to ".join(map(str, question.bounds[name]))
         for name in question.outside(numbers, radius)
     ]:
-        raise NoTrimError(f"the trim is out of bounds: {'; '.join(outside)}")
+        which = "the trim that is found" if found.sought else "the trim"
+        raise NoTrimError(f"{which} is out of bounds: {'; '.join(outside)}")
     return found
 
 
