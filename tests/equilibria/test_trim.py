@@ -281,6 +281,17 @@ def test_what_is_not_found_is_said(free, message):
         derive(blown(3, 4, 0)).trim({}, free)
 
 
+def test_a_velocity_by_its_other_name_says_which_it_is():
+    """Of points translations are w, beside a Lagrangian the last of zeta."""
+    with pytest.raises(ProblemError, match="no input; zeta_2 is w_1 here"):
+        drone().trim({"zeta_2": 1})
+    hull = derive(lagrangian(squares(1, 2, 3, 1, 1, 1), "SE(3)"))
+    with pytest.raises(ProblemError, match="no input; w_3 is zeta_6 here"):
+        hull.trim({}, ["w_3"])
+    with pytest.raises(ValueError, match="has no 'w_3'; w_3 is zeta_6 here; its numbers"):
+        hull.simulate(1, start={"w_3": 1})
+
+
 def test_an_attitude_that_is_no_element_is_refused():
     """Of SL(2) Cayley's transforms are elements: exp would be, for all groups; of SL(3) diag(x, 1,
     1/x) is one, and others are none."""

@@ -20,11 +20,10 @@ from ...language.intervals import characteristic, signs_of_real_parts
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from ...language.univariate import Number, grows, polynomial_tree, routh, tree
-from ...problem.fields import entries, state_names
+from ...problem.fields import called_here, entries, state_names
 from ...problem.problem import Problem
 from ...record.record import Step
 from ...record.sentence import Prose
-from ...schema.table import nearest
 from ...walk.chapter import Chapter, Draft
 from .cayley_chart import carried, chart_slopes, turned
 from .equilibrium_steps import scientific
@@ -113,7 +112,8 @@ class Question:
         for name in names:
             if name not in known:
                 told = f"; these are {entries((*known, *self.program.by_block))}"
-                near = nearest(name, self.program.like(name, known)) or told
+                like = self.program.like(name, known)
+                near = called_here(name, known, self.group, like) or told
                 raise NoTrimError(f"{name} is no number of the state and no input{near}")
 
     def require(self) -> None:
