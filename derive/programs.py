@@ -116,12 +116,13 @@ def trim(
     free: Sequence[str] | None = None,
     given: Mapping[str, float] | None = None,
     bounds: Bounds | None = None,
+    along: Mapping[str, Number] | None = None,
 ) -> tuple[Trim, Derivation]:
     """The inputs and velocities ``free``, else all inputs that are not given, with which the
     velocity of a state stays as it is, and the record of the problem with the step that tells them;
     ``at``: numbers of the state and of inputs, else those of g = 1, and 0; parameters have their
     defaults, or what is ``given``; a trim that is out of ``bounds``, of numbers by name, is
-    refused."""
+    refused; ``along``: a velocity in space of which g sees its own."""
     from .code.options import Options
     from .code.program import LoweringError
     from .search.equilibria.trim import told
@@ -142,7 +143,7 @@ def trim(
             "which are not written here; derive equilibria may tell what is steady"
         ) from None
     try:
-        found = trimmed(problem, made, at, free, bounds)
+        found = trimmed(problem, made, at, free, bounds, along)
     except Refused as error:
         raise ProblemError(f"{problem.name}: {error}") from None
     c = Chapter(problem.name, problem.group_name)

@@ -140,10 +140,11 @@ def command_trim(args: argparse.Namespace) -> int:
     from ..programs import trim
 
     at, given = each_once("--at", args.at), each_once("--given", args.given)
+    bounds, along = each_once("--bounds", args.bounds), each_once("--along", args.along)
     free = [name for x in args.free or () for name in x.split(",")] or None
     with working(args.problem):
         problem = doubted(args.problem, given=given)
-        _, record = trim(problem, at, free, given, each_once("--bounds", args.bounds))
+        _, record = trim(problem, at, free, given, bounds, along)
     save_found(record, args)
     return 0
 

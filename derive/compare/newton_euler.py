@@ -218,10 +218,11 @@ def turned(R: Array) -> Callable[[Array], Array]:
 
 def of_frames(b: Balance, terms: list[Term], name: Callable[[str], str]) -> Iterator[Hypothesis]:
     """The numbers of a force, its velocity or both are along the axes of the other frame, its
-    moment by its arm with them."""
+    moment by its arm with them; a covector, as a damping by a tensor of 𝔤, is at the origin."""
     A = b.turns()
-    back = A.transpose(0, 2, 1)
-    placed = [(x, x.at, x.arm) for x in terms if x.at is not None and x.arm is not None]
+    back, origin = A.transpose(0, 2, 1), np.zeros(A.shape[-1])
+    arms = [origin if x.arm is None else x.arm for x in terms]
+    placed = [(x, x.at, y) for x, y in zip(terms, arms, strict=True) if x.at is not None]
     if len(placed) < len(terms):
         return
     own = np.stack([x.values for x in terms])

@@ -9,6 +9,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, SupportsFloat
 
 from ..algebra.factor_charts import QUATERNION
+from ..algebra.groups import Group
 from ..code.program import Program
 from ..code.slots import horn
 from ..code.torus_program import turned
@@ -18,11 +19,10 @@ from ..language.limits import Refused
 from ..language.rational import Matrix
 from ..language.tree import Tree
 from ..language.values import approximate
-from ..problem.fields import state_names
+from ..problem.fields import called_here, state_names
 from ..problem.motion_tables import named
 from ..problem.problem import Problem
 from ..record.as_json import decode
-from ..schema.table import nearest
 
 DAMPING, TIME, INPUTS, FORCES = "damping", "the time", "inputs", "forces"
 
@@ -125,10 +125,10 @@ def first_numbers(
     defaults = emitted | {x: problem.parameters[x].default for x in sorted(apart - {*emitted})}
     zero = dict.fromkeys((*program.inputs, *program.matrix_state, *program.state), 0.0)
     values: dict[str, float | None] = {**defaults, **zero, **stored}
-    _known(values, given, program.name, program)
+    _known(values, given, program.name, program, problem.group)
     values |= {name: x for name, x in given.items() if name in defaults}
     numbers, stated = _initial_numbers(problem, values)
-    _known(zero, numbers, f"{program.name}, [initial],", program)
+    _known(zero, numbers, f"{program.name}, [initial],", program, problem.group)
     element = _at(problem, program, exponent if len(exponent) else stated)
     if len(exponent):
         if all(name in given for name in element):
@@ -167,12 +167,17 @@ def require_numbers(given: Any, exponent: Any, **single: Any) -> None:
 
 
 def _known(
-    values: Collection[str], given: Mapping[str, float], where: str, program: Program
+    values: Collection[str],
+    given: Mapping[str, float],
+    where: str,
+    program: Program,
+    group: Group | None,
 ) -> None:
     """``MotionError`` for a name that means nothing, and for a number that is none."""
     for name, number in given.items():
         if name not in values:
-            near = f"{nearest(name, program.like(name, values))} ".removeprefix("; ").lstrip()
+            like = program.like(name, values)
+            near = f"{called_here(name, values, group, like, ';')} ".removeprefix("; ").lstrip()
             if components := [x for x in values if x.startswith(f"{name}_")]:
                 near = f"give its components {_listed(components)}; "
             if name == "exp":

@@ -77,12 +77,35 @@ def undeclared(
         return f"{where}: {name!r} is of the state, which is not known there"
     if fault := no_entry(name, group, known):
         return f"{where}: {fault}"
-    hint = nearest(name[:40], parameters).removeprefix("; ")
+    hint = called_here(name[:40], known, group, parameters, ".").removeprefix("; ")
     other = f"{hint} Else " if hint else ""
     return (
         f"{where}: {name[:40]!r} is not declared; {other}add it to [parameters]; the state has "
         f"{entries(known)}"
     )
+
+
+def by_points(group: Group) -> dict[str, str]:
+    """The velocities of translations → what points call them, w; none without them, or of a
+    product, which calls them by its blocks."""
+    (_, group), *others = group.places
+    turns = group.dimension - group.n
+    span = range(1, group.n + 1) if group.free_translations and not others else ()
+    return {suffixed("zeta", turns + i): suffixed("w", i) for i in span}
+
+
+def called_here(
+    name: str,
+    known: Collection[str],
+    group: Group | None,
+    others: Collection[str] = (),
+    end: str = "",
+) -> str:
+    """``; w_1 is zeta_4 here`` and an ``end``, where a velocity has another of the ``known`` names;
+    else which of the ``others`` is nearest."""
+    pairs = by_points(group).items() if group else ()
+    same = next((b for p in pairs for a, b in (p, p[::-1]) if a == name and b in known), "")
+    return f"; {name} is {same} here{end}" if same else nearest(name, others)
 
 
 def out_of_place(problem: Problem, name: str, where: str, of_state: Sequence[str]) -> str:
@@ -143,18 +166,17 @@ def state_names(group: Group) -> dict[str, Tree]:
 def names_of_points(group: Group) -> dict[str, Tree]:
     """Name → what it stands for in a problem of points: as those of the state of its code, the
     coordinates of the velocity by those of the record."""
-    found = state_names(group)
+    other = by_points(group.in_user_basis)
+    found = {name: t for name, t in state_names(group).items() if name not in other}
     if group.affine:
         span = range(1, group.n + 1)
         found |= {suffixed("T", i): ("entry", "T", i) for i in span}
     own = [_in_record(group, a) for a in range(group.dimension)]
     columns = [group.in_user_basis.nearest(e) for e in group.basis]
-    shifts = group.in_user_basis.free_translations
-    apart = group.dimension - group.n if shifts else group.dimension
     for a, row in enumerate(zip(*columns, strict=True), 1):
-        name = suffixed("zeta", a) if a <= apart else suffixed("w", a - apart)
+        name = suffixed("zeta", a)
         terms = (mul(plain(x), y) for x, y in zip(row, own, strict=True) if x)
-        found[name] = add(*terms)
+        found[other.get(name, name)] = add(*terms)
     return found
 
 

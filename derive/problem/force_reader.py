@@ -49,6 +49,7 @@ WANTED: Mapping[str, Dimension] = {
     **{"a quadratic damping": (1, -1, 0), "a rotational damping": (1, 2, -1)},
 }
 FACTOR = re.compile(r"\s*([*/· .]?)\s*([^\W\d_]+|1)(?:\^?\(?(-?\d+)\)?)?")
+OF_PLACE = re.compile(r"\b[rv]_[0-9]")
 PURE = {"sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh", "atan"}
 
 
@@ -189,6 +190,9 @@ class ForceReader(TableReader):
             if len(listed) != 1:
                 raise ProblemError(f"{where}: key 'on' must be one point")
             return self.point(listed[0], f"{where}, on")
+        if _is_free_moment(table):
+            block = self.block(Slot(table, "block", where))
+            table = {**table, "at": [0] * self.moving().places[block - 1][1].n}
         if "at" not in table:
             given = "'on' or 'at'" if self.point_masses else "'at', a place of the body,"
             raise ProblemError(f"{where}: key {given} is missing")
@@ -389,6 +393,12 @@ class ForceReader(TableReader):
         if not 1 <= k <= n:
             raise ProblemError(f"{where}: {name!r}: point {i} has {n} coordinates")
         return ("entry", ("call", ("at", "r", i), "t"), first + k)
+
+
+def _is_free_moment(table: Mapping[str, Any]) -> bool:
+    """Is it a moment without a place, the same at all, that knows none?"""
+    alone = "moment" in table and {"at", "force", "direction", "relative_to"}.isdisjoint(table)
+    return alone and not OF_PLACE.search(str(table["moment"]))
 
 
 def _as_list(value: Any) -> list[Any]:

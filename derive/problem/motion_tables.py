@@ -19,7 +19,16 @@ from ..language.tree import Tree, nodes
 from ..schema.kind import Kinematics, Parameter
 from ..schema.motion_kinds import Event, Signal
 from ..schema.table import hint, nearest
-from .fields import entries, is_entry, known_in_lagrangian, state_names, tables, undeclared
+from .fields import (
+    by_points,
+    called_here,
+    entries,
+    is_entry,
+    known_in_lagrangian,
+    state_names,
+    tables,
+    undeclared,
+)
 from .file_reader import ROTATION_KEYS, FileReader, turn_in
 from .inertia import is_negative
 from .problem import Initial, Problem, ProblemError
@@ -253,7 +262,8 @@ def faults(problem: Problem) -> Iterator[str]:
     known = numbers_followed(problem, problem.group)
     for name in problem.initial.numbers:
         if name not in known:
-            told = f"the state has no such number{hint(name[:40], known)}; it has {entries(known)}"
+            near = called_here(name[:40], known, problem.group) or hint(name[:40], known)
+            told = f"the state has no such number{near}; it has {entries(known)}"
             yield f"initial, {name[:40]}: {told}"
     watched = {*known, *known_in_lagrangian(problem.group, problem.advected), *problem.parameters}
     watched |= of_other_forms(problem.group)
@@ -312,10 +322,7 @@ def numbers_of_state(problem: Problem, group: Group) -> list[str]:
 def of_points(group: Group) -> list[str]:
     """Those of the state of a body of points: with translations the last n of the velocity are
     w."""
-    shift = {}
-    if group.free_translations:
-        turns = group.dimension - group.n
-        shift = {suffixed("zeta", turns + i): suffixed("w", i) for i in range(1, group.n + 1)}
+    shift = by_points(group)
     return [shift.get(x, x) for x in state_names(group) if x != "t"]
 
 

@@ -19,12 +19,13 @@ from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
 from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
 from ..schema.motion_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
-from ..schema.table import ATTACHED, Table, nearest
+from ..schema.table import ATTACHED, Table
 from . import inertia
 from .bodies import as_forces, body, forces, group_of, negative_stiffness_of, outputs, require_known
 from .entries_on_orbit import hessian, vanishes
 from .fields import (
     LIKE_A_PLACE,
+    called_here,
     coordinates,
     known_in_lagrangian,
     names_in_forces,
@@ -364,7 +365,8 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
                 where = used_at(data, name, "force", "moment")
             if fault := out_of_place(problem, shown, where, of_state):
                 raise ProblemError(f"{where}: {shown!r} {fault}")
-            hint = nearest(shown, [*problem.parameters, *of_state]).removeprefix("; ")
+            listed = [*problem.parameters, *of_state]
+            hint = called_here(shown, of_state, problem.group, listed, ".").removeprefix("; ")
             other = f"{hint} Else " if hint else ""
             raise ProblemError(f"{where}: {shown!r} is not declared; {other}add it to [parameters]")
     moments = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}

@@ -139,22 +139,26 @@ class Derived(Recorded):
         free: Sequence[str] | None = None,
         given: Mapping[str, float] | None = None,
         bounds: Mapping[str, tuple[Fraction | int | str, Fraction | int | str]] | None = None,
+        along: Mapping[str, Fraction | int | str] | None = None,
     ) -> Trimmed:
         """The inputs, velocities and turns of g ``free``, else all inputs that are not given, with
         which the velocity of a state stays as it is; ``at``: numbers of the state and of inputs, as
         ``{"zeta_3": "1/2"}``, else those of g = 1, and 0, for a free velocity where it is sought;
         ``given``: parameters in place of their defaults.  ``ValueError`` where there is none, or
-        there are many, or it is out of ``bounds``, as ``{"front": (0, 4)}``."""
+        there are many, or it is out of ``bounds``, as ``{"front": (0, 4)}``; ``along``: a velocity
+        in space, Y of the motion exp(tY)g, which is seen from g with what is found."""
         from ..programs import trim
         from ..search.equilibria.equilibrium_points import number_from
         from .found import Trimmed
 
-        values = {x: number_from(str(v)) for x, v in (at or {}).items()}
+        values, turning = (
+            {x: number_from(str(v)) for x, v in (some or {}).items()} for some in (at, along)
+        )
         allowed = {
             x: (number_from(str(low)), number_from(str(high)))
             for x, (low, high) in (bounds or {}).items()
         }
-        return Trimmed(*trim(self.problem, values, free, given, allowed))
+        return Trimmed(*trim(self.problem, values, free, given, allowed, turning))
 
     def symmetries(self) -> SymmetriesOf:
         """All symmetries of L̃ of a kind, and what the motion keeps by each; ``ProblemError`` where

@@ -147,8 +147,9 @@ KINDS = {
     ),
     "enclosure": "within signs stable unstable open eigenvalues",
     "trim": (
-        "rest steady corner unique isolated isolated_with_turns stable unstable open near_rest "
-        "near_steady near_turned near_turned_on_the_left near_stable near_unstable near_open"
+        "rest steady corner unique isolated isolated_with_turns isolated_along stable unstable "
+        "open near_rest near_steady near_along near_turned near_turned_on_the_left "
+        "near_velocity near_stable near_unstable near_open"
     ),
 }
 OF_MASSES = {
@@ -267,9 +268,10 @@ def _inequalities(x: Tree) -> str:
 FAMILIES = ("positive", "stable", "on_the_leaf", "unstable", "unstable_large")
 TEXTS = dict.fromkeys((f"family.{x}" for x in FAMILIES), _inequalities) | {
     "equilibrium.near": _coordinates,
-    **dict.fromkeys(("trim.near_rest.near", "trim.near_steady.near"), _coordinates),
+    **dict.fromkeys((f"trim.near_{x}.near" for x in ("rest", "steady", "along")), _coordinates),
     "trim.near_turned.entries": _coordinates,
     "trim.near_turned_on_the_left.entries": _coordinates,
+    "trim.near_velocity.entries": _coordinates,
     "equilibrium.eigenvalues": _eigenvalues,
     "enclosure.eigenvalues": _eigenvalues,
     "reduction.isotropy": _nonzero,

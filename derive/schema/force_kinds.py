@@ -180,7 +180,7 @@ class StatedForce(Acting):
     @classmethod
     def word(
         cls,
-        on: int | Sequence[Number],
+        on: int | Sequence[Number] | None = None,
         force: Sequence[Number] | None = None,
         moment: Sequence[Number] | None = None,
         frame: str = "space",
@@ -190,7 +190,8 @@ class StatedForce(Acting):
     ) -> Any:
         """A force and a moment on a point, or at a place of the body, in a product of that of a
         block: expressions of the velocity v_1, … of the place, less that of a wind, of the state,
-        t, inputs and parameters, in the frame "space" or "body"; with a name in the equations."""
+        t, inputs and parameters, in the frame "space" or "body"; with a name in the equations. A
+        moment alone needs no place."""
         told = {"force": force, "moment": moment, "frame": frame, "relative_to": relative_to}
         return {"name": name} | told | place(on, block)
 

@@ -325,7 +325,7 @@ class Table:
         ]
 
 
-def place(on: int | Sequence[Number], block: int | None) -> dict[str, Any]:
+def place(on: int | Sequence[Number] | None, block: int | None) -> dict[str, Any]:
     """The keys of a point by its number, or of a place of a body, of a block of a product."""
     return {"on" if isinstance(on, int) else "at": on, "block": block}
 

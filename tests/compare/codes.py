@@ -1,6 +1,7 @@
 """Right-hand sides as people write them, and the faults of such code."""
 
 import tomllib
+from itertools import product
 from pathlib import Path
 
 LISTED = tomllib.loads(Path(__file__).with_name("right_codes.toml").read_text(encoding="utf-8"))
@@ -355,6 +356,28 @@ def f(x, u):
     )
 """
 """Its fuel is a number of the state."""
+
+DAMPED_AS_A_WHOLE = [
+    [1, 0.2, 0.1, 0.3, -0.2, 0.1], [0.2, 1.2, 0.1, 0, 0.4, 0.1], [0.1, 0.1, 0.9, 0.2, 0, -0.3],
+    [0.3, 0, 0.2, 2, 0.3, 0.4], [-0.2, 0.4, 0, 0.3, 3, -0.5], [0.1, 0.1, -0.3, 0.4, -0.5, 1.5],
+]  # fmt: skip
+SLOWED = f"""{LANDER}
+[[force]]
+covector = {[
+    "-(" + " + ".join(
+        f"({d})*{x}_{k}" for d, (x, k) in zip(row, product(("zeta", "w"), (1, 2, 3)), strict=True)
+    ) + ")"
+    for row in DAMPED_AS_A_WHOLE
+]}
+"""  # fmt: skip
+SLOWED_CODE = LANDER_CODE.replace(
+    "    gyroscopic =",
+    f"""    D_hat, Z = np.array({DAMPED_AS_A_WHOLE}), np.zeros((3, 3))
+    turn, nu = np.block([[A, Z], [Z, A]]), np.concatenate([w, v])
+    load -= D_hat @ nu
+    gyroscopic =""",
+)
+"""The lander with a damping by a tensor of all velocities, as in water."""
 
 SPRUNG = f"""{LANDER}
 [[potential]]

@@ -277,6 +277,16 @@ FAULTS = {
         ("concatenate([np.cross(w, M", "concatenate([-np.cross(w, M"),
         "ω × Iω has the other sign",
     ),
+    "a tensor of damping along the axes of space": (
+        "slowed",
+        ("D_hat @ nu", "turn.T @ D_hat @ turn @ nu"),
+        "the velocity and the numbers of the force are along the axes of space instead",
+    ),
+    "velocities of space in a tensor of damping": (
+        "slowed",
+        ("D_hat @ nu", "D_hat @ turn @ nu"),
+        "the velocity in the force is along the axes of space instead",
+    ),
     "thrust by half the rate": ("lander", ("+= rate", "+= rate / 2"), "b has the factor 1/2"),
     "lever arm of a jet from a moving centre": (
         "sprung",

@@ -223,6 +223,25 @@ def test_it_turns_on_from_the_attitude_that_is_given():
     assert holds(found)
 
 
+def test_bounds_choose_the_other_angle():
+    """Both are told to be one near there; a body that hangs from its rotor is that in a wind."""
+    made = derive(problem_of(PENDULUM))
+    found = made.trim({"u": 12}, ["eta_1"], bounds={"A_11": (-1, 0)})
+    assert [found.found.state[x] for x in ("A_11", "A_21")] == [Fraction(-4, 5), Fraction(3, 5)]
+    assert "Elsewhere there may be others" in english(found.record.steps[-1].prose)
+    assert holds(found)
+    hanging = derive(blown(3, 4, 0)).trim({}, ["eta_1", "eta_2", "f"], bounds={"f": (-90, 0)})
+    assert attitude(hanging, 3)[2, 2] < 0
+    with pytest.raises(ProblemError, match="the trim that is found is out of bounds: A_11 is 4/5"):
+        made.trim({"u": 12}, ["eta_1"], bounds={"A_11": (0, "1/2")})
+
+
+def test_where_two_angles_meet_it_is_not_the_only_one():
+    """20 sin θ = 20."""
+    with pytest.raises(ProblemError, match=r"at eta_1 = 2 all rates are 0, and .* dependent"):
+        derive(problem_of(PENDULUM)).trim({"u": 20}, ["eta_1"])
+
+
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_on_both_sides(side):
     """3 A₁₁ + 4 A₂₁ is largest along (3, 4), by the turn about axis 3 of the body or of space."""
@@ -262,8 +281,24 @@ def test_what_is_not_found_is_said(free, message):
         derive(blown(3, 4, 0)).trim({}, free)
 
 
+def test_a_velocity_by_its_other_name_says_which_it_is():
+    """Of points translations are w, beside a Lagrangian the last of zeta."""
+    with pytest.raises(ProblemError, match="no input; zeta_2 is w_1 here"):
+        drone().trim({"zeta_2": 1})
+    hull = derive(lagrangian(squares(1, 2, 3, 1, 1, 1), "SE(3)"))
+    with pytest.raises(ProblemError, match="no input; w_3 is zeta_6 here"):
+        hull.trim({}, ["w_3"])
+    with pytest.raises(ValueError, match="has no 'w_3'; w_3 is zeta_6 here; its numbers"):
+        hull.simulate(1, start={"w_3": 1})
+
+
 def test_an_attitude_that_is_no_element_is_refused():
-    """Of SL(2) Cayley's transforms are elements: exp would be, for all groups; of SL(3) not all."""
+    """Of SL(2) Cayley's transforms are elements: exp would be, for all groups; of SL(3) diag(x, 1,
+    1/x) is one, and others are none."""
     L = "(" + " + ".join(f"{k + 1}*zeta_{k + 1}^2" for k in range(8)) + ")/2 - (A_11 - 2)^2"
-    with pytest.raises(ProblemError):
-        derive(lagrangian(L, "SL(3)")).trim({}, ["eta_1"])
+    made = derive(lagrangian(L, "SL(3)"))
+    found = made.trim({}, ["eta_1"])
+    assert [found.found.state[f"A_{k}{k}"] for k in (1, 2, 3)] == [2, 1, Fraction(1, 2)]
+    assert holds(found)
+    with pytest.raises(ProblemError, match="no element is Cayley's transform of a turn"):
+        made.trim({}, ["eta_1", "eta_5"])

@@ -34,13 +34,22 @@ from ..values.draws import Locus
 from .entries_checked import decided
 from .equilibrium_claims import Coordinates, coordinates, silent
 from .reduced_system import ClaimedRecord, Judge
-from .trim_claims import carried_along, defaults, linearised, placed, standing, the_one
+from .trim_claims import (
+    carried_along,
+    defaults,
+    linearised,
+    placed,
+    seen_from,
+    standing,
+    the_one,
+    velocity_of,
+)
 
 SIZE, BOUNDED_SIZE, TRIED, LARGEST = 2**16, 4, 3, 16
 """Numbers are drawn up to a size, smaller ones where their differences are within bounds; so many
 elements are tried; so many numbers are told at most."""
 DRAWN, REFINED = 20, 4
-POINTS = ("trim.near_rest", "trim.near_steady")
+POINTS = ("trim.near_rest", "trim.near_steady", "trim.near_along")
 VERDICTS = {
     "negative": "trim.near_stable",
     "positive": "trim.near_unstable",
@@ -51,9 +60,17 @@ Numbers = Sequence[Any]
 
 class EnclosedState:
     """A state with its inputs: some exact numbers, and ``names`` of others, which are within a
-    ``radius`` of ``near``; ξ of Cayley's transform, which turns g from its exact entries."""
+    ``radius`` of ``near``; ξ of Cayley's transform, which turns g from its exact entries; and what
+    is seen ``along`` of a velocity in space."""
 
-    def __init__(self, c: ClaimedRecord, exact: Coordinates, near: Coordinates, radius: Fraction):
+    def __init__(
+        self,
+        c: ClaimedRecord,
+        exact: Coordinates,
+        near: Coordinates,
+        along: Coordinates,
+        radius: Fraction,
+    ):
         if not 0 < len(near) <= LARGEST:
             raise RecordError(f"between 1 and {LARGEST} numbers are told to be near")
         d = c.group.dimension
@@ -65,7 +82,7 @@ class EnclosedState:
             raise RecordError("a displacement of g is told as an exact number")
         if not all(isinstance(y, Fraction) for _, y in near):
             raise RecordError("what is told to be near is a fraction")
-        self.c, self.group, self.exact = c, c.group, exact
+        self.c, self.group, self.exact, self.along = c, c.group, exact, along
         self.names, self.radius = [x for x, _ in near], radius
         self.near = [y for _, y in near if isinstance(y, Fraction)]
         numbers = defaults(c)
@@ -89,7 +106,10 @@ class EnclosedState:
         held, g, zeta, xi = placed(self.group, pairs)
         if any(x[1] == "ξ" for x in self.names if isinstance(x, tuple)):
             g = model.ordered(g, cayley(basis.hat(xi)))
-        return standing(model, g, basis.hat(zeta), model.t if t is None else t, held)
+        Z = basis.hat(zeta)
+        if self.along:
+            Z = q.plus(Z, seen_from(g, self.group, self.along, model.side))
+        return standing(model, g, Z, model.t if t is None else t, held)
 
     # -- one solution is there ---------------------------------------------------------------------
 
@@ -198,10 +218,14 @@ def _all_bounded(a: Matrix) -> Matrix:
 
 @lru_cache(maxsize=8)
 def _enclosed(
-    c: ClaimedRecord, exact: Coordinates, near: Coordinates, radius: Fraction
+    c: ClaimedRecord,
+    exact: Coordinates,
+    near: Coordinates,
+    along: Coordinates,
+    radius: Fraction,
 ) -> EnclosedState:
     """The state of a record, computed once for all that is said of it."""
-    return EnclosedState(c, exact, near, radius)
+    return EnclosedState(c, exact, near, along, radius)
 
 
 def _radius(claim: Claim) -> Fraction:
@@ -216,7 +240,7 @@ def _of_claim(c: ClaimedRecord, claim: Claim) -> EnclosedState:
     exact, near = coordinates(claim), coordinates(claim, "near")
     if len({x for x, _ in (*exact, *near)}) < len(exact) + len(near):
         raise RecordError("a coordinate is told twice")
-    return _enclosed(c, exact, near, _radius(claim))
+    return _enclosed(c, exact, near, coordinates(claim, "along"), _radius(claim))
 
 
 def _of_step(c: ClaimedRecord, step: Step) -> EnclosedState:
@@ -269,6 +293,15 @@ def _turned(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     return "one is no entry" if told else ""
 
 
+def _velocity(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+    """The velocity has these coordinates, and others are 0."""
+    here, told = _of_step(c, step), velocity_of(c.group, coordinates(claim, "entries"))
+    Z = here.at(here.bounded, here.box or here.near).Z
+    pairs = zip(c.group.in_user_basis.nearest(Z), told, strict=True)
+    same = all((Interval.of(x) - y).size <= _radius(claim) for x, y in pairs)
+    return "" if same else "the velocity is another"
+
+
 def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """What follows from the characteristic polynomial is told."""
     found = VERDICTS[signs_of_real_parts(_of_step(c, step).polynomial)]
@@ -278,6 +311,7 @@ def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 JUDGES: dict[str, Judge] = {
     **dict.fromkeys(POINTS, _at),
     **dict.fromkeys(("trim.near_turned", "trim.near_turned_on_the_left"), _turned),
+    "trim.near_velocity": _velocity,
     **dict.fromkeys(VERDICTS.values(), _verdict),
 }
 """How claims about enclosed trims are judged."""

@@ -35,6 +35,7 @@ SIZE, BITS = 2**64, 128
 ELEMENTS, TRIES = 6, 400
 """At so many elements it is asked whether a motion is steady; so many are drawn for these."""
 POINTS = ("trim.rest", "trim.steady")
+ISOLATED = ("trim.isolated", "trim.isolated_with_turns", "trim.isolated_along")
 VERDICTS = ("trim.stable", "trim.unstable", "trim.open")
 
 
@@ -134,6 +135,20 @@ def standing(model: AnyModel, g: Matrix, Z: Matrix, t: Any, held: Mapping[str, A
     found.g, found.Z, found.t = g, Z, t
     found.hold(held)
     return found
+
+
+def velocity_of(group: Group, told: Coordinates) -> list[Any]:
+    """The coordinates of a velocity that is told; ``RecordError`` for any other number."""
+    if not all(isinstance(x, tuple) and x[0] == "entry" and x[1] in "ζw" for x, _ in told):
+        raise RecordError("velocities alone are told along a motion")
+    return placed(group, told)[2]
+
+
+def seen_from(g: Matrix, group: Group, told: Coordinates, side: str) -> Matrix:
+    """Y that is told, as a part of the velocity: g⁻¹Yg, on the right gYg⁻¹."""
+    Y = group.in_user_basis.hat(velocity_of(group, told))
+    first, last = (q.inverted(g), g) if side == "left" else (g, q.inverted(g))
+    return q.times(q.times(first, Y), last)
 
 
 def carried_along(model: AnyModel, rate: Any, other: Matrix) -> Matrix:
@@ -309,10 +324,14 @@ def _unique(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 
 
 def _isolated(c: ClaimedRecord, step: Step, claim: Claim) -> str:
-    """The derivatives of the load by these numbers are independent; by ξ, of δg = gξ or ξg."""
+    """The derivatives of the load by these numbers are independent; by ξ, of δg = gξ or ξg, with
+    what is seen of a Y that is told."""
     here, told = _trim_of(c, step), claim["numbers"]
     assert isinstance(told, tuple)
     basis, none, rows = c.group.in_user_basis, q.scaled(Fraction(0), here.Z), []
+    side, of = here.model.side, here.roots.rational
+    exact = seen_from(here.exact, c.group, coordinates(claim, "along"), side)
+    seen = tuple(tuple(map(of, row)) for row in exact)
     for x in told[1:]:
         assert isinstance(x, tuple)
         if x[0] == "par":
@@ -321,8 +340,9 @@ def _isolated(c: ClaimedRecord, step: Step, claim: Claim) -> str:
         else:
             place = x[2] - 1 + (basis.dimension - basis.n if x[1] == "w" else 0)
             along = basis.basis[place]
+            other = q.bracket(seen, along) if side == "left" else q.bracket(along, seen)
             turns = x[1] == "ξ"
-            rows.append(here.shifted(along, none) if turns else here.shifted(none, along))
+            rows.append(here.shifted(along, other) if turns else here.shifted(none, along))
     return "" if q.rank(q.matrix(rows)) == len(rows) else "others may do so near there"
 
 
@@ -346,7 +366,7 @@ def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 JUDGES: dict[str, Judge] = {
     **dict.fromkeys(POINTS, _at),
     "trim.unique": _unique,
-    **dict.fromkeys(("trim.isolated", "trim.isolated_with_turns"), _isolated),
+    **dict.fromkeys(ISOLATED, _isolated),
     "trim.corner": _corner,
     **dict.fromkeys(VERDICTS, _verdict),
 }

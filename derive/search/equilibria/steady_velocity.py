@@ -35,8 +35,9 @@ LARGEST = 10**15
 """Of fractions and coefficients."""
 SIMPLE = 1000
 """Fractions with a divisor of at most this are tried where digits are few."""
-BETWEEN = 8
-"""From so many numbers between the bounds it begins, the middle and random ones."""
+BETWEEN, TURN = 8, 4.0
+"""From so many numbers between the bounds it begins, the middle and random ones; and, where nothing
+within these is found, from random turns, of Cayley's transform, of this size."""
 AWAY = (0.25, 0.5, -0.25, -0.5)
 """How far others of a family are looked for, beside 1 and the numbers; two are taken for one."""
 
@@ -62,9 +63,9 @@ class NoTrimError(Refused, ValueError):
 @dataclass(frozen=True)
 class Rates:
     """Functions of what is unknown, ``names``, first the ``velocities``, then the ``turns`` of g,
-    which begin at 0, then inputs: ``values(y, numbers)``, all 0 where it is found, and ``slopes(y,
-    numbers)``, a row of derivatives for each of them.  ``bounds``: the least and the largest of
-    some names; ``allowed``: is a solution within all bounds that are given?"""
+    which first begin at 0, then inputs: ``values(y, numbers)``, all 0 where it is found, and
+    ``slopes(y, numbers)``, a row of derivatives for each of them.  ``bounds``: the least and the
+    largest of some names; ``allowed``: is a solution within all bounds that are given?"""
 
     names: tuple[str, ...]
     velocities: int
@@ -90,9 +91,11 @@ def approximately(f: Rates, near: Mapping[str, float], numbers: Arithmetic) -> l
     found = _reached(f, near, inputs=(0.0,) if _linear_in_inputs(f, near) else (0.0, *INPUTS))
     allowed = [y for y in found if f.allowed(y)]
     random = Random(3)
-    for k in range(BETWEEN if f.bounds and not (near and allowed) else 0):
+    turns = () if allowed else f.names[f.velocities : f.velocities + f.turns]
+    for k in range(BETWEEN if turns or (f.bounds and not (near and allowed)) else 0):
         parts = ((x, random.random() if k else 0.5, *f.bounds[x]) for x in f.bounds)
-        begin = {x: low + part * (high - low) for x, part, low, high in parts}
+        begin = {x: random.gauss(0, TURN) for x in turns}
+        begin |= {x: low + part * (high - low) for x, part, low, high in parts}
         more = _reached(f, {**near, **begin}, inputs=((0.0, *INPUTS)[k % 4],))
         allowed += [y for y in more if f.allowed(y) and not any(_same(x, y) for x in allowed)]
     isolated = [y for y in allowed or found if _rank(f, y) == len(y)]

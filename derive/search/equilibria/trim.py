@@ -1,7 +1,6 @@
 """What a trim is, an equilibrium under inputs, exact or enclosed; and the step that tells it.
 
 The state and the inputs of which a trim is asked, and the emitted equations in any numbers.
-Elements near one are told by Cayley's transform C(η) = (1 − ½η)⁻¹(1 + ½η), which is rational in η.
 """
 
 from __future__ import annotations
@@ -21,42 +20,15 @@ from ...language.intervals import characteristic, signs_of_real_parts
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from ...language.univariate import Number, grows, polynomial_tree, routh, tree
-from ...problem.fields import entries, state_names
+from ...problem.fields import called_here, entries, state_names
 from ...problem.problem import Problem
 from ...record.record import Step
 from ...record.sentence import Prose
-from ...schema.table import nearest
 from ...walk.chapter import Chapter, Draft
+from .cayley_chart import carried, chart_slopes, turned
 from .equilibrium_steps import scientific
 from .stability import eigenvalues, polynomial
 from .steady_velocity import EXACTLY, FLOATS, SAME, Arithmetic, NoTrimError, Rates
-
-
-def turned(group: Group, g: Matrix, eta: Sequence[Any], *, right: bool) -> Matrix:
-    """g C(η), ``right``: C(η) g, for the d coordinates η; an element where Cayley's transforms are,
-    as of orthogonal groups and of those with translations."""
-    less, more = _halves(group, eta)
-    C = q.times(q.inverted(less), more)
-    return q.times(C, g) if right else q.times(g, C)
-
-
-def chart_slopes(group: Group, eta: Sequence[Any], *, right: bool) -> Matrix:
-    """Row a: the coordinates of C⁻¹∂C/∂η_a, ``right``: of ∂C/∂η_a C⁻¹."""
-    less, more = _halves(group, eta)
-    back, one = q.inverted(less), q.identity(group.size)
-    C = q.times(back, more)
-    undone, rows = q.inverted(C), []
-    for element in group.basis:
-        dC = q.times(back, q.times(q.scaled(Fraction(1, 2), element), q.plus(C, one)))
-        rows.append(group.nearest(q.times(dC, undone) if right else q.times(undone, dC)))
-    return tuple(rows)
-
-
-def _halves(group: Group, eta: Sequence[Any]) -> tuple[Matrix, Matrix]:
-    """1 − ½η and 1 + ½η."""
-    one, half = q.identity(group.size), q.scaled(Fraction(1, 2), group.hat(eta))
-    return q.plus(one, q.scaled(Fraction(-1), half)), q.plus(one, half)
-
 
 Numbers = Mapping[str, Number]
 Bounds = Mapping[str, tuple[Number, Number]]
@@ -77,6 +49,7 @@ class Question:
         at: Mapping[str, Number],
         free: Sequence[str] | None,
         bounds: Bounds,
+        along: Numbers,
     ):
         self.group: Group = problem.own_group.in_user_basis
         self.program, self.d = program, program.dimension
@@ -89,7 +62,8 @@ class Question:
         at = program.by_state(at, NoTrimError)
         free = [own.get(x, x) for x in free or ()]
         self.bounds = program.by_state(bounds, NoTrimError)
-        self.require_names((*at, *self.bounds), ())
+        self.along = program.by_state(along, NoTrimError)
+        self.require_names((*at, *self.bounds, *self.along), ())
         self.require_names(free, self.turns)
         wanted = free or [x for x in program.inputs if x not in at]
         self.free = tuple(x for x in wanted if x in program.inputs)
@@ -101,6 +75,8 @@ class Question:
                 f"--free {fixed[0]}: of g, which --at gives, as A_11=4/5 with all that change so; "
                 "inputs, velocities and turns from there, as eta_1, are found"
             )
+        if other := [x for x in self.along if x not in velocity]:
+            raise NoTrimError(f"--along {other[0]}: no velocity; these are {entries(velocity)}")
         self.velocities = [x for x in self.sought if x in velocity]
         self.near = {x: float(at[x]) for x in (*self.velocities, *self.free) if x in at}
         if 0 < sum(x in at for x in self.velocities) < len(self.velocities):
@@ -110,6 +86,16 @@ class Question:
         self.x: list[Number] = [at.get(n, start.get(n, Fraction(0))) for n in program.state]
         held = {n: y for n, y in at.items() if n not in self.free}
         self.u: list[Number] = [held.get(n, Fraction(0)) for n in program.inputs]
+        g, self.beside = self.element(), [*self.x]
+        Y = self.group.hat([self.along.get(x, Fraction(0)) for x in velocity])
+        first, last = (g, q.inverted(g)) if self.right else (q.inverted(g), g)
+        self.seen = q.times(q.times(first, Y), last) if self.along else ()
+        self._add(self.x, self.seen)
+
+    def _add(self, x: list[Any], seen: Matrix) -> None:
+        """Let the velocity in a state have a part more, that is seen from g."""
+        for a, more in enumerate(self.group.nearest(seen) if seen else (), len(x) - self.d):
+            x[a] += more
 
     @cached_property
     def k(self) -> list[Any]:
@@ -126,7 +112,8 @@ class Question:
         for name in names:
             if name not in known:
                 told = f"; these are {entries((*known, *self.program.by_block))}"
-                near = nearest(name, self.program.like(name, known)) or told
+                like = self.program.like(name, known)
+                near = called_here(name, known, self.group, like) or told
                 raise NoTrimError(f"{name} is no number of the state and no input{near}")
 
     def require(self) -> None:
@@ -162,7 +149,7 @@ class Question:
 
     def at(self, y: Sequence[Any]) -> tuple[list[Any], list[Any]]:
         """The state and the inputs with these velocities, turns of g and inputs in them."""
-        x, u, turns = [*self.x], [*self.u], self._turned(y)
+        x, u, turns = [*self.beside], [*self.u], self._turned(y)
         if turns:
             there = turned(self.group, self.element(), turns, right=self.right)
             for i, name in enumerate(self.program.state[: -self.d]):
@@ -172,7 +159,14 @@ class Question:
             x[self.program.state.index(name)] = value
         for name, value in zip(self.free, y[len(y) - len(self.free) :], strict=True):
             u[self.program.inputs.index(name)] = value
+        self._add(x, self._seen(turns))
         return x, u
+
+    def _seen(self, turns: Sequence[Any]) -> Matrix:
+        """The part of the velocity that ``along`` gives in space, from where g turns to."""
+        if not self.seen or not turns:
+            return self.seen
+        return carried(self.group, self.seen, turns, right=self.right)
 
     def _turned(self, y: Sequence[Any]) -> list[Any]:
         """η of the turn of g; none where it does not turn."""
@@ -190,16 +184,24 @@ class Question:
         n, first, turns = len(u), self.d - len(x), self._turned(y)
         chart = chart_slopes(self.group, turns, right=self.right) if turns else ()
         turning = [self.turns[x] for x in self.sought if x in self.turns]
+        ways = {a: self._way(chart[a], turns) for a in turning}
         places = [self.program.state.index(x) + self.d + first for x in self.velocities]
         inputs = [self.program.inputs.index(x) for x in self.free]
         return [
             [
                 *(row[i] for i in places),
-                *(q.dot(row[: self.d], chart[a]) for a in turning),
+                *(q.dot(row, ways[a]) for a in turning),
                 *(by_inputs[n * (self.d + b) + i] for i in inputs),
             ]
             for b, row in enumerate(D)
         ]
+
+    def _way(self, xi: Sequence[Any], turns: Sequence[Any]) -> tuple[Any, ...]:
+        """(η, δζ) of δg = gξ, on the right ξg: what is seen of space changes by [Z, ξ], or −."""
+        if not self.seen:
+            return (*xi, *[Fraction(0)] * self.d)
+        moved = q.bracket(self._seen(turns), self.group.hat(xi))
+        return (*xi, *self.group.nearest(q.scaled(-1 if self.right else 1, moved)))
 
     # -- the emitted equations ---------------------------------------------------------------------
 
@@ -298,7 +300,8 @@ class Trim:
     """An equilibrium under inputs.  ``state``, ``inputs``: name → number; ``free``: the names of
     those inputs that were found, ``sought``: of the velocities and turns of g; ``matrix``: D of the
     equations linearised in (η, δζ), (2d, 2d), the inputs held; ``resting``: is the velocity 0?
-    ``corner``: is a root 0 there, which has no derivative?"""
+    ``corner``: is a root 0 there, which has no derivative?  ``along``: the part of the velocity
+    that is given in space."""
 
     state: Numbers
     inputs: Numbers
@@ -307,6 +310,7 @@ class Trim:
     matrix: Matrix
     resting: bool
     corner: bool
+    along: Numbers
 
     @cached_property
     def characteristic(self) -> tuple[Number, ...]:
@@ -370,8 +374,10 @@ def _says_exact(trim: Trim, group: Group, draft: Draft) -> Prose:
     if trim.sought:
         names = (*(_named(x, group, trim) for x in (*trim.sought, *trim.free)),)
         turns = any(x not in trim.state for x in trim.sought)
-        kind = "trim.isolated_with_turns" if turns else "trim.isolated"
-        prose += draft.claim(kind, numbers=("row", *names))
+        kind, more = "trim.isolated_with_turns" if turns else "trim.isolated", {}
+        if turns and trim.along:
+            kind, more = "trim.isolated_along", {"along": _along(trim, group)}
+        prose += draft.claim(kind, numbers=("row", *names), **more)
     elif trim.free:
         inputs: Tree = ("row", *(("par", x) for x in trim.free))
         prose += draft.claim("trim.unique", inputs=inputs)
@@ -382,13 +388,26 @@ def _says_exact(trim: Trim, group: Group, draft: Draft) -> Prose:
 def _says_enclosed(trim: EnclosedTrim, group: Group, draft: Draft) -> Prose:
     near = _equations((_named(x, group, trim), y) for x, y in trim.near.items())
     point, radius = _equations(_rows(trim.start, trim, group, trim.near)), scientific(trim.radius)
-    kind = "trim.near_rest" if trim.resting else "trim.near_steady"
-    prose = draft.claim(kind, near=near, point=point, radius=radius)
+    kind, more = "trim.near_rest" if trim.resting else "trim.near_steady", {}
+    if trim.along:
+        kind, more = "trim.near_along", {"along": _along(trim, group)}
+    prose = draft.claim(kind, near=near, point=point, radius=radius, **more)
     if trim.changed:
         entries = _equations((_named(x, group, trim), trim.state[x]) for x in trim.changed)
         side = "trim.near_turned_on_the_left" if trim.right else "trim.near_turned"
         prose += draft.claim(side, entries=entries, radius=radius)
+    if trim.along:
+        moving = [(_named(x, group, trim), y) for x, y in _velocity(trim, group).items() if y]
+        prose += draft.claim("trim.near_velocity", entries=_equations(moving), radius=radius)
     return prose + draft.claim(f"trim.near_{trim.verdict}")
+
+
+def _velocity(trim: Trim, group: Group) -> dict[str, Number]:
+    return dict([*trim.state.items()][-group.dimension :])
+
+
+def _along(trim: Trim, group: Group) -> Tree:
+    return _equations((_named(x, group, trim), y) for x, y in trim.along.items())
 
 
 def _equations(rows: Iterable[tuple[Tree, Number]]) -> Tree:
@@ -400,7 +419,7 @@ def _rows(
 ) -> list[tuple[Tree, Number]]:
     """The exact numbers that are not those of g = 1, and 0, and all inputs that were found; where
     there are none, those of the velocity, else the first of g."""
-    places, d = entries_of(group), group.dimension
+    places = entries_of(group)
     found: list[tuple[Tree, Number]] = []
     for name, x in state.items():
         i, j = places.get(name, (0, 1))
@@ -408,13 +427,13 @@ def _rows(
             found.append((_named(name, group, trim), x))
     inputs = {n: u for n, u in trim.inputs.items() if n not in near}
     found += [(("par", n), u) for n, u in inputs.items() if u or n in trim.free]
-    still = [x for x in [*state][-d:] if x not in near] or [*state][:1]
+    still = [x for x in _velocity(trim, group) if x not in near] or [*state][:1]
     return found or [(_named(x, group, trim), state[x]) for x in still]
 
 
 def _named(name: str, group: Group, trim: Trim) -> Tree:
     """A number of the state as a tree: an entry of A, T, ζ or w; of ξ for a turn of g; an input."""
-    places, velocity = entries_of(group), [*trim.state][-group.dimension :]
+    places, velocity = entries_of(group), [*_velocity(trim, group)]
     if name in trim.inputs:
         return ("par", name)
     if name in places:

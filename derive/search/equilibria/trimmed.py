@@ -83,6 +83,7 @@ class ExactQuestion(Question):
             self.linear(self.x, u),
             not moving,
             self.has_corner(u),
+            self.along,
         )
 
     def require_exact(self) -> None:
@@ -103,11 +104,12 @@ class ExactQuestion(Question):
         simple = [x.limit_denominator(SIMPLE) for x in found]  # a double root has few digits
         near = all(abs(x - y) < 1 / SIMPLE**2 for x, y in zip(simple, found, strict=True))
         y = simple if near and not any(f.values(simple, EXACTLY)) else exact(f.names, found)
-        self.x, self.u = self.at(y)
+        dependent = q.rank(q.matrix(f.slopes(y, EXACTLY))) < len(y)
+        self.x, self.u = self.at(y)  # from there on g would turn once more
         told = ", ".join(f"{x} = {float(v):.8g}" for x, v in zip(f.names, y, strict=True))
         if any(self.rates({})):
             raise NotExactError(f"near {told} a rate is small, and not 0 in numbers of a root")
-        if q.rank(q.matrix(f.slopes(y, EXACTLY))) < len(y):
+        if dependent:
             raise NoTrimError(f"at {told} all rates are 0{DEPENDENT}")
         for name in self.free:  # they are found once more, linearly
             self.u[self.program.inputs.index(name)] = Fraction(0)
@@ -211,8 +213,9 @@ class EnclosedQuestion(Question):
             tuple(tuple(map(Interval.of, row)) for row in matrix),
             not moving,
             corner=False,
+            along=self.along,
             near=dict(zip(f.names, near, strict=True)),
-            start=dict(zip(self.program.state, self.x, strict=True)),
+            start=dict(zip(self.program.state, self.beside, strict=True)),
             changed=tuple(
                 name
                 for name, a, b in zip(self.program.state, x, self.x, strict=True)
@@ -301,11 +304,14 @@ def trimmed(
     at: Mapping[str, Number],
     free: Sequence[str] | None = None,
     bounds: Bounds | None = None,
+    along: Mapping[str, Number] | None = None,
 ) -> Trim:
     """The inputs, velocities and turns of g ``free``, or all inputs that are not given, for a state
-    and other inputs: those ``at`` has, else g = 1 and 0; ``program``: with its jacobian.
+    and other inputs: those ``at`` has, else g = 1 and 0; ``along``: a velocity in space, Y of the
+    motion exp(tY)g, on the right g exp(tY), beside which those stand; ``program``: with its
+    jacobian.
     ``NoTrimError`` where there is none, or several, or one outside of ``bounds``."""
-    given = problem, program, at, free, bounds or {}
+    given = problem, program, at, free, bounds or {}, along or {}
     found: Trim
     question: ExactQuestion | EnclosedQuestion
     try:
@@ -323,7 +329,8 @@ def trimmed(
         + " to ".join(map(str, question.bounds[name]))
         for name in question.outside(numbers, radius)
     ]:
-        raise NoTrimError(f"the trim is out of bounds: {'; '.join(outside)}")
+        which = "the trim that is found" if found.sought else "the trim"
+        raise NoTrimError(f"{which} is out of bounds: {'; '.join(outside)}")
     return found
 
 

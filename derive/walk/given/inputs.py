@@ -76,12 +76,7 @@ def where_given(problem: Problem) -> Prose:
     scalars = [f"‘{x.name}’" for x in problem.inputs if isinstance(x, ScalarInput)]
     given += say("input.scalars", names=", ".join(scalars)) if scalars else ()
     own = [x for x in problem.stated_forces if isinstance(x, StatedForce)]
-    stated = [
-        phrase(f"input.{x.frame}_named", name=f"‘{x.name}’", point=f"r_{x.on}")
-        if x.name
-        else phrase(f"input.{x.frame}_stated", point=f"r_{x.on}")
-        for x in own
-    ]
+    stated = [phrase(f"input.{x.frame}_{_sort_stated(x)}", **_called(x)) for x in own]
     if stated:
         given += say("input.stated", forces=listed("{first}; {second}", stated))
     if problem.stated_covectors:
@@ -102,6 +97,19 @@ def _sort(x: ForceInput) -> str:
     if x.direction is None:
         return "force"
     return "force_along" if x.moment is None else "force_with_moment"
+
+
+def _sort_stated(x: StatedForce) -> str:
+    """The same of what acts as a function of the state: a moment has no place."""
+    if not x.force:
+        return "torque" if x.name else "moment"
+    return "named" if x.name else "stated"
+
+
+def _called(x: StatedForce) -> dict[str, str]:
+    """Its name, and its place, where it has these."""
+    names = {"name": f"‘{x.name}’"} if x.name else {}
+    return names | ({"point": f"r_{x.on}"} if x.force else {})
 
 
 def by_name(problem: Problem, steps: Iterable[Step], *, discrete: bool = False) -> tuple[Step, ...]:

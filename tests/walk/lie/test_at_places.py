@@ -7,6 +7,7 @@ import pytest
 import derive
 from derive.check.checker import Checker
 from derive.problem.toml import problem_of
+from derive.record.sentence import english
 from tests.support.library import module_of
 from tests.support.walks import SEED, own_verdicts
 
@@ -216,3 +217,44 @@ def test_every_step_is_checked(side):
     record = derive.derive(problem_of(data)).record
     assert all(v.holds for v in own_verdicts(record))
     assert any(s.label == "one.power" for s in record.steps)
+
+
+@pytest.mark.parametrize("frame", ["body", "space"])
+@pytest.mark.parametrize(
+    ("group", "body", "block"),
+    [
+        ("SE(3)", of_points("SE(3)"), 1),
+        ("SO(3)", kinetic("SO(3)", "left"), 1),
+        ("SO(3)", kinetic("SO(3)", "right"), 1),
+        ("SE(2) x SE(2)", {"point": [{"mass": m, "at": [m, 0], "block": b}
+                                     for b in (1, 2) for m in (1, 2)]}, 2),
+    ],
+)  # fmt: skip
+def test_a_moment_alone_needs_no_place(group, body, block, frame):
+    """It acts as a torque that is given has the same numbers, and is called one."""
+    count = 1 if "2" in group else 3
+    data = {"name": "test", "group": group, **body}
+    where = {"frame": frame} | ({"block": block} if block > 1 else {})
+    moment = [f"{k + 1}*t*zeta_1" for k in range(count)]
+    own = derive.derive(
+        problem_of(data | {"force": [{"name": "brake", "moment": moment, **where}]})
+    )
+    given = [{"name": "u", "kind": "torque", **where}]
+    torque = derive.compile(problem_of(data | {"input": given}))
+    stated = derive.compile(own.problem)
+    x = np.random.default_rng(7).normal(size=len(stated.STATE))
+    u = [0.4 * (k + 1) * x[stated.STATE.index("zeta_1")] for k in range(count)]
+    assert np.allclose(stated.rhs(0.4, x), torque.rhs(0.4, x, u), rtol=1e-12, atol=1e-12)
+    assert np.abs(torque.rhs(0.4, x, u) - torque.rhs(0.4, x, [0] * count)).max() > 1e-3
+    assert all(v.holds for v in own_verdicts(own.record))
+    said = " ".join(english(step.prose) for step in own.record.steps)
+    assert group == "SO(3)" or f"‘brake’, a torque, in the {frame} frame" in said
+
+
+def test_a_moment_of_a_place_says_which():
+    data = {"name": "test", "group": "SE(3)", **of_points("SE(3)")}
+    for more in ({"moment": ["-v_1", 0, 0]}, {"moment": ["t", 0, 0], "relative_to": [1, 0, 0]}):
+        with pytest.raises(derive.ProblemError, match="key 'at', a place of the body, is missing"):
+            problem_of(data | {"force": [more]})
+    made = derive.AppliedForce(moment=["-zeta_1", 0, 0], frame="body").fields
+    assert problem_of(data | {"force": [made]}).forces[0].frame == "body"
