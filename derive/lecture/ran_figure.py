@@ -142,9 +142,9 @@ class Ran:
         """The curves, in the colours of the axes; beside them, letters ``also`` of the state."""
         if not also:
             return self._panel(self.curves, AXES, 92.0)
-        left = self._panel(self.curves, AXES, 46.0)
+        left = self._panel(self.curves, AXES, 40.0)
         others = [(x, self.state[x]) for x in also]
-        return beside(left, self._panel(others, ("body",), 28.0), gap=0)
+        return beside(left, self._panel(others, ("body",), 20.0), gap=0)
 
     def _panel(self, curves: Curves, roles: Sequence[str], width: float) -> Scene:
         low = min(0.0, *(min(values) for _, values in curves))
