@@ -265,7 +265,7 @@ def test_where_couplings_act_the_inertia_is_momentum_over_velocity(tmp_path, mon
     coupled = source.replace("a1 = { default = 1.0", "a1 = { default = 1.6")
     Path("screw.toml").write_text(coupled.replace("b1 = { default = 0.2", "b1 = { default = 0.9"))
     told = [*_odd_one(derived("screw.toml")[1], TURNS, ["stable", "unstable", "stable"])]
-    assert str(told[0].texts[0]).endswith("is between those of the others.',)")
+    assert str(told[0].texts[0]).endswith("is between those of the others.')")
 
 
 def test_cases_are_told_with_or_between_them_and_with_and_inside():
@@ -279,7 +279,7 @@ def test_cases_are_told_with_or_between_them_and_with_and_inside():
     step = Step("x.equilibrium_1", "solution", (), (), (said,), claims=(claim,))
     told = dict(_in_cases(said, step).places)["cases"]
     assert str(told) == "‘a’ > 0 and ‘b’ > 0; or ‘c’ > 0"
-    assert language("fr").sentence(told) == "‘a’ > 0 et ‘b’ > 0 ; ou ‘c’ > 0"
+    assert language("fr").sentence(told) == "‘a’ > 0 et ‘b’ > 0\u202f; ou ‘c’ > 0"
 
 
 def test_what_the_run_shows_is_read_off_it():
