@@ -10,7 +10,7 @@ from fractions import Fraction
 from math import gcd, lcm
 
 from ..language.laurent import Laurent, Monomial, OverlongError, polynomial, vanishes, written
-from ..language.tree import Tree, add, mul, neg, nodes, terms
+from ..language.tree import Tree, add, mul, names, neg, terms
 from ..record.record import Equation
 
 NUMBERS = ("ζ", "w", "Π", "𝒥", "ζ_h", "ζ̇", "ẇ")
@@ -92,25 +92,19 @@ def _groups(t: Tree) -> Iterable[list[Tree]]:
         below = {x: n for x, n in same.items() if n < 0 and terms(x)[1:]}
         found.setdefault(frozenset((below or same).items()) or k, []).append(term)
     merged: dict[object, list[Tree]] = {}
-    for key, alike in found.items():
-        number, factors = _split(alike[0])
-        if alike[1:]:
-            other = key
-        elif _is_constant(alike[0]):
-            other = "parameters"
-        else:
-            whole = number.denominator == 1 or min(factors.values()) < 0
-            other = key if whole else f"over {number.denominator}"
-        merged.setdefault(other, []).extend(alike)
+    for key, (first, *others) in found.items():
+        number, factors = _split(first)
+        if not others and _is_constant(first):
+            key = "parameters"
+        elif not others and number.denominator > 1 and min(factors.values()) > 0:
+            key = f"over {number.denominator}"
+        merged.setdefault(key, []).extend((first, *others))
     return merged.values()
 
 
 def _is_constant(t: Tree) -> bool:
     """Is it made of parameters?"""
-    inside = nodes(t)
-    return not any(x in inside for x in SINGLE if x != "π") and not any(
-        isinstance(x, tuple) and x[0] in ("at", "entry") for x in inside
-    )
+    return {*names(t)} <= {"π"}
 
 
 def _together(alike: list[Tree]) -> Tree:
