@@ -179,10 +179,7 @@ def about(body: OwnBody, chapters: list[lecture_text.Chapter]) -> list[lecture_t
     """The chapters with a body in the place of the racket."""
     own = BodyOfLecture(body, document.claims_of(chapters))
     filled = [own.words(language(x)) for x in LANGUAGES]
-    return [
-        lecture_text.of_body(x, filled, own.figures) if x.file.endswith(".txt") else x
-        for x in chapters
-    ]
+    return [lecture_text.of_body(x, filled, own.figures) if x.of_course else x for x in chapters]
 
 
 def named_by(

@@ -84,7 +84,7 @@ def homes(chapters: Sequence[Chapter], records: Mapping[str, Derivation]) -> dic
     a reader's own problems, whose files have names of their own."""
     found: dict[str, list[str]] = {}
     steps = {name: {s.label for s in d.steps} for name, d in records.items()}
-    for chapter in (c for c in chapters if c.file.endswith(".txt")):
+    for chapter in (c for c in chapters if c.of_course):
         for label in (x for e in chapter.entries for x in e.labels):
             places = found.setdefault(label.partition(".")[0], [])
             if not any(label in steps[name] for name in places):
@@ -120,7 +120,8 @@ def letters(
             for problem in reversed(chapter.problems)
             for s in records[problem].symbols
         }
-        declared |= {x: language.marked.word(OWN[of, x]) for of, x in OWN if of == chapter.name}
+        own = (x for x in OWN if chapter.of_course and x[0] == chapter.name)
+        declared |= {x[1]: language.marked.word(OWN[x]) for x in own}
         for entry in chapter.entries:
             for name in _names(entry):
                 if name in declared and not _marked(name):

@@ -209,7 +209,8 @@ class _Setter:
         """A chapter, with the solutions of its exercises once more; ``numbers``: of its blocks."""
         blocks = [self.block(b, numbers.get(id(b), 0)) for b in c.blocks]
         solutions = [x for x in blocks if x["kind"] == "solution"]
-        name = f"chapter_{c.name}"  # a theorem may be called as a problem is
+        # a theorem, or a chapter of the course, may be called as a problem is
+        name = f"{'chapter' if c.of_course else 'problem'}_{c.name}"
         title = self.words((c.title[self.at],))
         return {"name": name, "title": title, "blocks": blocks, "solutions": solutions}
 

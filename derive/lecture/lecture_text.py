@@ -174,6 +174,11 @@ class Chapter:
     figures: Mapping[str, Callable[..., Scene]] = field(default_factory=dict, compare=False)
 
     @property
+    def of_course(self) -> bool:
+        """Is it one of the course, not of a reader's problem, whose name may be the same?"""
+        return self.file.endswith(".txt")
+
+    @property
     def entries(self) -> Iterator[Entry]:
         """The entries of all blocks."""
         for block in self.blocks:

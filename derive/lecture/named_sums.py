@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from ..language.tree import Tree, nodes, replaced
+from ..language.tree import Tree, nodes, replaced, terms
 from ..record.record import Equation
 from ..views.printing.tex import formula
 from ..views.printing.typeset import measure, plain
+from .common_factors import by_divisors, tidied
 from .displays import WIDTH, sides
 
 LEAST = 10.0
@@ -34,14 +35,15 @@ class NamedSums:
         return self._shown[told]
 
     def _named(self, told: Sequence[Equation]) -> tuple[Equation, ...]:
-        left, found = [*told], list[Equation]()
+        left, found = [*map(tidied, told)], list[Equation]()
         while left:
             e = left.pop(0)
             new: list[Equation] = []
             while measure(plain(sides(e).tex)) > WIDTH and (sum_ := self._chosen(e.rhs)):
                 if sum_ not in self.sums:
                     self.sums[sum_] = ("at", self.letter, len(self.sums) + 1)
-                    new.append(Equation(self.sums[sum_], sum_))
+                    divisors = [x for x in nodes(e.rhs) if terms(x)[1:]]
+                    new.append(Equation(self.sums[sum_], by_divisors(sum_, divisors)))
                 e = Equation(e.lhs, replaced(e.rhs, sum_, self.sums[sum_]), e.for_all, e.exists)
             found.append(e)
             left = new + left
@@ -70,5 +72,7 @@ def _within(t: Tree, *, inside: bool = False) -> Iterator[Tree]:
 
 
 def _divided(t: Tree) -> bool:
-    """Is a tree a quotient, or a function as a root?"""
-    return isinstance(t, tuple) and t[0] in ("div", "inv", "fun", "call")
+    """Is a tree a quotient, but by a number, or a function as a root?"""
+    if not isinstance(t, tuple):
+        return False
+    return t[0] in ("inv", "fun", "call") or (t[0] == "div" and not isinstance(t[2], int))

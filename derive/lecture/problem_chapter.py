@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import combinations_with_replacement, groupby
 
 from ..language.show import in_sentence, show
@@ -137,7 +138,7 @@ def chapter_of(
     )
     figures: dict[str, Figure] = {}
     if isinstance(ran, Ran) and not ran.flat:
-        figures[label_of(d.name)] = ran.picture
+        figures[label_of(d.name)] = partial(ran.picture, also=_beside(ran, moving))
     if drawn := scene(d):
         figures[label_of(d.name, "body")] = lambda _: drawn
     file = f"the chapter of {d.name}"
@@ -318,10 +319,15 @@ def _pictured(d: Derivation, ran: Ran | Sentence, letter: Tree) -> Iterator[Bloc
     if ran.flat:
         yield _text(sentence(lambda x: f"{x.word(FLAT)} {ran.told(x)}"))
         return
-    label, also = label_of(d.name), [x for x in (show(letter),) if x in ran.state]
+    label, also = label_of(d.name), _beside(ran, letter)
     shown = told("lecture:shown")
     yield _text(sentence(lambda x: f"{x.word(shown, figure=f'@{label}')} {ran.told(x, also)}"))
-    yield _figure(label, DESCRIBED, sentence(ran.caption))
+    yield _figure(label, DESCRIBED, sentence(lambda x: ran.caption(x, also)))
+
+
+def _beside(ran: Ran, letter: Tree) -> list[str]:
+    """The coordinate that moves by a quadrature, where the state has it."""
+    return [x for x in (show(letter),) if x in ran.state]
 
 
 def _displays(step: Step) -> Iterator[Entry]:

@@ -17,7 +17,7 @@ from ..views.figure.drawing import Label, Scene
 from ..views.language import Language, told
 from .body_figures import marks
 from .recorded_text import AXIS, axis_letter
-from .sheets import AXES, Claims, Frame, panel
+from .sheets import AXES, Claims, Frame, beside, panel
 
 DESCRIBED = (
     "Curves over time: components of the velocity, from the start of the motion to the end of its "
@@ -35,12 +35,18 @@ ROUNDING = 1e-10
 """Less of a change, in the energy, is said no closer: it differs from machine to machine."""
 LOST = 1e-3
 """More of a change, in the energy, is no error of steps."""
+ON_THE_RIGHT = "On the right: {letter}."
+ON_THE_LINE = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 SPELT = str.maketrans("0123456789", "ghijklmnop")
 
 
 def label_of(problem: str, kind: str = "run") -> str:
     """The label of a figure of a problem, in small letters alone."""
     return f"{kind}_{re.sub('[^a-z]', lambda x: f'_{ord(x[0]):x}'.translate(SPELT), problem)}"
+
+
+Curves = Sequence[tuple[str, Sequence[float]]]
+"""Columns of numbers, with their names."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +58,7 @@ class Ran:
     and by how many turns a body has ``turned``."""
 
     times: Sequence[float]
-    curves: Sequence[tuple[str, Sequence[float]]]
+    curves: Curves
     energy: Sequence[float] = ()
     start: Sequence[tuple[str, float]] = ()
     units: Mapping[str, str] = field(default_factory=dict)
@@ -65,8 +71,12 @@ class Ran:
         """Is each curve constant, but for a little?"""
         return all(max(x) - min(x) <= LEVEL * max(map(abs, (*x, 0.0))) for _, x in self.curves)
 
-    def caption(self, words: Language) -> str:
-        """Which curve is which."""
+    def caption(self, words: Language, also: Sequence[str] = ()) -> str:
+        """Which curve is which; ``also``: the letters of the panel on the right."""
+        beside = [words.word(ON_THE_RIGHT, letter=words.formula(x)) for x in also]
+        return " ".join((self._curves(words), *beside))
+
+    def _curves(self, words: Language) -> str:
         coloured = zip(COLOURS, self.curves, strict=False)
         named = ((colour, words.formula(letter_of(x))) for colour, (x, _) in coloured)
         curves = words.listed([words.word(colour, name=x) for colour, x in named])
@@ -128,29 +138,37 @@ class Ran:
         """A number with the unit of its column."""
         return f"{written(x, digits)} {raised(self.units.get(name, ''))}".rstrip()
 
-    def picture(self, _claims: Claims) -> Scene:
-        """The curves, in the colours of the axes."""
-        low = min(0.0, *(min(values) for _, values in self.curves))
-        high = max(0.0, *(max(values) for _, values in self.curves))
+    def picture(self, _claims: Claims, also: Sequence[str] = ()) -> Scene:
+        """The curves, in the colours of the axes; beside them, letters ``also`` of the state."""
+        if not also:
+            return self._panel(self.curves, AXES, 92.0)
+        left = self._panel(self.curves, AXES, 40.0)
+        others = [(x, self.state[x]) for x in also]
+        return beside(left, self._panel(others, ("body",), 20.0), gap=0)
+
+    def _panel(self, curves: Curves, roles: Sequence[str], width: float) -> Scene:
+        low = min(0.0, *(min(values) for _, values in curves))
+        high = max(0.0, *(max(values) for _, values in curves))
         ends = (1.1 * low, 1.1 * high) if low < high else (-1.0, 1.0)
-        frame = Frame((14.0, 6.0), (92.0, 36.0), (0.0, ends[0]), (self.times[-1], ends[1]))
+        frame = Frame((14.0, 6.0), (width, 36.0), (0.0, ends[0]), (self.times[-1], ends[1]))
         times = marks(0.0, self.times[-1])
         strokes, labels = frame.axes((Label("t"), Label("")), times, marks(*ends), 0)
-        for role, (_, numbers) in zip(AXES, self.curves, strict=False):
+        for role, (_, numbers) in zip(roles, curves, strict=False):
             strokes.append(frame.curve(zip(self.times, numbers, strict=True), role))
-        labels += self._ends(frame)
-        return panel((124, 48), strokes, [x for x in labels if x.base])
+        labels += self._ends(frame, curves)
+        return panel((width + 32, 48), strokes, [x for x in labels if x.base])
 
-    def _ends(self, frame: Frame) -> list[Label]:
+    def _ends(self, frame: Frame, curves: Curves) -> list[Label]:
         """The letters of the curves at their right ends, each above the one below it."""
         found: list[Label] = []
         least = frame.corner[1] + APART
-        for last, name in sorted((values[-1], name) for name, values in self.curves):
+        for last, name in sorted((values[-1], name) for name, values in curves):
             x, y = frame.at(self.times[-1], last)
             least = max(y, least)
             base, _, index = name.rpartition("_")
-            letter = letter_of(name)
-            quoted = letter.startswith("‘")
+            if name in self.state:
+                base, index = name[0], name[1:].translate(ON_THE_LINE)
+            quoted = name not in self.state and letter_of(name).startswith("‘")
             label = Label(name, name=True) if quoted else Label(GREEK.get(base, base), index)
             found.append(replace(label, at=(x + 1.6 + label.half[0], least)))
             least += APART

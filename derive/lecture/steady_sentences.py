@@ -7,9 +7,12 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import reduce
 from itertools import permutations
 from typing import Any
 from unicodedata import normalize
+
+import numpy as np
 
 from ..check.checker import checker_of
 from ..language.show import in_sentence, show
@@ -17,9 +20,11 @@ from ..language.tree import Tree, replaced
 from ..record.as_json import decode
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Prose, Sentence, phrase
+from ..record.sentence import Claim, Prose, Sentence, phrase
 from ..views.figure.drawn_body import ExpressionValues
 from ..views.figure.scene import quadratic
+from ..views.layout import factored
+from .common_factors import tidied
 from .lecture_text import Entry, chapters
 from .ran_figure import Ran, value_at_start, value_of, written
 from .recorded_text import axis_letter, lecture, sentence, stated
@@ -37,6 +42,7 @@ STABLE, UNSTABLE = "stable", "unstable"
 OPEN = "stable or not, which these steps do not decide"
 LONG_ONES, HERE_ONLY = "stable or not by the inequalities of these steps", "here {verdict}"
 ON_LEAF = "stable for motions with the same Casimirs"
+AND, OR = "{first} and {second}", "{first}; or {second}"
 VERDICTS = {
     "equilibrium": {
         **dict.fromkeys(("stable", "stable_beyond", "stable_compact"), STABLE),
@@ -82,7 +88,7 @@ def steady(d: Derivation, steps: Sequence[Step], ran: Ran | None = None) -> Iter
         [x for x in steps if x.label.rpartition("_")[2] == s.label.rpartition("_")[2]] for s in at
     ]
     points = [[y[1:] for s in run for x in placed(s, "point") for y in rows(x)] for run in both]
-    said = [x for s in steps for x in s.prose]
+    said = [_in_cases(x, s) for s in steps for x in s.prose]
     positive = [x for x in said if x.message == message("family.positive")][:1]
     letters = [y for point in points for y in point if isinstance(y[1], tuple)]
     numbers, start = _numbers(d, letters, ran)
@@ -146,7 +152,7 @@ def _of_one(
 ) -> Prose:
     """What a steady motion is, and what is proved of its stability; ``also``: of the one with its
     axis the other way, too."""
-    said = [x for s in steps for x in s.prose]
+    said = [_in_cases(x, s) for s in steps for x in s.prose]
     at = next((dict(x.places)["point"] for x in said if "point" in dict(x.places)), "")
     verdicts = [_in_few_words(x) for x in said if x.message in SAID and len(_cases(x)) <= LONG]
     here, numbers = proved
@@ -173,6 +179,25 @@ def _in_few_words(x: Sentence) -> Sentence:
     """What a sentence of the record says of stability."""
     told = SAID[x.message]
     return phrase(told, **{k: y for k, y in x.places if f"{{{k}}}" in told})
+
+
+def _in_cases(x: Sentence, step: Step) -> Sentence:
+    """A sentence whose cases, of inequalities between sides as people write them, stand with an
+    "or" between them, each with an "and"."""
+    claim = next((c for c in step.claims if message(c.kind) == x.message), Claim(""))
+    cases = [rows(y) for place, t in claim.values if place == "cases" for y in rows(t)]
+    told = [_joined(AND, [_inequality(claim.kind, y) for y in case]) for case in cases if case]
+    places = dict(x.places) | ({"cases": _joined(OR, told)} if told else {})
+    return replace(x, places=tuple(places.items()))
+
+
+def _joined(by: str, parts: Sequence[Sentence | str]) -> Sentence | str:
+    return reduce(lambda x, y: phrase(by, first=x, second=y), parts)
+
+
+def _inequality(kind: str, row: Tree) -> str:
+    sides = (factored(tidied(Equation("", y)).rhs) for y in rows(row))
+    return Claim(kind, (("cases", ("matrix", ("row", *sides))),)).texts["cases"]
 
 
 def _cases(x: Sentence) -> str:
@@ -231,9 +256,10 @@ def _odd_one(d: Derivation, kind: str, verdicts: Sequence[str]) -> Iterator[Entr
         return
     first = 3 * (kind == ALONG)
     value, energy = ExpressionValues(d.problem), decode(lagrangian["L"], "lecture")
-    form = quadratic(energy, range(first, first + 3), value)
+    form = quadratic(energy, range(6 if d.problem["group"] == "SE(3)" else 3), value)
     odd = next(k for k, x in enumerate(verdicts) if verdicts.count(x) == 1)
-    inertia = [form[k][k] for k in range(3)] if form else []
+    # momentum over velocity, where that momentum alone is not 0
+    inertia = [*(1 / np.linalg.inv(form).diagonal()[first : first + 3])] if form else []
     if len({*inertia}) == 3:
         rank = RANKS[sorted(inertia).index(inertia[odd])]
         told = {"those": ALIKE[kind], "verdict": verdicts[odd], "rank": rank}

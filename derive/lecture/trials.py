@@ -55,8 +55,13 @@ def tried(
     for entry in chapter.entries:
         for equation in entry.equations if entry.labels else ():
             company = [x for label in entry.labels for x in companies[label]]
-            fit = [x for x in company if not x[1].given or _of_step(equation, x[1])]
+            fit = [x for x in company if not _supposing(x[1]) or _of_step(equation, x[1])]
             yield _claim(chapter, entry, equation, fit)
+
+
+def _supposing(step: Step) -> bool:
+    """Does a step suppose equations? That the axes are principal, I = diag(λ), names letters."""
+    return any(e.lhs != "I" for e in step.given)
 
 
 def _of_step(equation: Equation, step: Step) -> Equation | None:

@@ -88,7 +88,7 @@ def test_every_statement_says_what_it_rests_on():
 
 def test_a_calculation_has_an_identity_for_each_of_a_few_lines():
     found = [b for c in CHAPTERS for b in c.blocks if b.kind == "calculation"]
-    assert len(found) == 15
+    assert len(found) == 17
     assert all(any(b in c.blocks for b in found) for c in CHAPTERS)
     for block in found:
         assert 3 <= len(block.entries) <= 6
@@ -210,6 +210,20 @@ def test_a_problem_may_be_called_as_a_theorem_is(records):
     labels = re.findall(r"\\label{([^}]+)}", tex)
     assert "kirchhoff" in labels
     assert len({*labels}) == len(labels) > 100
+
+
+def test_a_problem_may_be_called_as_a_chapter_is(records):
+    """Its chapter has a label of its own, and not the meanings of the letters of the course's."""
+    own = replace(CHAPTERS[1], file="the chapter of top")
+    told = [letters([x], records, language("en")) for x in (CHAPTERS[1], own)]
+    course, its = ({x.name for x in table} for table in told)
+    assert {x for of, x in OWN if of == "top"} <= course
+    assert not {"ψ", "z", "u₁", "e₃"} & its
+    tex = document.latex(
+        document.Lecture([*CHAPTERS, replace(own, blocks=())], language("en"), records)
+    )
+    labels = re.findall(r"\\label({[^}]+)}", tex)
+    assert len({*labels}) == len(labels)
 
 
 def test_every_figure_is_cited_in_the_text():

@@ -34,13 +34,15 @@ from derive.lecture.ran_figure import FLAT, Ran
 from derive.lecture.recorded_text import REASONS, kept_by
 from derive.lecture.recorded_text import reason as told_reason
 from derive.lecture.recorded_text import words as words_of_record
-from derive.lecture.steady_sentences import SAID, as_top
+from derive.lecture.steady_sentences import SAID, TURNS, _in_cases, _odd_one, as_top
 from derive.lecture.trials import tied, tried
 from derive.motion.simulate import run
 from derive.motion.trajectory import Method
 from derive.programs import motion_of
 from derive.record import prose as texts
-from derive.record.record import Equation
+from derive.record.prose import message
+from derive.record.record import Equation, Step
+from derive.record.sentence import Claim, phrase
 from derive.views.answer import definitions, equations_of_motion
 from derive.views.language import LANGUAGES, language
 from derive.views.outline import title
@@ -252,7 +254,32 @@ def test_of_three_motions_the_odd_one_is_told_with_its_inertia(tmp_path, monkeyp
         Path("turned.toml").write_text(swapped.replace("I0 = {", f"{middle} = {{"))
         _, (alone,) = told_of_steady("turned.toml")
         assert axis in alone
-        assert "unstable for motions with the same Casimirs: its inertia is between" in alone
+        assert "unstable for motions with the same Casimirs: its inertia, the quotient" in alone
+        assert "by its velocity, is between those" in alone
+
+
+def test_where_couplings_act_the_inertia_is_momentum_over_velocity(tmp_path, monkeypatch):
+    """a₁ = 1.6 is more than a₂ = 1.5, and a₁ − b₁²/c₁ = 1.195 less."""
+    source = (Path(derive.__file__).parent / "problems" / "kirchhoff.toml").read_text()
+    monkeypatch.chdir(tmp_path)
+    coupled = source.replace("a1 = { default = 1.0", "a1 = { default = 1.6")
+    Path("screw.toml").write_text(coupled.replace("b1 = { default = 0.2", "b1 = { default = 0.9"))
+    told = [*_odd_one(derived("screw.toml")[1], TURNS, ["stable", "unstable", "stable"])]
+    assert str(told[0].texts[0]).endswith("is between those of the others.')")
+
+
+def test_cases_are_told_with_or_between_them_and_with_and_inside():
+    lettered = [("par", x) for x in "abc"]
+    cases = (
+        ("matrix", ("row", lettered[0], 0), ("row", lettered[1], 0)),
+        ("matrix", ("row", lettered[2], 0)),
+    )
+    claim = Claim("family.stable", (("cases", ("row", *cases)),))
+    said = phrase(message("family.stable"), cases="")
+    step = Step("x.equilibrium_1", "solution", (), (), (said,), claims=(claim,))
+    told = dict(_in_cases(said, step).places)["cases"]
+    assert str(told) == "‘a’ > 0 and ‘b’ > 0; or ‘c’ > 0"
+    assert language("fr").sentence(told) == "‘a’ > 0 et ‘b’ > 0\u202f; ou ‘c’ > 0"
 
 
 def test_what_the_run_shows_is_read_off_it():
@@ -364,6 +391,9 @@ def test_the_letters_of_curves_stand_at_their_ends_apart_from_one_another():
     assert ends["3"][1] < ends["1"][1] < ends["2"][1]
     assert ends["2"][1] - ends["1"][1] > 4
     assert min(x for x, _ in ends.values()) > 106
+    both = replace(ran, state={"A₃₃": (0.5, 0.9)}).picture({}, ["A₃₃"])
+    assert [x.base for x in both.labels if x.index == "33"] == ["A"]
+    assert both.width <= ran.picture({}).width
 
 
 def test_a_long_formula_of_a_sentence_stands_apart_with_the_sign_behind_it():

@@ -1,0 +1,154 @@
+"""Sums as people write them: before a bracket what several terms have of parameters, equal factors
+as a power, a polynomial by a divisor that is known.  What is shown instead of a tree is equal to
+it as a rational function, or the tree stays."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from fractions import Fraction
+from math import gcd, lcm
+
+from ..language.laurent import Laurent, Monomial, OverlongError, polynomial, vanishes, written
+from ..language.tree import Tree, add, mul, names, neg, terms
+from ..record.record import Equation
+
+NUMBERS = ("ζ", "w", "Π", "𝒥", "ζ_h", "ζ̇", "ẇ")
+"""Letters whose components are numbers."""
+SINGLE = ("h̃", "𝒱", "π", "t")
+"""Letters that are numbers themselves."""
+Factors = Counter[Tree]
+"""How often each factor is in a product; fewer than 0 times, below the line."""
+
+
+def tidied(e: Equation) -> Equation:
+    """An equation with its sides as people write them."""
+    return Equation(_tidied(e.lhs), _tidied(e.rhs), e.for_all, e.exists)
+
+
+def _tidied(t: Tree) -> Tree:
+    if not isinstance(t, tuple) or t[0] in ("par", "at", "entry"):
+        return t
+    t = (t[0], *(_tidied(x) if isinstance(x, tuple) else x for x in t[1:]))
+    if t[0] not in ("add", "mul") or not _is_number(t):
+        return t
+    if t[0] == "mul":
+        return mul(*(_power(x, t[1:].count(x)) for x in dict.fromkeys(t[1:])))
+    found = add(*map(_together, _groups(t)))
+    try:
+        return found if vanishes(add(t, neg(found))) else t
+    except OverlongError:
+        return t
+
+
+def _is_number(t: Tree) -> bool:
+    """Is it made of what is known to be a number, so that factors may change places?"""
+    if not isinstance(t, tuple):
+        return not isinstance(t, str) or t in SINGLE
+    if t[0] in ("add", "mul", "div"):
+        return all(map(_is_number, t[1:]))
+    if t[0] == "pow":
+        return isinstance(t[2], int) and _is_number(t[1])
+    return t[0] in ("par", "entry") or (t[0] == "at" and t[1] in NUMBERS)
+
+
+def _power(x: Tree, k: int) -> Tree:
+    return x if k == 1 else ("pow", x, k)
+
+
+def _split(t: Tree) -> tuple[Fraction, Factors]:
+    """A product as a number and its factors."""
+    if isinstance(t, (int, Fraction)):
+        return Fraction(t), Counter()
+    if isinstance(t, tuple) and t[0] in ("mul", "div"):
+        number, factors = Fraction(1), Factors()
+        for k, x in enumerate(t[1:]):
+            q, of = _split(x)
+            below = t[0] == "div" and k == 1
+            number = number / q if below else number * q
+            for y, n in of.items():
+                factors[y] += -n if below else n
+        return number, factors
+    if isinstance(t, tuple) and t[0] == "pow":
+        q, of = _split(t[1])
+        return q ** t[2], Factors({x: n * t[2] for x, n in of.items()})
+    return Fraction(1), Factors({t: 1})
+
+
+def _product(number: Fraction, factors: Factors) -> Tree:
+    """The tree of a product, a quotient where something is below the line."""
+    above = mul(abs(number.numerator), *(_power(x, n) for x, n in factors.items() if n > 0))
+    below = mul(number.denominator, *(_power(x, -n) for x, n in factors.items() if n < 0))
+    return mul(-1 if number < 0 else 1, above if below == 1 else ("div", above, below))
+
+
+def _groups(t: Tree) -> Iterable[list[Tree]]:
+    """Terms with the same factors of parameters, or with the same sum below the line, in the order
+    in which the first of each stands; of the others those of parameters alone, and those with the
+    same number below the line."""
+    found: dict[object, list[Tree]] = {}
+    for k, term in enumerate(terms(t)):
+        same = {x: n for x, n in _split(term)[1].items() if _is_constant(x)}
+        below = {x: n for x, n in same.items() if n < 0 and terms(x)[1:]}
+        found.setdefault(frozenset((below or same).items()) or k, []).append(term)
+    merged: dict[object, list[Tree]] = {}
+    for key, (first, *others) in found.items():
+        number, factors = _split(first)
+        if not others and _is_constant(first):
+            key = "parameters"
+        elif not others and number.denominator > 1 and min(factors.values()) > 0:
+            key = f"over {number.denominator}"
+        merged.setdefault(key, []).extend((first, *others))
+    return merged.values()
+
+
+def _is_constant(t: Tree) -> bool:
+    """Is it made of parameters?"""
+    return {*names(t)} <= {"π"}
+
+
+def _together(alike: list[Tree]) -> Tree:
+    """The sum of terms, what all have before a bracket."""
+    if len(alike) == 1:
+        return alike[0]
+    numbers, products = zip(*map(_split, alike), strict=True)
+    number = Fraction(gcd(*(q.numerator for q in numbers)), lcm(*(q.denominator for q in numbers)))
+    number *= -1 if max(numbers) < 0 else 1
+    common = Factors()
+    for x in products[0]:
+        powers = [of[x] for of in products]
+        common[x] = min(powers) if min(powers) > 0 else min(max(powers), 0)
+    for of in products:
+        of.subtract(common)
+    inside = add(*(_product(q / number, of) for q, of in zip(numbers, products, strict=True)))
+    return _product(number, Factors({**common, inside: 1}))
+
+
+def by_divisors(t: Tree, divisors: Iterable[Tree]) -> Tree:
+    """A polynomial as a product with the first of some sums that divides it; else as it is."""
+    try:
+        whole = polynomial(t)
+        for x in divisors:
+            if x != t and (rest := _quotient(whole, polynomial(x))):
+                return mul(x, written(rest))
+    except OverlongError:
+        pass
+    return t
+
+
+def _quotient(p: Laurent, d: Laurent) -> Laurent | None:
+    """The quotient of two polynomials, if it is one."""
+    letters = sorted({x for of in (p, d) for m in of.terms for x, _ in m}, key=repr)
+
+    def place(m: Monomial) -> tuple[int, ...]:
+        return (*(dict(m).get(x, 0) for x in letters),)
+
+    lead, found = max(d.terms, key=place), Laurent({})
+    while p:
+        first = max(p.terms, key=place)
+        powers = [a - b for a, b in zip(place(first), place(lead), strict=True)]
+        if min(powers) < 0:
+            return None
+        part = Laurent.monomial(zip(letters, powers, strict=True), p.terms[first] / d.terms[lead])
+        found, p = found + part, p + part * d * -1
+    return found
