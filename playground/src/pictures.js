@@ -37,7 +37,8 @@ function vectors(canvas, scene) {
     drawImage: (image, x, y, wide, high) => made.push(`<image x="${short(x)}" y="${short(y)}" width="${wide}" height="${high}" href="${image.toDataURL()}"/>`),
     fill: () => shape(`fill="${pen.fillStyle}"`),
     stroke: () => shape(`fill="none" stroke="${pen.strokeStyle}" stroke-width="${pen.lineWidth}"${pen.getLineDash().length ? ` stroke-dasharray="${pen.getLineDash()}"` : ""}`),
-    fillText: (what, x, y) => text(what, x, y, `fill="${pen.fillStyle}" style="font: ${pen.font}" dy=".35em" text-anchor="${anchor[pen.textAlign] ?? "start"}"`),
+    strokeText: () => {},
+    fillText: (what, x, y) => text(what, x, y, `fill="${pen.fillStyle}" stroke="${pen.strokeStyle}" stroke-width="3" paint-order="stroke" style="font: ${pen.font}" dy=".35em" text-anchor="${anchor[pen.textAlign] ?? "start"}"`),
   };
   Object.assign(pen, own);
   scene.redraw();
