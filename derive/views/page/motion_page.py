@@ -288,9 +288,7 @@ def data(
 ) -> dict[str, Any]:
     """What the script is told of the motion, as JSON has it; of its code the last outputs are the
     entries of ``vectors``."""
-    outputs = code.program.outputs
-    own = outputs[: len(outputs) - sum(len(x.entries) for x in vectors)]
-    code = EmittedCode(replace(code.program, outputs=own), record, code.base)
+    code, told = _apart(code, record, vectors, language)
     made = code.program
     group = problem.group if problem.advected is None else None
     state = made.state_by_block or made.state
@@ -330,12 +328,7 @@ def data(
         **({"lost": True} if lost else {}),
         "curves": curves,
         **({"outputs": made.outputs} if made.outputs else {}),
-        **({"arrows": drawn(record, vectors, len(own))} if vectors else {}),
-        **(
-            {"meanings": [x["meaning"] for x in legend(record, vectors, language)]}
-            if vectors
-            else {}
-        ),
+        **told,
         "body": body,
         "labels": {
             **_labels([(x, meaning, unit) for x, _, unit, meaning in made.parameters], language),
@@ -349,6 +342,17 @@ def data(
         "words": words,
         "comma": language.name == "fr",
     }
+
+
+def _apart(
+    code: EmittedCode, record: Derivation, vectors: Sequence[Arrow], language: Language
+) -> tuple[EmittedCode, dict[str, Any]]:
+    """The code with its own outputs alone, and what draws the vectors that the others are."""
+    outputs = code.program.outputs
+    own = outputs[: len(outputs) - sum(len(x.entries) for x in vectors)]
+    meanings = [x["meaning"] for x in legend(record, vectors, language)]
+    told = {"arrows": drawn(record, vectors, len(own)), "meanings": meanings} if vectors else {}
+    return EmittedCode(replace(code.program, outputs=own), record, code.base), told
 
 
 def _turns(body: Data, record: Derivation) -> bool:
