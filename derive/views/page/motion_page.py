@@ -278,6 +278,20 @@ def _unsaid(made: Program, body: Mapping[str, Any], element: bool, lost: bool) -
     return unsaid
 
 
+def _words(
+    made: Program, body: Data, record: Derivation, language: Language, unsaid: Collection[str]
+) -> dict[str, str]:
+    """The words of a page, but for those that are ``unsaid``."""
+    words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
+    if "waves" in body:
+        words["stage"] = language.word("vorticity")
+    if body["turns"] and not made.outputs:
+        words["polhode"] = language.word(WORDS["ellipsoid" if is_free(record.problem) else "now"])
+    if made.inputs:
+        words["kept"] = language.word("What is kept without inputs")
+    return words
+
+
 def data(
     code: EmittedCode,
     problem: Problem,
@@ -305,14 +319,7 @@ def data(
     said = {x: _meaning(x, record, language, _turns(body, record)) for x in made.state}
     units |= {x: "rad/s" for x, y in said.items() if y == language.word(TURNING) and units[x]}
     of_state = [(y, said[x], units[x]) for x, y in zip(made.state, state, strict=True)]
-    unsaid = _unsaid(made, body, bool(entries), lost)
-    words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
-    if "waves" in body:
-        words["stage"] = language.word("vorticity")
-    if body["turns"] and not made.outputs:
-        words["polhode"] = language.word(WORDS["ellipsoid" if is_free(record.problem) else "now"])
-    if made.inputs:
-        words["kept"] = language.word("What is kept without inputs")
+    words = _words(made, body, record, language, _unsaid(made, body, bool(entries), lost))
     if group is not None and group.name.startswith(("SL(", "SAff(")) and "defect" in words:
         words["defect"] += " |det A − 1|"
     return {
