@@ -43,7 +43,7 @@ from ..problem.problem import Problem
 from ..programs import motion_of, motion_of_many, program
 from ..record.record import Derivation
 from ..views.language import language
-from ..views.page.motion_page import motion_page
+from ..views.page.motion_page import motion_page, with_seen
 from ..views.plot.pictures import plot
 from .showing import UsageError, allowed, columns, derive, doubted, each_once
 from .writing import filled, growing, heard, one_line, require_place, with_progress, working, write
@@ -106,7 +106,7 @@ def moving_page(
 ) -> str:
     """The page of a motion from 0 to t, for ``None`` some turns, from a start as ``beginning``
     takes it; ``Refused``."""
-    code = motion_of(replace(problem, events=()), record, weightless=True)
+    code = motion_of(replace(problem, events=()), with_seen(record), weightless=True)
     begin = beginning(code, problem, **start)
     t = some_turns(code, begin) if t is None else t
     instants(method, t, 1)  # refuses a time that is none

@@ -282,10 +282,11 @@ class Derived(Recorded):
         from ..motion.trajectory import Method, instants
         from ..programs import motion_of
         from ..views.language import language as named
-        from ..views.page.motion_page import motion_page
+        from ..views.page.motion_page import motion_page, with_seen
 
         require_numbers(start, exp, t=t, tol=tol)
-        code = motion_of(replace(self.problem, events=()), self.record, weightless=True)
+        moves = replace(self.problem, events=())
+        code = motion_of(moves, with_seen(self.record), weightless=True)
         begin = beginning(code, self.problem, given=start or {}, exponent=exp, project=project)
         instants(Method(tol=tol), t, 1)
         page = motion_page(code, self.problem, self.record, begin, t, tol, named(language))

@@ -70,6 +70,7 @@ def arrows(d: Derivation) -> tuple[Arrow, ...]:
     if not any(x.scale == "turning" for x in found):
         found += _in_letters(d, "Z", TURNING, "turning")
     terms = {x.trees: x for x in _terms(d) if there & {*x.trees}}
+    found += _momentum_of_lagrangian(d)
     bodies = len(_factors(d)) > 1
     loads = _in_letters(d, "β", WHOLE, "torque") if "β" in (there if bodies else told) else ()
     return (*found, *loads, *terms.values())[:MOST]
@@ -142,6 +143,17 @@ def _velocities(d: Derivation) -> Iterator[Arrow]:
         if -1 not in to:
             yield _of_entries("ζ", to, ORIGIN, "sliding", part, False)
         offset += SIZES[name]
+
+
+def _momentum_of_lagrangian(d: Derivation) -> Iterator[Arrow]:
+    """Π of a body that a Lagrangian tells, as its walk has it by the velocities; of SE(3), the part
+    about the body's origin."""
+    turning = _turning(d)
+    told = [s for s in d.steps if s.label == f"{d.name}.momenta"]
+    Π = {e.lhs: e.rhs for s in told for e in s.equations}
+    if len(turning) == 1 and -1 not in turning[0] and ("at", "Π", 1) in Π:
+        entries = tuple(Π["at", "Π", k + 1] for k in turning[0])
+        yield Arrow(("Π",), "angular momentum in the body", "", entries, "momentum", centre=False)
 
 
 def _of_entries(

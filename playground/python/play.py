@@ -209,8 +209,7 @@ class Play:
 
         with self.refusals():
             source, page = self.moved(text, lang, sought=False)
-            chosen = pieces(page["body"], read=bool(page.get("outputs")))
-            chosen |= {"arrows": "arrows_of"} if page["arrows"] else {}
+            chosen = pieces(page)
             if chosen.get("side") == "velocities" and len(page["adjusted"]) == 1:
                 del chosen["side"]  # the graph has it
             self.tell("motion", {"source": source, "page": page, "pieces": chosen})
@@ -231,7 +230,7 @@ class Play:
         from derive.motion.emitted_code import EmittedCode, base_units
         from derive.motion.first_numbers import first_numbers
         from derive.programs import moving_program
-        from derive.views.arrows import arrows, drawn, legend, with_arrows
+        from derive.views.arrows import arrows, with_arrows
         from derive.views.language import language
         from derive.views.page.motion_page import data
 
@@ -242,11 +241,8 @@ class Play:
         begin = first_numbers(with_numbers(made), self.problem, {})
         chosen = Options(step=("gauss",))
         (source,) = emit(made, record, ("javascript",), made.name, chosen).values()
-        own = made.outputs[: len(made.outputs) - sum(len(x.entries) for x in seen)]
-        code = EmittedCode(replace(made, outputs=own), self.record, base_units(self.problem))
-        page = data(code, self.problem, self.record, begin, language(lang))
-        page["arrows"] = drawn(self.record, seen, len(own))
-        page["meanings"] = [x["meaning"] for x in legend(self.record, seen, language(lang))]
+        code = EmittedCode(made, self.record, base_units(self.problem))
+        page = data(code, self.problem, self.record, begin, language(lang), seen)
         page |= {"t": SECONDS, "tol": TOLERANCE}
         stated = [*page["x"]]
         page["x"] = moving(page, made)

@@ -36,8 +36,9 @@ function vectors(canvas, scene) {
     arc: (x, y, r) => { path += `M${short(x - r)} ${short(y)}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0`; },
     drawImage: (image, x, y, wide, high) => made.push(`<image x="${short(x)}" y="${short(y)}" width="${wide}" height="${high}" href="${image.toDataURL()}"/>`),
     fill: () => shape(`fill="${pen.fillStyle}"`),
-    stroke: () => shape(`fill="none" stroke="${pen.strokeStyle}" stroke-width="${pen.lineWidth}"${pen.getLineDash().length ? ` stroke-dasharray="${pen.getLineDash()}"` : ""}`),
-    fillText: (what, x, y) => text(what, x, y, `fill="${pen.fillStyle}" style="font: ${pen.font}" dy=".35em" text-anchor="${anchor[pen.textAlign] ?? "start"}"`),
+    stroke: () => shape(`fill="none" stroke="${pen.strokeStyle}" stroke-width="${pen.lineWidth}" stroke-linecap="${pen.lineCap}"${pen.getLineDash().length ? ` stroke-dasharray="${pen.getLineDash()}"` : ""}`),
+    strokeText: () => {},
+    fillText: (what, x, y) => text(what, x, y, `fill="${pen.fillStyle}" stroke="${pen.strokeStyle}" stroke-width="3" paint-order="stroke" style="font: ${pen.font}" dy=".35em" text-anchor="${anchor[pen.textAlign] ?? "start"}"`),
   };
   Object.assign(pen, own);
   scene.redraw();
@@ -46,7 +47,7 @@ function vectors(canvas, scene) {
   told.forEach(([colour, what], i) => text(what, LINE, high + (i + 0.8) * LINE, `fill="${colour}" style="font: 13px Georgia, serif"`));
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">
 <rect width="100%" height="100%" fill="${getComputedStyle(document.body).backgroundColor}"/>
-<svg width="${width}" height="${high}" stroke-linejoin="round" stroke-linecap="round">\n${drawn}\n</svg>\n${made.join("\n")}\n</svg>\n`;
+<svg width="${width}" height="${high}" stroke-linejoin="round">\n${drawn}\n</svg>\n${made.join("\n")}\n</svg>\n`;
 }
 
 /* the same as a canvas, finer than on the screen */

@@ -92,6 +92,22 @@ def test_a_plane_is_seen_as_it_is(group, gravity, opened):
     assert np.abs(fall - 30 * np.array(gravity) / np.linalg.norm(gravity)).max() < 1e-6
 
 
+def test_the_momentum_stays_in_space_and_the_velocity_does_not(opened):
+    """The two vectors of a racket, as they are drawn; the legend says which is which."""
+    shown = opened(page("euler_top"))
+    ends = f"Object.fromEntries({MOTION}.scene.drawn.map(([n, , to]) => [n, to.slice(0, 2)]))"
+    seek(shown, 8)  # what is longest has been there
+    seen = []
+    for t in (1, 4, 7.5):
+        seek(shown, t)
+        seen.append(shown.evaluate(ends))
+    ζ, momentum = (np.array([x[n] for x in seen]) for n in "12")
+    assert np.abs(momentum - momentum[0]).max() < 1
+    assert np.abs(ζ - ζ[0]).max() > 5
+    told = ["ζ angular velocity in the body", "Π angular momentum in the body"]
+    assert shown.locator(".legend span").all_inner_texts() == told
+
+
 def test_seen_from_the_body_its_points_stay(opened):
     """And in space they do not; what deforms has no such view."""
     masses = [{"mass": 1, "at": [0.3, -0.7, 0.2]}, {"mass": 2, "at": [0.4, 0.2, -0.5]}]
@@ -106,7 +122,7 @@ def test_seen_from_the_body_its_points_stay(opened):
         seek(shown, t)
         return np.array(shown.evaluate("drawn.dots"))
 
-    assert points(0.5).shape == (3, 2)
+    assert points(0.5).shape == (4, 2)  # the masses, and the head of the trail
     assert np.abs(points(0.5) - points(2.5)).max() > 5
     shown.check(".within input")
     assert np.abs(points(0.5) - points(2.5)).max() < 1e-6

@@ -52,6 +52,23 @@ MADE = {
     "tether.csv": Made("tether.toml --t 62.83 --points 200", ("pull",), 4),
     "boat.csv": Made("boat.toml --t 100 --points 50 --set engine=90", ("T", "w"), 4),
     "gyroscope.csv": Made("gyroscope.toml --t 2 --points 100", ("A",), 4),
+    "wheel.csv": Made("wheel.toml --t 2.6 --points 52", ("zeta_1", "zeta_2"), 4),
+    "gradient.csv": Made("gradient.toml --t 12000 --points 60", ("zeta_3",), 5),
+    "drone.csv": Made(
+        "drone.toml --t 2 --points 40 --set right=6.03 --set left=6", ("T", "zeta"), 4
+    ),
+    "plane.csv": Made("plane.toml --t 6 --points 48 --set torque_1=1", ("zeta",), 4),
+    "nozzle.csv": Made("nozzle.toml --t 2 --points 40 --set delta=0.05", ("T", "zeta"), 4),
+    "burning.csv": Made("burning.toml --t 20 --points 40", ("w_2",), 4),
+    "vehicle.csv": Made(
+        "vehicle.toml --t 20 --points 60 --set zeta_2=1 --set zeta_3=0.01", ("zeta",), 4
+    ),
+    "car.csv": Made(
+        "car.toml --t 6 --points 60 --set w_1=20 --set delta=0.02 --set drive=16.87",
+        ("T", "zeta"),
+        4,
+    ),
+    "bar.csv": Made("bar.toml --t 3 --points 60", ("zeta",), 4),
     "tops.npz": Made(
         "top --t 1 --points 48 --ensemble 50 --vary zeta_3=80:120 --vary zeta_1=normal:0:0.5",
         ("A_33",),
@@ -68,6 +85,15 @@ DRAWN = {
     "tether.svg": ("tether.csv", "outputs"),
     "boat.svg": ("boat.csv", "state"),
     "gyroscope.svg": ("gyroscope.csv", "axes"),
+    "wheel.svg": ("wheel.csv", "state"),
+    "gradient.svg": ("gradient.csv", "state"),
+    "drone.svg": ("drone.csv", "state"),
+    "plane.svg": ("plane.csv", "state"),
+    "nozzle.svg": ("nozzle.csv", "state"),
+    "burning.svg": ("burning.csv", "state"),
+    "vehicle.svg": ("vehicle.csv", "state"),
+    "car.svg": ("car.csv", "state"),
+    "bar.svg": ("bar.csv", "state"),
     "spread.svg": ("tops.npz", "spread"),
 }
 """Picture → the run, and ``derive plot --kind``."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ...code.emit import emit
@@ -20,7 +21,7 @@ from ...motion.first_numbers import FirstNumbers, drives, is_free, weight
 from ...problem.problem import Problem
 from ...record.record import Derivation
 from ..answer import PLANE
-from ..arrows import ORIGIN, TURNING
+from ..arrows import ORIGIN, TURNING, Arrow, arrows, drawn, legend, with_arrows
 from ..html import visible
 from ..language import ENGLISH, Language
 from ..outline import capitalised, subtitle, title
@@ -82,6 +83,8 @@ COMMENT = re.compile(
     r"""("(?:[^"\\\n]|\\.)*"|`[^`]*`)|/\*.*?\*/|(?:(?<=\s)|^)//[^\n]*""", re.DOTALL | re.MULTILINE
 )
 """A comment; or a text, the first group, in which there is none."""
+SPACES = re.compile(r"""("(?:[^"\\\n]|\\.)*"|`[^`]*`)| *([][(){}=,;?:*/<>&|]) *""")
+"""A text; or a sign, the second group, with spaces about it that a script does not need."""
 NAME = re.compile(r"[^\W\d][\w$]*")
 TAKEN = re.compile(r"(?:(?<![\w$.])|(?<=\.\.\.))[^\W\d][\w$]*")
 """A name that is not that of a property."""
@@ -114,6 +117,20 @@ SCRIPTS = (
 """The files of the drawing, in templates/html/motion."""
 
 
+SHOWN = "turning", "momentum"
+"""The vectors of a page that stands alone, by their scales."""
+
+
+def seen(record: Derivation) -> list[Arrow]:
+    """The vectors that are drawn on the body of a page: how it turns, and its angular momentum."""
+    return [x for x in arrows(record) if x.scale in SHOWN and len(x.entries) == 3 * len(x.parts)]
+
+
+def with_seen(record: Derivation) -> Derivation:
+    """The record whose code has them, as outputs behind its own."""
+    return with_arrows(record, seen(record))
+
+
 def motion_page(
     code: EmittedCode,
     problem: Problem,
@@ -123,8 +140,11 @@ def motion_page(
     tol: float,
     language: Language = ENGLISH,
 ) -> str:
-    """The page of a motion from 0 to ``duration``, to a tolerance."""
-    found = data(code, problem, record, begin, language) | {"t": duration, "tol": tol}
+    """The page of a motion from 0 to ``duration``, to a tolerance; the code is that of the record
+    :func:`.with_seen`."""
+    vectors = seen(record)
+    found = data(code, problem, record, begin, language, vectors)
+    found |= {"t": duration, "tol": tol}
     written = json.dumps(
         _with_integers(found), ensure_ascii=False, sort_keys=True, separators=(",", ":")
     )
@@ -136,7 +156,7 @@ def motion_page(
         needs_script=language.word("The motion is computed by a script."),
         style=style(),
         data=written.replace("<", "\\u003c"),
-        script=script(code, record, found["body"]).replace("</", "<\\/"),
+        script=script(code, record, found).replace("</", "<\\/"),
         name=code.name,
     )
 
@@ -158,7 +178,7 @@ def style() -> str:
     return re.sub(r"(?<=[;{},:])\s+|;?\s+(?=[{}])|\s*\n\s*", "", text).replace(";}", "}")
 
 
-def script(code: EmittedCode, record: Derivation, body: Data) -> str:
+def script(code: EmittedCode, record: Derivation, page: Data) -> str:
     """The emitted module, what mounts a motion, and the call of it, in few characters."""
     options = Options(step=("gauss",))
     (source,) = emit(
@@ -174,7 +194,7 @@ def script(code: EmittedCode, record: Derivation, body: Data) -> str:
     drawing = "".join(
         (folder("html") / "motion" / f"{x}.js").read_text(encoding="utf-8") for x in SCRIPTS
     )
-    chosen = pieces(body, read=bool(program.outputs))
+    chosen = pieces(page)
     drawing = called(drawing, ["mount", *chosen.values()])
     given = ", ".join(f"{name}: {x}" for name, x in chosen.items())
     return lean(
@@ -217,17 +237,18 @@ def plain(source: str) -> str:
 
 
 def lean(source: str) -> str:
-    """A script without comments, indentation, empty lines, and spaces about the arrows of
-    functions, which stand in no text of it."""
-    return re.sub(r"\n\s+", "\n", plain(source)).replace(" => ", "=>")
+    """A script without comments, indentation, empty lines, and spaces about signs."""
+    dense = re.sub(r"\n\s+", "\n", plain(source))
+    return SPACES.sub(lambda m: m[1] or m[2], dense)
 
 
-def pieces(body: Data, *, read: bool = False) -> dict[str, str]:
-    """What draws a body of :func:`.moving_body`, and what is ``read`` off its motion: names of the
-    drawing's functions, by what they are for; a function that is not named, nor called by one that
-    is, is no part of the page."""
-    turned = {"turned_start": "turned_start"}
-    readings = {"side": "readings"} if read else {}
+def pieces(page: Data) -> dict[str, str]:
+    """What draws a body of :func:`.moving_body`, its vectors, what is read off its motion: names
+    of the drawing's functions, by what they are for; a function that is not named, nor called by
+    one that is, is no part of the page."""
+    body, turned = page["body"], {"turned_start": "turned_start"}
+    readings = {"side": "readings"} if page.get("outputs") else {}
+    turned |= {"arrows": "arrows_of"} if page.get("arrows") else {}
     if not body["parts"]:
         on_torus = {"stage": "vorticity_stage", "side": "coefficients"}
         return (on_torus if "waves" in body else {"stage": "chart_stage"}) | readings | turned
@@ -257,14 +278,31 @@ def _unsaid(made: Program, body: Mapping[str, Any], element: bool, lost: bool) -
     return unsaid
 
 
+def _words(
+    made: Program, body: Data, record: Derivation, language: Language, unsaid: Collection[str]
+) -> dict[str, str]:
+    """The words of a page, but for those that are ``unsaid``."""
+    words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
+    if "waves" in body:
+        words["stage"] = language.word("vorticity")
+    if body["turns"] and not made.outputs:
+        words["polhode"] = language.word(WORDS["ellipsoid" if is_free(record.problem) else "now"])
+    if made.inputs:
+        words["kept"] = language.word("What is kept without inputs")
+    return words
+
+
 def data(
     code: EmittedCode,
     problem: Problem,
     record: Derivation,
     begin: Start | FirstNumbers,
     language: Language,
+    vectors: Sequence[Arrow] = (),
 ) -> dict[str, Any]:
-    """What the script is told of the motion, as JSON has it."""
+    """What the script is told of the motion, as JSON has it; of its code the last outputs are the
+    entries of ``vectors``."""
+    code, told = _apart(code, record, vectors, language)
     made = code.program
     group = problem.group if problem.advected is None else None
     state = made.state_by_block or made.state
@@ -281,14 +319,7 @@ def data(
     said = {x: _meaning(x, record, language, _turns(body, record)) for x in made.state}
     units |= {x: "rad/s" for x, y in said.items() if y == language.word(TURNING) and units[x]}
     of_state = [(y, said[x], units[x]) for x, y in zip(made.state, state, strict=True)]
-    unsaid = _unsaid(made, body, bool(entries), lost)
-    words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
-    if "waves" in body:
-        words["stage"] = language.word("vorticity")
-    if body["turns"] and not made.outputs:
-        words["polhode"] = language.word(WORDS["ellipsoid" if is_free(record.problem) else "now"])
-    if made.inputs:
-        words["kept"] = language.word("What is kept without inputs")
+    words = _words(made, body, record, language, _unsaid(made, body, bool(entries), lost))
     if group is not None and group.name.startswith(("SL(", "SAff(")) and "defect" in words:
         words["defect"] += " |det A − 1|"
     return {
@@ -304,6 +335,7 @@ def data(
         **({"lost": True} if lost else {}),
         "curves": curves,
         **({"outputs": made.outputs} if made.outputs else {}),
+        **told,
         "body": body,
         "labels": {
             **_labels([(x, meaning, unit) for x, _, unit, meaning in made.parameters], language),
@@ -317,6 +349,17 @@ def data(
         "words": words,
         "comma": language.name == "fr",
     }
+
+
+def _apart(
+    code: EmittedCode, record: Derivation, vectors: Sequence[Arrow], language: Language
+) -> tuple[EmittedCode, dict[str, Any]]:
+    """The code with its own outputs alone, and what draws the vectors that the others are."""
+    outputs = code.program.outputs
+    own = outputs[: len(outputs) - sum(len(x.entries) for x in vectors)]
+    meanings = [x["meaning"] for x in legend(record, vectors, language)]
+    told = {"arrows": drawn(record, vectors, len(own)), "meanings": meanings} if vectors else {}
+    return EmittedCode(replace(code.program, outputs=own), record, code.base), told
 
 
 def _turns(body: Data, record: Derivation) -> bool:

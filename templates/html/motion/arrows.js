@@ -6,7 +6,7 @@
 const LENGTHS = { turning: 1.35, momentum: 1.15, sliding: 1, torque: 0.85, force: 0.85 };
 
 function arrows_of(scene, view) {
-  const { arrows, module, pointed, body: { planar } } = scene.page;
+  const { arrows, meanings, module, pointed, body: { planar } } = scene.page;
   let seen = null, hues = [], drawn = []; // of each line that is drawn the number of its arrow and its ends in the picture
 
   /* the one that passes near a place of the picture: its number, else 0 */
@@ -23,7 +23,7 @@ function arrows_of(scene, view) {
     if (now === scene.lit) return;
     scene.lit = now;
     scene.ask();
-    pointed(now);
+    pointed?.(now);
   };
   on(view.element, "pointermove", (e) => !e.buttons && point(near(e.offsetX, e.offsetY)));
   on(view.element, "pointerleave", () => point(0));
@@ -71,6 +71,9 @@ function arrows_of(scene, view) {
   };
 
   return {
+    /* on a page that stands alone */
+    legend: pointed ? "" : make("p", { class: "legend" }, ...meanings.map((meaning, i) =>
+      make("span", { style: `color: var(--arrow-${i + 1})` }, `${arrows.find((x) => x.number === i + 1).label.replaceAll("_", "")} ${meaning}`))),
     /* the longest of each scale, of others and at an instant */
     longest(most, ...instant) {
       const found = { ...most };
@@ -96,7 +99,11 @@ function arrows_of(scene, view) {
           view.pen.globalAlpha = lit && !is ? 0.2 : 1;
           view.stroke(path, hue, (is ? 4 : matrix ? 1.8 : 2.5) * (scene.large ?? 1));
           pic.head(q[0], q[1], c, s, hue, 1.6);
-          if (first || is) label(pic, name, q[0] + 9 * c, q[1] + 15 * s, hue, c < -0.3 ? 1 : c > 0.3 ? 0 : 0.5);
+          view.pen.globalAlpha = 1;
+        }]);
+        if (first || is) pic.items.push([2e9, () => {
+          view.pen.globalAlpha = lit && !is ? 0.2 : 1;
+          label(pic, name, q[0] + 9 * c, q[1] + 15 * s, hue, c < -0.3 ? 1 : c > 0.3 ? 0 : 0.5);
           view.pen.globalAlpha = 1;
         }]);
       }

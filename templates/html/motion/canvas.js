@@ -126,6 +126,7 @@ function picture({ colours, large = 1 }, view, eye, target, scale) {
     drawn_line(s, colour, width = 1.2, alpha = 1, lift = 0) {
       items.push([mean(s) + lift, () => {
         pen.globalAlpha = alpha;
+        pen.lineCap = alpha < 1 ? "butt" : "round"; // no beads where pieces of a trail meet
         stroke(s, colour, width);
         pen.globalAlpha = 1;
       }]);
@@ -148,9 +149,10 @@ function picture({ colours, large = 1 }, view, eye, target, scale) {
       const long = hypot(x - u, y - v) || 1, c = (x - u) / long, s = (y - v) / long;
       items.push([z, () => {
         if (long > 1) own.head(x, y, c, s, colour);
-        own.text(name, x + 13 * c, y + 13 * s, colour);
-        own.written.push([x + 13 * c - 8, y + 13 * s, 16]);
       }]);
+      if (!name) return;
+      own.written.push([x + 13 * c - 8, y + 13 * s, 16]);
+      items.push([z, () => own.text(name, x + 13 * c, y + 13 * s, colour)]);
     },
     /* that of an arrow which points along (c, s) */
     head(x, y, c, s, colour, f = 1) {
@@ -163,6 +165,9 @@ function picture({ colours, large = 1 }, view, eye, target, scale) {
       pen.font = `italic ${high * large}px Georgia, serif`;
       pen.textAlign = align;
       pen.textBaseline = "middle";
+      pen.lineWidth = 3;
+      pen.strokeStyle = colours.paper;
+      pen.strokeText(what, x, y);
       pen.fillText(what, x, y);
     },
     done() {

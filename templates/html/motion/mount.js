@@ -90,7 +90,7 @@ function mount(element, page, pieces) {
     return found;
   }
 
-  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element), side = pieces.side?.(scene), graph = pieces.graph?.(scene, page.in_time, page.apart), views = [stage, side, graph].filter(Boolean);
+  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element, stage.legend ?? ""), side = pieces.side?.(scene), graph = pieces.graph?.(scene, page.in_time, page.apart), views = [stage, side, graph].filter(Boolean);
 
   /* ---- the frame */
 

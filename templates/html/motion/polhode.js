@@ -31,9 +31,9 @@ function polhode(scene) {
         e[k] = 1.08 * most;
         pic.arrow([0, 0, 0], e, colours[`e${k + 1}`], `ζ${low(String(k + 1))}`);
       }
-      for (let k = 0; k + 1 < trail.length; ++k) pic.line(at(trail[k][1]), at(trail[k + 1][1]), colours.mark, 1.6, 0.15 + 0.85 * k / trail.length, 0.02 * most);
+      for (let k = 0; k + 1 < trail.length; ++k) pic.line(at(trail[k][1]), at(trail[k + 1][1]), colours.mark, 2.2, 0.15 + 0.85 * k / trail.length, 0.02 * most);
       pic.line([0, 0, 0], now, colours.ink, 1.2, 0.7);
-      pic.dot(now, 3.5, colours.mark);
+      pic.dot(now, 4.5, colours.mark);
       pic.done();
     },
   };

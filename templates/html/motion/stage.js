@@ -81,6 +81,7 @@ function solid_stage(scene, pieces) {
 
   return {
     element: stage.element,
+    legend: vectors?.legend,
     restart(x) {
       drawn = placed(built(scene, x, pieces), x, eye.above);
       furthest = [];
@@ -116,8 +117,9 @@ function solid_stage(scene, pieces) {
       for (let k = 0; k + 1 < path.length; k += joined) {
         const piece = path.slice(k, k + joined + 1), age = (k + piece.length - 1) / path.length;
         const coarse = piece.filter((_, n) => n % 2 === 0 || n === piece.length - 1);
-        piece[0].forEach(([, ghost], i) => pic.drawn_line((ghost ? coarse : piece).map((x) => pic.to(x[i][0])), ghost ? colours.ghost : colours.mark, 1.5, age * age));
+        piece[0].forEach(([, ghost], i) => pic.drawn_line((ghost ? coarse : piece).map((x) => pic.to(x[i][0])), ghost ? colours.ghost : colours.mark, 1 + 2.5 * age, age * age));
       }
+      path.at(-1)?.forEach(([r, ghost]) => ghost || pic.dot(r, 4.5, colours.mark));
       for (const [i, a, j, b] of body.springs) {
         for (const at of y ? [others, spots] : [spots]) pieces.spring(stage, pic, at[i](parts[i].points[a].at), at[j](parts[j].points[b].at), at === spots ? colours.ink : colours.ghost);
       }
