@@ -135,7 +135,7 @@ class Parser(argparse.ArgumentParser):
             super()._check_value(action, value)
         except argparse.ArgumentError as error:
             choices, listed = [*map(str, action.choices or ())], str(value).split(",")
-            near = nearest(str(value), choices)
+            near = nearest(str(value).lower(), choices)
             if action.metavar == "COMMAND":
                 known = near or f"; there are {', '.join(choices)}"
                 if value in ready_made() or str(value).endswith(".toml"):

@@ -34,7 +34,8 @@ def read(path: Path) -> Mesh:
     """The mesh of a file: vertices, three exact coordinates each; faces, three indices from 0 each.
 
     A decimal number of up to 15 digits is itself, a longer one the shortest decimal of its double;
-    a binary one, of 32 bits, the shortest decimal that has them: 0.1 is a tenth. Equal vertices are one; a triangle with two of them is left out.
+    a binary one, of 32 bits, the shortest decimal that has them: 0.1 is a tenth. Equal vertices are
+    one; a triangle with two of them is left out.
     :class:`MeshError` unless they close up, oriented outwards; crossings are not looked for.
     """
     try:
