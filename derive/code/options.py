@@ -33,8 +33,11 @@ ADDED: dict[str, str] = {
 """Option that is given or not → what it adds."""
 
 REPEATED: dict[str, tuple[tuple[str, ...], str]] = {
-    "step": (("gauss", "rk4", "vern9", "discrete", "gauss_jax"), "one in time:"),
-    "jacobian": (("state", "inputs", "parameters", "raw", "outputs", "step"), "by"),
+    "step": (("gauss", "rk4", "vern9", "discrete", "gauss_jax"), "a step in time"),
+    "jacobian": (
+        ("state", "inputs", "parameters", "raw", "outputs", "step"),
+        "the linearised equations",
+    ),
 }
 """Option of several values, none by default → those that there are, and what they add."""
 

@@ -28,7 +28,7 @@ def add_emission_options(emit: argparse.ArgumentParser) -> None:
 
     added = _group(emit, "what is added (docs/options.md)")
     for name, (values, about) in REPEATED.items():
-        listed = f"{about} {', '.join(values)}; repeated"
+        listed = f"{about}: {', '.join(values)}; repeated"
         added.add_argument(
             f"--{name}", action="append", choices=values, metavar=name.upper(), help=listed
         )
