@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 from ...algebra.groups import Group
 from ...language.tree import Tree, nodes
@@ -12,9 +14,6 @@ from ...record.sentence import Claim
 from .integral_claims import Judge
 from .reduced_system import ReducedSystem
 from .spectra_and_residues import about, expansion, gradient
-
-DRAWS = 2
-"""How many numbers the letters have, all positive, and each of them negative in turn."""
 
 
 def _point(step: Step) -> dict[Tree, Tree]:
@@ -48,35 +47,33 @@ def _axis(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 def _energy(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """U = ⟨u, row of A⟩, a unit vector, which is along −u where U is the least, u where it is the
-    greatest."""
-    point, n = _point(step), system.group.n
-    row = [x for x in system.variables if isinstance(x, tuple) and x[1] != "Π"]
-    names = [("entry", "A", x[2], j) for x in row[:1] for j in range(1, n + 1)]
-    if not _rotates(system.group) or {*row} != {*names}:
+    greatest; for letters that are positive, and each of them negative in turn."""
+    point, span, random = _point(step), range(1, system.group.n + 1), system.random
+    entries = [x for x in system.variables if isinstance(x, tuple) and x[1] != "Π"]
+    row = [("entry", "A", x[2], j) for x in entries[:1] for j in span]
+    if not _rotates(system.group) or {*entries} != {*row}:
         return "the potential energy is of no row of A alone"
+    there = [value_of(point.get(x, 0)) for x in row]
     letters = [*system.parameters, *(x for y in point.values() for x in nodes(y))]
     letters = [x for x in letters if isinstance(x, tuple) and x[0] == "par"]
-    sign, random = (1 if claim.kind == "position.lowest" else -1), system.random
-
-    def drawn() -> Fraction:
-        return Fraction(random.randint(1, 40), random.randint(1, 12))
-
-    for negative in (None, *letters) * DRAWS:
-        signed = {x: -drawn() if x == negative else drawn() for x in ("π", *letters)}
-        numbers = system.with_numbers(signed)
-        several = [[drawn() for _ in system.variables] for _ in range(2)]
-        slopes = [
-            dict(zip(system.variables, gradient(expansion(numbers.energy, x), len(x)), strict=True))
-            for x in (about(system.variables, values) for values in several)
-        ]
-        u, other = ([x[y] for y in names] for x in slopes)
-        there = [value_of(point.get(y, 0)) for y in names]
-        if u != other:
+    for negative in (None, *letters) * 2:
+        several = {x: Fraction(random.randint(1, 40), 7) for x in ("π", *letters)}
+        numbers = system.with_numbers({x: -y if x == negative else y for x, y in several.items()})
+        u, elsewhere = (_slopes(numbers, row) for _ in span[:2])
+        if u != elsewhere:
             return "the potential energy is not linear"
         along = sum(x * y for x, y in zip(u, there, strict=True))
-        if along * sign >= 0 or along * along != sum(x * x for x in u):
+        down = along < 0 if claim.kind == "position.lowest" else along > 0
+        if not down or along * along != sum(x * x for x in u):
             return "the potential energy is less, or greater, elsewhere"
     return ""
+
+
+def _slopes(system: ReducedSystem, row: Sequence[Tree]) -> list[Any]:
+    """The derivatives of the energy by entries of A, at a random point."""
+    values = [Fraction(system.random.randint(1, 40), 7) for _ in system.variables]
+    found = gradient(expansion(system.energy, about(system.variables, values)), len(values))
+    return [found[system.variables.index(x)] for x in row]
 
 
 JUDGES: dict[str, Judge] = {
