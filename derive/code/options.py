@@ -10,49 +10,40 @@ from ..language.reserved import did_you_mean, near_name
 
 CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
     "real": (("double", "float"), "the numbers of the code"),
-    "form": (("source", "header"), "C as .h and .c, or as one header of inline functions"),
-    "layout": (("row", "col"), "the entries of A row by row, or column by column"),
+    "form": (("source", "header"), "C as .h and .c, or as one header"),
+    "layout": (("row", "col"), "the entries of A by rows, or by columns"),
     "attitude": (
         ("matrix", "quaternion", "angle", "shortest"),
-        "A as a matrix; a unit quaternion for each factor SO(3), SE(3); an angle or coordinate for "
-        "each that turns a plane or has one parameter; or (shortest) both",
+        "A as matrix, quaternion, angle, or shortest",
     ),
-    "frame": (("given", "principal"), "the body as given, or in its principal frame"),
-    "velocity": (("body", "tangent"), "the state ends in Z = g^-1 dg/dt, or in dg/dt"),
-    "state": (
-        ("whole", "moving"),
-        "all entries of g in the code's state, or without those that never vary",
-    ),
+    "frame": (("given", "principal"), "the body in its own axes, or in principal ones"),
+    "velocity": (("body", "tangent"), "Z = g^-1 dg/dt, or dg/dt"),
+    "state": (("whole", "moving"), "all entries of g, or those that vary"),
 }
 """Option → its values, the first one the default, and what they choose."""
 
 ADDED: dict[str, str] = {
-    "momenta": "also the motion in momenta: to them and back, rates, Poisson tensor",
-    "dynamics": "add the mass matrix, the bias and the inverse: what inputs must supply",
-    "exponential": "add exp, log, their Jacobians, retract and local, in a file NAME_group",
-    "multiplier": "add the multiplier of the volume, the integral of the pressure in a fluid",
-    "conserved": "add what the motion keeps, as derive symmetries finds it",
-    "ensemble": "add many motions at once, in vector lanes and over all cores (C)",
+    "conserved": "what the motion keeps: derive symmetries",
+    "momenta": "the motion in momenta, with its Poisson tensor",
+    "dynamics": "mass matrix, bias, inverse dynamics",
+    "exponential": "exp, log, Jacobians, in a file NAME_group",
+    "multiplier": "of the volume: the integral of the pressure",
+    "ensemble": "many motions at once, over all cores (C)",
 }
 """Option that is given or not → what it adds."""
 
 REPEATED: dict[str, tuple[tuple[str, ...], str]] = {
+    "step": (("gauss", "rk4", "vern9", "discrete", "gauss_jax"), "a step in time"),
     "jacobian": (
         ("state", "inputs", "parameters", "raw", "outputs", "step"),
-        "also the linearised equations, in the state, the inputs or the parameters, or (raw) the "
-        "derivative of dx/dt by x as it is stored, for implicit integrators; or that of the "
-        "outputs, or (step) of the emitted steps, in the state and the inputs; repeated",
-    ),
-    "step": (
-        ("gauss", "rk4", "vern9", "discrete", "gauss_jax"),
-        "also a step in time, and a motion that it moves; gauss_jax is gauss in JAX; repeated",
+        "the linearised equations",
     ),
 }
 """Option of several values, none by default → those that there are, and what they add."""
 
 
 DEPENDENT: dict[str, tuple[tuple[str, ...], str]] = {
-    "order": (("2", "4", "6", "8"), "that of --step discrete (default: 2)"),
+    "order": (("2", "4", "6", "8"), "of --step discrete (default: 2)"),
 }
 """Option that another one has → its values, and what they choose; none where it is not given."""
 

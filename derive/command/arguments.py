@@ -24,20 +24,30 @@ if TYPE_CHECKING:
 
 def add_emission_options(emit: argparse.ArgumentParser) -> None:
     """Add the options that choose what code is emitted."""
-    from ..code.languages import LANGUAGES
     from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED
 
-    lang = f"one of {', '.join(LANGUAGES)}; may be repeated; C and Python when left out"
-    emit.add_argument("--lang", action="append", choices=LANGUAGES, metavar="LANG", help=lang)
-    for name, (values, meaning) in CHOICES.items():
-        about = f"{meaning} (default: {values[0]})"
-        emit.add_argument(f"--{name}", choices=values, help=about)
+    added = _group(emit, "what is added (docs/options.md)")
     for name, (values, about) in REPEATED.items():
-        emit.add_argument(f"--{name}", action="append", choices=values, help=about)
+        listed = f"{about}: {', '.join(values)}; repeated"
+        added.add_argument(
+            f"--{name}", action="append", choices=values, metavar=name.upper(), help=listed
+        )
     for name, (values, about) in DEPENDENT.items():
-        emit.add_argument(f"--{name}", choices=values, help=about)
+        added.add_argument(f"--{name}", choices=values, help=about)
     for name, about in ADDED.items():
-        emit.add_argument(f"--{name}", action="store_true", help=about)
+        added.add_argument(f"--{name}", action="store_true", help=about)
+    form = _group(emit, "the form of the code (default: the first of each)")
+    for name, (values, about) in CHOICES.items():
+        word = name.upper() if len(values) > 2 else None
+        form.add_argument(f"--{name}", choices=values, metavar=word, help=about)
+
+
+def _group(one: argparse.ArgumentParser, title: str) -> argparse._ActionsContainer:
+    """The group of the options of a command under a heading, the first one where there is none."""
+    if not title:
+        return one._optionals
+    there = (x for x in one._action_groups if x.title == title)
+    return next(there, None) or one.add_argument_group(title)
 
 
 FILE = f"default, and {STDOUT}: standard output"
@@ -125,7 +135,7 @@ class Parser(argparse.ArgumentParser):
             super()._check_value(action, value)
         except argparse.ArgumentError as error:
             choices, listed = [*map(str, action.choices or ())], str(value).split(",")
-            near = nearest(str(value), choices)
+            near = nearest(str(value).lower(), choices)
             if action.metavar == "COMMAND":
                 known = near or f"; there are {', '.join(choices)}"
                 if value in ready_made() or str(value).endswith(".toml"):
@@ -233,8 +243,6 @@ def degree(words: str) -> int:
 
 
 EACH = "end each search on a problem after so many seconds of processor time"
-EVENTS = """An [[event]] of the file happens where its expression changes its sign; what only
-    touches 0 is none, or is one by rounding."""
 OPTIONS = Path(__file__).with_name("options.txt")
 TYPES: dict[str, Callable[[str], Any]] = {
     x.__name__: x
@@ -253,33 +261,44 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     subcommands = top.add_subparsers(dest="command", required=True, metavar="COMMAND", **hidden)
     made = {}
     for name, run in commands.items():
-        wide = partial(Help, max_help_position=28)
+        wide = partial(Help, max_help_position=30)
         made[name] = one = subcommands.add_parser(
-            name, prog=f"derive {name}", description=run.__doc__, formatter_class=wide
-        )
+            name, prog=f"derive {name}", description=run.__doc__, formatter_class=wide,
+            add_help=False,
+        )  # fmt: skip
         one.set_defaults(run=run)
-        stop, limit = (EACH, "search_seconds") if name == "lecture" else (STOP, "seconds")
-        one.add_argument("--seconds", type=positive, metavar="N", help=stop, dest=limit)
-    made["simulate"].epilog = EVENTS
+        one._optionals.title = "arguments"
     words, choices = _told()
     for section in re.split(r"\n\n+", OPTIONS.read_text(encoding="utf-8").strip())[1:]:
         names, *listed = re.split(r"\n {4}(?! )", section)
+        title = ""
         for line in listed:
+            if line.startswith("# "):
+                title = line[2:]
+                continue
             spec, _, told = " ".join(line.split()).partition("| ")
             for name in names.split():
-                _add(made[name], spec.split(), told, words, choices)
+                _add(made[name], title, spec.split(), told, words, choices)
+    for name, one in made.items():
+        last, each = one._action_groups[-1], name == "lecture"
+        last.add_argument("--seconds", type=positive, metavar="N", help=EACH if each else STOP,
+                          dest="search_seconds" if each else "seconds")  # fmt: skip
+        last.add_argument("-h", "--help", action="help", **hidden)
     return top
 
 
 def _told() -> tuple[dict[str, str], dict[str, Sequence[str]]]:
     """What stands for words in braces of the options: in what is told of them, and as choices."""
+    from ..code.languages import LANGUAGES as CODES
     from ..code.options import DEPENDENT
     from ..views.language import LANGUAGES
     from ..views.printing.signs import NOTATIONS
 
     values, order = DEPENDENT["order"]
     words = {"default": FILE, "stdout": STDOUT, "kinds": described_kinds(), "order": order}
+    words["languages"] = ", ".join(CODES)
     choices: dict[str, Sequence[str]] = {"order": values, "formats": FORMATS, "tongues": LANGUAGES}
+    choices["languages"] = tuple(CODES)
     for name, (signs, meaning) in NOTATIONS.items():
         words[name], choices[name] = f"{meaning} (default: {signs[0]})", signs
     return words | ALLOWED, choices
@@ -287,12 +306,13 @@ def _told() -> tuple[dict[str, str], dict[str, Sequence[str]]]:
 
 def _add(
     one: argparse.ArgumentParser,
+    title: str,
     spec: Sequence[str],
     told: str,
     words: Mapping[str, str],
     choices: Mapping[str, Sequence[str]],
 ) -> None:
-    """Add an option to a command, as a line of the file says it."""
+    """Add an option to a group of a command, as a line of the file says it."""
     name, *said = spec
     if name == "EMISSION":
         add_emission_options(one)
@@ -317,4 +337,4 @@ def _add(
                 about["default"] = about["choices"][0]
         else:
             about["metavar"] = x
-    one.add_argument(name, **about)
+    _group(one, title).add_argument(name, **about)

@@ -11,6 +11,10 @@ from contextvars import ContextVar
 class Refused(Exception):  # noqa: N818
     """Bad input, or something missing on the machine; on the command line exit 2, no traceback."""
 
+    def _render_traceback_(self) -> list[str]:
+        """What a notebook shows: the message alone."""
+        return [f"{type(self).__name__}: {self}"]
+
 
 # A word to whoever waits, from what may take long: to nobody, unless a command listens.
 

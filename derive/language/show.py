@@ -179,13 +179,12 @@ def bar(text: str) -> str:
 def _product(factors: tuple[Tree, ...]) -> str:
     if len(factors) > 1 and factors[0] == -1:
         return "−" + _product(factors[1:])
-    text, last = "", ""
+    text, last, spelt = "", "", any(map(_spelt_out, factors))
     for k, f in enumerate(factors):
         shown, level = _show(f)
         inside = k < len(factors) - 1 and level == PRODUCT and (text or _spreads(f))
         piece = f"({shown})" if level == SUM or inside or (text and _spread(f)) else shown
-        beside = factors[max(k - 1, 0) : k + 1]
-        apart = k and not isinstance(beside[0], (int, Fraction)) and any(map(_spelt_out, beside))
+        apart = spelt and k and not isinstance(factors[k - 1], (int, Fraction))
         text += ("·" if apart else _separator(text, last, piece)) + piece
         last = piece
     return text

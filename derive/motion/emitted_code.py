@@ -9,6 +9,7 @@ from functools import cached_property
 
 from ..code.naming import own_prefix
 from ..code.program import Program
+from ..problem.force_reader import BASE, NUMBER, measured
 from ..problem.problem import Problem
 from ..record.record import Derivation
 
@@ -63,8 +64,7 @@ UNITS |= dict.fromkeys(("momentum", "body_momentum"), "kg m/s")
 UNITS |= dict.fromkeys(("angular_momentum", "body_angular_momentum"), "kg m^2/s")
 """Those of columns of a kind, and of the components of what is kept."""
 
-UNITS_OF_OUTPUTS = {"rate": "1/s", "momentum": "kg m/s", "tension": "kg m/s^2"}
-UNITS_OF_OUTPUTS |= {"power": "kg m^2/s^3"}
+UNITS_OF_OUTPUTS = {"rate": "rad/s", "momentum": "kg m/s", "tension": "N", "power": "W"}
 UNITS_OF_OUTPUTS |= dict.fromkeys(("place", "distance"), "m") | {"velocity": "m/s"}
 UNITS_OF_OUTPUTS |= dict.fromkeys(("acceleration", "specific_force"), "m/s^2")
 """Those of what is read off a motion, by kinds; of a direction and of expressions none is known."""
@@ -145,7 +145,8 @@ class EmittedCode:
             unit = UNITS_OF_OUTPUTS.get(kind, "")
         else:
             unit = UNITS.get(parts(name)[0] if kind == "conserved" else kind, "")
-        return unit if {*FACTOR.findall(unit.replace("J", "kg m s"))} <= self.base else ""
+        made_of = zip(BASE, measured(unit) or NUMBER, strict=True)
+        return unit if {x for x, power in made_of if power} <= self.base else ""
 
     @cached_property
     def _kinds_of_outputs(self) -> dict[str, tuple[str, str]]:
@@ -157,7 +158,8 @@ class EmittedCode:
     def _unit_of_state(self, name: str) -> str:
         """That of a place, of a velocity, and of ζ on an element of the basis: of one that does no
         more than shift, whose columns are those of the rows that are 0 where the state has a T,
-        that of a velocity.  Where there are no matrices, none is known."""
+        that of a velocity; of one that turns, whose matrix is skew, that of an angular velocity.
+        Where there are no matrices, none is known."""
         if not name.startswith("zeta"):
             return {"T": "m", "w": "m/s"}.get(name[0], "")
         if self.program.state[0][0] not in "AT":
@@ -167,4 +169,8 @@ class EmittedCode:
         affine = any(x[0] == "T" for x in self.program.state)
         shifted = {i for i in moved if affine and not any(any(E[i]) for E in basis)}
         own = basis[int(name.rpartition("_")[2]) - 1]
-        return "1/s" if any(row[j] for row in own for j in moved if j not in shifted) else "m/s"
+        linear = [j for j in moved if j not in shifted]
+        if not any(row[j] for row in own for j in linear):
+            return "m/s"
+        skew = all(own[i][j] == -own[j][i] for i in linear for j in linear)
+        return "rad/s" if skew else "1/s"

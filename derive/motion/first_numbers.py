@@ -225,8 +225,8 @@ def _at(problem: Problem, program: Program, exponent: Sequence[float]) -> dict[s
     basis = program.basis
     if len(exponent) not in (0, len(basis)):
         raise MotionError(
-            f"{program.name}: exp takes {len(basis)} numbers, the coordinates in the basis of the "
-            f"Lie algebra, not {len(exponent)}"
+            f"{program.name}: exp takes {len(basis)} number{'s' * (len(basis) != 1)}, the "
+            f"coordinates in the basis of the Lie algebra, not {len(exponent)}"
         )
     span = range(len(basis[0]))
     terms = [*zip(exponent, basis, strict=False)]

@@ -133,7 +133,11 @@ def read(path: Path) -> Run:
     """The run in a file; ``RunFileError`` where there is none."""
     reader = format_of(path.name)[1]
     try:
-        return reader(path.read_bytes())
+        found = reader(path.read_bytes())
+        if len(back := np.flatnonzero(~(np.diff(found.t) >= 0))):
+            t, after = found.t[back[0] : back[0] + 2]
+            raise RunFileError(f"row {back[0] + 2}: t = {after:g} does not come after {t:g}")
+        return found
     except RunFileError as error:
         raise RunFileError(f"{path}: {error}") from None
     except OSError as error:

@@ -255,10 +255,11 @@ def read(given: str | Path | Mapping[str, Any], *, linear: bool = False) -> tupl
         with Path(given).open(newline="", encoding="utf-8-sig") as file:
             rows = [x for x in csv.reader(file) if x and not x[0].startswith("#")]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise MotionError(f"{where}: cannot be read: {error}") from None
+        told = getattr(error, "strerror", None) or f"no text of UTF-8 with commas: {error}"
+        raise MotionError(f"{where}: {told}") from None
     if not rows:
         raise MotionError(f"{where}: an empty file; its first line names t and the inputs")
-    names = [x.strip() for x in rows[0]]
+    names = ["t" if x.strip() == "t [s]" else x.strip() for x in rows[0]]  # as runs have it
     if len({*names}) < len(names):
         raise MotionError(f"{where}: two columns of one name")
     return Signals.of(_columns(names, rows[1:], where), where, linear=linear), where

@@ -44,6 +44,7 @@ UNITS: Mapping[str, Dimension] = {
     **{"kg": (1, 0, 0), "m": LENGTH, "s": TIME, "rad": NUMBER, "1": NUMBER, "Hz": RATE},
     **{"N": FORCE, "J": MOMENT, "W": (1, 2, -3), "Pa": (1, -1, -2)},
 }
+FORCES: Mapping[Dimension, str] = {FORCE: "N", MOMENT: "N m"}
 WANTED: Mapping[str, Dimension] = {
     **{"a force": FORCE, "a moment": MOMENT, "a linear damping": (1, 0, -1)},
     **{"a quadratic damping": (1, -1, 0), "a rotational damping": (1, 2, -1)},
@@ -70,7 +71,7 @@ def measured(unit: str) -> Dimension | None:
 
 
 def in_units(d: Dimension) -> str:
-    """A dimension as a unit: kg m/s^2."""
+    """A dimension as a unit: N, N m, kg m/s."""
     told = {
         sign: [
             x + (f"^{abs(e)}" if abs(e) != 1 else "")
@@ -79,7 +80,7 @@ def in_units(d: Dimension) -> str:
         ]
         for sign in (1, -1)
     }
-    return "/".join([" ".join(told[1]) or "1", *told[-1]])
+    return FORCES.get(d) or "/".join([" ".join(told[1]) or "1", *told[-1]])
 
 
 def dimension(t: Tree, known: Mapping[str, Dimension]) -> Dimension | None:

@@ -34,7 +34,8 @@ def read(path: Path) -> Mesh:
     """The mesh of a file: vertices, three exact coordinates each; faces, three indices from 0 each.
 
     A decimal number of up to 15 digits is itself, a longer one the shortest decimal of its double;
-    binary numbers are themselves. Equal vertices are one; a triangle with two of them is left out.
+    a binary one, of 32 bits, the shortest decimal that has them: 0.1 is a tenth. Equal vertices are
+    one; a triangle with two of them is left out.
     :class:`MeshError` unless they close up, oriented outwards; crossings are not looked for.
     """
     try:
@@ -111,8 +112,8 @@ def _read(path: Path) -> Mesh:
     places, (a, b, c) = places.reshape(-1, 3)[some], index[faces].T
     faces = index[faces][(a != b) & (b != c) & (c != a)]
     _limit(len(faces))
-    numbers = values.tolist() if binary else [Decimal(repr(x)) for x in values.tolist()]
-    exact = [Fraction(*x.as_integer_ratio()) for x in numbers]
+    written = values.astype(np.float32) if binary else values.tolist()
+    exact = [Fraction(*Decimal(str(x)).as_integer_ratio()) for x in written]
     largest = max(abs(exact[0]), abs(exact[-1])) * lcm(*{x.denominator for x in exact})
     _must(largest < 2**COORDINATE_BITS, "coordinates of too different sizes; round them")
     _closed(values[places], faces)

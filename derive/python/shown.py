@@ -144,6 +144,9 @@ class Shown(Equated):
 class Page(str):
     """A page of HTML, which a notebook shows in a frame of its own."""
 
+    def __repr__(self) -> str:
+        return f"<page of {len(self)} characters>"
+
     def _repr_html_(self) -> str:
         frame = f'<iframe srcdoc="{escape(self)}" style="width:100%;height:{HEIGHT}px;border:0">'
         return f"{frame}</iframe>"
@@ -154,10 +157,12 @@ HEIGHT = 560
 
 
 class Verdicts(list[Verdict]):
-    """Verdicts, of which a notebook shows what they come to, in a line with a tick, and why steps
-    do not hold."""
+    """Verdicts, which show what they come to, in a line with a tick, and why steps do not hold."""
 
     def _repr_markdown_(self) -> str:
+        return repr(self)
+
+    def __repr__(self) -> str:
         bad = [f"* `{v.label}`: {' '.join(v.reason.split())}" for v in self if not v.holds]
         return "\n".join([f"{'✗' if bad else '✓'} {in_a_line(self)}", *bad])
 

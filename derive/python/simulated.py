@@ -61,13 +61,14 @@ class Simulated(Run):
     def _ends(self) -> str:
         """The table of the first and last numbers of each column, and of the most that it was away
         from the first."""
-        rows: list[tuple[str, ...]] = [
-            ("", f"t = {self.t[0]:g}", f"t = {self.t[-1]:g}", "largest change")
-        ]
+        from ..views.plot.time_series import with_unit
+
+        unit = self.columns[0].unit
+        first, last = (f"t = {t:g} {unit}".rstrip() for t in self.t[[0, -1]])
+        rows: list[tuple[str, ...]] = [("", first, last, "largest change")]
         for x in self.columns[1:]:
             y = self[x.name]
-            own = shown(self.facts, x.name)
-            name = f"{own} [{x.unit}]" if x.unit else own
+            name = with_unit(shown(self.facts, x.name), x.unit)
             rows.append((name, *(f"{v:.6g}" for v in (y[0], y[-1], np.abs(y - y[0]).max()))))
         cells = ("".join(f"<td>{escape(cell)}</td>" for cell in row) for row in rows)
         return f"<table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"

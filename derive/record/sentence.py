@@ -145,6 +145,7 @@ KINDS = {
         "at origin letter positive orbit form stable stable_always on_the_leaf on_the_leaf_always "
         "indefinite unstable unstable_large unstable_always imaginary"
     ),
+    "position": "along against lowest highest",
     "enclosure": "within signs stable unstable open eigenvalues",
     "trim": (
         "rest steady corner unique isolated isolated_with_turns isolated_along stable unstable "

@@ -2,11 +2,14 @@
 
 const numbers = (text) => text.trim().split(/\s+/).map(Number);
 
+/* the shortest decimal that has the 32 bits of a number: a tenth for 0.10000000149 */
+const decimal = (x) => [6, 7, 8, 9].map((k) => Number(x.toPrecision(k))).find((y) => Math.fround(y) === x) ?? x;
+
 /* the triangles of a file, each of three places; kind: the end of its name */
 function triangles(kind, bytes) {
   const view = new DataView(bytes), count = bytes.byteLength > 84 ? view.getUint32(80, true) : 0, three = [0, 1, 2];
   if (kind === "stl" && bytes.byteLength === 84 + 50 * count) {
-    return Array.from({ length: count }, (_, i) => three.map((j) => three.map((k) => view.getFloat32(96 + 50 * i + 12 * j + 4 * k, true))));
+    return Array.from({ length: count }, (_, i) => three.map((j) => three.map((k) => decimal(view.getFloat32(96 + 50 * i + 12 * j + 4 * k, true)))));
   }
   const text = new TextDecoder().decode(bytes).replace(/#.*/g, "");
   const rows = (mark) => [...text.matchAll(new RegExp(`^[ \\t]*${mark}[ \\t]+(.+)`, "gm"))].map((x) => x[1]);

@@ -37,7 +37,7 @@ int main(void)
 
     if (${n}_constants(p, k) != 0) return 1; /* no body has these parameters */
     ${n}_rhs(0, x, k, u, dx);
-    for (int i = 0; i < ${n}_N_STATE; ++i) printf("%s %.9g\\n", ${n}_state_names[i], (double)dx[i]);
+    for (int i = 0; i < ${n}_N_STATE; ++i) printf("%s %.9g\\n", ${n}_state_names[i], (double)dx[i] + 0.0); /* no -0 */
     return 0;
 }
 `],
@@ -52,7 +52,7 @@ int main()
     if (!k) return 1; // no body has these parameters
     const body::State x{${x}};
     const auto dx = body::rhs(0, x, *k);
-    for (std::size_t i = 0; i < body::n_state; ++i) std::printf("%s %.9g\\n", body::state_names[i].data(), double(dx[i]));
+    for (std::size_t i = 0; i < body::n_state; ++i) std::printf("%s %.9g\\n", body::state_names[i].data(), double(dx[i]) + 0.0);
 }
 `],
   py: (n, p, x) => ["main.py", `# python3 main.py
@@ -62,7 +62,7 @@ k = body.constants([body.DEFAULTS.get(name, 1.0) for name in body.PARAMETERS])
 x = [${x}]
 dx = body.rhs(0.0, x, k, [0.0] * len(body.INPUTS))
 for name, rate in zip(body.STATE, dx):
-    print(f"{name} {rate:.9g}")
+    print(f"{name} {rate + 0.0:.9g}")
 `],
   mjs: (n, p, x) => ["main.mjs", `// node main.mjs
 import * as body from "./${n}.mjs";
@@ -70,7 +70,7 @@ import * as body from "./${n}.mjs";
 const k = body.constants(body.PARAMETERS.map((name) => body.DEFAULTS[name] ?? 1));
 const x = [${x}];
 const dx = body.rhs(0, x, k, body.INPUTS.map(() => 0));
-body.STATE.forEach((name, i) => console.log(name, dx[i]));
+body.STATE.forEach((name, i) => console.log(name, dx[i] + 0));
 `],
   rs: (n, p, x, real) => ["main.rs", `// rustc --edition=2021 main.rs && ./main
 #[path = "${n}.rs"]
@@ -82,7 +82,7 @@ fn main() {
     let mut dx = [0.0; body::N_STATE];
     body::rhs(0.0, &x, &k, &[0.0; body::N_INPUTS], &mut dx);
     for (name, rate) in body::STATE.iter().zip(dx) {
-        println!("{name} {rate}");
+        println!("{name} {}", rate + 0.0);
     }
 }
 `],
@@ -94,7 +94,7 @@ x = [${x}]
 dx = similar(x)
 ${n}.rhs!(dx, x, k, 0.0; u = zeros(${n}.N_INPUTS))
 for (name, rate) in zip(${n}.STATE, dx)
-    println(name, " ", rate)
+    println(name, " ", rate + 0)
 end
 `],
 };

@@ -22,6 +22,7 @@ from derive.check.claims.spectra_and_residues import (
     signature,
 )
 from derive.check.form.hypotheses_checked import IMPOSSIBLE
+from derive.command.showing import load_problem
 from derive.language import intervals, univariate
 from derive.language.intervals import Interval
 from derive.language.show import show
@@ -29,6 +30,7 @@ from derive.language.tree import add, mul, neg, nodes, replaced
 from derive.language.univariate import root
 from derive.record.sentence import CLAIMS, Claim, rendered
 from derive.search.equilibria import stability
+from derive.searches import families
 from tests.check.test_record_claims import EQUILIBRIA, changes, said
 from tests.support.lagrangians import (
     SPIRAL,
@@ -95,7 +97,7 @@ def test_another_value_is_refused():
         for wrong in changes(claim):
             assert refused(judge(said(step, claim, wrong))), wrong
             seen.add(claim.kind)
-    assert len(seen) == 12
+    assert len(seen) == 14
 
 
 def test_another_verdict_is_refused():
@@ -128,6 +130,39 @@ SPOKEN = (
 )
 
 
+OPPOSITES = {"along": "against", "lowest": "highest"}
+OPPOSITES |= {y: x for x, y in OPPOSITES.items()}
+
+
+def test_no_body_points_or_hangs_the_other_way():
+    seen = set()
+    for judge, step, claim in made():
+        subject, _, kind = claim.kind.partition(".")
+        if subject == "position":
+            assert not judge(step)
+            other = Claim(f"position.{OPPOSITES[kind]}", claim.values)
+            assert refused(judge(exchanged(step, claim, other))), claim
+            seen.add(kind)
+    assert seen == {*OPPOSITES}
+
+
+@pytest.mark.parametrize(("potential", "kinds"), [("", 4), ("mgl*A_33", 2), ("A_33 + A_33^2", 2)])
+def test_a_body_hangs_where_its_weight_has_a_sign_and_is_linear(potential, kinds):
+    """That of the top has π."""
+    letters = "mgl" if "mgl" in potential else ""
+    problem = heavy("112", potential, letters) if potential else load_problem("top")
+    record = families(problem, 4, at_defaults=not potential)[1]
+    judge = ClaimChecker(record, SEED)
+    made = [(s, x) for s in record.steps for x in s.claims if x.kind.startswith("position.")]
+    assert len({x.kind for _, x in made}) == kinds
+    for step, claim in made:
+        assert not judge.fault(step)
+        for kind in ("lowest", "highest"):
+            if potential or claim.kind == f"position.{OPPOSITES[kind]}":
+                wrong = exchanged(step, claim, Claim(f"position.{kind}"))
+                assert refused(judge.fault(wrong)), (claim, kind)
+
+
 def test_eigenvalues_are_rounded_to_the_nearest():
     """Complex ones, too, as ±0.4908 ±0.4224i."""
     unitary = derive(lagrangian(squares(1, 2, 3, 4) + " - A_11", "U(2)")).equilibria().record
@@ -139,7 +174,7 @@ def test_eigenvalues_are_rounded_to_the_nearest():
             for wrong in shifted(claim):
                 assert "nearest" in judge(said(step, claim, wrong)), wrong
                 seen += 1
-    assert seen == 20
+    assert seen == 22
 
 
 def test_real_eigenvalues_near_a_point_are_not_imaginary():

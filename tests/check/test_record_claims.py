@@ -88,7 +88,7 @@ RECORDS = {
 }
 """Records that make claims, of every kind at least one."""
 
-EQUILIBRIA, FAMILIES = ("equilibrium.", "enclosure."), ("family.",)
+EQUILIBRIA, FAMILIES = ("equilibrium.", "enclosure.", "position."), ("family.",)
 """Labels of claims that records of equilibria make, in numbers and in letters."""
 
 OPEN = {"degree", "weight"}

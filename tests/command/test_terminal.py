@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from derive.command import cli, writing
+from derive.command.arguments import parser
 from derive.command.cli import main
 from derive.views.printing.typeset import display_width
 from derive.views.rendering import FORMATS
@@ -88,6 +89,19 @@ def test_the_help_of_all_commands_fits_the_smallest_terminal(monkeypatch, capfd)
     assert max(map(len, lines)) <= 80
     listed = [x[6:].split()[0] for x in lines if x[6:18].strip() in cli.COMMANDS]
     assert {*listed} == {*cli.COMMANDS}
+
+
+@pytest.mark.parametrize("command", cli.COMMANDS)
+def test_the_help_of_a_command_fits_a_screen_and_tells_every_option(command, monkeypatch, capfd):
+    monkeypatch.setenv("COLUMNS", "80")
+    with pytest.raises(SystemExit):
+        main([command, "--help"])
+    lines = capfd.readouterr().out.splitlines()
+    assert len(lines) <= 40
+    assert max(map(len, lines)) <= 80
+    own = parser(cli.COMMANDS, None)._subparsers._group_actions[0].choices[command]
+    told = {x.split()[0] for x in lines if x.startswith("  -")}
+    assert told == {*own._option_string_actions} - {"-h", "--help"}
 
 
 def test_derive_alone_prints_help(capfd):

@@ -48,7 +48,7 @@ def small(monkeypatch, motions=7):
 def test_each_motion_is_that_of_a_run(so3, some):
     assert some.t.tolist() == [0, 1, 2]
     assert some.facts["units"] == {
-        "t": "s", **{f"zeta_{k}": "1/s" for k in (1, 2, 3)}, "J_11": "kg m^2"
+        "t": "s", **{f"zeta_{k}": "rad/s" for k in (1, 2, 3)}, "J_11": "kg m^2"
     }  # fmt: skip
     assert not some.status.any()
     for k in (0, 17, 39):

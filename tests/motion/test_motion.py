@@ -229,11 +229,11 @@ def test_motions_of_other_states():
 @pytest.mark.parametrize(
     ("m", "length", "g", "units"),
     [
-        ("kg", "m", "m/s^2", {"t": "s", "zeta_1": "1/s", "energy": "J"}),
-        ("kg", "m", "N kg⁻¹", {"t": "s", "zeta_1": "1/s", "energy": "J"}),
-        ("g", "mm", "mm/s^2", {"t": "s", "zeta_1": "1/s", "energy": ""}),
-        ("slug", "ft", "ft/s^2", {"t": "s", "zeta_1": "1/s", "energy": ""}),
-        ("kg", "mm", "m/s^2", {"t": "s", "zeta_1": "1/s", "energy": ""}),
+        ("kg", "m", "m/s^2", {"t": "s", "zeta_1": "rad/s", "energy": "J"}),
+        ("kg", "m", "N kg⁻¹", {"t": "s", "zeta_1": "rad/s", "energy": "J"}),
+        ("g", "mm", "mm/s^2", {"t": "s", "zeta_1": "rad/s", "energy": ""}),
+        ("slug", "ft", "ft/s^2", {"t": "s", "zeta_1": "rad/s", "energy": ""}),
+        ("kg", "mm", "m/s^2", {"t": "s", "zeta_1": "rad/s", "energy": ""}),
         ("kg", "m", "m/ms^2", {"t": "", "zeta_1": "", "energy": ""}),
         ("kg", "m", "km/h/s", {"t": "", "zeta_1": "", "energy": ""}),
         ("kg", "m", "1000 m/s^2", {"t": "", "zeta_1": "", "energy": ""}),

@@ -62,6 +62,15 @@ def test_a_foreign_file_is_told(tmp_path, name, data):
         read(path)
 
 
+@pytest.mark.parametrize("last", ["0.5", "nan"])
+def test_times_that_go_back_are_told(tmp_path, last):
+    path = tmp_path / "a.csv"
+    head = b'# {"file": "derive run", "columns": [["t", "time", ""]], "facts": {}}\n'
+    path.write_bytes(b"t\n" + head + b"0\n1\n1\n" + last.encode() + b"\n")
+    with pytest.raises(RunFileError, match=rf"a\.csv: row 4: t = {last} does not come after 1"):
+        read(path)
+
+
 def test_a_pickle_is_not_loaded(tmp_path):
     path = tmp_path / "evil.npz"
     np.savez(path, head=np.array([{}], dtype=object), table=TABLE)

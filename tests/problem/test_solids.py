@@ -324,7 +324,10 @@ def test_cube_in_binary(tmp_path):
     box = unit_moments(made("box", 1, {"sides": (2, 4, 6)}))
     assert mesh_moments(*read(path)) == box
     path = written(tmp_path, binary_stl(CUBE, split(QUADS)), "thing.stl")
-    assert max(read(path)[0])[0] == Fraction(np.float32(0.1).item())
+    assert sorted(read(path)[0]) == sorted(CUBE)  # a tenth, no 0.10000000149
+    fine = [tuple(x * Fraction("1.0000001") for x in v) for v in CUBE]
+    path = written(tmp_path, binary_stl(fine, split(QUADS)), "thing.stl")
+    assert np.float32(max(read(path)[0])[0]) == np.float32(0.10000001) != np.float32(0.1)
 
 
 @needs_trimesh

@@ -15,7 +15,11 @@ from tests.support.walks import FLUIDS, NAMES, OTHERS, record
 ROOT = Path(derive.__file__).parent
 ROOMS = [ROOT / room for room in ("walk", "search")]
 SIGNED = "_signed"
-ALSO = {"coadjoint": {"kernel"}, "energy_casimir": {"equilibrium"}}
+ALSO = {
+    "coadjoint": {"kernel"},
+    "energy_casimir": {"equilibrium"},
+    "equilibrium": {"position"},
+}
 """In vectors the kernel is told where the coefficients vanish."""
 
 

@@ -4,6 +4,7 @@ import runpy
 
 import pytest
 
+from derive import derive
 from tests.support.needs import needs
 from tests.support.notebooks import JUPYTER, MARIMO, cells_of, converted, executed
 
@@ -57,6 +58,24 @@ def test_what_the_notebook_keeps_is_what_it_shows(shown):
     for kept, now in zip(stored, shown, strict=True):
         for kind in ("text/markdown", "text/latex"):
             assert kept.get(kind) == now.get(kind)
+
+
+def test_what_is_refused_is_one_line():
+    import nbclient
+    import nbformat
+
+    cell = nbformat.v4.new_code_cell('from derive import derive\nderive("tpo")')
+    notebook = nbformat.v4.new_notebook(cells=[cell])
+    nbclient.NotebookClient(notebook, kernel_name="python3", allow_errors=True).execute()
+    (out,) = notebook.cells[0].outputs
+    assert out["traceback"] == [f"{out['ename']}: {out['evalue']}"]
+    assert "tpo" in out["evalue"]
+
+
+def test_what_a_terminal_shows_is_short():
+    d = derive("pendulum")
+    assert repr(d.check(1)).startswith("✓ ")
+    assert len(repr(d.motion_page(1))) < 80
 
 
 @needs("the module marimo")

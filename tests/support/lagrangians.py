@@ -143,6 +143,7 @@ def every_equilibrium():
         *(derive(lagrangian(squares(1, 1, 1), SPIRAL)).equilibria({"Pi_1": x}) for x in (1, -1)),
         derive(heavy("132", "A_33/2", "")).equilibria(exact),
         derive("lagrange_top").equilibria({"A_33": -1}),
+        derive("pendulum").equilibria(),
         derive("kirchhoff").equilibria({"Pi_1": 1}),
         derive(lagrangian(solid, "SE(3)", side="right")).equilibria({"Pi_1": 1}),
         derive(lagrangian(solid, "SE(3)")).equilibria({"Pi_1": 1}),

@@ -112,7 +112,7 @@ TERMS = {
     r"first moment": r"moment d’ordre un",
     r"kinetic": r"(?<!moment )cinétiques?",
     r"angular momentum": r"moment cinétique",
-    r"potentials?": r"potentiels?",
+    r"potentials?": r"potentiel(?:s|le)?",
     r"energy": r"énergie",
     r"brackets?": r"crochets?",
     r"volumes?": r"volume|volumes",

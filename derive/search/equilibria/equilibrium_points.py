@@ -178,7 +178,9 @@ def off_the_group(about: About, kept: Sequence[Polynomial], on: Elements) -> str
         here = about.number(f)
         there = group_value(about.system, f, here)
         if here != there:
-            return f"of {show(about.algebra.field_tree(f))} it makes {there}, not {here}"
+            return (
+                f"{show(about.algebra.field_tree(f))} would be {here}, and is {there} on the group"
+            )
     for x in on:
         for minor in x.independent:
             if q.rank(numbers(minor.matrix, about.at)) < len(minor.matrix):

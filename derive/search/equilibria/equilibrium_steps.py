@@ -5,6 +5,7 @@ Families of equilibria in letters, and inequalities.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -20,6 +21,7 @@ from ...language.univariate import (
     square_free,
 )
 from ...language.univariate import tree as plain
+from ...language.values import approximate
 from ...record.record import Equation, Step
 from ...record.sentence import Prose
 from ...walk.chapter import Chapter, Draft, say
@@ -124,6 +126,7 @@ def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool
     prose = say("equilibrium.tried") if tried else ()
     if any(x.about.at):
         prose += draft.claim("equilibrium.at", point=point_rows(x.about))
+        prose += _position(x.about, draft)
     else:
         prose += draft.claim("equilibrium.origin")
     if x.form:
@@ -139,6 +142,31 @@ def point_rows(about: About) -> Tree:
     """The coordinates of a point that are not 0, each with its variable."""
     pairs = zip(about.system.variables, about.at, strict=True)
     return ("matrix", *(("row", v, about.tree(x)) for v, x in pairs if x))
+
+
+def _position(about: About, draft: Draft) -> Prose:
+    """Which axes of a body that turns point along axes of space at a point; and is the potential
+    energy the least or the greatest there, where it is linear in one row of A alone?"""
+    prose: Prose = ()
+    found = ROTATIONS.fullmatch(draft.chapter.scope)
+    n, first = int(found[1]) if found else 0, about.system.momenta
+    places = [*enumerate(about.system.variables)][first:]
+    entries = {k: x[2:] for k, x in places if isinstance(x, tuple) and x[1] == "A"}
+    entries = {k: x for k, x in entries.items() if max(x) <= n}
+    turned = [k for k in entries if about.at[k] in (1, -1)]
+    for k in turned:
+        kind = "along" if about.at[k] == 1 else "against"
+        prose += draft.claim(f"position.{kind}", body=entries[k][1], space=entries[k][0])
+    rows = {i for i, _ in entries.values()}
+    if len(turned) != 1 or len(rows) != 1 or not len(places) == len(entries) == n:
+        return prose
+    h, k = about.expansion(about.algebra.hamiltonian), turned[0]
+    bent = h.higher or any(map(any, h.second[first:]))
+    slope = approximate(about.tree(h.slope[k]), {}, float)
+    if slope and not bent and not any(h.slope[y] for y in entries if y != k):
+        lowest = (slope < 0) is (about.at[k] == 1)
+        prose += draft.claim("position.lowest" if lowest else "position.highest")
+    return prose
 
 
 def distances(about: About) -> list[Tree]:
@@ -280,6 +308,7 @@ def exact_squares(characteristic: Sequence[Number]) -> list[Tree]:
     return [add(plain(-b / 2), part), add(plain(-b / 2), neg(part)), *zeros]
 
 
+ROTATIONS = re.compile(r"S[OE]\((\d+)\)")
 LONG = 400
 """Inequalities and polynomials of more nodes are not printed."""
 
@@ -303,6 +332,7 @@ def _told(
     prose += (
         say_so("family.at", point=point_rows(about)) if any(about.at) else say_so("family.origin")
     )
+    prose += _position(about, draft)
     for y in about.at[: about.system.momenta]:
         prose += say_so("family.letter", letter=about.tree(y)) if y else ()
     if x.multipliers is None:

@@ -317,7 +317,6 @@ def data(
     lost = bool(drives(record.problem, {}))
     units = {x.name: _unit(x.unit) for x in code.columns()}
     said = {x: _meaning(x, record, language, _turns(body, record)) for x in made.state}
-    units |= {x: "rad/s" for x, y in said.items() if y == language.word(TURNING) and units[x]}
     of_state = [(y, said[x], units[x]) for x, y in zip(made.state, state, strict=True)]
     words = _words(made, body, record, language, _unsaid(made, body, bool(entries), lost))
     if group is not None and group.name.startswith(("SL(", "SAff(")) and "defect" in words:

@@ -111,7 +111,7 @@ def spread(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
         panel.set_xlim(e.t[0], e.t[-1])
     for panel in panels[-WIDE:]:
         panel.set_xlabel(named(e, TIME))
-    told = word("median, and the bands of 50 % and 90 % of the motions")
+    told = word("median, bands of 50 % and 90 %")
     figure.suptitle(f"{told} – {reached(e, word)}", fontsize=8)
 
 

@@ -21,12 +21,6 @@ OVERVIEW, PRECISION = "overview", "precision"
 
 def described_kinds() -> str:
     """The kinds with what they are."""
-    listed = (
-        KINDS
-        | ENSEMBLE_KINDS
-        | {
-            OVERVIEW: "all that fit",
-            PRECISION: "work against error, of several runs or of a table",
-        }
-    )
+    several = {PRECISION: "work against error, of several runs or of a table"}
+    listed = KINDS | ENSEMBLE_KINDS | {OVERVIEW: "all that fit"} | several
     return "; ".join(f"{name}: {about}" for name, about in listed.items())
