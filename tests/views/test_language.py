@@ -3,6 +3,7 @@
 import ast
 import re
 import tomllib
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -33,6 +34,7 @@ from derive.views.language import (
 from derive.views.paper.findings import PAPER
 from derive.views.printing.sentences import FORMULA
 from derive.views.text import markdown, step_markdown, step_text, text
+from tests.equilibria.test_steady_turns import turning
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
 from tests.support.kinds import examples
@@ -183,6 +185,14 @@ OWN = [
         "force": [{"covector": ["-gas*zeta_1"]}],
     },
     {"group": "SO(3)", "lagrangian": ON_THE_RIGHT, "input": [{"name": "u", "kind": "torque"}]},
+    {
+        "group": "SO(3)",
+        "body": {"solid": "ellipsoid", "density": 1, "semi_axes": [3, 2, 1]},
+        "force": [
+            {"moment": ["-zeta_1", 0, 0], "frame": "space"},
+            {"at": [0, 0, 1], "force": ["-v_1", 0, 0], "frame": "body"},
+        ],
+    },
     {"algebra": {"of": "SO(3)"}, "advected": [{"name": "x"}], "lagrangian": ON_THE_RIGHT},
     {"group": "SO(3) x SE(2)", "lagrangian": {"L": TWO}},
     QUOTIENT,
@@ -203,6 +213,8 @@ def all_records():
     trims = (leaning, upside_down, drifting, resting_in_air, balanced, in_a_wind)
     trims += (cubed, nearly_upside_down, turned_in_space, spun)
     told += [found().record for found in trims]
+    turns = [turning(Fraction(15, 2), 1), turning(5, Fraction(1, 2), 2, 9.80665)]
+    told += [found.record for found in turns]
     told += [families(x)[1] for x in IN_LETTERS]
     return [*told, *every_record(), *map(walk, problems)]
 
