@@ -15,6 +15,9 @@ from .integral_claims import Judge
 from .reduced_system import ReducedSystem
 from .spectra_and_residues import about, expansion, gradient
 
+LARGEST = 2**30
+"""Numbers are drawn up to this: of small ones some are where the energy has a pole."""
+
 
 def _point(step: Step) -> dict[Tree, Tree]:
     """The coordinates that a step tells, in numbers or in letters."""
@@ -57,7 +60,7 @@ def _energy(system: ReducedSystem, step: Step, claim: Claim) -> str:
     letters = [*system.parameters, *(x for y in point.values() for x in nodes(y))]
     letters = [x for x in letters if isinstance(x, tuple) and x[0] == "par"]
     for negative in (None, *letters) * 2:
-        several = {x: Fraction(random.randint(1, 40), 7) for x in ("π", *letters)}
+        several = {x: Fraction(random.randint(1, LARGEST), 7) for x in ("π", *letters)}
         numbers = system.with_numbers({x: -y if x == negative else y for x, y in several.items()})
         u, elsewhere = (_slopes(numbers, row) for _ in span[:2])
         if u != elsewhere:
@@ -71,7 +74,7 @@ def _energy(system: ReducedSystem, step: Step, claim: Claim) -> str:
 
 def _slopes(system: ReducedSystem, row: Sequence[Tree]) -> list[Any]:
     """The derivatives of the energy by entries of A, at a random point."""
-    values = [Fraction(system.random.randint(1, 40), 7) for _ in system.variables]
+    values = [Fraction(system.random.randint(1, LARGEST)) for _ in system.variables]
     found = gradient(expansion(system.energy, about(system.variables, values)), len(values))
     return [found[system.variables.index(x)] for x in row]
 
