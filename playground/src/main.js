@@ -337,7 +337,7 @@ async function visit(tab) {
     speak();
   }
   const now = found.text ?? ready(found.name).text;
-  aim = { ...(places.left ?? (found.step && { step: found.step })), projected: found.seen.projected };
+  aim = { ...places.aim(found.step), projected: found.seen.projected };
   places.stands &&= Boolean(notice);
   if (!notice) places.see(lang, found.name ?? places.word, found.step, found.seen);
   tab ??= found.seen.tab ?? (still(now) ? "walk" : tabbed(found.step));
