@@ -37,7 +37,7 @@ const equations = new Equations(the("walk"), css, document.querySelector(".read 
 const places = new Places(equations);
 const steps = new Steps(the("steps"), (id, again) => go(id, again));
 const engine = new Engine({ seconds: SECONDS, onstate, onbegin: () => say(words.loading), stored });
-const motion = new Motion(the("see"), { text: () => text, engine, say, ended, lit: (number) => arrows.lit(number), key: (key) => projector.key(key) });
+const motion = new Motion(the("see"), { text: () => text, engine, say, ended, lit: (number) => arrows.lit(number) });
 const arrows = new Arrows(the("answer").lastElementChild, (number) => motion.light(number), (id) => go(id));
 const text = editor(the("editor"), data.schema, words, edited);
 const faces = { form: Form, sentence: Sentence };
@@ -49,6 +49,7 @@ const projector = new Projector(the("projector"), {
   answer: (place) => { place.innerHTML = arrows.place.innerHTML; },
   passed: (id) => places.step(lang, chosen() ?? places.word, id, true, { projected: id ? "" : "answer" }),
   beside: (is) => {
+    is &&= !still(text.text); // which has no body
     document.body.classList.toggle("beside", is);
     motion.project(is);
     if (is && tabs.now !== "see") see();
