@@ -66,12 +66,10 @@ function project(is) {
 }
 
 /* a file that is dropped here is dropped on the page, and a key that does nothing here is one for the page */
-for (const kind of ["keydown", "dragover", "drop"]) {
-  addEventListener(kind, (e) => {
-    if (e.defaultPrevented || e.key && e.target.closest("input, select")) return;
-    if (!parent.document.body.dispatchEvent(new e.constructor(kind, e))) e.preventDefault();
-  });
-}
+for (const kind of ["keydown", "dragover", "drop"]) addEventListener(kind, (e) => {
+  if (e.defaultPrevented || e.key && e.target.closest("input, select")) return;
+  if (!parent.document.body.dispatchEvent(new e.constructor(kind, e))) e.preventDefault();
+});
 
 addEventListener("message", async ({ data, source, origin }) => {
   if (source !== parent || origin !== location.origin) return;

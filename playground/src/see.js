@@ -77,9 +77,7 @@ export class Motion {
   }
 
   /* light an arrow of the body */
-  light(number) {
-    this.frame?.contentWindow?.postMessage({ light: number }, location.origin);
-  }
+  light(number) { this.frame?.contentWindow?.postMessage({ light: number }, location.origin); }
 
   /* the body alone, on black, or again with all that is about it */
   project(is) {
