@@ -243,7 +243,7 @@ def pyarrow() -> tuple[Any, Any]:
         import pyarrow.parquet
     except ImportError:
         raise RunFileError(
-            ".parquet needs pyarrow: pip install 'derive-mechanics[parquet]', or take .npz or .csv"
+            ".parquet needs pyarrow: pip install pyarrow, or take .npz or .csv"
         ) from None
     return pyarrow, pyarrow.parquet
 

@@ -167,9 +167,7 @@ def _load(data: bytes, kind: str) -> tuple[Any, Any]:
     try:
         trimesh = importlib.import_module("trimesh")
     except ImportError:
-        raise MeshError(
-            "reading a mesh needs trimesh: pip install 'derive-mechanics[mesh]'"
-        ) from None
+        raise MeshError("reading a mesh needs trimesh: pip install trimesh") from None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

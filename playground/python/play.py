@@ -304,14 +304,11 @@ def name_of(text: str) -> str:
 
 def emission(words: str) -> tuple[tuple[str, ...], Any]:
     """The languages and the options that the words of an emission ask for."""
-    from argparse import ArgumentParser
-
-    from derive.command.arguments import add_emission_options
+    from derive.command.arguments import parser
+    from derive.command.cli import COMMANDS
     from derive.command.emitting import languages, options
 
-    asked = ArgumentParser()
-    add_emission_options(asked)
-    args, _ = asked.parse_known_args(shlex.split(words))
+    args = parser(COMMANDS, None).parse_args(["emit", "FILE", *shlex.split(words)])
     return languages(args), options(args)
 
 

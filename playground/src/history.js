@@ -22,6 +22,9 @@ export class Places {
   /* the place that the reader left the entry at which is shown */
   get left() { return history.state?.at ?? null; }
 
+  /* where to go in its walk: there, or to the step that it names */
+  aim(step) { return this.left ?? (step && { step }); }
+
   /* remember where the reader is */
   keep() {
     const at = this.stands && this.equations.at();

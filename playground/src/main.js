@@ -37,7 +37,7 @@ const equations = new Equations(the("walk"), css, document.querySelector(".read 
 const places = new Places(equations);
 const steps = new Steps(the("steps"), (id, again) => go(id, again));
 const engine = new Engine({ seconds: SECONDS, onstate, onbegin: () => say(words.loading), stored });
-const motion = new Motion(the("see"), { text: () => text, engine, say, ended, lit: (number) => arrows.lit(number), key: (key) => projector.key(key) });
+const motion = new Motion(the("see"), { text: () => text, engine, say, ended, lit: (number) => arrows.lit(number) });
 const arrows = new Arrows(the("answer").lastElementChild, (number) => motion.light(number), (id) => go(id));
 const text = editor(the("editor"), data.schema, words, edited);
 const faces = { form: Form, sentence: Sentence };
@@ -49,6 +49,7 @@ const projector = new Projector(the("projector"), {
   answer: (place) => { place.innerHTML = arrows.place.innerHTML; },
   passed: (id) => places.step(lang, chosen() ?? places.word, id, true, { projected: id ? "" : "answer" }),
   beside: (is) => {
+    is &&= !still(text.text); // which has no body
     document.body.classList.toggle("beside", is);
     motion.project(is);
     if (is && tabs.now !== "see") see();
@@ -337,7 +338,7 @@ async function visit(tab) {
     speak();
   }
   const now = found.text ?? ready(found.name).text;
-  aim = { ...(places.left ?? (found.step && { step: found.step })), projected: found.seen.projected };
+  aim = { ...places.aim(found.step), projected: found.seen.projected };
   places.stands &&= Boolean(notice);
   if (!notice) places.see(lang, found.name ?? places.word, found.step, found.seen);
   tab ??= found.seen.tab ?? (still(now) ? "walk" : tabbed(found.step));

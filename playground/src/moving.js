@@ -65,8 +65,10 @@ function project(is) {
   motion.recolour();
 }
 
-addEventListener("keydown", ({ key }) => {
-  if (["Escape", "PageUp", "PageDown"].includes(key)) tell({ key });
+/* a file that is dropped here is dropped on the page, and a key that does nothing here is one for the page */
+for (const kind of ["keydown", "dragover", "drop"]) addEventListener(kind, (e) => {
+  if (e.defaultPrevented || e.key && e.target.closest("input, select")) return;
+  if (!parent.document.body.dispatchEvent(new e.constructor(kind, e))) e.preventDefault();
 });
 
 addEventListener("message", async ({ data, source, origin }) => {

@@ -11,8 +11,8 @@ export const still = (text) => Object.keys(STILL).find((x) => STILL[x].test(text
 
 export class Motion {
   /* text: () → { text }, which takes the numbers that the reader has set; engine: what is asked; say(state, instead) tells, and
-   * ended(how) tells an ending other than "end"; lit(number): an arrow of the body is pointed at; key(key): one was pressed there */
-  constructor(place, { text, engine, say, ended, lit, key }) {
+   * ended(how) tells an ending other than "end"; lit(number): an arrow of the body is pointed at */
+  constructor(place, { text, engine, say, ended, lit }) {
     Object.assign(this, { place, text, engine, say, ended });
     this.unset = [];
     addEventListener("message", ({ data, source, origin }) => {
@@ -21,7 +21,6 @@ export class Motion {
       else if (data.fault) this.fail(data.fault);
       else if (data.height) this.frame.style.setProperty("--height", `${data.height}px`);
       else if (data.lit !== undefined) lit(data.lit);
-      else if (data.key) key(data.key);
       else if (data.seen) this.heard?.(data.seen);
       else if (data.numbers) this.put(data.numbers, text());
       else Object.assign(this.frame.dataset, data);
@@ -78,9 +77,7 @@ export class Motion {
   }
 
   /* light an arrow of the body */
-  light(number) {
-    this.frame?.contentWindow?.postMessage({ light: number }, location.origin);
-  }
+  light(number) { this.frame?.contentWindow?.postMessage({ light: number }, location.origin); }
 
   /* the body alone, on black, or again with all that is about it */
   project(is) {

@@ -80,6 +80,7 @@ export class Take {
         const asking = command().replaceAll("NAME", this.file().name), found = await this.ask(asking);
         if (found.files) await does(found, asking);
         button.disabled = false;
+        if (document.activeElement === document.body) button.focus(); // who pressed it by a key goes on from there
         if (!found.files) fault.textContent = found.refused;
         this.weigh();
       } }, text);

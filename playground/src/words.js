@@ -110,7 +110,7 @@ export const WORDS = {
     queued: "Calcul …, puis vérification", unfit: "Il n’y a rien à vérifier : corrigez d’abord ce qui est marqué dans le problème.",
     missing: (x) => `Il n’y a pas de problème tout prêt « ${x} » : voici so3 à la place.`, nostep: (x) => `Il n’y a pas d’étape « ${x} » ici.`,
     projector: "Projection", leave: "Quitter (Échap)", back: "L’étape précédente", on: "L’étape suivante", now: "maintenant", stepof: (n, all) => `${n} sur ${all}`,
-    list: "Étapes", wide: "Équations seules", corrected: "ce qui est corrigé dans le texte imprimé",
+    list: "Étapes", wide: "Agrandir", corrected: "ce qui est corrigé dans le texte imprimé",
     file: "Fichier", savefile: "Enregistrer ce fichier", lines: (n, kB) => `${n} lignes, ${kB.replace(".", ",")} ko`, show: "Montrer le code", default: (x) => `${x} (par défaut)`,
     further: "En plus",
     reads: "Toutes les commandes, chez vous, lisent ce fichier.", runs: "Déduit, vérifie et met en mouvement le problème dans Jupyter.",

@@ -86,6 +86,24 @@ def test_a_check_ends_where_it_is_silent(verdicts, end, told, how, clocks):
     assert found == {"told": told, "how": how, "heard": len(verdicts), "clocks": clocks}
 
 
+# ---- where Back goes
+
+
+def test_an_entry_is_gone_to_where_it_was_left():
+    """And to the step of its address where nobody was before."""
+    there = {"id": "so3.kernel", "by": -20}
+    run = f"""
+        globalThis.history = {{ state: null, replaceState(state) {{ this.state = state; }} }};
+        const {{ Places }} = await import("./src/history.js");
+        const places = new Places({{ at: () => ({json.dumps(there)}) }});
+        const told = [places.aim("so3.kernel")];
+        places.stands = true;
+        places.keep();
+        console.log(JSON.stringify([...told, places.aim("so3.kernel")]));
+    """
+    assert json.loads(in_node.printed(run)) == [{"step": "so3.kernel"}, there]
+
+
 # ---- numbers, names and words
 
 

@@ -143,7 +143,7 @@ def test_columns_and_a_missing_library_are_told(monkeypatch):
     with pytest.raises(PlotError, match="columns are chosen of an ensemble"):
         plot(run_of(), "a.svg", columns=["A_11"])
     monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
-    with pytest.raises(PlotError, match="pip install"):
+    with pytest.raises(PlotError, match=r"pip install matplotlib$"):
         plot(run_of(), "a.svg")
 
 

@@ -67,7 +67,7 @@ def look() -> Any:
     try:
         import matplotlib
     except ImportError:
-        raise PlotError("pictures need matplotlib: pip install 'derive-mechanics[plot]'") from None
+        raise PlotError("pictures need matplotlib: pip install matplotlib") from None
     # whatever the user's matplotlibrc says; the backend stays: to set it would start a display
     plain: dict[Any, Any] = {x: y for x, y in matplotlib.rcParamsDefault.items() if x != "backend"}
     return matplotlib.rc_context(plain | LOOK)

@@ -163,7 +163,7 @@ ACCENTS = {"dot": "˙", "tilde": "~", "hat": "^"}
 LITERAL = re.compile(rf"\\[A-Za-z]+|\\.|[0-9]+|[{MARKS}]|\S")
 TOP = "<mo>⊤</mo>"
 OPENED: dict[object, str] = {f'<mo stretchy="false">{c}</mo>': c for c in "(["}
-PREFIXED = ("=", "(", "[", ",", "{")
+PREFIXED = tuple("=≠≈≅<>≤≥([,{")
 
 
 class Sign(NamedTuple):
