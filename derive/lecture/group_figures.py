@@ -182,7 +182,9 @@ def _orbit(claims: Claims, orbit: Orbit) -> Scene:
     reach = (1.0, 1.0, orbit.rise(orbit.end))
     for k in range(3):
         out = 8.0 if orbit.bent < 0 and k == 0 else 0.0  # beyond the rim, which is wider
-        ends = (scaled(reach[k] + by / orbit.scale, UNITS[k]) for by in (0.0, 8 + out, 11.5 + out))
+        ends = (
+            scaled(reach[k] + by / orbit.scale, UNITS[k]) for by in (0.0, 8 + out, 11.5 + 1.2 * out)
+        )
         at, tip, far = map(view.at, ends)
         strokes += arrow(at, tip, "axis")
         labels.append(Label("Π", str(k + 1), at=far))

@@ -7,7 +7,6 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import reduce
 from itertools import permutations
 from typing import Any
 from unicodedata import normalize
@@ -23,7 +22,6 @@ from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Claim, Prose, Sentence, phrase
 from ..views.figure.drawn_body import ExpressionValues
 from ..views.figure.scene import quadratic
-from ..views.layout import factored
 from .common_factors import tidied
 from .lecture_text import Entry, chapters
 from .ran_figure import Ran, value_at_start, value_of, written
@@ -42,7 +40,6 @@ STABLE, UNSTABLE = "stable", "unstable"
 OPEN = "stable or not, which these steps do not decide"
 LONG_ONES, HERE_ONLY = "stable or not by the inequalities of these steps", "here {verdict}"
 ON_LEAF = "stable for motions with the same Casimirs"
-AND, OR = "{first} and {second}", "{first}; or {second}"
 VERDICTS = {
     "equilibrium": {
         **dict.fromkeys(("stable", "stable_beyond", "stable_compact"), STABLE),
@@ -182,22 +179,11 @@ def _in_few_words(x: Sentence) -> Sentence:
 
 
 def _in_cases(x: Sentence, step: Step) -> Sentence:
-    """A sentence whose cases, of inequalities between sides as people write them, stand with an
-    "or" between them, each with an "and"."""
+    """A sentence whose cases have sides as people write them."""
     claim = next((c for c in step.claims if message(c.kind) == x.message), Claim(""))
-    cases = [rows(y) for place, t in claim.values if place == "cases" for y in rows(t)]
-    told = [_joined(AND, [_inequality(claim.kind, y) for y in case]) for case in cases if case]
-    places = dict(x.places) | ({"cases": _joined(OR, told)} if told else {})
+    cases = [(k, tidied(Equation("", y)).rhs) for k, y in claim.values if k == "cases"]
+    places = dict(x.places) | replace(claim, values=(*cases,)).texts
     return replace(x, places=tuple(places.items()))
-
-
-def _joined(by: str, parts: Sequence[Sentence | str]) -> Sentence | str:
-    return reduce(lambda x, y: phrase(by, first=x, second=y), parts)
-
-
-def _inequality(kind: str, row: Tree) -> str:
-    sides = (factored(tidied(Equation("", y)).rhs) for y in rows(row))
-    return Claim(kind, (("cases", ("matrix", ("row", *sides))),)).texts["cases"]
 
 
 def _cases(x: Sentence) -> str:

@@ -13,12 +13,13 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 from typing import Any
 
 from ..language.limits import SENTENCE
 from ..language.show import in_sentence
 from ..language.tree import Tree
-from .prose import message, messages
+from .prose import LISTS, message, messages
 
 PLACE = re.compile(r"\{([a-z]+)\}")
 
@@ -210,7 +211,7 @@ class Claim:
         return dict(self.values)[name]
 
     @property
-    def texts(self) -> dict[str, str]:
+    def texts(self) -> dict[str, Sentence | str]:
         """What stands in the places of the sentence."""
         by_kind = TEXTS.get(self.kind, text)
         return {name: TEXTS.get(f"{self.kind}.{name}", by_kind)(x) for name, x in self.values}
@@ -253,17 +254,29 @@ def _nonzero(x: Tree) -> str:
     return ", ".join(f"{in_sentence(y)} ≠ 0" for y in x[1:])
 
 
-def _inequalities(x: Tree) -> str:
-    """Rows of a matrix, two sides of which the first is the greater; several such with numbers."""
+*_, AND, OR = LISTS
+
+
+def _inequalities(x: Tree) -> Sentence | str:
+    """Rows of a matrix, two sides of which the first is the greater; of several such the rows of
+    each with an "and", and an "or" between them."""
     assert isinstance(x, tuple)
     if x[0] == "row":
-        several = [*map(_inequalities, x[1:])]
-        numbered = (f"({k}) {y}" for k, y in enumerate(several, 1))
-        return "; ".join(numbered) if len(several) > 1 else "".join(several)
+        cases = ([*map(_inequality, y[1:])] for y in x[1:] if isinstance(y, tuple))
+        return _two_by_two(OR, [_two_by_two(AND, y) for y in cases if y])
     if x[0] != "matrix":
         return in_sentence(x)
-    shown = ([*map(in_sentence, row[1:])] for row in x[1:])
-    return ", ".join(f"{y} < 0" if z == "0" else f"{z} > {y}" for z, y in shown)
+    return ", ".join(map(_inequality, x[1:]))
+
+
+def _inequality(row: Tree) -> str:
+    assert isinstance(row, tuple)
+    greater, less = map(in_sentence, row[1:])
+    return f"{less} < 0" if greater == "0" else f"{greater} > {less}"
+
+
+def _two_by_two(by: str, parts: Sequence[Sentence | str]) -> Sentence | str:
+    return reduce(lambda x, y: phrase(by, first=x, second=y), parts) if parts else ""
 
 
 FAMILIES = ("positive", "stable", "on_the_leaf", "unstable", "unstable_large")
@@ -325,8 +338,9 @@ def _quoted(words: str) -> str:
 
 def _says(x: Sentence, claim: Claim) -> bool:
     """Is a sentence the rendering of a claim, up to its phrases?"""
-    texts = {name: y for name, y in x.places if isinstance(y, str)}
-    return x.message == message(claim.kind) and texts == claim.texts
+    told = claim.texts
+    texts = {name: y for name, y in x.places if isinstance(y, str) or name in told}
+    return x.message == message(claim.kind) and texts == told
 
 
 def _parts(prose: Prose) -> Iterator[Sentence]:

@@ -15,7 +15,7 @@ from pathlib import Path
 
 LANGUAGES = ("en", "fr")
 """The languages of the prose, in the order of the texts of a sentence."""
-LISTS = ("{first}, {second}", "{first}; {second}", "{first} and {second}")
+LISTS = ("{first}, {second}", "{first}; {second}", "{first} and {second}", "{first}; or {second}")
 """How parts of a sentence are strung together; in French in the catalogue of the views."""
 INDENT = "  "
 MARK = "$"

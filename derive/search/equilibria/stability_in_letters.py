@@ -208,9 +208,10 @@ def families(whole: IntegralsFound, names: Sequence[str], on: Elements) -> Itera
     algebra, momenta = system.algebra, system.momenta
     own = [algebra.letters[x] for x in names]
     kept = [*map(algebra.over_the_field, whole.casimirs)]
-    apart = Case((), frozenset(x.numer for x in own))
-    known = positive(system, apart)
-    if known is None:
+    numbers = [algebra.letters["π"]] if "π" in algebra.letters else []
+    apart = Case((), frozenset(x.numer for x in own)).with_positive(*numbers)
+    known = positive(system, apart) if apart else None
+    if apart is None or known is None:
         return
     for about in tried(system, kept, on):
         one, rest = about.at[:momenta], about.at[momenta:]
@@ -227,8 +228,7 @@ def positive(system: LiePoisson, apart: Case) -> Case | None:
     algebra, m = system.algebra, system.momenta
     start = About(system, (Fraction(0),) * len(system.variables))
     second = [row[:m] for row in start.expansion(algebra.hamiltonian).second[:m]]
-    numbers = [algebra.letters["π"]] if "π" in algebra.letters else []
-    case = apart.with_positive(*numbers, *minors(second))
+    case = apart.with_positive(*minors(second))
     return case.settled() if case else None
 
 
