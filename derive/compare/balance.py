@@ -441,8 +441,9 @@ SQUARES = "what is quadratic in"
 
 
 def _of(name: str) -> Callable[[str], str]:
-    """The words of a term in some rows."""
-    return lambda row: f"the {row} of {name}" if row in ("moment", "force") else name
+    """The words of a term in some rows; a moment is its own."""
+    rows = () if name.startswith("the moment") else ("moment", "force")
+    return lambda row: f"the {row} of {name}" if row in rows else name
 
 
 def exact(left: Array, size: Array) -> bool:

@@ -225,10 +225,14 @@ def called(problem: Problem, table: Table) -> str:
     acting = (*problem.forces, *problem.damping)
     for word in ("force", "damping", "flow"):
         tables = [x for x in acting if (getattr(x, "table", "") or x.section).startswith(word)]
-        if table in tables and (name := getattr(table, "name", None)):
-            return f"the {word} {name}"
-        if table in tables:
-            return f"{word} {tables.index(table) + 1}" if len(tables) > 1 else f"the {word}"
+        if table not in tables:
+            continue
+        name = getattr(table, "name", None)
+        if len(tables) > 1 and not name:
+            return f"{word} {tables.index(table) + 1}"
+        given = [x for x in getattr(table, "expressed", ()) if getattr(table, x)]
+        word = given[0] if (word, len(given)) == ("force", 1) else word
+        return f"the {word} {name}" if name else f"the {word}"
     kind = table.kind.replace("_", " ")
     same = [x for x in problem.potentials if x.kind == table.kind]
     return f"{kind} {[*map(id, same)].index(id(table)) + 1}" if len(same) > 1 else kind
