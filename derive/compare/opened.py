@@ -40,6 +40,14 @@ class Opened:
         """The parameters that stand for the entries of a key."""
         return [x.name for x in self.slots if x.key == key]
 
+    def vectors(self, values: Mapping[str, float]) -> dict[str, list[str]]:
+        """Each key in words → the parameters that stand for those of its entries that are not 0."""
+        found: dict[str, list[str]] = {}
+        for x in self.slots:
+            if values[x.name]:
+                found.setdefault(x.key, []).append(x.name)
+        return found
+
     def values(self, parameters: Mapping[str, float]) -> dict[str, float]:
         """All parameters by name, for those of the problem that was opened; ``ValueError`` where
         a number has no value."""
