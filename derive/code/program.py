@@ -298,12 +298,6 @@ class Program:
             raise fault(f"{both}: the same number as {own[both]}; leave out one")
         return {own.get(name, name): x for name, x in given.items()}
 
-    def like(self, name: str, known: Iterable[str]) -> list[str]:
-        """The names that a wrong one may stand for: those by blocks where it has a block, else all
-        that are ``known`` and these."""
-        own = [*self.by_block]
-        return own if own and re.match("(zeta|w)[1-9]", name) else [*known, *own]
-
     @property
     def momentum_range(self) -> tuple[int, int]:
         """The index of the first momentum in the state that has them, and that after the last."""

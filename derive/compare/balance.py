@@ -127,9 +127,9 @@ class Balance:
         """The centre of mass of a body that moves in space or in the plane, at each state."""
         return self.mass_and_centre()[1] if self.is_frame else None
 
-    def mass_and_centre(self, **masses: float) -> tuple[Array, Array | None]:
+    def mass_and_centre(self) -> tuple[Array, Array | None]:
         """The mass of the body, (N,), and where its centre is along its axes, (N, n), at each
-        state; ``masses``: numbers of the state that are others."""
+        state."""
         problem = self.opened.problem
         if problem.body is None or (problem.group and problem.group.factors):
             return np.zeros(0), None
@@ -140,7 +140,7 @@ class Balance:
         @cache
         def at(t: float, *stored: float) -> list[float | None]:
             now = [replaced(x, "t", Fraction(t)) for x in trees] if timed else trees
-            here = {**known, **dict(zip(columns, stored, strict=True)), **masses}
+            here = {**known, **dict(zip(columns, stored, strict=True))}
             return [approximate(x, here, float) for x in now]
 
         rows = zip(self.t * timed, self.x[:, [*columns.values()]], strict=True)
@@ -160,9 +160,13 @@ class Balance:
         found[:, :3, 3:] = -hats(r)  # less r × force
         return found
 
+    def columns(self, letter: str) -> list[int]:
+        """Where the entries of A, or of T, are in a state."""
+        return [i for i, x in enumerate(self.code.STATE) if x.startswith(f"{letter}_")]
+
     def turns(self) -> Array:
         """The matrices A of the states, (N, n, n)."""
-        entries = [i for i, x in enumerate(self.code.STATE) if x.startswith("A_")]
+        entries = self.columns("A")
         n = math.isqrt(len(entries))
         found: Array = self.x[:, entries].reshape(len(self.x), n, n)
         return found
@@ -203,7 +207,7 @@ class Balance:
     def operator(self) -> dict[str, float]:
         """The entries of an operator that is the same in every state, by the parameters of what is
         added to them."""
-        M = self.code.mass_matrix(self.t, self.x, self.k(self.values()))
+        M = self.mass(self.values())
         names = self.opened.entries("operator")
         alike = np.ptp(M, axis=0).max() <= EXACT * np.abs(M).max()
         upper = M[0][np.triu_indices(M.shape[1])].tolist()
@@ -223,9 +227,7 @@ class Balance:
 
     def transposed(self) -> Array | None:
         """The states with the transpose of A; none where there is no A."""
-        entries = [i for i, x in enumerate(self.code.STATE) if x.startswith("A_")]
-        n = math.isqrt(len(entries))
-        if not n:
+        if not (entries := self.columns("A")):
             return None
         x = self.x.copy()
         x[:, entries] = self.turns().transpose(0, 2, 1).reshape(len(x), -1)
@@ -233,10 +235,9 @@ class Balance:
 
     def size(self) -> Array:
         """The size of the terms of each row, (d,)."""
-        k = self.k(self.values())
-        M, b = self.code.mass_matrix(self.t, self.x, k), self.bias(self.x, self.u)
-        known = self.code.rhs(self.t, self.x, k, self.u)[:, self.moving]
-        found = np.abs(b) + np.einsum("...ij,...j->...i", np.abs(M), np.abs(self.a) + np.abs(known))
+        M, b = self.mass(self.values()), self.bias(self.x, self.u)
+        known = self.code.rhs(self.t, self.x, self.k(self.values()), self.u)[:, self.moving]
+        found = np.abs(b) + through(np.abs(M), np.abs(self.a) + np.abs(known))
         size: Array = np.maximum(found.max(axis=0), 1e-3 * found.max())
         return size
 
@@ -375,8 +376,7 @@ class Balance:
 
     def _of_momenta(self) -> Iterator[Term]:
         """Two of these by the momenta that there are."""
-        M = self.code.mass_matrix(self.t, self.x, self.k(self.values()))
-        momenta = np.einsum("...ij,...j->...i", M, self.x[:, self.moving])
+        momenta = through(self.mass(self.values()), self.x[:, self.moving])
         for letters, values in [*self.coadjoint(momenta).items()][:2]:
             yield Term(-values, _of(f"{letters} of the momenta π = ∂ℓ/∂ω, p = ∂ℓ/∂v"), part=True)
 
@@ -398,10 +398,9 @@ class Balance:
 
     def _centre(self, table: Any) -> Array | None:
         """The vector to the body's origin from the centre of a force, (N, 3)."""
-        names = [x for x in self.code.STATE if x.startswith("T_")]
-        if not names:
+        if not (entries := self.columns("T")):
             return None
-        T = self.x[:, [self.code.STATE.index(x) for x in names]]
+        T = self.x[:, entries]
         known = self.values()
         places = [known.get(x[1]) if x[0] == "par" else None for x in getattr(table, "centre", ())]
         return T - np.array(places, float) if places and None not in places else T
@@ -441,8 +440,9 @@ SQUARES = "what is quadratic in"
 
 
 def _of(name: str) -> Callable[[str], str]:
-    """The words of a term in some rows."""
-    return lambda row: f"the {row} of {name}" if row in ("moment", "force") else name
+    """The words of a term in some rows; a moment is its own."""
+    rows = () if name.startswith("the moment") else ("moment", "force")
+    return lambda row: f"the {row} of {name}" if row in rows else name
 
 
 def exact(left: Array, size: Array) -> bool:

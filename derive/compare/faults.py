@@ -9,7 +9,7 @@ from itertools import chain, combinations, product
 
 import numpy as np
 
-from .balance import Balance, Part, Term, exact, hats, through
+from .balance import Balance, Part, Term, exact, through
 from .newton_euler import (
     IN_MASS,
     of_added_mass,
@@ -18,6 +18,7 @@ from .newton_euler import (
     of_newton_euler,
     of_sizes,
     of_wrenches,
+    parallel,
 )
 from .told import ABOUT, NEAR, Changed, Hypothesis, changed, possible, told
 from .users_code import Array
@@ -220,11 +221,7 @@ def named_vector(key: str) -> str:
 def of_vectors(b: Balance) -> Iterator[Hypothesis]:
     """A vector of the problem, as the place where a force acts, is a multiple of itself."""
     base = b.values()
-    for key in dict.fromkeys(x.key for x in b.opened.slots):
-        own = [x.name for x in b.opened.slots if x.key == key and base[x.name]]
-        if len(own) < 1:
-            continue
-        name = named_vector(key)
+    for key, own in b.opened.vectors(base).items():
 
         def scaled(s: float, own: list[str] = own) -> Values:
             return {**base, **{x: s * base[x] for x in own}}
@@ -232,7 +229,7 @@ def of_vectors(b: Balance) -> Iterator[Hypothesis]:
         # a wind stands under a root: from 1 alone Newton's method may end elsewhere
         several = [fitted(b, scaled, x, b.left) for x in (1.0, -1.0, 0.0)]
         if found := min(filter(None, several), key=lambda x: np.abs(x[1]).sum(), default=None):
-            words, rank = changed(name, found[0], b.named)
+            words, rank = changed(named_vector(key), found[0], b.named)
             yield Hypothesis(words, rank, found[1])
 
 
@@ -244,7 +241,7 @@ def of_the_point(b: Balance) -> Iterator[Hypothesis]:
         return
     w, d = b.x[:, b.moving][:, :3], b.a.shape[1]
     shift = np.zeros((len(m), d, d))
-    shift[:, :3, :3] = -m[:, None, None] * hats(r) @ hats(r)
+    shift[:, :3, :3] = parallel(m, r)
     of_mass, spun = through(shift, b.a), np.zeros_like(b.a)
     spun[:, :3] = np.cross(w, through(shift[:, :3, :3], w))
     for where, more in (("", of_mass + spun), (IN_MASS, of_mass), (" in ω × Iω alone", spun)):

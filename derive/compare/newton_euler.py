@@ -200,51 +200,61 @@ def of_attitude(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
 BY_A = "is turned by A and not by Ā, the transpose of the attitude"
 
 
-def changed_force(values: Array, arm: Array, to: Callable[[Array], Array]) -> Array:
-    """A force with its moment, (N, d), whose force at an arm is another and whose couple, which
-    no arm makes, is turned with it in space."""
+Turn = Callable[[Array], Array]
+
+
+def couple_and_force(values: Array, arm: Array) -> tuple[Array, Array]:
+    """The couple, which no arm makes, and the force of a force with its moment, (N, d)."""
     n = arm.shape[-1]
-    force, moment = values[:, -n:], values[:, :-n]
-    couple = moment - cross(arm, force)
-    other = to(force)
-    couple = to(couple) if n == 3 else couple
-    return np.hstack([couple + cross(arm, other), other])
+    return values[:, :-n] - cross(arm, values[:, -n:]), values[:, -n:]
 
 
-def turned(R: Array) -> Callable[[Array], Array]:
+def changed_force(own: Array, other: Array, arm: Array, kind: str, to: Turn) -> Array:
+    """A force with its moment whose force at an arm, or couple, or both are those of an ``other``,
+    turned in space."""
+    (couple, force), (moment, there) = (couple_and_force(x, arm) for x in (own, other))
+    if kind != "moment":
+        force = to(there)
+    if kind != "force":
+        couple = to(moment) if moment.shape[1] == 3 else moment
+    return np.hstack([couple + cross(arm, force), force])
+
+
+def turned(R: Array) -> Turn:
     """What turns vectors at each state."""
     return lambda vectors: np.einsum("nij,nj->ni", R, vectors)
 
 
 def of_frames(b: Balance, terms: list[Term], name: Callable[[str], str]) -> Iterator[Hypothesis]:
-    """The numbers of a force, its velocity or both are along the axes of the other frame, its
-    moment by its arm with them; a covector, as a damping by a tensor of 𝔤, is at the origin."""
-    A = b.turns()
+    """The numbers of a force, with its moment by the arm, or of its own moment, or both, or the
+    velocity that they are made of, or all this are along the axes of the other frame; a covector,
+    as a damping by a tensor of 𝔤, is at the origin."""
+    A, own = b.turns(), [x.values for x in terms]
     back, origin = A.transpose(0, 2, 1), np.zeros(A.shape[-1])
     arms = [origin if x.arm is None else x.arm for x in terms]
-    placed = [(x, x.at, y) for x, y in zip(terms, arms, strict=True) if x.at is not None]
+    placed = [(x.at, arm) for x, arm in zip(terms, arms, strict=True) if x.at is not None]
     if len(placed) < len(terms):
         return
-    own = np.stack([x.values for x in terms])
-    for frame, R, out in (("space", A, back), ("the body", back, A)):
-        taken = np.stack([at(moving(b, arm, R)) for _, at, arm in placed])
-        made: dict[str, tuple[Array, Array | None]] = {
-            f"{name('force')}, with its moment by the arm, has its numbers": (own, out)
-        }
-        if np.abs(taken - own).max() > EXACT * np.abs(own).max():
-            made[f"the velocity in {name('')} is"] = (taken, None)
-            made[f"the velocity and the numbers of {name('')} are"] = (taken, out)
-        for words, (values, to) in made.items():
-            if to is not None:
-                both = zip(values, placed, strict=True)
-                turn = turned(to)
-                values = np.stack([changed_force(x, arm, turn) for x, (_, _, arm) in both])
-            left = b.unexplained - (values - own).sum(axis=0)
-            yield Hypothesis(f"{words} along the axes of {frame} instead", 0, left)
-    turn, other = turned(A @ A), np.zeros_like(b.a)
-    for values, (_, _, arm) in zip(own, placed, strict=True):
-        other += changed_force(values, arm, turn) - values
-    yield Hypothesis(f"{name('')} {BY_A}", 0, b.unexplained - other)
+    least = EXACT * np.abs(own).max()
+    said: list[tuple[str, list[Array], Turn]] = [(f"{{}} {BY_A}", own, turned(A @ A))]
+    for frame, R, out in (("space", A, turned(back)), ("the body", back, turned(A))):
+        axes = f"along the axes of {frame} instead"
+        said.append((f"{{1}} has its numbers {axes}", own, out))
+        taken = [at(moving(b, arm, R)) for at, arm in placed]
+        if np.abs(np.subtract(taken, own)).max() > least:
+            said.append((f"the velocity in {{}} is {axes}", taken, np.asarray))
+            said.append((f"the velocity and the numbers of {{}} are {axes}", taken, out))
+    parts = zip(
+        ("moment", "force"), zip(*map(couple_and_force, own, arms), strict=True), strict=True
+    )
+    kinds = [kind for kind, x in parts if np.abs(x).max() > least]
+    for kind, (words, values, to) in product(("", *(kinds if len(kinds) > 1 else ())), said):
+        numbers = kinds[0] if len(kinds) == 1 else kind
+        by_arm = ", with its moment by the arm," * (numbers == "force")
+        told = words.format(name(kind), name(numbers) + by_arm)
+        each = zip(own, values, arms, strict=True)
+        others = [changed_force(x, y, arm, kind, to) for x, y, arm in each]
+        yield Hypothesis(told, 0, b.unexplained - np.subtract(others, own).sum(axis=0))
 
 
 def moving(b: Balance, arm: Array, R: Array) -> Array:
@@ -273,11 +283,10 @@ def of_speeds(b: Balance, term: Term) -> Iterator[Hypothesis]:
         words = f"{name} is made of the velocity of {place}, not of its place"
         yield Hypothesis(words, 0, b.unexplained - (values - term.values))
     n = term.arm.shape[-1]
-    own = term.values[:, -n:]
-    by_arm = cross(term.arm, own)
-    if np.abs(term.values[:, :-n] - by_arm).max() > EXACT * np.abs(term.values).max():
+    couple, own = couple_and_force(term.values, term.arm)
+    if np.abs(couple).max() > EXACT * np.abs(term.values).max():
         # with no moment of its own the whole moment is missing, which is a factor of it
-        left = b.unexplained + np.hstack([by_arm, 0 * own])
+        left = b.unexplained + np.hstack([cross(term.arm, own), 0 * own])
         yield Hypothesis(f"the moment of {name} by its arm is missing", 0, left)
     axes = {"the body": np.broadcast_to(np.eye(n), b.turns().shape), "space": b.turns()}
     for (frame, A), (words, to) in product(axes.items(), BY_AXES.items()):

@@ -40,6 +40,14 @@ class Opened:
         """The parameters that stand for the entries of a key."""
         return [x.name for x in self.slots if x.key == key]
 
+    def vectors(self, values: Mapping[str, float]) -> dict[str, list[str]]:
+        """Each key in words → the parameters that stand for those of its entries that are not 0."""
+        found: dict[str, list[str]] = {}
+        for x in self.slots:
+            if values[x.name]:
+                found.setdefault(x.key, []).append(x.name)
+        return found
+
     def values(self, parameters: Mapping[str, float]) -> dict[str, float]:
         """All parameters by name, for those of the problem that was opened; ``ValueError`` where
         a number has no value."""
@@ -225,10 +233,14 @@ def called(problem: Problem, table: Table) -> str:
     acting = (*problem.forces, *problem.damping)
     for word in ("force", "damping", "flow"):
         tables = [x for x in acting if (getattr(x, "table", "") or x.section).startswith(word)]
-        if table in tables and (name := getattr(table, "name", None)):
-            return f"the {word} {name}"
-        if table in tables:
-            return f"{word} {tables.index(table) + 1}" if len(tables) > 1 else f"the {word}"
+        if table not in tables:
+            continue
+        name = getattr(table, "name", None)
+        if len(tables) > 1 and not name:
+            return f"{word} {tables.index(table) + 1}"
+        given = [x for x in getattr(table, "expressed", ()) if getattr(table, x)]
+        word = given[0] if (word, len(given)) == ("force", 1) else word
+        return f"the {word} {name}" if name else f"the {word}"
     kind = table.kind.replace("_", " ")
     same = [x for x in problem.potentials if x.kind == table.kind]
     return f"{kind} {[*map(id, same)].index(id(table)) + 1}" if len(same) > 1 else kind

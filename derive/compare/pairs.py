@@ -122,8 +122,7 @@ def of_numbers(b: Balance) -> Iterator[Changed]:
             if old := base[slot.name]:
                 words, rank = told(slot.words, old, factor * old, {})
                 yield Changed(words, rank + 1, replace(b, changed={slot.name: factor * old}))
-        for key in dict.fromkeys(x.key for x in b.opened.slots):
-            own = [x.name for x in b.opened.slots if x.key == key and base[x.name]]
+        for key, own in b.opened.vectors(base).items():
             if len(own) > 1:
                 words, rank = changed(named_vector(key), factor, {})
                 yield Changed(words, rank, replace(b, changed={x: factor * base[x] for x in own}))

@@ -176,8 +176,7 @@ def _known(
     """``MotionError`` for a name that means nothing, and for a number that is none."""
     for name, number in given.items():
         if name not in values:
-            like = program.like(name, values)
-            near = f"{called_here(name, values, group, like, ';')} ".removeprefix("; ").lstrip()
+            near = f"{called_here(name, values, group, values, ';')} ".removeprefix("; ").lstrip()
             if components := [x for x in values if x.startswith(f"{name}_")]:
                 near = f"give its components {_listed(components)}; "
             if name == "exp":

@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
-from ..algebra.groups import Group
+from ..algebra.groups import Group, names_by_block
 from ..language.limits import TABLES
 from ..language.reserved import by_letter, suffixed
 from ..language.tree import Tree, add, mul, neg, plain
@@ -58,7 +58,12 @@ def no_entry(name: str, group: Group, known: Mapping[str, Tree]) -> str:
         return ""
     on_group = any(isinstance(t, tuple) and t[1] == "A" for t in known.values())
     whose = group.name if on_group else "the state of this algebra"
-    return f"{whose} has no {name[:40]}; its entries are {entries(known)}"
+    return f"{whose} has no {name[:40]}; its entries are {entries(_with_blocks(known, group))}"
+
+
+def _with_blocks(known: Iterable[str], group: Group) -> list[str]:
+    """The names of a state, and in a product those of the velocity by its blocks."""
+    return [*known, *names_by_block(group).values()]
 
 
 def entries(known: Iterable[str]) -> str:
@@ -81,7 +86,7 @@ def undeclared(
     other = f"{hint} Else " if hint else ""
     return (
         f"{where}: {name[:40]!r} is not declared; {other}add it to [parameters]; the state has "
-        f"{entries(known)}"
+        f"{entries(_with_blocks(known, group))}"
     )
 
 
@@ -101,11 +106,19 @@ def called_here(
     others: Collection[str] = (),
     end: str = "",
 ) -> str:
-    """``; w_1 is zeta_4 here`` and an ``end``, where a velocity has another of the ``known`` names;
-    else which of the ``others`` is nearest."""
-    pairs = by_points(group).items() if group else ()
-    same = next((b for p in pairs for a, b in (p, p[::-1]) if a == name and b in known), "")
-    return f"; {name} is {same} here{end}" if same else nearest(name, others)
+    """``; w_1 is zeta_4 here`` and an ``end``, where a velocity has another of the ``known`` names,
+    or in a product such by its blocks, w1_1 or w2_1; else which of the ``others`` is nearest, or of
+    the names by blocks."""
+    zeta = [x for x in known if x.startswith("zeta_")] if group else []
+    blocks = [x for a, x in names_by_block(group).items() if a in zeta] if group else []
+    same = [x for x in blocks if re.sub("[0-9]+_", "_", x, count=1) == name]
+    if group and not blocks:  # where nothing is translated, people have w for ω
+        pairs = (by_points(group) or {x: x.replace("zeta", "w") for x in zeta}).items()
+        same = [b for p in pairs for a, b in (p, p[::-1]) if a == name and b in known]
+    if same:
+        return f"; {name} is {' or '.join(same)} here{end}"
+    of_block = blocks and re.match("(zeta|w)[1-9]", name)
+    return nearest(name, blocks if of_block else [*others, *(blocks if others else ())])
 
 
 def out_of_place(problem: Problem, name: str, where: str, of_state: Sequence[str]) -> str:

@@ -271,7 +271,9 @@ def faults(problem: Problem) -> Iterator[str]:
     for k, event in enumerate(problem.events, 1):
         for name in dict.fromkeys(names(event.when)):
             if name not in watched:
-                yield f"event {k}, when: the state has no {name[:40]}; it has {entries(known)}"
+                near = called_here(name[:40], known, problem.group, known)
+                told = f"the state has no {name[:40]}{near}; it has {entries(known)}"
+                yield f"event {k}, when: {told}"
 
 
 def numbers_followed(problem: Problem, group: Group) -> list[str]:

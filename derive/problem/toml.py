@@ -359,7 +359,7 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
             if problem.group and problem.lagrangian:
                 own = known_in_lagrangian(problem.group, problem.advected)
                 raise ProblemError(undeclared(name, where, problem.parameters, problem.group, own))
-            acts = where.startswith("force") and problem.group
+            acts = where.startswith(("force", "output")) and problem.group
             of_state = names_in_forces(acts) if acts else []
             if shown in of_state:  # which forces and moments know
                 where = used_at(data, name, "force", "moment")

@@ -166,7 +166,6 @@ OTHER_WORDS = {
     **dict.fromkeys(("gyroscope", "gyro", "angular_velocity", "omega"), "rate"),
     **dict.fromkeys(("magnetometer", "compass"), "direction"),
     **dict.fromkeys(("position", "altitude"), "place"),
-    **{f"w_{k}": f"zeta_{k}" for k in range(1, 9)},  # a velocity, of translations alone
     **dict.fromkeys(("value", "initial", "number"), "default"),
     **dict.fromkeys(("mass", "M"), "m"),
     **dict.fromkeys(("cm", "cog", "center_of_gravity"), "centre"),

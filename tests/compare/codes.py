@@ -379,6 +379,35 @@ SLOWED_CODE = LANDER_CODE.replace(
 )
 """The lander with a damping by a tensor of all velocities, as in water."""
 
+MOVED, TURNED = (
+    [[2, 0.3, 0.4], [0.3, 3, -0.5], [0.4, -0.5, 1.5]],
+    [[1, 0.2, 0.1], [0.2, 1.2, 0], [0.1, 0, 0.9]],
+)
+FINNED = f"""{LANDER}
+[[force]]
+at = [0.3, -0.2, 0.5]
+frame = "body"
+force = {[f"-({x})*v_1 - ({y})*v_2 - ({z})*v_3" for x, y, z in MOVED]}
+moment = {[f"-({x})*zeta_1 - ({y})*zeta_2 - ({z})*zeta_3" for x, y, z in TURNED]}
+"""
+FINNED_CODE = LANDER_CODE.replace(
+    "    gyroscopic =",
+    f"""    at, moved, turned = np.array([0.3, -0.2, 0.5]), np.array({MOVED}), np.array({TURNED})
+    drag = -moved @ (v + np.cross(w, at))
+    load += np.concatenate([np.cross(at, drag) - turned @ w, drag])
+    gyroscopic =""",
+)
+"""The lander with a drag at a place, and a moment of its own, each by a tensor."""
+SPINNING = f"""{LANDER}
+[[force]]
+moment = {[f"-({x})*zeta_1 - ({y})*zeta_2 - ({z})*zeta_3" for x, y, z in TURNED]}
+frame = "body"
+"""
+SPINNING_CODE = LANDER_CODE.replace(
+    "    gyroscopic =", f"    load[:3] -= np.array({TURNED}) @ w\n    gyroscopic ="
+)
+"""The lander with a moment alone."""
+
 SPRUNG = f"""{LANDER}
 [[potential]]
 kind = "spring"

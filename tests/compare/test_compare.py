@@ -280,12 +280,38 @@ FAULTS = {
     "a tensor of damping along the axes of space": (
         "slowed",
         ("D_hat @ nu", "turn.T @ D_hat @ turn @ nu"),
-        "the velocity and the numbers of the force are along the axes of space instead",
+        "the velocity and the numbers of the covector are along the axes of space instead",
     ),
     "velocities of space in a tensor of damping": (
         "slowed",
         ("D_hat @ nu", "D_hat @ turn @ nu"),
-        "the velocity in the force is along the axes of space instead",
+        "the velocity in the covector is along the axes of space instead",
+    ),
+    "one tensor of two along the axes of space, that of a moment of its own": (
+        "finned",
+        ("turned @ w", "A.T @ turned @ A @ w"),
+        "the velocity and the numbers of the moment of the force are along the axes of space",
+    ),
+    "one tensor of two along the axes of space, that of the force": (
+        "finned",
+        ("-moved @ (", "-A.T @ moved @ A @ ("),
+        "the velocity and the numbers of the force of the force are along the axes of space",
+    ),
+    "both along the axes of space": (
+        "finned",
+        ("-moved @ (", "-A.T @ moved @ A @ ("),
+        ("turned @ w", "A.T @ turned @ A @ w"),
+        "the velocity and the numbers of the force are along the axes of space instead",
+    ),
+    "a tensor of a moment along the axes of space": (
+        "spinning",
+        (") @ w", ") @ A @ w"),
+        "the velocity in the moment is along the axes of space instead",
+    ),
+    "a moment along the axes of space": (
+        "spinning",
+        ("-= np.array(", "-= A @ np.array("),
+        "the moment has its numbers along the axes of the body instead",
     ),
     "thrust by half the rate": ("lander", ("+= rate", "+= rate / 2"), "b has the factor 1/2"),
     "lever arm of a jet from a moving centre": (

@@ -9,11 +9,12 @@ from typing import Any
 from ...algebra.groups import Group
 from ...language.tree import Tree, nodes
 from ...language.univariate import value_of
-from ...record.record import RecordError, Step
+from ...record.record import Step
 from ...record.sentence import Claim
 from .integral_claims import Judge
 from .reduced_system import ReducedSystem
 from .spectra_and_residues import about, expansion, gradient
+from .trim_claims import the_one
 
 LARGEST = 2**30
 """Numbers are drawn up to this: of small ones some are where the energy has a pole."""
@@ -21,10 +22,7 @@ LARGEST = 2**30
 
 def _point(step: Step) -> dict[Tree, Tree]:
     """The coordinates that a step tells, in numbers or in letters."""
-    told = [x for x in step.claims if x.kind in ("equilibrium.at", "family.at")]
-    if len(told) != 1:
-        raise RecordError("no one point is told")
-    rows = told[0]["point"]
+    rows = the_one(step, ("equilibrium.at", "family.at"))["point"]
     assert isinstance(rows, tuple)
     return {x: y for _, x, y in rows[1:]}
 

@@ -112,8 +112,7 @@ class Question:
         for name in names:
             if name not in known:
                 told = f"; these are {entries((*known, *self.program.by_block))}"
-                like = self.program.like(name, known)
-                near = called_here(name, known, self.group, like) or told
+                near = called_here(name, known, self.group, known) or told
                 raise NoTrimError(f"{name} is no number of the state and no input{near}")
 
     def require(self) -> None:
