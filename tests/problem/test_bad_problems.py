@@ -143,7 +143,10 @@ def test_names_of_another_form_of_the_state_are_not_told(told, tmp_path, form, w
     ("text", "words"),
     [
         ('[[event]]\nname = "e"\nwhen = "A_44 - w"\n', "event 1, when: the state has no A_44"),
-        ('[[event]]\nname = "e"\nwhen = "u_4*t"\n', "event 1, when: the state has no u_4"),
+        (
+            '[[event]]\nname = "e"\nwhen = "u_4*t"\n',
+            "event 1, when: the state has no u_4; did you mean 'u_3'?",
+        ),
         (
             "omega_3 = 1\n",
             "initial, omega_3: the state has no such number; did you mean 'zeta_3'?",
