@@ -79,6 +79,8 @@ RECORDS = {
     "a trim, at a corner": lambda: trims.resting_in_air().record,
     "a trim, found": lambda: trims.balanced().record,
     "a trim, turned": lambda: trims.in_a_wind().record,
+    "a turn": lambda: turn(Fraction(15, 2), 1),
+    "a turn, enclosed": lambda: turn(5, Fraction(1, 2), 2, 9.80665),
     "a trim, enclosed": lambda: trims.cubed().record,
     "a trim, enclosed, turned": lambda: trims.nearly_upside_down().record,
     "a trim, enclosed, on the right": lambda: trims.turned_in_space().record,
@@ -139,6 +141,13 @@ def small(request, monkeypatch):
     named = getattr(request.node, "callspec", None)
     if named and str(named.params.get("name", "")).startswith("large"):
         monkeypatch.setattr(claims_by_ranks, "MONOMIALS", MONOMIALS)
+
+
+def turn(*told):
+    """A steady turn of a drone, whose tests import from here."""
+    from tests.equilibria.test_steady_turns import turning
+
+    return turning(*told).record
 
 
 @cache

@@ -45,7 +45,7 @@ def test_what_a_body_has_not_is_not_in_its_page():
         "polhode": "ζ${",
         "spring": "0.14 + 0.72 *",
         "camera": "azimuth",
-        "ball": "32, 16,",
+        "ball": "32,16,",
     }
     for name in ("top", "so3", "sl3", "two_tops", "euler_poisson"):
         body = told(page(name))["body"]

@@ -68,7 +68,7 @@ def by_julia(folder, problem):
     head, statements, printed = re.split(r"(?<=\.jl\"\)\n)|^(?=for )", program, flags=re.MULTILINE)
     assert head == f'# julia main.jl\ninclude("{problem}.jl")\n'
     each = f"for (name, rate) in zip({problem}.STATE, dx)"
-    assert printed == f'{each}\n    println(name, " ", rate)\nend\n'
+    assert printed == f'{each}\n    println(name, " ", rate + 0)\nend\n'
     main = f"function main()\n{statements.replace(f'{problem}.', '')}return dx\nend\n"
     module = Module(emitted.replace("end # module", f"{main}end # module"))
     return dict(zip(module.names["STATE"], map(float, module.call("main").whole()), strict=True))
