@@ -317,7 +317,7 @@ def by_state(space: StateSpace, second: list[Node]) -> list[Node]:
     ]
     varied = variations(space)
     rows = [turning[a] for a in free] + [[v.of(x) for v in varied] for x in second]
-    for k, (n, moved) in zip(space.held, carried(space), strict=True):
+    for k, (n, moved) in zip(space.held, infinitesimal_symmetries(space), strict=True):
         own = [g.num(n[a]) for a in free] + [moved[a] for a in free]
         rows = [
             [x - y * along for x, along in zip(row, turning[k - 1], strict=True)]
@@ -331,7 +331,7 @@ def variations(space: StateSpace) -> list[Directional]:
     return [Directional(space.graph, seeds, name) for name, seeds in space.variations().items()]
 
 
-def carried(space: StateSpace) -> list[tuple[Sequence[Fraction], list[Node]]]:
+def infinitesimal_symmetries(space: StateSpace) -> list[tuple[Sequence[Fraction], list[Node]]]:
     """Of each symmetry of a quotient its η = n, constant, and its δζ = [ζ, n], on the right
     [n, ζ], as far as it is not along symmetries, where ζ is held."""
     g, ad, found = space.graph, _adjoint(space) if space.null else [], []
@@ -348,7 +348,7 @@ def carried(space: StateSpace) -> list[tuple[Sequence[Fraction], list[Node]]]:
 def symmetries(space: StateSpace) -> list[Directional]:
     """The derivatives along these."""
     g, found = space.graph, []
-    for n, moved in carried(space):
+    for n, moved in infinitesimal_symmetries(space):
         seeds: dict[Node, list[Node]] = {space.coordinates[a]: [moved[a]] for a in space.free}
         for a, x in enumerate(n):
             for leaf, y in space.along(a).items() if x else ():

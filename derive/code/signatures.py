@@ -81,8 +81,8 @@ into_frame(x, k) -> out[STATE]: the state x taken from {given} to {principal}
 out_of_frame(x, k) -> out[STATE]: the state x taken from {principal} to {given}
 inputs_into_frame(u, k) -> out[INPUTS]: the inputs u taken from {given} to {principal}
 inputs_out_of_frame(u, k) -> out[INPUTS]: the inputs u taken from {principal} to {given}
-jacobian(t, x, k, u) -> dx, D[VARIATIONS VARIATIONS]: dx/dt, and D, by rows: dV/dt = D V for the
-    variations V that the head of the file tells
+jacobian(t, x, k, u) -> dx, D[VARIATIONS VARIATIONS]: the rates dx/dt, and D, by rows: dV/dt = D V
+    for the variations V that the head of the file tells
 jacobian_inputs(t, x, k, u) -> D[VARIATIONS INPUTS]: the derivative of dV/dt by the inputs u, by
     rows
 jacobian_parameters(t, x, p, u) -> D[VARIATIONS PARAMETERS]: the derivative of dV/dt by the

@@ -98,14 +98,17 @@ OPEN = {"degree", "weight"}
 variables count."""
 TOLD = {"first_integrals.further", "first_integrals.no_further"}
 """Claims up to the degree that another one tells."""
+TURN = ("entry", "ζ", 3)
 FALSE = {
     ("first_integrals.complete_by_one", "number"): (1, 0),
     ("trim.unique", "inputs"): (("row", ("par", "u"), ("par", "u")),),
     ("trim.isolated", "numbers"): (("row", ("entry", "w", 1), ("entry", "w", 1)),),
     ("trim.isolated_with_turns", "numbers"): (("row", ("entry", "ξ", 1), ("entry", "ξ", 1)),),
+    ("trim.isolated_along", "numbers"): (("row", ("entry", "ξ", 1), ("entry", "ξ", 1)),),
+    ("trim.isolated_along", "along"): (("matrix",), ("matrix", *(("row", TURN, 1),) * 2)),
 }
-"""Values that make a claim false where another one does not: the energy of a ball is a Casimir, and
-fewer inputs are independent, too."""
+"""Values that make a claim false where another one does not: the energy of a ball is a Casimir,
+fewer inputs are independent, too, and so may be derivatives along another velocity."""
 MONOMIALS = 4
 
 

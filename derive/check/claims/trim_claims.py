@@ -329,8 +329,10 @@ def _isolated(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     here, told = _trim_of(c, step), claim["numbers"]
     assert isinstance(told, tuple)
     basis, none, rows = c.group.in_user_basis, q.scaled(Fraction(0), here.Z), []
-    side, of = here.model.side, here.roots.rational
-    exact = seen_from(here.exact, c.group, coordinates(claim, "along"), side)
+    side, of, Y = here.model.side, here.roots.rational, coordinates(claim, "along")
+    if claim.kind == "trim.isolated_along" and not Y:
+        return "no velocity is told along the motion"
+    exact = seen_from(here.exact, c.group, Y, side)
     seen = tuple(tuple(map(of, row)) for row in exact)
     for x in told[1:]:
         assert isinstance(x, tuple)

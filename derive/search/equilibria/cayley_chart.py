@@ -19,7 +19,7 @@ def turned(group: Group, g: Matrix, eta: Sequence[Any], *, right: bool) -> Matri
     return q.times(C, g) if right else q.times(g, C)
 
 
-def carried(group: Group, z: Matrix, eta: Sequence[Any], *, right: bool) -> Matrix:
+def conjugated(group: Group, z: Matrix, eta: Sequence[Any], *, right: bool) -> Matrix:
     """C⁻¹zC, ``right``: CzC⁻¹: what is z seen from g is this from g turned."""
     first, last = (_cayley(group, x) for x in (eta, [-x for x in eta]))
     return q.times(q.times(first, z), last) if right else q.times(q.times(last, z), first)
@@ -28,9 +28,9 @@ def carried(group: Group, z: Matrix, eta: Sequence[Any], *, right: bool) -> Matr
 def chart_slopes(group: Group, eta: Sequence[Any], *, right: bool) -> Matrix:
     """Row a: the coordinates of C⁻¹∂C/∂η_a, ``right``: of ∂C/∂η_a C⁻¹."""
     less, more = _halves(group, eta)
-    back, one = _undone(less), q.identity(group.size)
+    back, one = _inverted(less), q.identity(group.size)
     C = q.times(back, more)
-    undone, rows = _undone(C), []
+    undone, rows = _inverted(C), []
     for element in group.basis:
         dC = q.times(back, q.times(q.scaled(Fraction(1, 2), element), q.plus(C, one)))
         rows.append(group.nearest(q.times(dC, undone) if right else q.times(undone, dC)))
@@ -39,10 +39,10 @@ def chart_slopes(group: Group, eta: Sequence[Any], *, right: bool) -> Matrix:
 
 def _cayley(group: Group, eta: Sequence[Any]) -> Matrix:
     less, more = _halves(group, eta)
-    return q.times(_undone(less), more)
+    return q.times(_inverted(less), more)
 
 
-def _undone(a: Matrix) -> Matrix:
+def _inverted(a: Matrix) -> Matrix:
     """The inverse; ``NoTrimError`` where Cayley's transform has none, as those of SL(n) may."""
     if (found := q.inverse(a)) is None:
         raise NoTrimError(

@@ -25,7 +25,7 @@ from ...problem.problem import Problem
 from ...record.record import Step
 from ...record.sentence import Prose
 from ...walk.chapter import Chapter, Draft
-from .cayley_chart import carried, chart_slopes, turned
+from .cayley_chart import chart_slopes, conjugated, turned
 from .equilibrium_steps import scientific
 from .stability import eigenvalues, polynomial
 from .steady_velocity import EXACTLY, FLOATS, SAME, Arithmetic, NoTrimError, Rates
@@ -165,7 +165,7 @@ class Question:
         """The part of the velocity that ``along`` gives in space, from where g turns to."""
         if not self.seen or not turns:
             return self.seen
-        return carried(self.group, self.seen, turns, right=self.right)
+        return conjugated(self.group, self.seen, turns, right=self.right)
 
     def _turned(self, y: Sequence[Any]) -> list[Any]:
         """η of the turn of g; none where it does not turn."""
@@ -183,19 +183,19 @@ class Question:
         n, first, turns = len(u), self.d - len(x), self._turned(y)
         chart = chart_slopes(self.group, turns, right=self.right) if turns else ()
         turning = [self.turns[x] for x in self.sought if x in self.turns]
-        ways = {a: self._way(chart[a], turns) for a in turning}
+        along = {a: self._variation(chart[a], turns) for a in turning}
         places = [self.program.state.index(x) + self.d + first for x in self.velocities]
         inputs = [self.program.inputs.index(x) for x in self.free]
         return [
             [
                 *(row[i] for i in places),
-                *(q.dot(row, ways[a]) for a in turning),
+                *(q.dot(row, along[a]) for a in turning),
                 *(by_inputs[n * (self.d + b) + i] for i in inputs),
             ]
             for b, row in enumerate(D)
         ]
 
-    def _way(self, xi: Sequence[Any], turns: Sequence[Any]) -> tuple[Any, ...]:
+    def _variation(self, xi: Sequence[Any], turns: Sequence[Any]) -> tuple[Any, ...]:
         """(η, δζ) of δg = gξ, on the right ξg: what is seen of space changes by [Z, ξ], or −."""
         if not self.seen:
             return (*xi, *[Fraction(0)] * self.d)

@@ -83,8 +83,12 @@ COMMENT = re.compile(
     r"""("(?:[^"\\\n]|\\.)*"|`[^`]*`)|/\*.*?\*/|(?:(?<=\s)|^)//[^\n]*""", re.DOTALL | re.MULTILINE
 )
 """A comment; or a text, the first group, in which there is none."""
-SPACES = re.compile(r"""("(?:[^"\\\n]|\\.)*"|`[^`]*`)| *([][(){}=,;?:*/<>&|]) *""")
-"""A text; or a sign, the second group, with spaces about it that a script does not need."""
+SPACES = re.compile(
+    r"""("(?:[^"\\\n]|\\.)*"|`[^`]*`)| *([][(){}=,;?:*/<>&|]) *"""
+    r"""|(?<=[\w$)\]]) ([-+]) (?=[\w$(.\[])"""
+)
+"""A text; or a sign, the second group, with spaces about it that a script does not need; or, the
+third, one between two numbers."""
 NAME = re.compile(r"[^\W\d][\w$]*")
 TAKEN = re.compile(r"(?:(?<![\w$.])|(?<=\.\.\.))[^\W\d][\w$]*")
 """A name that is not that of a property."""
@@ -239,7 +243,7 @@ def plain(source: str) -> str:
 def lean(source: str) -> str:
     """A script without comments, indentation, empty lines, and spaces about signs."""
     dense = re.sub(r"\n\s+", "\n", plain(source))
-    return SPACES.sub(lambda m: m[1] or m[2], dense)
+    return SPACES.sub(lambda m: m[1] or m[2] or m[3], dense)
 
 
 def pieces(page: Data) -> dict[str, str]:
