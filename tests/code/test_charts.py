@@ -12,10 +12,10 @@ import derive
 from derive.algebra.factor_charts import factor_charts
 from derive.algebra.families import FAMILIES, group
 from tests.code.test_step_jacobian import close, derivative
-from tests.oracles.sampling import quaternion
+from tests.oracles.sampling import quaternion, turn
 from tests.problems import MIXED
 from tests.support.emitted_files import Emission
-from tests.support.library import derived, library, module_of
+from tests.support.library import derived, module_of
 from tests.support.states import charted
 
 PLAIN = """
@@ -214,15 +214,7 @@ def test_which_factors_have_charts(name):
 # ---------------------------------------------------------------- there and back
 
 AXES = [v for v in product((-1.0, 0.0, 1.0), repeat=3) if any(v)]
-CARRIED = ("from_matrix", "to_matrix")
 BY = (0.0, 1e-9, 0.1, 1.0, 2.0, 3.0, np.pi - 1e-7, np.pi)
-
-
-def rotation(axis, angle):
-    """Rodrigues' formula."""
-    e = np.array(axis) / np.linalg.norm(axis)
-    K = np.cross(np.eye(3), e).T
-    return np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
 
 
 def turns():
@@ -230,13 +222,13 @@ def turns():
     at random."""
     for axis in AXES:
         for angle in BY:
-            yield rotation(axis, angle)
+            yield turn(axis, angle)
     for signs in ((1, -1, -1), (-1, 1, -1), (-1, -1, 1)):
         yield np.diag(signs).astype(float)
     yield np.array([[0.0, 1, 0], [1, 0, 0], [0, 0, -1]])
     rng = np.random.default_rng(2)
     for _ in range(200):
-        yield rotation(rng.normal(size=3), rng.uniform(0, np.pi))
+        yield turn(rng.normal(size=3), rng.uniform(0, np.pi))
 
 
 @pytest.fixture(scope="module")
@@ -282,18 +274,6 @@ def test_a_matrix_that_is_off_gives_a_unit_quaternion_near_it(states, se3):
         x = se3.from_matrix(off)
         assert abs(np.linalg.norm(x[:4]) - 1) < 4e-16
         assert np.abs(se3.to_matrix(x) - off)[:9].max() < 2e-5
-
-
-@pytest.mark.parametrize("build", ["javascript", "rust2021", "g++17"])
-def test_other_languages_do_as_c(build, states, se3):
-    made = library(build, "se3", attitude="quaternion")
-    there, back = (next(x for x in made.calls if x.name == y) for y in CARRIED)
-    for z in states[::5]:
-        values = {"t": 0.0, "z": z, **dict.fromkeys("pkxyu", np.zeros(18))}
-        (x,) = made.shown(there, values, False)
-        assert np.abs(np.abs(x) - np.abs(se3.from_matrix(z))).max() < 1e-15
-        (found,) = made.shown(back, values | {"x": x}, False)
-        assert np.abs(found - z).max() < 2e-15
 
 
 def test_without_a_quaternion_there_are_none():

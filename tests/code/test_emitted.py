@@ -1,19 +1,12 @@
-"""The emitted C and Python of so3, se3 and sl3 beside two oracles, and beside other programs for
-mechanics, SymPy, and Pinocchio if here; bodies that are refused."""
+"""The emitted C and Python of so3, se3 and sl3 beside two oracles (other programs for mechanics are
+in tests/compare/right); bodies that are refused."""
 
 import numpy as np
 import pytest
 
-from tests.oracles import (
-    articulated,
-    general,
-    multipliers,
-    relative_error,
-    sampling,
-    sympy_mechanics,
-)
+from tests.oracles import general, multipliers, relative_error, sampling
 from tests.support.library import arrange, library, module_of
-from tests.support.needs import needs, present
+from tests.support.needs import present
 
 NAMES = ("so3", "se3", "sl3")
 STATES = 200
@@ -65,50 +58,6 @@ def test_rates_and_energy_are_those_of_the_points(name):
             assert status == 0
             assert worst(name, c.rhs(0.0, x, kc, own), dx) < 1e-13
             assert relative_error(c.energy(0.0, x, kc), energy) < 1e-13
-
-
-SOLIDS = ("so3", "se3")
-
-
-def accelerations(name, seed, count=100):
-    """Bodies with first moments, states, inputs, and what the emitted code makes of them."""
-    code = module_of(name)
-    for body, p, x, u in cases(name, seed, count):
-        yield body, x, u, code.rhs(0.0, x, code.constants(p), u)[-len(u) :]
-
-
-@pytest.mark.parametrize("name", SOLIDS)
-def test_kanes_method_of_sympy(name):
-    """By a quaternion and speeds in the body, with gravity, a torque and a force."""
-    for body, x, u, found in accelerations(name, 1):
-        # 2e-15 is found
-        assert relative_error(found, sympy_mechanics.kane(name, x, body, u)) < 1e-12
-
-
-def test_lagranges_method_of_sympy():
-    """By Euler angles: their second derivatives, turned into those of so3."""
-    code, rng = module_of("so3"), np.random.default_rng(2)
-    worst = 0.0
-    for _ in range(100):
-        body, u = sampling.random_body("so3", rng), rng.normal(size=3)
-        # away from 0 and pi of the second angle, where the angles are singular
-        angles, rates = rng.uniform(0.4, 2.7, 3), rng.normal(size=3)
-        A, W, change = sympy_mechanics.lagrange(angles, rates, body, u)
-        k = code.constants(arrange(code, sampling.parameters("so3", body)))
-        found = code.rhs(0.0, np.append(A, W), k, u)[9:]
-        worst = max(worst, relative_error(found, change))
-    assert worst < 1e-12
-
-
-@needs("the module pinocchio")
-@pytest.mark.parametrize("name", SOLIDS)
-def test_pinocchio(name):
-    """Featherstone's articulated-body algorithm on a spherical joint and on a free flyer."""
-    import pinocchio as pin
-
-    for body, x, u, found in accelerations(name, 3):
-        # 4e-15 is found
-        assert relative_error(found, articulated.acceleration(pin, name, x, body, u)) < 1e-12
 
 
 @by_name

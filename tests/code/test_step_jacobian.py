@@ -12,6 +12,7 @@ from scipy.linalg import expm
 import derive
 from derive.problem.toml import problem_of
 from tests.compare import codes
+from tests.oracles.sampling import cross_matrix
 from tests.problems.moving import FALLING
 from tests.support.library import ONE_BUILD, STEPPED, library, module_of
 from tests.support.states import element_names, hat, state
@@ -260,11 +261,7 @@ def by_hand():
 def variation(A, e):
     """What the numbers of a state change by along (eta, delta zeta, delta m)."""
     w, v, rest = e[:3], e[3:6], e[6:]
-    return np.concatenate([(A @ skew(w)).ravel(), A @ v, rest])
-
-
-def skew(w):
-    return np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+    return np.concatenate([(A @ cross_matrix(w)).ravel(), A @ v, rest])
 
 
 def told(A, dx):
@@ -302,7 +299,7 @@ def shaken(f, x, u):
 def test_a_mass_of_the_state_is_varied():
     """Against complex steps through equations that were written by hand."""
     m, f = module_of(LIGHTER, **USED_UP), by_hand()
-    A = expm(skew([0.3, -0.5, 0.9]))
+    A = expm(cross_matrix([0.3, -0.5, 0.9]))
     x = np.concatenate([A.ravel(), [0.1, -0.4, 0.3, 0.5, -0.3, 0.7, 0.2, 1.1, -0.6, 4.5]])
     k, u = m.constants([1.5]), np.array([0.8])
     assert close(m.rhs(0.3, x, k, u), f(x, u), 1e-13)
@@ -314,8 +311,8 @@ def test_a_mass_of_the_state_is_varied():
     assert close(m.jacobian_outputs_inputs(0.3, x, k, u), D, 1e-12)
     # of (eta, delta zeta) ↦ d/dt of it: eta turns with the body
     turning = np.zeros((13, 13))
-    turning[:3, :3] = turning[3:6, 3:6] = skew(x[12:15])
-    turning[3:6, :3] = skew(x[15:18])
+    turning[:3, :3] = turning[3:6, 3:6] = cross_matrix(x[12:15])
+    turning[3:6, :3] = cross_matrix(x[15:18])
     rates = np.vstack([np.eye(6, 13, 6) - turning[:6], by_state[12:]])
     assert close(m.jacobian(0.3, x, k, u)[1], rates, 1e-12)
     for step, h, n, inside, error in (
@@ -351,7 +348,7 @@ def test_a_mass_of_the_state_is_moved_and_told(attitude):
     y = f.retract(start, e)
     moved = f.to_matrix(y) if attitude == "quaternion" else y
     A = x[:9].reshape(3, 3)
-    assert close(moved[:9].reshape(3, 3), A @ expm(skew(e[:3])), 1e-14)
+    assert close(moved[:9].reshape(3, 3), A @ expm(cross_matrix(e[:3])), 1e-14)
     assert close(moved[12:], x[12:] + e[6:], 1e-14)
     assert close(f.local(start, y), e, 1e-14)
     f.use(p)

@@ -22,7 +22,8 @@ from derive.record.record import Equation, Step
 from derive.search.equilibria import enclosed_points
 from derive.search.equilibria.enclosed_points import _slopes, certified
 from derive.search.equilibria.equilibrium_points import NoEquilibriumError
-from tests.support.coadjoint_orbits import hat, match, orbit_signature
+from tests.oracles.sampling import cross_matrix
+from tests.support.coadjoint_orbits import match, orbit_signature
 from tests.support.lagrangians import LINE, bent, heavy, lagrangian, squares
 from tests.support.walks import SEED, repeated
 
@@ -144,8 +145,8 @@ def slopes(x):
     """The linearised Euler–Poisson equations."""
     pi, gamma = x[:3], x[3:]
     turn = np.diag(1 / MOMENTS)
-    top = [hat(pi) @ turn - hat(pi / MOMENTS), -hat(WEIGHT)]
-    return np.block([top, [hat(gamma) @ turn, -hat(pi / MOMENTS)]])
+    top = [cross_matrix(pi) @ turn - cross_matrix(pi / MOMENTS), -cross_matrix(WEIGHT)]
+    return np.block([top, [cross_matrix(gamma) @ turn, -cross_matrix(pi / MOMENTS)]])
 
 
 @pytest.mark.parametrize("name", repeated(STARTS, 2))

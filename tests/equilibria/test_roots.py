@@ -19,7 +19,8 @@ from derive.record.sentence import english
 from derive.search.equilibria.energy_casimir import along_the_orbit, kernel, restricted, solutions
 from derive.search.equilibria.stability import roots_of_squares
 from derive.search.equilibria.stability_in_letters import decided, must_not_be_negative
-from tests.support.coadjoint_orbits import hat, match, orbit_signature
+from tests.oracles.sampling import cross_matrix
+from tests.support.coadjoint_orbits import match, orbit_signature
 from tests.support.lagrangians import disc, heavy, lagrangian, squares
 from tests.support.library import module_of
 from tests.support.walks import SEED
@@ -80,7 +81,7 @@ def test_a_gyrostat_turns_aslant():
     metric = np.diag([1 / 3, 1 / 2, 1])
     omega = metric @ (pi - [0, 0, 4])
     assert np.cross(pi, omega) == pytest.approx(np.zeros(3))
-    linear = hat(pi) @ metric - hat(omega)
+    linear = cross_matrix(pi) @ metric - cross_matrix(omega)
     assert match(np.linalg.eigvals(linear), [*found.eigenvalues, 0], 1e-9)
     assert found.verdict == ("unstable" if found.growth > 1e-9 else "stable")
 

@@ -4,8 +4,8 @@
 * ``multipliers``  Newton's law for every point, with Lagrange multipliers for the constraints;
 * ``general``      Gauss's principle of least constraint for any problem file;
 * ``solids``       moments of solids by quadrature;
-* ``free_top``, ``lagrange_top``, ``kepler``, ``geodesics``: motions in closed form;
-* ``sympy_mechanics``, ``articulated``: SymPy's mechanics and Pinocchio on one solid.
+* ``free_top``, ``lagrange_top``, ``geodesics``: motions in closed form;
+* ``sympy_mechanics``: Kane's method of SymPy on one solid, for tests/compare/right.
 """
 
 import numpy as np

@@ -1,9 +1,9 @@
-"""SymPy's mechanics on one solid: Kane's method, and Lagrange's with Euler angles.
+"""SymPy's mechanics on one solid: Kane's method.
 
-Kane's: the coordinates are a quaternion (and the origin's place), the speeds the body components of
-the angular velocity (and of the origin's velocity).  Lagrange's: angles a, b, c about the body's
-third, first and third axis.  The load ``u`` is a torque, and for a free solid the force on the
-body's origin, in body components.  SymPy forms M and f of ``M x = f``; only numbers go in here.
+The coordinates are a quaternion (and the origin's place), the speeds the body components of the
+angular velocity (and of the origin's velocity).  The load ``u`` is a torque, and for a free solid
+the force on the body's origin, in body components.  SymPy forms M and f of ``M x = f``; only
+numbers go in here.
 """
 
 from functools import cache
@@ -70,30 +70,3 @@ def kane(name, x, body, u):
     e, load = sampling.quaternion(x[:9].reshape(3, 3)), [*u, 0, 0, 0][:6]
     M, f = _kane(name == "se3")(e, x[-d:], numbers(body), load)
     return np.linalg.solve(M, f)[:, 0]
-
-
-@cache
-def _lagrange():
-    """M and f of Lagrange's method, W, dW/dt with second derivatives zero, and W' by q'."""
-    q = me.dynamicsymbols("q:3")
-    t, second = me.dynamicsymbols._t, sp.symbols("r:3")
-    N, B = me.ReferenceFrame("N"), me.ReferenceFrame("B")
-    B.orient_body_fixed(N, q, "313")
-    _, solid, loads = _solid(N, B, (0, 0, 0))
-    W = B.ang_vel_in(N).to_matrix(B)
-    rates = list(sp.Matrix(q).diff(t))
-    method = me.LagrangesMethod(solid.kinetic_energy(N), q, forcelist=loads, frame=N)
-    method.form_lagranges_equations()
-    still = {r.diff(t): 0 for r in rates}
-    values = (method.mass_matrix, method.forcing, W, W.diff(t).subs(still), W.jacobian(rates))
-    named = dict(zip(rates, second, strict=True))
-    values = [value.subs(named) for value in values]
-    return sp.lambdify([q, second, BODY, LOAD], values, cse=True)
-
-
-def lagrange(angles, rates, body, u):
-    """A, W and dW/dt of a solid about a fixed point at these angles (3,) and rates (3,)."""
-    M, f, W, drift, turns = _lagrange()(angles, rates, numbers(body), [*u, 0, 0, 0])
-    change = turns @ np.linalg.solve(M, f) + drift
-    third = [sampling.turn([0, 0, 1], angles[i]) for i in (0, 2)]
-    return third[0] @ sampling.turn([1, 0, 0], angles[1]) @ third[1], W[:, 0], change[:, 0]

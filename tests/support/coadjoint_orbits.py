@@ -3,6 +3,8 @@
 import numpy as np
 from scipy.linalg import expm
 
+from tests.oracles.sampling import cross_matrix
+
 
 def match(a, b, tolerance):
     """Are two collections of numbers the same up to a tolerance?"""
@@ -15,15 +17,11 @@ def match(a, b, tolerance):
     return not left
 
 
-def hat(a):
-    return np.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
-
-
 def orbit_signature(x, moments, weight):
     """The signs of second differences of the energy along the coadjoint orbit of SE(3)."""
 
     def moved(y):
-        turn = expm(hat(y[:3]))
+        turn = expm(cross_matrix(y[:3]))
         gamma = turn @ x[3:]
         return turn @ x[:3] + np.cross(y[3:], gamma), gamma
 

@@ -17,8 +17,7 @@ from derive.record.as_json import from_json, to_data
 from derive.record.record import RecordError
 from tests.oracles import relative_error
 from tests.oracles.control_volume import Leaking
-from tests.support.library import ONE_BUILD, arrange, library, module_of
-from tests.support.needs import needs
+from tests.support.library import arrange, module_of
 from tests.support.walks import own_verdicts, stands
 from tests.walk import test_flows as timed
 
@@ -198,21 +197,6 @@ def test_every_form_and_language_is_read_back(form, tmp_path):
     words = ["emit", str(path), *form.split(), "--validate", "--out", str(tmp_path)]
     languages = ("python", "c", "rust", "julia", "javascript") if not form else ("c",)
     assert main([*words, *(x for name in languages for x in ("--lang", name))]) == 0
-
-
-STEPS = [("gauss", 0.05, 4), ("vern9", 0.05, 4)]
-
-
-@needs("cc")
-@pytest.mark.parametrize("build", [ONE_BUILD[x] for x in ("python", "javascript", "rust")])
-def test_the_steps_of_other_languages_are_those_of_c(build):
-    start = np.concatenate([np.eye(3).ravel(), np.zeros(3), [0.1, 0.2, 0.3, 0, 0, 0], [60]])
-    given = start, [1.5, 2500.0], [0.7]
-    options = {"step": ("gauss", "vern9")}
-    found, known = (library(b, ROCKET, **options).follow(STEPS, *given) for b in (build, "c"))
-    for a, b in zip(found, known, strict=True):
-        assert relative_error(a.x, b.x) < 1e-13
-        assert b.x[-1] == pytest.approx(60 - 1.5 * 0.7 * b.t, rel=1e-13)
 
 
 ROCKET = """

@@ -22,11 +22,43 @@ from tests.oracles import general, relative_error
 from tests.support.engine_mutations.engine import SEED, Output, produce, read_back
 from tests.support.engine_mutations.jobs import JOBS, Job
 from tests.support.states import loose
-from tests.walk.test_general_oracle import algebra
 
 STATES, CLOSE = 3, 1e-8
 DEFINED = re.compile(r"^def ([a-z]\w*)", re.MULTILINE)
 """The functions of an emitted module that are for others."""
+
+AFFINE = {"SE": "SO", "SAff": "SL", "Aff": "GL", "Sim": "CO"}
+
+
+def factor(name):
+    """A basis (d, s, s) of the algebra of a named group, from the equations that define it."""
+    family, number = name[:-1].split("(")
+    n = int(number) * (2 if family in ("U", "SU") else 1)
+    s, J = n + (family in AFFINE), np.kron([[0, 1], [-1, 0]], np.eye(n // 2))
+    vanishing = {
+        "SO": lambda X: X + X.T,
+        "SL": np.trace,
+        "GL": lambda X: 0,
+        "CO": lambda X: X + X.T - 2 * np.eye(n) * np.trace(X) / n,
+        "Sp": lambda X: X.T @ J + J @ X,
+        "UT": np.tril,
+        "U": lambda X: [X + X.T, X @ J - J @ X],
+        "SU": lambda X: [X + X.T, X @ J - J @ X, np.eye(n) * np.trace(J @ X)],
+    }[AFFINE.get(family, family)]
+    units = np.eye(s * s).reshape(-1, s, s)
+    rows = [np.append(np.ravel(vanishing(X[:n, :n])), X[n:]) for X in units]
+    _, sizes, V = np.linalg.svd(np.array(rows).T)
+    return V[np.sum(sizes > 1e-9) :].reshape(-1, s, s)
+
+
+def algebra(group):
+    """A basis (d, s, s) for a named group, a product, or a group that is given by a table."""
+    if isinstance(group, dict):
+        return np.array(group["basis"], float)
+    parts = [factor(name) for name in group.split(" x ")]
+    ends = np.cumsum([0, *(basis.shape[1] for basis in parts)])
+    margins = [((0, 0), *[(ends[k], ends[-1] - ends[k + 1])] * 2) for k in range(len(parts))]
+    return np.concatenate([*map(np.pad, parts, margins)])
 
 
 class Verdict(NamedTuple):

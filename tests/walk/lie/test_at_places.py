@@ -8,6 +8,7 @@ import derive
 from derive.check.checker import Checker
 from derive.problem.toml import problem_of
 from derive.record.sentence import english
+from tests.oracles.sampling import cross_matrix, random_rotation
 from tests.support.library import module_of
 from tests.support.walks import SEED, own_verdicts
 
@@ -45,10 +46,6 @@ PUSHED = {
 }  # fmt: skip
 
 
-def hat(c):
-    return np.array([[0, -c[2], c[1]], [c[2], 0, -c[0]], [-c[1], c[0], 0]])
-
-
 def of_points(group):
     """The body by its moments: J of points is (Tr I/2) 1 - I, of places about the origin."""
     inertia = np.array(INERTIA, float)
@@ -68,15 +65,8 @@ def kinetic(group, side):
         return {"lagrangian": {"L": f"({'+'.join(terms)})/2", "trivialisation": side}}
     if group == "SO(3)":
         return {"inertia": {"operator": inertia.tolist()}}
-    both = np.block([[inertia, hat(CENTRE)], [-hat(CENTRE), MASS * np.eye(3)]])
+    both = np.block([[inertia, cross_matrix(CENTRE)], [-cross_matrix(CENTRE), MASS * np.eye(3)]])
     return {"inertia": {"operator": both.tolist()}}
-
-
-def turned(rng):
-    """A random rotation."""
-    R, _ = np.linalg.qr(rng.normal(size=(3, 3)))
-    R[:, 0] *= np.linalg.det(R)
-    return R
 
 
 DAMPED = {
@@ -106,7 +96,7 @@ def test_what_acts_at_places_acts_as_on_points(group, side, acting):
         own = problem_of(data | kinetic(group, side) | ({"force": changed} if changed else {}))
     typed, rng = derive.compile(own), np.random.default_rng(5)
     for _ in range(3):
-        R, place = turned(rng), rng.normal(size=3 if group == "SE(3)" else 0)
+        R, place = random_rotation(rng), rng.normal(size=3 if group == "SE(3)" else 0)
         zeta, u = rng.normal(size=len(place) + 3), rng.normal(size=len(points.INPUTS))
         x = np.array([*R.ravel(), *place, *zeta])
         expected = points.rhs(0.4, x, u)
@@ -165,7 +155,11 @@ def element(rng):
     plane, space = np.eye(3), np.eye(4)
     angle = rng.normal()
     plane[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-    plane[:2, 2], space[:3, :3], space[:3, 3] = rng.normal(size=2), turned(rng), rng.normal(size=3)
+    plane[:2, 2], space[:3, :3], space[:3, 3] = (
+        rng.normal(size=2),
+        random_rotation(rng),
+        rng.normal(size=3),
+    )
     g = np.block([[plane, np.zeros((3, 4))], [np.zeros((4, 3)), space]])
     parts = (plane[:2, :2].ravel(), plane[:2, 2], space[:3, :3].ravel(), space[:3, 3])
     return g, np.concatenate(parts)

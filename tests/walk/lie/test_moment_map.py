@@ -15,6 +15,7 @@ from derive.python.derived import derive
 from derive.walk.chapter import Chapter
 from derive.walk.lie.any_lagrangian import orbit_form
 from derive.walk.spine.alphabet import Alphabet
+from tests.oracles.sampling import cross_matrix
 from tests.support.lagrangians import lagrangian, squares
 from tests.support.library import module_of
 
@@ -86,10 +87,6 @@ def test_it_is_constant_along_the_motion(side, group):
 STEP = 1e-3
 
 
-def hat(x):
-    return np.cross(np.eye(3), x) * -1
-
-
 def axis(skew):
     return np.array([skew[2, 1], skew[0, 2], skew[1, 0]])
 
@@ -113,10 +110,10 @@ def test_on_a_level_of_the_other_momentum_it_is_what_is_said(side, epsilon):
     differences on a surface of the group."""
     random = np.random.default_rng(8)
     x, y, constant = random.normal(size=(3, 3))
-    start = expm(hat(random.normal(size=3)))
+    start = expm(cross_matrix(random.normal(size=3)))
 
     def point(s, r):
-        return start @ expm(hat(s * x + r * y + s * r * constant))
+        return start @ expm(cross_matrix(s * x + r * y + s * r * constant))
 
     def form(s, r, along):
         g = point(s, r)
