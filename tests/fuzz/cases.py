@@ -31,6 +31,7 @@ solid = "mesh"
 density = 2
 file = "{}"
 """
+SMALLEST = 'name = "top"\ngroup = "SO(2)"\n[[point]]\nmass = 1\nat = [1, 0]\n'
 ALONE = ("c", "python", "fmu")
 OTHERS = [x for name in LANGUAGES if name not in ALONE for x in ("--lang", name)]
 COMMANDS = {
@@ -50,7 +51,7 @@ COMMANDS = {
 }
 """Only checking may take longer than a case has, and is stopped."""
 SEEN = ("text", "html", "emit", "notes")
-"""What reads a mesh and draws it; all else that commands import, another body brings."""
+"""What reads solids and draws them; all else that commands import, any body brings."""
 
 
 @contextmanager
@@ -73,8 +74,8 @@ def problem_files(name, content):
     return {name: content}, name
 
 
-def faults_of(files, main, commands, slack=1.0, *, watch=True):
-    """What is wrong, as (command, words)."""
+def faults_of(files, main, commands, slack=1.0, *, watch=True, refused=False):
+    """What is wrong, as (command, words); ``refused``: not to be is wrong."""
     found = []
     with folder_of(files) as home:
         out, names = os.path.join(home, "out"), {*files, "out"}
@@ -86,6 +87,8 @@ def faults_of(files, main, commands, slack=1.0, *, watch=True):
             for name, content in chain.from_iterable(map(members, made)):
                 words = wrong_with(name, content.decode("utf-8"))
                 wrong += [f"{name}: {words}"] if words else []
+            if refused and result.status == 0:
+                wrong.append("taken")
             if result.status == 2 and made:
                 wrong.append(f"refused, and wrote {made}")
             if extra := {*os.listdir(home)} - names:
@@ -161,8 +164,9 @@ def record_faults(text):
 
 def warm():
     """Import all that commands need, unwatched: modules make their classes by compiling text."""
-    record = faults_of({"warm.toml": SOLID}, "warm.toml", COMMANDS, 60, watch=False)
-    meshed = faults_of(*problem_files("warm.stl", mesh("stl")), SEEN, 60, watch=False)
+    record = faults_of({"warm.toml": SMALLEST}, "warm.toml", COMMANDS, 60, watch=False)
+    meshed = faults_of({"warm.toml": SOLID}, "warm.toml", SEEN, 60, watch=False)
+    meshed += faults_of(*problem_files("warm.stl", mesh("stl")), SEEN, 60, watch=False)
     meshed += faults_of(*problem_files("warm.off", mesh("off")), ["text"], 60, watch=False)
     meshed += faults_of(*problem_files("warm.obj", mesh("obj")), ["text"], 60, watch=False)
     meshed += faults_of(*problem_files("warm.stl", binary_stl()), ["text"], 60, watch=False)

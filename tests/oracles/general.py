@@ -19,7 +19,7 @@ from tests.oracles import ellipsoids
 
 STEP = 1e-30
 FAMILIES = dict.fromkeys(("SO", "SL", "GL", "Sp", "UT"), (1, False))
-FAMILIES |= dict.fromkeys(("SE", "SAff", "Aff", "Sim"), (1, True))
+FAMILIES |= dict.fromkeys(("SE", "SAff", "Aff", "Sim", "R"), (1, True))
 FAMILIES |= dict.fromkeys(("U", "SU"), (2, False))
 TOKEN = re.compile(r"\s*(?:((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|([A-Za-z]\w*)|(\S))")
 SUM = {"+": (1, 1, np.add), "-": (1, 1, np.subtract)}
@@ -140,11 +140,13 @@ def parameters(data):
 
 def _entries(data):
     """Where the numbers of a group element are in G: rows and columns."""
-    rows, columns = [], []
-    for first, n, affine in blocks(data)[0]:
+    parts, rows, columns = blocks(data)[0], [], []
+    names = re.split("[x×]", data["group"]) if isinstance(data["group"], str) else [""]
+    for (first, n, affine), name in zip(parts, names, strict=True):
         span = range(first, first + n)
-        rows += [i for i in span for _ in span] + [i for i in span if affine]
-        columns += [j for _ in span for j in span] + [first + n for _ in span if affine]
+        turned = [] if name.strip().startswith("R(") else span
+        rows += [i for i in turned for _ in span] + [i for i in span if affine]
+        columns += [j for _ in turned for j in span] + [first + n for _ in span if affine]
     return rows, columns
 
 
@@ -192,7 +194,7 @@ def places(data, p):
         tables = {("realised", i): {"mass": m, "at": r} for i, (m, r) in enumerate(pairs, 1)}
     else:
         tables = {("point", i): x for i, x in enumerate(data["point"], 1)}
-    for kind in ("potential", "input", "force", "output"):
+    for kind in ("potential", "input", "force", "damping", "output"):
         tables |= {(kind, k): x for k, x in enumerate(data.get(kind, ())) if "at" in x}
     if {x["kind"] for x in data.get("potential", ())} & OF_FRAMES:
         ((_, n, affine),) = parts
@@ -329,11 +331,11 @@ def forces(data, p, t, found, rows):
 def damping(data, p, t, found, v):
     """The forces (M,) of damping at the velocities ``v`` (M,)."""
     force = np.zeros(len(v))
-    for table in data.get("damping", ()):
+    for k, table in enumerate(data.get("damping", ())):
         if table.get("kind") == "rotational":
             continue
-        for i in table.get("on", range(1, len(found.points()) + 1)):
-            x = found.at["point", i]
+        on = [("point", i) for i in table["on"]] if "on" in table else found.points()
+        for x in map(found.at.get, [("damping", k)] if "at" in table else on):
             size = np.linalg.norm(v[x]) if table.get("kind") == "quadratic" else 1
             force[x] -= evaluate(table["coefficient"], {**p, "t": t}) * size * v[x]
     return force
@@ -367,19 +369,23 @@ def names_of_state(data, basis, G, zeta):
     return env | {f"w_{i}": x for i, x in enumerate(zeta[turns:], 1)}
 
 
-def environment(data, basis, p, t, G, zeta, u):
-    """The numbers of parameters, the time, the state and the inputs by their names."""
-    env = {**p, "t": t, **names_of_state(data, basis, G, zeta)}
-    left = [] if u is None else [*u]
+def numbers_of_inputs(data, basis):
+    """The name of each input, and of each of its numbers."""
     for table in data.get("input", ()):
         size = len(basis)
         if table["kind"] not in ("covector", "scalar"):
             size = blocks(data)[0][table.get("block", 1) - 1][1]
         single = "direction" in table or (table["kind"], size) == ("torque", 2)
         single = single or table["kind"] == "scalar"
-        names = [table["name"]] if single else [f"{table['name']}_{i + 1}" for i in range(size)]
-        env |= {name: left.pop(0) for name in names if left}
-    return env
+        name = table["name"]
+        yield from [(name, name)] if single else [(name, f"{name}_{i + 1}") for i in range(size)]
+
+
+def environment(data, basis, p, t, G, zeta, u):
+    """The numbers of parameters, the time, the state and the inputs by their names."""
+    named = [] if u is None else zip(numbers_of_inputs(data, basis), u, strict=True)
+    own = {name: x for (_, name), x in named}
+    return {**p, "t": t, **names_of_state(data, basis, G, zeta), **own}
 
 
 def stated(data, basis, p, t, found, G, zeta, u):
@@ -459,17 +465,23 @@ def inputs(data, basis, p, found, G, u):
     return force, covector
 
 
+def pushes(data, basis, p, t, found, G, zeta, u):
+    """What acts beside the potential: forces (M,) and a covector (d,)."""
+    v = found.moved(G @ np.tensordot(zeta, basis, 1))
+    none = 0, np.zeros(len(basis))
+    force, covector = none if u is None else inputs(data, basis, p, found, G, u)
+    more = stated(data, basis, p, t, found, G, zeta, u)
+    return force + damping(data, p, t, found, v) + more[0], covector + more[1]
+
+
 def rhs(data, basis, p, t, x, u=None):
     """dx/dt in the state ``x``; numpy.linalg.LinAlgError where it is not determined."""
-    found, d = places(data, p), len(basis)
-    G, zeta = split(data, x, d)
+    found = places(data, p)
+    G, zeta = split(data, x, len(basis))
     Z = np.tensordot(zeta, basis, 1)
     design = np.column_stack([found.moved(G @ E) for E in np.asarray(basis, float)])
-    force, covector = (0, np.zeros(d)) if u is None else inputs(data, basis, p, found, G, u)
-    force = force + damping(data, p, t, found, found.moved(G @ Z))
-    more = stated(data, basis, p, t, found, G, zeta, u)
-    force, covector = force + more[0], covector + more[1]
-    force += forces(data, p, t, found, found.moved(G))
+    force, covector = pushes(data, basis, p, t, found, G, zeta, u)
+    force = force + forces(data, p, t, found, found.moved(G))
     heavy, root = found.masses > 0, np.sqrt(found.masses[found.masses > 0])
     Q, R = np.linalg.qr(root[:, None] * design[heavy])
     if np.linalg.cond(R) > 1e13:

@@ -2,7 +2,36 @@
 
 import numpy as np
 
-from tests.oracles.general import axial, blocks, environment, evaluate, places, rhs, split
+from tests.oracles.general import (
+    axial,
+    blocks,
+    environment,
+    evaluate,
+    numbers_of_inputs,
+    places,
+    pushes,
+    rhs,
+    split,
+)
+
+
+def power(data, basis, p, t, found, G, zeta, u, of=None):
+    """That of all that acts beside the potential, or what is lost of it without ``of``."""
+    force, covector = pushes(data, basis, p, t, found, G, zeta, u)
+    whole = force @ found.moved(G @ np.tensordot(zeta, basis, 1)) + covector @ zeta
+    if of is None:
+        return whole
+
+    def quiet(kind, table):
+        said = {"coefficient", "force", "moment", "covector"} & {*table}
+        if table.get("name", kind) != of:
+            return table
+        return table | {x: 0 if x == "coefficient" else [0] * len(table[x]) for x in said}
+
+    others = {x: [quiet(x, y) for y in data.get(x, ())] for x in ("force", "damping")}
+    numbers = zip(numbers_of_inputs(data, basis), u, strict=True)
+    left = [0 if name == of else x for (name, _), x in numbers]
+    return whole - power(data | others, basis, p, t, found, G, zeta, left)
 
 
 def outputs(data, basis, p, t, x, u):
@@ -47,10 +76,9 @@ def outputs(data, basis, p, t, x, u):
             i, j = (r[found.at["point", i]] for i in spring["between"])
             stretched = np.linalg.norm(i - j) - evaluate(spring.get("length", 0), p)
             vector, in_body = [evaluate(spring["stiffness"], p) * stretched], False
-        elif kind == "power":  # of damping at all points, where nothing else acts
-            kappa = sum(evaluate(x["coefficient"], p) for x in data["damping"])
-            moving = [v[found.at[key]] for key in found.points()]
-            vector, in_body = [-kappa * sum(y @ y for y in moving)], False
+        elif kind == "power":
+            given = data, basis, p, t, found, G, zeta, u
+            vector, in_body = [power(*given, table.get("of"))], False
         else:
             here = {f"r_{i}": y for i, y in enumerate(r[at], 1)} if at else {}
             here |= {f"v_{i}": y for i, y in enumerate(v[at], 1)} if at else {}

@@ -1,9 +1,8 @@
-"""[[output]]: what is read off a motion is what the points of an oracle do; of bodies of a product,
-powers beside forces and velocities written here, C and D beside complex steps of the outputs."""
+"""[[output]]: what is read off a motion is what the points of an oracle do; of bodies of a product
+too, powers among it; C and D beside differences of the outputs."""
 
 import tomllib
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
@@ -16,21 +15,85 @@ from derive.searches import conserved_without_gravity
 from tests.oracles import general, relative_error, sensors
 from tests.problems import PROBLEMS
 from tests.support import corpus
-from tests.support.library import arrange, emission, module_of
+from tests.support.library import emission, module_of
 from tests.support.walks import SEED, own_verdicts, stands
 
-NAMES = [x for x in PROBLEMS if x.endswith(" outputs")]
+SIZES = {
+    "SE(3) x SE(3)": (3, 3),
+    "SE(2) x SO(3)": (2, 3),
+    "R(2) x SE(2)": (2, 2),
+    "SO(2) x SE(3)": (2, 3),
+    "SE(2) x R(1) x SE(2)": (2, 1, 2),
+    "SL(2) x SE(2)": (2, 2),
+}
+"""A product → the dimensions of the spaces of its blocks; in the last one things act, and are
+read."""
+AT, DOWN = [0.3, -0.2, 0.5], [0.4, -0.7, 9.0]
+
+
+def data_of(group):
+    sizes = SIZES[group]
+    last, n = len(sizes), sizes[-1]
+    corners = [[1, 0.2, -0.3], [0, 1, 0.1], [-0.4, 0.3, 1], [0.2, -0.5, 0.3]]
+    points = [
+        {"mass": 1 + k + b, "at": x[:size], "block": b}
+        for b, size in enumerate(sizes, 1)
+        for k, x in enumerate(corners)
+    ]
+    v = [f"v_{i + 1}" for i in range(n)]
+    speed = f"sqrt({' + '.join(f'{x}^2' for x in v)})"
+    place = {"at": AT[:n], "block": last}
+    inputs = [
+        {"name": "pull", "kind": "force", "on": 1, "frame": "space"},
+        {"name": "jet", "kind": "force", **place, "frame": "body", "direction": DOWN[:n]},
+        {"name": "wheel", "kind": "torque", "block": last, "frame": "body"},
+    ]
+    kinds = ("velocity", "acceleration", "specific_force", "place")
+    read = [{"name": f"{x}_s", "kind": x, **place} for x in kinds]
+    read += [
+        {"name": "gyro", "kind": "rate", "block": last},
+        {
+            "name": "compass",
+            "kind": "direction",
+            "direction": DOWN[:n],
+            "block": last,
+            "frame": "body",
+        },
+        {"name": "far", "kind": "distance", **place, "to": [2, 1, -1][:n]},
+        {"name": "moved", "kind": "momentum", "block": last},
+        {"name": "felt", **place, "y": ["v_1*r_1 + T", f"T*{speed}"]},
+        {"name": "whole", "kind": "power"},
+        *({"name": f"P{x}", "kind": "power", "of": x} for x in ACTING),
+    ]
+    return {
+        "name": "pair",
+        "group": group,
+        "parameters": {"c": 0.37, "kappa": 0.21, "T": 0.4},
+        "point": points,
+        "input": inputs,
+        "force": [{"name": "drag", **place, "force": [f"-c*{speed}*{x}" for x in v]}],
+        "damping": [{"name": "oil", "coefficient": "kappa", **place}],
+        "potential": [{"kind": "gravity", "g": DOWN[:n]}] * (len({*sizes}) == 1),
+        "output": read,
+    }
+
+
+ACTING = ("pull", "jet", "wheel", "drag", "oil")
+
+
+CASES = {x: tomllib.loads(y) for x, y in PROBLEMS.items() if x.endswith(" outputs")}
+CASES |= {group: data_of(group) for group in SIZES}
 T = 0.4
 
 
 def module(name):
     """What the emitted Python defines, with all derivatives."""
-    return vars(module_of(PROBLEMS[name], jacobian=("outputs", "raw")))
+    return vars(module_of(problem_of(CASES[name]), jacobian=("outputs", "raw")))
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", CASES)
 def test_they_are_what_the_points_do(name):
-    data, space = tomllib.loads(PROBLEMS[name]), module(name)
+    data, space = CASES[name], module(name)
     p, basis, rng = general.parameters(data), space["BASIS"], np.random.default_rng(3)
     k = space["constants"]([p[x] for x in space["PARAMETERS"]])
     for _ in range(3):
@@ -40,9 +103,9 @@ def test_they_are_what_the_points_do(name):
         assert relative_error(space["outputs"](T, x, k, u), expected) < 1e-12
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", CASES)
 def test_their_derivatives_are_those_of_differences(name):
-    data, space = tomllib.loads(PROBLEMS[name]), module(name)
+    data, space = CASES[name], module(name)
     p, basis, rng = general.parameters(data), space["BASIS"], np.random.default_rng(3)
     k = space["constants"]([p[x] for x in space["PARAMETERS"]])
     x, u = general.random_state(data, basis, rng), rng.normal(size=len(space["INPUTS"]))
@@ -158,168 +221,7 @@ def test_a_unit_ends_no_comment():
     assert not any("*/ int x" in x for x in files.values())
 
 
-# -- of products ------------------------------------------------------------------------------
-
-
-CASES = {
-    "SE(3) x SE(3)": (3, 3),
-    "SE(2) x SO(3)": (2, 3),
-    "R(2) x SE(2)": (2, 2),
-    "SO(2) x SE(3)": (2, 3),
-    "SE(2) x R(1) x SE(2)": (2, 1, 2),
-    "SL(2) x SE(2)": (2, 2),
-}
-"""A group → the dimensions of the spaces of its blocks; in the last one things act and are read."""
-C, KAPPA, TAU = 0.37, 0.21, 0.4
-NUMBERS = {"c": C, "kappa": KAPPA}
-AT, DOWN = [0.3, -0.2, 0.5], [0.4, -0.7, 9.0]
-
-
-def data_of(group):
-    sizes = CASES[group]
-    last, n = len(sizes), sizes[-1]
-    corners = [[1, 0.2, -0.3], [0, 1, 0.1], [-0.4, 0.3, 1], [0.2, -0.5, 0.3]]
-    points = [
-        {"mass": 1 + k + b, "at": x[:size], "block": b}
-        for b, size in enumerate(sizes, 1)
-        for k, x in enumerate(corners)
-    ]
-    v = [f"v_{i + 1}" for i in range(n)]
-    speed = f"sqrt({' + '.join(f'{x}^2' for x in v)})"
-    place = {"at": AT[:n], "block": last}
-    inputs = [
-        {"name": "pull", "kind": "force", "on": 1, "frame": "space"},
-        {"name": "jet", "kind": "force", **place, "frame": "body", "direction": DOWN[:n]},
-        {"name": "wheel", "kind": "torque", "block": last, "frame": "body"},
-    ]
-    kinds = ("velocity", "acceleration", "specific_force", "place")
-    read = [{"name": f"{x}_s", "kind": x, **place} for x in kinds]
-    read += [
-        {"name": "gyro", "kind": "rate", "block": last},
-        {
-            "name": "compass",
-            "kind": "direction",
-            "direction": DOWN[:n],
-            "block": last,
-            "frame": "body",
-        },
-        {"name": "far", "kind": "distance", **place, "to": [2, 1, -1][:n]},
-        {"name": "moved", "kind": "momentum", "block": last},
-        {"name": "felt", **place, "y": ["v_1*r_1 + T", f"T*{speed}"]},
-        {"name": "whole", "kind": "power"},
-        *({"name": f"P{x}", "kind": "power", "of": x} for x in ACTING),
-    ]
-    return {
-        "name": "pair",
-        "group": group,
-        "parameters": {**NUMBERS, "T": TAU},
-        "point": points,
-        "input": inputs,
-        "force": [{"name": "drag", **place, "force": [f"-c*{speed}*{x}" for x in v]}],
-        "damping": [{"name": "oil", "coefficient": "kappa", **place}],
-        "potential": [{"kind": "gravity", "g": DOWN[:n]}] * (len({*sizes}) == 1),
-        "output": read,
-    }
-
-
-ACTING = ("pull", "jet", "wheel", "drag", "oil")
-
-
-@cache
-def made(group):
-    problem = problem_of(data_of(group))
-    return problem, module_of(problem, jacobian=("outputs", "state", "inputs"))
-
-
-def element(group, g):
-    """The entries of a state, by blocks, of the matrix that moves (r, 1) in each."""
-    found, first = [], 0
-    for name, n in zip(group.split(" x "), CASES[group], strict=True):
-        size = n + name.startswith(("SE", "R"))
-        block = g[first : first + size, first : first + size]
-        found += [] if name.startswith("R") else [*block[:n, :n].ravel()]
-        found += [*block[:n, n]] if size > n else []
-        first += size
-    return np.array(found)
-
-
-def drawn(group, basis, rng):
-    """A matrix of the group, a velocity and inputs."""
-    from scipy.linalg import expm
-
-    d = len(basis)
-    g = expm(np.tensordot(rng.normal(size=d), basis, 1)) @ expm(
-        np.tensordot(rng.normal(size=d), basis, 1)
-    )
-    return g, rng.normal(size=d)
-
-
-def last_block(group, g):
-    """The linear part and the shift of what the last block does."""
-    n, name = CASES[group][-1], group.split(" x ")[-1]
-    size = n + name.startswith(("SE", "R"))
-    block = g[len(g) - size :, len(g) - size :]
-    return block[:n, :n], block[:n, n] if size > n else np.zeros(n)
-
-
-@pytest.mark.parametrize("group", CASES)
-def test_powers_are_those_of_the_forces(group):
-    _, m = made(group)
-    basis, n = np.array(m.BASIS, float), CASES[group][-1]
-    rng, k = np.random.default_rng(3), m.constants(arrange(m, NUMBERS | {"T": TAU}))
-    for _ in range(3):
-        g, zeta = drawn(group, basis, rng)
-        u = rng.normal(size=len(m.INPUTS))
-        given = dict(zip(m.INPUTS, u, strict=True))
-        Z = np.tensordot(zeta, basis, 1)
-        (A, _), (rate, shift) = last_block(group, g), last_block(group, g @ Z)
-        v = rate @ AT[:n] + shift
-        w = A.T @ rate
-        turned = [w[1, 0]] if n == 2 else [w[2, 1], w[0, 2], w[1, 0]]
-        torque = [given[x] for x in m.INPUTS if x.startswith("wheel")]
-        at = np.array([1, 0.2, -0.3])[: CASES[group][0]]
-        first = g @ Z
-        moved = first[: len(at), : len(at)] @ at
-        if group.startswith(("SE", "R")):
-            moved = moved + first[: len(at), len(at)]
-        pull = [given[x] for x in m.INPUTS if x.startswith("pull")]
-        known = {
-            "Ppull": np.dot(pull, moved),
-            "Pjet": given["jet"] * np.dot(A @ DOWN[:n], v),
-            "Pwheel": np.dot(torque, turned),
-            "Pdrag": -C * np.linalg.norm(v) ** 3,
-            "Poil": -KAPPA * np.dot(v, v),
-        }
-        x = np.concatenate([element(group, g), zeta])
-        found = dict(zip(m.OUTPUTS, m.outputs(0.3, x, k, u), strict=True))
-        for name, power in known.items():
-            assert found[name] == pytest.approx(power, rel=1e-11, abs=1e-11), name
-        assert found["whole"] == pytest.approx(sum(known.values()), rel=1e-11, abs=1e-11)
-
-
-@pytest.mark.parametrize("group", CASES)
-def test_their_derivatives_are_those_of_complex_steps(group):
-    _, m = made(group)
-    basis, h = np.array(m.BASIS, float), 1e-30
-    rng, k = np.random.default_rng(4), m.constants(arrange(m, NUMBERS | {"T": TAU}))
-    g, zeta = drawn(group, basis, rng)
-    u = rng.normal(size=len(m.INPUTS))
-    x = np.concatenate([element(group, g), zeta])
-    found, d = m.jacobian_outputs(0.3, x, k, u), len(basis)
-    assert found.shape == (len(m.OUTPUTS), 2 * d)
-    for a in range(2 * d):
-        eta, faster = np.split(np.eye(2 * d)[a], 2)
-        turned = g + 1j * h * g @ np.tensordot(eta, basis, 1)
-        y = np.concatenate([element(group, turned), zeta + 1j * h * faster])
-        slope = np.imag(m.outputs(0.3, y, k, u)) / h
-        assert np.abs(found[:, a] - slope).max() < 1e-9 * max(1, np.abs(slope).max())
-    by_u = m.jacobian_outputs_inputs(0.3, x, k, u)
-    for i, e in enumerate(np.eye(len(u))):
-        slope = np.imag(m.outputs(0.3, x, k, u + 1j * h * e)) / h
-        assert np.abs(by_u[:, i] - slope).max() < 1e-9 * max(1, np.abs(slope).max())
-
-
-@pytest.mark.parametrize("group", CASES)
+@pytest.mark.parametrize("group", SIZES)
 def test_the_records_hold(group):
-    record = derive.derive(made(group)[0]).record
+    record = derive.derive(problem_of(CASES[group])).record
     assert all(v.holds for v in own_verdicts(record))
