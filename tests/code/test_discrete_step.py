@@ -8,7 +8,6 @@ composition of parts γ_i h has the order p where its product is exp(h X_1) in a
 
 import tomllib
 from decimal import Decimal, localcontext
-from fractions import Fraction
 from functools import cache
 from math import factorial, log2
 
@@ -24,7 +23,7 @@ from derive.problem.toml import problem_of
 from tests.oracles.rooted_trees import Weights, trees
 from tests.problems import thrown
 from tests.support.corpus import driven
-from tests.support.discrete_maps import DiscreteMap
+from tests.support.discrete_maps import DiscreteMap, real
 from tests.support.library import module_of
 from tests.support.needs import need
 
@@ -82,11 +81,6 @@ def element(names, x, size):
             i, j = (*map(int, place[0]), size)[:2]
             g[i - 1, j - 1] = value
     return tuple(tuple(map(mpmath.mpf, row)) for row in g)
-
-
-def real(x):
-    """A number of mpmath."""
-    return mpmath.mpf(x.numerator) / x.denominator if isinstance(x, Fraction) else mpmath.mpf(x)
 
 
 # ---------------------------------------------------------------- the record's motion

@@ -15,7 +15,7 @@ import pytest
 import derive
 from derive.problem.toml import problem_of
 from tests.oracles import general
-from tests.oracles.euler_lagrange import acceleration
+from tests.oracles.euler_lagrange import acceleration, lagrangian_of
 from tests.oracles.general import evaluate
 from tests.problems import READY as READY_MADE
 from tests.support.emitted_files import Emission
@@ -55,18 +55,6 @@ def element(group, rng):
     return np.block([[g, place[:, None]], [np.zeros(n), 1]]), np.array([*g.reshape(-1), *place])
 
 
-def lagrangian_of(text, n):
-    """ℓ(t, g, ζ) of JAX by the text of a case."""
-
-    def lagrangian(t, g, zeta):
-        names = {f"zeta_{a}": x for a, x in enumerate(zeta, 1)}
-        names |= {f"A_{i + 1}{j + 1}": g[i, j] for i in range(n) for j in range(n)}
-        names |= {f"T_{i + 1}": g[i, -1] for i in range(n)}
-        return eval(text.replace("^", "**"), {"cosh": jnp.cosh}, names | {"t": t})
-
-    return lagrangian
-
-
 def by_hand(lagrangian, E, t, g, zeta, u, *, right):
     """∂ℓ/∂ζ, and its rate along the motion."""
     expected = acceleration(lagrangian, E, t, g, zeta, u, right=right)
@@ -82,7 +70,7 @@ def test_c_and_python_beside_the_derivatives_of_the_lagrangian(case):
     p, right = typed(case), CASES[case][1] == "right"
     m, f = module_of(p, momenta=True), derive.compile(p, momenta=True)
     E, k, rng = np.array(m.BASIS, float), m.constants([]), np.random.default_rng(3)
-    lagrangian, count = lagrangian_of(CASES[case][2], p.group.n), len(m.BASIS)
+    lagrangian, count = lagrangian_of(CASES[case][2], p.group), len(m.BASIS)
     states = []
     for _ in range(3):
         (g, place), zeta, u = element(p.group, rng), rng.normal(size=count), rng.normal(size=count)

@@ -14,6 +14,7 @@ from derive.language.tree import add
 from derive.problem.toml import problem_of
 from derive.record.sentence import Claim, english
 from tests.check.test_record_claims import said
+from tests.support.coadjoint_orbits import match
 from tests.support.trims import ASIDE, DRAG, PENDULUM, TURNED, balanced, drone, flying, holds
 from tests.support.walks import SEED
 
@@ -41,12 +42,6 @@ def eigenvalues_of(y, u, c):
     return np.linalg.eigvals(np.array(columns).T)
 
 
-def same(a, b, tolerance):
-    """Are the same numbers in both?"""
-    key = lambda z: (round(z.real, 3), round(z.imag, 3))  # noqa: E731
-    return np.allclose(sorted(a, key=key), sorted(b, key=key), atol=tolerance)
-
-
 def ahead(**more):
     """At the speed 5 it leans so that drag is balanced: tan θ = −c v²/mg = −3/4."""
     return flying(**more).trim(ASIDE | {"w_1": 4, "w_2": 3})
@@ -59,7 +54,7 @@ def test_a_drone_flies_ahead_against_its_drag():
     y = np.array([np.arctan2(-3, 4), 5, 0, 0])
     assert np.allclose(rates(y, (12.5, 12.5), 0.6), 0, atol=1e-12)
     # the place adds two eigenvalues 0; four of one value 0 are found to the fourth root of rounding
-    assert same(found.eigenvalues, [*eigenvalues_of(y, (12.5, 12.5), 0.6), 0, 0], 1e-3)
+    assert match(found.eigenvalues, [*eigenvalues_of(y, (12.5, 12.5), 0.6), 0, 0], 1e-3)
 
 
 def test_the_speed_is_found_at_which_a_tilt_is_balanced():
@@ -93,7 +88,7 @@ def test_a_body_falls_at_its_terminal_speed(damping, c, speed):
     assert holds(found)
     linear = 1 if len(damping) > 1 else 0
     slopes = -np.array([2 * c * speed + linear, c * speed + linear]) / 2  # along v, and across
-    assert same([x for x in found.eigenvalues if abs(x) > 1e-3], slopes, 1e-9)
+    assert match([x for x in found.eigenvalues if abs(x) > 1e-3], slopes, 1e-9)
 
 
 def blown(along, **more):

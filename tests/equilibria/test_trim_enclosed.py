@@ -13,6 +13,7 @@ from derive.problem.toml import problem_of
 from derive.record.prose import message
 from derive.record.sentence import Claim
 from tests.check.test_record_claims import said
+from tests.equilibria.test_steady_turns import NAMES, falling
 from tests.equilibria.test_trim import attitude, blown
 from tests.support.trims import (
     ASIDE,
@@ -54,16 +55,11 @@ def test_a_standing_pendulum_leans_a_little():
 
 def test_on_the_right_the_displacement_stands_before_g():
     found = turned_in_space()
-    angle = float(
-        mpmath.findroot(
-            lambda a: (
-                (-3 + 0j).real * mpmath.sin(a)
-                + 4 * mpmath.cos(a)
-                + 3 * mpmath.sin(a) ** 2 * mpmath.cos(a)
-            ),
-            1,
-        )
-    )
+
+    def slope(a):
+        return (4 + 3 * mpmath.sin(a) ** 2) * mpmath.cos(a) - 3 * mpmath.sin(a)
+
+    angle = float(mpmath.findroot(slope, 1))
     assert abs(float(found.found.state["A_11"]) - np.cos(angle)) <= found.found.radius
     assert found.found.right
     assert holds(found)
@@ -291,37 +287,15 @@ TILTED = {"A_22": "4/5", "A_23": "-3/5", "A_32": "3/5", "A_33": "4/5"}
 def test_a_quadrotor_that_turns_has_its_trim_within_bounds():
     """It flies a circle, tilted by φ, sin φ = 3/5: w₁ Ω = −g tan φ, and the thrusts are mg/cos φ in
     all; out of what a rotor can do it is refused, with its number."""
-    names = ("front", "left", "back", "right")
-    arms = [[0.2, 0, 0], [0, 0.2, 0], [-0.2, 0, 0], [0, -0.2, 0]]
-    drone = {
-        "name": "drone",
-        "group": "SE(3)",
-        "body": {
-            "given": {"m": "6/5", "centre": [0, 0, 0], "I_centre": np.diag([2, 2, 3]).tolist()}
-        },
-        "potential": [{"kind": "gravity", "g": [0, 0, -10]}],
-        "input": [
-            {
-                "name": name,
-                "kind": "force",
-                "at": at,
-                "frame": "body",
-                "direction": [0, 0, 1],
-                "moment": [0, 0, 0.02 * (-1) ** k],
-            }
-            for k, (name, at) in enumerate(zip(names, arms, strict=True))
-        ],
-    }
-    made = derive(problem_of(drone))
+    made = derive(falling(10))
     turning = {x: Fraction(y) for x, y in TILTED.items()}
     turning |= {"zeta_2": Fraction(3, 5), "zeta_3": Fraction(4, 5)}
-    bounds = dict.fromkeys(names, (0, 6))
-    found = made.trim(turning, ["w_1", *names], bounds=bounds)
+    found = made.trim(turning, ["w_1", *NAMES], bounds=dict.fromkeys(NAMES, (0, 7)))
     assert holds(found)
     assert found.found.state["w_1"] == Fraction(-15, 2)
-    assert sum(found.found.inputs.values()) == 15
-    with pytest.raises(ProblemError, match=r"out of bounds: .* and --bounds allows 0 to 3"):
-        made.trim(turning, ["w_1", *names], bounds=dict.fromkeys(names, (0, 3)))
+    assert sum(found.found.inputs.values()) == 25
+    with pytest.raises(ProblemError, match=r"out of bounds: .* and --bounds allows 0 to 6"):
+        made.trim(turning, ["w_1", *NAMES], bounds=dict.fromkeys(NAMES, (0, 6)))
 
 
 def test_without_gravity_a_rotor_has_one_trim_and_it_is_double():

@@ -5,12 +5,21 @@ A record is read top down: what a name is said to be is its value; the last equa
 are solved for g₂ by Newton's method, with differences for derivatives.
 """
 
+from fractions import Fraction
+
+import mpmath
+
 from derive.algebra.groups import Group
 from derive.language import rational as q
 from derive.language.tree import add, replaced
 from derive.language.values import value
 
 SUMMED = {"i": ("m", "r", "κ"), "e": ("s", "k")}
+
+
+def real(x):
+    """A number of mpmath."""
+    return mpmath.mpf(x.numerator) / x.denominator if isinstance(x, Fraction) else mpmath.mpf(x)
 
 
 def solve(a, b):

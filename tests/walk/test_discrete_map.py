@@ -18,7 +18,7 @@ from derive.pipeline import discrete
 from derive.problem.toml import problem_of
 from derive.views.rendering import render
 from tests.support.corpus import driven, record
-from tests.support.discrete_maps import DiscreteMap
+from tests.support.discrete_maps import DiscreteMap, real
 from tests.support.walks import SEED, problem
 
 DIGITS = 60  # so many that differences of 1e-20 leave 40
@@ -28,11 +28,6 @@ TINY = mpmath.mpf(10) ** -20
 @cache
 def undriven(name):
     return replace(problem(name), inputs=())
-
-
-def real(x):
-    """A number of mpmath."""
-    return mpmath.mpf(x.numerator) / x.denominator if isinstance(x, Fraction) else mpmath.mpf(x)
 
 
 def map_of(given, h, number=real, tiny=TINY):

@@ -250,22 +250,6 @@ def test_tsiolkovsky_whatever_the_throttle(tmp_path):
     assert from_less["fuel"][0] == 40
 
 
-def test_a_mass_that_says_its_own_rate_decays(tmp_path):
-    text = ROCKET.replace("-b*throttle", "-b*fuel/60").replace(
-        'input = [{ name = "throttle", kind = "scalar" }]\n', ""
-    )
-    run = followed(text, tmp_path, 30, tol=1e-11)
-    assert np.abs(run["fuel"] - 60 * np.exp(-run.t * 1.5 / 60)).max() < 1e-8
-
-
-def test_where_nothing_leaves_fast_the_mass_has_its_rate(tmp_path):
-    """The body falls, and does not feel what it loses."""
-    text = ROCKET.replace('[0, 0, "-u"]', "[0, 0, 0]").replace(", u = 2500.0", "")
-    run = followed(text, tmp_path, 3, start={"throttle": 1.0})
-    assert run["fuel"][-1] == pytest.approx(60 - 4.5)
-    assert run["w_3"][-1] == pytest.approx(-9.81 * 3)
-
-
 def test_a_mass_that_is_used_up_is_told(tmp_path):
     with pytest.raises(ValueError, match=r"the mass fuel of a point is used up before t = 40\.1"):
         followed(ROCKET, tmp_path, 50, start={"throttle": 1.0})

@@ -14,14 +14,13 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
-from scipy.integrate import solve_ivp
 
 from derive.algebra.families import group
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
-from tests.oracles.euler_lagrange import acceleration
+from tests.oracles.euler_lagrange import acceleration, lagrangian_of
 from tests.problems import READY
 from tests.support import advected
 from tests.support.library import emission, module, module_of
@@ -40,6 +39,11 @@ def of_file(name):
         terms = [f"({x})*zeta_{i}*zeta_{j}/2" for i, row in rows for j, x in enumerate(row, 1)]
         data["lagrangian"] = {"L": " + ".join(terms)}
     return data | {"parameters": values}
+
+
+def of_data(data, group):
+    """ℓ of a file."""
+    return lagrangian_of(data["lagrangian"]["L"], group, data["parameters"])
 
 
 def states(group, basis, rng, several):
@@ -93,7 +97,7 @@ def test_ready_made(name):
     group, found = problem(name).group, module_of(name)
     rng = np.random.default_rng(1)
     for g, zeta in states(group, found.BASIS, rng, 2):
-        held(found, group, said(of_file(name), group), 0.0, g, zeta)
+        held(found, group, of_data(of_file(name), group), 0.0, g, zeta)
 
 
 @pytest.mark.parametrize("name", ["SL(3)", "Sp(4)", "Sim(3)", "SAff(2)", "SU(2)"])
@@ -106,7 +110,7 @@ def test_on_other_groups(name):
     p = problem_of(data)
     found = module_of(p)
     for g, zeta in states(p.group, found.BASIS, np.random.default_rng(1), 2):
-        held(found, p.group, said(data, p.group), 0.3, g, zeta)
+        held(found, p.group, of_data(data, p.group), 0.3, g, zeta)
 
 
 EXAMPLES = int(os.environ.get("EXAMPLES", "5"))
@@ -153,26 +157,6 @@ def lagrangians(draw):
     return data | {"parameters": used}
 
 
-def said(data, group):
-    """The same ℓ as a function, read by Python alone."""
-    text = " ".join(data["lagrangian"]["L"].replace("^", "**").split())
-    several = len(group.places) > 1
-
-    def lagrangian(t, g, zeta):
-        names = {f"zeta_{a}": x for a, x in enumerate(zeta, 1)}
-        for k, (offset, factor) in enumerate(group.places, 1):
-            mark, span = str(k) if several else "", range(factor.n)
-            names |= {
-                f"A{mark}_{i + 1}{j + 1}": g[offset + i, offset + j] for i in span for j in span
-            }
-            if factor.affine:
-                names |= {f"T{mark}_{i + 1}": g[offset + i, offset + factor.n] for i in span}
-        functions = {x: getattr(jnp, x) for x in ("sin", "sqrt", "exp")}
-        return eval(text, functions, names | {"t": t} | data["parameters"])
-
-    return lagrangian
-
-
 @pytest.mark.no_cover
 @settings(
     max_examples=EXAMPLES,
@@ -195,7 +179,7 @@ def test_holds_and_agrees(data):
     for g, zeta in states(problem.group, found.BASIS, rng, 2):
         u = rng.normal(size=len(found.INPUTS))
         if np.abs(g).max() <= 20:
-            held(found, problem.group, said(data, problem.group), 0.3, g, zeta, u, right=right)
+            held(found, problem.group, of_data(data, problem.group), 0.3, g, zeta, u, right=right)
 
 
 def oracle_representation(name, kind):
@@ -242,30 +226,6 @@ def test_the_code_agrees(case, kind, by_brackets):
             _, rate = jax.jvp(carried, (jnp.asarray(g),), (jnp.tensordot(zeta, E, 1),))
             rate = np.asarray(rate)
         assert np.abs(dx[len(E) :] - rate).max() < 1e-12 * scale
-
-
-def test_as_with_an_element_of_the_group():
-    """The heavy top by its attitude: γ is the last row of A, and both are one motion."""
-    reduced = problem("euler_poisson")
-    text = "(I1*zeta_1^2 + I2*zeta_2^2 + I3*zeta_3^2)/2 - c1*A_31 - c3*A_33"
-    values = {x: y.default for x, y in reduced.parameters.items()}
-    data = {"name": "whole", "group": "SO(3)", "lagrangian": {"L": text}, "parameters": values}
-    one, two = module_of("euler_poisson"), module_of(problem_of(data))
-    ((A, zeta),) = states(group("SO(3)"), range(3), np.random.default_rng(2), 1)
-    start = np.array([*zeta, *A[2]])
-    runs = [
-        solve_ivp(f.rhs, (0, 5), x, "DOP853", rtol=1e-12, atol=1e-12, args=(f.constants(k),))
-        for f, x, k in (
-            (one, start, one.DEFAULTS),
-            (two, np.array([*A.reshape(-1), *zeta]), two.DEFAULTS),
-        )
-    ]
-    end, whole = (run.y[:, -1] for run in runs)
-    assert np.abs(end[:3] - whole[9:]).max() < 1e-9
-    assert np.abs(end[3:] - whole[6:9]).max() < 1e-9
-    k = one.constants(one.DEFAULTS)
-    energies = [one.energy(0.0, x, k) for x in runs[0].y.T]
-    assert max(energies) - min(energies) < 1e-9
 
 
 TEXT = (

@@ -3,7 +3,6 @@ of Kirillov, Kostant and Souriau on a level of it."""
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 from derive.algebra import calculus
@@ -17,9 +16,7 @@ from derive.walk.lie.any_lagrangian import orbit_form
 from derive.walk.spine.alphabet import Alphabet
 from tests.oracles.sampling import cross_matrix
 from tests.support.lagrangians import lagrangian, squares
-from tests.support.library import module_of
 
-SIDES = {"left": "⟨Π, A⁻¹ξ′A⟩", "right": "⟨Π, Aξ′A⁻¹⟩"}
 HEISENBERG = {"algebra": {"brackets": [[1, 2, 3, 1]]}, "lagrangian": {"L": squares(1, 2, 3)}}
 OF_A_CUBIC = {"name": "Spiral", "basis": [[[0, 1, 0], [0, 0, 1], [1, 1, 0]]]}
 
@@ -52,36 +49,6 @@ def test_a_group_of_which_no_exact_element_is_known():
     d = derive(lagrangian("zeta_1^2", OF_A_CUBIC))
     assert "x.conserved" in holds(d)
     assert laws(d) == {"ḣ"}
-
-
-@pytest.mark.parametrize("side", SIDES)
-@pytest.mark.parametrize("group", ["SL(2)", "SE(2)"])
-def test_it_is_constant_along_the_motion(side, group):
-    """⟨Π, A⁻¹E_aA⟩, or ⟨Π, AE_aA⁻¹⟩, by the basis of the emitted code."""
-    L = "zeta_1^2/2 + zeta_2^2 + 3*zeta_3^2/2 + zeta_1*zeta_2/3"
-    code = module_of(lagrangian(L, group, side=side))
-    k = code.constants(code.DEFAULTS)
-    E = np.array(code.BASIS, float)
-    M = np.array([[1, 1 / 3, 0], [1 / 3, 2, 0], [0, 0, 3]])
-    n = E.shape[1]
-
-    def element(x):
-        if group == "SL(2)":
-            return x[:4].reshape(2, 2), x[4:]
-        return np.block([[x[:4].reshape(2, 2), x[4:6, None]], [np.zeros((1, 2)), 1]]), x[6:]
-
-    def other(x):
-        g, zeta = element(x)
-        back = np.linalg.inv(g)
-        carried = [back @ e @ g if side == "left" else g @ e @ back for e in E]
-        by_E = np.linalg.lstsq(E.reshape(3, n * n).T, np.reshape(carried, (3, -1)).T, rcond=None)[0]
-        return (M @ zeta) @ by_E
-
-    start = np.r_[1, 0, 0, 1, [0] * (group == "SE(2)") * 2, 0.3, 0.5, -0.4]
-    run = solve_ivp(lambda t, x: code.rhs(t, x, k), (0, 2), start, rtol=1e-11, atol=1e-11)
-    found = np.array([other(x) for x in run.y.T])
-    assert np.ptp(np.array([M @ element(x)[1] for x in run.y.T]), axis=0).max() > 0.05
-    assert np.abs(found - found[0]).max() < 1e-7
 
 
 STEP = 1e-3

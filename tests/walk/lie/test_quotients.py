@@ -26,22 +26,6 @@ def run(found, x, end):
     return solve_ivp(found.rhs, (0, end), x, args=(k,), **DIRECT).y[:, -1]
 
 
-def test_the_pendulum_is_a_point_on_a_sphere():
-    """ë = (g/l)(γ − ⟨γ, e⟩e) − |ė|²e in R³, γ downwards, has no group."""
-    found = module_of("spherical_pendulum")
-    assert found.STATE[9:] == ("zeta_1", "zeta_2")
-    zeta = np.array([1.3, -0.7])
-    end = run(found, np.array([*TURN.reshape(-1), *zeta]), 3.0)
-    pull, rate = np.array([0, 0, -9.81 / 0.8]), TURN @ np.array([zeta[1], -zeta[0], 0])
-
-    def on_sphere(t, y):
-        e, v = y[:3], y[3:]
-        return np.array([*v, *(pull - (pull @ e) * e - (v @ v) * e)])
-
-    wanted = solve_ivp(on_sphere, (0, 3.0), np.array([*TURN[:, 2], *rate]), **DIRECT).y[:3, -1]
-    assert np.abs(end[[2, 5, 8]] - wanted).max() < 1e-9
-
-
 def test_the_rod_turns_and_falls():
     """Its axis goes round a great circle at a constant rate, its middle along a parabola."""
     found, zeta = module_of("rod"), np.array([0.9, -0.4])
