@@ -15,10 +15,11 @@ import pytest
 import derive
 from derive.problem.toml import problem_of
 from tests.oracles import general
-from tests.oracles.euler_lagrange import acceleration, lagrangian_of
+from tests.oracles.euler_lagrange import acceleration
 from tests.oracles.general import evaluate
 from tests.problems import READY as READY_MADE
 from tests.support.emitted_files import Emission
+from tests.support.lagrangians import lagrangian_of
 from tests.support.library import module_of
 from tests.support.walks import own_verdicts
 

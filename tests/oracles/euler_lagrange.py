@@ -10,27 +10,6 @@ from typing import Any
 import numpy as np
 
 
-def lagrangian_of(text: str, group: Any, parameters: Any = ()) -> Callable[[Any, Any, Any], Any]:
-    """ℓ(t, g, ζ) of an expression, read by Python alone; ``group``: where its blocks are."""
-    import jax.numpy as jnp
-
-    words = " ".join(text.replace("^", "**").split())
-    functions = {x: getattr(jnp, x) for x in ("sin", "sqrt", "exp", "cosh")}
-
-    def lagrangian(t: Any, g: Any, zeta: Any) -> Any:
-        names = {f"zeta_{a}": x for a, x in enumerate(zeta, 1)}
-        for k, (offset, factor) in enumerate(group.places, 1):
-            mark, span = str(k) if len(group.places) > 1 else "", range(factor.n)
-            names |= {
-                f"A{mark}_{i + 1}{j + 1}": g[offset + i, offset + j] for i in span for j in span
-            }
-            if factor.affine:
-                names |= {f"T{mark}_{i + 1}": g[offset + i, offset + factor.n] for i in span}
-        return eval(words, functions, names | {"t": t} | dict(parameters))
-
-    return lagrangian
-
-
 def acceleration(
     lagrangian: Callable[[Any, Any, Any], Any],
     basis: Any,

@@ -1,4 +1,4 @@
-"""Problems whose Lagrangian is an expression, for tests of integrals."""
+"""Problems whose Lagrangian is an expression; that as a function for JAX."""
 
 from derive.algebra.families import group as named
 from derive.problem.toml import problem_of
@@ -11,6 +11,27 @@ def lagrangian(L, group="SO(3)", parameters="", side="left", **more):
     """A problem named x; the names of its parameters stand in one text."""
     data = {"name": "x", "group": group, "parameters": {p: {} for p in parameters.split()}}
     return problem_of(data | {"lagrangian": {"L": L, "trivialisation": side}} | more)
+
+
+def lagrangian_of(text, group, parameters=()):
+    """ℓ(t, g, ζ) of an expression, for JAX, read by Python alone; ``group``: its blocks."""
+    import jax.numpy as jnp
+
+    words = " ".join(text.replace("^", "**").split())
+    functions = {x: getattr(jnp, x) for x in ("sin", "sqrt", "exp", "cosh")}
+
+    def ell(t, g, zeta):
+        names = {f"zeta_{a}": x for a, x in enumerate(zeta, 1)}
+        for k, (offset, factor) in enumerate(group.places, 1):
+            mark, span = str(k) if len(group.places) > 1 else "", range(factor.n)
+            names |= {
+                f"A{mark}_{i + 1}{j + 1}": g[offset + i, offset + j] for i in span for j in span
+            }
+            if factor.affine:
+                names |= {f"T{mark}_{i + 1}": g[offset + i, offset + factor.n] for i in span}
+        return eval(words, functions, names | {"t": t} | dict(parameters))
+
+    return ell
 
 
 def heavy(moments, potential, parameters):

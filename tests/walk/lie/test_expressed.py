@@ -20,9 +20,10 @@ from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
-from tests.oracles.euler_lagrange import acceleration, lagrangian_of
+from tests.oracles.euler_lagrange import acceleration
 from tests.problems import READY
 from tests.support import advected
+from tests.support.lagrangians import lagrangian_of
 from tests.support.library import emission, module, module_of
 from tests.support.walks import problem, record_that_holds
 
