@@ -99,12 +99,13 @@ def test_masses_have_the_signs_of_the_problem(kind):
         assert "may be negative" in judged(d, wrong)
 
 
-@pytest.mark.parametrize("kind", sorted(x for x in CONDITIONS if made()[x][2].values))
-def test_another_value_is_refused(kind):
-    d, step, claim = made()[kind]
-    ((name, value),) = claim.values
-    other = value + 1 if isinstance(value, int) else {"J": "J_c", "J_c": "J"}[value]
-    assert judged(d, said_as(step, claim, replace(claim, values=((name, other),))))
+def test_another_value_is_refused():
+    tried = [x for x in made().values() if x[2].values]
+    assert len(tried) > 9
+    for d, step, claim in tried:
+        ((name, value),) = claim.values
+        other = value + 1 if isinstance(value, int) else {"J": "J_c", "J_c": "J"}[value]
+        assert judged(d, said_as(step, claim, replace(claim, values=((name, other),)))), claim
 
 
 def put(t, old, new):
