@@ -22,13 +22,12 @@ from derive.pipeline import discrete
 from derive.problem.toml import problem_of
 from tests.oracles.rooted_trees import Weights, trees
 from tests.problems import thrown
-from tests.support.corpus import driven
+from tests.support.corpus import DRIVEN_ON, driven
 from tests.support.discrete_maps import DiscreteMap, real
 from tests.support.library import module_of
 from tests.support.needs import need
 
 SLOW = pytest.mark.dist
-DRIVEN_ON = ("SO(3)", "SL(3)", "GL(3)", "SE(3)")
 BODY = {"m": 2, "J_11": 1.3, "J_12": 0.1, "J_13": 0, "J_22": 0.9, "J_23": 0.05, "J_33": 0.4}
 BODY |= {"c_1": 0.1, "c_2": 0.2, "c_3": 0.3, "g_1": 0.5, "g_2": 1, "g_3": -2}
 

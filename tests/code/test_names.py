@@ -36,10 +36,10 @@ SPOKEN = (
     "super trait type unsafe use where Some Ok Err begin end function module local quote isa "
     "elseif nothing undef eltype Vector Float64 arguments debugger eval extends instanceof null "
     "package var Math Float64Array Number RangeError char8_t N_STATE N_CONSTANTS ZERO_INPUTS "
-    "Singular DEFAULTS length D STATE rhs energy constants jacobian project defect out "
+    "Singular DEFAULTS length STATE rhs energy constants jacobian project defect out "
     "conserved CONSERVED N_CONSERVED Conserved"
 )
-RESERVED = [x for x in SPOKEN.split() if x not in ("D",)]
+RESERVED = SPOKEN.split()
 """Of any language, and what templates need: these stand in each problem."""
 PLACES = ([1, 0], ["1/3", 1], [-1, "1/4"])
 

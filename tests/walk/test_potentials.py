@@ -1,5 +1,5 @@
 """Torsion, fields of charges, far centres, energies of the volume and dampings with a name beside
-Gauss's principle; what is known of each; and where they are refused."""
+Gauss's principle; what is known of some, and what is kept."""
 
 from copy import deepcopy
 from itertools import pairwise
@@ -163,7 +163,7 @@ def test_the_energy_is_kept_where_the_field_does_not_change():
     assert "b.conserved" not in in_field(derive.Field([0, 0, "cos(t)"], [1, 2, 3]))
 
 
-# -- what is refused ------------------------------------------------------------------------------
+# -- dampings with a name, moments alone --------------------------------------------------------
 
 
 MASS, INERTIA, FACTOR = 3.0, np.array([0.3, 0.4, 0.6]), 0.17

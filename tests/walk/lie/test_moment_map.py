@@ -1,5 +1,5 @@
-"""The momentum that g carries to the other side, and the energy, along motions in floats; the form
-of Kirillov, Kostant and Souriau on a level of it."""
+"""The momentum that g carries to the other side, and the energy: where they are said to be kept;
+the form of Kirillov, Kostant and Souriau on a level of it."""
 
 import numpy as np
 import pytest
