@@ -311,9 +311,9 @@ def _fields(
     return fields
 
 
-def _lists(p: Program) -> dict[str, Sequence[Any]]:
+def _lists(p: Program) -> dict[str, Any]:
     """The names of parameters, and the lists of names of a file, those of state, parameters and
-    inputs also where they are empty."""
+    inputs also where they are empty; what they are called in C and C++."""
     own, events = [x[0] for x in p.parameters], [x.name for x in p.events]
     further = {"CONSERVED": p.conserved, "OUTPUTS": p.outputs, "EVENTS": events}
     lists = [
@@ -323,7 +323,18 @@ def _lists(p: Program) -> dict[str, Sequence[Any]]:
         ("INPUTS", p.inputs),
         *((x, names) for x, names in further.items() if names),
     ]
-    return {"parameter_names": own, "lists": lists}
+    return {"parameter_names": own, "lists": lists, "names_of": NAMES_OF}
+
+
+NAMES_OF = {
+    "STATE": "state_names",
+    "STATE_BY_BLOCK": "state_names_by_block",
+    "PARAMETERS": "parameter_names",
+    "INPUTS": "input_names",
+    "CONSERVED": "conserved_names",
+    "OUTPUTS": "output_names",
+    "EVENTS": "event_names",
+}
 
 
 NEWTON_STEPS, SMALL_CHANGE = 60, {"double": 1e-10, "float": 1e-4}

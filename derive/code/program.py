@@ -31,6 +31,13 @@ class LoweringError(Refused, ValueError):
     """The record does not say how to compute something: the message names it."""
 
 
+def refuse_first(name: str, *reasons: tuple[object, str]) -> None:
+    """``LoweringError`` for the first option that a problem of this name has a reason to refuse."""
+    for on, why in reasons:
+        if on:
+            raise LoweringError(f"{name}: {why}: leave it out")
+
+
 OPERATIONS = ("mul", "add", "div", "call")
 
 Expression = Tree

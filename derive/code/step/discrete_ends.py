@@ -156,13 +156,11 @@ class Ends:
 
     def entries(self, linear: Matrix, shift: Matrix) -> list[Node]:
         """What the state has of a change of g."""
-        whole = q.bordered(linear, shift, self.graph.num(0)) if self.group.affine else linear
-        return self.space.entries(whole)
+        return self.space.entries(self.space.homogeneous(linear, shift))
 
     def coordinates(self, linear: Matrix, shift: Matrix) -> list[Node]:
         """The coordinates of a Z of these parts, in the stated basis."""
-        whole = q.bordered(linear, shift, self.graph.num(0)) if self.group.affine else linear
-        return self.space.read(whole)
+        return self.space.read(self.space.homogeneous(linear, shift))
 
 
 class Centre:
