@@ -235,13 +235,18 @@ def _rendered(
 ) -> dict[str, str]:
     """File name → text, of one language; ``places``: file name → template."""
     templates, fields = environment(language.name), _fields(p, d, asked, language)
-    templates.globals |= {"lines": lines, "sections": sections}
+    templates.globals |= {"lines": lines, "sections": sections, "prefixed": prefixed}
     return {file: templates.get_template(x).render(fields) for file, x in places.items()}
+
+
+def prefixed(before: str, found: Iterable[str], after: str = "") -> str:
+    """Lines one below the other, each with what stands before and after it."""
+    return "".join(f"{before}{x}{after}".rstrip() + "\n" for x in found)
 
 
 def lines(found: Iterable[str]) -> str:
     """Statements and comments of a function, one below the other."""
-    return "".join(f"    {x}\n" for x in found)
+    return prefixed("    ", found)
 
 
 def sections(f: Mapping[str, Any]) -> str:

@@ -95,10 +95,12 @@ class LaneStatements(Statements):
         own = [(v.name, self.in_lanes(v.expression)) for v in b.section.values]
         outputs = [(i, self.in_lanes(self._lane(f.outputs[i]))) for i in b.outputs]
         return {
-            "comment": self._comment(b.section.label),
-            "loads": [self._loaded(x) for x in b.loads],
-            "statements": [self._statement(name, e) for name, e in own],
-            "output_loads": [self._loaded(x) for x in b.output_loads],
+            "lines": [
+                *map(self._loaded, b.loads),
+                *(self._comment(b.section.label) if own else ()),
+                *(self._statement(name, e) for name, e in own),
+                *map(self._loaded, b.output_loads),
+            ],
             "outputs": [(i, self._wrapped(self.printer(e), 80)) for i, e in outputs],
         }
 
