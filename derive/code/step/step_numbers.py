@@ -170,6 +170,7 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         "held": "discrete" in options.step or "vern9" in options.step,
         "memory": memory(p, options, told["rows"] if told else 0),
         "names": options.step,
+        "statuses": [x for x in STATUSES if x[0] != "NO_SOLUTION" or p.discrete],
         "varied": varied(options),
         "least": LEAST,
         "watch": WATCH[options.real] if p.events else None,
@@ -179,6 +180,14 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         "kinks": p.kinks.get("rates", ()),
     }
 
+
+STATUSES = (
+    ("OK", 0, "The steps were made."),
+    ("NOT_FINITE", 2, "The rates, or what a step leads to, have no finite value."),
+    ("NOT_CONVERGED", 3, "No step is short enough: a collision, or a motion without bound."),
+    ("NO_SOLUTION", 5, "There is no discrete step of this size."),
+)
+"""What steps return besides that they stand at an event: names, numbers, and what they say."""
 
 BENDS = (
     "A force has a root, as in |v|: where that is 0 its derivatives may jump, which the estimate "
