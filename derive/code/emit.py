@@ -9,6 +9,7 @@ import io
 import json
 import math
 import re
+import textwrap
 import zipfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -236,6 +237,7 @@ def _rendered(
     """File name → text, of one language; ``places``: file name → template."""
     templates, fields = environment(language.name), _fields(p, d, asked, language)
     templates.globals |= {"lines": lines, "sections": sections, "prefixed": prefixed}
+    templates.globals["quoted"] = quoted
     return {file: templates.get_template(x).render(fields) for file, x in places.items()}
 
 
@@ -247,6 +249,13 @@ def prefixed(before: str, found: Iterable[str], after: str = "") -> str:
 def lines(found: Iterable[str]) -> str:
     """Statements and comments of a function, one below the other."""
     return prefixed("    ", found)
+
+
+def quoted(names: Iterable[str], width: int) -> str:
+    """Names between quotation marks on lines of their own; nothing where there are none."""
+    listed = " ".join(f'"{x}",' for x in names)
+    rows = textwrap.wrap(listed, width, break_long_words=False)
+    return "\n" + lines(rows) if rows else ""
 
 
 def sections(f: Mapping[str, Any]) -> str:
