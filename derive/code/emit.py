@@ -14,6 +14,7 @@ import zipfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 from typing import Any
 
 from .. import __version__
@@ -32,7 +33,7 @@ from .options import Options
 from .printed_integrals import integrals
 from .program import TOLERANCE, Program
 from .requests import EmissionRequest, hollowed, identifiers, without_collisions
-from .signatures import ARRAYS, functions
+from .signatures import SIZES, functions
 from .step.algorithms import ALGORITHMS
 from .step.step_numbers import IN_FLOAT, VARIED, steps
 from .step.tableaux import METHODS
@@ -270,12 +271,11 @@ def _fields(
     prefix, real = asked.prefix, asked.options.real
     explicit_alone = {*asked.options.step} <= {*METHODS}  # what devices have
     printer = language.printer(real)
-    sizes = {"x": len(p.state), "k": len(p.constants), "u": len(p.inputs), "dzeta": p.dimension}
-    sizes |= {"p": len(p.parameters), "y": len(p.momenta), "z": len(p.matrix_state)}
+    own = p.sizes
+    sizes = {a: prod(own[x] for x in of) for a, of in SIZES.items() if {*of} <= {*own}}
     if p.framing:
         sizes["axes"] = sum(n + n * n for n, _ in p.framing.matrices)
         sizes["frame"] = len(p.framing.numbers.outputs)
-    sizes |= {x: p.discrete.sizes[y] for x, y in ARRAYS.items() if p.discrete}
     written = Statements(language, real, sizes, prefix)
     called = {x for f in p.all_functions() for x in f.calls()}
     parameters = [_parameter(x) for x in p.parameters]

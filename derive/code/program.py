@@ -292,6 +292,24 @@ class Program:
         return {"VARIATIONS": self.varied, "MOVES": self.varied + self.symmetries}
 
     @property
+    def sizes(self) -> dict[str, int]:
+        """How many numbers arrays have, by the names of their sizes."""
+        return {
+            "STATE": len(self.state),
+            "CONSTANTS": len(self.constants),
+            "PARAMETERS": len(self.parameters),
+            "INPUTS": len(self.inputs),
+            "CONSERVED": len(self.conserved),
+            "EVENTS": len(self.events),
+            "OUTPUTS": len(self.outputs),
+            "ALGEBRA": self.dimension,
+            "REDUCED": self.reduced,
+            "MATRIX": len(self.matrix_state),
+            **(self.discrete.sizes if self.discrete else {}),
+            **self.literal,
+        }
+
+    @property
     def by_block(self) -> dict[str, str]:
         """Names by blocks → those of the state that are others."""
         pairs = zip(self.state_by_block, self.state, strict=False)
