@@ -337,18 +337,11 @@ def _lists(p: Program) -> dict[str, Any]:
         ("INPUTS", p.inputs),
         *((x, names) for x, names in further.items() if names),
     ]
-    return {"parameter_names": own, "lists": lists, "names_of": NAMES_OF}
-
-
-NAMES_OF = {
-    "STATE": "state_names",
-    "STATE_BY_BLOCK": "state_names_by_block",
-    "PARAMETERS": "parameter_names",
-    "INPUTS": "input_names",
-    "CONSERVED": "conserved_names",
-    "OUTPUTS": "output_names",
-    "EVENTS": "event_names",
-}
+    called = {}
+    for x, _ in lists:  # as parameter_names, state_names_by_block
+        what, by, which = x.lower().partition("_")
+        called[x] = f"{what.removesuffix('s')}_names{by}{which}"
+    return {"parameter_names": own, "lists": lists, "names_of": called}
 
 
 NEWTON_STEPS, SMALL_CHANGE = 60, {"double": 1e-10, "float": 1e-4}
