@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import gcd, isqrt
+from math import gcd
 from typing import Any
 
 from ..language import rational as q
@@ -240,8 +240,7 @@ def _turn(e: Matrix) -> Fraction | None:
         return Fraction(0)
     i, j = next((i, j) for i, row in enumerate(square) for j, x in enumerate(row) if x)
     ratio = -fourth[i][j] / square[i][j]
-    w = Fraction(isqrt(max(ratio.numerator, 0)), isqrt(ratio.denominator))
-    return w if w and w * w == ratio and fourth == q.scaled(-ratio, square) else None
+    return q.root(ratio) or None if fourth == q.scaled(-ratio, square) else None
 
 
 def chart_names(group: Group) -> Iterable[str]:

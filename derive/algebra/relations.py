@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import combinations_with_replacement
-from math import isqrt
 
 from ..language import rational as q
 from ..language.rational import Matrix
@@ -237,8 +236,8 @@ def _complex_structure(linear: Sequence[Matrix], hull: Sequence[Vector], n: int)
     size = -square[0][0]
     if size <= 0 or square != q.scaled(-size, q.identity(n)):
         return ()
-    root = Fraction(isqrt(size.numerator), isqrt(size.denominator))
-    return q.scaled(1 / root, moving[0]) if root * root == size else ()
+    root = q.root(size)
+    return q.scaled(1 / root, moving[0]) if root else ()
 
 
 def _complex_basis(K: Matrix) -> Matrix:

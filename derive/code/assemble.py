@@ -240,11 +240,8 @@ def _functions(
     """The program's functions by name, the names of the entries of ``k``, and the functions that
     find the principal frame where there is one."""
     names = ClaimedNames()
-    space, inputs = lowering.reader.space, lowering.reader.inputs
-    state = space.names
-    for kind, members in (("state", state), ("input", inputs)):
-        for name in members:
-            names.claim(name, f"{kind} {name}")
+    space = lowering.reader.space
+    moving = _places(lowering.reader, names)
     texts = _equations(lowering.record) | TEXTS | LABELS
     scheduler = Scheduler(names, texts | (_equations(stepped.record) if stepped else {}))
     fixed = frontier(x for name in wanted if name != "inertia" for x in wanted[name])
@@ -255,7 +252,6 @@ def _functions(
     numbers = leaf_places(names, framed, "frame")
     functions = {"constants": scheduler.function(fixed, from_p | numbers, checks)}
     constants = [_constant_name(names, x, i) for i, x in enumerate(fixed)]
-    moving = _places(lowering.reader, names, state, inputs)
     kept = {x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))}
     by_momenta = momenta.places(moving, names) if momenta else {}
     of_step = {**moving}
@@ -332,18 +328,16 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
             # after the rates, with which it shares much
             found["jacobian"] = factored(graph, [*rates, *by_state(space, second)])
         if "inputs" in options.jacobian:
-            leaves = [reader.leaf(x, "input") for x in reader.inputs]
-            found["jacobian_inputs"] = factored(graph, by_leaves(space, second, leaves))
+            inputs = by_leaves(space, second, reader.input_leaves)
+            found["jacobian_inputs"] = factored(graph, inputs)
         if {"raw", "step"} & {*options.jacobian}:
             found["jacobian_raw"] = _raw(lowering, rates)
         if "step" in options.jacobian:
-            leaves = [reader.leaf(x, "input") for x in reader.inputs]
-            if leaves:
-                slopes = by_numbers(graph, rates, leaves)
+            if reader.inputs:
+                slopes = by_numbers(graph, rates, reader.input_leaves)
                 found["jacobian_raw_inputs"] = factored(graph, slopes)
-            numbers = [reader.leaf(x, "state") for x in space.names]
             moves = [*variations(space), *symmetries(space)]
-            found["variations"] = [v.of(x) for x in numbers for v in moves]
+            found["variations"] = [v.of(x) for x in reader.state_leaves for v in moves]
     except ZeroDivisionError:
         raise LoweringError(
             f"{lowering.record.name}: a division by zero, or a mass matrix that is singular "
@@ -370,7 +364,7 @@ def _lost(reader: RecordReader) -> list[Node]:
 
 def _raw(lowering: Lowering, rates: list[Node]) -> list[Node]:
     """The derivative of the rates by the numbers of the state; ``LoweringError`` for too many."""
-    leaves = [lowering.reader.leaf(x, "state") for x in lowering.reader.space.names]
+    leaves = lowering.reader.state_leaves
     if len(leaves) ** 2 > SLOPES:
         raise LoweringError(
             f"{lowering.record.name}: --jacobian raw is a matrix of {len(leaves) ** 2} entries; "
@@ -379,13 +373,10 @@ def _raw(lowering: Lowering, rates: list[Node]) -> list[Node]:
     return factored(lowering.graph, by_numbers(lowering.graph, rates, leaves))
 
 
-def _places(
-    reader: RecordReader, names: ClaimedNames, state: list[str], inputs: list[str]
-) -> dict[Node, Place]:
+def _places(reader: RecordReader, names: ClaimedNames) -> dict[Node, Place]:
     """The leaves that change with time and where they are read: state x, inputs u, time t."""
-    found: dict[Node, Place] = {}
-    for array, kind, members in (("x", "state", state), ("u", "input", inputs)):
-        found |= leaf_places(names, [reader.leaf(x, kind) for x in members], array)
+    found = leaf_places(names, reader.state_leaves, "x")
+    found |= leaf_places(names, reader.input_leaves, "u")
     return found | {reader.leaf("t", "time"): ("t", ("t", 0))}
 
 

@@ -67,11 +67,6 @@ def chain(g: Graph, factors: Sequence[Matrix], named: Namer) -> Matrix:
     return build(0, len(factors) - 1)
 
 
-def entries_of(m: Matrix) -> list[Node]:
-    """The entries of a matrix, or a column, by rows."""
-    return [*q.flatten(m)]
-
-
 def dot(a: Matrix, b: Matrix) -> Node:
     """The inner product of matrices of one shape, Σ a_ij b_ij."""
     found: Node = q.dot(q.flatten(a), q.flatten(b))

@@ -9,10 +9,12 @@ import io
 import json
 import math
 import re
+import textwrap
 import zipfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 from typing import Any
 
 from .. import __version__
@@ -31,7 +33,7 @@ from .options import Options
 from .printed_integrals import integrals
 from .program import TOLERANCE, Program
 from .requests import EmissionRequest, hollowed, identifiers, without_collisions
-from .signatures import ARRAYS, functions
+from .signatures import SIZES, functions
 from .step.algorithms import ALGORITHMS
 from .step.step_numbers import IN_FLOAT, VARIED, steps
 from .step.tableaux import METHODS
@@ -235,13 +237,26 @@ def _rendered(
 ) -> dict[str, str]:
     """File name → text, of one language; ``places``: file name → template."""
     templates, fields = environment(language.name), _fields(p, d, asked, language)
-    templates.globals |= {"lines": lines, "sections": sections}
+    templates.globals |= {"lines": lines, "sections": sections, "prefixed": prefixed}
+    templates.globals["quoted"] = quoted
     return {file: templates.get_template(x).render(fields) for file, x in places.items()}
+
+
+def prefixed(before: str, found: Iterable[str], after: str = "") -> str:
+    """Lines one below the other, each with what stands before and after it."""
+    return "".join(f"{before}{x}{after}".rstrip() + "\n" for x in found)
 
 
 def lines(found: Iterable[str]) -> str:
     """Statements and comments of a function, one below the other."""
-    return "".join(f"    {x}\n" for x in found)
+    return prefixed("    ", found)
+
+
+def quoted(names: Iterable[str], width: int) -> str:
+    """Names between quotation marks on lines of their own; nothing where there are none."""
+    listed = " ".join(f'"{x}",' for x in names)
+    rows = textwrap.wrap(listed, width, break_long_words=False)
+    return "\n" + lines(rows) if rows else ""
 
 
 def sections(f: Mapping[str, Any]) -> str:
@@ -256,12 +271,11 @@ def _fields(
     prefix, real = asked.prefix, asked.options.real
     explicit_alone = {*asked.options.step} <= {*METHODS}  # what devices have
     printer = language.printer(real)
-    sizes = {"x": len(p.state), "k": len(p.constants), "u": len(p.inputs), "dzeta": p.dimension}
-    sizes |= {"p": len(p.parameters), "y": len(p.momenta), "z": len(p.matrix_state)}
+    own = p.sizes
+    sizes = {a: prod(own[x] for x in of) for a, of in SIZES.items() if {*of} <= {*own}}
     if p.framing:
         sizes["axes"] = sum(n + n * n for n, _ in p.framing.matrices)
         sizes["frame"] = len(p.framing.numbers.outputs)
-    sizes |= {x: p.discrete.sizes[y] for x, y in ARRAYS.items() if p.discrete}
     written = Statements(language, real, sizes, prefix)
     called = {x for f in p.all_functions() for x in f.calls()}
     parameters = [_parameter(x) for x in p.parameters]
@@ -311,9 +325,9 @@ def _fields(
     return fields
 
 
-def _lists(p: Program) -> dict[str, Sequence[Any]]:
+def _lists(p: Program) -> dict[str, Any]:
     """The names of parameters, and the lists of names of a file, those of state, parameters and
-    inputs also where they are empty."""
+    inputs also where they are empty; what they are called in C and C++."""
     own, events = [x[0] for x in p.parameters], [x.name for x in p.events]
     further = {"CONSERVED": p.conserved, "OUTPUTS": p.outputs, "EVENTS": events}
     lists = [
@@ -323,7 +337,11 @@ def _lists(p: Program) -> dict[str, Sequence[Any]]:
         ("INPUTS", p.inputs),
         *((x, names) for x, names in further.items() if names),
     ]
-    return {"parameter_names": own, "lists": lists}
+    called = {}
+    for x, _ in lists:  # as parameter_names, state_names_by_block
+        what, by, which = x.lower().partition("_")
+        called[x] = f"{what.removesuffix('s')}_names{by}{which}"
+    return {"parameter_names": own, "lists": lists, "names_of": called}
 
 
 NEWTON_STEPS, SMALL_CHANGE = 60, {"double": 1e-10, "float": 1e-4}

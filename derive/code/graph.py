@@ -6,10 +6,11 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd, isqrt
+from math import gcd, lcm
 from typing import Any
 
 from ..language.limits import OPERANDS
+from ..language.rational import root
 from .program import LoweringError
 
 PARAMETER, STATE = 0, 1
@@ -153,9 +154,8 @@ class Graph:
         if x.op == "value":
             return self._root(x.args[0])
         if x.op == "num":
-            parts = [isqrt(max(n, 0)) for n in x.data.as_integer_ratio()]
-            found = Fraction(*parts)
-            return self.num(found) if found * found == x.data else None
+            found = root(x.data)
+            return None if found is None else self.num(found)
         if x.op == "add" and len(x.args) == 1:
             halves = [self._root(self.num(x.data[0])), self._root(x.args[0])]
         elif x.op == "mul":
@@ -293,11 +293,9 @@ def _content(coefficients: list[Fraction]) -> Fraction:
     """The rational factor common to the coefficients of a sum, negative where all of them are."""
     if all(c == 1 for c in coefficients):  # as most are
         return Fraction(1)
-    numerator = gcd(*(c.numerator for c in coefficients))
-    denominator = 1
-    for c in coefficients:
-        denominator = denominator * c.denominator // gcd(denominator, c.denominator)
-    common = Fraction(numerator, denominator)
+    common = Fraction(
+        gcd(*(c.numerator for c in coefficients)), lcm(*(c.denominator for c in coefficients))
+    )
     if len({abs(c) for c in coefficients}) > 1:
         common = Fraction(1)  # ½a + b stays as it is
     negative = all(c < 0 for c in coefficients)

@@ -24,7 +24,7 @@ from ..record.record import Derivation
 from ..routines import printer_of, text_of
 from .conventions import basis_lines, listed
 from .options import Options
-from .program import LoweringError, Program
+from .program import Program, refuse_first
 from .slots import OfElement, StateSlot
 from .state import StateSpace
 
@@ -169,16 +169,14 @@ def refuse(d: Derivation, group: Group, chosen: Options) -> None:
     """``LoweringError`` for a state for which these functions are not written."""
     charts = factor_charts(group.in_user_basis, chosen.attitude).values()
     reduced = "advected" in d.problem or bool(d.problem.get("lagrangian", {}).get("held"))
-    for on, what in (
-        (
-            any(x.kind != QUATERNION for x in charts),
-            f"written for matrices and quaternions, not with --attitude {chosen.attitude}",
-        ),
-        (chosen.velocity == "tangent", "not written with --velocity tangent"),
-        (reduced, "not written for a state without all of g and Z"),
-    ):
-        if on:
-            raise LoweringError(f"{d.name}: --exponential is {what}: leave it out")
+    others = any(x.kind != QUATERNION for x in charts)
+    matrices = f"written for matrices and quaternions, not with --attitude {chosen.attitude}"
+    refuse_first(
+        d.name,
+        (others, f"--exponential is {matrices}"),
+        (chosen.velocity == "tangent", "--exponential is not written with --velocity tangent"),
+        (reduced, "--exponential is not written for a state without all of g and Z"),
+    )
 
 
 def _factors(group: Group) -> list[Factor]:

@@ -12,7 +12,7 @@ from ..algebra.groups import Group
 from ..language.show import show
 from ..language.tree import Tree, add, mul, neg, nodes, replaced, sized
 from ..record.as_json import decode
-from .naming import LONGEST_LAW, plain_text, typed
+from .naming import LONGEST_LAW, plain_text, row_of_block, typed
 
 OF_RATES = ("acceleration", "specific_force", "power")
 """The outputs in which all is that acts."""
@@ -68,7 +68,7 @@ def _in_wind(trees: list[Tree], wind: Sequence[Tree], group: Group) -> list[Tree
     """With v − c, what the file calls v where air moves by c, as v, and each such c."""
     met: list[Tree] = []
     for v in dict.fromkeys(x for t in trees for x in _velocities(t)):
-        c = wind[_row(group, v[2]) - 1] if wind else 0
+        c = wind[row_of_block(group, v[2]) - 1] if wind else 0
         if c != 0 and any((less := add(v, neg(c))) in nodes(t) for t in trees):
             trees = [replaced(t, less, v) for t in trees]
             met.append(c)
@@ -86,7 +86,7 @@ def _loci(where: str, t: Tree, problem: Mapping[str, Any], group: Group) -> Iter
     whole = _by_axes(t, group)
     if where.startswith("potential"):  # which know the places of all points
         for x in [x for x in nodes(whole) if isinstance(x, tuple) and x[0] == "entry"]:
-            whole = replaced(whole, x, ("par", f"r{x[1][1][2]}_{_row(group, x[2])}"))
+            whole = replaced(whole, x, ("par", f"r{x[1][1][2]}_{row_of_block(group, x[2])}"))
     if isinstance(whole, tuple):
         for conditions, what in _roots(whole):
             if (at := _that_may_hold(conditions)) is None:
@@ -97,11 +97,6 @@ def _loci(where: str, t: Tree, problem: Mapping[str, Any], group: Group) -> Iter
             )
             short = told.isascii() and len(told) <= LONGEST_LAW
             yield f"in {where} {told} ({what})" if short else f"in {where} a root of 0 ({what})"
-
-
-def _row(group: Group, row: int) -> int:
-    """A row of its block, from 1, for one of all of the space of a product."""
-    return row - max(first for first, _ in group.places if first < row)
 
 
 def _by_axes(t: Tree, group: Group) -> Tree:

@@ -11,6 +11,7 @@ from typing import Any
 
 from .ellipsoid import BUNDLES, is_item
 from .program import (
+    TOLERANCE,
     Check,
     EmittedFunction,
     Expression,
@@ -343,11 +344,17 @@ class Statements:
         return textwrap.fill(listed, TEXT - 8, subsequent_indent=" " * 8)
 
     def _block(self, block: SectionValues) -> dict[str, Any]:
-        loads = {"loads": block.loads, "output_loads": block.output_loads}
+        """The lines of a block, of one state and of a batch, and its outputs."""
+        told = self._section(block.section)
+        values = [*told["comment"], *told["statements"]] if told["statements"] else []
+
+        def among(pattern: str) -> list[str]:
+            first, last = (self._loads(x, pattern) for x in (block.loads, block.output_loads))
+            return [*first, *values, *last]
+
         return {
-            **{name: self._loads(xs, self.language.load) for name, xs in loads.items()},
-            **{f"batch_{name}": self._loads(xs, self.language.batch) for name, xs in loads.items()},
-            **self._section(block.section),
+            "lines": among(self.language.load),
+            "batch_lines": among(self.language.batch),
             "outputs": block.outputs,
         }
 
@@ -387,12 +394,15 @@ class Statements:
         return self._declared(name, text)
 
     def _check(self, c: Check) -> dict[str, str]:
-        printer = self.printer
+        """Value and scale, and by how much that is to be more than a part of this."""
+        printer, tolerance = self.printer, Fraction(TOLERANCE[self.real])
         scale = printer(c.scale) if c.scale is not None else ""
         value = printer(c.value)
         value = f"({value})" if " " in value else value
         scale = self._wrapped(scale, TEXT - 44 - len(value))
-        return {"value": value, "scale": f"({scale})" if "+" in scale else scale}
+        scale = f"({scale})" if "+" in scale else scale
+        margin = f"{value} - {printer.number(tolerance)}*{scale}" if scale else value
+        return {"value": value, "scale": scale, "margin": margin}
 
 
 def comment(text: str) -> str:

@@ -16,7 +16,7 @@ from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import Tree, mul
-from ..language.values import hat, wedge
+from ..language.values import OPERATIONS, wedge
 from ..record.record import Derivation, step_of
 from . import dense
 from .ellipsoid import PLACES, SLACK, UNSEEN, half_angle, integral, tension
@@ -136,8 +136,6 @@ class Lowering:
             )
         if op == "pow":
             return self._power(t, a[0])
-        if op == "T":
-            return a[0] if isinstance(a[0], Node) else q.transposed(a[0])
         if op == "div":
             return g.product((a[0], g.recip(a[1])))
         if op == "one":
@@ -145,8 +143,8 @@ class Lowering:
         if op == "inner":
             plain = any(isinstance(x, Node) for x in a)
             return g.product(map(scalar, a)) if plain else dense.dot(a[0], a[1])
-        if op in ("wedge", "hat"):
-            found: Matrix = wedge(*a) if op == "wedge" else hat(*a)
+        if op in ("T", "wedge", "hat", "matrix", "row"):
+            found: Value = OPERATIONS[op](*a)
             return found
         if op == "tr":
             return dense.diagonal(g, a[0])
@@ -155,10 +153,6 @@ class Lowering:
             return found_det
         if op == "bracket":
             return q.minus(q.times(*a), q.times(*reversed(a)))
-        if op == "matrix":
-            return tuple(tuple(row) for row in a)
-        if op == "row":
-            return tuple(a)
         raise LoweringError(f"no code for the operator {op!r}")
 
     def _power(self, t: tuple[Any, ...], base: Value) -> Value:

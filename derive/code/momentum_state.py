@@ -14,12 +14,11 @@ from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
 from ..record.record import Derivation, Equation
 from . import dense
-from .dense import entries_of
 from .graph import Node
 from .lower import Lowering
 from .naming import ClaimedNames, ascii_name, name_of
 from .options import Options
-from .program import LoweringError
+from .program import refuse_first
 from .reader import RecordReader, bound, matrix, scalar
 
 OF_Y = ("velocity", "velocity_step", "momentum_rhs", "momentum_rates", "poisson")
@@ -72,23 +71,16 @@ def sentences(d: Derivation, state: MomentumState) -> list[str]:
 
 def refuse(d: Derivation, group: Group, chosen: Options) -> None:
     """``LoweringError`` where there are no momenta of a Lagrangian's own to tell the motion by."""
-    own = d.problem.get("lagrangian", {})
-    for on, reason in (
+    own, another = d.problem.get("lagrangian", {}), group.in_user_basis is not group
+    reasons = (
         (own.get("held"), "is for motions on the whole group, and these are on a quotient"),
         (d.problem.get("flows"), "is for masses that stay, and here mass flows"),
         (chosen.velocity == "tangent", "has Pi in the state, and --velocity tangent has dg/dt"),
         (chosen.frame != "given", "is for the body as given, and --frame turns it"),
-        (
-            group.in_user_basis is not group,
-            "is for the standard basis of the group, and this has another",
-        ),
-        (
-            not group.linear_basis,
-            "is for groups that do more than translate, unlike this one",
-        ),
-    ):
-        if on:
-            raise LoweringError(f"{d.name}: --momenta {reason}: leave it out")
+        (another, "is for the standard basis of the group, and this has another"),
+        (not group.linear_basis, "is for groups that do more than translate, unlike this one"),
+    )
+    refuse_first(d.name, *((on, f"--momenta {why}") for on, why in reasons))
 
 
 def momentum_state(lowering: Lowering, group: Group, options: Options) -> MomentumState:
@@ -99,7 +91,7 @@ def momentum_state(lowering: Lowering, group: Group, options: Options) -> Moment
     coordinates = reader.space.coordinates
     span = range(1, len(coordinates) + 1)
     own = [reader.leaf(suffixed("Pi", a)) for a in span]
-    leaves = [reader.leaf(x) for x in reader.space.names]
+    leaves = reader.state_leaves
     at = {leaves.index(x): p for x, p in zip(coordinates, own, strict=True)}
     y = [at.get(i, x) for i, x in enumerate(leaves)]
     momenta = [reader.number_of(("at", "Π", a)) for a in span]
@@ -127,7 +119,7 @@ def momentum_state(lowering: Lowering, group: Group, options: Options) -> Moment
 def _of_points(found: MomentaOfPoints) -> MomentumState:
     """The functions in momenta where points give the Lagrangian."""
     reader, moving = found.lowering.reader, found.after.reader
-    leaves = [reader.leaf(x) for x in reader.space.names]
+    leaves = reader.state_leaves
     at = {leaves.index(x): p for x, p in zip(reader.space.coordinates, found.own, strict=True)}
     y = [at.get(i, x) for i, x in enumerate(leaves)]
     moving.space.values["ζ"] = matrix(moving.state["ζ"])
@@ -205,10 +197,11 @@ class MomentaOfPoints:
     def _read(self, lowering: Lowering, spin: str, family: str, push: str) -> list[Node]:
         """The numbers of a momentum, or of its rate, by the record."""
         if self.spin:
-            found = entries_of(lowering.reader.vector(spin))
+            found = [*q.flatten(lowering.reader.vector(spin))]
         else:
             found = [self._on_basis(lowering, family, a + 1) for a in range(self.turns)]
-        return found + (entries_of(lowering.reader.vector(push)) if self.group.affine else [])
+        pushed = lowering.reader.vector(push) if self.group.affine else ()
+        return [*found, *q.flatten(pushed)]
 
     def _on_basis(self, lowering: Lowering, family: str, a: int) -> Node:
         """Π_a or its rate, by the equation for any a."""
@@ -240,7 +233,7 @@ class MomentaOfPoints:
                 reader.label = key
                 self._set(e.lhs, key, matrix(self.after.tree(e.rhs)))
         names = ("ζ", "w") if self.group.affine else ("ζ",)
-        return [x for name in names for x in entries_of(matrix(state[name]))]
+        return [x for name in names for x in q.flatten(matrix(state[name]))]
 
     def _set(self, name: str, key: str, value: Matrix) -> None:
         """Let a name stand for a value; with Z also its coordinates."""
@@ -248,11 +241,9 @@ class MomentaOfPoints:
         reader.label = key
         reader.state[name] = named = reader.entries(value, called, recorded=True)
         if name == "Z":
-            whole = q.bordered(
-                named, q.column([self.graph.num(0)] * self.group.n), self.graph.num(0)
-            )
-            whole = whole if self.group.affine else named
-            self._set("ζ", key, q.column(self.after.reader.space.read(whole)[: self.turns]))
+            space, none = reader.space, q.column([self.graph.num(0)] * self.group.n)
+            whole = space.homogeneous(named, none)
+            self._set("ζ", key, q.column(space.read(whole)[: self.turns]))
 
     def _covector(self, values: list[Node]) -> Matrix:
         """A matrix that gives these values on the linear parts of the basis."""
@@ -270,7 +261,7 @@ class MomentaOfPoints:
         Pi = q.times(matrix(reader.state["Π"]), q.transposed(seen))
         basis = [dense.numbers(self.graph, e) for e in self.group.basis]
         loads = tuple((dense.dot(Pi, e),) for e in basis)
-        central = entries_of(self.after.inverses.solved("M", loads))
+        central = q.flatten(self.after.inverses.solved("M", loads))
         Z = q.times(reader.space.hat(central), seen)
         return q.column(reader.space.read(Z))
 

@@ -182,7 +182,7 @@ def typed(t: Tree, group: Group | None) -> Tree:
         letter, tuple
     ):  # of a place: r of ("call", ("at", "r", i), "t"), v of ("at", "v", i)
         head = letter[1][1] if letter[0] == "call" else letter[1]
-        return ("par", suffixed(plain_text(head), row - _block(group, row)[1]))
+        return ("par", suffixed(plain_text(head), row_of_block(group, row)))
     if group and letter == "A" and group.factors:
         return ("par", _of_block(group, row, *more))
     if group and letter == "Z" and (found := _coordinate(group, row, *more)):
@@ -195,6 +195,11 @@ def _block(group: Group | None, row: int) -> tuple[int, int, Group | None]:
     """The block, from 1, in which a row is, how many rows are before it, and its factor."""
     places = group.places if group and group.factors else [(0, group)]
     return [(k, x, y) for k, (x, y) in enumerate(places, 1) if x < row][-1]
+
+
+def row_of_block(group: Group | None, row: int) -> int:
+    """A row of its block, from 1, for one of all of the space of a product."""
+    return row - _block(group, row)[1]
 
 
 def _of_block(group: Group, row: int, column: int) -> str:

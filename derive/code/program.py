@@ -31,6 +31,13 @@ class LoweringError(Refused, ValueError):
     """The record does not say how to compute something: the message names it."""
 
 
+def refuse_first(name: str, *reasons: tuple[object, str]) -> None:
+    """``LoweringError`` for the first option that a problem of this name has a reason to refuse."""
+    for on, why in reasons:
+        if on:
+            raise LoweringError(f"{name}: {why}: leave it out")
+
+
 OPERATIONS = ("mul", "add", "div", "call")
 
 Expression = Tree
@@ -283,6 +290,24 @@ class Program:
     def literal(self) -> dict[str, int]:
         """Sizes that files have as numbers: of a variation, and with symmetries beside it."""
         return {"VARIATIONS": self.varied, "MOVES": self.varied + self.symmetries}
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """How many numbers arrays have, by the names of their sizes."""
+        return {
+            "STATE": len(self.state),
+            "CONSTANTS": len(self.constants),
+            "PARAMETERS": len(self.parameters),
+            "INPUTS": len(self.inputs),
+            "CONSERVED": len(self.conserved),
+            "EVENTS": len(self.events),
+            "OUTPUTS": len(self.outputs),
+            "ALGEBRA": self.dimension,
+            "REDUCED": self.reduced,
+            "MATRIX": len(self.matrix_state),
+            **(self.discrete.sizes if self.discrete else {}),
+            **self.literal,
+        }
 
     @property
     def by_block(self) -> dict[str, str]:

@@ -121,10 +121,15 @@ class RecordReader:
         """The leaf of a name: a state variable, an input, a parameter or the time, by ``kind``."""
         return self.graph.leaf(name, kind)
 
-    def column(self, name: str, size: int, kind: str = "state", after: int = 0) -> Matrix:
-        """A column of state variables or inputs, counted from ``after`` + 1."""
-        span = range(after + 1, after + size + 1)
-        return tuple((self.leaf(suffixed(name, i), kind),) for i in span)
+    @property
+    def state_leaves(self) -> list[Node]:
+        """Those of the numbers of the state, in order."""
+        return [self.leaf(x) for x in self.space.names]
+
+    @property
+    def input_leaves(self) -> list[Node]:
+        """Those of the inputs, in order."""
+        return [self.leaf(x, "input") for x in self.inputs]
 
     # -- names -------------------------------------------------------------------------------
 

@@ -27,6 +27,7 @@ from .program import (
     LoweringError,
     Program,
     Section,
+    refuse_first,
 )
 from .step import discrete_step
 
@@ -98,17 +99,14 @@ def require_options(d: Derivation, chosen: Options, where: str, *written: str) -
     """``LoweringError`` for an option that is not written where a state is no motion of a body, in
     words; but for those that are ``written``."""
     forms = [x for x in CHOICES if x not in ("real", "form")]
-    for name, on, option in (
-        *((x, y != CHOICES[x][0][0], f"--{x} {y}") for x in forms for y in [getattr(chosen, x)]),
-        ("jacobian", chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
-        ("momenta", chosen.momenta, "--momenta"),
-        ("dynamics", chosen.dynamics, "--dynamics"),
-        ("exponential", chosen.exponential, "--exponential"),
-        ("discrete", "discrete" in chosen.step, "--step discrete"),
-        ("multiplier", chosen.multiplier, "--multiplier"),
-    ):
-        if on and name not in written:
-            raise LoweringError(f"{d.name}: {option} is not written {where}: leave it out")
+    added = ("momenta", "dynamics", "exponential", "multiplier")
+    given = [
+        *((y != CHOICES[x][0][0], f"--{x} {y}") for x in forms for y in [getattr(chosen, x)]),
+        (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
+        ("discrete" in chosen.step, "--step discrete"),
+        *((getattr(chosen, x), f"--{x}") for x in added if x not in written),
+    ]
+    refuse_first(d.name, *((on, f"{option} is not written {where}") for on, option in given))
 
 
 def require_written(d: Derivation, group: Group, chosen: Options) -> None:
@@ -136,10 +134,8 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
             f"{d.name}: --multiplier is for a group with one relation, as SL(n) or SAff(n) that "
             f"keep volumes; {group.name} has none or several: leave it out"
         )
-    if chosen.frame == "principal" and chosen.multiplier:
-        raise LoweringError(
-            f"{d.name}: --multiplier is written in the frame of the parameters: leave out --frame"
-        )
+    if chosen.frame == "principal":
+        _refused_in_frame(d, chosen)
     if chosen.momenta:
         refuse(d, group, chosen)
     if chosen.dynamics:
@@ -150,11 +146,15 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
         discrete_step.refuse(d, group, chosen)
     if chosen.attitude != "matrix":
         _refused_with_charts(d, group, chosen)
-    if chosen.frame == "principal" and chosen.conserved:
+
+
+def _refused_in_frame(d: Derivation, chosen: Options) -> None:
+    """What is written for a body as it is given."""
+    if name := next((x for x in ("multiplier", "conserved") if getattr(chosen, x)), ""):
         raise LoweringError(
-            f"{d.name}: --conserved is written in the frame of the parameters: leave out --frame"
+            f"{d.name}: --{name} is written in the frame of the parameters: leave out --frame"
         )
-    if chosen.frame == "principal" and "parameters" in chosen.jacobian:
+    if "parameters" in chosen.jacobian:
         raise LoweringError(
             f"{d.name}: the principal frame is not smooth in the parameters; "
             "linearise in them without --frame"
@@ -194,6 +194,7 @@ def _refused_forms(d: Derivation, group: Group, chosen: Options) -> None:
     tangent = (chosen.velocity == "tangent", "--velocity tangent")
     attitude = f"--attitude {chosen.attitude}"
     of_element = (chosen.attitude != "matrix", attitude), (chosen.layout == "col", "--layout col")
+    turned = (any(x.kind == QUATERNION for x in charts), attitude)
     forms: tuple[tuple[object, str, tuple[tuple[object, str], ...]], ...] = (
         (
             "advected" in d.problem,
@@ -208,13 +209,11 @@ def _refused_forms(d: Derivation, group: Group, chosen: Options) -> None:
         (
             right,
             "Z = g^-1 dg/dt, and this Lagrangian is trivialised on the right",
-            (tangent, (any(x.kind == QUATERNION for x in charts), attitude)),
+            (tangent, turned),
         ),
     )
     for has_it, why, options in forms:
-        for on, option in options if has_it else ():
-            if on:
-                raise LoweringError(f"{d.name}: {option} is for {why}: leave it out")
+        refuse_first(d.name, *((has_it and on, f"{option} is for {why}") for on, option in options))
 
 
 # Emitted names kept apart from the identifiers that a language's templates use themselves.

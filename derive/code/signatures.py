@@ -164,21 +164,7 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
     that is read, or written; ``rows``: those of D; ``stores``: the array, the index (from 0), the
     text and the title of each number.
     """
-    sizes = {
-        "STATE": len(p.state),
-        "CONSTANTS": len(p.constants),
-        "PARAMETERS": len(p.parameters),
-        "INPUTS": len(p.inputs),
-        "CONSERVED": len(p.conserved),
-        "EVENTS": len(p.events),
-        "OUTPUTS": len(p.outputs),
-        "ALGEBRA": p.dimension,
-        "REDUCED": p.reduced,
-        **(p.discrete.sizes if p.discrete else {}),
-        "MATRIX": len(p.matrix_state),
-        **p.literal,
-        "6": 6,
-    }
+    sizes = p.sizes | {"6": 6}
     bodies = {name: written.function(f) for name, f in p.functions.items()}
     found = {s: bodies.get(s.of or s.name) for s in SIGNATURES}
     own = ("", written.language.name)

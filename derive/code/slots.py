@@ -51,9 +51,9 @@ def order(group: Group, columns: bool, charts: Mapping[int, FactorChart]) -> lis
     return found
 
 
-def layout(group: Group, columns: bool = False) -> list[StateSlot]:
-    """The slots of a group element kept as matrices; ``columns``: column by column."""
-    return [x for x in order(group, columns, {}) if isinstance(x, StateSlot)]
+def layout(group: Group) -> list[StateSlot]:
+    """The slots of a group element kept as matrices."""
+    return [x for x in order(group, False, {}) if isinstance(x, StateSlot)]
 
 
 def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> list[StateSlot]:

@@ -301,7 +301,7 @@ class StateSpace:
     @property
     def element(self) -> Matrix:
         """The group element g as nodes, of the size of the group's matrices."""
-        return self._homogeneous(self.values["A"], self.values.get("T", ()), 1)
+        return self.homogeneous(self.values["A"], self.values.get("T", ()), 1)
 
     @property
     def velocity_names(self) -> tuple[str, str]:
@@ -311,9 +311,9 @@ class StateSpace:
     @property
     def rate(self) -> Matrix:
         """ġ as nodes, of the size of the group's matrices, where the state holds it."""
-        return self._homogeneous(self.values["α"], self.values.get("τ", ()), 0)
+        return self.homogeneous(self.values["α"], self.values.get("τ", ()))
 
-    def _homogeneous(self, linear: Matrix, shift: Matrix, corner: int) -> Matrix:
+    def homogeneous(self, linear: Matrix, shift: Matrix, corner: int = 0) -> Matrix:
         """The matrix [[linear, shift], [0, corner]] of an affine group; ``linear`` of a linear
         one."""
         return q.bordered(linear, shift, self.graph.num(corner)) if self.group.affine else linear

@@ -12,10 +12,11 @@ import math
 from collections import defaultdict
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import reduce
 from typing import Any, NamedTuple
+
+import mpmath
 
 from ..algebra.structure import Place, TorusLattice
 from ..language.tree import Tree, mul
@@ -156,7 +157,8 @@ TABLE = 7
 POWERS = (2, 3, 4)
 CONSERVED = tuple(f"trace_{k}" for k in POWERS)
 """What ``conserved`` gives: Tr Wᵏ/N, in space the mean of the k-th power of the vorticity."""
-PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459")
+DIGITS = 60
+"""To so many cosines and pi are known before they are rounded: the same on every machine."""
 
 
 class Term(NamedTuple):
@@ -325,6 +327,8 @@ def loops(torus: TorusLattice, looped: Collection[str]) -> Loops:
 def _terms(torus: TorusLattice, n: Place) -> tuple[Term, ...]:
     """The terms of dω̂(n)/dt, m and n − m together: their sines are opposite."""
     found = []
+    with mpmath.workdps(DIGITS):
+        pi = Fraction(str(mpmath.pi))
     for m in torus.places:
         other = torus.representative((n[0] - m[0], n[1] - m[1]))
         weight = Fraction(1, _square(m)) - Fraction(1, _square(other)) if any(other) else 0
@@ -332,7 +336,7 @@ def _terms(torus: TorusLattice, n: Place) -> tuple[Term, ...]:
         if m < other and weight and crossed:
             (i, turned), (j, turned_too) = position(torus, m), position(torus, other)
             sine = _cosine(Fraction(crossed, torus.N) - Fraction(1, 4))
-            c = -_rounded(sine * weight * torus.N / (2 * Fraction(PI)))
+            c = -_rounded(sine * weight * torus.N / (2 * pi))
             found.append(Term(i, j, -1 if turned else 1, -1 if turned_too else 1, c))
     return tuple(found)
 
@@ -347,19 +351,10 @@ def _rounded(x: Fraction) -> Fraction:
 
 
 def _cosine(turns: Fraction) -> Fraction:
-    """cos 2π·turns to 60 digits: the same on every machine."""
-    turns = abs(turns) % 1
-    turns = min(turns, 1 - turns)
-    if turns == Fraction(1, 4):
-        return Fraction(0)
-    with localcontext() as context:
-        context.prec = 60
-        x = 2 * PI * turns.numerator / turns.denominator
-        total = term = Decimal(1)
-        for k in range(1, 40):
-            term *= -x * x / ((2 * k - 1) * (2 * k))
-            total += term
-        return Fraction(total)
+    """cos 2π·turns."""
+    with mpmath.workdps(DIGITS):
+        half_turns = mpmath.mpf(2 * turns.numerator) / turns.denominator
+        return Fraction(str(mpmath.cospi(half_turns)))
 
 
 def _looped(torus: TorusLattice) -> dict[str, EmittedFunction]:

@@ -26,7 +26,7 @@ from .factor import factored
 from .graph import Graph, Node, reachable, remade, rewritten
 from .lower import Lowering
 from .options import Options
-from .program import LoweringError, Watched
+from .program import LoweringError, Watched, refuse_first
 from .reader import matrix, scalar
 from .schedule import Directional, by_numbers, of_velocity, variations
 from .state_forms import BACK, IN_SPACE, has_velocity, in_space, state_of
@@ -61,12 +61,10 @@ def outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
     wanted = {"outputs": found}
     if "outputs" in options.jacobian:
         wanted["jacobian_outputs"] = [v.of(x) for x in found for v in variations(reader.space)]
-        leaves = [reader.leaf(x, "input") for x in reader.inputs]
-        if leaves:
-            wanted["jacobian_outputs_inputs"] = by_numbers(graph, found, leaves)
+        if reader.inputs:
+            wanted["jacobian_outputs_inputs"] = by_numbers(graph, found, reader.input_leaves)
         if "raw" in options.jacobian:
-            state = [reader.leaf(x, "state") for x in reader.space.names]
-            wanted["jacobian_outputs_raw"] = by_numbers(graph, found, state)
+            wanted["jacobian_outputs_raw"] = by_numbers(graph, found, reader.state_leaves)
     return {name: factored(graph, nodes) for name, nodes in wanted.items()}
 
 
@@ -304,19 +302,17 @@ def _numbers(lowering: Lowering) -> dict[str, Node]:
         found = [*velocity, *(x for (x,) in space.values["Γ"])]
     return {
         **dict(zip(plain.names, found, strict=True)),
-        **{x: reader.leaf(x) for x in space.names},
-        **{x: reader.leaf(x, "input") for x in reader.inputs},
+        **dict(zip(space.names, reader.state_leaves, strict=True)),
+        **dict(zip(reader.inputs, reader.input_leaves, strict=True)),
         **dict(zip(output_names(lowering.record), output_nodes(lowering), strict=True)),
     }
 
 
 def refuse(d: Derivation) -> None:
     """``LoweringError`` where the velocity is not determined by the momenta."""
-    if d.problem.get("lagrangian", {}).get("held"):
-        raise LoweringError(
-            f"{d.name}: --dynamics is for motions on the whole group, and these are on a quotient: "
-            "leave it out"
-        )
+    held = d.problem.get("lagrangian", {}).get("held")
+    why = "--dynamics is for motions on the whole group, and these are on a quotient"
+    refuse_first(d.name, (held, why))
 
 
 def wanted_rates(lowering: Lowering) -> list[Node]:
@@ -351,7 +347,7 @@ def dynamics(lowering: Lowering) -> dict[str, list[Node]]:
 def _supplied(lowering: Lowering, rows: list[list[Node]], rates: list[Node]) -> list[Node]:
     """M on what the rates without inputs lack; none where an input is divided by."""
     reader, graph = lowering.reader, lowering.graph
-    still = {reader.leaf(x, "input"): graph.num(0) for x in reader.inputs}
+    still = dict.fromkeys(reader.input_leaves, graph.num(0))
     try:
         unforced = rewritten(rates, reachable(rates), remade, still)
     except ZeroDivisionError:

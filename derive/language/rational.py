@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd, isqrt, lcm
 from operator import mul
 from typing import Any
 
@@ -70,6 +70,13 @@ def over_one(x: Sequence[Any]) -> tuple[list[int], int] | None:
     pairs = [a.as_integer_ratio() for a in x]
     over = lcm(*(d for _, d in pairs))
     return [n if d == over else n * (over // d) for n, d in pairs], over
+
+
+def root(x: Fraction | int) -> Fraction | None:
+    """√x, where that is rational."""
+    top, bottom = Fraction(x).as_integer_ratio()
+    found = Fraction(isqrt(max(top, 0)), isqrt(bottom))
+    return found if found * found == x else None
 
 
 def dot(a: Iterable[Any], b: Iterable[Any]) -> Any:

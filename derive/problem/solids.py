@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from itertools import product
-from math import factorial, gcd, isqrt, lcm, prod
+from math import factorial, gcd, lcm, prod
 from typing import Any
 
 from ..language import rational
@@ -138,7 +138,7 @@ def _of_quadric(Q: Rows, density: Tree) -> Moments:
     n, entries = len(Q), [[_terms(x) for x in row] for row in Q]
     span, (inner, outer) = range(n), means(density, n)
     det = _tree(_determinant(entries))
-    root = exact_root(det) if isinstance(det, (int, Fraction)) else None
+    root = rational.root(det) if isinstance(det, (int, Fraction)) else None
     volume = _ball(*(0 for _ in span)) * _one(("div", 1, root or ("fun", "sqrt", det)))
     weighed = outer * volume
 
@@ -193,13 +193,6 @@ def _determinant(m: Sequence[Sequence[Laurent]]) -> Laurent:
     return sum(terms, Laurent({}))
 
 
-def exact_root(x: Fraction | int) -> Fraction | None:
-    """√x of a positive number, where that is rational."""
-    top, bottom = Fraction(x).as_integer_ratio()
-    root = Fraction(isqrt(max(top, 0)), isqrt(bottom))
-    return root if root and root * root == x else None
-
-
 def fault_of_quadric(Q: Rows, values: Mapping[str, float], whose: str = "") -> str:
     """Why ⟨r, Q r⟩ ≤ 1 is no ellipsoid, "" where it may be one: Q is symmetric, and positive
     definite where the ``values`` of parameters, which are ``whose``, tell it."""
@@ -225,8 +218,7 @@ def rotation_about(axis: Row, angle: Tree) -> tuple[Row, ...]:
     if len(axis) != 3 or len(numbers) != 3 or not any(numbers):
         raise SolidError("the axis of a rotation must be three numbers, not all zero")
     square = sum((x * x for x in numbers), Fraction(0))
-    root = Fraction(isqrt(square.numerator), isqrt(square.denominator))
-    length = _one(root if root**2 == square else ("fun", "sqrt", mul(square)))
+    length = _one(rational.root(square) or ("fun", "sqrt", mul(square)))
     n = [length * (x / square) for x in numbers]
     q, rest = coefficient(angle)  # the cosine and sine of k π/2 are numbers
     if q == 0 or (rest == "π" and (2 * q).denominator == 1):

@@ -427,18 +427,17 @@ class Printer(ABC):
         """A line in as many as it takes."""
         for x in line.split("\n"):
             pad = " " * (len(x) - len(x.lstrip()) + 4)
-            while len(x) > WIDTH and (at := _break(x)):
+            while len(x) > WIDTH and (at := self.broken_at(x)):
                 yield x[:at].rstrip()
                 x = pad + x[at:].lstrip()
             yield x
 
-
-def _break(line: str) -> int:
-    """Where a line that is too long goes on in the next one: after a comma or before an operator,
-    if it has such; 0 where it cannot."""
-    indent = len(line) - len(line.lstrip())
-    places = [x.start() for x in BREAKS.finditer(line, indent + 8, WIDTH)]
-    return places[-1] if places else max(line.rfind(" ", indent + 8, WIDTH), 0)
+    def broken_at(self, line: str) -> int:
+        """Where a line that is too long goes on in the next one: after a comma or before an
+        operator, if it has such; 0 where it cannot."""
+        indent = len(line) - len(line.lstrip())
+        places = [x.start() for x in BREAKS.finditer(line, indent + 8, WIDTH)]
+        return places[-1] if places else max(line.rfind(" ", indent + 8, WIDTH), 0)
 
 
 BREAKS = re.compile(r"(?<=,) | (?=[-+*/?:] |&& |\|\| |and |or |if |else )")

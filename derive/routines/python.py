@@ -327,12 +327,15 @@ class Python(Printer):
     def remark(self, text: str) -> str:
         return f"# {text}"
 
-    def wrapped(self, line: str) -> Lines:
-        pad = " " * (len(line) - len(line.lstrip()) + 4)
-        while len(line) > WIDTH and (at := _break_within(line)):
-            yield line[:at].rstrip()
-            line = pad + line[at:].lstrip()
-        yield line
+    def broken_at(self, line: str) -> int:
+        """The last place within brackets where a line may go on in the next one; 0 for none."""
+        depth, found = 0, 0
+        places = {x.start() for x in BREAKS.finditer(line, 0, WIDTH)}
+        for at, letter in enumerate(line[:WIDTH]):
+            depth += (letter in "([{") - (letter in ")]}")
+            if at in places and depth > 0 and line[:at].strip():
+                found = at
+        return found
 
 
 ELEMENTWISE = {"abs", "combination", "summed", "fused", "is_held"}
@@ -342,14 +345,3 @@ ELEMENTWISE = {"abs", "combination", "summed", "fused", "is_held"}
 def _names(x: ast.AST) -> set[str]:
     """The names of an expression or a statement."""
     return {y.id for y in ast.walk(x) if isinstance(y, ast.Name)}
-
-
-def _break_within(line: str) -> int:
-    """The last place within brackets where a line may go on in the next one; 0 for none."""
-    depth, found = 0, 0
-    places = {x.start() for x in BREAKS.finditer(line, 0, WIDTH)}
-    for at, letter in enumerate(line[:WIDTH]):
-        depth += (letter in "([{") - (letter in ")]}")
-        if at in places and depth > 0 and line[:at].strip():
-            found = at
-    return found

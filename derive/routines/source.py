@@ -14,6 +14,7 @@ the file brings.
 from __future__ import annotations
 
 import ast
+import copy
 import io
 import tokenize
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -236,7 +237,7 @@ class _Known(ast.NodeTransformer):
         return ast.copy_location(made, x)
 
     def _expression(self, x: Any) -> Any:
-        return self.visit(_duplicate(x)) if isinstance(x, ast.AST) else x
+        return self.visit(copy.deepcopy(x)) if isinstance(x, ast.AST) else x
 
     def visit_Name(self, x: ast.Name) -> ast.expr:
         """A number that is known; other names stay, as the language says them."""
@@ -298,17 +299,6 @@ class _Known(ast.NodeTransformer):
             case ast.BoolOp(op=ast.Or()):
                 return any(map(self._value, x.values))
         raise ValueError(f"not known when a file is written: {ast.unparse(x)}")
-
-
-def _duplicate(x: ast.AST) -> ast.AST:
-    """A tree of its own, which may be changed."""
-    fields: dict[str, Any] = {}
-    for name, value in ast.iter_fields(x):
-        if isinstance(value, list):
-            fields[name] = [_duplicate(y) if isinstance(y, ast.AST) else y for y in value]
-        else:
-            fields[name] = _duplicate(value) if isinstance(value, ast.AST) else value
-    return ast.copy_location(type(x)(**fields), x)
 
 
 def flat(values: Any) -> list[float]:

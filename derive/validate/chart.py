@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import isqrt
 from random import Random
 from typing import Any
 
@@ -267,9 +266,8 @@ def quaternion(g: Matrix) -> Numbers:
 
     4 s² = 1 + Tr A and 4 s v = the axial vector of A − Ā.
     """
-    square = (1 + g[0][0] + g[1][1] + g[2][2]) / 4
-    scalar = Fraction(isqrt(square.numerator), isqrt(square.denominator))
-    if scalar == 0 or scalar * scalar != square:
+    scalar = q.root((1 + g[0][0] + g[1][1] + g[2][2]) / 4)
+    if not scalar:
         raise ValueError("the quaternion of this rotation is not rational, or is a half turn")
     pairs = ((2, 1), (0, 2), (1, 0))
     return (scalar, *((g[i][j] - g[j][i]) / (4 * scalar) for i, j in pairs))

@@ -30,6 +30,8 @@ class ExpressionReader:
     ``counters``, the names of whole numbers.
     """
 
+    products: Mapping[str, str] = PRODUCTS
+
     def __init__(self, language: str, words: Iterable[Token], prefix: str = ""):
         self.language, self.syntax, self.prefix = language, SYNTAX[language], prefix
         self.tokens, self.at, self.real = [*words], 0, -1
@@ -131,7 +133,7 @@ class ExpressionReader:
         return ("none", left) if with_zero else (op, left, right)
 
     def _sum(self) -> Expression:
-        return self._chain(SUMS, lambda: self._chain(PRODUCTS, self._signed))
+        return self._chain(SUMS, lambda: self._chain(self.products, self._signed))
 
     def _chain(self, signs: Mapping[str, str], part: Callable[[], Expression]) -> Expression:
         """What is joined by signs of one level, from the left."""

@@ -49,7 +49,8 @@ class DiscreteFunctions(FunctionsCalled):
         self._forces(arguments)
         names = ["step_momentum", "step_velocity", "step_force"]
         if self._has("step_guess"):
-            guessed = [0] if self._has("step_begin") else zeta if self._on_basis else self._half(Z)
+            half = [x * HALF for x in axis(Z)]
+            guessed = [0] if self._has("step_begin") else zeta if self._on_basis else half
             given = self._loaded(arguments, momentum, 0)
             self._same("step_guess", self._run("step_guess", given, len(guessed)), guessed)
             names.append("step_guess")
@@ -169,10 +170,6 @@ class DiscreteFunctions(FunctionsCalled):
         or by matrices."""
         return self._has("step_turn")
 
-    @property
-    def _turns(self) -> bool:
-        return self._has("step_newton") and not self._has("step_begin")
-
     @cached_property
     def places(self) -> list[tuple[int, int]]:
         """Where the matrices of a step less 1 may have entries: the sums and products of 𝔤."""
@@ -232,7 +229,7 @@ class DiscreteFunctions(FunctionsCalled):
         if self._on_basis:
             return [self._on_arm(moved, q.times(g, x)) for x in self._arms]
         centre = self._centre_of(moved)
-        if self._turns:
+        if self._has("step_newton") and not self._has("step_begin"):
             return [*(self._on_arm(moved, q.times(g, x)) for x in self._arms), *centre]
         return [*q.flatten(self._linear(moved)), *centre]
 
@@ -315,9 +312,6 @@ class DiscreteFunctions(FunctionsCalled):
 
     def _velocity(self, x: Sequence[Any]) -> list[Any]:
         return [*x[len(self.chart.entries) :]]
-
-    def _half(self, Z: Matrix) -> list[Any]:
-        return [x * HALF for x in axis(Z)]
 
     # -- calls -----------------------------------------------------------------------------------
 

@@ -31,7 +31,6 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
-from math import isqrt
 from typing import Any
 
 from ..algebra.factor_charts import QUATERNION, FactorChart
@@ -146,8 +145,8 @@ def exact_root(name: str, x: Any) -> Any:
     value = Fraction(x.value)
     if name != "sqrt" or value < 0:
         raise CodeError(f"{name} of {float(value):.3g} has no place here")
-    root = Fraction(isqrt(value.numerator), isqrt(value.denominator))
-    if root * root != value:
+    root = q.root(value)
+    if root is None:
         raise CodeError("the root of a number that is no square")
     return Measured(root, x.num, x.den)
 

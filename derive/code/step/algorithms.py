@@ -93,17 +93,13 @@ def _of_gauss(gauss: Mapping[str, Any] | None) -> dict[str, Any]:
     if gauss is None:
         return {}
     numbers = ("error", "sweeps", "rounding", "growth", "safety", "kept", "newton_steps")
-    modes = gauss["modes"]
+    tables, modes = ("nodes", "weights", "legendre", "continued"), gauss["modes"]
     return {
-        **{name.upper(): gauss[name] for name in (*numbers, "stalled_newton")},
+        **{name.upper(): gauss[name] for name in (*numbers, "stalled_newton", *tables)},
         "STILL": gauss["stalled"],
         "CONTINUES": float(gauss["continues"]),
         "MANY": float(gauss["many"]),
-        "NODES": gauss["nodes"],
-        "WEIGHTS": gauss["weights"],
         "MU": gauss["mu_by_columns"],
-        "LEGENDRE": gauss["legendre"],
-        "CONTINUED": gauss["continued"],
         **(
             {"MODE_VALUES": modes.values, "MODE_INTO": modes.into, "MODE_BACK": modes.back}
             if modes
@@ -286,9 +282,8 @@ def _given(p: Program, fields: Mapping[str, Any]) -> dict[str, Any]:
 
 def _sizes(p: Program) -> dict[str, int]:
     """The sizes of a file, as numbers."""
-    state, constants, inputs = len(p.state), len(p.constants), len(p.inputs)
-    named = {"N_STATE": state, "N_CONSTANTS": constants, "N_INPUTS": inputs}
-    return named | {"N_EVENTS": len(p.events), "SIZE_U": inputs, "SIZE_K": constants}
+    named = {f"N_{x}": p.sizes[x] for x in ("STATE", "CONSTANTS", "INPUTS", "EVENTS")}
+    return named | {"SIZE_U": named["N_INPUTS"], "SIZE_K": named["N_CONSTANTS"]}
 
 
 def in_rust(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:

@@ -20,7 +20,6 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, add, mul, replaced, terms
 from .. import dense
-from ..dense import entries_of
 from ..graph import Node
 from .discrete_ends import Ends, has
 from .discrete_special import change
@@ -285,9 +284,8 @@ def basis(
     right = tuple((p,) for p in momentum)
     M = tuple(map(tuple, own.metric()))
     factors = dense.factorised(g, M, lambda part, x: g.value(x, f"metric_{part}"))
-    velocity = entries_of(
-        dense.solve(g, factors, right, lambda part, x: g.value(x, f"told_{part}"))
-    )
+    told = dense.solve(g, factors, right, lambda part, x: g.value(x, f"told_{part}"))
+    velocity = [*q.flatten(told)]
     return {
         "step_momentum": own.momentum(),
         "step_force": [own.pushed(a) for a in span],

@@ -45,7 +45,8 @@ class Ends:
         reader = self.motion.reader
         self.lowering = Lowering(self.record, reader.group, reader.options, self.graph)
         own, d = self.lowering.reader, self.record.problem
-        own.state |= {name: reader.name(name) for name in SHARED if self._known(name)}
+        known = (x for x in SHARED if self.motion.record.definition(x) is not None)
+        own.state |= {x: reader.name(x) for x in known}
         own.state |= {x: v for x, v in self.space.values.items() if x in ("A", "T")}
         g = self.space.element
         self.h = self.graph.leaf("h", STEP)
@@ -55,21 +56,14 @@ class Ends:
         if self.group.affine:
             own.state["T_1"] = self.space.values["T"]
         places = [*d.get("body", {}).get("points", ()), *d.get("places", ())]
-        for i in range(1, len(places) + 1):
-            moved: Tree = ("call", ("at", "r", i), "t")
-            own.memo[moved] = self._place(i)
-
-    def _known(self, name: str) -> bool:
-        return self.motion.record.definition(name) is not None
+        for i in range(1, len(places) + 1):  # A r_i, with T where there is one
+            moved = ("call", ("at", "r", i), "t")
+            own.memo[moved] = reader.applied(moved)  # as in the rates, by the same nodes
 
     def _given(self, part: str) -> list[Node]:
         """The numbers of a covector that is given, in the basis of the record."""
         state = self.motion.reader.state
         return [x for (x,) in matrix(state[part])] if part in state else []
-
-    def _place(self, i: int) -> Value:
-        """r_i at the time: A r_i, with T where there is one; as in the rates, by the same nodes."""
-        return self.motion.reader.applied(("call", ("at", "r", i), "t"))
 
     @property
     def graph(self) -> Graph:
@@ -156,13 +150,11 @@ class Ends:
 
     def entries(self, linear: Matrix, shift: Matrix) -> list[Node]:
         """What the state has of a change of g."""
-        whole = q.bordered(linear, shift, self.graph.num(0)) if self.group.affine else linear
-        return self.space.entries(whole)
+        return self.space.entries(self.space.homogeneous(linear, shift))
 
     def coordinates(self, linear: Matrix, shift: Matrix) -> list[Node]:
         """The coordinates of a Z of these parts, in the stated basis."""
-        whole = q.bordered(linear, shift, self.graph.num(0)) if self.group.affine else linear
-        return self.space.read(whole)
+        return self.space.read(self.space.homogeneous(linear, shift))
 
 
 class Centre:

@@ -19,7 +19,6 @@ from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
 from .. import dense
-from ..dense import entries_of
 from ..graph import Graph, Node, replaced
 from ..schedule import Directional
 from .discrete_ends import Centre, Ends, Given
@@ -94,15 +93,15 @@ def turning(e: Ends, momentum: list[Node], unknowns: list[Node]) -> dict[str, li
     rate = centre.shift(drawn, q.times(A, spun))
     return {
         "step_momentum": [
-            *entries_of(_at_rest(e, zeta)),
-            *entries_of(centre.varied(q.times(A, e.matrix(("hat", "ζ"))), q.times(A, drift))),
+            *q.flatten(_at_rest(e, zeta)),
+            *q.flatten(centre.varied(q.times(A, e.matrix(("hat", "ζ"))), q.times(A, drift))),
         ],
-        "step_force": [*entries_of(_torque(e)), *entries_of(centre.push())],
-        "step_guess": [y * HALF for y in entries_of(spin)],
-        "step_newton": newton(e.graph, entries_of(left), unknowns, solved),
+        "step_force": [*q.flatten(_torque(e)), *q.flatten(centre.push())],
+        "step_guess": [y * HALF for y in q.flatten(spin)],
+        "step_newton": newton(e.graph, q.flatten(left), unknowns, solved),
         "step_end": [
             *e.entries(moved, centre.shift(drawn, moved)),
-            *(-y for y in entries_of(after)),
+            *(-y for y in q.flatten(after)),
             *momentum[3:],
         ],
         "step_velocity": e.coordinates(
@@ -133,7 +132,7 @@ def _momentum(e: Ends, real: Node, x: Matrix) -> Matrix:
 def _at_rest(e: Ends, zeta: Matrix) -> Matrix:
     """The momentum of a velocity: that of a short step, h = 1, of half of it, to first order."""
     leaves = e.leaves("short", 3)
-    found = entries_of(_momentum(e, e.one, q.column(leaves)))
+    found = q.flatten(_momentum(e, e.one, q.column(leaves)))
     seeds = {y: z * HALF for y, (z,) in zip(leaves, zeta, strict=True)}
     along, still = Directional(e.graph, seeds, "zeta"), dict.fromkeys(leaves, e.graph.num(0))
     return q.column([replaced(along.of(y), still) for y in found])
@@ -175,7 +174,7 @@ class Linear:
         t = e.equation("motion", next_free)
         before = f"{self.letter}_0"
         moved, still = (e.matrix(t, {before: none, "h": e.graph.num(h)}) for h in (1, 0))
-        return entries_of(q.minus(moved, still)) + entries_of(self.centre.push())
+        return [*q.flatten(q.minus(moved, still)), *q.flatten(self.centre.push())]
 
     def momentum(self) -> list[Node]:
         """The velocity of A, and of R."""
@@ -183,12 +182,12 @@ class Linear:
         Z = e.space.hat(e.space.coordinates)
         alpha = q.times(self.A, e.group.linear_part(Z))
         tau = q.times(self.A, e.group.translation_part(Z)) if self.centre.size else ()
-        return entries_of(alpha) + entries_of(self.centre.varied(alpha, tau))
+        return [*q.flatten(alpha), *q.flatten(self.centre.varied(alpha, tau))]
 
     def end(self, moved: Matrix) -> list[Node]:
         """What a step that moves A so adds to g; and itself."""
         shift = self.centre.shift(self.drawn, moved)
-        return [*self.e.entries(moved, shift), *entries_of(moved), *entries_of(self.drawn)]
+        return [*self.e.entries(moved, shift), *q.flatten(moved), *q.flatten(self.drawn)]
 
     def velocity(self, alpha: Matrix) -> list[Node]:
         """The coordinates of Z with this velocity of A, which is of the group."""
@@ -266,6 +265,6 @@ def _coefficients(e: Ends, p: Node, x: Node) -> list[Node]:
 
 def _along(e: Ends, det: Tree, at: Matrix, change: Matrix) -> Node:
     """The derivative of det at an element along a change of it."""
-    pairs = zip(entries_of(at), entries_of(change), strict=True)
+    pairs = zip(q.flatten(at), q.flatten(change), strict=True)
     seeds = {x: y for x, y in pairs if x.op == "leaf"}
     return Directional(e.graph, seeds, "along").of(e.number(det))

@@ -19,7 +19,7 @@ from ...record.record import Derivation
 from ..graph import Node
 from ..lower import Lowering
 from ..options import Options
-from ..program import LoweringError
+from ..program import refuse_first
 from .discrete_basis import basis, pattern
 from .discrete_ends import Ends
 from .discrete_special import turning, volume, whole
@@ -131,19 +131,15 @@ def kind_of(group: Group, *, damped: bool = False) -> str:
 
 def refuse(d: Derivation, group: Group, options: Options) -> None:
     """``LoweringError`` for a problem without a discrete motion, and for other forms of state."""
-    reason = ""
-    if "lagrangian" in d.problem or "advected" in d.problem:
-        reason = "is of a Lagrangian of points, and this one is not"
-    elif len(group.factors) > 1:
-        reason = "is not written for a product of groups"
-    elif options.velocity == "tangent":
-        reason = "has Z in the state, and --velocity tangent has dg/dt"
-    elif options.attitude != "matrix":
-        reason = f"has A in the state, and --attitude {options.attitude} has not"
-    elif options.frame != "given":
-        reason = "is for the body as given, and --frame turns it"
-    if reason:
-        raise LoweringError(f"{d.name}: --step discrete {reason}: leave it out")
+    other, attitude = {"lagrangian", "advected"} & {*d.problem}, options.attitude
+    reasons = (
+        (other, "is of a Lagrangian of points, and this one is not"),
+        (len(group.factors) > 1, "is not written for a product of groups"),
+        (options.velocity == "tangent", "has Z in the state, and --velocity tangent has dg/dt"),
+        (attitude != "matrix", f"has A in the state, and --attitude {attitude} has not"),
+        (options.frame != "given", "is for the body as given, and --frame turns it"),
+    )
+    refuse_first(d.name, *((on, f"--step discrete {why}") for on, why in reasons))
 
 
 def _moments(lowering: Lowering, group: Group) -> Matrix:

@@ -95,10 +95,12 @@ class LaneStatements(Statements):
         own = [(v.name, self.in_lanes(v.expression)) for v in b.section.values]
         outputs = [(i, self.in_lanes(self._lane(f.outputs[i]))) for i in b.outputs]
         return {
-            "comment": self._comment(b.section.label),
-            "loads": [self._loaded(x) for x in b.loads],
-            "statements": [self._statement(name, e) for name, e in own],
-            "output_loads": [self._loaded(x) for x in b.output_loads],
+            "lines": [
+                *map(self._loaded, b.loads),
+                *(self._comment(b.section.label) if own else ()),
+                *(self._statement(name, e) for name, e in own),
+                *map(self._loaded, b.output_loads),
+            ],
             "outputs": [(i, self._wrapped(self.printer(e), 80)) for i, e in outputs],
         }
 
@@ -168,6 +170,7 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         "held": "discrete" in options.step or "vern9" in options.step,
         "memory": memory(p, options, told["rows"] if told else 0),
         "names": options.step,
+        "statuses": [x for x in STATUSES if x[0] != "NO_SOLUTION" or p.discrete],
         "varied": varied(options),
         "least": LEAST,
         "watch": WATCH[options.real] if p.events else None,
@@ -177,6 +180,14 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         "kinks": p.kinks.get("rates", ()),
     }
 
+
+STATUSES = (
+    ("OK", 0, "The steps were made."),
+    ("NOT_FINITE", 2, "The rates, or what a step leads to, have no finite value."),
+    ("NOT_CONVERGED", 3, "No step is short enough: a collision, or a motion without bound."),
+    ("NO_SOLUTION", 5, "There is no discrete step of this size."),
+)
+"""What steps return besides that they stand at an event: names, numbers, and what they say."""
 
 BENDS = (
     "A force has a root, as in |v|: where that is 0 its derivatives may jump, which the estimate "

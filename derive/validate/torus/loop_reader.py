@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ..code_expressions import INTEGER, NAME, SUMS
+from ..code_expressions import INTEGER
 from ..code_reader import Reader
 from ..terms import CodeError, Expression, Statement
 
@@ -40,6 +40,8 @@ class Routine:
 class LoopReader(Reader):
     """The reader of one file; ``routines``: its functions by name, ``tables``: its lists of
     numbers."""
+
+    products = PRODUCTS
 
     def __init__(self, *given: Any):
         super().__init__(*given)
@@ -372,9 +374,6 @@ class LoopReader(Reader):
         left = self._sum()
         return (COMPARED[self.next()], left, self._sum()) if self.word in COMPARED else left
 
-    def _sum(self) -> Expression:
-        return self._chain(SUMS, lambda: self._chain(PRODUCTS, self._signed))
-
     def _exact(self, op: str, a: Expression, b: Expression) -> None:
         """``CodeError`` for a difference of sizes: one less than 0 is large."""
         if op == "sub" and "size_t" in (self._kind_of(a), self._kind_of(b)):
@@ -391,15 +390,13 @@ class LoopReader(Reader):
         return "size_t" if whole else None
 
     def _signed(self) -> Expression:
-        if self.took("-"):
-            return ("neg", self._signed())
-        if self.took("!"):
+        if self.language != "c" and self.took("!"):
             return ("not", self._signed())
         if self.language == "c" and self.took("( real )"):
             return ("real", self._signed())
         if self.language == "rust" and self.took("& mut", "&"):
             return self._atom()
-        found = self._atom()
+        found = super()._signed()
         return ("real", found) if self.language == "rust" and self.took("as real") else found
 
     def _literal(self) -> Expression:
@@ -414,18 +411,19 @@ class LoopReader(Reader):
             return super()._entry()
         if self.language != "c" and self.took("true", "false"):
             return ("int", int(self.near(-1) == "true"))
-        if not NAME.fullmatch(self.word):
-            self.unknown()
-        name = self.next()
-        if name in self.sizes:
-            return ("int", self.sizes[name])
+        if self.word in self.sizes:
+            return ("int", self.sizes[self.next()])
+        name = self.naming()
         if name in self.routines and self.took("("):
             self.calls.add(name)
             return ("call", name, *self.listed(")"))
         if name not in self.kinds:
             self.at -= 1
             self.unknown()
-        found: Expression = ("var", name)
+        return self._within(("var", name))
+
+    def _within(self, found: Expression) -> Expression:
+        """What is at places in an array, where some stand here."""
         while self.word == "[" or (self.language == "c" and self.word == "."):
             if self.took("."):
                 found = ("field", found, self.naming())

@@ -255,18 +255,12 @@ class JuliaLoopReader(LoopReader):
 
     def _entry(self) -> Expression:
         """A name, an entry of an array, or a call of a function of the file's own."""
-        if self.straight or self.word in ("true", "false"):
-            return super()._entry()
-        name = self.naming()
-        if name in self.routines and self.took("("):
-            if name in map(self.spelt, CONTRACT):
-                self.unknown()  # whose arguments stand in another order
-            self.calls.add(name)
-            return ("call", name, *self.listed(")"))
-        if name not in self.kinds:
-            self.at -= 1
-            self.unknown()
-        found: Expression = ("var", name)
+        if not self.straight and self.near(1) == "(" and self.word in map(self.spelt, CONTRACT):
+            self.unknown()  # whose arguments stand in another order
+        return super()._entry()
+
+    def _within(self, found: Expression) -> Expression:
+        """An entry of an array, by all its places."""
         if self.took("["):
             for place in self.listed("]"):
                 found = ("item", found, ("sub", place, ("int", 1)))
