@@ -124,11 +124,7 @@ def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool
     """The rates in powers of the distance from the equilibrium: none has a constant term."""
     draft, equations = _about_point(label, x.about, reduced, c)
     prose = say("equilibrium.tried") if tried else ()
-    if any(x.about.at):
-        prose += draft.claim("equilibrium.at", point=point_rows(x.about))
-        prose += _position(x.about, draft)
-    else:
-        prose += draft.claim("equilibrium.origin")
+    prose += _where("equilibrium", x.about, draft)
     if x.form:
         return draft.step(equations, prose)
     prose += draft.claim("equilibrium.none")
@@ -136,6 +132,13 @@ def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool
         positive, negative = x.signature
         prose += draft.claim("equilibrium.orbit", positive=positive, negative=negative)
     return draft.step(equations, prose + _verdict(draft, x))
+
+
+def _where(what: str, about: About, draft: Draft) -> Prose:
+    """At which point an equilibrium, or a family of them, is."""
+    if not any(about.at):
+        return draft.claim(f"{what}.origin")
+    return draft.claim(f"{what}.at", point=point_rows(about)) + _position(about, draft)
 
 
 def point_rows(about: About) -> Tree:
@@ -329,10 +332,7 @@ def _told(
     draft, equations = _about_point(f"equilibrium_{k}", about, made_from[0], c)
     say_so = draft.claim
     prose = say("family.tried") if k == 1 else ()
-    prose += (
-        say_so("family.at", point=point_rows(about)) if any(about.at) else say_so("family.origin")
-    )
-    prose += _position(about, draft)
+    prose += _where("family", about, draft)
     for y in about.at[: about.system.momenta]:
         prose += say_so("family.letter", letter=about.tree(y)) if y else ()
     if x.multipliers is None:

@@ -106,7 +106,7 @@ def _energy(c: Chapter) -> Step:
 
 def _structure(a: Alphabet, crossed: Expr, c: Chapter) -> Step:
     """The structure equation, with the sign of its bracket."""
-    shown = tree_of(crossed, WordNotation(display={a.bracket: read("[ξ′, ξ]")}))
+    shown = tree_of(crossed, _notation(a))
     draft = c.draft("structure", "structure equation")
     return draft.step((Equation(read("δ(ξ′) − δ′(ξ)"), shown),), say("structure.crossed"))
 
@@ -154,9 +154,9 @@ def _images(a: Alphabet) -> Mapping[Letter, Expr]:
     return contact([(a.Pi, a.Z)], a, {})
 
 
-def _notation(a: Alphabet) -> WordNotation:
-    """Pairings with 𝔤* as ⟨·, ·⟩, and the letter of the bracket written out."""
-    display = {a.bracket: read("[ξ′, ξ]")}
+def _notation(a: Alphabet, *others: Letter) -> WordNotation:
+    """Pairings with 𝔤* as ⟨·, ·⟩, and the letters of the bracket, and others, written out."""
+    display = {a.bracket: read("[ξ′, ξ]")} | {x: read(x.name) for x in others}
     return WordNotation(display=display, covectors=frozenset(a.Pi.letters))
 
 
@@ -234,8 +234,7 @@ def orbit_form(form: Expr, a: Alphabet, moved: Trivialisation, other: Step, c: C
     """
     draft = c.draft("kks", "restriction", other)
     crossed = Letter("[ξ, ξ′]", a.n, a.n)
-    display = {a.bracket: read("[ξ′, ξ]"), crossed: read("[ξ, ξ′]")}
-    notation = WordNotation(display=display, covectors=frozenset(a.Pi.letters))
+    notation = _notation(a, crossed)
     xi, xi_prime, Pi = word(a.Z.xi), word(a.Z.xi_prime), word(a.Pi.momentum)
     opened = {a.bracket: xi_prime * xi - xi * xi_prime, crossed: xi * xi_prime - xi_prime * xi}
     restricted = at_constant_time(form, a.dt, a.dpt)
