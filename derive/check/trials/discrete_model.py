@@ -241,10 +241,7 @@ def environment(model: DiscreteModel) -> Environment:
     families["E"] = {(a,): e for a, e in enumerate(model.group.basis, 1)}
     own = NameValues(model, [_elements, _moments, _in_blocks, _momenta, *meaning.GROUPS])
     return replace(
-        known,
-        names=own,
-        families=families,
-        functions={**known.functions, **_functions(model)},
+        known, names=own, families=families, functions={**known.functions, **_functions(model)}
     )
 
 

@@ -44,10 +44,7 @@ SIZES = ("radius", "outer", "inner", "sides", "semi_axes", "quadric", "height", 
 
 
 def body_step(
-    problem: Problem,
-    points: PointLagrangian | None,
-    a: Alphabet,
-    c: Chapter,
+    problem: Problem, points: PointLagrangian | None, a: Alphabet, c: Chapter
 ) -> tuple[Step, ...]:
     """The step that states the numbers of the body, after that of its integrals for solids; none
     where there is no body.

@@ -179,11 +179,7 @@ def steps_of(
     finding = chapter.draft("second_order", "kernel")
     first = putting.step(
         [Equation(CONTRACTION, x.any_vector(putting)) for x in forms],
-        say("contraction.extremals")
-        + say(
-            "contraction.unknown",
-            unknown=unknown,
-        ),
+        say("contraction.extremals") + say("contraction.unknown", unknown=unknown),
         where=(CONTRACTED,),
     )
     forms = [x.marked_by(putting) for x in forms]
