@@ -45,8 +45,8 @@ from ..schema.table import ACTIONS, Slot, Table
 from .fields import angular_velocity, tables, velocity_at_place
 from .file_reader import FileReader
 from .inertia import is_negative
-from .problem import ProblemError
-from .solids import SolidError, joined_moments, moments
+from .problem import ProblemError, SolidError
+from .solids import joined_moments, moments
 
 
 def body(data: Mapping[str, Any], reader: FileReader) -> Body | None:

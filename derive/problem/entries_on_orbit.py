@@ -64,6 +64,7 @@ class EntriesOfElement(OrbitEntries):
 
 
 Rows = tuple[tuple[Tree, ...], ...]
+Entries = Sequence[Sequence[Tree]]
 """A matrix of expressions."""
 
 
@@ -126,9 +127,26 @@ def with_entries(t: Tree, g: Rows) -> Tree:
     return at(t)
 
 
-def rational(rows: Sequence[Sequence[Fraction]]) -> list[list[Tree]]:
+def rational(rows: Sequence[Sequence[Fraction]]) -> Rows:
     """A matrix of numbers as one of trees: integers where they are."""
-    return [[plain(x) for x in row] for row in rows]
+    return tuple(tuple(map(plain, row)) for row in rows)
+
+
+def times(a: Entries, b: Entries) -> Rows:
+    """The product of matrices of expressions."""
+    columns = [*zip(*b, strict=True)]
+    return tuple(
+        tuple(
+            add(*(mul(x, y) for x, y in zip(row, col, strict=True) if x != 0 and y != 0))
+            for col in columns
+        )
+        for row in a
+    )
+
+
+def matrix(m: Entries) -> Tree:
+    """A matrix as a tree."""
+    return ("matrix", *(("row", *row) for row in m))
 
 
 # Directions of 𝔤 in which a Lagrangian has no kinetic energy, wherever it is.

@@ -21,15 +21,12 @@ from ..language.tree import Tree, add, coefficient, mul
 from ..language.values import approximate
 from ..schema.body_kinds import LAYERED, Moments, Solid
 from ..schema.table import Rows
+from .problem import SolidError
 
 Row = tuple[Tree, ...]
 SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
 TERMS_OF_DENSITY = 40
 """A density that is multiplied out has no more."""
-
-
-class SolidError(ValueError):
-    """What is wrong with a solid, in one line."""
 
 
 def joined_moments(a: Moments, b: Moments) -> Moments:

@@ -15,7 +15,7 @@ from ...code.options import Options
 from ...code.state import StateSpace
 from ...language import rational as q
 from ...language.tree import Tree, add, coefficient, mul, neg, nodes, terms
-from ...problem.entries_on_orbit import along, element, hessian, null_directions
+from ...problem.entries_on_orbit import along, element, hessian, null_directions, times
 from ...problem.fields import coordinates
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Derivation
@@ -29,7 +29,6 @@ from .scalar_lagrangian import (
     full,
     negative,
     plus,
-    times,
     varying,
     with_scalar_lagrangian,
 )

@@ -9,9 +9,9 @@ from fractions import Fraction
 from ...algebra.groups import Group
 from ...language.derivatives import product
 from ...language.tree import Tree, add, coefficient, mul, neg, nodes, plain, terms
-from ...problem.entries_on_orbit import Rows
+from ...problem.entries_on_orbit import Entries, Rows, matrix
 from .conditions import Monomial, Unknowns
-from .scalar_lagrangian import Entries, by_state, conjugated, full, matrix, negative, plus
+from .scalar_lagrangian import by_state, conjugated, full, negative, plus
 from .search import SymmetrySolution
 
 ON_FORM: Tree = ("call", "ϖ", "δy")

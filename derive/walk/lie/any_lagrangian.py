@@ -17,7 +17,7 @@ from ..matrices.coordinates import at_constant_time
 from ..spine.alphabet import Alphabet, cancelling, inverse_letter, inverse_tree
 from ..spine.cartan import DOMEGA
 from ..spine.kernel import any_lagrangian_forms, contact
-from ..spine.principle import CONTRACTED, CONTRACTION, Contraction
+from ..spine.principle import Contraction, put_in
 
 # Exercise 1 for any Lagrangian: what holds whatever L̃(t, g, Z) is, on the left or on the right.
 #
@@ -122,29 +122,11 @@ def _kernel(form: Expr, a: Alphabet, c: Chapter) -> tuple[Step, ...]:
         {a.Pi.d_momentum: a.Pi.rate},
         (a.Pi.dp_momentum,),
         notation,
+        resting={a.Pi.dp_momentum: a.Z.xi_prime},
     )
-    putting, testing, finding = (
-        c.draft("contraction", "contraction"),
-        c.draft("vertical", "restriction"),
-        c.draft("second_order", "kernel"),
-    )
-    first = putting.step(
-        [Equation(CONTRACTION, contraction.any_vector(putting))],
-        say("contraction.extremals") + say("contraction.unknown", unknown="ξ, δΠ"),
-        where=(CONTRACTED,),
-    )
-    contraction = contraction.marked_by(putting)
-    second = testing.step(
-        [
-            Equation(CONTRACTION, contraction.on_vertical(testing)),
-            *stated("⟨δ′Π, ξ⟩ = M̃(ξ, δ′Z)"),
-        ],
-        say("vertical.velocity"),
-        where=(CONTRACTED, Equation("δ′t", 0), Equation("ξ′", 0)),
-    )
-    finding.depends_on(second)
+    _, first, second = put_in([contraction], "ξ, δΠ", c, stated("⟨δ′Π, ξ⟩ = M̃(ξ, δ′Z)"))
     along = stated("ξ(X) = Z")
-    third = finding.step(
+    third = c.draft("second_order", "kernel", second).step(
         along, say("second_order.any_lagrangian"), where=along, hypotheses=(REGULAR,)
     )
     return first, second, third
