@@ -13,7 +13,7 @@ from ..algebra.exact_kernel import PRIMES, ResidueVector, ResidueVectorSource, f
 from ..algebra.groups import Group, constant_entries
 from ..language import rational as q
 from ..language.derivatives import DIVISOR_PRIMES, derivative, product, quotient, residue
-from ..language.tree import Tree, add, fold, mul, nodes, plain
+from ..language.tree import Tree, add, fold, mul, neg, nodes, plain
 
 Entry = tuple[Any, ...]
 """An entry of a letter, as a tree."""
@@ -142,6 +142,12 @@ def times(a: Entries, b: Entries) -> Rows:
         )
         for row in a
     )
+
+
+def wedge(x: Sequence[Tree], y: Sequence[Tree]) -> tuple[Tree, ...]:
+    """x ∧ y of two vectors of R³."""
+    pairs = ((1, 2), (2, 0), (0, 1))
+    return tuple(add(mul(x[i], y[j]), neg(mul(x[j], y[i]))) for i, j in pairs)
 
 
 def matrix(m: Entries) -> Tree:
