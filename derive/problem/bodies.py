@@ -45,8 +45,7 @@ from ..schema.table import ACTIONS, Slot, Table
 from .fields import angular_velocity, tables, velocity_at_place
 from .file_reader import FileReader
 from .inertia import is_negative
-from .moments import SolidError
-from .problem import ProblemError
+from .problem import ProblemError, SolidError
 from .solids import joined_moments, moments
 
 

@@ -13,7 +13,7 @@ from ..algebra.exact_kernel import PRIMES, ResidueVector, ResidueVectorSource, f
 from ..algebra.groups import Group, constant_entries
 from ..language import rational as q
 from ..language.derivatives import DIVISOR_PRIMES, derivative, product, quotient, residue
-from ..language.tree import Tree, add, fold, mul, nodes, plain
+from ..language.tree import Tree, add, fold, mul, neg, nodes, plain
 
 Entry = tuple[Any, ...]
 """An entry of a letter, as a tree."""
@@ -64,6 +64,7 @@ class EntriesOfElement(OrbitEntries):
 
 
 Rows = tuple[tuple[Tree, ...], ...]
+Entries = Sequence[Sequence[Tree]]
 """A matrix of expressions."""
 
 
@@ -126,9 +127,32 @@ def with_entries(t: Tree, g: Rows) -> Tree:
     return at(t)
 
 
-def rational(rows: Sequence[Sequence[Fraction]]) -> list[list[Tree]]:
+def rational(rows: Sequence[Sequence[Fraction]]) -> Rows:
     """A matrix of numbers as one of trees: integers where they are."""
-    return [[plain(x) for x in row] for row in rows]
+    return tuple(tuple(map(plain, row)) for row in rows)
+
+
+def times(a: Entries, b: Entries) -> Rows:
+    """The product of matrices of expressions."""
+    columns = [*zip(*b, strict=True)]
+    return tuple(
+        tuple(
+            add(*(mul(x, y) for x, y in zip(row, col, strict=True) if x != 0 and y != 0))
+            for col in columns
+        )
+        for row in a
+    )
+
+
+def wedge(x: Sequence[Tree], y: Sequence[Tree]) -> tuple[Tree, ...]:
+    """x ∧ y of two vectors of R³."""
+    pairs = ((1, 2), (2, 0), (0, 1))
+    return tuple(add(mul(x[i], y[j]), neg(mul(x[j], y[i]))) for i, j in pairs)
+
+
+def matrix(m: Entries) -> Tree:
+    """A matrix as a tree."""
+    return ("matrix", *(("row", *row) for row in m))
 
 
 # Directions of 𝔤 in which a Lagrangian has no kinetic energy, wherever it is.

@@ -28,7 +28,7 @@ from ..language.reserved import rate_of_mass
 from ..language.tree import Tree, add, mul, neg, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody, Moments, Place, PointBody, by_block
 from ..schema.force_kinds import Flow, Input, StatedForce
-from .entries_on_orbit import vanishes
+from .entries_on_orbit import vanishes, wedge
 from .fields import angular_velocity, names_in_forces, tables
 from .file_reader import FileReader
 from .problem import Problem, ProblemError, masses_of_state, points_of
@@ -216,10 +216,7 @@ def _within(
         across = [neg(mul(w, p[1])), mul(w, p[0])]
         moment: Row = (neg(mul(trace, w)),)
     else:
-        across = [
-            add(mul(turning[i], p[j]), neg(mul(turning[j], p[i])))
-            for i, j in ((1, 2), (2, 0), (0, 1))
-        ]
+        across = [*wedge(turning, p)]
         moment = tuple(
             add(neg(mul(trace, turning[i])), *(mul(Q[i, j], turning[j]) for j in span))
             for i in span

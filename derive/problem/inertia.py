@@ -1,4 +1,5 @@
-"""Checks of a body on its group: does every direction move some mass, is its metric invariant?"""
+"""Checks of a body on its group: does every direction move some mass, is its metric invariant?  And
+the moments of a file, carried to m, c and J."""
 
 from __future__ import annotations
 
@@ -11,19 +12,19 @@ from typing import Any, Literal
 from ..algebra.groups import Group
 from ..algebra.relations import for_every_body, pairings, skew
 from ..language import rational as q
-from ..language.derivatives import DIVISOR_PRIMES, residue
+from ..language.derivatives import DIVISOR_PRIMES, product, quotient, residue
 from ..language.expression import names
-from ..language.laurent import TRIED, OverlongError, at_levels, is_layered, vanishes
+from ..language.laurent import TRIED, OverlongError, at_levels, collected, is_layered, vanishes
 from ..language.rational import Matrix
-from ..language.tree import Tree, add, mul, plain
+from ..language.tree import Tree, add, mul, neg, plain
 from ..language.values import approximate, value
 from ..schema.body_kinds import Body, GivenBody, MomentBody, PointBody
 from ..schema.kind import Parameter
-from .problem import Problem, points_of
-from .solids import fault_of_quadric
+from ..schema.table import Rows
+from .problem import Problem, ProblemError, points_of
+from .solids import Row, fault_of_quadric
 
 Vector = tuple[Any, ...]
-Rows = Sequence[Sequence[Tree]]
 
 ROUNDED, DIGITS = 10**9, 10**3
 """One over the relative error that is allowed: of floats, and of moments in few digits."""
@@ -240,7 +241,9 @@ def impossible(group: Group, body: Body | None, parameters: Mapping[str, Paramet
     return f"no masses have these moments: {why}{f'; {CAD}' * drawn}" if why else ""
 
 
-def negative_kinetic_energy(second: Rows, parameters: Mapping[str, Parameter]) -> str:
+def negative_kinetic_energy(
+    second: Sequence[Sequence[Tree]], parameters: Mapping[str, Parameter]
+) -> str:
     """Is the matrix ``second`` of the second derivatives of L by the velocity not positive for the
     defaults of the parameters, and how; "" where it is, or where that is not known."""
     found = [[approximate(t, defaults(parameters)) for t in row] for row in second]
@@ -338,3 +341,81 @@ def _moment_trees(problem: Problem, body: Body) -> tuple[tuple[Tree, ...], ...]:
             tuple(add(*(mul(m, r[i], r[j]) for m, r in masses)) for j in span) for i in span
         )
     return body.moments().J
+
+
+# The moments of a file, carried to m, c and J: by the centre of mass, by a tensor of inertia.
+
+MEANINGS = {
+    "c": "the first moment, mass times centre of mass",
+    "centre": "the centre of mass",
+    "J": "the matrix of moments about the origin",
+    "I": "the tensor of inertia about the origin",
+    "I_centre": "that about the centre of mass",
+}
+"""How a body's first and second moments are given; I in R³ alone."""
+
+
+def given_by(given: Mapping[str, Any], names: tuple[str, ...], where: str) -> str:
+    """The one key of some that is there."""
+    found = [x for x in names if x in given]
+    if len(found) != 1:
+        listed = ", or ".join(f"{x}, {MEANINGS[x]}" for x in names)
+        raise ProblemError(f"{where}: give {'one of ' * (len(names) > 1)}{listed}")
+    return found[0]
+
+
+def first_moment(mass: Tree, centre: Row) -> Row:
+    """c = m s."""
+    return tuple(_exact(product(mass, x)) for x in centre)
+
+
+def second_moment(name: str, rows: Rows, mass: Tree, first: Row, where: str) -> Rows:
+    """J, from itself or from a tensor of inertia, I or I_centre; in the plane ½ I 1 stands for
+    I."""
+    J = rows if name == "J" or len(rows) == 2 else _from_inertia(rows)
+    return _from_centre(J, mass, first, where) if name == "I_centre" else J
+
+
+def require_symmetric(rows: Rows, where: str) -> None:
+    """``ProblemError`` where a matrix is not equal to its transpose."""
+    if any(rows[i][j] != rows[j][i] for i in range(len(rows)) for j in range(i)):
+        raise ProblemError(f"{where}: the matrix must be symmetric")
+
+
+def _from_inertia(tensor: Rows) -> Rows:
+    """J = ½ (Tr I) 1 − I, from I = (Tr J) 1 − J."""
+    span = range(3)
+    half = [_half(*(tensor[j][j] for j in span if j != i), neg(tensor[i][i])) for i in span]
+    return tuple(tuple(half[i] if i == j else neg(tensor[i][j]) for j in span) for i in span)
+
+
+def _from_centre(J: Rows, mass: Tree, first: Row, where: str) -> Rows:
+    """J + c c̄/m, from J about the centre of mass (Steiner)."""
+    if mass == 0:
+        raise ProblemError(f"{where}, m: a body without mass has no centre of mass")
+
+    def entry(i: int, j: int) -> Tree:
+        return _exact(add(J[i][j], quotient(product(first[i], first[j]), mass)))
+
+    span = range(len(first))
+    return tuple(tuple(entry(min(i, j), max(i, j)) for j in span) for i in span)
+
+
+def _exact(t: Tree) -> Tree:
+    """The same with like terms added, a number where it is one."""
+    try:
+        found = collected(t)
+    except OverlongError:
+        raise ProblemError(
+            "body, given: centre or I_centre is too long to be carried to the origin; give c and I "
+            "or J, or a parameter of its own for each sum"
+        ) from None
+    return int(found) if isinstance(found, Fraction) and found.denominator == 1 else found
+
+
+def _half(*terms: Tree) -> Tree:
+    """½ Σ, a number where all terms are."""
+    numbers = [x for x in terms if isinstance(x, (int, Fraction))]
+    if len(numbers) < len(terms):
+        return collected(mul(Fraction(1, 2), add(*terms)))
+    return plain(Fraction(sum(numbers), 2))

@@ -18,7 +18,7 @@ import numpy as np
 from ..language.limits import COORDINATE_BITS, MESH_BYTES, MESH_LINE, MESH_LINES, TRIANGLES
 from ..language.tree import mul
 from ..schema.body_kinds import Moments
-from .moments import SolidError
+from .problem import SolidError
 
 Mesh = tuple[tuple[tuple[Fraction, ...], ...], tuple[tuple[int, ...], ...]]
 

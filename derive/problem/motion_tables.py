@@ -61,11 +61,7 @@ def kinematics_problem(
     found = reader.typed(Kinematics, data["kinematics"], "kinematics")
     _declared(found, group, reader)
     return Problem(
-        name,
-        group,
-        title=reader.title_of(data, name),
-        parameters=parameters,
-        kinematics=found,
+        name, group, title=reader.title_of(data, name), parameters=parameters, kinematics=found
     )
 
 

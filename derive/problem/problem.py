@@ -33,6 +33,10 @@ class ProblemError(Refused, ValueError):
     """Bad input: the message names the key and the remedy."""
 
 
+class SolidError(ValueError):
+    """What is wrong with a solid, in one line."""
+
+
 @dataclass(frozen=True)
 class Initial:
     """Where a motion starts: ``numbers`` of the state and inputs by name, expressions of the

@@ -21,8 +21,9 @@ from ..language.tree import Tree, add, coefficient, mul
 from ..language.values import approximate
 from ..schema.body_kinds import LAYERED, Moments, Solid
 from ..schema.table import Rows
-from .moments import Row, SolidError
+from .problem import SolidError
 
+Row = tuple[Tree, ...]
 SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
 TERMS_OF_DENSITY = 40
 """A density that is multiplied out has no more."""

@@ -18,7 +18,7 @@ from derive.check.values.evaluate import Environment, evaluate
 from derive.language import rational as q
 from derive.language.tree import mul
 from derive.problem.mesh import MeshError, mesh_moments, read
-from derive.problem.moments import SolidError
+from derive.problem.problem import SolidError
 from derive.problem.solids import joined_moments, moments, rotation_about, unit_moments
 from derive.schema.body_kinds import SOLIDS
 from tests.oracles.solids import nodes

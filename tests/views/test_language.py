@@ -296,7 +296,7 @@ def test_every_word_of_the_tables_is_in_the_catalogue():
     words |= {p.remark for p in PAPER if p.remark}
     words |= {outline.CONVENTIONS, outline.FORMULAS_CONVENTIONS, outline.PAPER}
     assert {*map(texts.unmarked, words)} | titles_and_meanings() <= set(FRENCH.messages)
-    assert set(SOLIDS) <= strings("walk/given/body_and_potentials.py")
+    assert {texts.message(f"integrals.{x}") for x in SOLIDS} <= set(FRENCH.messages)
 
 
 ROOMS = ("walk", "views/figure", "views/plot", "views/page")

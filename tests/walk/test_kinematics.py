@@ -11,9 +11,10 @@ from derive.check.checker import Checker, check
 from derive.language.expression import parse
 from derive.language.tree import add, mul, neg, nodes
 from derive.pipeline import walk
+from derive.problem.entries_on_orbit import matrix, rational
 from derive.problem.toml import problem_of
 from derive.record.record import Equation
-from derive.walk.lie.invariant_errors import Velocity, matrix, numbers
+from derive.walk.lie.invariant_errors import Velocity
 from tests.support.walks import SEED, record
 
 
@@ -196,7 +197,7 @@ def test_a_counterexample_off_the_group_is_refused():
     for first, holds in ((A, True), (twice, False)):
         found = Equation(step.equations[0].lhs, matrix(velocity.defect(first, estimate)))
         pair = zip(("A", "Â"), (first, estimate), strict=True)
-        where = tuple(Equation(x, matrix(numbers(m))) for x, m in pair)
+        where = tuple(Equation(x, matrix(rational(m))) for x, m in pair)
         told = Checker(d.problem, SEED).check(replace(step, equations=(found,), given=where))
         assert told.holds == holds
 

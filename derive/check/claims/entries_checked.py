@@ -178,6 +178,14 @@ def _nilpotent(g: Group) -> bool:
 Terms = Mapping[tuple[tuple[Tree, int], ...], Fraction]
 
 
+def entries_moved(e: q.Matrix, place: Place, *, left: bool) -> dict[Place, Fraction]:
+    """The entries of g in one of gE, ``left``, or of Eg."""
+    (i, j), span = place, range(len(e))
+    if left:
+        return {(i, k): e[k][j] for k in span if e[k][j]}
+    return {(k, j): e[i][k] for k in span if e[i][k]}
+
+
 class Entries:
     """Entries of g among the variables, those at ``places`` from 0, and their rates; ``left``: do
     they move by gE_b, not E_bg?"""
@@ -190,22 +198,15 @@ class Entries:
     def missing(self) -> list[Tree]:
         """Variables into which these move and that are not among them."""
         pairs = [(place, e) for place in self.places for e in self.group.basis]
-        moved = {x for place, e in pairs for x in self._terms(place, e)}
+        moved = {x for place, e in pairs for x in entries_moved(e, place, left=self.left)}
         away = sorted(moved - {*self.places} - {*constant_entries(self.group)})
         return [("entry", "A", i + 1, j + 1) for i, j in away]
-
-    def _terms(self, place: Place, e: q.Matrix) -> dict[Place, Fraction]:
-        """The entries of g in one of gE, or of Eg."""
-        (i, j), span = place, range(len(e))
-        if self.left:
-            return {(i, k): e[k][j] for k in span if e[k][j]}
-        return {(k, j): e[i][k] for k in span if e[i][k]}
 
     def rates(self, at: Mapping[Place, Fraction]) -> q.Matrix:
         """What gE_b is at the places, by b, for these entries of g."""
 
         def rate(place: Place, e: q.Matrix) -> Fraction:
-            terms = self._terms(place, e).items()
+            terms = entries_moved(e, place, left=self.left).items()
             return sum((c * at.get(x, Fraction(x[0] == x[1])) for x, c in terms), Fraction(0))
 
         return tuple(tuple(rate(x, e) for x in self.places) for e in self.group.basis)
@@ -236,7 +237,10 @@ class Entries:
         if not rank:
             return True
         off = [
-            [radius * sum(abs(c) for c in self._terms(x, e).values()) for x in self.places]
+            [
+                radius * sum(abs(c) for c in entries_moved(e, x, left=self.left).values())
+                for x in self.places
+            ]
             for e in self.group.basis
         ]
         if sure_rank(self.rates(at), off) < rank:

@@ -18,7 +18,7 @@ from ...record.sentence import Claim
 from ..trials.trial_points import group_of
 from ..values.arithmetic import Varying
 from ..values.residue import Residue, random_prime
-from .entries_checked import constant_entries
+from .entries_checked import constant_entries, entries_moved
 from .spectra_and_residues import Value, drawn, gradient, is_parameter, residues, value
 from .symmetry_count import SymmetryCount
 
@@ -254,12 +254,9 @@ class PoissonTensor:
             for j, c in enumerate(e[first + x[2] - 1][first:], 1):
                 self._add(found, ("entry", "Γ", j), -sign * c)
         else:
-            i, j = x[2] - 1, x[3] - 1
-            for k in range(self.group.size):
-                if self.left:
-                    self._add(found, ("entry", "A", i + 1, k + 1), e[k][j])
-                else:
-                    self._add(found, ("entry", "A", k + 1, j + 1), e[i][k])
+            moved = entries_moved(e, (x[2] - 1, x[3] - 1), left=self.left)
+            for (i, j), c in moved.items():
+                self._add(found, ("entry", "A", i + 1, j + 1), c)
         return found
 
     def _add(self, form: Linear, x: tuple[Any, ...], c: Fraction) -> None:

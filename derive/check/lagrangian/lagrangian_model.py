@@ -239,9 +239,8 @@ class LagrangianModel(GivenForces):
         back = q.inverted(self.g)
         for a, e in enumerate(self.group.basis):
             moved = self.ordered(self.g, e)
-            pairs = zip(self.given_forces, self.images(moved), strict=True)
-            work = sum((q.dot(f, v) for f, v in pairs), self.work_of_couple(q.times(back, moved)))
-            total[a] += work
+            total[a] += self.work_of(self.given_forces, moved)
+            total[a] += self.work_of_couple(q.times(back, moved))
         return total
 
     @cached_property

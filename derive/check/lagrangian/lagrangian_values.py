@@ -19,8 +19,8 @@ from ...language.tree import Tree, nodes
 from ...record.record import Step
 from ..trials.meaning import NameValues, Values
 from ..trials.momenta_and_outputs import Observed
-from ..trials.phase_point import Family, PhasePoint, TangentVector
-from ..values.arithmetic import EPS, EPS_PRIME, ETA, EvaluationError, derivative_in, nilpotent, part
+from ..trials.phase_point import Family, Form, PhasePoint, TangentVector
+from ..values.arithmetic import EPS, EPS_PRIME, ETA, EvaluationError, nilpotent, part
 from ..values.draws import part_of_velocity
 from ..values.evaluate import Environment, evaluate
 from .lagrangian_model import PAIRED, WITH_BRACKET, LagrangianModel
@@ -314,8 +314,11 @@ def functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
         return part(member(here(model).connection(xi), head, env), 0)
 
     def curvature(head: Any, arguments: Any, env: Environment) -> Any:
-        one, two = map(direction, arguments)
-        return exterior(model, one, two, lambda at, _, xi: member(at.connection(xi), head, env))
+        def on(family: Family) -> Form:
+            at = on_family(model, family)
+            return lambda _, xi: member(at.connection(xi), head, env)
+
+        return model.exterior(*map(direction, arguments), on=on)
 
     def form(head: Any, arguments: Any, env: Environment) -> Any:
         a = direction(arguments[0])
@@ -323,25 +326,9 @@ def functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
 
     def derived(head: Any, arguments: Any, env: Environment) -> Any:
         one, two = map(direction, arguments)
-        return exterior(model, one, two, ReducedPoint.routh_form)
+        return model.exterior(one, two, on=lambda family: on_family(model, family).routh_form)
 
     return {"𝒜": connection, "d𝒜": curvature, "ϖ_h": form, "dϖ_h": derived}
-
-
-def exterior(
-    model: LagrangianModel,
-    a: TangentVector,
-    b: TangentVector,
-    form: Callable[[ReducedPoint, Any, Matrix], Any],
-) -> Any:
-    """δ[form(δ′)] − δ′[form(δ)] on a family; ``form``: of δt and ξ at its points."""
-    family = model.family(a, b)
-    at = on_family(model, family)
-
-    def on(mask: int) -> Any:
-        return form(at, derivative_in(family[0], mask), model.field(family, mask))
-
-    return part(on(EPS_PRIME), EPS) - part(on(EPS), EPS_PRIME)
 
 
 def _varied_member(model: LagrangianModel, what: Any, mask: int) -> Any:

@@ -178,8 +178,7 @@ class DiscreteModel(Model):
 
     def work_of_inputs(self, e: Matrix) -> Any:
         """The work of force inputs and of a covector on a displacement e at g₁."""
-        pairs = zip(self.given_forces, self.images(e), strict=True)
-        work = sum((q.dot(f, v) for f, v in pairs), Fraction(0))
+        work = self.work_of(self.given_forces, e)
         if any(self.covector) or any(q.flatten(self.couple)):
             xi = q.times(q.inverted(self.g), e)
             dual = self.group.covector_matrix(self.covector)
@@ -242,10 +241,7 @@ def environment(model: DiscreteModel) -> Environment:
     families["E"] = {(a,): e for a, e in enumerate(model.group.basis, 1)}
     own = NameValues(model, [_elements, _moments, _in_blocks, _momenta, *meaning.GROUPS])
     return replace(
-        known,
-        names=own,
-        families=families,
-        functions={**known.functions, **_functions(model)},
+        known, names=own, families=families, functions={**known.functions, **_functions(model)}
     )
 
 
@@ -321,9 +317,7 @@ def _torque(model: DiscreteModel) -> Matrix:
     found = []
     for e in model.group.basis[:3]:
         along = q.times(model.g, model.about_centre(model.group.linear_part(e)))
-        pairs = zip(model.forces_at(1), model.images(along), strict=True)
-        work = sum((q.dot(f, v) for f, v in pairs), Fraction(0))
-        found.append(work + model.work_of_inputs(along))
+        found.append(model.work_of(model.forces_at(1), along) + model.work_of_inputs(along))
     return q.column(found)
 
 

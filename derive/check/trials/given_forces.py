@@ -63,7 +63,7 @@ class GivenForces(PhasePoint):
     def draw_inputs(self) -> None:
         """Draw the numbers of forces and torques, which have names, and scalars."""
         acting = self.inputs_of("force", "torque")
-        named = [numbers_of_input(data, self._acted_on(data)[1].n) for data in acting]
+        named = [numbers_of_input(data, self.acted_on(data)[1].n) for data in acting]
         driven = self.at.driven
         scalars = [x["name"] for x in self.inputs_of("scalar")]
         drawn = [*(x for names in named for x in names), *scalars]
@@ -76,7 +76,7 @@ class GivenForces(PhasePoint):
         problem states, and 0 where none is given, in the place of what was drawn."""
         acting = self.inputs_of("force", "torque")
         known = dict.fromkeys(self.parameters, Fraction(0)) | {**values}
-        named = [numbers_of_input(data, self._acted_on(data)[1].n) for data in acting]
+        named = [numbers_of_input(data, self.acted_on(data)[1].n) for data in acting]
         self.input_forces = [tuple(known[x] for x in names) for names in named]
         scalars = {x["name"]: known[x["name"]] for x in self.inputs_of("scalar")}
         self.parameters |= {**scalars, **values}
@@ -98,7 +98,7 @@ class GivenForces(PhasePoint):
             found = self._along(u, data, "direction" if "kind" in data else "force")
             if data.get("kind") == "torque" or not found:
                 continue
-            block, _ = self._acted_on(data)
+            block, _ = self.acted_on(data)
             inside = q.column(self.group.in_block(block, found))
             force = q.times(linear, inside) if data["frame"] == "body" else inside
             for k, (x,) in enumerate(force):
@@ -118,7 +118,7 @@ class GivenForces(PhasePoint):
             key = "direction" if data.get("kind") == "torque" else "moment"
             if key == "moment" and not data.get(key):
                 continue
-            block, factor = self._acted_on(data)
+            block, factor = self.acted_on(data)
             torque, at = self._along(u, data, key), group.of_block(block)
             turn = tuple(row[at] for row in linear[at])
             body = turn if data["frame"] == "space" else q.identity(factor.n)
@@ -142,6 +142,10 @@ class GivenForces(PhasePoint):
         """What flows inside the body has of moments: none where nothing flows."""
         return q.scaled(Fraction(0), q.identity(self.n))
 
+    def work_of(self, forces: Iterable[Vector], w: Matrix) -> Any:
+        """The work of forces on the points, in space, in a displacement of g, a tangent matrix."""
+        return sum(map(q.dot, forces, self.images(w)), Fraction(0))
+
     def work_of_couple(self, xi: Matrix, couple: Matrix | None = None) -> Any:
         """The work of all torques that are given, or of a ``couple``, in a displacement g ξ."""
         N = self.couple if couple is None else couple
@@ -163,7 +167,7 @@ class GivenForces(PhasePoint):
             raise KeyError(name)
         velocities, turned = self.images(self.nu), q.times(q.inverted(self.g), self.nu)
         power = self.work_of_couple(turned, self._couple_of(acting))
-        power += sum(map(q.dot, self._forces_of(acting), velocities), Fraction(0))
+        power += self.work_of(self._forces_of(acting), self.nu)
         linear = self.group.linear_part(self.g)
         for i, force in flowing:
             power += q.dot(q.flatten(q.times(linear, force)), velocities[i - 1])
@@ -181,9 +185,10 @@ class GivenForces(PhasePoint):
             stated = (x for x in self.problem.get("forces", ()) if "on" in x)
             yield from (((Fraction(1),), x) for x in stated)
 
-    def _acted_on(self, data: Mapping[str, Any]) -> tuple[int, Group]:
-        """The block, from 1, on which a force or torque acts, and its factor."""
-        block = int(data["block"]) if "block" in data else self.blocks[data["on"] - 1]
+    def acted_on(self, data: Mapping[str, Any]) -> tuple[int, Group]:
+        """The block, from 1, on which a force or torque acts, or where an output is read, and its
+        factor."""
+        block = self.blocks[data["on"] - 1] if "on" in data else int(data.get("block", 1))
         return block, self.group.places[block - 1][1]
 
     def _along(self, u: tuple[Any, ...], data: Mapping[str, Any], key: str) -> tuple[Any, ...]:

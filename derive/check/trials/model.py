@@ -221,11 +221,10 @@ class Model(Body, GivenForces):
     @cached_property
     def input(self) -> list[Fraction]:
         """The values u(E_a) on the basis of the covector of all inputs and damping."""
-        found = []
-        for u, e in zip(self.acting_covector, self.group.basis, strict=True):
-            pairs = zip(self.nonpotential_forces, self.images(q.times(self.g, e)), strict=True)
-            found.append(u + sum((q.dot(f, v) for f, v in pairs), self.work_of_couple(e)))
-        return found
+        return [
+            u + self.work_of(self.nonpotential_forces, q.times(self.g, e)) + self.work_of_couple(e)
+            for u, e in zip(self.acting_covector, self.group.basis, strict=True)
+        ]
 
     @cached_property
     def metric(self) -> Matrix:

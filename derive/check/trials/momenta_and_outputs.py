@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from ...algebra.groups import Group
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.reserved import numbers_of_output, one_or_more, rate_of_mass
@@ -238,7 +237,7 @@ class Observed(Mapping[str, Any]):
         }
         self.told: dict[str, Data] = {}
         for data in () if model.generic else model.problem.get("outputs", ()):
-            names = numbers_of_output(data, self._acted_on(data)[1].n)
+            names = numbers_of_output(data, model.acted_on(data)[1].n)
             self.told |= dict.fromkeys(names, data | {"names": names})
         flows = () if model.generic else model.problem.get("flows", ())
         for data in () if model.generic else (*model.problem.get("forces", ()), *map(_push, flows)):
@@ -267,16 +266,10 @@ class Observed(Mapping[str, Any]):
     def __len__(self) -> int:
         return len({**self.known, **self.told})
 
-    def _acted_on(self, data: Data) -> tuple[int, Group]:
-        """The block, from 1, where an output is read, and its factor."""
-        model = self.model
-        block = model.blocks[data["on"] - 1] if "on" in data else int(data.get("block", 1))
-        return block, model.group.places[block - 1][1]
-
     def seen(self, data: Data, vector: Vector) -> Vector:
         """A vector of space, of its block in a product; its products with the images of the axes of
         the body where it is seen in this."""
-        group, (block, _) = self.model.group, self._acted_on(data)
+        group, (block, _) = self.model.group, self.model.acted_on(data)
         at = group.of_block(block) if group.factors else slice(None)
         inside = vector[at]
         if data.get("frame", "body") == "space":
@@ -287,7 +280,7 @@ class Observed(Mapping[str, Any]):
 
     def _given(self, data: Data, trees: Any) -> Vector:
         """A vector that the problem states, among those of all blocks."""
-        block, _ = self._acted_on(data)
+        block, _ = self.model.acted_on(data)
         at = at_time(self.model.expressions, self.model.t)
         given = [evaluate(decode(x, "vector"), at) for x in trees]
         found: Vector = self.model.group.in_block(block, given)
@@ -304,7 +297,7 @@ class Observed(Mapping[str, Any]):
 
     def rate(self, data: Data) -> Vector:
         """ω with Z x = ω ∧ x on the axes of the body."""
-        block, factor = self._acted_on(data)
+        block, factor = self.model.acted_on(data)
         at = self.model.group.of_block(block)
         model = self.model
         velocity = model.Z if model.side == "left" else q.times(q.inverted(model.g), model.nu)

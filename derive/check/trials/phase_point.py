@@ -6,7 +6,7 @@ No structure equation is used: dϖ comes from nilpotent numbers on a family in t
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -52,6 +52,10 @@ class Family(NamedTuple):
     Z: Matrix
     h: Matrix
     back: Matrix
+
+
+Form = Callable[[Any, Matrix], Any]
+"""A one-form, of δt and ξ."""
 
 
 class PhasePoint(Draws):
@@ -233,18 +237,24 @@ class PhasePoint(Draws):
         pushed = self.momentum(self.t, self.g, self.Z, a.xi)
         return part(pushed - self.energy(self.t, self.g, self.Z) * a.time, 0)
 
-    def exterior(self, a: TangentVector, b: TangentVector) -> Any:
-        """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family."""
-        family = self.family(a, b)
+    def cartan_on(self, family: Family) -> Form:
+        """ϖ at the points of a family."""
         t, g, Z, *_ = family
         energy = self.energy(t, g, Z)
+        return lambda time, xi: self.momentum(t, g, Z, xi) - energy * time
 
-        def form(mask: int) -> Any:
-            """ϖ on the derivative of the family in one parameter, a function of the other."""
-            pushed = self.momentum(t, g, Z, self.field(family, mask))
-            return pushed - energy * derivative_in(t, mask)
+    def exterior(
+        self, a: TangentVector, b: TangentVector, *, on: Callable[[Family], Form] | None = None
+    ) -> Any:
+        """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family; or that of another form ``on`` it."""
+        family = self.family(a, b)
+        form = (on or self.cartan_on)(family)
 
-        return part(form(EPS_PRIME), EPS) - part(form(EPS), EPS_PRIME)
+        def along(mask: int) -> Any:
+            """On the derivative of the family in one parameter, a function of the other."""
+            return form(derivative_in(family.t, mask), self.field(family, mask))
+
+        return part(along(EPS_PRIME), EPS) - part(along(EPS), EPS_PRIME)
 
     def brackets(self) -> Matrix:
         """The brackets of the momenta on the basis, by flows: that of Π_b moves g to gh, or hg,

@@ -266,11 +266,7 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
         raise RecordError("the hypotheses δt = 0 and δt = 1 exclude each other")
     inside = step.rule == EVALUATION or bool(step.names & {*CARRIED})
     return replace(
-        found,
-        inside=inside,
-        still=still,
-        stepping=_steps(step),
-        elements=(*elements.items(),),
+        found, inside=inside, still=still, stepping=_steps(step), elements=(*elements.items(),)
     )
 
 

@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 from ...language.derivatives import power
 from ...language.tree import Tree, add, mul, neg, nodes
@@ -90,6 +91,14 @@ def _with_multiples(about: About, by: Sequence[Number], kept: Iterable[Tree]) ->
     return add("h̃", *(scaled(about.tree(m), f) for m, f in pairs if m))
 
 
+def _energy_with(about: About, by: Sequence[Number], kept: Sequence[Any]) -> Equation:
+    """The same in powers of the distances; ``kept``: polynomials of the ring."""
+    algebra = about.algebra
+    expansions = [about.expansion(algebra.over_the_field(f)) for f in kept]
+    energy = combined(about.expansion(algebra.hamiltonian), expansions, by)
+    return Equation(_with_multiples(about, by, map(algebra.tree, kept)), expanded(energy, about))
+
+
 def _enclosure(whole: IntegralsFound, x: Enclosed, made_from: Iterable[Step], c: Chapter) -> Step:
     """The Casimirs less their values on the level, and the energy with multiples of them."""
     draft = c.draft("enclosure_1", "enclosure", *made_from)
@@ -100,9 +109,7 @@ def _enclosure(whole: IntegralsFound, x: Enclosed, made_from: Iterable[Step], c:
         Equation(add(f, neg(plain(level))), expanded(replace(e, value=e.value - level), x.about))
         for f, e, level in zip(kept, found, x.level, strict=True)
     ]
-    energy = combined(x.about.expansion(algebra.hamiltonian), found, x.multipliers)
-    left = _with_multiples(x.about, x.multipliers, kept)
-    equations.append(Equation(left, expanded(energy, x.about)))
+    equations.append(_energy_with(x.about, x.multipliers, whole.casimirs))
     positive, negative = x.signature
     prose = draft.claim("enclosure.within", radius=scientific(x.radius))
     prose += draft.claim("enclosure.signs", positive=positive, negative=negative)
@@ -124,11 +131,7 @@ def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool
     """The rates in powers of the distance from the equilibrium: none has a constant term."""
     draft, equations = _about_point(label, x.about, reduced, c)
     prose = say("equilibrium.tried") if tried else ()
-    if any(x.about.at):
-        prose += draft.claim("equilibrium.at", point=point_rows(x.about))
-        prose += _position(x.about, draft)
-    else:
-        prose += draft.claim("equilibrium.origin")
+    prose += _where("equilibrium", x.about, draft)
     if x.form:
         return draft.step(equations, prose)
     prose += draft.claim("equilibrium.none")
@@ -136,6 +139,13 @@ def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool
         positive, negative = x.signature
         prose += draft.claim("equilibrium.orbit", positive=positive, negative=negative)
     return draft.step(equations, prose + _verdict(draft, x))
+
+
+def _where(what: str, about: About, draft: Draft) -> Prose:
+    """At which point an equilibrium, or a family of them, is."""
+    if not any(about.at):
+        return draft.claim(f"{what}.origin")
+    return draft.claim(f"{what}.at", point=point_rows(about)) + _position(about, draft)
 
 
 def point_rows(about: About) -> Tree:
@@ -259,9 +269,16 @@ def _verdict(draft: Draft, x: Equilibrium) -> Prose:
 def _about(values: Iterable[complex]) -> Tree:
     """Numbers that come with their opposites and conjugates, as decimals of four digits, each
     once."""
-    pairs = ((abs(round(x.real, 9)), abs(round(x.imag, 9))) for x in values)
-    rows = {tuple(Fraction(f"{y:.4g}") for y in pair) for pair in pairs}
-    return ("matrix", *(("row", *map(plain, row)) for row in sorted(rows, reverse=True)))
+    return _listed(_rounded([(abs(round(x.real, 9)), abs(round(x.imag, 9))) for x in values], 4))
+
+
+def _rounded(pairs: Iterable[Iterable[float]], digits: int) -> set[tuple[Fraction, ...]]:
+    """Pairs of numbers as decimals of so many digits, each once."""
+    return {tuple(Fraction(f"{y:.{digits}g}") for y in pair) for pair in pairs}
+
+
+def _listed(pairs: Iterable[tuple[Fraction, ...]]) -> Tree:
+    return ("matrix", *(("row", *map(plain, row)) for row in sorted(pairs, reverse=True)))
 
 
 def nearly(characteristic: Sequence[Number]) -> Tree:
@@ -276,13 +293,8 @@ def nearly(characteristic: Sequence[Number]) -> Tree:
         [0.0 if abs(y) < NOTHING * abs(x) else abs(float(y)) for y in (x.real, x.imag)]
         for x in found
     ]
-
-    def rounded(digits: int) -> set[tuple[Fraction, ...]]:
-        return {tuple(Fraction(f"{y:.{digits}g}") for y in pair) for pair in pairs}
-
-    several = len(rounded(10))
-    rows = next(x for x in map(rounded, range(4, 11)) if len(x) == several)
-    return ("matrix", *(("row", *map(plain, row)) for row in sorted(rows, reverse=True)))
+    several = [_rounded(pairs, digits) for digits in range(4, 11)]
+    return _listed(next(x for x in several if len(x) == len(several[-1])))
 
 
 NOTHING = 1e-9
@@ -329,10 +341,7 @@ def _told(
     draft, equations = _about_point(f"equilibrium_{k}", about, made_from[0], c)
     say_so = draft.claim
     prose = say("family.tried") if k == 1 else ()
-    prose += (
-        say_so("family.at", point=point_rows(about)) if any(about.at) else say_so("family.origin")
-    )
-    prose += _position(about, draft)
+    prose += _where("family", about, draft)
     for y in about.at[: about.system.momenta]:
         prose += say_so("family.letter", letter=about.tree(y)) if y else ()
     if x.multipliers is None:
@@ -342,13 +351,7 @@ def _told(
     rates = draft.step(equations, prose)
     yield rates
     draft = c.draft(f"energy_casimir_{k}", "expansion", *made_from, rates)
-    algebra = whole.system.algebra
-    conserved = (*whole.casimirs, *whole.integrals)
-    energy = about.expansion(algebra.hamiltonian)
-    kept = [about.expansion(algebra.over_the_field(f)) for f in conserved]
-    form = combined(energy, kept, x.multipliers)
-    left = _with_multiples(about, x.multipliers, map(algebra.tree, conserved))
-    equation = Equation(left, expanded(form, about))
+    equation = _energy_with(about, x.multipliers, (*whole.casimirs, *whole.integrals))
     yield draft.step([equation], draft.claim("family.form") + _family_verdict(draft, x))
 
 

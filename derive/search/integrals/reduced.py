@@ -171,13 +171,7 @@ def entry(group: Group, i: int, j: int) -> Place | int:
 class _Symbolic:
     """ℓ as a polynomial in ζ and the entries of g over Q(parameters)."""
 
-    def __init__(
-        self,
-        name: str,
-        L: Tree,
-        group: Group,
-        parameters: tuple[str, ...],
-    ):
+    def __init__(self, name: str, L: Tree, group: Group, parameters: tuple[str, ...]):
         from sympy import QQ
 
         self.name, self.L, self.group = name, L, group

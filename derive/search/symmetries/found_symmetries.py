@@ -15,7 +15,7 @@ from ...code.options import Options
 from ...code.state import StateSpace
 from ...language import rational as q
 from ...language.tree import Tree, add, coefficient, mul, neg, nodes, terms
-from ...problem.entries_on_orbit import along, element, hessian, null_directions
+from ...problem.entries_on_orbit import along, element, hessian, null_directions, times
 from ...problem.fields import coordinates
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Derivation
@@ -29,12 +29,11 @@ from .scalar_lagrangian import (
     full,
     negative,
     plus,
-    times,
     varying,
     with_scalar_lagrangian,
 )
 from .search import SymmetrySearch
-from .symmetry import Symmetry, of_solution
+from .symmetry import Symmetry, momenta_on, of_solution
 
 # The brackets of symmetries, and dϖ of two that commute: the cocycle of the conserved quantities.
 #
@@ -207,11 +206,8 @@ def symmetries_of(
         integrand.require_unused(t for x in found for t in (x.displacement, x.F))
     order = sorted(told, key=lambda k: (ORDER.index(found[k].kind), -k))
     listed = tuple(found[k] for k in order)
-    if not listed:
-        return SymmetriesFound(
-            scalar, (), system.open_functions, (), state, (), integrand, of_points
-        )
-    commuting = [(i, j) for i, j in Brackets(search).commuting() if {i, j} <= {*told}]
+    every = Brackets(search).commuting() if told else ()
+    commuting = [(i, j) for i, j in every if {i, j} <= {*told}]
     pairs = [
         _oriented(order.index(i), order.index(j), number)
         for i, j in commuting
@@ -271,11 +267,11 @@ def says_nothing(x: Symmetry, problem: Problem) -> bool:
     if not given.held:
         return False
     second = hessian(given.L, coordinates(group))
-    momenta: list[Tree] = [("at", "Π", a) for a in range(1, group.dimension + 1)]
+    momenta = momenta_on(group)
     for k, direction in zip(given.held, null_directions(second) or (), strict=True):
         others = [0 if a == k - 1 else y for a, y in enumerate(direction)]
         momenta[k - 1] = neg(along(momenta, tuple(map(Fraction, others))))
-    return by_state(x.conserved(momenta, "h̃")) == 0
+    return by_state(x.conserved(momenta)) == 0
 
 
 def _oriented(i: int, j: int, number: Tree) -> Central:
@@ -328,28 +324,23 @@ def named(found: SymmetriesFound) -> dict[str, Tree]:
 
     ``momentum_1`` …: along an axis, if all of a kind are; else numbered; alone without a number.
     """
-    relabelled = [found.of_points and relabels(x) for x in found.symmetries]
-    bases = [
-        CIRCULATION if is_one else NAMES[x.kind]
-        for x, is_one in zip(found.symmetries, relabelled, strict=True)
+    called = [
+        (CIRCULATION, axis_of_relabelling(x))
+        if found.of_points and relabels(x)
+        else (NAMES[x.kind], axis(x))
+        for x in found.symmetries
     ]
-    many = Counter(bases)
-    axes = [
-        axis_of_relabelling(x) if is_one else axis(x)
-        for x, is_one in zip(found.symmetries, relabelled, strict=True)
-    ]
+    many = Counter(base for base, _ in called)
     by_axis = {
         base: all(own) and len({*own}) == len(own)
         for base in many
-        if (own := [a for a, b in zip(axes, bases, strict=True) if b == base])
+        if (own := [a for b, a in called if b == base])
     }
-    group = found.problem.own_group
-    momenta: list[Tree] = [("at", "Π", a) for a in range(1, group.dimension + 1)]
     names, seen = {}, Counter[str]()
-    for x, base, place in zip(found.symmetries, bases, axes, strict=True):
+    for x, (base, place) in zip(found.symmetries, called, strict=True):
         seen[base] += 1
         number = f"_{place}" if by_axis[base] else f"_{seen[base]}" if many[base] > 1 else ""
-        value, length = x.conserved(momenta, "h̃"), length_of(x)
+        value, length = x.conserved(), length_of(x)
         plain = length == 1 or base == CIRCULATION
         names[base + number] = value if plain else ("div", value, length)
     return names

@@ -153,9 +153,13 @@ class Routhian:
     @cached_property
     def named(self) -> bool:
         """Are entries of 𝕀 called by their names?"""
-        names = {self.functions.leaves.index(x) for row in self.names for x in row}
         pivots = (self.functions.depends_on(x.pivot) for x in self.squares)
-        return any(used & names for used in pivots)
+        return any(used & self._named_entries for used in pivots)
+
+    @property
+    def _named_entries(self) -> set[int]:
+        """The places of the names of entries of 𝕀 among the leaves."""
+        return {self.functions.leaves.index(x) for row in self.names for x in row}
 
     @cached_property
     def conditions(self) -> tuple[Element, ...]:
@@ -174,9 +178,10 @@ class Routhian:
 
     def _varies(self, x: Element) -> bool:
         """Does a function depend on entries of g, or of 𝕀 by their names?"""
-        names = {self.functions.leaves.index(y) for row in self.names for y in row}
         used = self.functions.depends_on(x)
-        return bool(used & names) or max(used, default=-1) >= self.functions.first_entry
+        return (
+            bool(used & self._named_entries) or max(used, default=-1) >= self.functions.first_entry
+        )
 
     @property
     def singular_elsewhere(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -21,7 +21,7 @@ from ...language.laurent import OverlongError, grouped, polynomial
 from ...language.rational import transposed
 from ...language.show import show
 from ...language.tree import Tree, add, mul, neg, nodes, operands, plain
-from ...problem.entries_on_orbit import Rows, element
+from ...problem.entries_on_orbit import Entries, Rows, element, times
 from ...problem.fields import coordinates
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Derivation
@@ -48,9 +48,6 @@ def varying(group: Group) -> dict[Tree, tuple[int, int]]:
 
 
 # Matrices of expressions: g, its conjugates of other matrices, sums and products.
-
-Entries = Sequence[Sequence[Tree]]
-"""A matrix of expressions."""
 
 
 def conjugated(m: Rows, group: Group, *, inward: bool) -> Rows | None:
@@ -94,18 +91,6 @@ def _turned(m: Entries, by: Entries) -> Entries:
     return plus(hat, times(times(by, rest), transposed(by))) if full(rest) else hat
 
 
-def times(a: Entries, b: Entries) -> Rows:
-    """The product of matrices of expressions."""
-    columns = transposed(b)
-    return tuple(
-        tuple(
-            add(*(mul(x, y) for x, y in zip(row, col, strict=True) if x != 0 and y != 0))
-            for col in columns
-        )
-        for row in a
-    )
-
-
 def plus(a: Entries, b: Entries) -> Rows:
     """The sum of matrices of expressions."""
     pairs = zip(a, b, strict=True)
@@ -115,11 +100,6 @@ def plus(a: Entries, b: Entries) -> Rows:
 def negative(a: Entries) -> Rows:
     """The opposite of a matrix of expressions."""
     return tuple(tuple(map(neg, row)) for row in a)
-
-
-def matrix(m: Entries) -> Tree:
-    """A matrix as a tree."""
-    return ("matrix", *(("row", *row) for row in m))
 
 
 def full(m: Entries) -> bool:

@@ -9,12 +9,17 @@ from fractions import Fraction
 from ...algebra.groups import Group
 from ...language.derivatives import product
 from ...language.tree import Tree, add, coefficient, mul, neg, nodes, plain, terms
-from ...problem.entries_on_orbit import Rows
+from ...problem.entries_on_orbit import Entries, Rows, matrix
 from .conditions import Monomial, Unknowns
-from .scalar_lagrangian import Entries, by_state, conjugated, full, matrix, negative, plus
+from .scalar_lagrangian import by_state, conjugated, full, negative, plus
 from .search import SymmetrySolution
 
 ON_FORM: Tree = ("call", "ϖ", "δy")
+
+
+def momenta_on(group: Group) -> list[Tree]:
+    """Π_a, on the basis of 𝔤."""
+    return [("at", "Π", a) for a in range(1, group.dimension + 1)]
 
 
 @dataclass(frozen=True)
@@ -104,9 +109,10 @@ class Symmetry:
 
     # -- its expressions -----------------------------------------------------------------------
 
-    def conserved(self, momenta: Sequence[Tree], energy: Tree) -> Tree:
-        """⟨Π, η⟩ − τh̃ − F, which the motion keeps."""
-        whole = add(self.paired(momenta, energy), neg(self.F))
+    def conserved(self, momenta: Sequence[Tree] = ()) -> Tree:
+        """⟨Π, η⟩ − τh̃ − F, which the motion keeps; ``momenta``: the values of Π_a, if they have
+        some."""
+        whole = add(self.paired(momenta or momenta_on(self.group)), neg(self.F))
         paired = any(isinstance(x, tuple) and x[0] == "inner" for x in nodes(whole))
         return whole if paired else by_state(whole)
 
@@ -154,9 +160,9 @@ class Symmetry:
         right = mul(-1, "A", matrix(X), back) if full(X) else 0
         return add(matrix(Y) if full(Y) else 0, right)
 
-    def paired(self, momenta: Sequence[Tree], energy: Tree) -> Tree:
+    def paired(self, momenta: Sequence[Tree]) -> Tree:
         """⟨Π, η⟩ − τh̃, with the values Π_a on the basis where A⁻¹ is no more than a transpose."""
-        kept, eta = neg(mul(self.tau, energy)), self.entries
+        kept, eta = neg(mul(self.tau, "h̃")), self.entries
         if eta is None:
             return add(("inner", "Π", self.carried), kept)
         group, found = self.group, []

@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from ...algebra.groups import Group
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree, add, mul, neg, nodes, plain, terms
@@ -35,25 +34,25 @@ class Symmetries:
 
 def symmetries_record(found: SymmetriesFound, general: Values) -> Derivation:
     """The record of the symmetries of a problem; ``general``: the road of any Lagrangian."""
-    c, group, before, (*_, basis) = expressed_on_basis(found.problem, general)
+    c, before, (*_, basis) = expressed_on_basis(found.problem, general)
     whole = _summary(found, c)
     steps = [*before, whole]
     for k, x in enumerate(found.symmetries, 1):
-        steps.append(_symmetry(x, f"conserved_{k}", group, (whole, basis), c))
+        steps.append(_symmetry(x, f"conserved_{k}", (whole, basis), c))
     steps += [_central(found, x, whole, c) for x in found.central]
     return recorded(found.problem, steps)
 
 
 def expressed_on_basis(
     problem: Problem, general: Values
-) -> tuple[Chapter, Group, tuple[Step, ...], tuple[Step, ...]]:
-    """The chapter and the group of a problem, the steps up to its L̃ on a basis, and the last of
-    these: of L̃, of its momenta, of its energy and of the basis."""
+) -> tuple[Chapter, tuple[Step, ...], tuple[Step, ...]]:
+    """The chapter of a problem, the steps up to its L̃ on a basis, and the last of these: of L̃, of
+    its momenta, of its energy and of the basis."""
     group, road = problem.own_group, general["lagrangian"]
     c = Chapter(problem.name, group.name)
     basis = of_element(problem, group, road, c)
     own = expressed.expressed(problem, group, road, basis, c).steps
-    return c, group, (*general["steps"], *basis.steps, *own), (*own, basis.last)
+    return c, (*general["steps"], *basis.steps, *own), (*own, basis.last)
 
 
 def _summary(found: SymmetriesFound, c: Chapter) -> Step:
@@ -73,15 +72,16 @@ def _summary(found: SymmetriesFound, c: Chapter) -> Step:
     return draft.step(stated("dϖ(δy, X) = 0"), prose + say("symmetries.kernel"))
 
 
-def _symmetry(
-    x: Symmetry, label: str, group: Group, made_from: tuple[Step, ...], c: Chapter
-) -> Step:
+def _field(x: Symmetry, prime: str = "") -> list[Equation]:
+    return [Equation(f"δ{prime}t", x.tau), Equation(f"δ{prime}A", x.displacement)]
+
+
+def _symmetry(x: Symmetry, label: str, made_from: tuple[Step, ...], c: Chapter) -> Step:
     """A symmetry: its field, what it does to L̃, ϖ of it, and what the motion keeps."""
     draft = c.draft(label, "conservation", *made_from[: 2 if x.terms else 1])
-    field = [Equation("δt", x.tau), Equation("δA", x.displacement)]
-    momenta: list[Tree] = [("at", "Π", a) for a in range(1, group.dimension + 1)]
+    field = _field(x)
     equations = [*field, Equation(("call", "δ", "L̃"), x.rate)]
-    equations.append(Equation(add(ON_FORM, neg(x.F)), x.conserved(momenta, "h̃")))
+    equations.append(Equation(add(ON_FORM, neg(x.F)), x.conserved()))
     equations.append(Equation(("call", "d/dt", add(ON_FORM, neg(x.F))), 0))
     name = phrase(f"symmetries.{x.kind}")
     prose = say("symmetries.exact" if x.exact else "symmetries.up_to", kind=name)
@@ -93,10 +93,7 @@ def _central(found: SymmetriesFound, pair: Central, whole: Step, c: Chapter) -> 
     names = [f"conserved_{k + 1}" for k in (pair.first, pair.second)]
     draft = c.draft("_and_".join(names), "exterior derivative", whole)
     one, two = (found.symmetries[k] for k in (pair.first, pair.second))
-    fields = [
-        *(Equation("δt", one.tau), Equation("δA", one.displacement)),
-        *(Equation("δ′t", two.tau), Equation("δ′A", two.displacement)),
-    ]
+    fields = [*_field(one), *_field(two, "′")]
     equation = Equation(stated("dϖ(δy, δ′y) = 0")[0].lhs, pair.number)
     kinds = {name: phrase(f"symmetries.{x.kind}") for name, x in (("first", one), ("second", two))}
     return draft.step([*fields, equation], say("symmetries.central", **kinds), where=fields)
@@ -140,19 +137,14 @@ def told(
 # -- the momenta --------------------------------------------------------------------------------
 
 
-def _fields(x: Symmetry, prime: str = "") -> list[Equation]:
-    return [Equation(f"δ{prime}t", 0), Equation(f"δ{prime}A", x.displacement)]
-
-
 def _momentum(x: Symmetry, i: int, r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     """A symmetry, its momentum, and what dϖ has of its field: nothing on a level."""
     draft = c.draft(f"momentum_{i + 1}", "conservation", *made_from)
-    field, own = _fields(x), momentum(i)
-    values: list[Tree] = [("at", "Π", a + 1) for a, _ in enumerate(r.zeta)]
+    field, own = _field(x), momentum(i)
     equations = [
         *field,
         Equation(("call", "δ", "L̃"), 0),
-        Equation(own, x.conserved(values, "h̃")),
+        Equation(own, x.conserved()),
         Equation(ON_FORM, own),
         Equation(("call", "dϖ", *BOTH), neg(("call", "δ′", own))),
         Equation(("call", "d/dt", ON_FORM), 0),
@@ -165,7 +157,7 @@ def _momentum(x: Symmetry, i: int, r: Routhian, made_from: Iterable[Step], c: Ch
 def _commuting(i: int, j: int, r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     """dϖ of two of the fields vanishes."""
     draft = c.draft(f"momentum_{i + 1}_and_{j + 1}", "exterior derivative", *made_from)
-    fields = [*_fields(r.chosen[i]), *_fields(r.chosen[j], "′")]
+    fields = [*_field(r.chosen[i]), *_field(r.chosen[j], "′")]
     return draft.step(
         [*fields, Equation(("call", "dϖ", *BOTH), 0)], say("reduction.commute"), where=fields
     )
@@ -410,7 +402,7 @@ def reduction_record(found: SymmetriesFound, general: Values) -> Reduction:
     there is nothing to reduce by."""
     taken = chosen(found)
     routhian = Routhian(found, taken)
-    c, _, before, made_from = expressed_on_basis(found.problem, general)
+    c, before, made_from = expressed_on_basis(found.problem, general)
     left = quadrature_of(routhian)
     steps = (*before, *told(routhian, left, made_from, c))
     fields = [encode(x.displacement) for x in taken]

@@ -105,11 +105,7 @@ class Outside:
 
 
 def outside(
-    problem: Problem,
-    stage: DiscreteMotion,
-    group: Group,
-    forces: DiscreteForces,
-    c: Chapter,
+    problem: Problem, stage: DiscreteMotion, group: Group, forces: DiscreteForces, c: Chapter
 ) -> Outside | None:
     """What acts from outside, with its steps and the balance with it; ``None`` where nothing
     does."""

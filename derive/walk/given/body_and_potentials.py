@@ -39,26 +39,12 @@ from .potential_words import WORDS
 
 # The numbers of the body: moments as parameters, given or integrated, or points; other places.
 
-SOLIDS = {
-    "ball": phrase("integrals.ball"),
-    "box": phrase("integrals.box"),
-    "ellipsoid": phrase("integrals.ellipsoid"),
-    "cylinder": phrase("integrals.cylinder"),
-    "cone": phrase("integrals.cone"),
-    "hollow_ball": phrase("integrals.hollow_ball"),
-    "tetrahedron": phrase("integrals.tetrahedron"),
-    "mesh": phrase("integrals.mesh"),
-}
-"""The name of each kind of solid."""
 SIZES = ("radius", "outer", "inner", "sides", "semi_axes", "quadric", "height", "vertices")
 """The sizes of a solid that are told in words."""
 
 
 def body_step(
-    problem: Problem,
-    points: PointLagrangian | None,
-    a: Alphabet,
-    c: Chapter,
+    problem: Problem, points: PointLagrangian | None, a: Alphabet, c: Chapter
 ) -> tuple[Step, ...]:
     """The step that states the numbers of the body, after that of its integrals for solids; none
     where there is no body.
@@ -104,11 +90,7 @@ def body_step(
 def _massless(low: int, high: int, read: str) -> Prose:
     if low == high:
         return say(f"body.place{read}", point=str(low))
-    return say(
-        f"body.places{read}",
-        low=str(low),
-        high=str(high),
-    )
+    return say(f"body.places{read}", low=str(low), high=str(high))
 
 
 def _points(problem: Problem) -> list[Equation]:
@@ -142,7 +124,7 @@ def _described(s: Solid) -> Sentence:
         sizes = [phrase(f"integrals.{k}", size=x) for k, x in told.items() if k in SIZES]
     solid = phrase(
         "integrals.layered" if is_layered(s.density) else "integrals.solid",
-        kind=SOLIDS[s.kind],
+        kind=phrase(f"integrals.{s.kind}"),
         density=_size(s.density),
         sizes=listed("{first}, {second}", sizes),
     )

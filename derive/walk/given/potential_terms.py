@@ -113,7 +113,7 @@ def in_space(i: int) -> Tree:
     return ("call", ("at", "r", i), "t")
 
 
-def column(entries: tuple[Tree, ...]) -> Tree:
+def column(entries: Iterable[Tree]) -> Tree:
     """A vector as a matrix tree with one column."""
     return ("matrix", *(("row", x) for x in entries))
 

@@ -17,7 +17,7 @@ from ..matrices.coordinates import at_constant_time
 from ..spine.alphabet import Alphabet, cancelling, inverse_letter, inverse_tree
 from ..spine.cartan import DOMEGA
 from ..spine.kernel import any_lagrangian_forms, contact
-from ..spine.principle import CONTRACTED, CONTRACTION, Contraction
+from ..spine.principle import Contraction, put_in
 
 # Exercise 1 for any Lagrangian: what holds whatever L̃(t, g, Z) is, on the left or on the right.
 #
@@ -106,7 +106,7 @@ def _energy(c: Chapter) -> Step:
 
 def _structure(a: Alphabet, crossed: Expr, c: Chapter) -> Step:
     """The structure equation, with the sign of its bracket."""
-    shown = tree_of(crossed, WordNotation(display={a.bracket: read("[ξ′, ξ]")}))
+    shown = tree_of(crossed, _notation(a))
     draft = c.draft("structure", "structure equation")
     return draft.step((Equation(read("δ(ξ′) − δ′(ξ)"), shown),), say("structure.crossed"))
 
@@ -122,29 +122,11 @@ def _kernel(form: Expr, a: Alphabet, c: Chapter) -> tuple[Step, ...]:
         {a.Pi.d_momentum: a.Pi.rate},
         (a.Pi.dp_momentum,),
         notation,
+        resting={a.Pi.dp_momentum: a.Z.xi_prime},
     )
-    putting, testing, finding = (
-        c.draft("contraction", "contraction"),
-        c.draft("vertical", "restriction"),
-        c.draft("second_order", "kernel"),
-    )
-    first = putting.step(
-        [Equation(CONTRACTION, contraction.any_vector(putting))],
-        say("contraction.extremals") + say("contraction.unknown", unknown="ξ, δΠ"),
-        where=(CONTRACTED,),
-    )
-    contraction = contraction.marked_by(putting)
-    second = testing.step(
-        [
-            Equation(CONTRACTION, contraction.on_vertical(testing)),
-            *stated("⟨δ′Π, ξ⟩ = M̃(ξ, δ′Z)"),
-        ],
-        say("vertical.velocity"),
-        where=(CONTRACTED, Equation("δ′t", 0), Equation("ξ′", 0)),
-    )
-    finding.depends_on(second)
+    _, first, second = put_in([contraction], "ξ, δΠ", c, stated("⟨δ′Π, ξ⟩ = M̃(ξ, δ′Z)"))
     along = stated("ξ(X) = Z")
-    third = finding.step(
+    third = c.draft("second_order", "kernel", second).step(
         along, say("second_order.any_lagrangian"), where=along, hypotheses=(REGULAR,)
     )
     return first, second, third
@@ -154,9 +136,9 @@ def _images(a: Alphabet) -> Mapping[Letter, Expr]:
     return contact([(a.Pi, a.Z)], a, {})
 
 
-def _notation(a: Alphabet) -> WordNotation:
-    """Pairings with 𝔤* as ⟨·, ·⟩, and the letter of the bracket written out."""
-    display = {a.bracket: read("[ξ′, ξ]")}
+def _notation(a: Alphabet, *others: Letter) -> WordNotation:
+    """Pairings with 𝔤* as ⟨·, ·⟩, and the letters of the bracket, and others, written out."""
+    display = {a.bracket: read("[ξ′, ξ]")} | {x: read(x.name) for x in others}
     return WordNotation(display=display, covectors=frozenset(a.Pi.letters))
 
 
@@ -234,8 +216,7 @@ def orbit_form(form: Expr, a: Alphabet, moved: Trivialisation, other: Step, c: C
     """
     draft = c.draft("kks", "restriction", other)
     crossed = Letter("[ξ, ξ′]", a.n, a.n)
-    display = {a.bracket: read("[ξ′, ξ]"), crossed: read("[ξ, ξ′]")}
-    notation = WordNotation(display=display, covectors=frozenset(a.Pi.letters))
+    notation = _notation(a, crossed)
     xi, xi_prime, Pi = word(a.Z.xi), word(a.Z.xi_prime), word(a.Pi.momentum)
     opened = {a.bracket: xi_prime * xi - xi * xi_prime, crossed: xi * xi_prime - xi_prime * xi}
     restricted = at_constant_time(form, a.dt, a.dpt)

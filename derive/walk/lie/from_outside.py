@@ -18,6 +18,7 @@ from ...language.expression import hypot
 from ...language.rational import Matrix
 from ...language.reserved import UNNAMED_FORCE, rate_of_mass
 from ...language.tree import Tree, add, mul, names, neg, nodes, plain, replaced
+from ...problem.entries_on_orbit import rational
 from ...problem.fields import coordinates, velocity_at_place
 from ...problem.lagrangian_tables import quotient_of
 from ...problem.problem import Problem, ProblemError
@@ -135,7 +136,7 @@ class Places:
     def _displacements(self, r: Trees) -> list[Trees]:
         """E_a r in the body, on the right E_a A r in space."""
         place = r if self.left else _times(self.A, r)
-        return [_times(_trees(e), place) for e in self.group.basis]
+        return [_times(rational(e), place) for e in self.group.basis]
 
     def _seen(self, f: Sequence[Tree], frame: str, factor: Group) -> Trees:
         """A force by what its work is a product with: Āf in the body, on the right f in space."""
@@ -222,10 +223,6 @@ class Places:
         """Ā on a vector of a block; a rate in the plane is the same in both frames."""
         R = self._rotation(block)
         return [*vector] if len(vector) < len(R) else _times(_transposed(R), vector)
-
-
-def _trees(e: Matrix) -> list[Trees]:
-    return [[plain(x) for x in row] for row in e]
 
 
 def _block(e: Matrix, at: slice) -> Matrix:

@@ -27,7 +27,9 @@ from ...problem.entries_on_orbit import (
     EntriesOfElement,
     Rows,
     element,
+    matrix,
     rational,
+    times,
     vanishes,
     with_entries,
 )
@@ -54,7 +56,7 @@ class Velocity:
     @property
     def at_one(self) -> Rows:
         """f(1)."""
-        return self.at(numbers(q.identity(self.group.size)))
+        return self.at(rational(q.identity(self.group.size)))
 
     @property
     def at_estimate(self) -> Rows:
@@ -128,9 +130,9 @@ class Velocity:
 
     def defect(self, a: Matrix, b: Matrix) -> Rows:
         """f(ab) − f(a)b − a f(b) + a f(1)b, at numbers."""
-        A, B = numbers(a), numbers(b)
-        whole, one = self.at(numbers(q.times(a, b))), multiplied(multiplied(A, self.at_one), B)
-        parts = multiplied(self.at(A), B), multiplied(A, self.at(B))
+        A, B = rational(a), rational(b)
+        whole, one = self.at(rational(q.times(a, b))), times(times(A, self.at_one), B)
+        parts = times(self.at(A), B), times(A, self.at(B))
         return tuple(
             tuple(
                 shortened(add(whole[i][j], neg(parts[0][i][j]), neg(parts[1][i][j]), one[i][j]))
@@ -176,20 +178,6 @@ def _pairs(group: Group) -> Iterator[Pair]:
     yield from zip(twice, twice[::-1], strict=True)
 
 
-# Matrices of expressions.
-
-
-def numbers(m: Matrix) -> Rows:
-    """A matrix of numbers as one of expressions."""
-    return tuple(map(tuple, rational(m)))
-
-
-def multiplied(a: Rows, b: Rows) -> Rows:
-    """The product of two matrices."""
-    columns = [*zip(*b, strict=True)]
-    return tuple(tuple(add(*map(mul, row, column)) for column in columns) for row in a)
-
-
 SIDES = ("L", "R")
 """Left and right, as the names of a record have them."""
 BACK: Tree = ("inv", "Â")
@@ -203,11 +191,6 @@ def f(t: Tree) -> Tree:
 def in_time(t: Tree) -> Tree:
     """The derivative in time."""
     return ("call", "d/dt", t)
-
-
-def matrix(rows: Rows) -> Tree:
-    """A matrix as a tree."""
-    return ("matrix", *(("row", *row) for row in rows))
 
 
 def kinematics_steps(problem: Problem, group: Group, c: Chapter) -> tuple[Step, ...]:
@@ -269,7 +252,7 @@ def _counterexample(velocity: Velocity, first: Step, c: Chapter) -> Step:
     """The difference at two elements, for all inputs."""
     draft = c.draft("counterexample", "group-affine", first)
     pair = velocity.counterexample()
-    where = [Equation(x, matrix(numbers(m))) for x, m in zip(("A", "Â"), pair, strict=True)]
+    where = [Equation(x, matrix(rational(m))) for x, m in zip(("A", "Â"), pair, strict=True)]
     difference = add(f(mul("A", "Â")), neg(_parts()))
     return draft.step(
         [Equation(difference, matrix(velocity.defect(*pair)))], say("affine.fails"), where=where
@@ -290,8 +273,8 @@ def generator(velocity: Velocity, *, left: bool) -> Rows:
     group, one = velocity.group, velocity.at_one
     columns = []
     for a, e in enumerate(group.basis):
-        E = numbers(e)
-        slope, turned = velocity.slope(a), multiplied(one, E) if left else multiplied(E, one)
+        E = rational(e)
+        slope, turned = velocity.slope(a), times(one, E) if left else times(E, one)
         columns.append(
             [
                 shortened(

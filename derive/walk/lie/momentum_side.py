@@ -22,6 +22,7 @@ from ...problem.problem import Problem
 from ...record.record import Equation, Step, stated
 from ...schema.kind import Advected
 from ..chapter import Chapter, say
+from ..given.potential_terms import column
 from ..spine.alphabet import Alphabet
 from .any_lagrangian import SIDES, AnyLagrangian, sign_of
 from .expressed import Basis, Expressed, brackets, coadjoint_terms, member, tidied
@@ -67,7 +68,7 @@ def _velocity(stage: Expressed, group: Group, mass: Step, c: Chapter) -> tuple[S
         return ()
     at_rest = [tidied(_at_rest(p, zeta)) for p in stage.momenta]
     draft = c.draft("by_momenta", "inversion", stage.steps[1], mass)
-    moving = _column(add(member("Π", a), neg(b)) for a, b in enumerate(at_rest))
+    moving = column(add(member("Π", a), neg(b)) for a, b in enumerate(at_rest))
     return (draft.step([Equation("ζ", mul(("inv", "M"), moving))], say("by_momenta.quadratic")),)
 
 
@@ -121,12 +122,8 @@ def _moving(stage: Expressed, problem: Problem, group: Group) -> Equation:
     if problem.driven:
         driven = [*(add(*terms) for terms in from_outside(problem, group)), *(0 for _ in carried)]
         pushed = [add(x, y) for x, y in zip(pushed, driven, strict=True)]
-    turned = mul("𝕁", _column((*coordinates(group), *slopes)))
-    return Equation(_column(rates), add(_column(pushed), turned) if any(pushed) else turned)
-
-
-def _column(entries: Iterable[Tree]) -> Tree:
-    return ("matrix", *(("row", x) for x in entries))
+    turned = mul("𝕁", column((*coordinates(group), *slopes)))
+    return Equation(column(rates), add(column(pushed), turned) if any(pushed) else turned)
 
 
 # What an algebra carries along where the state has no element of the group.
@@ -170,7 +167,7 @@ def reduced(
         return Basis(moved, (), place, told, (place, *told))
     zeta = coordinates(group)
     by_velocity = combined(moved.matrices, zeta, size)
-    rates = Equation("Γ̇", _column(_rate_of_entry(moved, zeta, i) for i in range(1, size + 1)))
+    rates = Equation("Γ̇", column(_rate_of_entry(moved, zeta, i) for i in range(1, size + 1)))
     draft, names = c.draft("advected", "variation", place), _names(problem.advected)
     advected = draft.step(
         [

@@ -11,8 +11,8 @@ from ...algebra.word_trees import hat, normal_form, tree_of
 from ...algebra.words import Expr, Letter, inner, one, word, zero
 from ...language import rational as q
 from ...language.derivatives import product
-from ...language.tree import Tree, add, mul, names, neg, nodes, replaced
-from ...problem.entries_on_orbit import vanishes
+from ...language.tree import Tree, add, names, neg, nodes, replaced
+from ...problem.entries_on_orbit import vanishes, wedge
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ...record.sentence import Prose, enumerated
@@ -111,17 +111,12 @@ def _is_zero(t: Tree) -> bool:
 
 def _parallel(x: Sequence[Tree], y: Sequence[Tree]) -> bool:
     """Is x ∧ y = 0?"""
-    return all(_is_zero(t) for t in _wedge(x, y))
-
-
-def _wedge(x: Sequence[Tree], y: Sequence[Tree]) -> Vector:
-    pairs = ((1, 2), (2, 0), (0, 1))
-    return tuple(add(mul(x[i], y[j]), neg(mul(x[j], y[i]))) for i, j in pairs)
+    return all(_is_zero(t) for t in wedge(x, y))
 
 
 def _turns_into_itself(W: Sequence[Vector], x: Vector) -> bool:
     """Is j(x)W = Wj(x), for a symmetric W: is j(x)W, whose columns are x ∧ W e_i, symmetric?"""
-    turned = [_wedge(x, row) for row in W]
+    turned = [wedge(x, row) for row in W]
     return all(_is_zero(add(turned[i][j], turned[j][i])) for i in range(3) for j in range(i + 1))
 
 

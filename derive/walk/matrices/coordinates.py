@@ -75,12 +75,7 @@ def user_basis_step(group: Group, b: Alphabet, c: Chapter) -> tuple[Step, ...]:
     equations: list[Equation] = [Equation("Z", turned)]
     if b.affine:
         equations.append(Equation("w", ("matrix", *(("row", entry(i, group.n)) for i in span))))
-    return (
-        c.draft("coordinates", "coordinates").step(
-            equations,
-            say("coordinates.stated"),
-        ),
-    )
+    return (c.draft("coordinates", "coordinates").step(equations, say("coordinates.stated")),)
 
 
 def element(group: Group) -> Matrix:

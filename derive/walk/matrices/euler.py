@@ -314,10 +314,7 @@ def _coadjoint(
     step = draft.step(
         [Equation(x.name, spun(vector_sum(e))) for x, e in rates.items()],
         (say("coadjoint.turning_and_moving") if b.affine else say("coadjoint.turning"))
-        + say(
-            "coadjoint.energy",
-            motion="Ω′ = ζ, η′ = w" if b.affine else "Ω′ = ζ",
-        )
+        + say("coadjoint.energy", motion="Ω′ = ζ, η′ = w" if b.affine else "Ω′ = ζ")
         + say_signed("kernel.line", b.signed)
         + motion_prose(b),
     )

@@ -51,10 +51,7 @@ def kinetic_separation(kinetic: Expr, a: Alphabet, c: Chapter) -> Step:
         Equation("J_c", draft.tree(central_moments(a)[1], inverses(a.m))),
         Equation("L̃", draft.tree(_barycentric(kinetic, a) - word(a.U), inverses(a.m))),
     )
-    return draft.step(
-        equations,
-        say("separation.kinetic") + say("separation.condition"),
-    )
+    return draft.step(equations, say("separation.kinetic") + say("separation.condition"))
 
 
 def potential_separation(
@@ -85,16 +82,10 @@ def _prose(problem: Problem, *, decided: bool, rest: bool, pointwise: bool) -> P
         if rest:
             prose += say("separation.rest")
         if outside:
-            prose += say(
-                "separation.outside_too",
-                forces=listed(AND, outside),
-            )
+            prose += say("separation.outside_too", forces=listed(AND, outside))
         return prose
     if outside:
-        prose = say(
-            "separation.outside",
-            forces=listed(AND, outside),
-        )
+        prose = say("separation.outside", forces=listed(AND, outside))
     else:
         prose = say("separation.separates")
     if pointwise:

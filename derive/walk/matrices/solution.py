@@ -72,10 +72,7 @@ def multiplier_steps(
     solved = solving.mark(solved)
     return (
         balancing.step((*definition, balance), _prose(direction, letters)),
-        solving.step(
-            equations,
-            _invertible(metric.name, b, multiplier=direction is not None),
-        ),
+        solving.step(equations, _invertible(metric.name, b, multiplier=direction is not None)),
         _in_space(solved, solving.mark(centred.rate) if centred else None, b, notation, c),
     )
 
@@ -108,10 +105,7 @@ def _in_space(
         turning = {b.Z.acceleration: word(within) - Z * Z}
         pulled = carried(substitute(drift, turning) + Z * word(b.w.velocity))
         equations.append(Equation(b.T.acceleration.name, draft.tree(pulled, notation)))
-    return draft.step(
-        equations,
-        say("space.affine" if drift is not None else "space.linear"),
-    )
+    return draft.step(equations, say("space.affine" if drift is not None else "space.linear"))
 
 
 def direction_of(group: Group, b: Alphabet) -> tuple[Expr | None, list[Letter], list[Equation]]:

@@ -129,8 +129,7 @@ def trivialise(stage: Cartan, a: Alphabet, c: Chapter) -> Cartan:
     draft = c.draft("cartan_trivialised", "trivialisation")
     momentum, energy = at_identity(stage.momentum, a), at_identity(stage.energy, a)
     step = draft.step(
-        (form_equation(draft, momentum, energy, metrics()),),
-        say("cartan_trivialised.form"),
+        (form_equation(draft, momentum, energy, metrics()),), say("cartan_trivialised.form")
     )
     form = draft.mark(cartan_form(momentum, energy, a))
     steps = (trivialisation(a, c), step)
@@ -141,8 +140,7 @@ def trivialise(stage: Cartan, a: Alphabet, c: Chapter) -> Cartan:
 def form_equation(d: Draft, momentum: Expr, energy: Expr, notation: WordNotation) -> Equation:
     """The equation ϖ(δy) = p̃ − (h̃) δt, with the energy written out."""
     return Equation(
-        read("ϖ(δy)"),
-        add(d.tree(momentum, notation), mul(-1, d.tree(energy, notation), "δt")),
+        read("ϖ(δy)"), add(d.tree(momentum, notation), mul(-1, d.tree(energy, notation), "δt"))
     )
 
 
@@ -399,10 +397,7 @@ def structure(a: Alphabet, c: Chapter) -> Step:
         Equation(read(f"δ({f.xi_prime.name}) − δ′({f.xi.name})"), t)
         for f, t in zip(a.algebra_parts, shown_brackets(a), strict=True)
     )
-    return c.draft("structure", "structure equation").step(
-        equations,
-        say("structure.crossed"),
-    )
+    return c.draft("structure", "structure equation").step(equations, say("structure.crossed"))
 
 
 def exterior_trivialised(natural: Exterior, stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:

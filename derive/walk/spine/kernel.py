@@ -185,10 +185,7 @@ def _equations(c: Contraction, work: Expr, a: Alphabet, chapter: Chapter) -> Ste
     rhs: Tree = ("mul", -1, ("call", "dŨ", *(draft.tree(images[p.dp_position]) for p in a.parts)))
     return draft.step(
         (*rates(draft, a), Equation(shown, rhs, tuple(f.xi_prime.name for f in a.algebra_parts))),
-        say(
-            "equations.exercise",
-            acceleration="(Ż, ẇ)" if a.affine else "Ż",
-        ),
+        say("equations.exercise", acceleration="(Ż, ẇ)" if a.affine else "Ż"),
     )
 
 
@@ -382,10 +379,7 @@ def _kernel(
                 tuple(f.xi_prime.name for f in a.algebra_parts),
             ),
         ),
-        say(
-            "coadjoint.any_lagrangian",
-            push="(Φ, F_b)" if a.affine else "Φ",
-        ),
+        say("coadjoint.any_lagrangian", push="(Φ, F_b)" if a.affine else "Φ"),
     )
     return draft.mark(substitute(balance, turned)), step
 
@@ -442,7 +436,4 @@ def along_motion(
 
 def restricted_prose(a: Alphabet) -> Prose:
     """The sentence for a dϖ that is restricted to a group."""
-    return say(
-        "exterior.by_momenta",
-        momenta="(Π, p_b, Φ, F_b)" if a.affine else "(Π, Φ)",
-    )
+    return say("exterior.by_momenta", momenta="(Π, p_b, Φ, F_b)" if a.affine else "(Π, Φ)")

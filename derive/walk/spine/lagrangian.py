@@ -304,9 +304,7 @@ def _moments(a: Alphabet, c: Chapter) -> tuple[Moments, Step]:
     defines them."""
     draft = c.draft("moments", "definition")
     step = draft.step(
-        stated("m = Σᵢ mᵢ,  c = Σᵢ mᵢ rᵢ,  J = Σᵢ mᵢ rᵢ r̄ᵢ"),
-        say("moments.only"),
-        (18, 19),
+        stated("m = Σᵢ mᵢ,  c = Σᵢ mᵢ rᵢ,  J = Σᵢ mᵢ rᵢ r̄ᵢ"), say("moments.only"), (18, 19)
     )
     table = {(a.m_i,): a.m, (a.m_i, a.r_i): a.c, (a.m_i, a.r_i, a.r_i): a.J}
     return {key: draft.mark(word(x)) for key, x in table.items()}, step

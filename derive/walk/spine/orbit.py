@@ -88,10 +88,7 @@ def _equations(d: Draft, square: Expr, varied: Expr, a: Alphabet) -> tuple[Equat
     notation = metrics("C", display={a.difference: read("rᵢ − rⱼ")})
     return (
         Equation(read("‖rᵢ(t) − rⱼ(t)‖²"), d.tree(square, notation)),
-        Equation(
-            read("⟨rᵢ(t) − rⱼ(t), δ(rᵢ(t)) − δ(rⱼ(t))⟩"),
-            d.tree(varied, notation),
-        ),
+        Equation(read("⟨rᵢ(t) − rⱼ(t), δ(rᵢ(t)) − δ(rⱼ(t))⟩"), d.tree(varied, notation)),
     )
 
 
@@ -105,10 +102,7 @@ def distances(points: PointLagrangian, a: Alphabet, c: Chapter) -> Distances:
     turned = {a.A.position: word(a.A.position) * word(a.Z.xi)}
     varied = reduce(derivation(square, turned.get), rule) * Fraction(1, 2)
     square = reduce(square, rule)
-    step = draft.step(
-        _equations(draft, square, varied, a),
-        say("distances.cauchy_green"),
-    )
+    step = draft.step(_equations(draft, square, varied, a), say("distances.cauchy_green"))
     return Distances(draft.mark(square), draft.mark(varied), (step,))
 
 
@@ -117,11 +111,7 @@ def rigid(general: Distances, unit: Expr, a: Alphabet, c: Chapter) -> Step:
     vanish (6)."""
     draft = c.draft("rigid", "relation")
     square, varied = (a.respell(e, unit).of(unit) for e in (general.square, general.varied))
-    return draft.step(
-        _equations(draft, square, varied, a),
-        say("rigid.orbit"),
-        (1, 6),
-    )
+    return draft.step(_equations(draft, square, varied, a), say("rigid.orbit"), (1, 6))
 
 
 def unaligned(points: PointLagrangian, unit: Expr, b: Alphabet, c: Chapter) -> Step:

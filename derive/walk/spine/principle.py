@@ -174,27 +174,10 @@ def steps_of(
     ``forms``: how dϖ is written, the last of them by velocities; ``known``: the letters whose
     values on X are told; ``a``: the alphabet. Also: the first form as these steps say it.
     """
-    putting = chapter.draft("contraction", "contraction")
-    testing = chapter.draft("vertical", "restriction")
     finding = chapter.draft("second_order", "kernel")
-    first = putting.step(
-        [Equation(CONTRACTION, x.any_vector(putting)) for x in forms],
-        say("contraction.extremals")
-        + say(
-            "contraction.unknown",
-            unknown=unknown,
-        ),
-        where=(CONTRACTED,),
-    )
-    forms = [x.marked_by(putting) for x in forms]
+    forms, first, second = put_in(forms, unknown, chapter)
     last = forms[-1]
-    second = testing.step(
-        [Equation(CONTRACTION, x.on_vertical(testing)) for x in forms],
-        say("vertical.velocity"),
-        where=(CONTRACTED, *last.at_rest()),
-    )
-    found = {x: testing.mark(y) for x, y in last.velocity.items()}
-    forms = [replace(x, velocity=found) for x in forms]
+    found = last.velocity
     along = velocities(finding, found, known)
     third = finding.step(
         (*along, *(Equation(CONTRACTION, x.remaining(finding), x.rates()) for x in forms)),
@@ -204,6 +187,32 @@ def steps_of(
         (last.metric(),),
     )
     return forms[0], (first, second, third)
+
+
+def put_in(
+    forms: Sequence[Contraction],
+    unknown: Sentence | str,
+    chapter: Chapter,
+    beside: Iterable[Equation] = (),
+) -> tuple[list[Contraction], Step, Step]:
+    """X put into dϖ, and its vertical part: the forms as these two steps say them, and the steps;
+    ``beside``: what else is so of the second."""
+    putting = chapter.draft("contraction", "contraction")
+    testing = chapter.draft("vertical", "restriction")
+    first = putting.step(
+        [Equation(CONTRACTION, x.any_vector(putting)) for x in forms],
+        say("contraction.extremals") + say("contraction.unknown", unknown=unknown),
+        where=(CONTRACTED,),
+    )
+    forms = [x.marked_by(putting) for x in forms]
+    last = forms[-1]
+    second = testing.step(
+        [*(Equation(CONTRACTION, x.on_vertical(testing)) for x in forms), *beside],
+        say("vertical.velocity"),
+        where=(CONTRACTED, *last.at_rest()),
+    )
+    found = {x: testing.mark(y) for x, y in last.velocity.items()}
+    return [replace(x, velocity=found) for x in forms], first, second
 
 
 # The principle: a lift is an extremal of the action (5), δt and δg being 0 at both ends, if and
