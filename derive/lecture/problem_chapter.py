@@ -22,6 +22,7 @@ from ..views.language import Language, told
 from ..views.layout import Reading
 from ..views.outline import declared, system, title
 from ..views.text import formula
+from .common_factors import tidied
 from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
 from .named_sums import NamedSums
@@ -31,6 +32,8 @@ from .recorded_text import (
     OVER,
     SPOKEN,
     as_read,
+    as_written,
+    claimed,
     conserved,
     display,
     in_each,
@@ -102,6 +105,7 @@ def chapter_of(
     ``records``: the names of those that its ties speak of; ``place``: whether its body has that of
     the racket, or why not; ``ran``: its motion, or why there is none.
     Searches that were refused stand last, those for one reason together."""
+    found = {x: replace(y, steps=(*(claimed(d, s) for s in y.steps),)) for x, y in found.items()}
     run = ran if isinstance(ran, Ran) else None
     moving = coordinate(d, found.get("reduction", Found()).steps)
     told = {x: _told(d, x, found[x], run) for x in SEARCHES if x in found}
@@ -122,7 +126,7 @@ def chapter_of(
     kept = [x for x in found.get("symmetries", Found()).steps if kept_by(x)]
     blocks += exercises(
         d,
-        [(e, home[e]) for e in equations_of_motion(d)],
+        [(tidied(e, [*d.problem["parameters"]]), home[e]) for e in equations_of_motion(d)],
         kept,
         [s for x in ("integrals", "reduction") for s in found.get(x, Found()).steps],
         run,
@@ -130,7 +134,7 @@ def chapter_of(
     )
     reading = Reading(str(d.problem["group"]))
     steps = (*d.steps, *(s for x in found.values() for s in x.steps))
-    sums = NamedSums((*d.problem["parameters"], *(x for s in steps for x in s.names)))
+    sums = NamedSums((x for s in steps for x in s.names), d.problem["parameters"])
     blocks = [as_read(x, reading, sums) for x in blocks]
     whole = kept and stable
     titles = tuple(
@@ -283,9 +287,10 @@ def _told(d: Derivation, search: str, found: Found, ran: Ran | None) -> list[Ent
 def _valid(d: Derivation, step: Step, ran: Ran | None) -> Iterator[Entry]:
     """What must not be 0, at the start of the motion."""
     divided = placed(step, "conditions") if any(c.kind == DIVIDED for c in step.claims) else []
-    told = [(in_sentence(y), value_at_start(d, y, ran)) for x in divided for y in rows(x) if ran]
+    told = [(y, value_at_start(d, y, ran)) for x in divided for y in rows(x) if ran]
     if told and all(math.isfinite(y) and y for _, y in told):
-        yield stated("valid", values=", ".join(f"{x} = {written(y)}" for x, y in told))
+        values = (f"{in_sentence(as_written(d, x))} = {written(y)}" for x, y in told)
+        yield stated("valid", values=", ".join(values))
 
 
 def _momenta(d: Derivation) -> Iterator[Entry]:

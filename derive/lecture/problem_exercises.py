@@ -7,7 +7,6 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
-from unicodedata import normalize
 from zlib import crc32
 
 import numpy as np
@@ -16,8 +15,7 @@ from ..language.show import in_sentence, show
 from ..language.tree import Tree, names, neg, nodes, replaced, terms
 from ..record.record import Derivation, Equation, Step
 from ..record.sentence import Sentence, phrase
-from ..views.book import RATE
-from .lecture_text import Block, Entry, Formula
+from .lecture_text import Block, Entry, Formula, rate_of
 from .ran_figure import Ran, value_at_start, written
 from .recorded_text import SPOKEN, alone, display, in_each, kept_by, kind_of, lecture, stated, words
 from .search_sentences import of_momentum
@@ -44,7 +42,7 @@ def exercises(
     equations of ``motion``, with the labels of their steps; on the motion that ran; of equations
     that are ``short``."""
     fit = [x for x in kept if kept_by(x) != "h̃" and short(Equation("ϖ", kept_by(x)))]
-    by_hand = [*_by_rates(found, short)]
+    by_hand = [*_by_rates(d, found, short)]
     if by_hand:
         yield from _of(*by_hand)
     elif fit:
@@ -68,7 +66,7 @@ def _asked(kind: str, said: Sentence) -> Entry:
 
 
 def _by_rates(
-    steps: Sequence[Step], short: Callable[[Equation], bool]
+    d: Derivation, steps: Sequence[Step], short: Callable[[Equation], bool]
 ) -> Iterator[Sequence[Entry]]:
     """The shortest sum that an integral or a Casimir is, but for the energy, asked; and its proof
     by the rates of its letters, where these are short."""
@@ -82,18 +80,11 @@ def _by_rates(
     energies = [e.rhs for s in steps for e in s.equations if e.lhs == "h̃"]
     found = [x for x in constants if len(terms(x[0])) > 1 and x[0] not in energies]
     for kept, e, label in sorted(found, key=lambda x: len(in_sentence(x[0])))[:1]:
-        used = [*dict.fromkeys(rates[y] for x in nodes(kept) if (y := _rate(x)) in rates)]
+        used = [*dict.fromkeys(rates[y] for x in nodes(kept) if (y := rate_of(x)) in rates)]
         if used and all(short(x) for x, _ in used):
-            yield [_asked(HAND, KEPT), alone(kept)]
+            yield [_asked(HAND, KEPT), alone(d, kept)]
             rules = display([x for x, _ in used], [used[0][1]])
             yield [stated("by_rates"), rules, stated("cancel"), display([e], [label])]
-
-
-def _rate(t: Tree) -> Tree:
-    """The rate of a momentum or of an entry, as equations have it; 0 of anything else."""
-    if not isinstance(t, tuple) or t[0] not in ("at", "entry") or not isinstance(t[1], str):
-        return 0
-    return (t[0], normalize("NFC", t[1] + RATE), *t[2:])
 
 
 def _by_noether(d: Derivation, step: Step) -> list[Block]:
@@ -101,7 +92,7 @@ def _by_noether(d: Derivation, step: Step) -> list[Block]:
     field = [e for e in step.equations if e.lhs in ("δA", "δT") and e.rhs != 0]
     by_field = stated("by_field", kind=kind_of(d, [step]))
     solved = [by_field, display(field, (step.label,)), stated("by_noether")]
-    return _of([_asked(HAND, KEPT), alone(kept_by(step))], solved)
+    return _of([_asked(HAND, KEPT), alone(d, kept_by(step))], solved)
 
 
 def _seen_by_energy(e: Equation, motion: Sequence[Equation]) -> Iterator[int]:

@@ -99,7 +99,8 @@ class Ran:
         """The values of what is kept, at the end, and by how much they have changed at most."""
         end = self._with_unit(self.times[-1], "t")
         change = max((abs(x - self.energy[0]) for x in self.energy), default=0.0)
-        if change > LOST * max(map(abs, self.energy), default=1.0):
+        seen = max((abs(x) for _, y in self.curves for x in y), default=0.0)
+        if change > max(LOST * max(map(abs, self.energy), default=1.0), ROUNDING * seen):
             first, last = (written(self.energy[k]) for k in (0, -1))
             return words.word(told("lecture:lost"), end=end, first=first, last=last)
         kept = {words.word("energy"): ("energy", self.energy)} if self.energy else {}

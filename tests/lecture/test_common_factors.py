@@ -38,6 +38,19 @@ def test_a_sum_is_equal_and_shorter(text):
     assert len(values) > 1
 
 
+ORDERED = {
+    "‘g’ ‘l’ ‘m’ A₁₂/‘k’": "mgl A₁₂/k",
+    "‘l’² ‘m’ ζ₁ ζ₁/2": "ml² ζ₁²/2",
+    "Π₁ ‘l’ π ‘m’": "π·ml Π₁",
+    "(Π₂ A₃₁ ‘l’ − Π₁ A₃₂ ‘l’)/‘g’": "l(Π₂ A₃₁ − Π₁ A₃₂)/g",
+}
+
+
+@pytest.mark.parametrize("text", ORDERED)
+def test_parameters_are_first_in_the_order_in_which_they_are_declared(text):
+    assert show(tidied(Equation("x", tree(text)), ["m", "g", "l"]).rhs) == ORDERED[text]
+
+
 @pytest.mark.parametrize("text", ["AZ + BZ", "⟨Ac, γ⟩ − Ũ", "½ Tr αJᾱ − Ũ"])
 def test_matrices_keep_their_places(text):
     assert tidied(Equation("x", tree(text))).rhs == tree(text)
