@@ -105,22 +105,26 @@ def _product(number: Fraction, factors: Factors) -> Tree:
 
 
 def _groups(t: Tree) -> Iterable[list[Tree]]:
-    """Terms with the same factors of parameters, or with the same sum below the line, in the order
-    in which the first of each stands; of the others those of parameters alone, and those with the
-    same number below the line."""
+    """All terms, if they differ by parameters alone, and are not of these alone; else terms with
+    the same factors of parameters, or with the same sum below the line, in the order in which the
+    first of each stands; of the others those of parameters alone, and those with the same number
+    below the line."""
+    others = [{x: n for x, n in _split(y)[1].items() if not _is_constant(x)} for y in terms(t)]
+    if others[0] and all(x == others[0] for x in others):
+        return [[*terms(t)]]
     found: dict[object, list[Tree]] = {}
     for k, term in enumerate(terms(t)):
         same = {x: n for x, n in _split(term)[1].items() if _is_constant(x)}
         below = {x: n for x, n in same.items() if n < 0 and terms(x)[1:]}
         found.setdefault(frozenset((below or same).items()) or k, []).append(term)
     merged: dict[object, list[Tree]] = {}
-    for key, (first, *others) in found.items():
+    for key, (first, *rest) in found.items():
         number, factors = _split(first)
-        if not others and _is_constant(first):
+        if not rest and _is_constant(first):
             key = "parameters"
-        elif not others and number.denominator > 1 and min(factors.values()) > 0:
+        elif not rest and number.denominator > 1 and min(factors.values()) > 0:
             key = f"over {number.denominator}"
-        merged.setdefault(key, []).extend((first, *others))
+        merged.setdefault(key, []).extend((first, *rest))
     return merged.values()
 
 

@@ -26,11 +26,12 @@ from .common_factors import tidied
 from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
 from .named_sums import NamedSums
-from .problem_exercises import MOST, coordinate, exercises
+from .problem_exercises import MOST, coordinate, exercises, off_the_axes
 from .ran_figure import DESCRIBED, FLAT, Ran, label_of, raised, value_at_start, written
 from .recorded_text import (
     OVER,
     SPOKEN,
+    UNDRIVEN,
     as_read,
     as_written,
     claimed,
@@ -44,7 +45,7 @@ from .recorded_text import (
     stated,
     without_advice,
 )
-from .search_sentences import around, momenta, space
+from .search_sentences import around, momenta, retold, space
 from .steady_sentences import asleep, placed, rows, same_top, steady
 
 SEARCHES = {
@@ -108,7 +109,8 @@ def chapter_of(
     found = {x: replace(y, steps=(*(claimed(d, s) for s in y.steps),)) for x, y in found.items()}
     run = ran if isinstance(ran, Ran) else None
     moving = coordinate(d, found.get("reduction", Found()).steps)
-    told = {x: _told(d, x, found[x], run) for x in SEARCHES if x in found}
+    others = [*off_the_axes(d, found.get("reduction", Found()).steps, run)]
+    told = {x: _told(d, x, found[x], run, others) for x in SEARCHES if x in found}
     if {*STEADY} <= {*told}:  # in letters, where they are found so: it says more
         del told[STEADY[0] if told[STEADY[1]] else STEADY[1]]
     told = dict(sorted(told.items(), key=lambda x: found[x[0]].refused))
@@ -161,6 +163,7 @@ def _question(ran: Ran | None, letter: Tree, *, stable: bool) -> Block:
     if ran and len(ran.start) <= MOST:
         start = ", ".join(f"{x} = {written(y)}" for x, y in ran.start)
         asked.insert(0, lecture("start" if start else "at_rest", start=start))
+    asked += [UNDRIVEN] if ran and ran.undriven else []
     return _text(sentence((*asked,)))
 
 
@@ -262,11 +265,14 @@ def _valued(rows: Sequence[tuple[str, str, str, str]], spoken: Language) -> Word
     return tuple(found[:-1])
 
 
-def _told(d: Derivation, search: str, found: Found, ran: Ran | None) -> list[Entry]:
-    """The steps that a search tells; nothing where it was refused, or found none."""
+def _told(
+    d: Derivation, search: str, found: Found, ran: Ran | None, others: Sequence[Entry] = ()
+) -> list[Entry]:
+    """The steps that a search tells; nothing where it was refused, or found none; ``others``:
+    steady motions that the reduction tells."""
     if search in STEADY:
-        told_of = [*steady(d, found.steps, ran)]
-        return [*told_of, *(asleep(d) if told_of else ())]
+        told_of = [*steady(d, found.steps, ran, elsewhere=bool(others))]
+        return [*told_of, *(asleep(d) if told_of else ()), *others]
     begins = tuple(f"{d.name}.{x}" for x in TOLD[search])
     told = [s for s in found.steps if s.label.startswith(begins)]
     if search == "symmetries":
@@ -274,7 +280,7 @@ def _told(d: Derivation, search: str, found: Found, ran: Ran | None) -> list[Ent
         return [*(_momenta(d) if any("Π" in s.names for s in kept) else ()), *conserved(d, kept)]
     if search == "trim":
         alike = groupby(told, lambda s: s.prose)
-        return [sentence(x, [s.label for s in run]) for x, run in alike]
+        return [sentence((*map(retold, x),), [s.label for s in run]) for x, run in alike]
     entries = [*momenta(d, found.steps)] if search == "reduction" else [*space(found.steps)]
     for step in told:
         before, after = around(step)

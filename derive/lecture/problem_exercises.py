@@ -11,15 +11,16 @@ from zlib import crc32
 
 import numpy as np
 
+from ..language.derivatives import derivative
 from ..language.show import in_sentence, show
 from ..language.tree import Tree, names, neg, nodes, replaced, terms
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Sentence, phrase
+from ..record.sentence import Sentence, enumerated, phrase
 from .lecture_text import Block, Entry, Formula, rate_of
 from .ran_figure import Ran, value_at_start, written
 from .recorded_text import SPOKEN, alone, display, in_each, kept_by, kind_of, lecture, stated, words
 from .search_sentences import of_momentum
-from .steady_sentences import rows
+from .steady_sentences import SOLIDS, rows
 
 HAND, MISTAKE, WATCH = "By hand.", "Find the mistake.", "Predict, then watch."
 KEPT = phrase("Show that this is constant along every motion:")
@@ -130,7 +131,7 @@ def _on_motion(d: Derivation, steps: Sequence[Step], ran: Ran) -> Iterator[Block
     step = next((s for s in steps if s.label == f"{d.name}.quadrature"), None)
     if step is None or not ran.energy or not 0 < len(ran.start) <= MOST:
         return
-    places = between(d, step, _constants(d, steps, ran), ran)
+    places = between(d, step, constants(d, steps, ran), ran)
     if not places:
         return
     solved = [stated("between", [step.label], **places)]
@@ -138,10 +139,48 @@ def _on_motion(d: Derivation, steps: Sequence[Step], ran: Ran) -> Iterator[Block
     yield from _of([_asked(WATCH, lecture("predict", **places))], solved)
 
 
-def _constants(d: Derivation, steps: Sequence[Step], ran: Ran) -> dict[Tree, float]:
+def constants(d: Derivation, steps: Sequence[Step], ran: Ran) -> dict[Tree, float]:
     """The energy and the momenta of a reduction at the start."""
     momenta = (e for s in steps for e in s.equations if of_momentum(e.lhs))
     return {"h̃": ran.energy[0]} | {e.lhs: value_at_start(d, e.rhs, ran) for e in momenta}
+
+
+def off_the_axes(d: Derivation, steps: Sequence[Step], ran: Ran | None) -> Iterator[Entry]:
+    """The steady motions of a reduction to one entry of a rotation, with the momenta of the start:
+    where the derivative of the effective potential vanishes; nothing where no number is known."""
+    u = coordinate(d, steps)
+    effective = [e.rhs for s in steps for e in s.equations if e.lhs == "𝒱"]
+    if not ran or not ran.energy or not effective or d.problem["group"] not in SOLIDS:
+        return
+    given = constants(d, steps, ran)
+    del given["h̃"]
+    slope = derivative(effective[0], u)
+    for letter, number in given.items():
+        slope = replaced(slope, letter, Fraction(number)) if math.isfinite(number) else "?"
+
+    def at(x: float) -> float:
+        return value_at_start(d, replaced(slope, u, Fraction(x)), ran)
+
+    grid = [(x, at(x)) for x in np.linspace(-1, 1, 102)[1:-1].tolist()]
+    if not u or not all(math.isfinite(y) for _, y in grid):
+        return
+    letter, places = show(u), []
+    for (low, first), (high, last) in pairwise(grid):
+        if first * last < 0:
+            for _ in range(40):
+                middle = (low + high) / 2
+                low, high = (middle, high) if at(middle) * first > 0 else (low, middle)
+            kind = "least" if first < 0 else "greatest"
+            places.append(lecture(kind, letter=letter, value=_thousandths(low)))
+    told = ", ".join(f"{show(x)} = {written(y)}" for x, y in given.items())
+    found = enumerated(places or [lecture("no_value")])
+    yield stated(
+        "off_the_axes",
+        [s.label for s in steps if s.label.endswith(".effective")],
+        letter=letter,
+        given=told,
+        places=found,
+    )
 
 
 def between(d: Derivation, step: Step, constants: Mapping[Tree, float], ran: Ran) -> dict[str, str]:

@@ -93,6 +93,9 @@ def display(
     return Entry((formula,) * len(LANGUAGES), ties, display=True, line=0)
 
 
+UNDRIVEN = phrase(told("lecture.poisson.undriven"))
+
+
 def as_read(block: Block, reading: Reading, sums: NamedSums) -> Block:
     """A block of a chapter as it is read, with letters for sums where it would be too wide."""
 
@@ -121,7 +124,8 @@ def conserved(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
     """What symmetries keep, those of one kind along or about several axes in one sentence; ``d``:
     the record of the walk."""
     if steps:
-        yield stated("noether")
+        undriven = [UNDRIVEN] if d.problem["inputs"] else []
+        yield sentence((lecture("noether"), *undriven))
     for (_, exact, energy), alike in groupby(steps, _alike):
         run = [*alike]
         said = "energy" if energy else "constants" if run[1:] else "constant"

@@ -75,9 +75,12 @@ Point = Sequence[Any]
 RANKS = "the least of the three", "between those of the others", "the greatest of the three"
 
 
-def steady(d: Derivation, steps: Sequence[Step], ran: Ran | None = None) -> Iterator[Entry]:
+def steady(
+    d: Derivation, steps: Sequence[Step], ran: Ran | None = None, *, elsewhere: bool = False
+) -> Iterator[Entry]:
     """What is supposed, then a sentence for each steady motion, and one of three that are alike;
-    ``steps``: of one search; ``ran``: the motion whose momenta the numbers are of."""
+    ``steps``: of one search; ``ran``: the motion whose momenta the numbers are of; ``elsewhere``:
+    are others told, too?"""
     at = [s for s in steps if ".equilibrium_" in s.label]
     if not at:
         return
@@ -90,6 +93,7 @@ def steady(d: Derivation, steps: Sequence[Step], ran: Ran | None = None) -> Iter
     letters = [y for point in points for y in point if isinstance(y[1], tuple)]
     numbers, start = _numbers(d, letters, ran)
     first = [lecture("tried", variables=", ".join(variables_of(at[0])))]
+    first += [] if elsewhere else [lecture("elsewhere")]
     first += [replace(x, message=POSITIVE) for x in supposed]
     if named := dict.fromkeys(in_sentence(y) for _, y in letters):
         first.append(phrase(LETTERS, letters=", ".join(named)))

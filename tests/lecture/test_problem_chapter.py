@@ -287,7 +287,7 @@ def test_cases_are_told_with_or_between_them_and_with_and_inside():
     [
         ("‘I1’²", ""),
         ("(‘I1’² + 4 ‘I2’²)²", ""),
-        ("‘I1’ ‘I2’", "‘I1’‘I2’ > 0"),
+        ("‘I1’ ‘I2’", "‘I1’ ‘I2’ > 0"),
         ("(‘I1’ − ‘I2’)²", "(‘I1’ − ‘I2’)² > 0"),
         ("‘I3’²", "‘I3’² > 0"),
     ],
@@ -304,6 +304,20 @@ def test_a_condition_that_every_sign_fulfils_is_left_out(asked, told):
     changed = replace(record, problem={**record.problem, "parameters": given})
     found = dict(claimed(changed, step).prose[0].places)["positive"]
     assert str(found) == ", ".join(x for x in (told, "‘a’ > 0") if x)
+
+
+def test_a_top_that_keeps_its_tilt_is_told_with_the_momenta_of_the_start():
+    """There 𝒱′ = 0: I₁ u ψ̇² − 𝒥₂ ψ̇ + mgl = 0 for ψ̇ = (𝒥₁ − u 𝒥₂)/(I₁(1 − u²)), and u is the only
+    such tilt; the numbers are those of the problem: I₁ = 1, mgl = 3/2, I₃ = 2/5, ζ₃ = 8."""
+    chapter, _, _ = chapter_on("lagrange_top")
+    told = [e.texts[0] for e in chapter.entries if str(e.texts[0]).startswith("('Off the axes")]
+    (whole,) = ("".join(x if isinstance(x, str) else x.text for x in text) for text in told)
+    found = re.search(r"𝒥₁ = ([\d.]+), 𝒥₂ = ([\d.]+), at A₃₃ = ([\d.]+), where 𝒱 has a min", whole)
+    upright, own, u = map(float, found.groups())
+    turning = (upright - u * own) / (1 - u * u)
+    assert u * turning**2 - own * turning + 1.5 == pytest.approx(0, abs=2e-2)
+    assert own == pytest.approx(0.4 * 8)
+    assert not any("were not sought" in str(e.texts[0]) for e in chapter.entries)
 
 
 def test_an_energy_that_begins_at_zero_is_kept_to_within_rounding():
