@@ -150,37 +150,40 @@ def off_the_axes(d: Derivation, steps: Sequence[Step], ran: Ran | None) -> Itera
     where the derivative of the effective potential vanishes; nothing where no number is known."""
     u = coordinate(d, steps)
     effective = [e.rhs for s in steps for e in s.equations if e.lhs == "𝒱"]
-    if not ran or not ran.energy or not effective or d.problem["group"] not in SOLIDS:
+    if not u or not ran or not ran.energy or not effective or d.problem["group"] not in SOLIDS:
         return
     given = constants(d, steps, ran)
     del given["h̃"]
     slope = derivative(effective[0], u)
-    for letter, number in given.items():
-        slope = replaced(slope, letter, Fraction(number)) if math.isfinite(number) else "?"
-
-    def at(x: float) -> float:
-        return value_at_start(d, replaced(slope, u, Fraction(x)), ran)
-
-    grid = [(x, at(x)) for x in np.linspace(-1, 1, 102)[1:-1].tolist()]
-    if not u or not all(math.isfinite(y) for _, y in grid):
+    entries = {x for x in nodes(slope) if isinstance(x, tuple) and x[0] == "entry"}
+    if entries - {u} or not all(map(math.isfinite, given.values())):
         return
-    letter, places = show(u), []
+    at = _function(d, slope, u, given, ran)
+    grid = [(x, at(x)) for x in np.linspace(-1, 1, 102)[1:-1].tolist()]
+    found = []
     for (low, first), (high, last) in pairwise(grid):
         if first * last < 0:
             for _ in range(40):
                 middle = (low + high) / 2
                 low, high = (middle, high) if at(middle) * first > 0 else (low, middle)
             kind = "least" if first < 0 else "greatest"
-            places.append(lecture(kind, letter=letter, value=_thousandths(low)))
-    told = ", ".join(f"{show(x)} = {written(y)}" for x, y in given.items())
-    found = enumerated(places or [lecture("no_value")])
-    yield stated(
-        "off_the_axes",
-        [s.label for s in steps if s.label.endswith(".effective")],
-        letter=letter,
-        given=told,
-        places=found,
-    )
+            found.append(lecture(kind, letter=show(u), value=_thousandths(low)))
+    labels = [s.label for s in steps if s.label.endswith(".effective")]
+    places = enumerated(found or [lecture("no_value")])
+    yield stated("off_the_axes", labels, letter=show(u), given=_told(given), places=places)
+
+
+def _function(
+    d: Derivation, t: Tree, u: Tree, constants: Mapping[Tree, float], ran: Ran
+) -> Callable[[float], float]:
+    """An expression as a function of a coordinate, with the numbers of constants."""
+    for letter, number in constants.items():
+        t = replaced(t, letter, Fraction(number))
+    return lambda x: value_at_start(d, replaced(t, u, Fraction(x)), ran)
+
+
+def _told(constants: Mapping[Tree, float]) -> str:
+    return ", ".join(f"{show(x)} = {written(y)}" for x, y in constants.items())
 
 
 def between(d: Derivation, step: Step, constants: Mapping[Tree, float], ran: Ran) -> dict[str, str]:
@@ -190,25 +193,21 @@ def between(d: Derivation, step: Step, constants: Mapping[Tree, float], ran: Ran
     if not all(map(math.isfinite, constants.values())):
         return {}
     degree = [int(str(y)) for x in step.prose for name, y in x.places if name == "degree"]
-    t = step.equations[0].rhs
     u = coordinate(d, [step])
-    for letter, number in constants.items():
-        t = replaced(t, letter, Fraction(number))
+    at = _function(d, step.equations[0].rhs, u, constants, ran)
     places = np.linspace(-1, 1, degree[0] + 1 if degree else 0)
-    values = [value_at_start(d, replaced(t, u, Fraction(x)), ran) for x in places]
+    values = [*map(at, places)]
     if not degree or not np.isfinite(values).all():
         return {}
     roots = np.roots(np.polyfit(places, values, degree[0]))
     first = value_at_start(d, u, ran)
     for low, high in pairwise(sorted(x.real for x in roots if abs(x.imag) < CLOSE)):
-        inside = value_at_start(d, replaced(t, u, Fraction((low + high) / 2)), ran)
-        if low - CLOSE < first < high + CLOSE and inside > 0:
-            said = ", ".join(f"{show(x)} = {written(y)}" for x, y in constants.items())
+        if low - CLOSE < first < high + CLOSE and at((low + high) / 2) > 0:
             ends = {x: _thousandths(y) for x, y in (("low", low), ("high", high))}
             simple = [_thousandths(x.real) for x in roots if abs(x.imag) < CLOSE]
             touched = [x for x in ends.values() if x == _thousandths(first)]
             all_ = {"roots": ", ".join(simple), "touched": "".join(touched[:1])}
-            return {**ends, **all_, "letter": show(u), "given": said}
+            return {**ends, **all_, "letter": show(u), "given": _told(constants)}
     return {}
 
 
