@@ -110,15 +110,19 @@ def chapter_of(
     run = ran if isinstance(ran, Ran) else None
     moving = coordinate(d, found.get("reduction", Found()).steps)
     others = [*off_the_axes(d, found.get("reduction", Found()).steps, run)]
-    told = {x: _told(d, x, found[x], run, others) for x in SEARCHES if x in found}
+    told = {x: _told(d, x, found[x], run, also=bool(others)) for x in SEARCHES if x in found}
     if {*STEADY} <= {*told}:  # in letters, where they are found so: it says more
         del told[STEADY[0] if told[STEADY[1]] else STEADY[1]]
+    for search in {*STEADY} & {*told}:
+        told[search] += others
     told = dict(sorted(told.items(), key=lambda x: found[x[0]].refused))
     stable = any(told.get(x) for x in STEADY)
     blocks = [_question(run, moving, stable=stable), *_motion(d, place)]
     for _, alike in groupby(told, lambda x: found[x].refused or (told[x] and x) or NONE.get(x, x)):
         searches = (*alike,)
-        entries = told[searches[0]] or [_nothing(d.name, searches[0], found[searches[0]])]
+        entries = told[searches[0]]
+        if not entries or found[searches[0]].refused:
+            entries += [_nothing(d.name, searches[0], found[searches[0]])]
         apart = [[x] for x in entries] if {*STEADY} & {*searches} else [entries]
         blocks.append(_section(*(SEARCHES[x] for x in searches)))
         blocks += (_text(*x) for x in apart)
@@ -265,14 +269,12 @@ def _valued(rows: Sequence[tuple[str, str, str, str]], spoken: Language) -> Word
     return tuple(found[:-1])
 
 
-def _told(
-    d: Derivation, search: str, found: Found, ran: Ran | None, others: Sequence[Entry] = ()
-) -> list[Entry]:
-    """The steps that a search tells; nothing where it was refused, or found none; ``others``:
-    steady motions that the reduction tells."""
+def _told(d: Derivation, search: str, found: Found, ran: Ran | None, *, also: bool) -> list[Entry]:
+    """The steps that a search tells; nothing where it was refused, or found none; ``also``: are
+    there steady motions that the reduction tells?"""
     if search in STEADY:
-        told_of = [*steady(d, found.steps, ran, elsewhere=bool(others))]
-        return [*told_of, *(asleep(d) if told_of else ()), *others]
+        told_of = [*steady(d, found.steps, ran, elsewhere=also)]
+        return [*told_of, *(asleep(d) if told_of else ())]
     begins = tuple(f"{d.name}.{x}" for x in TOLD[search])
     told = [s for s in found.steps if s.label.startswith(begins)]
     if search == "symmetries":
