@@ -44,8 +44,9 @@ def _tidied(t: Tree, order: Sequence[str]) -> Tree:
 
 
 def in_order(t: Tree, order: Sequence[str]) -> Tree:
-    """A product of numbers with what is constant first, its parameters in an order; within it the
-    same of quotients and sums; where no order is told, as it is."""
+    """A product of numbers with what is constant first, its parameters in an order, and sums of
+    parameters alone, m₁ + m₂, where the first of these is; within it the same of quotients and
+    sums; where no order is told, as it is."""
     if not order or not isinstance(t, tuple) or t[0] not in ("add", "mul", "div", "pow"):
         return t
     first, *others = (in_order(x, order) for x in t[1:])
@@ -54,8 +55,10 @@ def in_order(t: Tree, order: Sequence[str]) -> Tree:
 
     def place(x: Tree) -> int:
         base = x[1] if isinstance(x, tuple) and x[0] == "pow" else x
-        if isinstance(base, tuple) and base[0] == "par" and base[1] in order:
-            return order.index(base[1])
+        parts = [neg(y) if _split(y)[0] < 0 else y for y in terms(base)]
+        letters = [y[1] for y in parts if isinstance(y, tuple) and y[0] == "par"]
+        if len(letters) == len(parts):
+            return min(order.index(y) if y in order else len(order) for y in letters)
         if base in FIRST or isinstance(base, (int, Fraction)):
             return -1
         return len(order) if _is_constant(base) else len(order) + 1

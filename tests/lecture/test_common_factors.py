@@ -42,6 +42,7 @@ def test_a_sum_is_equal_and_shorter(text):
 ORDERED = {
     "‘g’ ‘l’ ‘m’ A₁₂/‘k’": "mgl A₁₂/k",
     "‘l’² ‘m’ ζ₁ ζ₁/2": "ml² ζ₁²/2",
+    "‘g’ (‘l’ − ‘m’) A₁₂": "(l − m) g A₁₂",
     "Π₁ ‘l’ π ‘m’": "πml Π₁",
     "(Π₂ A₃₁ ‘l’ − Π₁ A₃₂ ‘l’)/‘g’": "l(Π₂ A₃₁ − Π₁ A₃₂)/g",
 }

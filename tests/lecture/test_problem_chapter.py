@@ -551,7 +551,8 @@ def test_inputs_that_hold_a_body_are_told(tmp_path, monkeypatch):
     chapter, records, _ = chapter_on("hung.toml")
     assert "hung:trim" in records
     page = alone(chapter, records, "fr")
-    assert "Au repos, par ses commandes." in page
+    assert "Au repos, grâce à ses commandes." in page
+    assert "Avec lift = 20, et pour le reste" in page
     assert len([*tried(chapter, records, SEED)]) >= 2
 
 
