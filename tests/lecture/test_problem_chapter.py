@@ -552,7 +552,7 @@ def test_inputs_that_hold_a_body_are_told(tmp_path, monkeypatch):
     assert "hung:trim" in records
     page = alone(chapter, records, "fr")
     assert "Au repos, grâce à ses commandes." in page
-    assert "Avec lift = 20, et pour le reste" in page
+    assert "pour le reste dans la position de référence et sans commande" in page
     assert len([*tried(chapter, records, SEED)]) >= 2
 
 
