@@ -123,7 +123,13 @@ def chapter_on(name: str, seconds: float | None = None, *, taken: bool = False) 
     body, place = place_of(record, speed or 1.0, taken=taken)
     if body is None:
         print(f"{record.name}: {place}", file=sys.stderr)
-    chapter = chapter_of(record, found, tuple(records), place if body else None, ran)
+    # the momenta Π_a of a body are told by the searches alone
+    made_of = [
+        s for made in records.values() for s in made.steps if s.label == f"{record.name}.momenta"
+    ]
+    momenta = [s for s in made_of if ("at", "Π", 1) in (e.lhs for e in s.equations)][:1]
+    told_of = replace(record, steps=(*dict.fromkeys((*momenta, *record.steps)),))
+    chapter = chapter_of(told_of, found, tuple(records), place if body else None, ran)
     return OnProblem(chapter, records, body)
 
 
@@ -153,9 +159,11 @@ def motion(problem: Problem, record: Derivation) -> tuple[Ran | Sentence, float]
     }
     known = state_names(problem.group) if problem.group else {}
     moving = {show(known[x]): y.tolist() for x, y in state.items() if x in known}
+    driven = [y for x in made.of_kind("input").values() for y in x]
+    undriven = bool(driven) and not any(driven)
     turned = _turns(record, made.t, [y for x, y in turning.items()])
     ran = Ran(made.t.tolist(), curves, kept, [*_moved(problem, start)], units)
-    return replace(ran, kept=momenta, state=moving, turned=turned), speed
+    return replace(ran, kept=momenta, state=moving, turned=turned, undriven=undriven), speed
 
 
 def _turns(record: Derivation, times: Any, rates: Sequence[Any]) -> float:

@@ -7,12 +7,12 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
-from ..views.figure.drawing import Label, Scene, Stroke, arrow
+from ..views.figure.drawing import Label, Scene
 from ..views.figure.drawn_body import UNITS, ExpressionValues, View, dot, parts, placed, seen_from
 from ..views.figure.panels import Panel, Sheet, draw, heaviest
 from ..views.figure.scene import box_of, parts_of_inertia
 from ..views.language import LANGUAGES, Language
-from .figures import Figure, Spun, displacement, polhodes
+from .figures import Figure, Spun, bow, displacement, polhodes
 from .lecture_text import Given
 from .motion_figures import MOMENTS, poinsot
 from .own_body import FREE, OwnBody
@@ -139,11 +139,8 @@ def theory(body: OwnBody) -> Scene:
         sheet.dots += own.dots
         left += scale * (x1 - x0) + 22
     middle = 4 + scale * (boxes[0][2] - boxes[0][0]) + 7
-    bow = [(middle + k, 7 + height + 3 * math.sin(math.pi * k / 16)) for k in range(15)]
-    sheet.strokes.append(Stroke(tuple(bow), "axis"))
-    sheet.strokes += arrow(bow[-1], (middle + 16, 6.6 + height), "axis")
-    labels.append(Label("A", at=(middle + 8, 13 + height)))
-    return panel((left - 14, height + 16), sheet.strokes, labels, sheet.dots)
+    strokes, name = bow((middle, 7 + height), 16)
+    return panel((left - 14, height + 16), [*sheet.strokes, *strokes], [*labels, name], sheet.dots)
 
 
 def _back(v: Vector) -> tuple[float, float, float]:

@@ -5,7 +5,7 @@ it as a rational function, or the tree stays."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from math import gcd, lcm
 
@@ -15,30 +15,55 @@ from ..record.record import Equation
 
 NUMBERS = ("ζ", "w", "Π", "𝒥", "ζ_h", "ζ̇", "ẇ")
 """Letters whose components are numbers."""
-SINGLE = ("h̃", "𝒱", "π", "t")
+SINGLE = ("h̃", "𝒱", "π", "t", "m")
 """Letters that are numbers themselves."""
+FIRST = ("π", "m")
+"""Of them those before the parameters of a product."""
 Factors = Counter[Tree]
 """How often each factor is in a product; fewer than 0 times, below the line."""
 
 
-def tidied(e: Equation) -> Equation:
-    """An equation with its sides as people write them."""
-    return Equation(_tidied(e.lhs), _tidied(e.rhs), e.for_all, e.exists)
+def tidied(e: Equation, order: Sequence[str] = ()) -> Equation:
+    """An equation with its sides as people write them; ``order``: of parameters in a product."""
+    return Equation(_tidied(e.lhs, order), _tidied(e.rhs, order), e.for_all, e.exists)
 
 
-def _tidied(t: Tree) -> Tree:
+def _tidied(t: Tree, order: Sequence[str]) -> Tree:
     if not isinstance(t, tuple) or t[0] in ("par", "at", "entry"):
         return t
-    t = (t[0], *(_tidied(x) if isinstance(x, tuple) else x for x in t[1:]))
+    t = (t[0], *(_tidied(x, order) if isinstance(x, tuple) else x for x in t[1:]))
     if t[0] not in ("add", "mul") or not _is_number(t):
         return t
     if t[0] == "mul":
-        return mul(*(_power(x, t[1:].count(x)) for x in dict.fromkeys(t[1:])))
-    found = add(*map(_together, _groups(t)))
+        return in_order(mul(*(_power(x, t[1:].count(x)) for x in dict.fromkeys(t[1:]))), order)
+    found = add(*(in_order(_together(x), order) for x in _groups(t)))
     try:
         return found if vanishes(add(t, neg(found))) else t
     except OverlongError:
         return t
+
+
+def in_order(t: Tree, order: Sequence[str]) -> Tree:
+    """A product of numbers with what is constant first, its parameters in an order, and sums of
+    parameters alone, m₁ + m₂, where the first of these is; within it the same of quotients and
+    sums; where no order is told, as it is."""
+    if not order or not isinstance(t, tuple) or t[0] not in ("add", "mul", "div", "pow"):
+        return t
+    first, *others = (in_order(x, order) for x in t[1:])
+    if t[0] != "mul":
+        return (t[0], first, *others)
+
+    def place(x: Tree) -> int:
+        base = x[1] if isinstance(x, tuple) and x[0] == "pow" else x
+        parts = [neg(y) if _split(y)[0] < 0 else y for y in terms(base)]
+        letters = [y[1] for y in parts if isinstance(y, tuple) and y[0] == "par"]
+        if len(letters) == len(parts):
+            return min(order.index(y) if y in order else len(order) for y in letters)
+        if base in FIRST or isinstance(base, (int, Fraction)):
+            return -1
+        return len(order) if _is_constant(base) else len(order) + 1
+
+    return mul(*sorted((first, *others), key=place))
 
 
 def _is_number(t: Tree) -> bool:
@@ -83,22 +108,26 @@ def _product(number: Fraction, factors: Factors) -> Tree:
 
 
 def _groups(t: Tree) -> Iterable[list[Tree]]:
-    """Terms with the same factors of parameters, or with the same sum below the line, in the order
-    in which the first of each stands; of the others those of parameters alone, and those with the
-    same number below the line."""
+    """All terms, if they differ by parameters alone, and are not of these alone; else terms with
+    the same factors of parameters, or with the same sum below the line, in the order in which the
+    first of each stands; of the others those of parameters alone, and those with the same number
+    below the line."""
+    others = [{x: n for x, n in _split(y)[1].items() if not _is_constant(x)} for y in terms(t)]
+    if others[0] and all(x == others[0] for x in others):
+        return [[*terms(t)]]
     found: dict[object, list[Tree]] = {}
     for k, term in enumerate(terms(t)):
         same = {x: n for x, n in _split(term)[1].items() if _is_constant(x)}
         below = {x: n for x, n in same.items() if n < 0 and terms(x)[1:]}
         found.setdefault(frozenset((below or same).items()) or k, []).append(term)
     merged: dict[object, list[Tree]] = {}
-    for key, (first, *others) in found.items():
+    for key, (first, *rest) in found.items():
         number, factors = _split(first)
-        if not others and _is_constant(first):
+        if not rest and _is_constant(first):
             key = "parameters"
-        elif not others and number.denominator > 1 and min(factors.values()) > 0:
+        elif not rest and number.denominator > 1 and min(factors.values()) > 0:
             key = f"over {number.denominator}"
-        merged.setdefault(key, []).extend((first, *others))
+        merged.setdefault(key, []).extend((first, *rest))
     return merged.values()
 
 
@@ -120,8 +149,21 @@ def _together(alike: list[Tree]) -> Tree:
         common[x] = min(powers) if min(powers) > 0 else min(max(powers), 0)
     for of in products:
         of.subtract(common)
-    inside = add(*(_product(q / number, of) for q, of in zip(numbers, products, strict=True)))
+    left = sorted(zip(numbers, products, strict=True), key=lambda x: x[0] / number < 0)
+    inside = add(*(_product(q / number, of) for q, of in left))
     return _product(number, Factors({**common, inside: 1}))
+
+
+def positive(t: Tree, numbers: Mapping[str, float]) -> bool:
+    """Is an expression positive by its terms, for all values but 0 of what has no number?"""
+    if not isinstance(t, tuple):
+        return t == "π" or (not isinstance(t, str) and t > 0)
+    if t[0] == "par":
+        return numbers.get(t[1], 0) > 0
+    if t[0] == "pow":
+        letter = t[2] % 2 == 0 and isinstance(t[1], tuple) and t[1][0] == "par"
+        return (letter and numbers.get(t[1][1], 1) != 0) or positive(t[1], numbers)
+    return t[0] in ("add", "mul", "div") and all(positive(x, numbers) for x in t[1:])
 
 
 def by_divisors(t: Tree, divisors: Iterable[Tree]) -> Tree:

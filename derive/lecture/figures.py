@@ -154,12 +154,18 @@ def theory(_: Claims) -> Scene:
         _racket_at((26.0, 14.0), displacement, "A"),
         gap=0,
     )
-    bow = [(52 + k, 38 + 4 * math.sin(math.pi * k / 24)) for k in range(22)]
-    strokes = [Stroke(tuple(bow), "axis"), *arrow(bow[-1], (76.0, 37.6), "axis")]
-    labels = [Label("A", at=(64.0, 44.5))]
+    strokes, label = bow((52.0, 38.0), 24)
     return panel(
-        (both.width, both.height + 2), (*both.strokes, *strokes), (*both.labels, *labels), both.dots
+        (both.width, both.height + 2), (*both.strokes, *strokes), (*both.labels, label), both.dots
     )
+
+
+def bow(start: Point, width: int) -> tuple[list[Stroke], Label]:
+    """The arrow of A from the reference body to the body at a time, with its letter."""
+    x, y = start
+    points = [(x + k, y + width * math.sin(math.pi * k / width) / 6) for k in range(width - 2)]
+    strokes = [Stroke(tuple(points), "axis"), *arrow(points[-1], (x + width, y - 0.4), "axis")]
+    return strokes, Label("A", at=(x + width / 2, y + width / 6 + 2.5))
 
 
 Figure = Callable[[Claims], Scene]

@@ -22,7 +22,7 @@ from ..views.language import LANGUAGES, Language, language
 from .body_figures import turned
 from .lecture_text import ASKED, Block, Chapter, Entry, Formula, LectureError, tree
 from .motion_figures import Top
-from .sheets import Claims, number
+from .sheets import Claims
 
 RANGE = re.compile(r"(−?\d+)…(−?\d+)")
 LEAD = "In numbers:"
@@ -146,8 +146,8 @@ def _turned(claims: Claims, known: Mapping[Tree, Tree]) -> float:
 def _lower(claims: Claims, known: Mapping[Tree, Tree]) -> float:
     """The cosine of the lower tilt of a top that is let go, its axis at rest."""
     letters = [tree(x) for x in ("‘I_1’", "‘I_3’", "‘mgl’")]
-    parameters = {x: number(known[x], {}) for x in letters}
-    spin, upper = (number(known[tree(x)], {}) for x in ("𝒥₂", "A₃₃"))
+    parameters = {x: float(value(x, known)) for x in letters}
+    spin, upper = (float(value(tree(x), known)) for x in ("𝒥₂", "A₃₃"))
     return Top(claims, 0.0, parameters, spin, upper).lower
 
 

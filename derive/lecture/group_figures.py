@@ -18,7 +18,6 @@ from ..language.tree import Tree
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
 from ..views.figure.drawn_body import UNITS, scaled
 from .lecture_text import tree
-from .motion_figures import hat, value
 from .sheets import (
     AXES,
     TURN,
@@ -28,10 +27,12 @@ from .sheets import (
     View,
     beside,
     euler,
+    hat,
     nearest,
     numbered,
     panel,
     solved,
+    value,
 )  # fmt: skip
 
 # The momentum of a Lagrangian that is half a quadratic form of the velocity, on three groups.

@@ -7,6 +7,7 @@ same in both; then what it rests on::
 
     < so3.kernel  (34)           the steps that prove it, and the numbers of the note
     < said                       it says what letters mean, or what is supposed
+    < solved                     a letter as a function of t, and its rate, which that has
     < open  English  |  French   proved here, and no step yet
 
 Where a reader's body has the place of the racket, the lines after a sentence that begin with ``~``
@@ -33,11 +34,13 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
+from unicodedata import normalize
 
 from ..language.limits import Refused
 from ..language.read import FormulaError, read
 from ..language.tree import Tree
 from ..record.record import Equation
+from ..views.book import RATE
 from ..views.figure.drawing import Scene
 from ..views.language import LANGUAGES
 from ..views.printing.letters import named_so
@@ -55,7 +58,7 @@ RELATION = re.compile(r" [=≠<>≤≥∈↦→] ")
 FRESH = "  $ "
 LABELLED = re.compile(r"(?:@([a-z_]+) )?(.*)")
 ASKED = re.compile(r" ([=≈]) #([a-z]*)$")
-SAID, OPEN = "said", "open"
+SAID, SOLVED, OPEN = "said", "solved", "open"
 
 
 class LectureError(Refused, ValueError):
@@ -100,6 +103,13 @@ def _unquoted(t: Tree) -> Tree:
     return (t[0], *map(_unquoted, t[1:]))
 
 
+def rate_of(t: Tree) -> Tree:
+    """The rate of a momentum or of an entry, as equations have it; 0 of anything else."""
+    if not isinstance(t, tuple) or t[0] not in ("at", "entry") or not isinstance(t[1], str):
+        return 0
+    return (t[0], normalize("NFC", t[1] + RATE), *t[2:])
+
+
 class Given(str):
     """Words of the user's, in which nothing is marked."""
 
@@ -110,11 +120,12 @@ Words = tuple[str | Formula, ...]
 
 @dataclass(frozen=True)
 class Tie:
-    """What an entry rests on: labels of steps, or ``said``, or what is open, in each language; and
-    the numbers of the note."""
+    """What an entry rests on: labels of steps, or ``said``, or ``solved``, or what is open, in each
+    language; and the numbers of the note."""
 
     labels: tuple[str, ...] = ()
     said: bool = False
+    solved: bool = False
     open: tuple[str, ...] = ()
     numbers: tuple[int, ...] = ()
 
@@ -142,6 +153,11 @@ class Entry:
     def equations(self) -> tuple[Equation, ...]:
         """All that its formulas claim."""
         return tuple(e for x in self.formulas for e in x.equations)
+
+    @property
+    def solved(self) -> bool:
+        """Does it have a function of the time, with the rate that it satisfies?"""
+        return any(tie.solved for tie in self.ties)
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -307,6 +323,8 @@ def _tie(text: str, line: int, lines: _Lines) -> Tie:
     word, _, rest = text.partition(" ")
     if word == SAID:
         return Tie(said=True, numbers=of_note)
+    if word == SOLVED:
+        return Tie(solved=True)
     if word == OPEN:
         reasons = tuple(x.strip() for x in rest.split("|"))
         if len(reasons) != len(LANGUAGES):

@@ -11,9 +11,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, reduce
+from functools import cached_property
 from itertools import combinations
-from operator import truediv
 from typing import Any
 
 import numpy as np
@@ -34,10 +33,10 @@ from .sheets import (
     circle,
     euler,
     nearest,
-    number,
     numbered,
     panel,
     solved,
+    value,
 )  # fmt: skip
 
 PARAMETERS = {"‘I_1’": 1.0, "‘I_3’": 0.4, "‘mgl’": 1.5}
@@ -72,7 +71,7 @@ class Top:
         return found
 
     def _of(self, label: str, values: Mapping[Tree, float]) -> float:
-        return number(self.claims[label][0].rhs, values)
+        return float(value(self.claims[label][0].rhs, values))
 
     def potential(self, u: float) -> float:
         """The effective potential where u is the cosine of the tilt."""
@@ -96,7 +95,7 @@ class Top:
 
         def rate(x: Vector) -> Vector:
             values = self.constants | {TILT: x[0]}
-            return x[1], number(slope, values) / 2, self._of("heavy.connection", values)
+            return x[1], float(value(slope, values)) / 2, self._of("heavy.connection", values)
 
         return solved(rate, (self.upper, 0.0, 0.0), end, steps)
 
@@ -158,38 +157,6 @@ VELOCITY = np.array([[0.9, 0.5, 0.0], [-0.2, -0.5, 0.6], [0.3, 0.0, -0.4]])
 END, STEPS = 6.0, 1200
 TIMES = (0.0, 1.0, 2.0)
 """When the tetrahedron is drawn."""
-
-
-def value(t: Tree, of: Mapping[Tree, Any]) -> Any:
-    """The value of an expression of numbers, vectors and square matrices, by those ``of`` its
-    letters; ``⟨a, b⟩`` is the sum of the products of the components of both."""
-    if not isinstance(t, tuple):
-        return of[t] if t in of else float(t)
-    if t[0] == "pow":
-        return np.linalg.matrix_power(value(t[1], of), t[2])
-    if t[0] not in OPERATIONS:
-        raise ValueError(f"no value for the operator {t[0]!r}")
-    return OPERATIONS[t[0]](*(value(x, of) for x in t[1:]))
-
-
-def hat(x: Any) -> Any:
-    """j(x), the matrix of the vector product with x on the left."""
-    return np.array([np.cross(x, e) for e in np.eye(3)]).T
-
-
-OPERATIONS: dict[str, Callable[..., Any]] = {
-    "add": lambda *x: sum(x),
-    "mul": lambda *x: reduce(np.dot, x),
-    "div": truediv,
-    "inv": lambda x: np.linalg.inv(x) if np.ndim(x) else 1 / x,
-    "T": np.transpose,
-    "tr": np.trace,
-    "wedge": np.cross,
-    "hat": hat,
-    "bracket": lambda x, y: x @ y - y @ x,
-    "inner": lambda x, y: np.sum(x * y),
-}
-"""Operator → its value by those of its operands."""
 
 
 def moments() -> dict[Tree, Any]:

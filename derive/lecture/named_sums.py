@@ -18,11 +18,13 @@ LETTERS = "SNDXY"
 
 
 class NamedSums:
-    """The letters of a chapter: one sum, one letter; ``used``: the names that its equations have.
+    """The letters of a chapter: one sum, one letter; ``used``: the names that its equations have,
+    ``parameters``: in the order in which they stand in a product.
     Where a letter is first used, its definition stands below."""
 
-    def __init__(self, used: Iterable[str]):
-        used = {*used}
+    def __init__(self, used: Iterable[str], parameters: Iterable[str] = ()):
+        self.order = (*parameters,)
+        used = {*used, *self.order}
         self.letter = next(x for x in LETTERS if not any(y.startswith(x) for y in used))
         self.sums: dict[Tree, Tree] = {}
         self._shown: dict[tuple[Equation, ...], tuple[Equation, ...]] = {}
@@ -35,7 +37,9 @@ class NamedSums:
         return self._shown[told]
 
     def _named(self, told: Sequence[Equation]) -> tuple[Equation, ...]:
-        left, found = [*map(tidied, told)], list[Equation]()
+        # a Lagrangian that is typed keeps the order in which it is
+        left = [tidied(e, () if e.lhs == "L̃" else self.order) for e in told]
+        found: list[Equation] = []
         while left:
             e = left.pop(0)
             new: list[Equation] = []

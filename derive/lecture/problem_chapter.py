@@ -22,15 +22,19 @@ from ..views.language import Language, told
 from ..views.layout import Reading
 from ..views.outline import declared, system, title
 from ..views.text import formula
+from .common_factors import tidied
 from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
 from .named_sums import NamedSums
-from .problem_exercises import MOST, coordinate, exercises
+from .problem_exercises import MOST, coordinate, exercises, off_the_axes
 from .ran_figure import DESCRIBED, FLAT, Ran, label_of, raised, value_at_start, written
 from .recorded_text import (
     OVER,
     SPOKEN,
+    UNDRIVEN,
     as_read,
+    as_written,
+    claimed,
     conserved,
     display,
     in_each,
@@ -41,7 +45,7 @@ from .recorded_text import (
     stated,
     without_advice,
 )
-from .search_sentences import around, momenta, space
+from .search_sentences import around, momenta, retold, space
 from .steady_sentences import asleep, placed, rows, same_top, steady
 
 SEARCHES = {
@@ -102,17 +106,23 @@ def chapter_of(
     ``records``: the names of those that its ties speak of; ``place``: whether its body has that of
     the racket, or why not; ``ran``: its motion, or why there is none.
     Searches that were refused stand last, those for one reason together."""
+    found = {x: replace(y, steps=(*(claimed(d, s) for s in y.steps),)) for x, y in found.items()}
     run = ran if isinstance(ran, Ran) else None
     moving = coordinate(d, found.get("reduction", Found()).steps)
-    told = {x: _told(d, x, found[x], run) for x in SEARCHES if x in found}
+    others = [*off_the_axes(d, found.get("reduction", Found()).steps, run)]
+    told = {x: _told(d, x, found[x], run, also=bool(others)) for x in SEARCHES if x in found}
     if {*STEADY} <= {*told}:  # in letters, where they are found so: it says more
         del told[STEADY[0] if told[STEADY[1]] else STEADY[1]]
+    for search in {*STEADY} & {*told}:
+        told[search] += others
     told = dict(sorted(told.items(), key=lambda x: found[x[0]].refused))
     stable = any(told.get(x) for x in STEADY)
     blocks = [_question(run, moving, stable=stable), *_motion(d, place)]
     for _, alike in groupby(told, lambda x: found[x].refused or (told[x] and x) or NONE.get(x, x)):
         searches = (*alike,)
-        entries = told[searches[0]] or [_nothing(d.name, searches[0], found[searches[0]])]
+        entries = told[searches[0]]
+        if not entries or found[searches[0]].refused:
+            entries += [_nothing(d.name, searches[0], found[searches[0]])]
         apart = [[x] for x in entries] if {*STEADY} & {*searches} else [entries]
         blocks.append(_section(*(SEARCHES[x] for x in searches)))
         blocks += (_text(*x) for x in apart)
@@ -122,7 +132,7 @@ def chapter_of(
     kept = [x for x in found.get("symmetries", Found()).steps if kept_by(x)]
     blocks += exercises(
         d,
-        [(e, home[e]) for e in equations_of_motion(d)],
+        [(tidied(e, [*d.problem["parameters"]]), home[e]) for e in equations_of_motion(d)],
         kept,
         [s for x in ("integrals", "reduction") for s in found.get(x, Found()).steps],
         run,
@@ -130,7 +140,7 @@ def chapter_of(
     )
     reading = Reading(str(d.problem["group"]))
     steps = (*d.steps, *(s for x in found.values() for s in x.steps))
-    sums = NamedSums((*d.problem["parameters"], *(x for s in steps for x in s.names)))
+    sums = NamedSums((x for s in steps for x in s.names), d.problem["parameters"])
     blocks = [as_read(x, reading, sums) for x in blocks]
     whole = kept and stable
     titles = tuple(
@@ -157,6 +167,7 @@ def _question(ran: Ran | None, letter: Tree, *, stable: bool) -> Block:
     if ran and len(ran.start) <= MOST:
         start = ", ".join(f"{x} = {written(y)}" for x, y in ran.start)
         asked.insert(0, lecture("start" if start else "at_rest", start=start))
+    asked += [UNDRIVEN] if ran and ran.undriven else []
     return _text(sentence((*asked,)))
 
 
@@ -258,10 +269,11 @@ def _valued(rows: Sequence[tuple[str, str, str, str]], spoken: Language) -> Word
     return tuple(found[:-1])
 
 
-def _told(d: Derivation, search: str, found: Found, ran: Ran | None) -> list[Entry]:
-    """The steps that a search tells; nothing where it was refused, or found none."""
+def _told(d: Derivation, search: str, found: Found, ran: Ran | None, *, also: bool) -> list[Entry]:
+    """The steps that a search tells; nothing where it was refused, or found none; ``also``: are
+    there steady motions that the reduction tells?"""
     if search in STEADY:
-        told_of = [*steady(d, found.steps, ran)]
+        told_of = [*steady(d, found.steps, ran, elsewhere=also)]
         return [*told_of, *(asleep(d) if told_of else ())]
     begins = tuple(f"{d.name}.{x}" for x in TOLD[search])
     told = [s for s in found.steps if s.label.startswith(begins)]
@@ -270,7 +282,7 @@ def _told(d: Derivation, search: str, found: Found, ran: Ran | None) -> list[Ent
         return [*(_momenta(d) if any("Π" in s.names for s in kept) else ()), *conserved(d, kept)]
     if search == "trim":
         alike = groupby(told, lambda s: s.prose)
-        return [sentence(x, [s.label for s in run]) for x, run in alike]
+        return [sentence((*map(retold, x),), [s.label for s in run]) for x, run in alike]
     entries = [*momenta(d, found.steps)] if search == "reduction" else [*space(found.steps)]
     for step in told:
         before, after = around(step)
@@ -283,9 +295,10 @@ def _told(d: Derivation, search: str, found: Found, ran: Ran | None) -> list[Ent
 def _valid(d: Derivation, step: Step, ran: Ran | None) -> Iterator[Entry]:
     """What must not be 0, at the start of the motion."""
     divided = placed(step, "conditions") if any(c.kind == DIVIDED for c in step.claims) else []
-    told = [(in_sentence(y), value_at_start(d, y, ran)) for x in divided for y in rows(x) if ran]
+    told = [(y, value_at_start(d, y, ran)) for x in divided for y in rows(x) if ran]
     if told and all(math.isfinite(y) and y for _, y in told):
-        yield stated("valid", values=", ".join(f"{x} = {written(y)}" for x, y in told))
+        values = (f"{in_sentence(as_written(d, x))} = {written(y)}" for x, y in told)
+        yield stated("valid", values=", ".join(values))
 
 
 def _momenta(d: Derivation) -> Iterator[Entry]:

@@ -7,21 +7,20 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
-from unicodedata import normalize
 from zlib import crc32
 
 import numpy as np
 
+from ..language.derivatives import derivative
 from ..language.show import in_sentence, show
 from ..language.tree import Tree, names, neg, nodes, replaced, terms
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Sentence, phrase
-from ..views.book import RATE
-from .lecture_text import Block, Entry, Formula
+from ..record.sentence import Sentence, enumerated, phrase
+from .lecture_text import Block, Entry, Formula, rate_of
 from .ran_figure import Ran, value_at_start, written
 from .recorded_text import SPOKEN, alone, display, in_each, kept_by, kind_of, lecture, stated, words
 from .search_sentences import of_momentum
-from .steady_sentences import rows
+from .steady_sentences import SOLIDS, rows
 
 HAND, MISTAKE, WATCH = "By hand.", "Find the mistake.", "Predict, then watch."
 KEPT = phrase("Show that this is constant along every motion:")
@@ -44,7 +43,7 @@ def exercises(
     equations of ``motion``, with the labels of their steps; on the motion that ran; of equations
     that are ``short``."""
     fit = [x for x in kept if kept_by(x) != "h̃" and short(Equation("ϖ", kept_by(x)))]
-    by_hand = [*_by_rates(found, short)]
+    by_hand = [*_by_rates(d, found, short)]
     if by_hand:
         yield from _of(*by_hand)
     elif fit:
@@ -68,7 +67,7 @@ def _asked(kind: str, said: Sentence) -> Entry:
 
 
 def _by_rates(
-    steps: Sequence[Step], short: Callable[[Equation], bool]
+    d: Derivation, steps: Sequence[Step], short: Callable[[Equation], bool]
 ) -> Iterator[Sequence[Entry]]:
     """The shortest sum that an integral or a Casimir is, but for the energy, asked; and its proof
     by the rates of its letters, where these are short."""
@@ -82,18 +81,11 @@ def _by_rates(
     energies = [e.rhs for s in steps for e in s.equations if e.lhs == "h̃"]
     found = [x for x in constants if len(terms(x[0])) > 1 and x[0] not in energies]
     for kept, e, label in sorted(found, key=lambda x: len(in_sentence(x[0])))[:1]:
-        used = [*dict.fromkeys(rates[y] for x in nodes(kept) if (y := _rate(x)) in rates)]
+        used = [*dict.fromkeys(rates[y] for x in nodes(kept) if (y := rate_of(x)) in rates)]
         if used and all(short(x) for x, _ in used):
-            yield [_asked(HAND, KEPT), alone(kept)]
+            yield [_asked(HAND, KEPT), alone(d, kept)]
             rules = display([x for x, _ in used], [used[0][1]])
             yield [stated("by_rates"), rules, stated("cancel"), display([e], [label])]
-
-
-def _rate(t: Tree) -> Tree:
-    """The rate of a momentum or of an entry, as equations have it; 0 of anything else."""
-    if not isinstance(t, tuple) or t[0] not in ("at", "entry") or not isinstance(t[1], str):
-        return 0
-    return (t[0], normalize("NFC", t[1] + RATE), *t[2:])
 
 
 def _by_noether(d: Derivation, step: Step) -> list[Block]:
@@ -101,7 +93,7 @@ def _by_noether(d: Derivation, step: Step) -> list[Block]:
     field = [e for e in step.equations if e.lhs in ("δA", "δT") and e.rhs != 0]
     by_field = stated("by_field", kind=kind_of(d, [step]))
     solved = [by_field, display(field, (step.label,)), stated("by_noether")]
-    return _of([_asked(HAND, KEPT), alone(kept_by(step))], solved)
+    return _of([_asked(HAND, KEPT), alone(d, kept_by(step))], solved)
 
 
 def _seen_by_energy(e: Equation, motion: Sequence[Equation]) -> Iterator[int]:
@@ -139,7 +131,7 @@ def _on_motion(d: Derivation, steps: Sequence[Step], ran: Ran) -> Iterator[Block
     step = next((s for s in steps if s.label == f"{d.name}.quadrature"), None)
     if step is None or not ran.energy or not 0 < len(ran.start) <= MOST:
         return
-    places = between(d, step, _constants(d, steps, ran), ran)
+    places = between(d, step, constants(d, steps, ran), ran)
     if not places:
         return
     solved = [stated("between", [step.label], **places)]
@@ -147,10 +139,51 @@ def _on_motion(d: Derivation, steps: Sequence[Step], ran: Ran) -> Iterator[Block
     yield from _of([_asked(WATCH, lecture("predict", **places))], solved)
 
 
-def _constants(d: Derivation, steps: Sequence[Step], ran: Ran) -> dict[Tree, float]:
+def constants(d: Derivation, steps: Sequence[Step], ran: Ran) -> dict[Tree, float]:
     """The energy and the momenta of a reduction at the start."""
     momenta = (e for s in steps for e in s.equations if of_momentum(e.lhs))
     return {"h̃": ran.energy[0]} | {e.lhs: value_at_start(d, e.rhs, ran) for e in momenta}
+
+
+def off_the_axes(d: Derivation, steps: Sequence[Step], ran: Ran | None) -> Iterator[Entry]:
+    """The steady motions of a reduction to one entry of a rotation, with the momenta of the start:
+    where the derivative of the effective potential vanishes; nothing where no number is known."""
+    u = coordinate(d, steps)
+    effective = [e.rhs for s in steps for e in s.equations if e.lhs == "𝒱"]
+    if not u or not ran or not ran.energy or not effective or d.problem["group"] not in SOLIDS:
+        return
+    given = constants(d, steps, ran)
+    del given["h̃"]
+    slope = derivative(effective[0], u)
+    entries = {x for x in nodes(slope) if isinstance(x, tuple) and x[0] == "entry"}
+    if entries - {u} or not all(map(math.isfinite, given.values())):
+        return
+    at = _function(d, slope, u, given, ran)
+    grid = [(x, at(x)) for x in np.linspace(-1, 1, 102)[1:-1].tolist()]
+    found = []
+    for (low, first), (high, last) in pairwise(grid):
+        if first * last < 0:
+            for _ in range(40):
+                middle = (low + high) / 2
+                low, high = (middle, high) if at(middle) * first > 0 else (low, middle)
+            kind = "least" if first < 0 else "greatest"
+            found.append(lecture(kind, letter=show(u), value=_thousandths(low)))
+    labels = [s.label for s in steps if s.label.endswith(".effective")]
+    places = enumerated(found or [lecture("no_value")])
+    yield stated("off_the_axes", labels, letter=show(u), given=_told(given), places=places)
+
+
+def _function(
+    d: Derivation, t: Tree, u: Tree, constants: Mapping[Tree, float], ran: Ran
+) -> Callable[[float], float]:
+    """An expression as a function of a coordinate, with the numbers of constants."""
+    for letter, number in constants.items():
+        t = replaced(t, letter, Fraction(number))
+    return lambda x: value_at_start(d, replaced(t, u, Fraction(x)), ran)
+
+
+def _told(constants: Mapping[Tree, float]) -> str:
+    return ", ".join(f"{show(x)} = {written(y)}" for x, y in constants.items())
 
 
 def between(d: Derivation, step: Step, constants: Mapping[Tree, float], ran: Ran) -> dict[str, str]:
@@ -160,25 +193,21 @@ def between(d: Derivation, step: Step, constants: Mapping[Tree, float], ran: Ran
     if not all(map(math.isfinite, constants.values())):
         return {}
     degree = [int(str(y)) for x in step.prose for name, y in x.places if name == "degree"]
-    t = step.equations[0].rhs
     u = coordinate(d, [step])
-    for letter, number in constants.items():
-        t = replaced(t, letter, Fraction(number))
+    at = _function(d, step.equations[0].rhs, u, constants, ran)
     places = np.linspace(-1, 1, degree[0] + 1 if degree else 0)
-    values = [value_at_start(d, replaced(t, u, Fraction(x)), ran) for x in places]
+    values = [*map(at, places)]
     if not degree or not np.isfinite(values).all():
         return {}
     roots = np.roots(np.polyfit(places, values, degree[0]))
     first = value_at_start(d, u, ran)
     for low, high in pairwise(sorted(x.real for x in roots if abs(x.imag) < CLOSE)):
-        inside = value_at_start(d, replaced(t, u, Fraction((low + high) / 2)), ran)
-        if low - CLOSE < first < high + CLOSE and inside > 0:
-            said = ", ".join(f"{show(x)} = {written(y)}" for x, y in constants.items())
+        if low - CLOSE < first < high + CLOSE and at((low + high) / 2) > 0:
             ends = {x: _thousandths(y) for x, y in (("low", low), ("high", high))}
             simple = [_thousandths(x.real) for x in roots if abs(x.imag) < CLOSE]
             touched = [x for x in ends.values() if x == _thousandths(first)]
             all_ = {"roots": ", ".join(simple), "touched": "".join(touched[:1])}
-            return {**ends, **all_, "letter": show(u), "given": said}
+            return {**ends, **all_, "letter": show(u), "given": _told(constants)}
     return {}
 
 

@@ -55,7 +55,7 @@ class Ran:
     over time, empty where there is none, the numbers of the state at the ``start`` other than
     those of the identity at rest, by their letters, the ``units`` of columns, the momenta that are
     ``kept``, each by what it is, its axis and its column, the ``state`` over time, by its letters,
-    and by how many turns a body has ``turned``."""
+    by how many turns a body has ``turned``, and whether it has inputs, all 0, ``undriven``."""
 
     times: Sequence[float]
     curves: Curves
@@ -65,6 +65,7 @@ class Ran:
     kept: Mapping[tuple[str, int, str], Sequence[float]] = field(default_factory=dict)
     state: Mapping[str, Sequence[float]] = field(default_factory=dict)
     turned: float = 0.0
+    undriven: bool = False
 
     @property
     def flat(self) -> bool:
@@ -99,7 +100,8 @@ class Ran:
         """The values of what is kept, at the end, and by how much they have changed at most."""
         end = self._with_unit(self.times[-1], "t")
         change = max((abs(x - self.energy[0]) for x in self.energy), default=0.0)
-        if change > LOST * max(map(abs, self.energy), default=1.0):
+        seen = max((abs(x) for _, y in self.curves for x in y), default=0.0)
+        if change > max(LOST * max(map(abs, self.energy), default=1.0), ROUNDING * seen):
             first, last = (written(self.energy[k]) for k in (0, -1))
             return words.word(told("lecture:lost"), end=end, first=first, last=last)
         kept = {words.word("energy"): ("energy", self.energy)} if self.energy else {}
@@ -182,7 +184,9 @@ def raised(unit: str) -> str:
 
 def written(x: float, digits: int = 4) -> str:
     """A number with so many digits and the sign that is printed before negative ones."""
-    return f"{x:.{digits}g}".replace("-", "−")
+    number, _, exponent = f"{x:.{digits}g}".replace("-", "−").partition("e")
+    power = str(int(exponent.replace("−", "-"))).translate(SUPERSCRIPTS) if exponent else ""
+    return f"{number}·10{power}" if power else number
 
 
 def letter_of(name: str) -> str:

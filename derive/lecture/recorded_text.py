@@ -4,6 +4,7 @@ what symmetries keep, told of each, and why a search on a reader's problem was r
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
@@ -13,10 +14,11 @@ from ..language.show import SUBSCRIPTS, in_sentence, show
 from ..language.tree import Tree, names
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Prose, Sentence, phrase
+from ..record.sentence import Claim, Prose, Sentence, phrase
 from ..views.language import LANGUAGES, Language, labelled, language, told
 from ..views.layout import Reading
 from ..views.printing.sentences import FORMULA, QUOTED
+from .common_factors import positive, tidied
 from .lecture_text import Block, Entry, Formula, Tie, Words
 from .named_sums import NamedSums
 
@@ -53,9 +55,32 @@ def stated(label: str, labels: Sequence[str] = (), /, **places: Sentence | str) 
     return sentence((lecture(label, **places),), labels)
 
 
-def alone(t: Tree) -> Entry:
+def alone(d: Derivation, t: Tree) -> Entry:
     """The display of an expression of a step."""
-    return Entry(((Formula(in_sentence(t), condition=True),),) * len(LANGUAGES), (), True, 0)
+    text = in_sentence(as_written(d, t))
+    return Entry(((Formula(text, condition=True),),) * len(LANGUAGES), (), True, 0)
+
+
+def as_written(d: Derivation, t: Tree) -> Tree:
+    """An expression as people write it."""
+    return tidied(Equation("", t), [*d.problem["parameters"]]).rhs
+
+
+def claimed(d: Derivation, step: Step) -> Step:
+    """A step whose inequalities have sides as people write them; of those that make the energy
+    positive, those that parameters other than 0, whatever their signs, do not fulfil anyway."""
+    signs = {x: math.nan if y["default"] else 0.0 for x, y in d.problem["parameters"].items()}
+    said = []
+    for x in step.prose:
+        claim = next((c for c in step.claims if message(c.kind) == x.message), Claim(""))
+        told = {k: y for k, y in claim.values if k in ("cases", "conditions", "positive")}
+        asked = [y for t in (told.get("positive"),) if isinstance(t, tuple) for y in t[1:]]
+        if open_ := [y for y in asked if y[2] != 0 or not positive(y[1], signs)]:
+            told["positive"] = ("matrix", *open_)
+        values = tuple((k, as_written(d, y)) for k, y in told.items())
+        places = dict(x.places) | replace(claim, values=values).texts
+        said.append(replace(x, places=tuple(places.items())))
+    return replace(step, prose=tuple(said))
 
 
 def display(
@@ -66,6 +91,9 @@ def display(
     formula: Words = (Formula(text, condition, tuple(equations)),)
     ties = (Tie(tuple(labels)),) if labels else ()
     return Entry((formula,) * len(LANGUAGES), ties, display=True, line=0)
+
+
+UNDRIVEN = phrase(told("lecture.poisson.undriven"))
 
 
 def as_read(block: Block, reading: Reading, sums: NamedSums) -> Block:
@@ -96,13 +124,14 @@ def conserved(d: Derivation, steps: Sequence[Step]) -> Iterator[Entry]:
     """What symmetries keep, those of one kind along or about several axes in one sentence; ``d``:
     the record of the walk."""
     if steps:
-        yield stated("noether")
+        undriven = [UNDRIVEN] if d.problem["inputs"] else []
+        yield sentence((lecture("noether"), *undriven))
     for (_, exact, energy), alike in groupby(steps, _alike):
         run = [*alike]
         said = "energy" if energy else "constants" if run[1:] else "constant"
         labels = [x.label for x in run]
         yield stated(said if exact else "up_to", labels, kind=kind_of(d, run))
-        yield from () if energy else (alone(kept_by(x)) for x in run)
+        yield from () if energy else (alone(d, kept_by(x)) for x in run)
 
 
 def _alike(step: Step) -> tuple[Sentence, bool, bool]:

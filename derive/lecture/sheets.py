@@ -6,13 +6,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, reduce
 from itertools import pairwise
+from operator import truediv
 from typing import Any, TypeVar
 
+import numpy as np
+
 from ..language.tree import Tree
-from ..language.values import arithmetic
 from ..record.record import Equation
 from ..views.figure import drawn_body
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
@@ -197,13 +198,39 @@ def _runs(
     yield run, front(curve[-1])
 
 
-def number(t: Tree, of: Mapping[Tree, float]) -> float:
-    """The value of an expression of the text, by those ``of`` its letters."""
+def value(t: Tree, of: Mapping[Tree, Any]) -> Any:
+    """The value of an expression of numbers, vectors and square matrices, by those ``of`` its
+    letters; ``⟨a, b⟩`` is the sum of the products of the components of both."""
     if t in of:
         return of[t]
-    if isinstance(t, int | Fraction):
+    if not isinstance(t, tuple):
         return float(t)
-    return float(arithmetic(t, lambda x: number(x, of)))  # type: ignore[arg-type]
+    if t[0] == "pow":
+        base = value(t[1], of)
+        return np.linalg.matrix_power(base, t[2]) if np.ndim(base) else base ** t[2]
+    if t[0] not in OPERATIONS:
+        raise ValueError(f"no value for the operator {t[0]!r}")
+    return OPERATIONS[t[0]](*(value(x, of) for x in t[1:]))
+
+
+def hat(x: Any) -> Any:
+    """j(x), the matrix of the vector product with x on the left."""
+    return np.array([np.cross(x, e) for e in np.eye(3)]).T
+
+
+OPERATIONS: dict[str, Callable[..., Any]] = {
+    "add": lambda *x: sum(x),
+    "mul": lambda *x: reduce(np.dot, x),
+    "div": truediv,
+    "inv": lambda x: np.linalg.inv(x) if np.ndim(x) else 1 / x,
+    "T": np.transpose,
+    "tr": np.trace,
+    "wedge": np.cross,
+    "hat": hat,
+    "bracket": lambda x, y: x @ y - y @ x,
+    "inner": lambda x, y: np.sum(x * y),
+}
+"""Operator → its value by those of its operands."""
 
 
 def solved(
@@ -237,6 +264,6 @@ def euler(claims: Claims, moments: Sequence[float]) -> Callable[[Vector], Vector
 
     def rate(zeta: Vector) -> Vector:
         values = known | dict(zip(letters, zeta, strict=True))
-        return tuple(number(x, values) for x in rates)
+        return tuple(float(value(x, values)) for x in rates)
 
     return rate

@@ -19,10 +19,10 @@ from ..language.tree import Tree, replaced
 from ..record.as_json import decode
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
-from ..record.sentence import Claim, Prose, Sentence, phrase
+from ..record.sentence import Prose, Sentence, phrase
 from ..views.figure.drawn_body import ExpressionValues
 from ..views.figure.scene import quadratic
-from .common_factors import tidied
+from .common_factors import positive
 from .lecture_text import Entry, chapters
 from .ran_figure import Ran, value_at_start, value_of, written
 from .recorded_text import axis_letter, lecture, sentence, stated
@@ -75,9 +75,12 @@ Point = Sequence[Any]
 RANKS = "the least of the three", "between those of the others", "the greatest of the three"
 
 
-def steady(d: Derivation, steps: Sequence[Step], ran: Ran | None = None) -> Iterator[Entry]:
+def steady(
+    d: Derivation, steps: Sequence[Step], ran: Ran | None = None, *, elsewhere: bool = False
+) -> Iterator[Entry]:
     """What is supposed, then a sentence for each steady motion, and one of three that are alike;
-    ``steps``: of one search; ``ran``: the motion whose momenta the numbers are of."""
+    ``steps``: of one search; ``ran``: the motion whose momenta the numbers are of; ``elsewhere``:
+    are others told, too?"""
     at = [s for s in steps if ".equilibrium_" in s.label]
     if not at:
         return
@@ -85,15 +88,16 @@ def steady(d: Derivation, steps: Sequence[Step], ran: Ran | None = None) -> Iter
         [x for x in steps if x.label.rpartition("_")[2] == s.label.rpartition("_")[2]] for s in at
     ]
     points = [[y[1:] for s in run for x in placed(s, "point") for y in rows(x)] for run in both]
-    said = [_in_cases(x, s) for s in steps for x in s.prose]
-    positive = [x for x in said if x.message == message("family.positive")][:1]
+    said = [x for s in steps for x in s.prose]
+    supposed = [x for x in said if x.message == message("family.positive")][:1]
     letters = [y for point in points for y in point if isinstance(y[1], tuple)]
     numbers, start = _numbers(d, letters, ran)
     first = [lecture("tried", variables=", ".join(variables_of(at[0])))]
-    first += [replace(x, message=POSITIVE) for x in positive]
+    first += [] if elsewhere else [lecture("elsewhere")]
+    first += [replace(x, message=POSITIVE) for x in supposed]
     if named := dict.fromkeys(in_sentence(y) for _, y in letters):
         first.append(phrase(LETTERS, letters=", ".join(named)))
-    if numbers and positive:
+    if numbers and supposed:
         first.append(lecture("here_first" if start else "here_numbers", letters=start))
     if any(len(_cases(x)) > LONG for x in said):
         first.append(lecture("long_cases"))
@@ -149,7 +153,7 @@ def _of_one(
 ) -> Prose:
     """What a steady motion is, and what is proved of its stability; ``also``: of the one with its
     axis the other way, too."""
-    said = [_in_cases(x, s) for s in steps for x in s.prose]
+    said = [x for s in steps for x in s.prose]
     at = next((dict(x.places)["point"] for x in said if "point" in dict(x.places)), "")
     verdicts = [_in_few_words(x) for x in said if x.message in SAID and len(_cases(x)) <= LONG]
     here, numbers = proved
@@ -178,14 +182,6 @@ def _in_few_words(x: Sentence) -> Sentence:
     return phrase(told, **{k: y for k, y in x.places if f"{{{k}}}" in told})
 
 
-def _in_cases(x: Sentence, step: Step) -> Sentence:
-    """A sentence whose cases have sides as people write them."""
-    claim = next((c for c in step.claims if message(c.kind) == x.message), Claim(""))
-    cases = [(k, tidied(Equation("", y)).rhs) for k, y in claim.values if k == "cases"]
-    places = dict(x.places) | replace(claim, values=(*cases,)).texts
-    return replace(x, places=tuple(places.items()))
-
-
 def _cases(x: Sentence) -> str:
     return str(dict(x.places).get("cases", ""))
 
@@ -201,7 +197,7 @@ def _verdict(steps: Sequence[Step], numbers: Mapping[str, float]) -> tuple[str, 
             continue
         pairs = [pair for case in cases for pair in case]
         (a, b) = pairs[0]
-        if len(pairs) == 1 and b == 0 and rows(a)[1:] and _positive(a, numbers):
+        if len(pairs) == 1 and b == 0 and rows(a)[1:] and positive(a, numbers):
             return verdict, ALWAYS
         values = [[[value_of(t, numbers) for t in pair] for pair in x] for x in cases]
         if math.isnan(sum(y for case in values for x in case for y in x)):
@@ -221,17 +217,6 @@ def placed(step: Step, place: str) -> list[Tree]:
 def rows(t: Tree) -> list[Any]:
     """The parts of a matrix, of a row, of a sum; none of a number or a letter."""
     return [*t[1:]] if isinstance(t, tuple) and t[0] != "par" else []
-
-
-def _positive(t: Tree, numbers: Mapping[str, float]) -> bool:
-    """Is an expression positive by its terms, for all values but 0 of what has no number?"""
-    if not isinstance(t, tuple):
-        return not isinstance(t, str) and t > 0
-    if t[0] == "pow":
-        return t[2] % 2 == 0 or _positive(t[1], numbers)
-    if t[0] == "par":
-        return numbers.get(t[1], 0) > 0
-    return t[0] in ("add", "mul", "div") and all(_positive(x, numbers) for x in t[1:])
 
 
 def _odd_one(d: Derivation, kind: str, verdicts: Sequence[str]) -> Iterator[Entry]:

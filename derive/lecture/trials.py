@@ -7,9 +7,12 @@ from dataclasses import dataclass, replace
 
 from ..check.checker import Checker, checker_of
 from ..check.fluid.fluid_checker import FluidChecker
+from ..language.derivatives import derivative
+from ..language.laurent import vanishes
 from ..language.show import show
+from ..language.tree import add, neg, replaced
 from ..record.record import ANY_GROUP, Derivation, Equation, Step
-from .lecture_text import Chapter, Entry, LectureError
+from .lecture_text import Chapter, Entry, LectureError, rate_of
 
 
 @dataclass(frozen=True)
@@ -42,9 +45,10 @@ def tried(
     """The equations of the entries that rest on steps, each with the first step in whose company
     it holds; ``LectureError`` for one that holds in none.
 
-    A step's company is what it supposes: its rule, what is given, its hypotheses, its group; where
-    that is any group, then the group of the problem.  A step that supposes equations is company
-    for its own left sides alone: under what it supposes much else is true, as 0 = 0.
+    A function of the time is put into its rate.  A step's company is what it supposes: its rule,
+    what is given, its hypotheses, its group; where that is any group, then the group of the
+    problem.  A step that supposes equations is company for its own left sides alone: under what it
+    supposes much else is true, as 0 = 0.
     """
     companies: dict[str, list[tuple[Checker | FluidChecker, Step]]] = {}
     for d in records.values():
@@ -53,10 +57,22 @@ def tried(
             several = dict.fromkeys((s, replace(s, scope=group)))
             companies.setdefault(s.label, [(checker, one) for one in several])
     for entry in chapter.entries:
-        for equation in entry.equations if entry.labels else ():
+        if entry.solved:
+            _solved(chapter, entry)
+        for equation in entry.equations if entry.labels and not entry.solved else ():
             company = [x for label in entry.labels for x in companies[label]]
             fit = [x for x in company if not _supposing(x[1]) or _of_step(equation, x[1])]
             yield _claim(chapter, entry, equation, fit)
+
+
+def _solved(chapter: Chapter, entry: Entry) -> None:
+    """``LectureError`` where a letter, as a function of the time, does not have the rate that
+    stands beside it, exactly: of functions as tanh no more is used than their derivatives."""
+    told = {e.lhs: e.rhs for e in entry.equations}
+    found = [(x, told[rate_of(x)]) for x in told if rate_of(x) in told]
+    moved = (add(derivative(told[x], "t"), neg(replaced(y, x, told[x]))) for x, y in found)
+    if not found or not all(map(vanishes, moved)):
+        raise LectureError(f"{chapter.file}, line {entry.line}: its solution does not hold")
 
 
 def _supposing(step: Step) -> bool:

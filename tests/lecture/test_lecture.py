@@ -98,6 +98,27 @@ def test_a_calculation_has_an_identity_for_each_of_a_few_lines():
             assert len(x.texts[0]) > 1
 
 
+@pytest.mark.parametrize(
+    "said",
+    [
+        "ζ̇₂ = σ(ω² − ζ₂²)/ω,  ζ₂ = −ω tanh(σ t)",
+        "ζ̇₂ = σ(ω² − ζ₂²)/ω,  ζ₂ = ω tanh(2 σ t)",
+        "ζ̇₂ = σ(ω² + ζ₂²)/ω,  ζ₂ = ω tanh(σ t)",
+        "ζ₂ = ω tanh(σ t)",
+    ],
+)
+def test_a_function_of_the_time_has_the_rate_beside_it(said):
+    right = parsed(HEAD + "text\n  = ζ̇₂ = σ(ω² − ζ₂²)/ω,  ζ₂ = ω tanh(σ t)\n  < solved\n")
+    assert [*tried(right, {})] == []
+    with pytest.raises(LectureError, match="line 7: its solution does not hold"):
+        list(tried(parsed(HEAD + f"text\n  = {said}\n  < solved\n"), {}))
+
+
+def test_the_separatrix_of_the_racket_is_tried():
+    solved = [e for c in CHAPTERS for e in c.entries if e.solved]
+    assert [show(e.equations[1].rhs) for e in solved] == ["ω tanh(σt)"]
+
+
 HEAD = "chapter c\n  A chapter\n  Un chapitre\nrecords so3\n\n"
 
 

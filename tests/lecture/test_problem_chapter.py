@@ -31,10 +31,10 @@ from derive.lecture.problem_chapter import (
 )
 from derive.lecture.problem_exercises import _on_motion
 from derive.lecture.ran_figure import FLAT, Ran
-from derive.lecture.recorded_text import REASONS, kept_by
+from derive.lecture.recorded_text import REASONS, claimed, kept_by
 from derive.lecture.recorded_text import reason as told_reason
 from derive.lecture.recorded_text import words as words_of_record
-from derive.lecture.steady_sentences import SAID, TURNS, _in_cases, _odd_one, as_top
+from derive.lecture.steady_sentences import SAID, TURNS, _odd_one, as_top
 from derive.lecture.trials import tied, tried
 from derive.motion.simulate import run
 from derive.motion.trajectory import Method
@@ -231,7 +231,7 @@ def test_conditions_are_evaluated_with_the_numbers_of_the_problem(tmp_path, monk
         told, _ = told_of_steady("spun.toml")
         assert told[1].startswith("When it turns about e₃, its axis e₃ along e₃ of space")
         assert told[1].endswith(f"Here {verdict}")
-        assert told[3].endswith("sum of positive terms: it is always stable.")
+        assert told[3].endswith("of the left side is positive: it is always stable.")
 
 
 def test_two_steady_motions_that_differ_in_a_sign_are_told_as_one(tmp_path, monkeypatch):
@@ -277,9 +277,54 @@ def test_cases_are_told_with_or_between_them_and_with_and_inside():
     claim = Claim("family.stable", (("cases", ("row", *cases)),))
     said = phrase(message("family.stable"), cases="")
     step = Step("x.equilibrium_1", "solution", (), (), (said,), claims=(claim,))
-    told = dict(_in_cases(said, step).places)["cases"]
+    told = dict(claimed(derived("euler_top")[1], step).prose[0].places)["cases"]
     assert str(told) == "‘a’ > 0 and ‘b’ > 0; or ‘c’ > 0"
     assert language("fr").sentence(told) == "‘a’ > 0 et ‘b’ > 0\u202f; ou ‘c’ > 0"
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ("‘I1’²", ""),
+        ("(‘I1’² + 4 ‘I2’²)²", ""),
+        ("‘I1’ ‘I2’", "‘I1’ ‘I2’ > 0"),
+        ("(‘I1’ − ‘I2’)²", "(‘I1’ − ‘I2’)² > 0"),
+        ("‘I3’²", "‘I3’² > 0"),
+    ],
+)
+def test_a_condition_that_every_sign_fulfils_is_left_out(asked, told):
+    """Of a parameter that has a number other than 0; I3 has none here."""
+    record = derived("euler_top")[1]
+    given = record.problem["parameters"]
+    given = {**given, "I3": {**given["I3"], "default": None}}
+    asked = [("row", tree(x), 0) for x in (asked, "‘a’")]
+    claim = Claim("family.positive", (("positive", ("matrix", *asked)),))
+    said = phrase(message("family.positive"), positive="")
+    step = Step("x.positive_1", "solution", (), (), (said,), claims=(claim,))
+    changed = replace(record, problem={**record.problem, "parameters": given})
+    found = dict(claimed(changed, step).prose[0].places)["positive"]
+    assert str(found) == ", ".join(x for x in (told, "‘a’ > 0") if x)
+
+
+def test_a_top_that_keeps_its_tilt_is_told_with_the_momenta_of_the_start():
+    """There 𝒱′ = 0: I₁ u ψ̇² − 𝒥₂ ψ̇ + mgl = 0 for ψ̇ = (𝒥₁ − u 𝒥₂)/(I₁(1 − u²)), and u is the only
+    such tilt; the numbers are those of the problem: I₁ = 1, mgl = 3/2, I₃ = 2/5, ζ₃ = 8."""
+    chapter, _, _ = chapter_on("lagrange_top")
+    told = [e.texts[0] for e in chapter.entries if str(e.texts[0]).startswith("('Off the axes")]
+    (whole,) = ("".join(x if isinstance(x, str) else x.text for x in text) for text in told)
+    found = re.search(r"𝒥₁ = ([\d.]+), 𝒥₂ = ([\d.]+), at A₃₃ = ([\d.]+), where 𝒱 has a min", whole)
+    upright, own, u = map(float, found.groups())
+    turning = (upright - u * own) / (1 - u * u)
+    assert u * turning**2 - own * turning + 1.5 == pytest.approx(0, abs=2e-2)
+    assert own == pytest.approx(0.4 * 8)
+    assert not any("were not sought" in str(e.texts[0]) for e in chapter.entries)
+
+
+def test_an_energy_that_begins_at_zero_is_kept_to_within_rounding():
+    """As that of a body that falls from rest, which has no scale of its own."""
+    falls = Ran([0.0, 1.0], [("zeta_6", [0.0, -9.81])], [0.0, 1e-14])
+    assert "keep their values" in falls.told(language("en"))
+    assert "goes from 0 to 1" in replace(falls, energy=[0.0, 1.0]).told(language("en"))
 
 
 def test_what_the_run_shows_is_read_off_it():
@@ -506,7 +551,8 @@ def test_inputs_that_hold_a_body_are_told(tmp_path, monkeypatch):
     chapter, records, _ = chapter_on("hung.toml")
     assert "hung:trim" in records
     page = alone(chapter, records, "fr")
-    assert "Au repos, par ses commandes." in page
+    assert "Au repos, grâce à ses commandes." in page
+    assert "pour le reste dans la position de référence et sans commande" in page
     assert len([*tried(chapter, records, SEED)]) >= 2
 
 
