@@ -192,7 +192,7 @@ def test_eigenvalues_are_rounded_to_the_nearest():
             for wrong in shifted(claim):
                 assert "nearest" in judge(said(step, claim, wrong)), wrong
                 seen += 1
-    assert seen == 22
+    assert seen == 26
 
 
 def test_real_eigenvalues_near_a_point_are_not_imaginary():

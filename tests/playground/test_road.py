@@ -127,7 +127,7 @@ SETTLED = """async (link) => {
     }
     return places;
 }"""
-"""How far below the bar a step begins that a link goes to, at once and in each frame that follows."""
+"""How far below the bar a step begins that a link goes to, at once and after each frame."""
 
 
 def test_a_step_stands_still_from_the_first_on(browser, site):
