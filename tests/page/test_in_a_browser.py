@@ -129,6 +129,34 @@ def test_seen_from_the_body_its_points_stay(opened):
     assert opened(derived("sl3").motion_page(1.0)).locator(".within").count() == 0
 
 
+PARTED = """() => {
+    const { prototype } = CanvasRenderingContext2D, told = globalThis.told = [];
+    const { fillText } = prototype;
+    prototype.fillText = function (text, ...a) {
+        told.push(text);
+        fillText.call(this, text, ...a);
+    };
+}"""
+
+
+def test_a_reading_that_is_no_number_is_a_gap_and_told(opened):
+    """Not a line across, nor an empty graph: √(cos θ − ¾) of a pendulum that swings beyond."""
+    text = {"name": "root", "y": ["sqrt(A_11 - 0.75)"]}
+    bob, down = {"mass": 1, "at": [0, -1]}, {"kind": "gravity", "g": [0, -9.81]}
+    swing = {"name": "swing", "group": "SO(2)", "point": [bob], "potential": [down]}
+    d = derive.derive(problem_of(swing | {"output": [text]}))
+    shown = opened(d.motion_page(3.0, start={"zeta_1": 3.0}))
+    shown.wait_for_timeout(100)
+    shown.evaluate(PARTED)
+    shown.evaluate(DRAWN, 1)
+    seek(shown, 2.9)
+    curve = max((x for _, x in shown.evaluate("drawn.strokes")), key=len)
+    assert [None, None] not in curve
+    there = [y is not None for _, y in curve]
+    assert 4 <= sum(x != y for x, y in zip(there, there[1:], strict=False))
+    assert any(re.fullmatch(r"\d+ NaN, t = 0\.\d+ …", x) for x in shown.evaluate("told"))
+
+
 def test_a_curve_ends_where_its_time_does(opened):
     """What leads to its name is of another colour, that of no curve."""
     shown = opened(derived("hung_bar").motion_page(2.0))
