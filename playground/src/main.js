@@ -440,7 +440,9 @@ addEventListener("keydown", (e) => {
   else if (e.key === "F8") {
     e.preventDefault();
     the("wide").click();
-  } else if (e.key === "p" && !e.target.closest("input, select, textarea, [contenteditable], dialog")) project();
+  } else if (e.target.closest("input, select, textarea, [contenteditable], dialog")) return;
+  else if (e.key === "p") project();
+  else if (e.key === "Escape") the(`tab-${tabs.now}`).focus(); // from among the stops of a walk
 });
 addEventListener("popstate", () => visit());
 
